@@ -1,0 +1,137 @@
+//! What can be typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use super::colour::Colour;
+
+/// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.
+#[derive(Debug, Parser)]
+#[command(name = "postform", version, max_term_width = 100)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// When to use colour
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    pub color: Colour,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Print the NC program of a job
+    Render(RenderArgs),
+    /// Report every finding of every form
+    Lint(LintArgs),
+    /// Read a job, report what is wrong, and print what is in it
+    Check(CheckArgs),
+}
+
+/// A file by its format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum From {
+    /// One JSON document
+    Json,
+    /// JSON Lines
+    Jsonl,
+}
+
+/// Classic or extended limits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LimitsArg {
+    /// 15 words a line, 150 lines a form
+    Classic,
+    /// The same as warnings
+    Extended,
+}
+
+/// Where cycles come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CyclesArg {
+    /// The form's sequences
+    Form,
+    /// Single moves
+    Emulated,
+}
+
+/// Units of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum UnitsArg {
+    /// Inches
+    Inch,
+    /// Millimetres
+    Mm,
+}
+
+/// `postform render`.
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// The job: job.json or .jsonl, or - for standard input
+    pub job: PathBuf,
+    /// The form of the machine
+    #[arg(long, value_name = "FORM")]
+    pub form: PathBuf,
+    /// Where the program goes, or - for standard output; it appears there when it is complete
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: PathBuf,
+    /// A value for a variable or prompt of the form
+    #[arg(long, value_name = "VAR=VALUE")]
+    pub set: Vec<String>,
+    /// Where canned cycles come from
+    #[arg(long, value_name = "WHERE", default_value = "form")]
+    pub cycles: CyclesArg,
+    /// Units of the program [default: those of the job]
+    #[arg(long, value_name = "UNITS")]
+    pub units: Option<UnitsArg>,
+    /// Limits of the form
+    #[arg(long, value_name = "LIMITS", default_value = "classic")]
+    pub limits: LimitsArg,
+    /// The job's format [default: by its extension]
+    #[arg(long, value_name = "FORMAT")]
+    pub from: Option<From>,
+    /// Write the source map here: for each program line its form line and job item, as JSON Lines
+    #[arg(long, value_name = "FILE")]
+    pub trace: Option<PathBuf>,
+    /// Print to standard output as it comes, even if an error cuts the program short
+    #[arg(long)]
+    pub stream: bool,
+}
+
+/// How findings are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// With the lines they are about
+    Pretty,
+    /// One JSON document
+    Json,
+}
+
+/// `postform lint`.
+#[derive(Debug, Args)]
+pub struct LintArgs {
+    /// Forms, or - for standard input
+    #[arg(required = true, value_name = "FORM")]
+    pub forms: Vec<PathBuf>,
+    /// How findings are shown
+    #[arg(long, value_name = "FORMAT", default_value = "pretty")]
+    pub format: Format,
+    /// Limits of the forms
+    #[arg(long, value_name = "LIMITS", default_value = "classic")]
+    pub limits: LimitsArg,
+}
+
+/// `postform check`.
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// The job, or - for standard input
+    #[arg(required_unless_present = "schema")]
+    pub job: Option<PathBuf>,
+    /// The job's format [default: by its extension]
+    #[arg(long, value_name = "FORMAT")]
+    pub from: Option<From>,
+    /// Print the JSON Schema of job files instead
+    #[arg(long)]
+    pub schema: bool,
+}

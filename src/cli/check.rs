@@ -1,0 +1,80 @@
+//! `postform check`.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+
+use postform::toolpath::json::{ReadError, schema};
+use postform::toolpath::{Summary, Units};
+
+use super::args::CheckArgs;
+use super::files::{self, io_message};
+use super::report::Reporter;
+use super::{Ending, output};
+
+/// Reads a job and prints what is in it.
+pub fn run(args: &CheckArgs, colour: bool) -> Ending {
+    match try_run(args, colour) {
+        Ok(ending) => ending,
+        Err(message) => {
+            eprintln!("{message}");
+            Ending::Failed
+        }
+    }
+}
+
+fn try_run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
+    let Some(path) = args.job.as_ref().filter(|_| !args.schema) else {
+        let text = format!("{:#}\n", schema());
+        output::standard_output(|out| out.write_all(text.as_bytes()))?;
+        return Ok(Ending::Clean);
+    };
+    let from = files::job_format(path, args.from)?;
+    let mut summary = Summary::default();
+    match files::read_job(files::open(path)?, from, &mut summary) {
+        Ok(()) => {
+            let text = describe(&files::name(path), &summary);
+            output::standard_output(|out| out.write_all(text.as_bytes()))?;
+            Ok(Ending::Clean)
+        }
+        Err(ReadError::Io(error)) => Err(io_message("read", path, &error)),
+        Err(ReadError::Job(mut diag)) => {
+            let place = diag.place.take().filter(|p| !p.is_empty()).map_or(String::new(), |p| format!(":{p}"));
+            diag.place = Some(format!("{}{place}", files::name(path)));
+            eprint!("{}", Reporter::new(colour).text(&diag, &[]));
+            Ok(Ending::Findings)
+        }
+    }
+}
+
+/// The summary as a machinist reads it.
+fn describe(name: &str, summary: &Summary) -> String {
+    let mut text = String::new();
+    let unit = summary.units.map_or("", Units::name);
+    _ = writeln!(text, "{name}: in order");
+    if let Some(job) = &summary.name {
+        _ = writeln!(text, "  name        {}", postform::diag::escaped(job));
+    }
+    if let Some(program) = summary.program {
+        _ = writeln!(text, "  program     {program}");
+    }
+    _ = writeln!(text, "  units       {unit}");
+    let tools: Vec<String> = summary
+        .tools
+        .iter()
+        .map(|(number, diameter)| match diameter {
+            Some(diameter) => format!("T{number} (diameter {diameter})"),
+            None => format!("T{number}"),
+        })
+        .collect();
+    _ = writeln!(text, "  tools       {}", if tools.is_empty() { "none".into() } else { tools.join(", ") });
+    _ = writeln!(text, "  operations  {}", summary.operations);
+    _ = writeln!(text, "  moves       {} rapid, {} straight, {} arcs", summary.rapids, summary.lines, summary.arcs);
+    let holes: Vec<String> = summary.holes.iter().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
+    _ = writeln!(text, "  holes       {}", if holes.is_empty() { "none".into() } else { holes.join(", ") });
+    for (axis, extent) in ["h", "v", "d"].iter().zip(&summary.extents) {
+        if let Some((least, greatest)) = extent {
+            _ = writeln!(text, "  {axis}           {least} to {greatest} {unit}");
+        }
+    }
+    text
+}

@@ -1,0 +1,59 @@
+//! The rim: arguments, files, the terminal. Everything that decides is in the library.
+
+mod args;
+mod check;
+mod colour;
+mod files;
+mod forms;
+mod json;
+mod lint;
+mod output;
+mod prompt;
+mod render;
+mod report;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+
+/// How a command ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// Done and clean.
+    Clean,
+    /// Findings, differences, or an error in a job or form.
+    Findings,
+    /// Wrong usage, or a file that can't be read or written.
+    Failed,
+}
+
+impl From<Ending> for ExitCode {
+    fn from(ending: Ending) -> ExitCode {
+        ExitCode::from(match ending {
+            Ending::Clean => 0,
+            Ending::Findings => 1,
+            Ending::Failed => 2,
+        })
+    }
+}
+
+/// Runs the command of this process.
+pub fn run() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            let code = if error.use_stderr() { Ending::Failed } else { Ending::Clean };
+            _ = error.print(); // a closed terminal is no reason to fail differently
+            return code.into();
+        }
+    };
+    let colour = arguments.color.on_stderr();
+    let ending = match arguments.command {
+        Command::Render(args) => render::run(&args, colour),
+        Command::Lint(args) => lint::run(&args, arguments.color),
+        Command::Check(args) => check::run(&args, colour),
+    };
+    ending.into()
+}

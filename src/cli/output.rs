@@ -1,0 +1,108 @@
+//! Where programs go. A program appears under its name, or on standard output, only when it is complete.
+
+use std::fs::{self, File};
+use std::io::{self, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use super::files::io_message;
+
+/// A file that is being written and not there yet.
+pub enum Target {
+    /// Beside its target, to be renamed.
+    Beside(NamedTempFile, PathBuf),
+    /// A device, a pipe or standard output: spooled, then copied.
+    Spooled(File, Option<PathBuf>),
+    /// Standard output as it comes.
+    Stream,
+}
+
+impl Target {
+    /// Prepares the output `path`; `-` is standard output.
+    ///
+    /// # Errors
+    /// A message: the file can't be made.
+    pub fn open(path: &Path, stream: bool) -> Result<Target, String> {
+        let fail = |error: io::Error| io_message("write", path, &error);
+        if path == Path::new("-") {
+            if stream {
+                return Ok(Target::Stream);
+            }
+            return Ok(Target::Spooled(tempfile::tempfile().map_err(fail)?, None));
+        }
+        // a link is followed; a device or pipe must never be replaced by a file
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+        match fs::metadata(&path) {
+            Ok(meta) if meta.is_dir() => Err(fail(io::Error::from(io::ErrorKind::IsADirectory))),
+            Ok(meta) if !meta.is_file() => Ok(Target::Spooled(tempfile::tempfile().map_err(fail)?, Some(path))),
+            _ => {
+                let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+                let mut builder = tempfile::Builder::new();
+                builder.prefix(".postform-");
+                #[cfg(unix)]
+                {
+                    use std::os::unix::fs::PermissionsExt;
+                    // what any new file gets; the umask still applies
+                    builder.permissions(fs::Permissions::from_mode(0o666));
+                }
+                let file = builder.tempfile_in(folder).map_err(fail)?;
+                Ok(Target::Beside(file, path))
+            }
+        }
+    }
+
+    /// Writes a part.
+    ///
+    /// # Errors
+    /// As the system says; a closed pipe among them.
+    pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        match self {
+            Target::Beside(file, _) => file.write_all(bytes),
+            Target::Spooled(file, _) => file.write_all(bytes),
+            Target::Stream => io::stdout().write_all(bytes),
+        }
+    }
+
+    /// The program is complete: lets it appear.
+    ///
+    /// # Errors
+    /// As the system says; nothing of the program is then under the target's name.
+    pub fn complete(self) -> io::Result<()> {
+        match self {
+            Target::Beside(mut file, path) => {
+                file.flush()?;
+                file.as_file().sync_all()?; // the name must not come before the contents
+                file.persist(path).map_err(|error| error.error)?;
+                Ok(())
+            }
+            Target::Spooled(mut file, path) => {
+                file.rewind()?;
+                match path {
+                    None => {
+                        let mut out = io::stdout().lock();
+                        io::copy(&mut file, &mut out)?;
+                        out.flush()
+                    }
+                    Some(path) => {
+                        let mut out = File::options().write(true).open(path)?;
+                        io::copy(&mut file, &mut out)?;
+                        out.flush()
+                    }
+                }
+            }
+            Target::Stream => io::stdout().flush(),
+        }
+    }
+}
+
+/// Writes to standard output; a closed pipe is no error.
+pub fn standard_output(write: impl FnOnce(&mut io::StdoutLock) -> io::Result<()>) -> Result<(), String> {
+    let mut out = io::stdout().lock();
+    match write(&mut out).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(io_message("write", Path::new("standard output"), &error))
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,186 @@
+//! `postform render`.
+
+use std::io;
+use std::path::Path;
+
+use postform::compile::compile;
+use postform::diag::{Code, Diag, Severity};
+use postform::lint::sort;
+use postform::render::{Cycles, Options, Renderer, TraceLine};
+use postform::source::Source;
+use postform::toolpath::json::ReadError;
+use postform::toolpath::{Event, Place, Sink, Units};
+
+use super::args::{CyclesArg, RenderArgs, UnitsArg};
+use super::files::{self, io_message};
+use super::output::Target;
+use super::report::Reporter;
+use super::{Ending, forms, prompt};
+
+/// How much text waits before it is written.
+const CHUNK: usize = 64 * 1024;
+
+/// Renders a job to its output.
+pub fn run(args: &RenderArgs, colour: bool) -> Ending {
+    match try_run(args, colour) {
+        Ok(ending) => ending,
+        Err(message) => {
+            eprintln!("{message}");
+            Ending::Failed
+        }
+    }
+}
+
+fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
+    let reporter = Reporter::new(colour);
+    let from = files::job_format(&args.job, args.from)?;
+    let mut set = prompt::answers(&args.set)?;
+    let standard_input = Path::new("-");
+    if args.form == standard_input && args.job == standard_input {
+        return Err("error: form and job can't both be standard input".into());
+    }
+    let mut checked = forms::load(&args.form, args.limits)?;
+    sort(&mut checked.diags);
+    for diag in checked.diags.iter().filter(|d| d.severity > Severity::Note) {
+        eprint!("{}", reporter.text(diag, &checked.files));
+    }
+    if checked.has_errors() {
+        let count = checked.diags.iter().filter(|d| d.is_error()).count();
+        eprintln!("{}: {count} errors, nothing was printed", files::name(&args.form));
+        return Ok(Ending::Findings);
+    }
+    let program = compile(&checked.form);
+    prompt::ask(&program, &mut set, args.job == standard_input)
+        .map_err(|error| io_message("read", Path::new("standard input"), &error))?;
+    let options = Options {
+        cycles: match args.cycles {
+            CyclesArg::Form => Cycles::Form,
+            CyclesArg::Emulated => Cycles::Emulated,
+        },
+        units: args.units.map(|units| match units {
+            UnitsArg::Inch => Units::Inch,
+            UnitsArg::Mm => Units::Mm,
+        }),
+        set,
+        trace: args.trace.is_some(),
+    };
+    let input = files::open(&args.job)?;
+    let mut writer = Writer {
+        renderer: Renderer::new(&program, options),
+        target: Target::open(&args.output, args.stream)?,
+        trace: args.trace.as_deref().map(|path| Target::open(path, false)).transpose()?,
+        files: &checked.files,
+        failure: None,
+    };
+    let read = files::read_job(input, from, &mut writer);
+    let mut notes = writer.renderer.notes().to_vec();
+    let job = files::name(&args.job);
+    for diag in &mut notes {
+        place_in(&job, diag);
+        eprint!("{}", reporter.text(diag, &checked.files));
+    }
+    if let Some((is_trace, error)) = writer.failure.take() {
+        let path = if is_trace { args.trace.as_deref() } else { None };
+        return output_failed(path.unwrap_or(&args.output), &error);
+    }
+    match read {
+        Ok(()) => {}
+        Err(ReadError::Io(error)) => return Err(io_message("read", &args.job, &error)),
+        Err(ReadError::Job(mut diag)) => {
+            place_in(&job, &mut diag);
+            eprint!("{}", reporter.text(&diag, &checked.files));
+            return Ok(Ending::Findings);
+        }
+    }
+    writer.finish(args)
+}
+
+/// The job's name before a place in it.
+fn place_in(job: &str, diag: &mut Diag) {
+    diag.place = Some(match diag.place.take() {
+        Some(place) if !place.is_empty() => format!("{job}:{place}"),
+        _ => job.to_owned(),
+    });
+}
+
+/// A closed pipe is no error: whoever read it has seen enough.
+fn output_failed(path: &Path, error: &io::Error) -> Result<Ending, String> {
+    if error.kind() == io::ErrorKind::BrokenPipe {
+        return Ok(Ending::Clean);
+    }
+    Err(io_message("write", path, error))
+}
+
+/// Between reader and output: renders, and writes as text comes.
+struct Writer<'p> {
+    renderer: Renderer<'p>,
+    target: Target,
+    trace: Option<Target>,
+    files: &'p [Source],
+    failure: Option<(bool, io::Error)>,
+}
+
+impl Sink for Writer<'_> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+        self.renderer.event(event, place)?;
+        if self.renderer.text().len() < CHUNK {
+            return Ok(());
+        }
+        self.drain().map_err(|()| Box::new(Diag::new(Code::PJ001, "the output can't be written")))
+    }
+}
+
+impl Writer<'_> {
+    /// Writes what waits. `Err`: it failed, and `failure` says how.
+    fn drain(&mut self) -> Result<(), ()> {
+        let text = self.renderer.text();
+        if let Err(error) = self.target.write(text) {
+            self.failure = Some((false, error));
+            return Err(());
+        }
+        text.clear();
+        if let (Some(lines), Some(target)) = (self.renderer.trace(), &mut self.trace) {
+            let mut text = Vec::new();
+            for line in lines.drain(..) {
+                trace_line(&line, self.files, &mut text);
+            }
+            if let Err(error) = target.write(&text) {
+                self.failure = Some((true, error));
+                return Err(());
+            }
+        }
+        Ok(())
+    }
+
+    /// The job was read to its end.
+    fn finish(mut self, args: &RenderArgs) -> Result<Ending, String> {
+        if self.drain().is_err() {
+            let (is_trace, error) = self.failure.unwrap_or_else(|| (false, io::Error::other("unknown")));
+            let path = if is_trace { args.trace.as_deref() } else { None };
+            return output_failed(path.unwrap_or(&args.output), &error);
+        }
+        // the map first: a program without its map is whole, a map without its program is not
+        if let (Some(trace), Some(path)) = (self.trace, &args.trace)
+            && let Err(error) = trace.complete()
+        {
+            return output_failed(path, &error);
+        }
+        match self.target.complete() {
+            Ok(()) => Ok(Ending::Clean),
+            Err(error) => output_failed(&args.output, &error),
+        }
+    }
+}
+
+/// One line of the source map.
+fn trace_line(line: &TraceLine, files: &[Source], out: &mut Vec<u8>) {
+    let form = line.form.and_then(|span| {
+        let source = files.get(span.file as usize)?;
+        Some(serde_json::json!({ "file": source.name, "line": source.line_column(span.start).0 }))
+    });
+    let place = &line.place;
+    let job = serde_json::json!({ "line": place.line, "column": place.column, "path": place.path() });
+    let row = serde_json::json!({ "line": line.line, "form": form, "job": job });
+    out.extend_from_slice(row.to_string().as_bytes());
+    out.push(b'\n');
+}

@@ -1,0 +1,129 @@
+//! Lowering: lines of words become operations.
+
+use super::letters::LetterTable;
+use super::program::{Block, CycleStyle, Literal, Op, Program, UponBlock};
+use crate::lang::{SequenceId, VarId, VarSet};
+use crate::sema::{Form, Line, Sequence, WordKind};
+use crate::span::Span;
+
+/// Compiles a form that was checked without errors.
+pub fn compile(form: &Form) -> Program {
+    let mut program = Program {
+        settings: form.settings.clone(),
+        ops: Vec::new(),
+        spans: Vec::new(),
+        literals: Vec::new(),
+        texts: Vec::new(),
+        blocks: Program::empty_blocks(),
+        upons: Vec::new(),
+        upon_vars: VarSet::default(),
+        printed: VarSet::default(),
+        work_letter: None,
+        letters: [LetterTable::new(form, false), LetterTable::new(form, true)],
+        custom: [None, None, None],
+    };
+    for sequence in form.sequences.values() {
+        let block = lower_sequence(&mut program, sequence);
+        program.printed = program.printed.with(block.vars);
+        program.blocks[sequence.id as usize] = Some(block);
+        let custom = match sequence.id {
+            SequenceId::Custom1 => 0,
+            SequenceId::Custom2 => 1,
+            SequenceId::Custom3 => 2,
+            _ => continue,
+        };
+        program.custom[custom].clone_from(&sequence.remark);
+    }
+    for upon in &form.upons {
+        let block = lower(&mut program, &upon.lines, upon.span);
+        program.printed = program.printed.with(block.vars);
+        program.upon_vars.insert(upon.var);
+        program.upons.push(UponBlock { var: upon.var, every: upon.every, block });
+    }
+    program
+}
+
+fn lower_sequence(program: &mut Program, sequence: &Sequence) -> Block {
+    let mut block = lower(program, &sequence.lines, sequence.span);
+    block.cancel = sequence.cancel.is_some();
+    block.style = match (sequence.is_none, sequence.count, sequence.lines.len()) {
+        (true, ..) => CycleStyle::Generated,
+        (_, Some(_), _) => CycleStyle::Advanced,
+        (_, None, 0 | 1) if block.cancel => CycleStyle::Machine,
+        (_, None, 0 | 1) => CycleStyle::WholeLine,
+        _ => CycleStyle::Emulated,
+    };
+    if let Some(count) = sequence.count {
+        let mut begins = (block.ops.clone()).filter(|&i| matches!(program.ops[i], Op::Line { .. }));
+        block.repeat = begins.nth(count).unwrap_or(block.ops.end);
+        let repeated = vars_of(&program.ops[block.repeat..block.ops.end]);
+        block.setup_vars = vars_of(&program.ops[block.ops.start..block.repeat]).without(repeated);
+    }
+    block
+}
+
+fn lower(program: &mut Program, lines: &[Line], span: Span) -> Block {
+    let start = program.ops.len();
+    let mut prints_g98 = false;
+    for line in lines {
+        program.ops.push(Op::Line { droppable: line.words.iter().all(|w| is_motion_or_no_code(&w.kind)) });
+        program.spans.push(line.span);
+        for word in &line.words {
+            let glued = word.glued;
+            let op = match &word.kind {
+                WordKind::Var(letter, var) => {
+                    if *var == VarId::Work {
+                        program.work_letter.get_or_insert(*letter);
+                    }
+                    Op::Var { letter: *letter, var: *var, glued }
+                }
+                WordKind::Value(var) => Op::Value { var: *var, glued },
+                WordKind::Literal(letter, text, value) => {
+                    prints_g98 |= *letter == b'G' && *value == program.settings.return_plane[1];
+                    let literal = Literal { letter: *letter, text: text.clone(), value: *value };
+                    Op::Literal { index: push(&mut program.literals, literal), glued }
+                }
+                WordKind::Text(text) => Op::Text { index: push(&mut program.texts, text.clone()), glued },
+            };
+            program.ops.push(op);
+            program.spans.push(word.span);
+        }
+    }
+    let ops = start..program.ops.len();
+    let vars = vars_of(&program.ops[ops.clone()]);
+    Block {
+        repeat: start,
+        vars,
+        setup_vars: VarSet::default(),
+        cancel: false,
+        style: CycleStyle::Emulated,
+        returns: prints_g98 || vars.has(VarId::Retplane) || vars.has(VarId::Rplane),
+        span,
+        ops,
+    }
+}
+
+/// Adds a row to a table and returns its index.
+fn push<T>(table: &mut Vec<T>, item: T) -> u32 {
+    table.push(item);
+    (table.len() - 1) as u32
+}
+
+/// No G or M code but G0 to G3.
+fn is_motion_or_no_code(word: &WordKind) -> bool {
+    match word {
+        WordKind::Literal(b'G' | b'g', _, value) => [0.0, 1.0, 2.0, 3.0].contains(value),
+        WordKind::Literal(letter, ..) | WordKind::Var(letter, _) => !b"GgMm".contains(letter),
+        WordKind::Value(_) | WordKind::Text(_) => true,
+    }
+}
+
+fn vars_of(ops: &[Op]) -> VarSet {
+    let mut set = VarSet::default();
+    for op in ops {
+        if let Op::Var { var, .. } | Op::Value { var, .. } = op {
+            set.insert(*var);
+        }
+    }
+    set
+}

@@ -1,0 +1,9 @@
+//! From a checked form to a flat program: one array of small operations, run for each event.
+
+mod letters;
+mod lower;
+mod program;
+
+pub use letters::{LetterKind, LetterTable, Letter};
+pub use lower::compile;
+pub use program::{Block, CycleStyle, Literal, Op, Program, UponBlock};

@@ -1,0 +1,157 @@
+//! The compiled form.
+
+use std::ops::Range;
+
+use super::letters::LetterTable;
+use crate::lang::{SEQUENCES, SequenceId, VarId, VarSet};
+use crate::sema::Settings;
+use crate::span::Span;
+
+/// One operation. Small, because a long job runs them by the hundred million.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Op {
+    /// A line begins. `droppable`: it has no code but G0 to G3, so a cycle may drop its unchanged words.
+    Line {
+        /// See above.
+        droppable: bool,
+    },
+    /// A letter and a variable's value.
+    Var {
+        /// The letter as the form writes it.
+        letter: u8,
+        /// The variable.
+        var: VarId,
+        /// No blank before it.
+        glued: bool,
+    },
+    /// A variable's value alone.
+    Value {
+        /// The variable.
+        var: VarId,
+        /// No blank before it.
+        glued: bool,
+    },
+    /// A letter and a number as typed.
+    Literal {
+        /// Its row in [`Program::literals`].
+        index: u32,
+        /// No blank before it.
+        glued: bool,
+    },
+    /// Text as typed.
+    Text {
+        /// Its row in [`Program::texts`].
+        index: u32,
+        /// No blank before it.
+        glued: bool,
+    },
+}
+
+/// A literal word.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Literal {
+    /// The letter.
+    pub letter: u8,
+    /// The whole word as typed.
+    pub text: String,
+    /// Its number.
+    pub value: f64,
+}
+
+/// How a canned cycle prints (render.md section 3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CycleStyle {
+    /// One line, `End Cancel`: later holes print what changed.
+    Machine,
+    /// One line, plain `End`: the whole line at every hole.
+    WholeLine,
+    /// Several lines, no count: all lines at every hole.
+    Emulated,
+    /// The first lines once, the others at every hole.
+    Advanced,
+    /// `None`: moves are generated.
+    Generated,
+}
+
+/// A sequence's operations.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Which part of [`Program::ops`].
+    pub ops: Range<usize>,
+    /// Where the lines begin that an advanced cycle repeats; else the start.
+    pub repeat: usize,
+    /// The variables it prints.
+    pub vars: VarSet,
+    /// The variables that only the lines before `repeat` print.
+    pub setup_vars: VarSet,
+    /// `End Cancel`.
+    pub cancel: bool,
+    /// How it prints as a cycle.
+    pub style: CycleStyle,
+    /// It prints `[retplane]`, `[rplane]` or G98: the tool comes back to the return plane.
+    pub returns: bool,
+    /// The name line.
+    pub span: Span,
+}
+
+/// A sequence printed when a variable changes.
+#[derive(Clone, Debug)]
+pub struct UponBlock {
+    /// The variable.
+    pub var: VarId,
+    /// At every use.
+    pub every: bool,
+    /// Its operations.
+    pub block: Block,
+}
+
+/// A compiled form. It is immutable; many renderers may share it.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// What the commands say.
+    pub settings: Settings,
+    /// All operations.
+    pub ops: Vec<Op>,
+    /// The place of each operation; read on errors and for the source map only.
+    pub spans: Vec<Span>,
+    /// Literal words.
+    pub literals: Vec<Literal>,
+    /// Texts.
+    pub texts: Vec<String>,
+    /// The sequences, by [`SequenceId`].
+    pub(super) blocks: Vec<Option<Block>>,
+    /// The Upon sequences in the order of the form.
+    pub upons: Vec<UponBlock>,
+    /// The variables that some Upon watches.
+    pub upon_vars: VarSet,
+    /// The variables that the form prints anywhere.
+    pub printed: VarSet,
+    /// The letter that the form prints `[work]` with.
+    pub work_letter: Option<u8>,
+    /// What the form says of each letter, for programs in inches and in millimetres.
+    pub letters: [LetterTable; 2],
+    /// Remarks of the Custom cycles: the kind that each serves.
+    pub custom: [Option<String>; 3],
+}
+
+impl Program {
+    /// A sequence, if the form has it.
+    #[inline]
+    pub fn block(&self, id: SequenceId) -> Option<&Block> {
+        self.blocks[id as usize].as_ref()
+    }
+
+    pub(super) fn empty_blocks() -> Vec<Option<Block>> {
+        SEQUENCES.iter().map(|_| None).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn operations_are_small() {
+        assert!(size_of::<Op>() <= 8);
+    }
+}

@@ -1,0 +1,115 @@
+//! Findings as data: raised anywhere, shown by the rim.
+
+mod codes;
+
+pub use codes::{CODES, Code, CodeRow};
+
+use crate::span::Span;
+
+/// How bad a finding is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// Worth knowing; does not change the exit status.
+    Note,
+    /// The program is printed, but look at it.
+    Warning,
+    /// Nothing is printed.
+    Error,
+}
+
+impl Severity {
+    /// The word used in messages and in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Severity::Note => "note",
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+        }
+    }
+}
+
+/// A place in form text and what is to be said of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// Where.
+    pub span: Span,
+    /// A few words under the place.
+    pub text: String,
+}
+
+/// A change of form text that would mend a finding.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fix {
+    /// What the change does, in the imperative.
+    pub title: String,
+    /// Safe: the NC output of every job stays the same, byte for byte.
+    pub safe: bool,
+    /// Replacements, not overlapping.
+    pub edits: Vec<(Span, String)>,
+}
+
+/// One finding.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diag {
+    /// Its row in the table of codes.
+    pub code: Code,
+    /// As the table says, unless limits were relaxed.
+    pub severity: Severity,
+    /// What is wrong, one sentence.
+    pub message: String,
+    /// The places in the form, the main one first.
+    pub labels: Vec<Label>,
+    /// The place in the job, as `job.json:12:9, operations[0].path[3]`.
+    pub place: Option<String>,
+    /// What to type instead.
+    pub help: Option<String>,
+    /// The same as an edit.
+    pub fix: Option<Fix>,
+}
+
+impl Diag {
+    /// A finding with the severity of its code and no place yet.
+    pub fn new(code: Code, message: impl Into<String>) -> Self {
+        Diag {
+            code,
+            severity: code.row().severity,
+            message: message.into(),
+            labels: Vec::new(),
+            place: None,
+            help: None,
+            fix: None,
+        }
+    }
+
+    /// Adds a place in the form; the first one added is the main one.
+    pub fn at(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.labels.push(Label { span, text: text.into() });
+        self
+    }
+
+    /// Adds what to type instead.
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Adds an edit that mends it.
+    pub fn fix(mut self, title: impl Into<String>, safe: bool, edits: Vec<(Span, String)>) -> Self {
+        self.fix = Some(Fix { title: title.into(), safe, edits });
+        self
+    }
+
+    /// Is it an error?
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+}
+
+/// Text from a file made safe for a terminal: control characters become escapes.
+pub fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c.is_control() { out.extend(c.escape_default()) } else { out.push(c) }
+    }
+    out
+}

@@ -1,0 +1,107 @@
+//! What the renderer must know of the codes of controls: modal groups, and codes that move the frame.
+
+/// A modal group: its codes cancel each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Group {
+    /// G0 G1 G2 G3, threads and canned cycles.
+    Motion,
+    /// G17 G18 G19.
+    Plane,
+    /// G90 G91.
+    Distance,
+    /// G93 G94 G95.
+    FeedMode,
+    /// G20 G21, G70 G71.
+    Units,
+    /// G40 G41 G42.
+    CutterCompensation,
+    /// G43 G44 G49.
+    LengthOffset,
+    /// G54 to G59.
+    Work,
+    /// G98 G99.
+    ReturnPlane,
+    /// G96 G97.
+    SpeedMode,
+    /// G61 G64.
+    PathMode,
+    /// M3 M4 M5.
+    Spindle,
+    /// M7 M8 M9.
+    Coolant,
+}
+
+/// How many groups there are.
+pub const GROUPS: usize = 13;
+
+/// What a code does to the meaning of axis words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// Axis words after it in the same body may stand in another frame.
+    Shifts,
+    /// From here on axis positions mean another place.
+    Moves,
+    /// The depth position means another place.
+    MovesDepth,
+}
+
+/// Codes by letter, code times ten (`G59.1` is 591), group. Mill readings; FeedMode also has the lathe's G98 G99,
+/// which forms name by FeedType.
+#[rustfmt::skip]
+pub const NC_CODES: &[(u8, u16, u16, Group)] = &[
+    (b'G',    0,   30, Group::Motion),
+    (b'G',  320,  339, Group::Motion),
+    (b'G',  380,  389, Group::Motion),
+    (b'G',  730,  740, Group::Motion),
+    (b'G',  760,  760, Group::Motion),
+    (b'G',  800,  890, Group::Motion),
+    (b'G',  170,  199, Group::Plane),
+    (b'G',  900,  900, Group::Distance),
+    (b'G',  910,  910, Group::Distance),
+    (b'G',  930,  950, Group::FeedMode),
+    (b'G',  200,  210, Group::Units),
+    (b'G',  700,  710, Group::Units),
+    (b'G',  400,  429, Group::CutterCompensation),
+    (b'G',  430,  449, Group::LengthOffset),
+    (b'G',  490,  490, Group::LengthOffset),
+    (b'G',  540,  599, Group::Work),
+    (b'G',  980,  990, Group::ReturnPlane),
+    (b'G',  960,  970, Group::SpeedMode),
+    (b'G',  610,  649, Group::PathMode),
+    (b'M',   30,   50, Group::Spindle),
+    (b'M',   70,   90, Group::Coolant),
+];
+
+/// The modal group of a code, given in tenths.
+pub fn group_of(letter: u8, tenths: i64) -> Option<Group> {
+    NC_CODES
+        .iter()
+        .find(|&&(l, from, to, _)| l == letter && (i64::from(from)..=i64::from(to)).contains(&tenths))
+        .map(|row| row.3)
+}
+
+/// What a G code, given in tenths, does to axis positions.
+pub fn frame_of(tenths: i64) -> Option<Frame> {
+    match tenths {
+        280 | 300 | 530 | 910 | 920..=923 => Some(Frame::Shifts),
+        100 | 500 | 510 | 520 | 540..=599 | 680 | 690 => Some(Frame::Moves),
+        430..=449 | 490 => Some(Frame::MovesDepth),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_know_their_groups() {
+        assert_eq!(group_of(b'G', 20), Some(Group::Motion));
+        assert_eq!(group_of(b'G', 591), Some(Group::Work));
+        assert_eq!(group_of(b'G', 901), None);
+        assert_eq!(group_of(b'G', 3060), None);
+        assert_eq!(group_of(b'M', 80), Some(Group::Coolant));
+        assert_eq!(group_of(b'M', 60), None);
+    }
+}

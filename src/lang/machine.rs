@@ -1,0 +1,78 @@
+//! Types of machine.
+
+/// What a form or a job is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Machine {
+    /// Mill, drill, router.
+    #[default]
+    Mill,
+    /// Lathe.
+    Lathe,
+    /// Wire EDM.
+    Edm,
+}
+
+impl Machine {
+    /// As messages and forms write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Machine::Mill => "mill",
+            Machine::Lathe => "lathe",
+            Machine::Edm => "EDM",
+        }
+    }
+
+    /// Reads a name in any case.
+    pub fn parse(name: &str) -> Option<Machine> {
+        [Machine::Mill, Machine::Lathe, Machine::Edm].into_iter().find(|m| m.name().eq_ignore_ascii_case(name))
+    }
+}
+
+/// A set of machine types, as the manual gives one for each sequence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Machines {
+    /// Has mills.
+    pub mill: bool,
+    /// Has lathes.
+    pub lathe: bool,
+    /// Has wire EDM machines.
+    pub edm: bool,
+}
+
+impl Machines {
+    /// The set named by the letters M, L and E.
+    pub const fn of(letters: &str) -> Machines {
+        let bytes = letters.as_bytes();
+        let mut set = Machines { mill: false, lathe: false, edm: false };
+        let mut i = 0;
+        while i < bytes.len() {
+            match bytes[i] {
+                b'M' => set.mill = true,
+                b'L' => set.lathe = true,
+                _ => set.edm = true,
+            }
+            i += 1;
+        }
+        set
+    }
+
+    /// Is this machine in the set?
+    pub fn has(self, machine: Machine) -> bool {
+        match machine {
+            Machine::Mill => self.mill,
+            Machine::Lathe => self.lathe,
+            Machine::Edm => self.edm,
+        }
+    }
+}
+
+impl std::fmt::Display for Machines {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let names: Vec<_> = [Machine::Mill, Machine::Lathe, Machine::Edm]
+            .into_iter()
+            .filter(|&m| self.has(m))
+            .map(Machine::name)
+            .collect();
+        f.write_str(&names.join(", "))
+    }
+}

@@ -1,0 +1,26 @@
+//! The vocabulary of POSTFORM, in tables: checks, messages, `explain` and the reference come from here.
+
+mod codes;
+mod commands;
+mod machine;
+mod sequences;
+mod suggest;
+mod variables;
+
+pub use codes::{Frame, GROUPS, Group, NC_CODES, frame_of, group_of};
+pub use commands::{Args, COMMANDS, Command, CommandId};
+pub use machine::{Machine, Machines};
+pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
+pub use suggest::{did_you_mean, nearest};
+pub use variables::{Origin, Unit, VARIABLES, VarId, VarSet, Variable};
+
+/// Where a rule comes from; the reference keeps the mark.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// Stated in the manual.
+    Doc,
+    /// Not stated, but the only reading that prints the manual's examples.
+    Ex,
+    /// Decided by us, because nothing public settles it.
+    Ours,
+}

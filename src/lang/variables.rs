@@ -1,0 +1,268 @@
+//! The table of variables.
+
+use super::machine::Machines;
+
+/// What a variable's value counts in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// Inches or millimetres, as the program's units.
+    Length,
+    /// Degrees.
+    Angle,
+    /// Length per minute, or per revolution.
+    Feed,
+    /// Revolutions per minute, or surface speed.
+    Speed,
+    /// Seconds; a dwell in the unit of the Dwell command.
+    Time,
+    /// The number of a G or M code, from a command of the form.
+    Code,
+    /// A whole number.
+    Count,
+    /// Any number.
+    Number,
+}
+
+/// Who gives a variable its value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The renderer, from the toolpath; a job can't set it.
+    Computed,
+    /// The job's `set`, or a prompt.
+    Job,
+}
+
+/// One row of the table.
+#[derive(Debug)]
+pub struct Variable {
+    /// Which.
+    pub id: VarId,
+    /// As written between brackets, lower case.
+    pub name: &'static str,
+    /// The group it is listed under.
+    pub group: &'static str,
+    /// What its value counts in.
+    pub unit: Unit,
+    /// Who sets it.
+    pub origin: Origin,
+    /// The machines that have it.
+    pub machines: Machines,
+    /// One line of meaning.
+    pub meaning: &'static str,
+}
+
+macro_rules! variables {
+    ($($id:ident $name:literal $group:literal $unit:ident $origin:ident $machines:literal $meaning:literal)*) => {
+        /// A variable; its number is its slot at rendering.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[repr(u8)]
+        pub enum VarId { $(#[doc = $meaning] $id),* }
+
+        /// All variables.
+        pub const VARIABLES: &[Variable] = &[$(Variable {
+            id: VarId::$id,
+            name: $name,
+            group: $group,
+            unit: Unit::$unit,
+            origin: Origin::$origin,
+            machines: Machines::of($machines),
+            meaning: $meaning,
+        }),*];
+    };
+}
+
+#[rustfmt::skip]
+variables! {
+    H             "h"              "Position"           Length  Computed  "MLE"  "position along the first axis: X on mills and EDM, Z on lathes"
+    V             "v"              "Position"           Length  Computed  "MLE"  "position along the second axis: Y on mills and EDM, X on lathes"
+    D             "d"              "Position"           Length  Computed  "ME"   "position along the depth axis; in a canned cycle the bottom of the hole"
+    H2            "h2"             "Position"           Length  Computed  "E"    "position of the upper wire guide along the first axis"
+    V2            "v2"             "Position"           Length  Computed  "E"    "position of the upper wire guide along the second axis"
+    Hdist         "hdist"          "Position"           Length  Computed  "MLE"  "distance of this move along the first axis"
+    Vdist         "vdist"          "Position"           Length  Computed  "MLE"  "distance of this move along the second axis"
+    Ddist         "ddist"          "Position"           Length  Computed  "ME"   "distance of this move along the depth axis"
+    Lasth         "lasth"          "Position"           Length  Computed  "MLE"  "first-axis position before this move or interruption"
+    Lastv         "lastv"          "Position"           Length  Computed  "MLE"  "second-axis position before this move or interruption"
+    Lastd         "lastd"          "Position"           Length  Computed  "ME"   "depth position before this move or interruption"
+    Rotangle      "rotangle"       "Position"           Angle   Computed  "M"    "rotary angle of the view"
+    Lastrotangle  "lastrotangle"   "Position"           Angle   Computed  "M"    "rotary angle before this move or interruption"
+    Rotaxdir      "rotaxdir"       "Position"           Number  Computed  "M"    "direction of the rotary move: 1 or -1"
+    Homeh         "homeh"          "Position"           Length  Job       "MLE"  "home position along the first axis"
+    Homev         "homev"          "Position"           Length  Job       "MLE"  "home position along the second axis"
+    Hvector       "hvector"        "Position"           Number  Computed  "M"    "tool axis, first component"
+    Vvector       "vvector"        "Position"           Number  Computed  "M"    "tool axis, second component"
+    Ivect         "ivect"          "Position"           Number  Computed  "M"    "tool axis, first component"
+    Jvect         "jvect"          "Position"           Number  Computed  "M"    "tool axis, second component"
+    Kvect         "kvect"          "Position"           Number  Computed  "M"    "tool axis, third component"
+    Ival          "ival"           "Arcs"               Length  Computed  "MLE"  "arc centre along the first axis, from the start or absolute (CtrIncremental?)"
+    Jval          "jval"           "Arcs"               Length  Computed  "MLE"  "arc centre along the second axis, from the start or absolute"
+    Kval          "kval"           "Arcs"               Length  Computed  "ME"   "arc centre along the depth axis, from the start or absolute"
+    Arcrad        "arcrad"         "Arcs"               Length  Computed  "MLE"  "arc radius"
+    Hctr          "hctr"           "Arcs"               Length  Computed  "MLE"  "arc centre along the first axis, absolute"
+    Vctr          "vctr"           "Arcs"               Length  Computed  "MLE"  "arc centre along the second axis, absolute"
+    Startang      "startang"       "Arcs"               Angle   Computed  "MLE"  "angle of the arc's start seen from its centre; in a thread the infeed angle"
+    Endang        "endang"         "Arcs"               Angle   Computed  "MLE"  "angle of the arc's end seen from its centre"
+    Sweep         "sweep"          "Arcs"               Angle   Computed  "MLE"  "angle swept, counter-clockwise positive"
+    Frate         "frate"          "Feeds and speeds"   Feed    Computed  "MLE"  "feed of the move or of the cycle"
+    Plunge        "plunge"         "Feeds and speeds"   Feed    Computed  "MLE"  "feed of plunges"
+    Speed         "speed"          "Feeds and speeds"   Speed   Computed  "ML"   "spindle speed"
+    Feedtype      "feedtype"       "Feeds and speeds"   Code    Computed  "MLE"  "feed mode code (FeedType)"
+    Speedtype     "speedtype"      "Feeds and speeds"   Code    Computed  "ML"   "spindle mode code (SpeedType)"
+    Invtime       "invtime"        "Feeds and speeds"   Number  Computed  "M"    "inverse time of the move, 1/min"
+    Maxrpm        "maxrpm"         "Feeds and speeds"   Speed   Computed  "ML"   "highest spindle speed at constant surface speed"
+    Pitch         "pitch"          "Threads"            Length  Computed  "ML"   "thread pitch"
+    Rplane        "rplane"         "Cycles"             Length  Computed  "ML"   "return plane: where the tool is before and after a hole"
+    Vclear        "vclear"         "Cycles"             Length  Computed  "ML"   "clearance plane (R plane): where the feed begins"
+    Depth         "depth"          "Cycles"             Length  Computed  "ML"   "depth of the hole below its point, positive; in a thread its height"
+    Inidep        "inidep"         "Cycles"             Length  Computed  "ML"   "depth after the first peck"
+    Vbite         "vbite"          "Cycles"             Length  Computed  "ML"   "peck; in a thread the least cut"
+    Vleave        "vleave"         "Cycles"             Length  Computed  "ML"   "finish allowance of a thread; secondary clearance of a hole"
+    Peck1         "peck1"          "Cycles"             Length  Computed  "ML"   "first peck; in a thread the first cut"
+    Sbite         "sbite"          "Cycles"             Length  Computed  "ML"   "least peck"
+    Sclear        "sclear"         "Cycles"             Length  Computed  "ML"   "secondary clearance"
+    Sleave        "sleave"         "Cycles"             Length  Computed  "ML"   "jog of a boring tool off the wall"
+    Dwell         "dwell"          "Cycles"             Time    Computed  "MLE"  "dwell, in the unit of the Dwell command"
+    Retplane      "retplane"       "Cycles"             Code    Computed  "ML"   "return plane code (ReturnPlane)"
+    Lasthole      "lasthole"       "Cycles"             Count   Computed  "ML"   "1 at the last hole of a cycle, else 0"
+    Rigid         "rigid"          "Cycles"             Count   Computed  "ML"   "1 for a rigid tap, else 0"
+    Pointd        "pointd"         "Cycles"             Length  Computed  "ML"   "depth position of the cycle's point, the top of the hole"
+    Tool          "tool"           "Tools"              Count   Computed  "ML"   "tool number"
+    Tool1         "tool1"          "Tools"              Count   Computed  "ML"   "the program's first tool"
+    Lasttool      "lasttool"       "Tools"              Count   Computed  "ML"   "the tool before this one"
+    Nexttool      "nexttool"       "Tools"              Count   Computed  "ML"   "the tool after this one; the first one at the last"
+    Toold         "toold"          "Tools"              Length  Computed  "MLE"  "tool diameter; of a wire its own"
+    Toolh         "toolh"          "Tools"              Length  Job       "ML"   "tool gauge length along the first axis"
+    Toolv         "toolv"          "Tools"              Length  Job       "ML"   "tool gauge length along the second axis"
+    Lcomp         "lcomp"          "Tools"              Count   Computed  "ML"   "length offset register"
+    Dcomp         "dcomp"          "Tools"              Count   Computed  "MLE"  "diameter offset register"
+    Comp          "comp"           "Tools"              Count   Job       "MLE"  "offset register of either kind"
+    Turret        "turret"         "Tools"              Count   Computed  "L"    "turret of the tool"
+    Cool          "cool"           "Tools"              Code    Computed  "ML"   "coolant code (Coolant)"
+    Coolantoff    "coolantoff"     "Tools"              Code    Computed  "ML"   "code that turns coolant off"
+    Direct        "direct"         "Tools"              Code    Computed  "ML"   "spindle direction code (Spindle)"
+    Side          "side"           "Tools"              Code    Computed  "MLE"  "cutter compensation code (CDC)"
+    Program       "program#"       "Program"            Count   Computed  "MLE"  "program number"
+    Block         "block"          "Program"            Count   Job       "MLE"  "number of this block"
+    Sub           "sub"            "Program"            Count   Computed  "M"    "subprogram number"
+    Subline       "subline"        "Program"            Count   Computed  "M"    "block number at which the subprogram starts"
+    Times         "times"          "Program"            Count   Computed  "M"    "repeats of a subprogram"
+    Work          "work"           "Program"            Code    Computed  "MLE"  "work offset"
+    Workd         "workd"          "Program"            Length  Job       "ME"   "depth position of the work origin"
+    Workh         "workh"          "Program"            Length  Job       "MLE"  "first-axis position of the work origin"
+    Workv         "workv"          "Program"            Length  Job       "MLE"  "second-axis position of the work origin"
+    Incmode       "incmode"        "Program"            Code    Computed  "MLE"  "incremental or absolute code (Inc/Abs)"
+    Unitmode      "unitmode"       "Program"            Code    Computed  "MLE"  "inch or mm code (Inch/MM)"
+    Stop          "stop"           "Program"            Code    Computed  "MLE"  "program or optional stop code (StopCode)"
+    Movelength    "movelength"     "Program"            Length  Computed  "MLE"  "length of this move"
+    Movetime      "movetime"       "Program"            Time    Computed  "MLE"  "time of this move in seconds, at its feed"
+    Totalcutdist  "totalcutdist"   "Program"            Length  Computed  "MLE"  "length of all feed moves so far"
+    Totalcuttime  "totalcuttime"   "Program"            Time    Computed  "MLE"  "time of all feed moves so far, in seconds"
+    Val1          "val1"           "Program"            Number  Job       "MLE"  "free value"
+    Val2          "val2"           "Program"            Number  Job       "MLE"  "free value"
+    Val3          "val3"           "Program"            Number  Job       "MLE"  "free value"
+    Val4          "val4"           "Program"            Number  Job       "MLE"  "free value"
+    Val5          "val5"           "Program"            Number  Job       "MLE"  "free value"
+    Val6          "val6"           "Program"            Number  Job       "MLE"  "free value"
+    Val7          "val7"           "Program"            Number  Job       "MLE"  "free value"
+    Val8          "val8"           "Program"            Number  Job       "MLE"  "free value"
+    Val9          "val9"           "Program"            Number  Job       "MLE"  "free value"
+    Val10         "val10"          "Program"            Number  Job       "MLE"  "free value"
+    Tparams       "tparams"        "Threads"            Number  Job       "L"    "packed passes, chamfer and angle of a threading cycle"
+    Passes        "passes"         "Threads"            Count   Computed  "L"    "finish passes, or number of passes"
+    Chams         "chams"          "Threads"            Number  Computed  "L"    "chamfer at the end of a thread"
+    Tipang        "tipang"         "Threads"            Angle   Computed  "L"    "angle of the thread's tip"
+    Taper         "taper"          "Threads"            Length  Computed  "L"    "radius difference of a tapered thread"
+    Flood         "flood"          "Wire EDM"           Code    Job       "E"    "flood code"
+    Flush         "flush"          "Wire EDM"           Code    Computed  "E"    "flush code (Flush)"
+    Power         "power"          "Wire EDM"           Number  Job       "E"    "power setting of the cut"
+    Initpower     "initpower"      "Wire EDM"           Number  Job       "E"    "power setting at the start"
+    Sparkgap      "sparkgap"       "Wire EDM"           Length  Job       "E"    "spark gap"
+    Wirefeed      "wirefeed"       "Wire EDM"           Number  Job       "E"    "wire feed"
+    Thickness     "thickness"      "Wire EDM"           Length  Job       "E"    "thickness of the workpiece"
+    Gauge         "gauge"          "Wire EDM"           Length  Job       "E"    "gauge height"
+    Vgauge        "vgauge"         "Wire EDM"           Length  Job       "E"    "vertical gauge height"
+    Upperdist     "upperdist"      "Wire EDM"           Length  Job       "E"    "distance of the upper guide"
+    Lowerdist     "lowerdist"      "Wire EDM"           Length  Job       "E"    "distance of the lower guide"
+}
+
+impl VarId {
+    /// Its row of the table.
+    pub fn row(self) -> &'static Variable {
+        &VARIABLES[self as usize]
+    }
+
+    /// As written between brackets.
+    pub fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// Finds a name in any case.
+    pub fn parse(name: &str) -> Option<VarId> {
+        VARIABLES.iter().find(|v| v.name.eq_ignore_ascii_case(name)).map(|v| v.id)
+    }
+}
+
+/// A set of variables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct VarSet(u128);
+
+impl VarSet {
+    /// The set of these.
+    pub const fn of(ids: &[VarId]) -> VarSet {
+        let (mut bits, mut i) = (0, 0);
+        while i < ids.len() {
+            bits |= 1 << ids[i] as u32;
+            i += 1;
+        }
+        VarSet(bits)
+    }
+
+    /// Adds one.
+    pub fn insert(&mut self, id: VarId) {
+        self.0 |= 1 << id as u32;
+    }
+
+    /// Takes one out.
+    pub fn remove(&mut self, id: VarId) {
+        self.0 &= !(1 << id as u32);
+    }
+
+    /// Is it in?
+    pub fn has(self, id: VarId) -> bool {
+        self.0 & 1 << id as u32 != 0
+    }
+
+    /// Has any of `other`?
+    pub fn meets(self, other: VarSet) -> bool {
+        self.0 & other.0 != 0
+    }
+
+    /// Both together.
+    pub fn with(self, other: VarSet) -> VarSet {
+        VarSet(self.0 | other.0)
+    }
+
+    /// Those not in `other`.
+    pub fn without(self, other: VarSet) -> VarSet {
+        VarSet(self.0 & !other.0)
+    }
+
+    /// Those in it.
+    pub fn iter(self) -> impl Iterator<Item = VarId> {
+        VARIABLES.iter().map(|v| v.id).filter(move |&id| self.has(id))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_and_found_in_any_case() {
+        assert!(VARIABLES.len() <= 128, "VarSet has 128 bits");
+        for variable in VARIABLES {
+            assert_eq!(VarId::parse(&variable.name.to_uppercase()), Some(variable.id));
+        }
+        assert_eq!(VarId::parse("vlcear"), None);
+    }
+}

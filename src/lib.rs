@@ -1,0 +1,19 @@
+//! **postform**: the compiler for POSTFORM files.
+//!
+//! A form is text; [`syntax`] reads it, [`sema`] checks it against the vocabulary of [`lang`], [`compile`] makes a flat
+//! program of it, and [`render`] runs that program over [`toolpath`] events to print the blocks of an NC program.
+//! The library does no I/O of its own: files, the terminal and the command line are in the binary.
+#![forbid(unsafe_code)]
+
+pub mod diag;
+pub mod lang;
+pub mod number;
+pub mod source;
+pub mod span;
+pub mod syntax;
+pub mod sema;
+pub mod compile;
+pub mod toolpath;
+pub mod cycle;
+pub mod render;
+pub mod lint;

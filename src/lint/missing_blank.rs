@@ -1,0 +1,28 @@
+//! PF102: `Z[d]F[plunge]` prints two words, but nobody should have to know.
+
+use crate::diag::{Code, Diag};
+use crate::sema::Checked;
+use crate::span::Span;
+use crate::syntax::{Head, PieceKind};
+
+pub fn check(checked: &Checked, diags: &mut Vec<Diag>) {
+    for tree in &checked.trees {
+        let bodies = tree.items.iter().filter_map(|i| if let Head::Sequence(s) = i { Some(&s.body) } else { None });
+        for word in bodies.flatten().flat_map(|body| &body.words) {
+            for pair in word.pieces.windows(2) {
+                let is_word = |kind: &PieceKind| matches!(kind, PieceKind::Variable { .. } | PieceKind::Literal { .. });
+                let begins = is_word(&pair[1].kind) || matches!(pair[1].kind, PieceKind::Note { .. });
+                if !is_word(&pair[0].kind) || !begins {
+                    continue;
+                }
+                let at = pair[1].span;
+                diags.push(
+                    Diag::new(Code::PF102, "a blank is missing between two words")
+                        .at(at, "a new word begins here")
+                        .help("put one blank before it; the output stays the same")
+                        .fix("put a blank between the words", true, vec![(Span { end: at.start, ..at }, " ".into())]),
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! From a double to whole units of the last decimal.
+
+/// The most decimals a letter format can have.
+pub const MAX_DECIMALS: u8 = 9;
+
+/// Powers of ten up to [`MAX_DECIMALS`] and beyond, for digits.
+pub const POWERS: [i64; 19] = {
+    let mut powers = [1; 19];
+    let mut i = 1;
+    while i < 19 {
+        powers[i] = powers[i - 1] * 10;
+        i += 1;
+    }
+    powers
+};
+
+/// The largest magnitude that stands exactly in a double.
+const EXACT: f64 = 9_007_199_254_740_992.0;
+
+/// `value` in units of 10^-`decimals`, rounded half away from zero of the shortest decimal that denotes it.
+///
+/// `1.00005` at four places is 10001 although the double is below the tie. Not finite or too large for 18
+/// digits: `None`.
+///
+/// ```
+/// use postform::number::quantise;
+/// assert_eq!(quantise(1.00005, 4), Some(10001));
+/// assert_eq!(quantise(-0.5, 0), Some(-1));
+/// assert_eq!(quantise(f64::NAN, 3), None);
+/// ```
+#[inline]
+pub fn quantise(value: f64, decimals: u8) -> Option<i64> {
+    let scaled = value.abs() * POWERS[decimals as usize] as f64;
+    let floor = scaled.floor();
+    let rest = scaled - floor;
+    // `value` is within half a unit in the last place of its shortest decimal, and the product rounds once more:
+    // closer to a tie than that, only the decimal itself can tell. The comparison also sends NaN and huge ones there.
+    if (rest - 0.5).abs() > scaled * (4.0 * f64::EPSILON) && scaled < EXACT {
+        let units = floor as i64 + i64::from(rest > 0.5);
+        return Some(if value < 0.0 { -units } else { units });
+    }
+    by_digits(value, decimals)
+}
+
+/// The same from the digits of the shortest decimal.
+#[cold]
+fn by_digits(value: f64, decimals: u8) -> Option<i64> {
+    if !value.is_finite() {
+        return None;
+    }
+    let (digits, exponent) = shortest(value.abs());
+    // digits x 10^exponent; in units: digits x 10^(exponent + decimals)
+    let shift = exponent + i32::from(decimals);
+    let units = if shift >= 0 {
+        let power = POWERS.get(shift as usize)?;
+        digits.checked_mul(*power)?
+    } else {
+        match POWERS.get((-shift) as usize) {
+            Some(&power) => digits / power + i64::from(digits % power >= power / 2),
+            None => 0,
+        }
+    };
+    if units >= POWERS[18] {
+        return None;
+    }
+    Some(if value < 0.0 { -units } else { units })
+}
+
+/// The shortest decimal of a finite double that is not negative, as digits (at most 17) and an exponent of ten.
+fn shortest(value: f64) -> (i64, i32) {
+    let mut text = Text { bytes: [0; 32], len: 0 };
+    // std prints the shortest digits that read back as the same double; a fixed buffer keeps the path free of allocation
+    if std::fmt::Write::write_fmt(&mut text, format_args!("{value:e}")).is_err() {
+        return (0, 0);
+    }
+    let (mut digits, mut exponent, mut after_point) = (0i64, 0i32, false);
+    let mut bytes = text.bytes[..text.len].iter();
+    for &b in bytes.by_ref() {
+        match b {
+            b'0'..=b'9' => {
+                digits = digits * 10 + i64::from(b - b'0');
+                exponent -= i32::from(after_point);
+            }
+            b'.' => after_point = true,
+            _ => break, // 'e'
+        }
+    }
+    let (mut power, mut negative) = (0i32, false);
+    for &b in bytes {
+        match b {
+            b'-' => negative = true,
+            _ => power = power * 10 + i32::from(b - b'0'),
+        }
+    }
+    (digits, exponent + if negative { -power } else { power })
+}
+
+struct Text {
+    bytes: [u8; 32],
+    len: usize,
+}
+
+impl std::fmt::Write for Text {
+    fn write_str(&mut self, s: &str) -> std::fmt::Result {
+        let room = self.bytes.get_mut(self.len..self.len + s.len()).ok_or(std::fmt::Error)?;
+        room.copy_from_slice(s.as_bytes());
+        self.len += s.len();
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ties_go_away_from_zero_of_the_shortest_decimal() {
+        for (value, decimals, units) in [
+            (1.00005, 4, 10001),
+            (-1.00005, 4, -10001),
+            (9.99996, 4, 100_000),
+            (9.99995, 4, 100_000),
+            (0.00004, 4, 0),
+            (0.00005, 4, 1),
+            (-0.00004, 4, 0),
+            (2.5, 0, 3),
+            (0.5, 0, 1),
+            (0.49999999999999994, 0, 0),
+            (1.0000499999999999, 4, 10000),
+            (123456.7895, 3, 123_456_790),
+            (1e17, 0, 100_000_000_000_000_000),
+            (5e-324, 9, 0),
+        ] {
+            assert_eq!(quantise(value, decimals), Some(units), "{value} at {decimals}");
+        }
+    }
+
+    #[test]
+    fn what_has_no_units_is_none() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, 1e18] {
+            assert_eq!(quantise(value, 0), None, "{value}");
+        }
+        assert_eq!(quantise(1e15, 4), None);
+    }
+}

@@ -1,0 +1,361 @@
+//! Arcs: what the form can print of them, in whole, in parts, or as chords.
+
+use std::f64::consts::PI;
+
+use super::fault::{Done, fault};
+use super::geometry::PlaneArc;
+use super::motion::as_number;
+use super::renderer::{LastMove, Renderer};
+use super::words::Mode;
+use crate::diag::Code;
+use crate::lang::{SequenceId, VarId};
+use crate::sema::{self, ArcCentre};
+use crate::toolpath::{Arc, Axes, Direction, Plane, Units};
+
+/// The axes of a plane in the order that makes counter-clockwise positive, the axis across it, the plane's code.
+fn plane_axes(plane: Plane) -> ([usize; 2], usize, f64) {
+    match plane {
+        Plane::Xy => ([0, 1], 2, 17.0),
+        Plane::Xz => ([2, 0], 1, 18.0),
+        Plane::Yz => ([1, 2], 0, 19.0),
+    }
+}
+
+/// An arc or a part of one, ready to print.
+struct Piece<'a> {
+    axes: [usize; 2],
+    plane: &'a sema::Code,
+    arc: PlaneArc,
+    target: Axes,
+}
+
+impl Renderer<'_> {
+    /// An arc of the path.
+    pub(super) fn arc(&mut self, arc: &Arc, feed: Option<f64>) -> Done {
+        let mut target = self.target(&arc.to);
+        self.close_cycle()?;
+        self.take_feed(feed)?;
+        let (axes, across, code) = plane_axes(arc.plane);
+        let Some(from) = self.in_plane(&self.position, axes) else {
+            let help = "begin with a rapid that gives all coordinates";
+            return fault(Code::PR005, "the arc begins at an unknown position", help);
+        };
+        let Some(to) = self.in_plane(&target, axes) else {
+            return fault(Code::PR005, "the arc ends at an unknown position", "give both coordinates of its plane");
+        };
+        let ccw = arc.direction == Direction::Ccw;
+        let centre = self.centre(arc, axes, from, to, ccw)?;
+        self.check_radii(axes, from, to, centre)?;
+        target.given |= self.position.given;
+        self.set_targets(&target)?;
+        if self.attention {
+            self.attend()?;
+        }
+        let shape = PlaneArc::new(from, to, centre, ccw, arc.turns);
+        let climbs = self.differs_by(&target, across);
+        if self.measures {
+            let rise = target.values[across] - self.position.values[across];
+            self.measured((shape.radius * shape.sweep.abs()).hypot(if climbs { rise } else { 0.0 }), true);
+        }
+        let settings = &self.program.settings;
+        let plane = settings.planes.iter().find(|plane| plane.value == code);
+        let scale = self.form_scale;
+        let printable = shape.radius >= settings.min_radius * scale
+            && shape.radius <= settings.max_radius * scale
+            && (settings.helical || !climbs)
+            && (3..6).all(|axis| !self.differs_by(&target, axis));
+        let shrinks = self.ends_meet(&target, axes) && shape.sweep.abs() < PI;
+        match plane {
+            Some(plane) if printable && !shrinks && self.has_centre_words(axes) => {
+                self.pieces(&Piece { axes, plane, arc: shape, target }, across)
+            }
+            _ => self.chords(&shape, axes, &target),
+        }
+    }
+
+    fn in_plane(&self, position: &Axes, axes: [usize; 2]) -> Option<[f64; 2]> {
+        Some([position.get(axes[0])?, position.get(axes[1])?])
+    }
+
+    /// Does the target move along this axis at all?
+    fn differs_by(&self, target: &Axes, axis: usize) -> bool {
+        target.get(axis).is_some() && target.get(axis) != self.position.get(axis)
+    }
+
+    fn centre(&self, arc: &Arc, axes: [usize; 2], from: [f64; 2], to: [f64; 2], ccw: bool) -> Done<[f64; 2]> {
+        if let Some(centre) = &arc.center {
+            return match (centre.get(axes[0]), centre.get(axes[1])) {
+                (Some(a), Some(b)) => Ok([a * self.scale, b * self.scale]),
+                _ => fault(Code::PR005, "the arc's centre lacks a coordinate of its plane", "give both"),
+            };
+        }
+        let radius = arc.radius.unwrap_or(0.0) * self.scale;
+        match PlaneArc::centre_by_radius(from, to, radius, ccw) {
+            Some(centre) => Ok(centre),
+            None => fault(
+                Code::PR005,
+                format!("no arc of radius {} joins the ends", radius.abs()),
+                "the ends are one point, or farther apart than the diameter: give the `center`",
+            ),
+        }
+    }
+
+    /// A value as the axis prints it.
+    fn printed(&self, axis: usize, value: f64) -> Done<f64> {
+        let info = &self.letters[self.axes[axis]];
+        let units = self.quantised(info, value)?;
+        let number = as_number(units, info.format.dec.count);
+        Ok(if info.reversed { -number } else { number })
+    }
+
+    /// Controls alarm, or cut something else, when start and end have different radii.
+    fn check_radii(&self, axes: [usize; 2], from: [f64; 2], to: [f64; 2], centre: [f64; 2]) -> Done {
+        let mut radii = [0.0; 2];
+        for (radius, point) in radii.iter_mut().zip([from, to]) {
+            let a = self.printed(axes[0], point[0])? - self.printed(axes[0], centre[0])?;
+            let b = self.printed(axes[1], point[1])? - self.printed(axes[1], centre[1])?;
+            *radius = a.hypot(b);
+        }
+        let allowed = if self.units == Units::Mm { 0.01 } else { 0.0005 };
+        if (radii[0] - radii[1]).abs() > allowed + 1e-9 {
+            let message =
+                format!("the arc's radius is {:.6} at its start and {:.6} at its end", radii[0], radii[1]);
+            return fault(Code::PR005, message, "look at the centre: both ends must be equally far from it");
+        }
+        Ok(())
+    }
+
+    /// Do both ends print alike? A short arc would then become a full circle.
+    fn ends_meet(&self, target: &Axes, axes: [usize; 2]) -> bool {
+        axes.iter().all(|&axis| {
+            let printed = |value: f64| self.printed(axis, value).ok();
+            printed(target.values[axis]) == printed(self.position.values[axis])
+        })
+    }
+
+    /// The letter of the centre word along an axis.
+    fn centre_letter(&self, letters: &[u8], axis: usize) -> Option<u8> {
+        let natural = match self.axes[axis] {
+            b'X' | b'U' => b'I',
+            b'Y' | b'V' => b'J',
+            _ => b'K',
+        };
+        let named = letters.iter().all(|l| b"IJK".contains(l));
+        if named { letters.contains(&natural).then_some(natural) } else { letters.get(axis).copied() }
+    }
+
+    fn has_centre_words(&self, axes: [usize; 2]) -> bool {
+        match &self.program.settings.centre {
+            ArcCentre::Radius(_) => true,
+            ArcCentre::Letters(letters) => axes.iter().all(|&axis| self.centre_letter(letters, axis).is_some()),
+        }
+    }
+
+    /// Prints an arc in as many parts as the form needs.
+    fn pieces(&mut self, whole: &Piece, across: usize) -> Done {
+        let settings = &self.program.settings;
+        let arc = &whole.arc;
+        let turn = 2.0 * PI;
+        let mut parts = std::mem::take(&mut self.parts);
+        parts.clear();
+        if settings.by_quadrants {
+            arc.quadrant_parts(&mut parts);
+        } else {
+            let sequence = if arc.sweep > 0.0 { SequenceId::CcwCode } else { SequenceId::CwCode };
+            let radius_only = matches!(settings.centre, ArcCentre::Radius(_)) && self.program.block(sequence).is_none();
+            let full = arc.sweep.abs() > turn - 1e-9;
+            let most = if !radius_only || (full && settings.centre_full.is_some()) {
+                turn
+            } else if settings.centre_over_180.is_some() && !full {
+                turn - 1e-6
+            } else {
+                PI
+            };
+            // radius words can't say a full circle, and over 180 degrees only when the form has a way
+            arc.equal_parts(most, &mut parts);
+            if parts.is_empty() && full && most < turn {
+                parts.push(0.5);
+            }
+        }
+        parts.push(1.0);
+        let (from, mut done) = (self.position, 0.0);
+        for &part in &parts {
+            let mut target = from;
+            if part == 1.0 {
+                target = whole.target;
+            } else {
+                let point = arc.point(part);
+                target.values[whole.axes[0]] = point[0];
+                target.values[whole.axes[1]] = point[1];
+                let rise = whole.target.values[across] - from.values[across];
+                target.values[across] = from.values[across] + rise * part;
+            }
+            let piece = PlaneArc { start: arc.start + arc.sweep * done, sweep: arc.sweep * (part - done), ..*arc };
+            self.piece(&Piece { axes: whole.axes, plane: whole.plane, arc: piece, target })?;
+            done = part;
+        }
+        self.parts = parts;
+        Ok(())
+    }
+
+    /// Prints one arc block or the form's sequence for it.
+    fn piece(&mut self, piece: &Piece) -> Done {
+        let program = self.program;
+        let settings = &program.settings;
+        if self.ends_meet(&piece.target, piece.axes) && piece.arc.sweep.abs() < PI {
+            self.set_targets(&piece.target)?;
+            return self.line_to(&piece.target); // as an arc it would be a full circle
+        }
+        let ccw = piece.arc.sweep > 0.0;
+        let centre = self.centre_values(piece)?;
+        self.set_targets(&piece.target)?;
+        self.set_arc_variables(piece, &centre);
+        let kind = if ccw { LastMove::Ccw } else { LastMove::Cw };
+        let restate = match self.last_move {
+            LastMove::Line => !settings.arc_with_line,
+            last => last == kind && !settings.arc_with_same,
+        };
+        let code = if ccw { &settings.ccw } else { &settings.cw };
+        if restate && self.motion_in_force(code) {
+            self.registers.forget_group(crate::lang::Group::Motion);
+        }
+        if self.last_move == LastMove::Rapid && !settings.force.is_empty() {
+            self.force();
+        }
+        self.shifted = false;
+        if let Some(block) = program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
+            self.upons(block.vars)?;
+            self.shifted = false;
+            self.run(block.ops.clone(), Mode::ArcMotion)?;
+        } else {
+            self.arc_block(piece, code, &centre, ccw)?;
+        }
+        self.position = piece.target;
+        self.last_move = kind;
+        Ok(())
+    }
+
+    /// The generated block: plane, motion code, axes, centre, direction, feed.
+    fn arc_block(&mut self, piece: &Piece, code: &sema::Code, centre: &[f64; 2], ccw: bool) -> Done {
+        let settings = &self.program.settings;
+        self.motion_word(piece.plane)?;
+        self.motion_word(code)?;
+        let mut units = [0; 6];
+        let mut axes = 0;
+        for axis in 0..6 {
+            let Some(value) = piece.target.get(axis) else { continue };
+            let info = &self.letters[self.axes[axis]];
+            units[axis] = self.quantised(info, value)?;
+            let kept = info.modal && self.registers.holds(info.printed, units[axis], info.format.dec.count);
+            axes |= u8::from(!kept) << axis;
+        }
+        if settings.incremental {
+            self.increments(&piece.target, axes)?;
+        } else {
+            self.axis_words(&units, axes)?;
+        }
+        if let Some(word) = &settings.second_circle {
+            self.end_block();
+            self.out.word(&self.layout, false).extend_from_slice(word.as_bytes());
+        }
+        self.centre_words(piece, centre)?;
+        if let Some([cw, ccw_word]) = &settings.circle_direction {
+            let word = if ccw { ccw_word } else { cw };
+            self.out.word(&self.layout, false).extend_from_slice(word.as_bytes());
+        }
+        self.feed_word()?;
+        self.end_block();
+        Ok(())
+    }
+
+    /// The centre as the form counts it: from the printed start, or absolute.
+    fn centre_values(&self, piece: &Piece) -> Done<[f64; 2]> {
+        let mut values = piece.arc.centre;
+        if self.program.settings.centre_incremental {
+            for (value, &axis) in values.iter_mut().zip(&piece.axes) {
+                // the control starts where it was told to, not where the job exactly was
+                *value -= self.printed(axis, self.position.values[axis])?;
+            }
+        }
+        Ok(values)
+    }
+
+    fn centre_words(&mut self, piece: &Piece, centre: &[f64; 2]) -> Done {
+        let settings = &self.program.settings;
+        let sweep = piece.arc.sweep.abs();
+        let over = sweep > PI + 1e-9;
+        let full = sweep > 2.0 * PI - 1e-9;
+        let words = match (&settings.centre_full, &settings.centre_over_180) {
+            (Some(words), _) if full => words,
+            (_, Some(words)) if over && !full => words,
+            _ => &settings.centre,
+        };
+        match words {
+            ArcCentre::Radius(letter) => {
+                let radius = if over { -piece.arc.radius } else { piece.arc.radius };
+                self.arc_word(*letter, radius)
+            }
+            ArcCentre::Letters(letters) => {
+                // in the order of the axes: I J, I K, J K
+                let mut order = [0, 1];
+                if piece.axes[0] > piece.axes[1] {
+                    order = [1, 0];
+                }
+                for i in order {
+                    if let Some(letter) = self.centre_letter(letters, piece.axes[i]) {
+                        self.arc_word(letter, centre[i])?;
+                    }
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// A centre word: always printed, and no register keeps it.
+    fn arc_word(&mut self, letter: u8, value: f64) -> Done {
+        let info = &self.letters[letter];
+        let units = self.quantised(info, value)?;
+        self.put_word(info, units, false)
+    }
+
+    fn set_arc_variables(&mut self, piece: &Piece, centre: &[f64; 2]) {
+        const VALUES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
+        const CENTRES: [Option<VarId>; 3] = [Some(VarId::Hctr), Some(VarId::Vctr), None];
+        for (i, &axis) in piece.axes.iter().enumerate() {
+            self.vars.set(VALUES[axis], centre[i]);
+            if let Some(var) = CENTRES[axis] {
+                self.vars.set(var, piece.arc.centre[i]);
+            }
+        }
+        let degrees = |angle: f64| (angle.to_degrees() % 360.0 + 360.0) % 360.0;
+        let sweep = piece.arc.sweep;
+        self.vars.set(VarId::Arcrad, piece.arc.radius);
+        self.vars.set(VarId::Startang, degrees(piece.arc.start));
+        self.vars.set(VarId::Endang, degrees(piece.arc.start + sweep));
+        self.vars.set(VarId::Sweep, sweep.to_degrees());
+    }
+
+    /// An arc that the form can't print, as lines within its tolerance.
+    fn chords(&mut self, arc: &PlaneArc, axes: [usize; 2], target: &Axes) -> Done {
+        let from = self.position;
+        let mut parts = std::mem::take(&mut self.parts);
+        parts.clear();
+        arc.equal_parts(arc.chord_angle(self.program.settings.tolerance * self.form_scale), &mut parts);
+        for &part in &parts {
+            let mut to = *target;
+            for axis in 0..6 {
+                if from.given & 1 << axis != 0 {
+                    to.values[axis] = from.values[axis] + (target.values[axis] - from.values[axis]) * part;
+                }
+            }
+            let point = arc.point(part);
+            to.values[axes[0]] = point[0];
+            to.values[axes[1]] = point[1];
+            self.set_targets(&to)?;
+            self.line_to(&to)?;
+        }
+        self.parts = parts;
+        self.set_targets(target)?;
+        self.line_to(target)
+    }
+}

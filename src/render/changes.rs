@@ -1,0 +1,243 @@
+//! Work offset, spindle, coolant and feed mode: what was printed of them, and blocks for changes that no sequence serves.
+
+use super::fault::{Done, fault};
+use super::renderer::Renderer;
+use super::words::tenths;
+use crate::diag::Code;
+use crate::lang::{Group, Origin, VARIABLES, VarId, VarSet, did_you_mean};
+use crate::sema;
+use crate::toolpath::{Coolant, FeedMode, Spindle, SpindleTurn};
+
+/// The values that the program printed last; `None`: unknown.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Served {
+    pub(super) work: Option<f64>,
+    pub speed: Option<f64>,
+    pub direct: Option<f64>,
+    pub cool: Option<f64>,
+    pub feed_type: Option<f64>,
+}
+
+/// Variables whose pending change the next move uses.
+const CHANGES: VarSet = VarSet::of(&[
+    VarId::Work,
+    VarId::Speed,
+    VarId::Direct,
+    VarId::Cool,
+    VarId::Coolantoff,
+    VarId::Feedtype,
+    VarId::Speedtype,
+    VarId::Maxrpm,
+]);
+
+impl Renderer<'_> {
+    /// A word with this variable was printed.
+    #[inline]
+    pub(super) fn served_by(&mut self, letter: u8, var: VarId, value: f64) {
+        match var {
+            VarId::Work => self.served.work = Some(value),
+            VarId::Speed => self.served.speed = Some(value),
+            VarId::Direct => self.served.direct = Some(value),
+            VarId::Cool => self.served.cool = Some(value),
+            VarId::Feedtype => self.served.feed_type = Some(value),
+            _ if letter == self.program.settings.speed_code => self.served.speed = Some(value),
+            _ => {}
+        }
+    }
+
+    /// A code of this group was printed.
+    pub(super) fn served_code(&mut self, group: Group, value: f64) {
+        match group {
+            Group::Work => self.served.work = Some(value),
+            Group::Spindle => self.served.direct = Some(value),
+            Group::Coolant => self.served.cool = Some(value),
+            Group::FeedMode => self.served.feed_type = Some(value),
+            _ => {}
+        }
+    }
+
+    /// An Upon sequence printed for this variable.
+    pub(super) fn served_upon(&mut self, var: VarId, value: f64) {
+        self.served_by(0, var, value);
+    }
+
+    /// Changes that nothing printed yet, each as a block of its own.
+    pub(super) fn pending_changes(&mut self) -> Done {
+        self.upons(CHANGES)?;
+        let settings = &self.program.settings;
+        let [cw, ccw, off] = settings.spindle;
+        if let Some(work) = self.vars.get(VarId::Work)
+            && self.served.work != Some(work)
+        {
+            self.work_block(work)?;
+        }
+        let speed = self.vars.get(VarId::Speed);
+        let direct = self.vars.get(VarId::Direct);
+        let turns = direct.is_some_and(|code| code == cw || code == ccw);
+        if turns && (self.served.direct != direct || self.served.speed != speed) {
+            if let Some(speed) = speed {
+                self.letter_word(settings.speed_code, speed)?;
+                self.served.speed = Some(speed);
+            }
+            if let Some(direct) = direct {
+                self.code_word(&sema::Code::plain(b'M', direct))?;
+            }
+            self.end_block();
+        } else if direct == Some(off) && self.served.direct.is_some_and(|code| code != off) {
+            self.code_word(&sema::Code::plain(b'M', off))?;
+            self.end_block();
+        }
+        if let Some(cool) = self.vars.get(VarId::Cool)
+            && self.served.cool != Some(cool)
+        {
+            self.code_word(&sema::Code::plain(b'M', cool))?;
+            self.end_block();
+            self.served.cool = Some(cool);
+        }
+        if let Some(feed_type) = self.vars.get(VarId::Feedtype)
+            && self.served.feed_type != Some(feed_type)
+        {
+            self.code_word(&sema::Code::plain(b'G', feed_type))?;
+            self.end_block();
+            self.served.feed_type = Some(feed_type);
+        }
+        Ok(())
+    }
+
+    /// The work offset with the letter that the form uses for it.
+    fn work_block(&mut self, work: f64) -> Done {
+        let letter = self.program.work_letter.unwrap_or(b'G');
+        if letter == b'G' && group_is_not_work(work) {
+            let message = format!("the work offset changes to {work}, and the form nowhere prints [work]");
+            return fault(Code::PR017, message, "print `G[work]` in the tool changes, or add `Upon [work]`");
+        }
+        if letter == b'G' {
+            self.code_word(&sema::Code::plain(b'G', work))?;
+        } else {
+            self.letter_word(letter, work)?;
+            self.forget_axes();
+        }
+        self.end_block();
+        self.served.work = Some(work);
+        Ok(())
+    }
+
+    /// A change of the work offset inside an operation.
+    pub(super) fn change_work(&mut self, work: f64) -> Done {
+        self.close_cycle()?;
+        self.set_work(work);
+        Ok(())
+    }
+
+    /// A fixture number below 50 counts from the first code, from 50 on it is the code.
+    pub(super) fn set_work(&mut self, work: f64) {
+        let first = self.program.settings.work;
+        let code = if work < 50.0 && work >= 1.0 { first + work - 1.0 } else { work };
+        self.vars.set(VarId::Work, code);
+        self.attention = true;
+    }
+
+    /// A change of the spindle.
+    pub(super) fn change_spindle(&mut self, spindle: &Spindle) -> Done {
+        self.close_cycle()?;
+        self.set_spindle(spindle);
+        Ok(())
+    }
+
+    pub(super) fn set_spindle(&mut self, spindle: &Spindle) {
+        let settings = &self.program.settings;
+        if let Some(speed) = spindle.speed {
+            self.vars.set(VarId::Speed, speed);
+        }
+        if let Some(turn) = spindle.turn {
+            let code = match turn {
+                SpindleTurn::Cw => settings.spindle[0],
+                SpindleTurn::Ccw => settings.spindle[1],
+                SpindleTurn::Off => settings.spindle[2],
+            };
+            self.vars.set(VarId::Direct, code);
+        }
+        if let Some(css) = spindle.css {
+            self.vars.set(VarId::Speedtype, settings.speed_type[usize::from(!css)]);
+        }
+        if let Some(max) = spindle.max {
+            self.vars.set(VarId::Maxrpm, max);
+        }
+        self.attention = true;
+    }
+
+    /// A change of the coolant.
+    pub(super) fn change_coolant(&mut self, coolant: Coolant) -> Done {
+        self.close_cycle()?;
+        self.set_coolant(coolant);
+        Ok(())
+    }
+
+    pub(super) fn set_coolant(&mut self, coolant: Coolant) {
+        let [on, off, mist] = self.program.settings.coolant;
+        let code = match coolant {
+            Coolant::On => on,
+            Coolant::Mist => mist,
+            Coolant::Off => off,
+        };
+        self.vars.set(VarId::Cool, code);
+        self.attention = true;
+    }
+
+    pub(super) fn set_feed_mode(&mut self, mode: FeedMode) {
+        let [minute, rev, inverse] = self.program.settings.feed_type;
+        self.feed_mode = mode;
+        let code = match mode {
+            FeedMode::PerMinute => minute,
+            FeedMode::PerRev => rev,
+            FeedMode::InverseTime => inverse,
+        };
+        self.vars.set(VarId::Feedtype, code);
+        self.attention = true;
+    }
+
+    /// A change of the feed for the moves that follow.
+    pub(super) fn change_feed(&mut self, feed: f64) -> Done {
+        self.set_feed(feed);
+        Ok(())
+    }
+
+    /// A value for a variable of the form.
+    pub(super) fn change_variable(&mut self, name: &str, value: f64) -> Done {
+        self.close_cycle()?;
+        let var = settable(name)?;
+        self.set_variable(var, value);
+        Ok(())
+    }
+
+    pub(super) fn set_variable(&mut self, var: VarId, value: f64) {
+        if var == VarId::Block {
+            self.out.set_number(value as i64);
+        } else {
+            self.vars.set(var, value);
+        }
+        self.attention = true;
+    }
+}
+
+fn group_is_not_work(work: f64) -> bool {
+    crate::lang::group_of(b'G', tenths(work)) != Some(Group::Work)
+}
+
+/// A variable that a job may set.
+pub(super) fn settable(name: &str) -> Done<VarId> {
+    let jobs = || VARIABLES.iter().filter(|v| v.origin == Origin::Job).map(|v| v.name);
+    match VarId::parse(name.trim_matches(['[', ']'])) {
+        Some(var) if var.row().origin == Origin::Job => Ok(var),
+        Some(var) => fault(
+            Code::PR016,
+            format!("[{}] comes from the toolpath and can't be set", var.name()),
+            "take it out; val1 to val10 are free",
+        ),
+        None => {
+            let shown = crate::diag::escaped(name);
+            let help = did_you_mean(name, jobs()).unwrap_or_else(|| "val1 to val10 are free".into());
+            fault(Code::PR016, format!("`{shown}` is no variable"), help)
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! Canned cycles: which sequence serves a cycle, when it begins and ends.
+
+use super::fault::{Done, fault};
+use super::renderer::{Cycles, Renderer};
+use super::vars::Vars;
+use crate::compile::{Block, CycleStyle};
+use crate::cycle::{Plan, Problem};
+use crate::diag::Code;
+use crate::lang::{Group, Machine, SequenceId, VarId};
+use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole, Peck, Place};
+
+/// A cycle between its begin and its end.
+pub(super) struct ActiveCycle {
+    /// In program units.
+    pub spec: CycleSpec,
+    /// What prints it: a sequence, or moves.
+    pub sequence: Option<SequenceId>,
+    /// Holes so far.
+    pub holes: u64,
+    /// The control is in the cycle: it needs its Cancel.
+    pub in_force: bool,
+    /// Values at the last start, for advanced cycles.
+    pub setup: Vars,
+    /// The last hole: where, and the height at which the tool left it.
+    pub last: Option<Axes>,
+    /// The exit height is certain.
+    pub exit_known: bool,
+    /// Depth position of the last point.
+    pub point: Option<f64>,
+    /// Return plane of the first point.
+    pub return_plane: Option<f64>,
+    /// Where the control returns to: the tool's height when the cycle was started.
+    pub initial_level: f64,
+    /// A hole that waits: only the next event tells whether it is the last.
+    pub held: Option<(Hole, Place)>,
+    /// The feed that comes back after the cycle.
+    pub feed: Option<f64>,
+}
+
+impl Renderer<'_> {
+    /// A cycle begins; nothing is printed before its first hole.
+    pub(super) fn cycle_begin(&mut self, spec: &CycleSpec) -> Done {
+        self.close_cycle()?;
+        if self.program.settings.machine == Machine::Edm {
+            return fault(Code::PR008, "a wire EDM machine has no canned cycles", "take the cycle out of the job");
+        }
+        let spec = self.scaled(spec);
+        let sequence = self.choose(&spec)?;
+        self.cycle = Some(ActiveCycle {
+            spec,
+            sequence,
+            holes: 0,
+            in_force: false,
+            setup: Vars::default(),
+            last: None,
+            exit_known: false,
+            point: None,
+            return_plane: None,
+            initial_level: 0.0,
+            held: None,
+            feed: self.feed,
+        });
+        Ok(())
+    }
+
+    /// The cycle ends.
+    pub(super) fn cycle_end(&mut self) -> Done {
+        self.close_cycle()
+    }
+
+    /// Ends the open cycle, if any: the hole that waits, Cancel, and what is known afterwards.
+    pub(super) fn close_cycle(&mut self) -> Done {
+        let Some(cycle) = &mut self.cycle else { return Ok(()) };
+        if let Some((hole, place)) = cycle.held.take() {
+            let now = std::mem::replace(&mut self.place, place);
+            self.vars.set(VarId::Lasthole, 1.0);
+            self.make_hole(&hole)?;
+            self.vars.set(VarId::Lasthole, 0.0);
+            self.place = now;
+        }
+        self.cancel()?;
+        let Some(cycle) = self.cycle.take() else { return Ok(()) };
+        self.feed = cycle.feed;
+        self.vars.put(VarId::Frate, cycle.feed);
+        self.vars.put(VarId::Dwell, None);
+        if let Some(last) = cycle.last {
+            self.position = last;
+            self.set_targets(&last)?;
+            self.registers.forget_letters();
+            self.registers.forget_group(Group::Motion);
+            let known = if cycle.exit_known { 0b111 } else { 0b011 };
+            for axis in 0..3 {
+                if known & last.given & 1 << axis != 0 {
+                    let info = &self.letters[self.axes[axis]];
+                    let units = self.quantised(info, last.values[axis])?;
+                    self.registers.set(info.printed, units, info.format.dec.count);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Prints the Cancel sequence if the control is in the cycle.
+    pub(super) fn cancel(&mut self) -> Done {
+        let program = self.program;
+        let Some(cycle) = &mut self.cycle else { return Ok(()) };
+        let cancels = cycle.sequence.and_then(|id| program.block(id)).is_some_and(|block| block.cancel);
+        if std::mem::take(&mut cycle.in_force) && cancels
+            && let Some(block) = program.block(SequenceId::Cancel)
+        {
+            self.run_with_upons(block)?;
+            self.registers.forget_group(Group::Motion);
+        }
+        Ok(())
+    }
+
+    /// The same cycle in program units.
+    pub(super) fn scaled(&self, spec: &CycleSpec) -> CycleSpec {
+        let scale = self.scale;
+        let length = |value: Option<f64>| value.map(|v| v * scale);
+        CycleSpec {
+            depth: length(spec.depth),
+            clear: length(spec.clear),
+            return_height: length(spec.return_height),
+            feed: length(spec.feed),
+            plunge: length(spec.plunge),
+            step: length(spec.step),
+            first_step: length(spec.first_step),
+            back: length(spec.back),
+            rapto: length(spec.rapto),
+            offset: length(spec.offset),
+            decr: length(spec.decr),
+            min_step: length(spec.min_step),
+            diameter: length(spec.diameter),
+            hole_diameter: length(spec.hole_diameter),
+            webs: spec.webs.iter().map(|w| w * scale).collect(),
+            pecks: spec.pecks.iter().map(|p| Peck { to: p.to * scale, feed: p.feed.map(|f| f * scale) }).collect(),
+            jog: length(spec.jog),
+            ..spec.clone()
+        }
+    }
+
+    /// The sequence that prints a cycle, or none where moves are generated.
+    fn choose(&mut self, spec: &CycleSpec) -> Done<Option<SequenceId>> {
+        let program = self.program;
+        let rigid = spec.kind.is_tap() && spec.rigid.unwrap_or(program.settings.rigid_tap);
+        let emulated = self.options.cycles == Cycles::Emulated;
+        let candidate = self.candidate(spec).filter(|_| !emulated);
+        let why = match candidate.and_then(|id| program.block(id).map(|block| (id, block))) {
+            Some((id, block)) => match self.cannot_say(spec, block) {
+                None => return Ok((block.style != CycleStyle::Generated).then_some(id)),
+                Some(what) => format!("{} does not print {what}", id.name()),
+            },
+            None if emulated => "cycles are emulated".to_owned(),
+            None => format!("the form has no sequence for `{}`", spec.kind.name()),
+        };
+        if rigid {
+            let message = format!("a rigid tap can't be made of single moves, and {why}");
+            return fault(Code::PR009, message, "add a Tap sequence that prints what the tap needs");
+        }
+        if candidate.is_some() {
+            self.note(Code::PR014, format!("the cycle is printed as single moves: {why}"), "look at the moves");
+        }
+        Ok(None)
+    }
+
+    /// Which sequence serves which kind (render.md section 3).
+    fn candidate(&self, spec: &CycleSpec) -> Option<SequenceId> {
+        use CycleKind as K;
+        use SequenceId as S;
+        let program = self.program;
+        let custom = || {
+            let labels = program.custom.iter().zip([S::Custom1, S::Custom2, S::Custom3]);
+            let name = spec.kind.name();
+            let is_kind = |label: &String| {
+                label.split([' ', ',', '(']).next().is_some_and(|word| word.eq_ignore_ascii_case(name))
+            };
+            labels.filter(|(label, _)| label.as_ref().is_some_and(is_kind)).map(|(_, id)| id).next()
+        };
+        let own = match spec.kind {
+            K::Drill => S::Drill,
+            K::Face => {
+                let prints_dwell = |block: &Block| block.vars.has(VarId::Dwell);
+                return custom().or_else(|| program.block(S::Drill).filter(|b| prints_dwell(b)).map(|_| S::Drill));
+            }
+            K::Tap => S::Tap,
+            K::LTap => S::LTap,
+            K::Bore => S::Bore,
+            K::Back => S::Back,
+            K::Ream => S::Ream,
+            K::Deep => S::Peck,
+            K::Chipbreak => S::Chipbreak,
+            K::Custom1 => S::Custom1,
+            K::Custom2 => S::Custom2,
+            K::Custom3 => S::Custom3,
+            K::Thru | K::Csink | K::Manual => return custom(),
+        };
+        if program.block(own).is_some() { Some(own) } else { custom() }
+    }
+
+    /// What a cycle asks for that its sequence does not print.
+    fn cannot_say(&self, spec: &CycleSpec, block: &Block) -> Option<&'static str> {
+        if block.style == CycleStyle::Generated {
+            return None;
+        }
+        let prints = |vars: &[VarId]| vars.iter().any(|&var| block.vars.has(var));
+        let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak) || spec.mode.is_some();
+        let missing = [
+            (!spec.pecks.is_empty(), &[][..], "absolute pecks (`pecks`)"),
+            (spec.times.is_some(), &[], "full retracts between chip breaks (`times`)"),
+            (spec.decr.is_some(), &[], "shrinking pecks (`decr`)"),
+            (!spec.webs.is_empty(), &[], "webs"),
+            (spec.rapto.is_some(), &[], "the extra rapid (`rapto`)"),
+            (spec.ratio.is_some_and(|r| r != 1.0), &[], "the retract feed (`ratio`)"),
+            (spec.starts.is_some_and(|s| s > 1.0), &[], "several starts"),
+            (spec.norevr || spec.rapout, &[], "a tap without reversing"),
+            (spec.hole_diameter.is_some(), &[], "the rapid to the cone (`hole_diameter`)"),
+            (spec.orient.is_some_and(|a| a != self.defaults.orient), &[], "the spindle angle (`orient`)"),
+            (spec.jog.is_some(), &[], "the lift of the jog (`jog`)"),
+            (spec.offset.is_some(), &[VarId::Sleave], "the jog off the wall: [sleave]"),
+            (spec.dwell.or(spec.revs).is_some(), &[VarId::Dwell], "the dwell: [dwell]"),
+            (spec.back.is_some(), &[VarId::Sclear, VarId::Vleave], "the secondary clearance: [sclear]"),
+            (spec.first_step.is_some(), &[VarId::Peck1, VarId::Inidep], "the first peck: [peck1]"),
+            (spec.min_step.is_some(), &[VarId::Sbite], "the least peck: [sbite]"),
+            (pecks && spec.step.is_some(), &[VarId::Vbite], "the peck: [vbite]"),
+        ];
+        missing.into_iter().find(|(asked, vars, _)| *asked && !prints(vars)).map(|(_, _, what)| what)
+    }
+
+    /// The planes of a cycle at a hole.
+    pub(super) fn planes(&self, spec: &CycleSpec, hole: &Hole) -> Done<Plan> {
+        let depth = hole.depth.map(|d| d * self.scale);
+        Plan::of(spec, depth, &self.defaults, self.vars.get(VarId::Speed)).or_else(cycle_fault)
+    }
+
+    /// Where the tool is before the first hole of a cycle: over it, at the return plane. For tool changes.
+    pub(super) fn hole_position(&self, spec: &CycleSpec, hole: &Hole) -> Done<Axes> {
+        let spec = self.scaled(spec);
+        let planes = self.planes(&spec, hole)?;
+        let mut target = self.target(&hole.at);
+        let Some(point) = hole.at.get(2) else { return no_height() };
+        let point = point * self.scale;
+        target.set(2, point + spec.return_height.unwrap_or(planes.clear).max(planes.clear));
+        Ok(target)
+    }
+}
+
+/// The first point of a cycle must say how high it is.
+pub(super) fn no_height<T>() -> Done<T> {
+    fault(
+        Code::PR006,
+        "the cycle's first point has no height",
+        "give its third coordinate, the top of the hole, as [1, 1, 0]",
+    )
+}
+
+/// A problem of the planner as an error.
+pub(super) fn cycle_fault<T>(problem: Problem) -> Done<T> {
+    fault(Code::PR006, format!("{} ({})", problem.message, problem.code), "mend the cycle in the job")
+}

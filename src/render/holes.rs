@@ -1,0 +1,338 @@
+//! One hole: by the form's sequence, or as generated moves.
+
+use super::cycles::{cycle_fault, no_height};
+use super::fault::{Done, fault};
+use super::motion::as_number;
+use super::renderer::Renderer;
+use super::words::Mode;
+use crate::compile::{Block, CycleStyle};
+use crate::cycle::{Plan, Step, plan};
+use crate::diag::Code;
+use crate::lang::VarId;
+use crate::sema;
+use crate::toolpath::{Axes, Hole};
+
+/// Heights that differ by less are one.
+const SAME: f64 = 1e-9;
+
+/// The heights of a hole as depth positions.
+#[derive(Clone, Copy)]
+struct Heights {
+    point: f64,
+    clear: f64,
+    bottom: f64,
+    return_plane: f64,
+}
+
+impl Renderer<'_> {
+    /// A hole of the open cycle.
+    pub(super) fn hole(&mut self, hole: &Hole) -> Done {
+        if !self.program.printed.has(VarId::Lasthole) {
+            return self.make_hole(hole);
+        }
+        let place = self.place;
+        let Some(cycle) = &mut self.cycle else { return Ok(()) };
+        match cycle.held.replace((*hole, place)) {
+            Some((before, at)) => {
+                self.place = at;
+                let made = self.make_hole(&before);
+                self.place = place;
+                made
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Prints a hole.
+    pub(super) fn make_hole(&mut self, hole: &Hole) -> Done {
+        let program = self.program;
+        let Some(mut cycle) = self.cycle.take() else { return Ok(()) };
+        let planes = self.planes(&cycle.spec, hole);
+        let scale = self.scale;
+        let point = hole.at.get(2).map(|d| d * scale).or(cycle.point);
+        let block = cycle.sequence.and_then(|id| program.block(id));
+        let heights = planes.and_then(|planes| {
+            let Some(point) = point else { return no_height() };
+            let clear = point + planes.clear;
+            let first = *cycle.return_plane.get_or_insert(point + cycle.spec.return_height.unwrap_or(planes.clear));
+            Ok((planes, Heights { point, clear, bottom: point + planes.bottom, return_plane: first.max(clear) }))
+        });
+        cycle.point = point;
+        self.cycle = Some(cycle);
+        let (planes, heights) = heights?;
+        let mut target = self.target(&hole.at);
+        target.set(2, heights.return_plane);
+        for axis in 0..2 {
+            if target.get(axis).is_none() {
+                return fault(Code::PR006, "the hole's position is unknown", "give both coordinates of the first point");
+            }
+        }
+        match block {
+            Some(block) => self.sequence_hole(block, &target, &planes, heights)?,
+            None => self.generated_hole(&target, &planes, heights)?,
+        }
+        if let Some(cycle) = &mut self.cycle {
+            cycle.holes += 1;
+        }
+        Ok(())
+    }
+
+    /// Variables of a cycle at a hole.
+    fn hole_variables(&mut self, planes: &Plan, heights: Heights) {
+        let Some(cycle) = &self.cycle else { return };
+        let spec = &cycle.spec;
+        let settings = &self.program.settings;
+        let vars = &mut self.vars;
+        let [r_level, initial_level] = settings.return_plane;
+        let higher = heights.return_plane > heights.clear + SAME;
+        vars.set(VarId::Retplane, if higher { initial_level } else { r_level });
+        vars.set(VarId::D, heights.bottom);
+        vars.set(VarId::Pointd, heights.point);
+        vars.set(VarId::Vclear, heights.clear);
+        vars.set(VarId::Rplane, heights.return_plane);
+        vars.set(VarId::Depth, heights.point - heights.bottom);
+        vars.set(VarId::Frate, planes.feed);
+        vars.set(VarId::Plunge, spec.plunge.unwrap_or(planes.feed));
+        let step = spec.step.or(self.defaults.step);
+        vars.put(VarId::Vbite, step);
+        vars.put(VarId::Peck1, spec.first_step.or(step));
+        vars.put(VarId::Inidep, spec.first_step.or(step));
+        vars.set(VarId::Sbite, spec.min_step.unwrap_or(self.defaults.min_step));
+        let back = spec.back.unwrap_or(match spec.kind {
+            crate::toolpath::CycleKind::Chipbreak => self.defaults.back_chipbreak,
+            crate::toolpath::CycleKind::Thru => self.defaults.back_thru,
+            _ => self.defaults.back_deep,
+        });
+        vars.set(VarId::Sclear, back);
+        vars.set(VarId::Vleave, back);
+        vars.set(VarId::Sleave, spec.offset.unwrap_or(self.defaults.jog));
+        let unit = if settings.dwell.milliseconds { 1000.0 } else { 1.0 };
+        vars.put(VarId::Dwell, planes.dwell.map(|seconds| seconds * unit));
+        let rigid = spec.kind.is_tap() && spec.rigid.unwrap_or(settings.rigid_tap);
+        vars.set(VarId::Rigid, f64::from(u8::from(rigid)));
+        let rpm = vars.get(VarId::Speed).filter(|&rpm| rpm > 0.0);
+        vars.put(VarId::Pitch, rpm.map(|rpm| planes.feed / rpm).filter(|_| spec.kind.is_tap()));
+    }
+
+    /// A hole by a sequence of the form.
+    fn sequence_hole(&mut self, block: &Block, target: &Axes, planes: &Plan, heights: Heights) -> Done {
+        self.set_targets(target)?;
+        if self.attention {
+            self.attend()?; // with [d] at the return plane: an Upon must not go down the hole
+        }
+        self.upons(block.vars.without(crate::lang::VarSet::of(&[VarId::D])))?;
+        self.hole_variables(planes, heights);
+        if matches!(block.style, CycleStyle::Emulated) {
+            self.raise_to(target)?;
+            self.vars.set(VarId::D, heights.bottom);
+            self.registers.forget_letters();
+            self.shifted = false;
+            self.run(block.ops.clone(), Mode::Hole)?;
+            return self.left_hole(target, None);
+        }
+        let starts = self.starts_cycle(block, heights);
+        if starts {
+            self.cancel()?;
+            self.approach(target)?;
+            self.vars.set(VarId::D, heights.bottom);
+            self.warn_of_return(block, heights);
+            let snapshot = self.vars.clone();
+            if let Some(cycle) = &mut self.cycle {
+                cycle.setup = snapshot;
+                cycle.initial_level = heights.return_plane;
+                cycle.in_force = true;
+            }
+        }
+        self.shifted = false;
+        match block.style {
+            CycleStyle::Advanced => {
+                self.registers.forget_letters();
+                if starts {
+                    self.run(block.ops.start..block.repeat, Mode::All)?;
+                }
+                self.run(block.repeat..block.ops.end, Mode::Hole)?;
+            }
+            CycleStyle::Machine if !starts => {
+                let position = !self.changes_something(block)?;
+                self.run(block.ops.clone(), Mode::NextHole { position })?;
+            }
+            _ => self.run(block.ops.clone(), Mode::All)?,
+        }
+        let initial = self.cycle.as_ref().map_or(heights.return_plane, |cycle| cycle.initial_level);
+        let exit = if block.returns { initial.max(heights.clear) } else { heights.clear };
+        let known = block.returns || heights.return_plane <= heights.clear + SAME;
+        self.left_hole(target, Some((exit, known)))
+    }
+
+    /// Must the whole cycle be printed at this hole?
+    fn starts_cycle(&self, block: &Block, heights: Heights) -> bool {
+        let Some(cycle) = &self.cycle else { return true };
+        if !cycle.in_force {
+            return true;
+        }
+        // the control would rapid there through the material
+        let level = cycle.last.and_then(|last| last.get(2));
+        if level.is_none_or(|level| heights.clear > level + SAME) {
+            return true;
+        }
+        block.style == CycleStyle::Advanced
+            && block.setup_vars.iter().any(|var| cycle.setup.get(var) != self.vars.get(var))
+    }
+
+    /// Does some variable word of a machine cycle change at this hole?
+    fn changes_something(&self, block: &Block) -> Done<bool> {
+        for i in block.ops.clone() {
+            let crate::compile::Op::Var { letter, var, .. } = self.program.ops[i] else { continue };
+            let (info, Some(value)) = (&self.letters[letter], self.vars.get(var)) else { continue };
+            let units = self.quantised(info, value)?;
+            if matches!(info.kind, crate::compile::LetterKind::GCode | crate::compile::LetterKind::MCode) {
+                continue;
+            }
+            if !self.registers.holds(info.printed, units, info.format.dec.count) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Before a control's cycle: the tool goes to the return plane, up first or down last.
+    fn approach(&mut self, target: &Axes) -> Done {
+        if !self.differs(target, 0b100) {
+            return Ok(());
+        }
+        let up = self.position.get(2).is_some_and(|from| target.values[2] > from);
+        if !up {
+            return self.split_rapid(target);
+        }
+        self.raise(target)
+    }
+
+    /// An emulated cycle's first line may go across: the tool must not be below the return plane then.
+    fn raise_to(&mut self, target: &Axes) -> Done {
+        let below = self.position.get(2).is_some_and(|from| target.values[2] > from + SAME);
+        let across = (0..2).any(|axis| self.position.get(axis) != target.get(axis));
+        if below && across { self.raise(target) } else { Ok(()) }
+    }
+
+    fn raise(&mut self, target: &Axes) -> Done {
+        let mut above = self.position;
+        above.set(2, target.values[2]);
+        self.set_targets(&above)?;
+        self.split_rapid(&above)?;
+        self.set_targets(target)
+    }
+
+    fn warn_of_return(&mut self, block: &Block, heights: Heights) {
+        if heights.return_plane > heights.clear + SAME && !block.returns {
+            let message = format!(
+                "the job returns to {}, the cycle stays at {}",
+                heights.return_plane, heights.clear
+            );
+            self.note(Code::PR013, message, "print `G[retplane]` in the cycle, so that the control knows where to return to");
+        }
+    }
+
+    /// Where the tool is after a hole; `exit` is the height, if the sequence does not print it, and whether it is sure.
+    fn left_hole(&mut self, target: &Axes, exit: Option<(f64, bool)>) -> Done {
+        let mut last = *target;
+        let depth = &self.letters[self.axes[2]];
+        let (exit, known) = exit.unwrap_or_else(|| match self.registers.get(depth.printed) {
+            Some((units, decimals)) => {
+                let value = as_number(units, decimals);
+                (if depth.reversed { -value } else { value }, true)
+            }
+            None => (target.values[2], false),
+        });
+        // what the job means by its last position is the return plane, also where the control stays lower
+        last.set(2, exit);
+        self.position = last;
+        if let Some(cycle) = &mut self.cycle {
+            cycle.last = Some(last);
+            cycle.exit_known = known;
+        }
+        Ok(())
+    }
+
+    /// A hole as single moves.
+    fn generated_hole(&mut self, target: &Axes, planes: &Plan, heights: Heights) -> Done {
+        let Some(cycle) = self.cycle.take() else { return Ok(()) };
+        let mut steps = std::mem::take(&mut self.steps);
+        let planned = plan(&cycle.spec, planes, heights.return_plane - heights.point, &self.defaults, &mut steps);
+        self.cycle = Some(cycle);
+        let done = match planned {
+            Ok(()) => self.make_steps(&steps.list, target, planes, heights),
+            Err(problem) => cycle_fault(problem),
+        };
+        self.steps = steps;
+        done
+    }
+
+    fn make_steps(&mut self, steps: &[Step], target: &Axes, planes: &Plan, heights: Heights) -> Done {
+        self.set_targets(target)?;
+        if self.attention {
+            self.attend()?;
+        }
+        self.hole_variables(planes, heights);
+        self.split_rapid(target)?;
+        self.registers.forget(self.letters[self.program.settings.feed_code].printed);
+        let direct = self.vars.get(VarId::Direct);
+        for step in steps {
+            let mut to = *target;
+            match *step {
+                Step::Rapid(height) => {
+                    to.values[2] = heights.point + height;
+                    self.set_targets(&to)?;
+                    self.split_rapid(&to)?;
+                }
+                Step::RapidAside(height, x, y) => {
+                    to.values[0] += x;
+                    to.values[1] += y;
+                    to.values[2] = heights.point + height;
+                    self.set_targets(&to)?;
+                    self.split_rapid(&to)?;
+                }
+                Step::Feed(height, feed) => {
+                    to.values[2] = heights.point + height;
+                    self.feed = Some(feed);
+                    self.vars.set(VarId::Frate, feed);
+                    self.set_targets(&to)?;
+                    self.line_to(&to)?;
+                }
+                Step::Dwell(seconds) => self.dwell_block(seconds)?,
+                Step::SpindleStop => self.spindle_block(self.program.settings.spindle[2])?,
+                Step::SpindleStart => self.spindle_block(self.turning(direct)?)?,
+                Step::SpindleReverse => {
+                    let [cw, ccw, _] = self.program.settings.spindle;
+                    let code = if self.turning(direct)? == cw { ccw } else { cw };
+                    self.spindle_block(code)?;
+                }
+                Step::Orient(angle) => {
+                    let (code, letter) = &self.program.settings.orient;
+                    self.code_word(code)?;
+                    self.letter_word(*letter, angle)?;
+                    self.end_block();
+                }
+                Step::ProgramStop => {
+                    self.code_word(&sema::Code::plain(b'M', self.program.settings.stop_code[0]))?;
+                    self.end_block();
+                }
+            }
+        }
+        let exit = self.position.values[2];
+        self.left_hole(target, Some((exit, true)))
+    }
+
+    fn spindle_block(&mut self, code: f64) -> Done {
+        self.code_word(&sema::Code::plain(b'M', code))?;
+        self.end_block();
+        Ok(())
+    }
+
+    /// The direction before the cycle, which must be one.
+    fn turning(&self, direct: Option<f64>) -> Done<f64> {
+        match direct {
+            Some(code) if code != self.program.settings.spindle[2] => Ok(code),
+            _ => fault(Code::PR006, "the spindle does not turn", "give the operation a spindle with a direction"),
+        }
+    }
+}

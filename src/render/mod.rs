@@ -1,0 +1,21 @@
+//! From toolpath events to NC blocks (render.md): modality, tool changes, arcs, canned cycles.
+
+mod arcs;
+mod changes;
+mod cycles;
+mod fault;
+mod geometry;
+mod holes;
+mod motion;
+mod output;
+mod registers;
+mod renderer;
+mod sections;
+mod start;
+mod tools;
+mod upon;
+mod vars;
+mod words;
+
+pub use output::TraceLine;
+pub use renderer::{Cycles, Options, Renderer};

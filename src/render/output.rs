@@ -1,0 +1,205 @@
+//! Blocks: words joined, numbered, ended, and appended to the output.
+
+use crate::sema::Settings;
+use crate::span::Span;
+use crate::toolpath::Place;
+
+/// Where an output line came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TraceLine {
+    /// Line of the program, from 1.
+    pub line: u64,
+    /// Line of the form; `None` when the block was generated.
+    pub form: Option<Span>,
+    /// Item of the job.
+    pub place: Place,
+}
+
+/// The block being built and the output so far.
+#[derive(Debug)]
+pub struct Output {
+    /// Finished blocks; the caller takes them.
+    pub text: Vec<u8>,
+    /// The words of the open block.
+    block: Vec<u8>,
+    words: usize,
+    numbered: bool,
+    next_number: i64,
+    first_done: bool,
+    /// Blocks printed so far.
+    pub lines: u64,
+    /// The source map, when asked for.
+    pub trace: Option<Vec<TraceLine>>,
+}
+
+/// How blocks look, taken from the settings once.
+#[derive(Debug)]
+pub struct Layout {
+    blanks: bool,
+    columns: Vec<usize>,
+    replace: Vec<(Vec<u8>, Vec<u8>)>,
+    eob: Vec<u8>,
+    number_letter: Option<u8>,
+    start: i64,
+    step: i64,
+    largest: i64,
+    width: usize,
+    number_first: bool,
+}
+
+impl Layout {
+    /// `width` is the number of digits of a block number's format, `fixed` whether they are padded.
+    pub fn new(settings: &Settings, width: u8, fixed: bool) -> Layout {
+        let bytes = |(old, new): &(String, String)| (old.clone().into_bytes(), new.clone().into_bytes());
+        Layout {
+            blanks: settings.blanks,
+            columns: settings.columns.clone(),
+            replace: settings.replace.iter().map(bytes).collect(),
+            eob: settings.eob.clone().into_bytes(),
+            number_letter: settings.numbers.letter,
+            start: settings.numbers.start,
+            step: settings.numbers.step,
+            largest: crate::number::POWERS[usize::from(width.min(18))] - 1,
+            width: if fixed { usize::from(width) } else { 1 },
+            number_first: settings.number_first,
+        }
+    }
+}
+
+impl Output {
+    /// Empty; the first block number is the layout's start.
+    pub fn new(layout: &Layout, trace: bool) -> Output {
+        Output {
+            text: Vec::with_capacity(128 * 1024),
+            block: Vec::with_capacity(256),
+            words: 0,
+            numbered: false,
+            next_number: layout.start,
+            first_done: false,
+            lines: 0,
+            trace: trace.then(Vec::new),
+        }
+    }
+
+    /// The open block, to append a word to. A blank or column comes first, unless the word sticks to the one before.
+    #[inline]
+    pub fn word(&mut self, layout: &Layout, glued: bool) -> &mut Vec<u8> {
+        if !glued || self.words == 0 {
+            if self.words > 0 && layout.blanks {
+                self.block.push(b' ');
+            }
+            if !layout.columns.is_empty() {
+                self.to_column(layout);
+            }
+            self.words += 1;
+        }
+        &mut self.block
+    }
+
+    #[cold]
+    fn to_column(&mut self, layout: &Layout) {
+        let column = match layout.columns.as_slice() {
+            [width] => self.words * width,
+            columns => columns.get(self.words).map_or(0, |column| column - 1),
+        };
+        while self.block.len() < column {
+            self.block.push(b' ');
+        }
+    }
+
+    /// Takes the last word back: it could not be printed.
+    pub fn clear_block(&mut self) {
+        self.block.clear();
+        self.words = 0;
+        self.numbered = false;
+    }
+
+    /// Is a block open?
+    #[inline]
+    pub fn has_words(&self) -> bool {
+        self.words > 0
+    }
+
+    /// The number of the open block.
+    pub fn number(&self) -> i64 {
+        self.next_number
+    }
+
+    /// Sets the number of the next block.
+    pub fn set_number(&mut self, number: i64) {
+        self.next_number = number;
+    }
+
+    /// The open block prints its number itself.
+    pub fn prints_number(&mut self) {
+        self.numbered = true;
+    }
+
+    /// Ends the open block. An empty one is not printed. `number`: it may have a block number.
+    #[inline]
+    pub fn finish(&mut self, layout: &Layout, number: bool, form: Option<Span>, place: Place) {
+        if self.words == 0 {
+            return;
+        }
+        let start = self.text.len();
+        let due = layout.number_letter.is_some() && !self.numbered && number && !is_frame(&self.block);
+        if due && (self.first_done || layout.number_first) {
+            self.push_number(layout);
+            self.numbered = true;
+        }
+        self.first_done |= due;
+        if self.numbered {
+            self.next_number += layout.step;
+            if self.next_number > layout.largest {
+                self.next_number = layout.start;
+            }
+        }
+        self.text.extend_from_slice(&self.block);
+        if !layout.replace.is_empty() {
+            self.replace(layout, start);
+        }
+        self.text.extend_from_slice(&layout.eob);
+        self.text.push(b'\n');
+        self.lines += 1;
+        if let Some(trace) = &mut self.trace {
+            trace.push(TraceLine { line: self.lines, form, place });
+        }
+        self.block.clear();
+        self.words = 0;
+        self.numbered = false;
+    }
+
+    fn push_number(&mut self, layout: &Layout) {
+        self.text.extend(layout.number_letter);
+        let mut digits = [0; 20];
+        let (mut at, mut rest) = (digits.len(), self.next_number);
+        while rest > 0 || digits.len() - at < layout.width {
+            at -= 1;
+            digits[at] = b'0' + (rest % 10) as u8;
+            rest /= 10;
+        }
+        self.text.extend_from_slice(&digits[at..]);
+        if layout.blanks {
+            self.text.push(b' ');
+        }
+    }
+
+    #[cold]
+    fn replace(&mut self, layout: &Layout, start: usize) {
+        for (old, new) in &layout.replace {
+            let block = self.text.split_off(start);
+            let mut from = 0;
+            for at in memchr::memmem::find_iter(&block, old) {
+                self.text.extend_from_slice(&block[from..at]);
+                self.text.extend_from_slice(new);
+                from = at + old.len();
+            }
+            self.text.extend_from_slice(&block[from..]);
+        }
+    }
+}
+
+/// `%` and O lines frame a program and are never numbered.
+fn is_frame(block: &[u8]) -> bool {
+    matches!(block, [b'%' | b':', ..]) || matches!(block, [b'O' | b'o', digit, ..] if digit.is_ascii_digit())
+}

@@ -1,0 +1,212 @@
+//! The renderer: state, and which event does what.
+
+use super::cycles::ActiveCycle;
+use super::fault::Done;
+use super::output::{Layout, Output, TraceLine};
+use super::registers::Registers;
+use super::vars::Vars;
+use crate::compile::{LetterTable, Program};
+use crate::cycle::{Defaults, Steps};
+use crate::diag::{Code, Diag};
+use crate::lang::VarId;
+use crate::number::LetterFormat;
+use crate::toolpath::{Axes, Event, FeedMode, Place, Section, Sink, Units};
+
+/// Where canned cycles come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Cycles {
+    /// The form's sequences; moves where it has none.
+    #[default]
+    Form,
+    /// Always moves.
+    Emulated,
+}
+
+/// What a caller may choose.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Where cycles come from.
+    pub cycles: Cycles,
+    /// Units of the program; else those of the job.
+    pub units: Option<Units>,
+    /// Answers to prompts and values of variables; they go before the job's.
+    pub set: Vec<(VarId, f64)>,
+    /// Keep a source map.
+    pub trace: bool,
+}
+
+/// What kind of move printed last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LastMove {
+    None,
+    Rapid,
+    Line,
+    Cw,
+    Ccw,
+}
+
+/// Prints the blocks of one program. Push the events of a job, and take the text as it comes.
+pub struct Renderer<'p> {
+    pub(super) program: &'p Program,
+    pub(super) options: Options,
+    pub(super) letters: &'p LetterTable,
+    pub(super) layout: Layout,
+    pub(super) out: Output,
+    pub(super) registers: Registers,
+    pub(super) vars: Vars,
+    pub(super) place: Place,
+    /// The form line and word being printed.
+    pub(super) form: Option<usize>,
+    /// In this body a code was printed after which axis words may stand in another frame.
+    pub(super) shifted: bool,
+    /// The open block changed the frame of the depth axis.
+    pub(super) depth_moved: bool,
+    /// Where the tool is, in program units; axes not given are unknown.
+    pub(super) position: Axes,
+    /// Letters of h v d a b c.
+    pub(super) axes: [u8; 6],
+    pub(super) last_move: LastMove,
+    /// Factor from the job's lengths to the program's.
+    pub(super) scale: f64,
+    /// Factor from the form's lengths to the program's.
+    pub(super) form_scale: f64,
+    pub(super) units: Units,
+    pub(super) started: bool,
+    pub(super) feed: Option<f64>,
+    pub(super) feed_mode: FeedMode,
+    pub(super) tool: Option<f64>,
+    pub(super) tool_order: Option<Vec<f64>>,
+    pub(super) tool_changes: usize,
+    pub(super) served: super::changes::Served,
+    pub(super) upon_used: Vec<Option<f64>>,
+    /// Something must be done before the next move: close a cycle, print a change, look at an Upon.
+    pub(super) attention: bool,
+    pub(super) watches_moves: bool,
+    pub(super) measures: bool,
+    pub(super) cycle: Option<ActiveCycle>,
+    pub(super) defaults: Defaults,
+    pub(super) steps: Steps,
+    pub(super) sections: Vec<Section>,
+    /// Parts of an arc; kept so that an arc allocates nothing.
+    pub(super) parts: Vec<f64>,
+    notes: Vec<Diag>,
+}
+
+impl<'p> Renderer<'p> {
+    /// Renders with this form.
+    pub fn new(program: &'p Program, options: Options) -> Self {
+        let letters = &program.letters[0];
+        let number = program.settings.numbers.letter.map_or(letters[b'N'].format, |letter| letters[letter].format);
+        let layout = Layout::new(&program.settings, number.int.count, number.int.fixed);
+        let out = Output::new(&layout, options.trace);
+        let [h, v, d] = program.settings.axes;
+        let mut renderer = Renderer {
+            program,
+            letters,
+            layout,
+            out,
+            options,
+            registers: Registers::default(),
+            vars: Vars::default(),
+            place: Place::default(),
+            form: None,
+            shifted: false,
+            depth_moved: false,
+            position: Axes::default(),
+            axes: [h, v, d, b'A', b'B', b'C'],
+            last_move: LastMove::None,
+            scale: 1.0,
+            form_scale: 1.0,
+            units: Units::Inch,
+            started: false,
+            feed: None,
+            feed_mode: FeedMode::PerMinute,
+            tool: None,
+            tool_order: None,
+            tool_changes: 0,
+            served: super::changes::Served::default(),
+            upon_used: vec![None; program.upons.len()],
+            attention: true,
+            watches_moves: program.upon_vars.meets(super::motion::MOVE_VARS),
+            measures: program.printed.with(program.upon_vars).meets(super::motion::MEASURES),
+            cycle: None,
+            defaults: super::start::no_defaults(),
+            steps: Steps::default(),
+            sections: Vec::new(),
+            parts: Vec::new(),
+            notes: Vec::new(),
+        };
+        renderer.form_values();
+        renderer
+    }
+
+    /// The text printed so far and not yet taken: take it with `drain` or `clear` when it suits.
+    pub fn text(&mut self) -> &mut Vec<u8> {
+        &mut self.out.text
+    }
+
+    /// The source map of lines not yet taken.
+    pub fn trace(&mut self) -> Option<&mut Vec<TraceLine>> {
+        self.out.trace.as_mut()
+    }
+
+    /// Warnings and notes so far: each kind of remark once.
+    pub fn notes(&self) -> &[Diag] {
+        &self.notes
+    }
+
+    /// Program lines printed so far.
+    pub fn lines(&self) -> u64 {
+        self.out.lines
+    }
+
+    pub(super) fn note(&mut self, code: Code, message: String, help: &str) {
+        if !self.notes.iter().any(|n| n.code == code && n.message == message) && self.notes.len() < 100 {
+            let mut diag = Diag::new(code, message).help(help);
+            diag.place = Some(self.place.to_string());
+            self.notes.push(diag);
+        }
+    }
+
+    pub(super) fn bare_format(&self) -> &'p LetterFormat {
+        &self.letters.bare
+    }
+
+    fn take(&mut self, event: Event<'_>) -> Done {
+        match event {
+            Event::Rapid(to) => self.rapid(&to),
+            Event::Line { to, feed } => self.line(&to, feed),
+            Event::Arc { arc, feed } => self.arc(&arc, feed),
+            Event::Hole(hole) => self.hole(&hole),
+            Event::CycleBegin(spec) => self.cycle_begin(spec),
+            Event::CycleEnd => self.cycle_end(),
+            Event::ToolChange(change) => self.tool_change(change),
+            Event::Start(start) => self.start(start),
+            Event::Infeed { infeed, feed } => self.infeed(&infeed, feed),
+            Event::Outfeed { to, feed } => self.outfeed(&to, feed),
+            Event::Begin(section) => self.begin(section),
+            Event::End(section) => self.end(section),
+            Event::Dwell(seconds) => self.dwell(seconds),
+            Event::Stop(kind) => self.stop(kind),
+            Event::Comment(text) => self.comment(text),
+            Event::Text(text) => self.verbatim(text),
+            Event::Feed(feed) => self.change_feed(feed),
+            Event::Work(work) => self.change_work(work),
+            Event::Spindle(spindle) => self.change_spindle(&spindle),
+            Event::Coolant(coolant) => self.change_coolant(coolant),
+            Event::Set(name, value) => self.change_variable(name, value),
+            Event::Finish => self.finish(),
+        }
+    }
+}
+
+impl Sink for Renderer<'_> {
+    #[inline]
+    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+        self.place = place;
+        self.take(event).map_err(|mut diag| {
+            diag.place.get_or_insert_with(|| place.to_string());
+            diag
+        })
+    }
+}

@@ -1,0 +1,164 @@
+//! Named parts of a path, dwells, stops, comments and text as it stands.
+
+use super::fault::{Done, fault};
+use super::renderer::Renderer;
+use crate::diag::Code;
+use crate::lang::SequenceId;
+use crate::sema;
+use crate::toolpath::{Section, StopKind};
+
+/// The sequences before and after each part.
+fn sequences(section: Section) -> (SequenceId, SequenceId) {
+    use SequenceId as S;
+    match section {
+        Section::Leadin => (S::BeginLeadin, S::EndLeadin),
+        Section::Leadout => (S::BeginLeadout, S::EndLeadout),
+        Section::Plunge => (S::BeginPlunge, S::EndPlunge),
+        Section::Retract => (S::BeginRetract, S::EndRetract),
+        Section::SideStep => (S::BeginSideStep, S::EndSideStep),
+        Section::ZLevel => (S::BeginZLevel, S::EndZLevel),
+        Section::Row => (S::BeginRow, S::EndRow),
+    }
+}
+
+impl Renderer<'_> {
+    /// A part begins.
+    pub(super) fn begin(&mut self, section: Section) -> Done {
+        let (begin, _) = sequences(section);
+        self.check_section(begin)?;
+        self.sections.push(section);
+        self.run_section(begin)
+    }
+
+    /// The part that began last ends.
+    pub(super) fn end(&mut self, section: Section) -> Done {
+        let (begin, end) = sequences(section);
+        self.check_section(begin)?;
+        match self.sections.pop() {
+            Some(open) if open == section => self.run_section(end),
+            Some(open) => fault(
+                Code::PJ005,
+                format!("a {} ends inside a {}", part(section), part(open)),
+                "end the parts in the reverse order of their beginnings",
+            ),
+            None => fault(
+                Code::PJ005,
+                format!("a {} ends that did not begin", part(section)),
+                "begin it first, or take the end out",
+            ),
+        }
+    }
+
+    fn run_section(&mut self, id: SequenceId) -> Done {
+        self.close_cycle()?;
+        match self.program.block(id) {
+            Some(block) => self.run_with_upons(block),
+            None => Ok(()),
+        }
+    }
+
+    fn check_section(&self, id: SequenceId) -> Done {
+        let machine = self.program.settings.machine;
+        if id.row().machines.has(machine) {
+            return Ok(());
+        }
+        let message = format!("a {} has no such part of a path", machine.name());
+        fault(Code::PR008, message, format!("{} is for {}", id.name(), id.row().machines))
+    }
+
+    /// Parts must be closed where an operation ends.
+    pub(super) fn check_sections_closed(&self) -> Done {
+        match self.sections.last() {
+            None => Ok(()),
+            Some(&open) => {
+                fault(Code::PJ005, format!("a {} is still open here", part(open)), "end it before the operation ends")
+            }
+        }
+    }
+
+    /// A dwell in seconds.
+    pub(super) fn dwell(&mut self, seconds: f64) -> Done {
+        self.close_cycle()?;
+        self.attend_changes()?;
+        self.dwell_block(seconds)
+    }
+
+    /// The generated dwell block.
+    pub(super) fn dwell_block(&mut self, seconds: f64) -> Done {
+        let dwell = &self.program.settings.dwell;
+        self.code_word(&dwell.code)?;
+        self.letter_word(dwell.letter, if dwell.milliseconds { seconds * 1000.0 } else { seconds })?;
+        self.end_block();
+        Ok(())
+    }
+
+    /// A program stop or an optional one.
+    pub(super) fn stop(&mut self, kind: StopKind) -> Done {
+        self.close_cycle()?;
+        self.attend_changes()?;
+        let [program, optional] = self.program.settings.stop_code;
+        let code = if kind == StopKind::Program { program } else { optional };
+        self.vars.set(crate::lang::VarId::Stop, code);
+        if let Some(block) = self.program.block(SequenceId::Stop) {
+            return self.run_with_upons(block);
+        }
+        self.code_word(&sema::Code::plain(b'M', code))?;
+        self.end_block();
+        Ok(())
+    }
+
+    /// Changes of spindle and coolant come before a dwell or stop too.
+    fn attend_changes(&mut self) -> Done {
+        if self.attention { self.attend() } else { Ok(()) }
+    }
+
+    /// A comment in the marks of the form.
+    pub(super) fn comment(&mut self, text: &str) -> Done {
+        self.close_cycle()?;
+        self.comment_block(text);
+        Ok(())
+    }
+
+    pub(super) fn comment_block(&mut self, text: &str) {
+        let settings = &self.program.settings;
+        let [open, close] = &settings.comment;
+        let out = self.out.word(&self.layout, false);
+        out.extend_from_slice(open.as_bytes());
+        for c in text.chars() {
+            let c = if settings.upper_comments { c.to_ascii_uppercase() } else { c };
+            out.push(match c {
+                // a mark inside would end the comment early and let the rest move the machine
+                '(' if close.contains(')') => b'[',
+                ')' if close.contains(')') => b']',
+                c if close.contains(c) && !c.is_alphanumeric() => b'_',
+                '%' => b'_', // ends the program for many controls
+                ' '..='~' => c as u8,
+                '\t' => b' ',
+                _ => b'?',
+            });
+        }
+        out.extend_from_slice(close.as_bytes());
+        self.end_block();
+    }
+
+    /// A block as it stands: nobody knows what it did.
+    pub(super) fn verbatim(&mut self, text: &str) -> Done {
+        self.close_cycle()?;
+        self.registers.forget_all();
+        self.out.word(&self.layout, false).extend_from_slice(text.as_bytes());
+        self.end_block();
+        Ok(())
+    }
+}
+
+fn part(section: Section) -> &'static str {
+    match section {
+        Section::Leadin => "lead-in",
+        Section::Leadout => "lead-out",
+        Section::Plunge => "plunge",
+        Section::Retract => "retract",
+        Section::SideStep => "side step",
+        Section::ZLevel => "Z level",
+        Section::Row => "row",
+    }
+}

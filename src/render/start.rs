@@ -1,0 +1,187 @@
+//! The beginning and the end of a program.
+
+use super::changes::settable;
+use super::fault::{Done, fault};
+use super::output::Layout;
+use super::renderer::Renderer;
+use crate::compile::Op;
+use crate::cycle::Defaults;
+use crate::diag::Code;
+use crate::lang::{SequenceId, VarId};
+use crate::sema::UnitChoice;
+use crate::toolpath::{FeedMode, Start, Units};
+
+/// Millimetres in an inch.
+const MM: f64 = 25.4;
+
+/// Defaults before the job has said its units.
+pub(super) fn no_defaults() -> Defaults {
+    Defaults {
+        clear: 0.0,
+        step: None,
+        min_step: 0.0,
+        back_deep: 0.0,
+        back_chipbreak: 0.0,
+        back_thru: 0.0,
+        dwell: 0.0,
+        dwell_at_steps: false,
+        dwell_at_retracts: false,
+        orient: 0.0,
+        jog: 0.0,
+        sink_clear: None,
+    }
+}
+
+impl Renderer<'_> {
+    /// Variables that the form's commands give values, and those that the caller set.
+    pub(super) fn form_values(&mut self) {
+        let settings = &self.program.settings;
+        self.vars.set(VarId::Incmode, settings.inc_abs[usize::from(!settings.incremental)]);
+        self.vars.set(VarId::Coolantoff, settings.coolant[1]);
+        self.vars.set(VarId::Flush, settings.flush[1]);
+        self.vars.set(VarId::Speedtype, settings.speed_type[1]);
+        self.vars.set(VarId::Work, settings.work_default);
+        self.vars.set(VarId::Cool, settings.coolant[1]);
+        self.vars.set(VarId::Lasthole, 0.0);
+        self.served.work = Some(settings.work_default);
+        self.served.cool = Some(settings.coolant[1]);
+        self.set_feed_mode(FeedMode::PerMinute);
+        self.served.feed_type = self.vars.get(VarId::Feedtype);
+    }
+
+    /// The job's head: units, checks, Mod text, StartCode.
+    pub(super) fn start(&mut self, start: &Start) -> Done {
+        let program = self.program;
+        let settings = &program.settings;
+        if start.machine != settings.machine {
+            let message =
+                format!("the job is for a {}, the form for a {}", start.machine.name(), settings.machine.name());
+            return fault(Code::PR008, message, "take a form for this machine");
+        }
+        self.choose_units(start.units)?;
+        self.letters = &program.letters[usize::from(self.units == Units::Mm)];
+        let number = settings.numbers.letter.map_or(self.letters[b'N'].format, |letter| self.letters[letter].format);
+        self.layout = Layout::new(settings, number.int.count, number.int.fixed);
+        self.tool_order.clone_from(&start.tool_order);
+        if let Some(first) = start.tool_order.as_ref().and_then(|order| order.first()) {
+            self.vars.set(VarId::Tool1, *first);
+        }
+        self.vars.put(VarId::Program, start.program);
+        self.answers(start)?;
+        self.set_defaults();
+        for text in &settings.mod_text {
+            self.out.word(&self.layout, false).extend_from_slice(text.as_bytes());
+            self.end_block();
+        }
+        if let Some(block) = program.block(SequenceId::StartCode) {
+            self.run_with_upons(block)?;
+        }
+        self.started = true;
+        Ok(())
+    }
+
+    /// Units of the program, and the factors to them.
+    fn choose_units(&mut self, job: Units) -> Done {
+        let settings = &self.program.settings;
+        self.units = self.options.units.unwrap_or(job);
+        let form = match settings.units {
+            UnitChoice::Inch => Some(Units::Inch),
+            UnitChoice::Mm => Some(Units::Mm),
+            UnitChoice::Both => None,
+        };
+        if form.is_some_and(|form| form != self.units) && !self.program.printed.has(VarId::Unitmode) {
+            let (program, form) = (self.units.name(), form.map_or("", Units::name));
+            let message = format!("the program would be in {program}, the form is for {form} and prints no [unitmode]");
+            let help = format!(
+                "render with `--units {form}`, or print `G[unitmode]` in StartCode: the machine would move 25.4 times as far or as little"
+            );
+            return fault(Code::PR010, message, help);
+        }
+        let factor = |from: Units, to: Units| match (from, to) {
+            (Units::Inch, Units::Mm) => MM,
+            (Units::Mm, Units::Inch) => 1.0 / MM,
+            _ => 1.0,
+        };
+        self.scale = factor(job, self.units);
+        self.form_scale = factor(form.unwrap_or(Units::Inch), self.units);
+        self.vars.set(VarId::Unitmode, settings.inch_mm[usize::from(self.units == Units::Mm)]);
+        Ok(())
+    }
+
+    /// Values from the job and the caller; every prompt needs an answer.
+    fn answers(&mut self, start: &Start) -> Done {
+        for (name, value) in &start.set {
+            let var = settable(name)?;
+            self.set_variable(var, *value);
+        }
+        for (var, value) in self.options.set.clone() {
+            self.set_variable(var, value);
+        }
+        for prompt in &self.program.settings.prompts {
+            if self.vars.get(prompt.var).is_some() {
+                continue;
+            }
+            let Some(default) = prompt.default else {
+                let name = prompt.var.name();
+                let diag = crate::diag::Diag::new(Code::PR015, format!("[{name}] is asked for: {}", prompt.text))
+                    .at(prompt.span, "asked for here")
+                    .help(format!("answer with `--set {name}=VALUE`"));
+                return Err(Box::new(diag));
+            };
+            self.vars.set(prompt.var, default);
+        }
+        Ok(())
+    }
+
+    /// Cycle defaults in program units.
+    fn set_defaults(&mut self) {
+        let settings = &self.program.settings;
+        let length = |value: f64| value * self.form_scale;
+        self.defaults = Defaults {
+            clear: length(settings.cycle_clear),
+            step: settings.cycle_step.map(length),
+            min_step: length(settings.cycle_min_step),
+            back_deep: length(settings.cycle_back_deep),
+            back_chipbreak: length(settings.cycle_back_chipbreak),
+            back_thru: length(settings.cycle_back_thru),
+            dwell: settings.cycle_dwell,
+            dwell_at_steps: settings.cycle_dwell_steps,
+            dwell_at_retracts: settings.cycle_dwell_retracts,
+            orient: settings.cycle_orient,
+            jog: length(settings.cycle_jog),
+            sink_clear: settings.cycle_sink_clear.map(length),
+        };
+    }
+
+    /// The end of the job: EndCode.
+    pub(super) fn finish(&mut self) -> Done {
+        self.close_cycle()?;
+        self.check_sections_closed()?;
+        if let Some(order) = &self.tool_order
+            && self.tool_changes != order.len()
+        {
+            let message = format!("`tool_order` lists {} tools, the job used {}", order.len(), self.tool_changes);
+            return fault(Code::PJ005, message, "list the tools in the order of their use, each change once");
+        }
+        match self.program.block(SequenceId::EndCode) {
+            Some(block) => self.run_with_upons(block),
+            None => Ok(()),
+        }
+    }
+
+    /// The last line of EndCode that may have a block number: `%` is none.
+    pub(super) fn last_line(&self) -> Option<usize> {
+        let block = self.program.block(SequenceId::EndCode)?;
+        let mut last = None;
+        for i in block.ops.clone() {
+            if matches!(self.program.ops[i], Op::Line { .. }) {
+                let is_percent = matches!(self.program.ops.get(i + 1), Some(Op::Text { index, .. })
+                    if self.program.texts[*index as usize].starts_with('%'));
+                if !is_percent {
+                    last = Some(i);
+                }
+            }
+        }
+        last
+    }
+}

@@ -1,0 +1,120 @@
+//! Operations: tool changes, and what a new operation with the same tool changes.
+
+use super::fault::{Done, fault, fault_at};
+use super::renderer::{LastMove, Renderer};
+use crate::diag::Code;
+use crate::lang::{SequenceId, VarId, VarSet};
+use crate::toolpath::{Coolant, FeedMode, First, Tool, ToolChange};
+
+/// The position variables of a tool change.
+const POSITION: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::D]);
+
+impl Renderer<'_> {
+    /// An operation begins.
+    pub(super) fn tool_change(&mut self, change: &ToolChange) -> Done {
+        self.close_cycle()?;
+        self.check_sections_closed()?;
+        let number = change.tool.as_ref().map(|tool| tool.number);
+        let changes = number.is_some() && number != self.tool;
+        self.conditions(change, changes);
+        if let Some(comment) = &change.comment {
+            self.comment_block(comment);
+        }
+        if let Some(tool) = change.tool.as_ref().filter(|_| changes) {
+            self.change_tool(tool, &change.first)?;
+        }
+        Ok(())
+    }
+
+    /// Spindle, coolant, work offset and feeds of the operation.
+    fn conditions(&mut self, change: &ToolChange, new_tool: bool) {
+        if new_tool {
+            for var in [VarId::Speed, VarId::Direct, VarId::Maxrpm] {
+                self.vars.put(var, None);
+            }
+        }
+        if let Some(spindle) = &change.spindle {
+            self.set_spindle(spindle);
+        }
+        match change.coolant {
+            Some(coolant) => self.set_coolant(coolant),
+            None if new_tool => self.set_coolant(Coolant::Off),
+            None => {}
+        }
+        if let Some(work) = change.work {
+            self.set_work(work);
+        }
+        self.set_feed_mode(change.feed_mode.unwrap_or(FeedMode::PerMinute));
+        self.feed = None;
+        self.vars.put(VarId::Frate, None);
+        if let Some(feed) = change.feed {
+            self.set_feed(feed);
+        }
+        let plunge = change.plunge.or(change.feed).map(|feed| feed * self.scale);
+        self.vars.put(VarId::Plunge, plunge);
+        self.attention = true;
+    }
+
+    fn change_tool(&mut self, tool: &Tool, first: &First) -> Done {
+        let program = self.program;
+        let is_first = self.tool.is_none();
+        self.tool_variables(tool)?;
+        self.tool = Some(tool.number);
+        self.tool_changes += 1;
+        let id = if is_first { SequenceId::FirstToolChange } else { SequenceId::ToolChange };
+        let target = match first {
+            First::Rapid(to) => Some(self.target(to)),
+            First::Hole(spec, hole) => Some(self.hole_position(spec, hole)?),
+            First::Cut | First::Nothing => None,
+        };
+        self.registers.forget_all();
+        self.served.speed = None;
+        self.served.direct = None;
+        let Some(block) = program.block(id) else { return Ok(()) };
+        match &target {
+            Some(target) => self.set_targets(target)?,
+            None if block.vars.meets(POSITION) => {
+                let at = program.spans[block.ops.clone()].first().copied();
+                let help = "begin the operation with a rapid to above its first cut";
+                return match first {
+                    First::Cut => {
+                        let message = "the operation begins with a cut, and the tool change would rapid to its end";
+                        fault_at(Code::PR012, message, help, at)
+                    }
+                    _ => fault_at(Code::PR012, "the operation has no move for the tool change to print", help, at),
+                };
+            }
+            None => {}
+        }
+        self.run_with_upons(block)?;
+        self.registers.forget_group(crate::lang::Group::Motion);
+        self.last_move = LastMove::None;
+        if program.settings.restart_depth {
+            self.registers.forget(self.letters[self.axes[2]].printed);
+        }
+        self.force();
+        Ok(())
+    }
+
+    fn tool_variables(&mut self, tool: &Tool) -> Done {
+        let settings = &self.program.settings;
+        self.vars.put(VarId::Lasttool, self.tool);
+        if self.tool.is_none() {
+            self.vars.set(VarId::Tool1, tool.number);
+        }
+        self.vars.set(VarId::Tool, tool.number);
+        self.vars.put(VarId::Toold, tool.diameter.map(|d| d * self.scale));
+        self.vars.set(VarId::Lcomp, tool.length_offset.unwrap_or(tool.number + settings.lcomp));
+        self.vars.set(VarId::Dcomp, tool.diameter_offset.unwrap_or(tool.number + settings.dcomp));
+        self.vars.put(VarId::Turret, tool.turret);
+        if let Some(order) = &self.tool_order {
+            if order.get(self.tool_changes) != Some(&tool.number) {
+                let message = format!("tool {} comes next, `tool_order` says otherwise", tool.number);
+                return fault(Code::PJ005, message, "list the tools in the order of their use");
+            }
+            let next = order.get(self.tool_changes + 1).or_else(|| order.first()).copied();
+            self.vars.put(VarId::Nexttool, next);
+        }
+        Ok(())
+    }
+}

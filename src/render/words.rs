@@ -1,0 +1,385 @@
+//! Printing words: values through letter formats, registers, and the operations of a sequence.
+
+use std::ops::Range;
+
+use super::fault::{Done, fault_at};
+use super::renderer::Renderer;
+use crate::compile::{Block, Letter, LetterKind, Op};
+use crate::diag::Code;
+use crate::lang::{Frame, Group, VarId, VarSet, frame_of, group_of};
+use crate::number::{LetterFormat, Unprintable, quantise, write_number};
+use crate::span::Span;
+
+/// Which words of a line print.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mode {
+    /// Every word: ordinary sequences, the first hole of a machine cycle.
+    All,
+    /// A motion sequence: codes and variables only when changed.
+    Motion,
+    /// The same for an arc: its centre words always print.
+    ArcMotion,
+    /// A later hole of a machine cycle: variables that changed, or both position words.
+    NextHole {
+        /// Nothing changed: print the position.
+        position: bool,
+    },
+    /// A hole of an emulated or advanced cycle.
+    Hole,
+}
+
+/// Variables that no control keeps from arc to arc.
+const ARC_WORDS: VarSet = VarSet::of(&[
+    VarId::Ival,
+    VarId::Jval,
+    VarId::Kval,
+    VarId::Arcrad,
+    VarId::Hctr,
+    VarId::Vctr,
+    VarId::Startang,
+    VarId::Endang,
+    VarId::Sweep,
+]);
+
+impl Renderer<'_> {
+    /// The place in the form of what is being printed.
+    pub(super) fn form_span(&self) -> Option<Span> {
+        self.form.map(|op| self.program.spans[op])
+    }
+
+    /// Ends the open block.
+    #[inline]
+    pub(super) fn end_block(&mut self) {
+        let form = if self.out.trace.is_some() { self.form_span() } else { None };
+        self.out.finish(&self.layout, true, form, self.place);
+    }
+
+    /// Runs a whole sequence in which every word prints.
+    pub(super) fn run_block(&mut self, block: &Block) -> Done {
+        self.shifted = false;
+        self.run(block.ops.clone(), Mode::All)
+    }
+
+    /// Runs operations; each line is a block.
+    pub(super) fn run(&mut self, ops: Range<usize>, mode: Mode) -> Done {
+        let program = self.program;
+        let mut line = ops.start;
+        let mut drops = false;
+        for i in ops {
+            self.form = Some(i);
+            match program.ops[i] {
+                Op::Line { droppable } => {
+                    self.end_line(line);
+                    (line, drops) = (i, droppable);
+                }
+                Op::Var { letter, var, glued } => self.var_word(letter, var, glued, mode, drops)?,
+                Op::Value { var, glued } => {
+                    if !matches!(mode, Mode::NextHole { .. }) {
+                        self.bare_word(var, glued)?;
+                    }
+                }
+                Op::Literal { index, glued } => self.literal_word(index as usize, glued, mode),
+                Op::Text { index, glued } => {
+                    if !matches!(mode, Mode::NextHole { .. }) {
+                        let text = &program.texts[index as usize];
+                        self.out.word(&self.layout, glued).extend_from_slice(text.as_bytes());
+                    }
+                }
+            }
+        }
+        self.end_line(line);
+        self.form = None;
+        Ok(())
+    }
+
+    /// Ends a line of a sequence, whose operations begin at `line`.
+    fn end_line(&mut self, line: usize) {
+        if self.depth_moved {
+            self.depth_moved = false;
+            self.registers.forget(self.axes[2]);
+        }
+        if self.out.has_words() {
+            let form = self.out.trace.is_some().then(|| self.program.spans[line]);
+            let number = self.program.settings.number_last || Some(line) != self.last_line();
+            self.out.finish(&self.layout, number, form, self.place);
+        }
+    }
+
+    fn var_word(&mut self, letter: u8, var: VarId, glued: bool, mode: Mode, line_drops: bool) -> Done {
+        let info = &self.letters[letter];
+        let Some(value) = self.value_of(var, letter)? else {
+            if var == VarId::Tparams
+                && let Some((_, digits)) = self.letters.packed.iter().find(|(l, _)| *l == letter)
+            {
+                let out = self.out.word(&self.layout, glued);
+                out.push(info.printed);
+                out.extend_from_slice(digits.as_bytes());
+            }
+            return Ok(());
+        };
+        let units = self.quantised(info, value)?;
+        let decimals = info.format.dec.count;
+        let drop = match mode {
+            Mode::All => false,
+            Mode::Motion | Mode::ArcMotion => {
+                let arc_word = mode == Mode::ArcMotion && (ARC_WORDS.has(var) || b"IJKR".contains(&info.printed));
+                !arc_word
+                    && match info.kind {
+                        LetterKind::GCode | LetterKind::MCode => self.code_drops(info.printed, value),
+                        _ => info.modal && self.registers.holds(info.printed, units, decimals),
+                    }
+                    && !(self.inverse_time() && letter == self.program.settings.feed_code)
+            }
+            Mode::NextHole { position } => {
+                let is_position = matches!(var, VarId::H | VarId::V);
+                self.program.settings.modality && !(position && is_position) && self.holds(info, units, value)
+            }
+            Mode::Hole => line_drops && self.holds(info, units, value),
+        };
+        if drop {
+            return Ok(());
+        }
+        self.put_word(info, units, glued)?;
+        match info.kind {
+            LetterKind::GCode | LetterKind::MCode => self.printed_code(info.printed, value),
+            LetterKind::Axis if self.shifted => self.registers.forget(info.printed),
+            _ => self.registers.set(info.printed, units, decimals),
+        }
+        if var == VarId::D {
+            self.depth_moved = false;
+        }
+        self.served_by(letter, var, value);
+        if Some(info.printed) == self.program.settings.numbers.letter || var == VarId::Block {
+            self.out.prints_number();
+        }
+        Ok(())
+    }
+
+    /// Does a register hold this already?
+    fn holds(&self, info: &Letter, units: i64, value: f64) -> bool {
+        match info.kind {
+            LetterKind::GCode | LetterKind::MCode => {
+                let tenths = tenths(value);
+                group_of(info.printed, tenths).is_some_and(|group| self.registers.group(group) == Some(tenths))
+            }
+            _ => self.registers.holds(info.printed, units, info.format.dec.count),
+        }
+    }
+
+    /// May a motion block drop this code?
+    pub(super) fn code_drops(&self, letter: u8, value: f64) -> bool {
+        let settings = &self.program.settings;
+        let tenths = tenths(value);
+        settings.modality
+            && settings.modal_codes.contains(&value)
+            && group_of(letter, tenths).is_some_and(|group| self.registers.group(group) == Some(tenths))
+    }
+
+    /// The value a variable prints, or none where its word is optional.
+    fn value_of(&mut self, var: VarId, letter: u8) -> Done<Option<f64>> {
+        if let Some(value) = self.vars.get(var) {
+            return Ok(Some(value));
+        }
+        match var {
+            VarId::Block => return Ok(Some(self.out.number() as f64)),
+            // a cycle without dwell drops the word; a packed format is its own value
+            VarId::Dwell if self.cycle.is_some() => return Ok(None),
+            VarId::Tparams if self.letters.packed.iter().any(|(l, _)| *l == letter) => return Ok(None),
+            _ => {}
+        }
+        let help = match var {
+            VarId::Nexttool => "list the tools ahead under `tool_order`: a stream can't look for them".to_owned(),
+            VarId::H | VarId::V | VarId::D => "begin the operation with a rapid that gives all coordinates".to_owned(),
+            _ if var.row().origin == crate::lang::Origin::Job => {
+                format!("give it with `--set {}=VALUE` or under \"set\" in the job", var.name())
+            }
+            _ => format!("it is the {}: let the job say it, or take the word out of the form", var.row().meaning),
+        };
+        let message = format!("[{}] has no value here", var.name());
+        fault_at(Code::PR001, message, help, self.form_span())
+    }
+
+    /// A value without a letter.
+    fn bare_word(&mut self, var: VarId, glued: bool) -> Done {
+        let Some(value) = self.value_of(var, b' ')? else { return Ok(()) };
+        let format = *self.bare_format();
+        let units = self.units_of(value, &format, "the value")?;
+        let leading = self.program.settings.leading_zeros;
+        let out = self.out.word(&self.layout, glued);
+        if let Err(why) = write_number(out, units, &format, leading) {
+            return self.unprintable(why, "the value", value, &format);
+        }
+        if var == VarId::Block {
+            self.out.prints_number();
+        }
+        self.served_by(b' ', var, value);
+        Ok(())
+    }
+
+    /// A word as typed; its value goes into the registers.
+    fn literal_word(&mut self, index: usize, glued: bool, mode: Mode) {
+        let literal = &self.program.literals[index];
+        let info = &self.letters[literal.letter];
+        let drop = match mode {
+            Mode::All | Mode::Hole => false,
+            Mode::Motion | Mode::ArcMotion => {
+                matches!(info.kind, LetterKind::GCode | LetterKind::MCode) && self.code_drops(info.printed, literal.value)
+            }
+            Mode::NextHole { .. } => true,
+        };
+        if drop {
+            return;
+        }
+        let out = self.out.word(&self.layout, glued);
+        if info.printed == literal.letter && !info.dummy {
+            out.extend_from_slice(literal.text.as_bytes());
+        } else {
+            if !info.dummy {
+                out.push(info.printed);
+            }
+            out.extend_from_slice(&literal.text.as_bytes()[1..]);
+        }
+        match info.kind {
+            LetterKind::GCode | LetterKind::MCode => self.printed_code(info.printed, literal.value),
+            // a literal position may stand in another frame
+            LetterKind::Axis => self.registers.forget(info.printed),
+            LetterKind::Other => match quantise(literal.value, info.format.dec.count) {
+                Some(units) => self.registers.set(info.printed, units, info.format.dec.count),
+                None => self.registers.forget(info.printed),
+            },
+        }
+        if Some(info.printed) == self.program.settings.numbers.letter {
+            self.out.prints_number();
+        }
+        if literal.letter == self.program.settings.speed_code {
+            self.served.speed = Some(literal.value);
+        }
+    }
+
+    /// What a printed G or M code does to the registers.
+    pub(super) fn printed_code(&mut self, letter: u8, value: f64) {
+        let tenths = tenths(value);
+        if letter == b'G' || letter == b'g' {
+            match frame_of(tenths) {
+                Some(Frame::Shifts) => self.shifted = true,
+                Some(Frame::Moves) if self.registers.group(Group::Work) != Some(tenths) => self.forget_axes(),
+                Some(Frame::MovesDepth) => self.depth_moved = true,
+                _ => {}
+            }
+        }
+        let settings = &self.program.settings;
+        let is_feed_mode = letter == b'G' && settings.feed_type.contains(&value);
+        match group_of(letter, tenths) {
+            Some(group) => {
+                if matches!(group, Group::FeedMode | Group::Units) || is_feed_mode {
+                    self.registers.forget(self.letters[settings.feed_code].printed);
+                }
+                self.registers.set_group(group, tenths);
+                self.served_code(group, value);
+            }
+            None if is_feed_mode => self.registers.forget(self.letters[settings.feed_code].printed),
+            None => {}
+        }
+    }
+
+    /// Where the axes are is unknown.
+    pub(super) fn forget_axes(&mut self) {
+        for letter in self.axes.into_iter().chain(self.program.settings.axes2) {
+            self.registers.forget(self.letters[letter].printed);
+        }
+    }
+
+    /// A value in units of its letter's last decimal, its sign reversed where the form says so.
+    #[inline]
+    pub(super) fn quantised(&self, info: &Letter, value: f64) -> Done<i64> {
+        let value = if info.reversed { -value } else { value };
+        match quantise(value, info.format.dec.count) {
+            Some(units) => {
+                if matches!(info.kind, LetterKind::GCode | LetterKind::MCode) {
+                    self.check_code(info, value, units)?;
+                }
+                Ok(units)
+            }
+            None => self.not_a_number(char::from(info.printed), value, &info.format),
+        }
+    }
+
+    /// A code must not be rounded: G59.1 as G59 is another work offset.
+    fn check_code(&self, info: &Letter, value: f64, units: i64) -> Done {
+        let exact = units as f64 / crate::number::POWERS[usize::from(info.format.dec.count)] as f64;
+        if (exact - value).abs() < 1e-9 {
+            return Ok(());
+        }
+        let letter = char::from(info.printed);
+        fault_at(
+            Code::PR002,
+            format!("{letter}{value} does not fit the format `{letter}{}`", info.format),
+            "give the letter a format with a decimal, as `G >3~>1`",
+            self.form_span(),
+        )
+    }
+
+    fn units_of(&self, value: f64, format: &LetterFormat, what: &str) -> Done<i64> {
+        match quantise(value, format.dec.count) {
+            Some(units) => Ok(units),
+            None => self.not_a_number_named(what, value, format),
+        }
+    }
+
+    #[cold]
+    fn not_a_number<T>(&self, letter: char, value: f64, format: &LetterFormat) -> Done<T> {
+        self.not_a_number_named(&format!("{letter}"), value, format)
+    }
+
+    #[cold]
+    fn not_a_number_named<T>(&self, what: &str, value: f64, format: &LetterFormat) -> Done<T> {
+        if value.is_finite() {
+            return self.unprintable(Unprintable::Overflow, what, value, format);
+        }
+        let message = format!("{what} would be {value}, which is no number");
+        fault_at(Code::PR004, message, "look at the job's numbers here", self.form_span())
+    }
+
+    #[cold]
+    fn unprintable<T>(&self, why: Unprintable, what: &str, value: f64, format: &LetterFormat) -> Done<T> {
+        let form = self.form_span();
+        match why {
+            Unprintable::Overflow => fault_at(
+                Code::PR002,
+                format!("{what} is {value}, its format `{}` has {} digits before the point", format, format.int.count),
+                "give the letter more digits, or look at the number in the job",
+                form,
+            ),
+            Unprintable::Negative => fault_at(
+                Code::PR003,
+                format!("{what} is {value}, its format `{}` has no sign", format.to_string().trim_start()),
+                format!("write `-` before the digits to let it be negative, as `-{}`", format.to_string().trim_start()),
+                form,
+            ),
+        }
+    }
+
+    /// Prints a word of a letter that is known to fit or is refused.
+    #[inline]
+    pub(super) fn put_word(&mut self, info: &Letter, units: i64, glued: bool) -> Done {
+        let leading = self.program.settings.leading_zeros;
+        let out = self.out.word(&self.layout, glued);
+        if !info.dummy {
+            out.push(info.printed);
+        }
+        // N wraps to its start at its width, all other letters refuse
+        match write_number(out, units, &info.format, leading) {
+            Ok(()) => Ok(()),
+            Err(why) => {
+                self.out.clear_block();
+                let value = units as f64 / crate::number::POWERS[usize::from(info.format.dec.count)] as f64;
+                self.unprintable(why, &char::from(info.printed).to_string(), value, &info.format)
+            }
+        }
+    }
+}
+
+/// A code in tenths: G59.1 is 591.
+pub(super) fn tenths(value: f64) -> i64 {
+    (value * 10.0).round() as i64
+}

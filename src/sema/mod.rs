@@ -1,0 +1,11 @@
+//! From the tree to a checked form: names, arguments, formats, limits.
+
+mod args;
+mod check;
+mod model;
+mod settings;
+mod words;
+
+pub use check::{Checked, Limits, analyse};
+pub use model::{Form, Line, Sequence, Upon, Word, WordKind};
+pub use settings::{ArcCentre, Code, DwellWord, Prompt, Settings, SequenceNumbers, TravelLimit, UnitChoice};

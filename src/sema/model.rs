@@ -1,0 +1,107 @@
+//! A form with its names resolved.
+
+use indexmap::IndexMap;
+
+use super::settings::Settings;
+use crate::lang::{SequenceId, VarId};
+use crate::number::LetterFormat;
+use crate::span::Span;
+
+/// A form that was read. It can be rendered when reading it raised no error.
+#[derive(Clone, Debug, Default)]
+pub struct Form {
+    /// What the commands say.
+    pub settings: Settings,
+    /// Letter formats by letter, with the place of each.
+    pub formats: IndexMap<u8, (LetterFormat, Span)>,
+    /// Packed words, `A010360`: the letter and its digits as typed.
+    pub packed: IndexMap<u8, String>,
+    /// The sequences in the order of the file.
+    pub sequences: IndexMap<SequenceId, Sequence>,
+    /// `Upon [var]` and `Upon Every [var]`.
+    pub upons: Vec<Upon>,
+}
+
+/// A sequence.
+#[derive(Clone, Debug)]
+pub struct Sequence {
+    /// Which.
+    pub id: SequenceId,
+    /// The name line.
+    pub span: Span,
+    /// The count of an advanced cycle.
+    pub count: Option<usize>,
+    /// The remark on the name line; names the kind of a Custom cycle.
+    pub remark: Option<String>,
+    /// The body is the single word `None`.
+    pub is_none: bool,
+    /// `End Cancel`.
+    pub cancel: Option<Span>,
+    /// The lines that print.
+    pub lines: Vec<Line>,
+}
+
+/// A sequence printed when a variable changes, or whenever it is used.
+#[derive(Clone, Debug)]
+pub struct Upon {
+    /// The variable it watches.
+    pub var: VarId,
+    /// `Every`: at every use.
+    pub every: bool,
+    /// The name line.
+    pub span: Span,
+    /// The lines that print.
+    pub lines: Vec<Line>,
+}
+
+/// A line with words.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// The whole line.
+    pub span: Span,
+    /// Its words.
+    pub words: Vec<Word>,
+}
+
+/// One word of a line.
+#[derive(Clone, Debug)]
+pub struct Word {
+    /// Where.
+    pub span: Span,
+    /// No blank stands before it in the output.
+    pub glued: bool,
+    /// What it prints.
+    pub kind: WordKind,
+}
+
+/// What a word prints.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WordKind {
+    /// A letter with a variable's value.
+    Var(u8, VarId),
+    /// A variable's value alone.
+    Value(VarId),
+    /// A letter with a number, printed as typed.
+    Literal(u8, String, f64),
+    /// Text as typed.
+    Text(String),
+}
+
+impl Word {
+    /// Its letter, unless it is text.
+    pub fn letter(&self) -> Option<u8> {
+        match self.kind {
+            WordKind::Var(letter, _) | WordKind::Literal(letter, ..) => Some(letter),
+            _ => None,
+        }
+    }
+
+    /// Its variable, if it has one.
+    pub fn var(&self) -> Option<VarId> {
+        match self.kind {
+            WordKind::Var(_, var) | WordKind::Value(var) => Some(var),
+            _ => None,
+        }
+    }
+}
+

@@ -1,0 +1,148 @@
+//! Words of a line: variables found, texts put together, what can't be read reported.
+
+use super::model::{Line, Word, WordKind};
+use crate::diag::{Code, Diag};
+use crate::lang::{Machine, VARIABLES, VarId, did_you_mean};
+use crate::span::Span;
+use crate::syntax::{Body, Piece, PieceKind, Spanned};
+
+/// What the words of a form have in common.
+pub struct Context<'a> {
+    /// The form's machine.
+    pub machine: Machine,
+    /// The mark that closes comments.
+    pub close_mark: &'a str,
+}
+
+/// The words of one body line.
+pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
+    let mut words = Vec::new();
+    for word in &body.words {
+        for (i, piece) in word.pieces.iter().enumerate() {
+            let previous = i.checked_sub(1).map(|before| &word.pieces[before]);
+            push(piece, previous, context, &mut words, diags);
+        }
+    }
+    Line { span: body.line.span, words }
+}
+
+/// Reads the name of a variable; reports it when there is none, or none on this machine.
+pub fn variable(name: &Spanned, machine: Machine, diags: &mut Vec<Diag>) -> Option<VarId> {
+    let Some(var) = VarId::parse(&name.text) else {
+        let known = VARIABLES.iter().filter(|v| v.machines.has(machine)).map(|v| v.name);
+        let mut diag = Diag::new(Code::PF202, format!("`{}` is no variable", name.text)).at(name.span, "unknown");
+        diag.help = did_you_mean(&name.text, known);
+        diags.push(diag);
+        return None;
+    };
+    let machines = var.row().machines;
+    if !machines.has(machine) {
+        diags.push(
+            Diag::new(Code::PF604, format!("`{}` is for {machines}, this form is for {}", var.name(), machine.name()))
+                .at(name.span, format!("not on a {}", machine.name()))
+                .help("take another variable, or say with `Machine` what the form is for"),
+        );
+    }
+    Some(var)
+}
+
+fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut Vec<Word>, diags: &mut Vec<Diag>) {
+    let is_word = |p: &Piece| matches!(p.kind, PieceKind::Variable { .. } | PieceKind::Literal { .. });
+    // only between two words is a blank missing; texts stick to their variables
+    let glued = previous.is_some_and(|p| !(is_word(p) && (is_word(piece) || matches!(piece.kind, PieceKind::Note { .. }))));
+    let kind = match &piece.kind {
+        PieceKind::Variable { letter, name } => {
+            let Some(var) = variable(name, context.machine, diags) else { return };
+            letter.map_or(WordKind::Value(var), |letter| WordKind::Var(letter, var))
+        }
+        PieceKind::Literal { letter: b'%', number } if number.text == "0" => WordKind::Text("%".into()),
+        PieceKind::Literal { letter, number } => match number.text.parse::<f64>() {
+            Ok(value) => {
+                WordKind::Literal(*letter, format!("{}{}", char::from(*letter), number.text), value)
+            }
+            Err(_) => return,
+        },
+        PieceKind::Stray(text) => {
+            check_text(text, piece.span, previous.is_some_and(is_word), diags);
+            WordKind::Text(text.clone())
+        }
+        PieceKind::Note { parts, closed } => {
+            push_note(parts, *closed, piece.span, glued, context, words, diags);
+            return;
+        }
+    };
+    if let (PieceKind::Variable { letter: None, .. }, Some(Piece { kind: PieceKind::Stray(text), span })) =
+        (&piece.kind, previous)
+        && text.ends_with(['-', '+'])
+    {
+        diags.push(
+            Diag::new(Code::PF001, "a sign can't stand before a variable")
+                .at(*span, "this sign would be printed before the value's own")
+                .help("take the sign out; `RevSigns` reverses the sign of a letter"),
+        );
+    }
+    words.push(Word { span: piece.span, glued, kind });
+}
+
+/// A comment of the program: text and values, closed with the form's mark when it is open.
+fn push_note(
+    parts: &[Piece],
+    closed: bool,
+    span: Span,
+    glued: bool,
+    context: &Context,
+    words: &mut Vec<Word>,
+    diags: &mut Vec<Diag>,
+) {
+    let mut text = String::from("(");
+    let mut glued = glued;
+    for part in parts {
+        match &part.kind {
+            PieceKind::Variable { name, .. } => {
+                if !text.is_empty() {
+                    words.push(Word { span, glued, kind: WordKind::Text(std::mem::take(&mut text)) });
+                    glued = true;
+                }
+                if let Some(var) = variable(name, context.machine, diags) {
+                    words.push(Word { span: part.span, glued: true, kind: WordKind::Value(var) });
+                }
+            }
+            PieceKind::Stray(part) => {
+                if let Some(c) = part.chars().find(|c| c.is_control()) {
+                    diags.push(control_character(c, span));
+                }
+                text.push_str(part);
+            }
+            _ => {}
+        }
+    }
+    text.push_str(if closed { ")" } else { context.close_mark });
+    if !text.is_empty() {
+        words.push(Word { span, glued, kind: WordKind::Text(text) });
+    }
+}
+
+/// Text is printed as it stands, unless it can't have been meant so.
+fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
+    if text.contains(['[', ']', '<', '>']) {
+        diags.push(
+            Diag::new(Code::PF001, format!("`{}` is no word", crate::diag::escaped(text)))
+                .at(span, "a bracket without its partner")
+                .help("variables are written `X[h]`"),
+        );
+    } else if let Some(c) = text.chars().find(|c| c.is_control()) {
+        diags.push(control_character(c, span));
+    } else if after_word {
+        diags.push(
+            Diag::new(Code::PF001, format!("`{}` stands directly behind a word", crate::diag::escaped(text)))
+                .at(span, "this would be printed behind the value")
+                .help("take it out, or put a blank before it"),
+        );
+    }
+}
+
+fn control_character(c: char, span: Span) -> Diag {
+    Diag::new(Code::PF001, format!("the line holds the control character U+{:04X}", u32::from(c)))
+        .at(span, "in this word")
+        .help("take it out")
+}

@@ -1,0 +1,111 @@
+//! Form files as text: decoding, lines and columns.
+
+use std::borrow::Cow;
+
+use crate::span::Span;
+
+/// One form file, decoded.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The name that messages use, as the user gave it.
+    pub name: String,
+    /// The text after decoding; spans count its bytes.
+    pub text: String,
+    /// The bytes were not UTF-8 and were read as Windows-1252.
+    pub was_windows_1252: bool,
+    line_starts: Vec<u32>,
+}
+
+impl Source {
+    /// Decodes a file: UTF-8 with or without byte order mark, else Windows-1252 (these files are old).
+    pub fn from_bytes(name: impl Into<String>, bytes: &[u8]) -> Self {
+        let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let (text, was_windows_1252) = match std::str::from_utf8(body) {
+            Ok(text) => (Cow::Borrowed(text), false),
+            Err(_) => (Cow::Owned(body.iter().map(|&b| windows_1252(b)).collect()), true),
+        };
+        Self::with(name.into(), text.into_owned(), was_windows_1252)
+    }
+
+    /// A source from text that is in memory already.
+    pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self::with(name.into(), text.into(), false)
+    }
+
+    fn with(name: String, text: String, was_windows_1252: bool) -> Self {
+        let mut line_starts = vec![0];
+        line_starts.extend(memchr::memchr_iter(b'\n', text.as_bytes()).map(|at| at as u32 + 1));
+        Source { name, text, was_windows_1252, line_starts }
+    }
+
+    /// The lines with the byte at which each starts, without their line ends.
+    pub fn lines(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.line_starts.iter().enumerate().filter_map(|(i, &start)| {
+            let start = start as usize;
+            let end = self.line_starts.get(i + 1).map_or(self.text.len(), |&next| next as usize);
+            let line = &self.text[start..end];
+            if line.is_empty() && start == self.text.len() && start > 0 {
+                return None; // what follows the last line end is no line
+            }
+            let line = line.strip_suffix('\n').unwrap_or(line);
+            Some((start, line.strip_suffix('\r').unwrap_or(line)))
+        })
+    }
+
+    /// Line and column of a byte, both from 1; columns count characters.
+    pub fn line_column(&self, at: u32) -> (u32, u32) {
+        let line = self.line_starts.partition_point(|&start| start <= at).max(1) - 1;
+        let start = self.line_starts[line] as usize;
+        let end = (at as usize).min(self.text.len());
+        let column = self.text.get(start..end).map_or(0, |s| s.chars().count());
+        (line as u32 + 1, column as u32 + 1)
+    }
+
+    /// The text of a span of this file.
+    pub fn slice(&self, span: Span) -> &str {
+        self.text.get(span.range()).unwrap_or("")
+    }
+}
+
+/// The character of one Windows-1252 byte; the five unassigned ones become the replacement character.
+fn windows_1252(byte: u8) -> char {
+    const HIGH: [char; 32] = [
+        '€', '\u{fffd}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{fffd}', 'Ž', '\u{fffd}',
+        '\u{fffd}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{fffd}', 'ž', 'Ÿ',
+    ];
+    match byte {
+        0x80..=0x9f => HIGH[usize::from(byte - 0x80)],
+        _ => char::from(byte),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_have_no_line_ends_and_the_last_may_lack_one() {
+        let lines = |text: &str| Source::from_text("f", text).lines().map(|(_, l)| l.to_owned()).collect::<Vec<_>>();
+        assert_eq!(lines("a\r\nb\nc"), ["a", "b", "c"]);
+        assert_eq!(lines("a\n"), ["a"]);
+        assert_eq!(lines(""), [""]);
+        assert_eq!(lines("\n\n"), ["", ""]);
+    }
+
+    #[test]
+    fn columns_count_characters() {
+        let source = Source::from_text("f", "ä b\nc");
+        assert_eq!(source.line_column(0), (1, 1));
+        assert_eq!(source.line_column(3), (1, 3));
+        assert_eq!(source.line_column(5), (2, 1));
+        assert_eq!(source.line_column(99), (2, 2));
+    }
+
+    #[test]
+    fn old_files_are_read_as_windows_1252() {
+        let source = Source::from_bytes("f", b"Name Fr\xe4se \x80");
+        assert!(source.was_windows_1252);
+        assert_eq!(source.text, "Name Fräse €");
+        assert_eq!(Source::from_bytes("f", b"\xef\xbb\xbfName x").text, "Name x");
+    }
+}

@@ -1,0 +1,147 @@
+//! The tree: every name, letter, variable, number, comment and lost tail with its span.
+
+use crate::span::Span;
+
+/// Text of the form with its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Spanned {
+    /// As written.
+    pub text: String,
+    /// Where.
+    pub span: Span,
+}
+
+/// One file.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Form {
+    /// Lines outside sequences and whole sequences, in the order of the file.
+    pub items: Vec<Head>,
+}
+
+/// An item of the form's outermost level.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Head {
+    /// An empty line or a line that is a comment as a whole.
+    Blank(Line),
+    /// A letter format.
+    Format {
+        /// The line it is on.
+        line: Line,
+        /// The letter.
+        letter: Spanned,
+        /// What follows it, `->3.>4`.
+        spec: Spanned,
+    },
+    /// A command or something that looks like one.
+    Statement(Statement),
+    /// `End` where no sequence is open.
+    StrayEnd(Line),
+    /// A sequence.
+    Sequence(SequenceNode),
+}
+
+/// A line's span and what follows its words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Line {
+    /// The whole line without its end.
+    pub span: Span,
+    /// What stands behind the words.
+    pub tail: Tail,
+}
+
+/// What stands behind the words of a line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Tail {
+    /// Nothing.
+    None,
+    /// A comment that begins with `#`.
+    Comment(Span),
+    /// Text after two blanks or a tab: not output.
+    Lost(Spanned),
+}
+
+/// `Rapid G0`, `Custom1   Face`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Statement {
+    /// The line.
+    pub line: Line,
+    /// First word.
+    pub name: Spanned,
+    /// The words after it; quotes are taken off.
+    pub args: Vec<Spanned>,
+}
+
+/// From a name line to `End`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SequenceNode {
+    /// The name line.
+    pub name: Statement,
+    /// The lines between.
+    pub body: Vec<Body>,
+    /// The end; `None` when the file or the next sequence came first.
+    pub end: Option<End>,
+}
+
+/// A line inside a sequence.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Body {
+    /// The line.
+    pub line: Line,
+    /// Its words; none on an empty line or a comment.
+    pub words: Vec<Word>,
+}
+
+/// `End`, `End Cancel`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct End {
+    /// The line.
+    pub line: Line,
+    /// The words after `End`.
+    pub args: Vec<Spanned>,
+}
+
+/// What stands between two blanks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Word {
+    /// Where.
+    pub span: Span,
+    /// More than one when a blank is missing, or in a text with variables.
+    pub pieces: Vec<Piece>,
+}
+
+/// A part of a word.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// Where.
+    pub span: Span,
+    /// What.
+    pub kind: PieceKind,
+}
+
+/// The kinds of parts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PieceKind {
+    /// `X[h]`, `<work>`.
+    Variable {
+        /// The letter, if any.
+        letter: Option<u8>,
+        /// The name between the brackets.
+        name: Spanned,
+    },
+    /// `G0`, `P.5`, `%0`.
+    Literal {
+        /// The letter.
+        letter: u8,
+        /// The number as typed.
+        number: Spanned,
+    },
+    /// Any other text, as typed.
+    Stray(String),
+    /// A comment of the program, `(TOOL [tool])`.
+    Note {
+        /// Text and variables, in order; the marks are not among them.
+        parts: Vec<Piece>,
+        /// The closing mark is there.
+        closed: bool,
+    },
+}

@@ -1,0 +1,335 @@
+//! Lines through the grammar. Nothing outside this file knows of pest.
+
+use pest::Parser;
+use pest::iterators::Pair;
+
+use super::ast::*;
+use crate::lang::{CommandId, SequenceId, SequenceName};
+use crate::source::Source;
+use crate::span::Span;
+
+mod grammar {
+    #![allow(missing_docs)]
+    #[derive(pest_derive::Parser)]
+    #[grammar = "../grammar/postform.pest"]
+    pub struct FormGrammar;
+}
+use grammar::{FormGrammar, Rule};
+
+/// Parses file number `file`. Every byte of the text is in some line of the result.
+pub fn parse(source: &Source, file: u32) -> Form {
+    let lines: Vec<(usize, &str)> = source.lines().collect();
+    let mut form = Form::default();
+    let mut open: Option<SequenceNode> = None;
+    for (index, &(start, text)) in lines.iter().enumerate() {
+        let at = At { file, start };
+        if let Some(sequence) = &mut open {
+            match body_line(at, text) {
+                Ok(body) if !begins_sequence(&body, text) => sequence.body.push(body),
+                Ok(_) => {
+                    // a sequence name on a line of its own: the End before it is missing
+                    form.items.extend(open.take().map(Head::Sequence));
+                    open = head(at, text, &lines[index + 1..], &mut form);
+                }
+                Err(end) => {
+                    sequence.end = Some(end);
+                    form.items.extend(open.take().map(Head::Sequence));
+                }
+            }
+        } else {
+            open = head(at, text, &lines[index + 1..], &mut form);
+        }
+    }
+    form.items.extend(open.map(Head::Sequence));
+    form
+}
+
+/// Where a line stands in its file.
+#[derive(Clone, Copy)]
+struct At {
+    file: u32,
+    start: usize,
+}
+
+impl At {
+    fn span(self, pair: &Pair<Rule>) -> Span {
+        let inner = pair.as_span();
+        Span::new(self.file, self.start + inner.start(), self.start + inner.end())
+    }
+
+    fn spanned(self, pair: &Pair<Rule>) -> Spanned {
+        Spanned { text: pair.as_str().to_owned(), span: self.span(pair) }
+    }
+
+    fn line(self, text: &str) -> Line {
+        Line { span: Span::new(self.file, self.start, self.start + text.len()), tail: Tail::None }
+    }
+}
+
+/// The pairs of one line. The grammar is total, so a refusal (a bug, caught by the property tests) is an empty line.
+fn pairs(rule: Rule, text: &str) -> impl Iterator<Item = Pair<'_, Rule>> {
+    FormGrammar::parse(rule, text).into_iter().flatten().flat_map(Pair::into_inner)
+}
+
+/// A line outside sequences; returns the sequence that it opens.
+fn head(at: At, text: &str, following: &[(usize, &str)], form: &mut Form) -> Option<SequenceNode> {
+    for pair in pairs(Rule::head_line, text) {
+        let mut line = at.line(text);
+        match pair.as_rule() {
+            Rule::format => {
+                let mut parts = pair.into_inner();
+                let (Some(letter), Some(spec)) = (parts.next(), parts.next()) else { continue };
+                line.tail = parts.next().map_or(Tail::None, |pair| tail(at, &pair));
+                form.items.push(Head::Format { line, letter: at.spanned(&letter), spec: at.spanned(&spec) });
+                return None;
+            }
+            Rule::statement => {
+                let statement = statement(at, line, pair);
+                if statement.name.text.eq_ignore_ascii_case("End") {
+                    form.items.push(Head::StrayEnd(statement.line));
+                    return None;
+                }
+                if opens_sequence(&statement, following) {
+                    return Some(SequenceNode { name: statement, body: Vec::new(), end: None });
+                }
+                form.items.push(Head::Statement(statement));
+                return None;
+            }
+            Rule::remark => line.tail = remark(at, &pair),
+            _ => {}
+        }
+        form.items.push(Head::Blank(line));
+        return None;
+    }
+    form.items.push(Head::Blank(at.line(text)));
+    None
+}
+
+/// A line that is a comment as a whole: by `#`, or because it is indented.
+fn remark(at: At, pair: &Pair<Rule>) -> Tail {
+    let text = pair.as_str();
+    let inner = text.trim_start_matches([' ', '\t']);
+    let start = at.start + pair.as_span().start() + text.len() - inner.len();
+    let span = Span::new(at.file, start, start + inner.len());
+    match inner.starts_with('#') {
+        true => Tail::Comment(span),
+        false => Tail::Lost(Spanned { text: inner.to_owned(), span }),
+    }
+}
+
+fn statement(at: At, mut line: Line, pair: Pair<Rule>) -> Statement {
+    let mut name = Spanned { text: String::new(), span: line.span };
+    let mut args = Vec::new();
+    for part in pair.into_inner() {
+        match part.as_rule() {
+            Rule::name => name = at.spanned(&part),
+            Rule::quoted => {
+                let mut arg = at.spanned(&part);
+                arg.text = arg.text[1..arg.text.len() - 1].to_owned();
+                args.push(arg);
+            }
+            Rule::bare => args.push(at.spanned(&part)),
+            _ => line.tail = tail(at, &part),
+        }
+    }
+    Statement { line, name, args }
+}
+
+/// Does this line open a sequence? A known name does; an unknown one when an `End` comes before the next known name,
+/// so that a misspelt sequence costs one message and not one for each of its lines.
+fn opens_sequence(statement: &Statement, following: &[(usize, &str)]) -> bool {
+    if names_sequence(statement) {
+        return true;
+    }
+    let name = &statement.name.text;
+    if CommandId::parse(name).is_some() || !name.chars().all(|c| c.is_alphanumeric()) || name.len() < 2 {
+        return false;
+    }
+    for (_, text) in following {
+        let mut words = text.trim_start().splitn(2, [' ', '\t', ';']);
+        let first = words.next().unwrap_or("");
+        if first.eq_ignore_ascii_case("End") {
+            return true;
+        }
+        let all: Vec<&str> = text.split_whitespace().collect();
+        let looks_like_a_name = all.len() == 1 && first.len() > 3 && first.bytes().all(|b| b.is_ascii_alphabetic());
+        if looks_like_a_name || CommandId::parse(first).is_some() || SequenceName::parse(&all).is_some() {
+            return false;
+        }
+    }
+    false
+}
+
+fn names_sequence(statement: &Statement) -> bool {
+    let mut words = vec![statement.name.text.as_str()];
+    words.extend(statement.args.iter().map(|arg| arg.text.as_str()));
+    // `Thread G33` is a command line: it has no End
+    SequenceName::parse(&words).is_some()
+}
+
+/// Inside a sequence: is this the name line of the next one? Only a line whose words are a name and at most a count.
+fn begins_sequence(body: &Body, text: &str) -> bool {
+    if body.words.is_empty() {
+        return false;
+    }
+    let words: Vec<&str> = text.split_whitespace().collect();
+    match SequenceName::parse(&words) {
+        Some(SequenceName::Plain(SequenceId::Stop, _)) => false, // a word of conversational controls
+        Some(SequenceName::Plain(_, count)) => count.is_none_or(|c| c.bytes().all(|b| b.is_ascii_digit())),
+        Some(SequenceName::Upon(name) | SequenceName::UponEvery(name)) => name.starts_with(['[', '<']),
+        None => false,
+    }
+}
+
+/// A line inside a sequence, or its end.
+fn body_line(at: At, text: &str) -> Result<Body, End> {
+    let mut body = Body { line: at.line(text), words: Vec::new() };
+    for pair in pairs(Rule::body_line, text) {
+        match pair.as_rule() {
+            Rule::end => {
+                let mut end = End { line: body.line, args: Vec::new() };
+                for part in pair.into_inner() {
+                    match part.as_rule() {
+                        Rule::bare => end.args.push(at.spanned(&part)),
+                        _ => end.line.tail = tail(at, &part),
+                    }
+                }
+                return Err(end);
+            }
+            Rule::words => {
+                for part in pair.into_inner() {
+                    match part.as_rule() {
+                        Rule::word => {
+                            let span = at.span(&part);
+                            let pieces = part.into_inner().map(|piece| self::piece(at, piece)).collect();
+                            body.words.push(Word { span, pieces });
+                        }
+                        _ => body.line.tail = tail(at, &part),
+                    }
+                }
+            }
+            Rule::remark => body.line.tail = remark(at, &pair),
+            _ => {}
+        }
+    }
+    Ok(body)
+}
+
+fn piece(at: At, pair: Pair<Rule>) -> Piece {
+    let span = at.span(&pair);
+    let kind = match pair.as_rule() {
+        Rule::variable | Rule::note_var => {
+            let (mut letter, mut name) = (None, Spanned { text: String::new(), span });
+            for part in pair.into_inner() {
+                match part.as_rule() {
+                    Rule::letter => letter = part.as_str().bytes().next(),
+                    _ => name = at.spanned(&part),
+                }
+            }
+            PieceKind::Variable { letter, name }
+        }
+        Rule::literal => {
+            let mut parts = pair.clone().into_inner();
+            match (parts.next().and_then(|l| l.as_str().bytes().next()), parts.next()) {
+                (Some(letter), Some(number)) => PieceKind::Literal { letter, number: at.spanned(&number) },
+                _ => PieceKind::Stray(pair.as_str().to_owned()),
+            }
+        }
+        Rule::note => {
+            let closed = pair.as_str().ends_with(')');
+            PieceKind::Note { parts: pair.into_inner().map(|part| piece(at, part)).collect(), closed }
+        }
+        _ => PieceKind::Stray(pair.as_str().to_owned()),
+    };
+    Piece { span, kind }
+}
+
+fn tail(at: At, pair: &Pair<Rule>) -> Tail {
+    match pair.as_rule() {
+        Rule::comment => Tail::Comment(at.span(pair)),
+        Rule::lost => Tail::Lost(at.spanned(pair)),
+        _ => Tail::None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn parsed(text: &str) -> Form {
+        parse(&Source::from_text("f.pf", text), 0)
+    }
+
+    fn sequence(form: &Form) -> &SequenceNode {
+        form.items.iter().find_map(|i| if let Head::Sequence(s) = i { Some(s) } else { None }).unwrap()
+    }
+
+    fn written(body: &Body, text: &str) -> Vec<String> {
+        body.words.iter().map(|w| text[w.span.range()].to_owned()).collect()
+    }
+
+    #[test]
+    fn words_end_at_a_double_blank() {
+        let text = "Drill\nT[tool]  M6\nX[h] Y<v> # note\n\tignored\nEnd Cancel\n";
+        let form = parsed(text);
+        let drill = sequence(&form);
+        assert_eq!(written(&drill.body[0], text), ["T[tool]"]);
+        assert!(matches!(&drill.body[0].line.tail, Tail::Lost(lost) if lost.text == "M6"));
+        assert_eq!(written(&drill.body[1], text), ["X[h]", "Y<v>"]);
+        assert!(matches!(drill.body[1].line.tail, Tail::Comment(_)));
+        assert!(drill.body[2].words.is_empty());
+        assert_eq!(drill.end.as_ref().unwrap().args[0].text, "Cancel");
+    }
+
+    #[test]
+    fn a_missing_blank_makes_two_pieces_and_comments_keep_their_blanks() {
+        let text = "Drill\nG1 Z[d]F[plunge]\nM6 ( Tool Diam: [toold]\n(T[tool]) M30\nEnd";
+        let form = parsed(text);
+        let body = &sequence(&form).body;
+        assert_eq!(body[0].words[1].pieces.len(), 2);
+        assert_eq!(written(&body[1], text), ["M6", "( Tool Diam: [toold]"]);
+        assert!(matches!(body[1].words[1].pieces[0].kind, PieceKind::Note { closed: false, .. }));
+        assert_eq!(written(&body[2], text), ["(T[tool])", "M30"]);
+    }
+
+    #[test]
+    fn head_lines_are_formats_commands_or_names() {
+        let form = parsed("X->3.>4\nP ->34\nA010360\nT 2\nRapid; G0\nReplace \"a b\" \"\"\nFancy 3\nDril\nG81\nEnd\n");
+        let kinds: Vec<String> = form
+            .items
+            .iter()
+            .map(|item| match item {
+                Head::Format { letter, spec, .. } => format!("{}={}", letter.text, spec.text),
+                Head::Statement(s) => {
+                    let args: Vec<_> = s.args.iter().map(|a| a.text.as_str()).collect();
+                    format!("{}({})", s.name.text, args.join("|"))
+                }
+                Head::Sequence(s) => format!("{}:{}", s.name.name.text, s.body.len()),
+                other => format!("{other:?}"),
+            })
+            .collect();
+        assert_eq!(
+            kinds,
+            ["X=->3.>4", "P= ->34", "A=010360", "T= 2", "Rapid(G0)", "Replace(a b|)", "Fancy(3)", "Dril:1"]
+        );
+    }
+
+    #[test]
+    fn the_next_name_closes_a_sequence_without_end() {
+        let form = parsed("StartCode\n%0\nEndCode\nM30\nEnd\n");
+        assert_eq!(form.items.len(), 2);
+        assert!(matches!(&form.items[0], Head::Sequence(s) if s.end.is_none() && s.body.len() == 1));
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+        /// The grammar is total: every line matches, and the words, comment and lost tail cover all but blanks.
+        #[test]
+        fn every_line_matches(text in "[ \\tA-Za-z0-9#;%:()\\[\\]<>.+~\"/é\u{0}-]{0,24}") {
+            for rule in [Rule::head_line, Rule::body_line] {
+                prop_assert!(FormGrammar::parse(rule, &text).is_ok(), "{rule:?} {text:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,406 @@
+//! The events of a toolpath (render.md section 1).
+
+/// Coordinates h v d and rotary a b c; those not given keep the tool's last position.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Axes {
+    /// Values in the job's units, and degrees.
+    pub values: [f64; 6],
+    /// Bit i: axis i is given.
+    pub given: u8,
+}
+
+impl Axes {
+    /// The first axes, all given.
+    pub fn new(values: &[f64]) -> Axes {
+        let mut axes = Axes::default();
+        for (i, &value) in values.iter().take(6).enumerate() {
+            axes.set(i, value);
+        }
+        axes
+    }
+
+    /// One axis, if given.
+    #[inline]
+    pub fn get(&self, axis: usize) -> Option<f64> {
+        (self.given & 1 << axis != 0).then(|| self.values[axis])
+    }
+
+    /// Gives one axis.
+    #[inline]
+    pub fn set(&mut self, axis: usize, value: f64) {
+        self.values[axis] = value;
+        self.given |= 1 << axis;
+    }
+}
+
+/// Units of lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Units {
+    Inch,
+    Mm,
+}
+
+impl Units {
+    /// As jobs and options write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Units::Inch => "inch",
+            Units::Mm => "mm",
+        }
+    }
+}
+
+/// The head of a job.
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// Program number.
+    pub program: Option<f64>,
+    /// The job's name.
+    pub name: Option<String>,
+    /// Units of the job's numbers.
+    pub units: Units,
+    /// What it is for.
+    pub machine: crate::lang::Machine,
+    /// Values for variables, by name.
+    pub set: Vec<(String, f64)>,
+    /// The tools in order of use, where the job tells.
+    pub tool_order: Option<Vec<f64>>,
+}
+
+/// A tool.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[allow(missing_docs)]
+pub struct Tool {
+    pub number: f64,
+    pub diameter: Option<f64>,
+    pub corner_radius: Option<f64>,
+    pub length_offset: Option<f64>,
+    pub diameter_offset: Option<f64>,
+    pub turret: Option<f64>,
+    pub comment: Option<String>,
+}
+
+/// Which way the spindle turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum SpindleTurn {
+    Cw,
+    Ccw,
+    Off,
+}
+
+/// The spindle; what is not given stays.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Spindle {
+    /// Revolutions per minute, or surface speed.
+    pub speed: Option<f64>,
+    /// Which way.
+    pub turn: Option<SpindleTurn>,
+    /// Constant surface speed.
+    pub css: Option<bool>,
+    /// Highest revolutions at constant surface speed.
+    pub max: Option<f64>,
+}
+
+/// Coolant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Coolant {
+    On,
+    Mist,
+    Off,
+}
+
+/// What a feed counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum FeedMode {
+    PerMinute,
+    PerRev,
+    InverseTime,
+}
+
+/// How an operation's path begins: readers look ahead for it, because a tool change may print the position.
+#[derive(Clone, Debug, PartialEq)]
+pub enum First {
+    /// With a rapid to here.
+    Rapid(Axes),
+    /// With the first hole of a cycle.
+    Hole(Box<CycleSpec>, Hole),
+    /// With a move that cuts: its target is no place to rapid to.
+    Cut,
+    /// With no move at all.
+    Nothing,
+}
+
+/// The beginning of an operation: the tool changes where its number does.
+#[derive(Clone, Debug)]
+pub struct ToolChange {
+    /// The operation's name.
+    pub name: Option<String>,
+    /// Its tool; machines without tools have none.
+    pub tool: Option<Tool>,
+    /// Spindle, where given.
+    pub spindle: Option<Spindle>,
+    /// Coolant, where given.
+    pub coolant: Option<Coolant>,
+    /// Work offset: a fixture number below 50, else the code.
+    pub work: Option<f64>,
+    /// Feed of its moves until one names another.
+    pub feed: Option<f64>,
+    /// Feed of its plunges.
+    pub plunge: Option<f64>,
+    /// What its feeds count.
+    pub feed_mode: Option<FeedMode>,
+    /// A comment to print.
+    pub comment: Option<String>,
+    /// Its first move.
+    pub first: First,
+}
+
+/// Planes of arcs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Plane {
+    /// First and second axis: G17.
+    #[default]
+    Xy,
+    /// Depth and first axis: G18.
+    Xz,
+    /// Second and depth axis: G19.
+    Yz,
+}
+
+/// Which way an arc turns, seen from the plane's positive third axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Direction {
+    Cw,
+    Ccw,
+}
+
+/// An arc from the tool's position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// Where it ends.
+    pub to: Axes,
+    /// Its centre; the third coordinate does not count.
+    pub center: Option<Axes>,
+    /// Its radius, instead of the centre: negative for the longer way round.
+    pub radius: Option<f64>,
+    /// Which way.
+    pub direction: Direction,
+    /// In which plane.
+    pub plane: Plane,
+    /// Full turns before the end is reached for good.
+    pub turns: u32,
+}
+
+/// Side of the path on which the tool is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Side {
+    Left,
+    Right,
+}
+
+/// The move that turns cutter compensation on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Infeed {
+    /// Where it ends.
+    pub to: Axes,
+    /// The side.
+    pub side: Side,
+}
+
+/// Named parts of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Section {
+    Leadin,
+    Leadout,
+    Plunge,
+    Retract,
+    SideStep,
+    ZLevel,
+    Row,
+}
+
+/// Kinds of stops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum StopKind {
+    Program,
+    Optional,
+}
+
+/// Kinds of canned cycles (cycles.md section 1.5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum CycleKind {
+    Drill,
+    Face,
+    Tap,
+    LTap,
+    Bore,
+    Back,
+    Ream,
+    Deep,
+    Chipbreak,
+    Thru,
+    Csink,
+    Manual,
+    Custom1,
+    Custom2,
+    Custom3,
+}
+
+impl CycleKind {
+    /// All of them with the names that jobs use.
+    pub const NAMES: [(&'static str, CycleKind); 15] = [
+        ("drill", CycleKind::Drill),
+        ("face", CycleKind::Face),
+        ("tap", CycleKind::Tap),
+        ("ltap", CycleKind::LTap),
+        ("bore", CycleKind::Bore),
+        ("back", CycleKind::Back),
+        ("ream", CycleKind::Ream),
+        ("deep", CycleKind::Deep),
+        ("chipbreak", CycleKind::Chipbreak),
+        ("thru", CycleKind::Thru),
+        ("csink", CycleKind::Csink),
+        ("manual", CycleKind::Manual),
+        ("custom1", CycleKind::Custom1),
+        ("custom2", CycleKind::Custom2),
+        ("custom3", CycleKind::Custom3),
+    ];
+
+    /// The name that jobs use.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
+    }
+
+    /// Is it a tap?
+    pub fn is_tap(self) -> bool {
+        matches!(self, CycleKind::Tap | CycleKind::LTap)
+    }
+}
+
+/// One absolute step of a peck cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peck {
+    /// Depth below the point, positive down.
+    pub to: f64,
+    /// Its own feed.
+    pub feed: Option<f64>,
+}
+
+/// A canned cycle without its points. Heights are distances along the tool axis from each point.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub struct CycleSpec {
+    pub kind: CycleKind,
+    pub depth: Option<f64>,
+    pub clear: Option<f64>,
+    pub return_height: Option<f64>,
+    pub feed: Option<f64>,
+    pub plunge: Option<f64>,
+    pub step: Option<f64>,
+    pub first_step: Option<f64>,
+    pub back: Option<f64>,
+    pub dwell: Option<f64>,
+    pub revs: Option<f64>,
+    pub rapto: Option<f64>,
+    pub orient: Option<f64>,
+    pub offset: Option<f64>,
+    pub ratio: Option<f64>,
+    pub starts: Option<f64>,
+    pub rigid: Option<bool>,
+    pub times: Option<f64>,
+    pub decr: Option<f64>,
+    pub min_step: Option<f64>,
+    pub diameter: Option<f64>,
+    pub angle: Option<f64>,
+    pub hole_diameter: Option<f64>,
+    pub webs: Vec<f64>,
+    pub pecks: Vec<Peck>,
+    /// Tapping in pecks: deep or chip breaking.
+    pub mode: Option<CycleKind>,
+    pub norevr: bool,
+    pub rapout: bool,
+    pub jog: Option<f64>,
+}
+
+impl CycleSpec {
+    /// A cycle of this kind that says nothing else.
+    pub fn new(kind: CycleKind) -> CycleSpec {
+        CycleSpec {
+            kind,
+            depth: None,
+            clear: None,
+            return_height: None,
+            feed: None,
+            plunge: None,
+            step: None,
+            first_step: None,
+            back: None,
+            dwell: None,
+            revs: None,
+            rapto: None,
+            orient: None,
+            offset: None,
+            ratio: None,
+            starts: None,
+            rigid: None,
+            times: None,
+            decr: None,
+            min_step: None,
+            diameter: None,
+            angle: None,
+            hole_diameter: None,
+            webs: Vec::new(),
+            pecks: Vec::new(),
+            mode: None,
+            norevr: false,
+            rapout: false,
+            jog: None,
+        }
+    }
+}
+
+/// One point of a cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Hole {
+    /// The control point: the top of the hole.
+    pub at: Axes,
+    /// Its own depth, when it differs from the cycle's.
+    pub depth: Option<f64>,
+}
+
+/// One event.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum Event<'a> {
+    Start(&'a Start),
+    ToolChange(&'a ToolChange),
+    Rapid(Axes),
+    Line { to: Axes, feed: Option<f64> },
+    Arc { arc: Arc, feed: Option<f64> },
+    Infeed { infeed: Infeed, feed: Option<f64> },
+    Outfeed { to: Axes, feed: Option<f64> },
+    Begin(Section),
+    End(Section),
+    CycleBegin(&'a CycleSpec),
+    Hole(Hole),
+    CycleEnd,
+    Dwell(f64),
+    Stop(StopKind),
+    Comment(&'a str),
+    Text(&'a str),
+    Feed(f64),
+    Work(f64),
+    Spindle(Spindle),
+    Coolant(Coolant),
+    Set(&'a str, f64),
+    Finish,
+}

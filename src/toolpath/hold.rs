@@ -1,0 +1,113 @@
+//! Holds a tool change until the path's first move is known, because the tool change may print its position.
+
+use super::event::{CycleSpec, Event, First, ToolChange};
+use super::{Place, Sink};
+use crate::diag::{Code, Diag};
+
+/// Most items that may stand before an operation's first move.
+const MOST_HELD: usize = 4096;
+
+/// Stands between a reader and its sink.
+pub struct Hold<'s> {
+    sink: &'s mut dyn Sink,
+    change: Option<(ToolChange, Place)>,
+    waiting: Vec<(Waiting, Place)>,
+}
+
+/// An event that stands before the first move, owned.
+enum Waiting {
+    Plain(Event<'static>),
+    Comment(String),
+    Text(String),
+    Set(String, f64),
+    Cycle(Box<CycleSpec>),
+}
+
+impl<'s> Hold<'s> {
+    /// In front of `sink`.
+    pub fn new(sink: &'s mut dyn Sink) -> Self {
+        Hold { sink, change: None, waiting: Vec::new() }
+    }
+
+    /// Holds a tool change; its `first` is filled in here.
+    ///
+    /// # Errors
+    /// Those of the sink for what was held before.
+    pub fn tool_change(&mut self, change: ToolChange, place: Place) -> Result<(), Box<Diag>> {
+        self.release(First::Nothing)?;
+        self.change = Some((change, place));
+        Ok(())
+    }
+
+    fn release(&mut self, first: First) -> Result<(), Box<Diag>> {
+        if let Some((mut change, place)) = self.change.take() {
+            change.first = first;
+            self.sink.event(Event::ToolChange(&change), place)?;
+        }
+        for (waiting, place) in self.waiting.drain(..) {
+            let event = match &waiting {
+                Waiting::Plain(event) => event.clone(),
+                Waiting::Comment(text) => Event::Comment(text),
+                Waiting::Text(text) => Event::Text(text),
+                Waiting::Set(name, value) => Event::Set(name, *value),
+                Waiting::Cycle(spec) => Event::CycleBegin(spec),
+            };
+            self.sink.event(event, place)?;
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn held(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+        let waiting = match event {
+            Event::Rapid(to) => {
+                self.release(First::Rapid(to))?;
+                return self.sink.event(event, place);
+            }
+            Event::Hole(hole) => {
+                let spec = self.waiting.iter().find_map(|(w, _)| match w {
+                    Waiting::Cycle(spec) => Some(spec.clone()),
+                    _ => None,
+                });
+                self.release(spec.map_or(First::Cut, |spec| First::Hole(spec, hole)))?;
+                return self.sink.event(event, place);
+            }
+            Event::Line { .. } | Event::Arc { .. } | Event::Infeed { .. } | Event::Outfeed { .. } => {
+                self.release(First::Cut)?;
+                return self.sink.event(event, place);
+            }
+            Event::Start(_) | Event::ToolChange(_) | Event::Finish => {
+                self.release(First::Nothing)?;
+                return self.sink.event(event, place);
+            }
+            Event::CycleBegin(spec) => Waiting::Cycle(Box::new(spec.clone())),
+            Event::Comment(text) => Waiting::Comment(text.to_owned()),
+            Event::Text(text) => Waiting::Text(text.to_owned()),
+            Event::Set(name, value) => Waiting::Set(name.to_owned(), value),
+            Event::Begin(section) => Waiting::Plain(Event::Begin(section)),
+            Event::End(section) => Waiting::Plain(Event::End(section)),
+            Event::CycleEnd => Waiting::Plain(Event::CycleEnd),
+            Event::Dwell(seconds) => Waiting::Plain(Event::Dwell(seconds)),
+            Event::Stop(kind) => Waiting::Plain(Event::Stop(kind)),
+            Event::Feed(feed) => Waiting::Plain(Event::Feed(feed)),
+            Event::Work(work) => Waiting::Plain(Event::Work(work)),
+            Event::Spindle(spindle) => Waiting::Plain(Event::Spindle(spindle)),
+            Event::Coolant(coolant) => Waiting::Plain(Event::Coolant(coolant)),
+        };
+        if self.waiting.len() == MOST_HELD {
+            return Err(Box::new(
+                Diag::new(Code::PJ005, format!("more than {MOST_HELD} items before the operation's first move"))
+                    .help("put the first rapid before them"),
+            ));
+        }
+        self.waiting.push((waiting, place));
+        Ok(())
+    }
+}
+
+impl Sink for Hold<'_> {
+    #[inline]
+    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+        if self.change.is_some() { self.held(event, place) } else { self.sink.event(event, place) }
+    }
+}

@@ -1,0 +1,108 @@
+//! Where a reader is, and what went wrong there.
+
+use std::cell::RefCell;
+use std::fmt::Write;
+
+use serde::de;
+
+use crate::diag::{Code, Diag};
+
+/// Why a job was not read to its end.
+#[derive(Debug)]
+pub enum ReadError {
+    /// The input could not be read.
+    Io(std::io::Error),
+    /// The job is wrong, or what its events asked for is.
+    Job(Box<Diag>),
+}
+
+impl From<Box<Diag>> for ReadError {
+    fn from(diag: Box<Diag>) -> Self {
+        ReadError::Job(diag)
+    }
+}
+
+/// A step of the path inside the document.
+#[derive(Clone, Copy, Debug)]
+pub enum Step {
+    /// A key.
+    Key(&'static str),
+    /// An index, from 0.
+    Index(u64),
+}
+
+/// Shared by the readers of one job: the path to where they are, and the failure that stopped them.
+#[derive(Default)]
+pub struct Context {
+    path: RefCell<Vec<Step>>,
+    failure: RefCell<Option<Box<Diag>>>,
+}
+
+impl Context {
+    /// Goes down one step.
+    pub fn enter(&self, step: Step) {
+        self.path.borrow_mut().push(step);
+    }
+
+    /// Comes back up. Not called after an error: the path then tells where it was.
+    pub fn leave(&self) {
+        self.path.borrow_mut().pop();
+    }
+
+    /// Keeps a failure of ours and returns an error that carries it through serde.
+    pub fn fail<E: de::Error>(&self, diag: Diag) -> E {
+        self.fail_with(Box::new(diag))
+    }
+
+    /// The same for a failure that is boxed already.
+    pub fn fail_with<E: de::Error>(&self, diag: Box<Diag>) -> E {
+        *self.failure.borrow_mut() = Some(diag);
+        E::custom("stopped")
+    }
+
+    /// The path, as `operations[0].path[3].line`.
+    pub fn path(&self) -> String {
+        let mut text = String::new();
+        for step in self.path.borrow().iter() {
+            match step {
+                Step::Key(key) if text.is_empty() => text.push_str(key),
+                Step::Key(key) => _ = write!(text, ".{key}"),
+                Step::Index(index) => _ = write!(text, "[{index}]"),
+            }
+        }
+        text
+    }
+
+    /// The failure behind a serde error; `line` and `column` say where it stopped.
+    pub fn explain(&self, error: serde_json::Error, line: u64, column: u32) -> ReadError {
+        if error.is_io() {
+            return ReadError::Io(error.into());
+        }
+        let mut diag = self.failure.borrow_mut().take().unwrap_or_else(|| Box::new(of_serde(&error)));
+        if diag.place.is_none() {
+            let path = self.path();
+            let comma = if path.is_empty() { "" } else { ", " };
+            diag.place = Some(format!("{line}:{column}{comma}{path}"));
+        }
+        ReadError::Job(diag)
+    }
+}
+
+/// A message of serde in our words.
+fn of_serde(error: &serde_json::Error) -> Diag {
+    let text = error.to_string();
+    let text = text.rsplit_once(" at line ").map_or(text.as_str(), |(message, _)| message);
+    match error.classify() {
+        serde_json::error::Category::Eof => Diag::new(Code::PJ007, "the job ends in the middle of a value")
+            .help("write the job again: a job cut short must not become a program"),
+        serde_json::error::Category::Data => Diag::new(Code::PJ003, text.to_owned()),
+        _ if text.contains("trailing characters") => {
+            Diag::new(Code::PJ008, "something stands after the end of the job").help("a job file holds one job")
+        }
+        _ if text.contains("number out of range") => {
+            Diag::new(Code::PJ003, "the number is too large").help("give a number that a machine can reach")
+        }
+        _ if text.contains("recursion limit") => Diag::new(Code::PJ001, "nested too deep"),
+        _ => Diag::new(Code::PJ001, format!("this is not JSON: {text}")),
+    }
+}

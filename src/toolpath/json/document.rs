@@ -1,0 +1,357 @@
+//! `job.json`: one document, read as a stream.
+
+use std::cell::{Cell, RefCell};
+use std::fmt;
+use std::io::Read;
+
+use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
+
+use super::build::Builder;
+use super::context::{Context, ReadError, Step};
+use super::objects::{CycleObject, ItemObject, JobHead, KeySeed, Object, OperationHead, once};
+use super::position::PointSeed;
+use super::values::Point;
+use crate::diag::{Code, Diag};
+use crate::toolpath::Sink;
+
+/// Most points of a cycle that wait for keys behind them; more are passed on as they come.
+const MOST_WAITING: usize = 4096;
+
+/// Reads a job document and pushes its events. Memory does not grow with the job.
+///
+/// # Errors
+/// What is wrong with the job, or with what the sink was asked to do, and where.
+pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadError> {
+    let at = Cell::new((1, 0));
+    let reader = Counting { input, at: &at, buffer: Box::new([0; 64 * 1024]), from: 0, to: 0, begun: false };
+    let context = Context::default();
+    let job = Job { context: &context, builder: RefCell::new(Builder::new(sink)), at: &at };
+    let mut deserializer = serde_json::Deserializer::from_reader(reader);
+    let read = JobSeed(&job, Part::Job).deserialize(&mut deserializer).and_then(|()| {
+        deserializer.end()?;
+        job.builder.borrow_mut().finish().map_err(|diag| context.fail_with(diag))
+    });
+    read.map_err(|error| {
+        let (line, column) = at.get();
+        if line == 1 && column == 0 {
+            return ReadError::Job(Box::new(Diag::new(Code::PJ007, "the job is empty").help("write a job file")));
+        }
+        context.explain(error, line, column.max(1))
+    })
+}
+
+/// Counts lines and columns of what was taken. serde_json takes one byte at a time, so this is also its buffer.
+struct Counting<'a, R> {
+    input: R,
+    at: &'a Cell<(u64, u32)>,
+    buffer: Box<[u8; 64 * 1024]>,
+    from: usize,
+    to: usize,
+    begun: bool,
+}
+
+impl<R: Read> Read for Counting<'_, R> {
+    #[inline]
+    fn read(&mut self, out: &mut [u8]) -> std::io::Result<usize> {
+        if self.from == self.to {
+            self.from = 0;
+            self.to = loop {
+                match self.input.read(&mut self.buffer[..]) {
+                    Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+                    other => break other?,
+                }
+            };
+            if !self.begun && self.buffer[..self.to].starts_with(b"\xef\xbb\xbf") {
+                self.from = 3;
+            }
+            self.begun = true;
+        }
+        let (Some(&byte), Some(slot)) = (self.buffer[..self.to].get(self.from), out.first_mut()) else { return Ok(0) };
+        *slot = byte;
+        self.from += 1;
+        let (line, column) = self.at.get();
+        self.at.set(if byte == b'\n' { (line + 1, 0) } else { (line, column + 1) });
+        Ok(1)
+    }
+}
+
+/// What all seeds of one document share.
+struct Job<'a, 's> {
+    context: &'a Context,
+    builder: RefCell<Builder<'s>>,
+    at: &'a Cell<(u64, u32)>,
+}
+
+impl<'s> Job<'_, 's> {
+    fn build<E: serde::de::Error>(&self, f: impl FnOnce(&mut Builder<'s>) -> Result<(), Box<Diag>>) -> Result<(), E> {
+        f(&mut self.builder.borrow_mut()).map_err(|diag| self.context.fail_with(diag))
+    }
+
+    fn misplaced<E: serde::de::Error>(&self, list: &str, object: &str, key: &str) -> E {
+        self.context.fail(
+            Diag::new(Code::PJ005, format!("`{key}` stands after `{list}`"))
+                .help(format!("make `{list}` the last key of {object}: a stream can't wait for what comes behind it")),
+        )
+    }
+
+    /// The place of the value that begins here.
+    fn mark(&self) {
+        let (line, column) = self.at.get();
+        let mut builder = self.builder.borrow_mut();
+        builder.place.line = line;
+        builder.place.column = column;
+    }
+}
+
+/// An object whose last key is a list that is passed on as it comes.
+trait Streamed: Object {
+    /// The key of the list, alone.
+    const LIST: &'static [&'static str];
+}
+impl Streamed for JobHead {
+    const LIST: &'static [&'static str] = &["operations"];
+}
+impl Streamed for OperationHead {
+    const LIST: &'static [&'static str] = &["path"];
+}
+
+/// Reads such an object: `head` takes the keys before the list. Says whether the list was there.
+fn streamed<'de, T: Streamed, A: MapAccess<'de>>(
+    job: &Job,
+    mut map: A,
+    head: impl Fn(T) -> Result<(), A::Error>,
+    list: Part,
+) -> Result<bool, A::Error> {
+    let (mut object, mut seen, mut listed) = (Some(T::default()), 0, false);
+    let keys = |context| KeySeed { context, object: T::NAME, keys: [T::KEYS, T::LIST] };
+    while let Some(key) = map.next_key_seed(keys(job.context))? {
+        let name = T::KEYS.get(key).copied().unwrap_or(T::LIST[0]);
+        once(&mut seen, key, name, job.context)?;
+        job.context.enter(Step::Key(name));
+        if key == T::KEYS.len() {
+            head(object.take().unwrap_or_default())?;
+            map.next_value_seed(JobSeed(job, list))?;
+            listed = true;
+        } else if let Some(object) = &mut object {
+            object.read(key, &mut map, job.context)?;
+        } else {
+            return Err(job.misplaced(T::LIST[0], T::NAME, name));
+        }
+        job.context.leave();
+    }
+    if let Some(object) = object.take() {
+        head(object)?;
+    }
+    Ok(listed)
+}
+
+/// What a seed reads: each list is passed on element by element.
+#[derive(Clone, Copy)]
+enum Part {
+    Job,
+    Operations,
+    Operation,
+    Path,
+    Item,
+    Cycle,
+}
+
+struct JobSeed<'j, 'a, 's>(&'j Job<'a, 's>, Part);
+
+impl<'de> DeserializeSeed<'de> for JobSeed<'_, '_, '_> {
+    type Value = ();
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        match self.1 {
+            Part::Operations | Part::Path => deserializer.deserialize_seq(self),
+            _ => deserializer.deserialize_map(self),
+        }
+    }
+}
+
+impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self.1 {
+            Part::Job => "a job, an object",
+            Part::Operations => "a list of operations",
+            Part::Operation => "an operation, an object",
+            Part::Path => "a path, a list of items",
+            Part::Item => "a path item, an object",
+            Part::Cycle => "a cycle, an object",
+        })
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<(), A::Error> {
+        let JobSeed(job, part) = self;
+        let element = if matches!(part, Part::Operations) { Part::Operation } else { Part::Item };
+        let mut index = 0;
+        loop {
+            job.context.enter(Step::Index(index));
+            if seq.next_element_seed(JobSeed(job, element))?.is_none() {
+                break;
+            }
+            job.context.leave();
+            index += 1;
+        }
+        job.context.leave();
+        Ok(())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<(), A::Error> {
+        let JobSeed(job, part) = self;
+        job.mark();
+        match part {
+            Part::Job => {
+                let head = |head| job.build(|b| b.start(head));
+                streamed::<JobHead, A>(job, map, head, Part::Operations)?;
+            }
+            Part::Operation => {
+                let head = |head| job.build(|b| b.operation(head));
+                if !streamed::<OperationHead, A>(job, map, head, Part::Path)? {
+                    let diag = Diag::new(Code::PJ004, "an operation without `path`").help("give its moves as \"path\": []");
+                    return Err(job.context.fail(diag));
+                }
+            }
+            Part::Cycle => cycle(job, map)?,
+            _ => item(job, map)?,
+        }
+        Ok(())
+    }
+}
+
+/// A path item. A cycle is passed on while it is read; it is then the item's only key.
+fn item<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
+    const CYCLE: &[&str] = &["cycle"];
+    job.builder.borrow_mut().place.item += 1;
+    let (mut item, mut seen, mut cycle) = (ItemObject::default(), 0, false);
+    let keys = || KeySeed { context: job.context, object: ItemObject::NAME, keys: [ItemObject::KEYS, CYCLE] };
+    while let Some(key) = map.next_key_seed(keys())? {
+        let name = ItemObject::KEYS.get(key).copied().unwrap_or(CYCLE[0]);
+        once(&mut seen, key, name, job.context)?;
+        job.context.enter(Step::Key(name));
+        if key == ItemObject::KEYS.len() {
+            map.next_value_seed(JobSeed(job, Part::Cycle))?;
+            cycle = true;
+        } else {
+            item.read(key, &mut map, job.context)?;
+        }
+        job.context.leave();
+    }
+    if cycle {
+        if seen.count_ones() > 1 {
+            let diag = Diag::new(Code::PJ005, "the path item says more than one thing").help("make an item of each");
+            return Err(job.context.fail(diag));
+        }
+        return Ok(());
+    }
+    job.build(|b| b.item(&item))
+}
+
+/// A cycle: its first points wait for keys that stand behind them, later ones do not.
+fn cycle<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
+    const POINTS: &[&str] = &["points"];
+    let (mut object, mut seen) = (CycleObject::default(), 0);
+    let mut waiting = Vec::new();
+    let mut begun = false;
+    let keys = || KeySeed { context: job.context, object: CycleObject::NAME, keys: [CycleObject::KEYS, POINTS] };
+    while let Some(key) = map.next_key_seed(keys())? {
+        let name = CycleObject::KEYS.get(key).copied().unwrap_or(POINTS[0]);
+        once(&mut seen, key, name, job.context)?;
+        if begun {
+            return Err(job.misplaced(POINTS[0], CycleObject::NAME, name));
+        }
+        job.context.enter(Step::Key(name));
+        if key == CycleObject::KEYS.len() {
+            begun = map.next_value_seed(Points { job, object: &object, waiting: &mut waiting })?;
+        } else {
+            object.read(key, &mut map, job.context)?;
+        }
+        job.context.leave();
+    }
+    if !begun {
+        job.build(|b| b.cycle_begin(&object))?;
+        pass_on(job, &mut waiting)?;
+    }
+    job.build(|b| b.cycle_end())
+}
+
+fn pass_on<E: serde::de::Error>(job: &Job, waiting: &mut Vec<(Point, (u64, u32))>) -> Result<(), E> {
+    for (Point(hole), (line, column)) in waiting.drain(..) {
+        job.build(|b| {
+            (b.place.line, b.place.column) = (line, column);
+            b.hole(hole)
+        })?;
+    }
+    Ok(())
+}
+
+/// The points of a cycle; says whether they were passed on.
+struct Points<'w, 'j, 'a, 's> {
+    job: &'j Job<'a, 's>,
+    object: &'w CycleObject,
+    waiting: &'w mut Vec<(Point, (u64, u32))>,
+}
+
+impl<'de> DeserializeSeed<'de> for Points<'_, '_, '_, '_> {
+    type Value = bool;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<bool, D::Error> {
+        deserializer.deserialize_seq(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Points<'_, '_, '_, '_> {
+    type Value = bool;
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a list of points")
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<bool, A::Error> {
+        let (job, mut index, mut begun) = (self.job, 0, false);
+        loop {
+            job.context.enter(Step::Index(index));
+            let Some(point) = seq.next_element_seed(PointSeed { context: job.context })? else { break };
+            job.context.leave();
+            index += 1;
+            self.waiting.push((point, job.at.get()));
+            if begun || self.waiting.len() == MOST_WAITING {
+                if !begun {
+                    job.build(|b| b.cycle_begin(self.object))?;
+                }
+                begun = true;
+                pass_on(job, self.waiting)?;
+            }
+        }
+        job.context.leave();
+        Ok(begun)
+    }
+}
+
+/// The JSON Schema of a job document, from the same tables.
+#[cfg(feature = "schema")]
+pub fn schema() -> serde_json::Value {
+    use super::values::Position;
+    let mut generator = schemars::SchemaGenerator::default();
+    let list = |schema: schemars::Schema, description: &str| {
+        serde_json::json!({ "type": "array", "items": schema, "description": description })
+    };
+    _ = generator.subschema_for::<Position>();
+    let point = generator.subschema_for::<Point>();
+    let mut cycle = generator.subschema_for::<CycleObject>();
+    _ = &mut cycle;
+    let item = generator.subschema_for::<ItemObject>();
+    let operation = generator.subschema_for::<OperationHead>();
+    let mut root = generator.root_schema_for::<JobHead>().to_value();
+    let add = |root: &mut serde_json::Value, pointer: &str, key: &str, value: serde_json::Value| {
+        if let Some(properties) = root.pointer_mut(pointer).and_then(|p| p.as_object_mut()) {
+            properties.insert(key.to_owned(), value);
+        }
+    };
+    add(&mut root, "/properties", "operations", list(operation, "the operations; the last key"));
+    add(&mut root, "/$defs/OperationHead/properties", "path", list(item, "the moves; the last key"));
+    let cycle = serde_json::to_value(cycle).unwrap_or_default();
+    add(&mut root, "/$defs/ItemObject/properties", "cycle", cycle);
+    add(&mut root, "/$defs/CycleObject/properties", "points", list(point, "the points of the cycle"));
+    add(&mut root, "", "title", "postform job".into());
+    add(&mut root, "", "required", serde_json::json!(["operations"]));
+    root
+}

@@ -1,0 +1,173 @@
+//! The shortest way for the two lines that make up most of every JSON Lines job:
+//! `{"line":[1.5,2,-0.1],"feed":300}` and `{"rapid":[1,2,3]}`. Anything else, however slightly, is not read here
+//! but by serde, so the two ways can't disagree on what is an error; a property test holds them to the same values.
+
+use crate::toolpath::Axes;
+
+/// A plain move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SimpleMove {
+    /// Its target.
+    pub to: Axes,
+    /// Its feed, if given.
+    pub feed: Option<f64>,
+    /// A rapid, else a feed move.
+    pub rapid: bool,
+}
+
+/// Reads such a line, without its line end; `None` when it is any other.
+#[inline]
+pub fn simple_move(line: &[u8]) -> Option<SimpleMove> {
+    let mut at = Cursor { rest: line };
+    at.blanks();
+    at.take(b"{")?;
+    at.blanks();
+    let rapid = if at.take(b"\"line\"").is_some() {
+        false
+    } else {
+        at.take(b"\"rapid\"")?;
+        true
+    };
+    at.colon()?;
+    at.take(b"[")?;
+    let mut to = Axes::default();
+    for axis in 0..6 {
+        at.blanks();
+        to.set(axis, at.number()?);
+        at.blanks();
+        if at.take(b",").is_none() {
+            break;
+        }
+        if axis == 5 {
+            return None;
+        }
+    }
+    at.take(b"]")?;
+    at.blanks();
+    let mut feed = None;
+    if !rapid && at.take(b",").is_some() {
+        at.blanks();
+        at.take(b"\"feed\"")?;
+        at.colon()?;
+        feed = Some(at.number()?);
+        at.blanks();
+    }
+    at.take(b"}")?;
+    at.blanks();
+    at.rest.is_empty().then_some(SimpleMove { to, feed, rapid })
+}
+
+struct Cursor<'a> {
+    rest: &'a [u8],
+}
+
+impl Cursor<'_> {
+    #[inline]
+    fn take(&mut self, text: &[u8]) -> Option<()> {
+        self.rest = self.rest.strip_prefix(text)?;
+        Some(())
+    }
+
+    #[inline]
+    fn blanks(&mut self) {
+        while let [b' ' | b'\t' | b'\r', rest @ ..] = self.rest {
+            self.rest = rest;
+        }
+    }
+
+    #[inline]
+    fn colon(&mut self) -> Option<()> {
+        self.blanks();
+        self.take(b":")?;
+        self.blanks();
+        Some(())
+    }
+
+    /// A decimal of at most 15 digits without exponent: its digits and its power of ten are exact doubles, so one
+    /// division gives the nearest double, the same that any correct reader finds.
+    #[inline]
+    fn number(&mut self) -> Option<f64> {
+        let bytes = self.rest;
+        let negative = bytes.first() == Some(&b'-');
+        let start = usize::from(negative);
+        let mut i = start;
+        let mut digits = 0u64;
+        while let Some(d) = bytes.get(i).map(|b| b.wrapping_sub(b'0')).filter(|&d| d < 10) {
+            digits = digits.wrapping_mul(10).wrapping_add(u64::from(d));
+            i += 1;
+        }
+        let whole = i - start;
+        // JSON wants a digit before the point and no zero before other digits
+        if whole == 0 || (whole > 1 && bytes[start] == b'0') {
+            return None;
+        }
+        let mut decimals = 0;
+        if bytes.get(i) == Some(&b'.') {
+            i += 1;
+            let from = i;
+            while let Some(d) = bytes.get(i).map(|b| b.wrapping_sub(b'0')).filter(|&d| d < 10) {
+                digits = digits.wrapping_mul(10).wrapping_add(u64::from(d));
+                i += 1;
+            }
+            decimals = i - from;
+            if decimals == 0 {
+                return None;
+            }
+        }
+        if whole + decimals > 15 || matches!(bytes.get(i), Some(b'e' | b'E')) {
+            return None;
+        }
+        self.rest = &bytes[i..];
+        let value = digits as f64 / POWERS[decimals];
+        Some(if negative { -value } else { value })
+    }
+}
+
+/// Powers of ten that are exact doubles.
+const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn plain_moves_are_read_and_everything_else_is_left() {
+        let read = |text: &str| simple_move(text.as_bytes());
+        assert_eq!(
+            read(r#"{"line":[1.5,2,-0.1],"feed":300}"#),
+            Some(SimpleMove { to: Axes::new(&[1.5, 2.0, -0.1]), feed: Some(300.0), rapid: false })
+        );
+        assert_eq!(read(" { \"rapid\" : [ 1 , 2 ] } \r").map(|m| (m.to, m.rapid)), Some((Axes::new(&[1.0, 2.0]), true)));
+        for other in [
+            r#"{"line":[1,null]}"#,
+            r#"{"line":[]}"#,
+            r#"{"line":[1,2,3,4,5,6,7]}"#,
+            r#"{"line":[01]}"#,
+            r#"{"line":[1.]}"#,
+            r#"{"line":[.5]}"#,
+            r#"{"line":[1e3]}"#,
+            r#"{"line":[1,2],"feed":5,"x":1}"#,
+            r#"{"feed":5,"line":[1,2]}"#,
+            r#"{"line":[1,2]}}"#,
+            r#"{"line":[1,2],}"#,
+            r#"{"line":[1,2"#,
+            "",
+        ] {
+            assert_eq!(read(other), None, "{other}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+        /// What is read here is what a JSON reader reads.
+        #[test]
+        fn numbers_are_those_of_serde(text in "-?(0|[1-9][0-9]{0,8})(\\.[0-9]{1,9})?") {
+            let line = format!("{{\"line\":[{text}]}}");
+            let expected: f64 = serde_json::from_str(&text).unwrap();
+            if let Some(found) = simple_move(line.as_bytes()) {
+                prop_assert_eq!(found.to.values[0].to_bits(), expected.to_bits());
+            }
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! Job files: `job.json` as one document, `.jsonl` a line at a time. Both are streams: nothing of a path is kept.
+
+mod build;
+mod context;
+mod document;
+mod fast;
+mod lines;
+mod objects;
+mod position;
+mod values;
+
+pub use context::ReadError;
+pub use document::read_document;
+pub use lines::read_lines;
+#[cfg(feature = "schema")]
+pub use document::schema;

@@ -1,0 +1,417 @@
+//! The objects of a job: each is a table of keys, from which it is read and its schema is made.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::{DeserializeSeed, Deserializer, MapAccess, Visitor};
+
+use super::context::{Context, Step};
+use super::values::{Number, PeckMode, Position, SpeedMode, Word};
+use crate::diag::{Code, Diag};
+use crate::lang::{Machine, did_you_mean};
+use crate::toolpath::event::{Coolant, CycleKind, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind, Units};
+
+/// An object with a fixed list of keys.
+pub trait Object: Default {
+    /// What it is called in messages.
+    const NAME: &'static str;
+    /// Its keys.
+    const KEYS: &'static [&'static str];
+    /// Reads the value of key number `key`.
+    fn read<'de, A: MapAccess<'de>>(&mut self, key: usize, map: &mut A, context: &Context) -> Result<(), A::Error>;
+}
+
+/// A value inside an object: a leaf, or an object of its own.
+pub trait Value: Sized {
+    /// Reads it.
+    fn read<'de, A: MapAccess<'de>>(map: &mut A, context: &Context) -> Result<Self, A::Error>;
+}
+
+macro_rules! leaves {
+    ($($type:ty)*) => { $(impl Value for $type {
+        fn read<'de, A: MapAccess<'de>>(map: &mut A, _: &Context) -> Result<Self, A::Error> { map.next_value() }
+    })* };
+}
+leaves! { Number String bool Position Vec<Number> }
+
+impl<T: super::values::Words> Value for Word<T> {
+    fn read<'de, A: MapAccess<'de>>(map: &mut A, _: &Context) -> Result<Self, A::Error> {
+        map.next_value()
+    }
+}
+
+/// A nested object or list of objects.
+macro_rules! nested {
+    ($($type:ty)*) => { $(
+        impl Value for $type {
+            fn read<'de, A: MapAccess<'de>>(map: &mut A, context: &Context) -> Result<Self, A::Error> {
+                map.next_value_seed(ObjectSeed::new(context))
+            }
+        }
+        impl Value for Vec<$type> {
+            fn read<'de, A: MapAccess<'de>>(map: &mut A, context: &Context) -> Result<Self, A::Error> {
+                map.next_value_seed(ListSeed::new(context))
+            }
+        }
+    )* };
+}
+
+macro_rules! objects {
+    ($($(#[doc = $about:literal])* $name:ident $title:literal { $($key:literal $field:ident $type:ty, $doc:literal;)* })*) => { $(
+        $(#[doc = $about])*
+        #[derive(Debug, Default)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[cfg_attr(feature = "schema", schemars(deny_unknown_fields))]
+        pub struct $name {
+            $(#[doc = $doc]
+            #[cfg_attr(feature = "schema", schemars(rename = $key))]
+            pub $field: Option<$type>,)*
+        }
+
+        impl Object for $name {
+            const NAME: &'static str = $title;
+            const KEYS: &'static [&'static str] = &[$($key),*];
+            fn read<'de, A: MapAccess<'de>>(&mut self, key: usize, map: &mut A, context: &Context) -> Result<(), A::Error> {
+                let mut index = 0;
+                $(if key == index {
+                    self.$field = Some(Value::read(map, context)?);
+                    return Ok(());
+                }
+                index += 1;)*
+                _ = index;
+                Ok(())
+            }
+        }
+    )* };
+}
+
+objects! {
+    /// The head of a job, without what follows as a stream.
+    JobHead "a job" {
+        "postform" version Number, "version of this format: 1";
+        "program" program Number, "program number";
+        "name" name String, "the job's name";
+        "units" units Word<Units>, "units of all numbers (inch)";
+        "machine" machine Word<Machine>, "what the job is for (mill)";
+        "set" set Values, "values for variables of the form";
+        "tools" tools Vec<ToolObject>, "the tools";
+        "tool_order" tool_order Vec<Number>, "tool numbers in the order of their use; needed for [nexttool]";
+    }
+    /// A tool.
+    ToolObject "a tool" {
+        "number" number Number, "tool number";
+        "diameter" diameter Number, "diameter";
+        "corner_radius" corner_radius Number, "corner radius";
+        "length_offset" length_offset Number, "length offset register";
+        "diameter_offset" diameter_offset Number, "diameter offset register";
+        "turret" turret Number, "turret";
+        "comment" comment String, "what it is";
+    }
+    /// Spindle of an operation, or a change of it.
+    SpindleObject "a spindle" {
+        "speed" speed Number, "revolutions per minute, or surface speed";
+        "direction" direction Word<SpindleTurn>, "which way it turns";
+        "mode" mode Word<SpeedMode>, "what the speed counts";
+        "max" max Number, "most revolutions at constant surface speed";
+    }
+    /// An operation without its path.
+    OperationHead "an operation" {
+        "name" name String, "the operation's name";
+        "tool" tool Number, "its tool; left out: the one before";
+        "work" work Number, "work offset: a fixture number below 50, else the code";
+        "spindle" spindle SpindleObject, "its spindle";
+        "coolant" coolant Word<Coolant>, "its coolant";
+        "feed" feed Number, "feed of moves that name none";
+        "plunge" plunge Number, "feed of plunges";
+        "feed_mode" feed_mode Word<FeedMode>, "what feeds count (per_minute)";
+        "comment" comment String, "a comment to print";
+    }
+    /// One item of a path: exactly one of its keys, with those that go with it.
+    ItemObject "a path item" {
+        "rapid" rapid Position, "rapid to a position";
+        "line" line Position, "feed to a position";
+        "arc" arc ArcObject, "an arc";
+        "infeed" infeed Position, "feed to a position, turning cutter compensation on";
+        "outfeed" outfeed Position, "feed to a position, turning cutter compensation off";
+        "side" side Word<Side>, "side of an infeed";
+        "begin" begin Word<Section>, "a named part of the path begins";
+        "end" end EndWord, "it ends; in JSON Lines `true` ends the job";
+        "dwell" dwell Number, "dwell in seconds";
+        "stop" stop Word<StopKind>, "a stop";
+        "comment" comment String, "a comment to print";
+        "text" text String, "a block as it stands";
+        "feed" feed Number, "feed of this move and those after it";
+        "work" work Number, "change of the work offset";
+        "spindle" spindle SpindleObject, "change of the spindle";
+        "coolant" coolant Word<Coolant>, "change of the coolant";
+        "set" set Values, "values for variables of the form";
+    }
+    /// An arc from the tool's position.
+    ArcObject "an arc" {
+        "to" to Position, "where it ends";
+        "center" center Position, "its centre";
+        "radius" radius Number, "its radius instead; negative for the longer way round";
+        "direction" direction Word<Direction>, "which way, seen from the plane's positive third axis";
+        "plane" plane Word<Plane>, "its plane (xy)";
+        "turns" turns Number, "full turns before the end is reached for good (0)";
+    }
+    /// A canned cycle without its points; heights are distances along the tool axis from each point.
+    CycleObject "a cycle" {
+        "kind" kind Word<CycleKind>, "which cycle";
+        "depth" depth Number, "depth below the point, positive down";
+        "clear" clear Number, "clearance above the point, where the feed begins";
+        "return" return_height Number, "return plane above the first point";
+        "feed" feed Number, "feed into the hole";
+        "plunge" plunge Number, "plunge feed (the feed)";
+        "step" step Number, "peck, counted from the clearance plane";
+        "first_step" first_step Number, "first peck";
+        "back" back Number, "secondary clearance: how far above the last depth the feed begins again";
+        "dwell" dwell Number, "dwell at the bottom in seconds";
+        "revs" revs Number, "the same in revolutions";
+        "rapto" rapto Number, "extra rapid below the clearance plane";
+        "orient" orient Number, "spindle angle of a boring cycle";
+        "offset" offset Number, "jog off the wall of a boring cycle";
+        "ratio" ratio Number, "retract feed as a factor of the feed";
+        "starts" starts Number, "starts of a tapped thread";
+        "rigid" rigid bool, "a rigid tap";
+        "times" times Number, "chip breaks between full retracts";
+        "decr" decr Number, "how much each peck is less than the one before";
+        "min_step" min_step Number, "least peck";
+        "diameter" diameter Number, "diameter of a countersink";
+        "angle" angle Number, "angle of a countersink";
+        "hole_diameter" hole_diameter Number, "hole under a countersink";
+        "webs" webs Vec<Number>, "depths of a cycle through webs: end, start, end, ..";
+        "mode" mode Word<PeckMode>, "how a tap pecks";
+        "pecks" pecks Vec<PeckObject>, "absolute steps";
+        "norevr" norevr bool, "a tap that does not reverse";
+        "rapout" rapout bool, "a tap that rapids out";
+        "jog" jog Number, "lift of a boring cycle's jog";
+    }
+    /// An absolute step.
+    PeckObject "a peck" {
+        "to" to Number, "depth below the point";
+        "feed" feed Number, "its feed";
+    }
+}
+
+nested! { ToolObject SpindleObject ArcObject PeckObject }
+
+impl Value for super::values::Point {
+    fn read<'de, A: MapAccess<'de>>(map: &mut A, context: &Context) -> Result<Self, A::Error> {
+        map.next_value_seed(super::position::PointSeed { context })
+    }
+}
+
+/// `"leadin"` and the like, or `true` at the end of JSON Lines.
+#[derive(Clone, Copy, Debug)]
+pub enum EndWord {
+    /// A part of the path ends.
+    Section(Section),
+    /// The job ends.
+    Job,
+}
+
+impl Value for EndWord {
+    fn read<'de, A: MapAccess<'de>>(map: &mut A, _: &Context) -> Result<Self, A::Error> {
+        struct EndVisitor;
+        impl Visitor<'_> for EndVisitor {
+            type Value = EndWord;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("the name of a part of the path, or true at the end of JSON Lines")
+            }
+            fn visit_bool<E: serde::de::Error>(self, value: bool) -> Result<EndWord, E> {
+                if value { Ok(EndWord::Job) } else { Err(E::invalid_value(serde::de::Unexpected::Bool(false), &self)) }
+            }
+            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<EndWord, E> {
+                let words = <Section as super::values::Words>::WORDS;
+                match words.iter().find(|(word, _)| *word == text) {
+                    Some((_, section)) => Ok(EndWord::Section(*section)),
+                    None => Err(E::invalid_value(serde::de::Unexpected::Str(&crate::diag::escaped(text)), &self)),
+                }
+            }
+        }
+        struct EndSeed;
+        impl<'de> DeserializeSeed<'de> for EndSeed {
+            type Value = EndWord;
+            fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<EndWord, D::Error> {
+                deserializer.deserialize_any(EndVisitor)
+            }
+        }
+        map.next_value_seed(EndSeed)
+    }
+}
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for EndWord {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "End".into()
+    }
+    fn inline_schema() -> bool {
+        true
+    }
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let section = generator.subschema_for::<Word<Section>>();
+        schemars::json_schema!({ "anyOf": [section, { "const": true }] })
+    }
+}
+
+/// `{"val1": 2.5}`: numbers by name, in order.
+#[derive(Debug, Default, PartialEq)]
+pub struct Values(pub Vec<(String, f64)>);
+
+impl Value for Values {
+    fn read<'de, A: MapAccess<'de>>(map: &mut A, _: &Context) -> Result<Self, A::Error> {
+        struct ValuesVisitor;
+        impl<'de> Visitor<'de> for ValuesVisitor {
+            type Value = Values;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("numbers by variable name")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Values, A::Error> {
+                let mut values = Vec::new();
+                while let Some((name, Number(value))) = map.next_entry::<String, Number>()? {
+                    values.push((name, value));
+                }
+                Ok(Values(values))
+            }
+        }
+        struct ValuesSeed;
+        impl<'de> DeserializeSeed<'de> for ValuesSeed {
+            type Value = Values;
+            fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Values, D::Error> {
+                deserializer.deserialize_map(ValuesVisitor)
+            }
+        }
+        map.next_value_seed(ValuesSeed)
+    }
+}
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Values {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Values".into()
+    }
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "number" } })
+    }
+}
+
+/// Reads a key of a known list as its number; an unknown one is an error with a suggestion.
+pub struct KeySeed<'c> {
+    /// Where we are.
+    pub context: &'c Context,
+    /// What the object is called.
+    pub object: &'static str,
+    /// Its keys, in parts.
+    pub keys: [&'static [&'static str]; 2],
+}
+
+impl<'de> DeserializeSeed<'de> for KeySeed<'_> {
+    type Value = usize;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<usize, D::Error> {
+        deserializer.deserialize_str(self)
+    }
+}
+
+impl Visitor<'_> for KeySeed<'_> {
+    type Value = usize;
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a key")
+    }
+    fn visit_str<E: serde::de::Error>(self, key: &str) -> Result<usize, E> {
+        let all = || self.keys.iter().copied().flatten();
+        if let Some(at) = all().position(|known| *known == key) {
+            return Ok(at);
+        }
+        let mut diag = Diag::new(Code::PJ002, format!("{} has no key `{}`", self.object, crate::diag::escaped(key)));
+        diag.help = did_you_mean(key, all().copied())
+            .or_else(|| Some(format!("its keys are {}", all().copied().collect::<Vec<_>>().join(", "))));
+        Err(self.context.fail(diag))
+    }
+}
+
+/// Notes that a key was seen; twice is an error.
+pub fn once<E: serde::de::Error>(seen: &mut u64, key: usize, name: &str, context: &Context) -> Result<(), E> {
+    if *seen & 1 << key != 0 {
+        return Err(context.fail(Diag::new(Code::PJ010, format!("the key `{name}` is there twice")).help("keep one")));
+    }
+    *seen |= 1 << key;
+    Ok(())
+}
+
+/// Reads an object of the table.
+pub struct ObjectSeed<'c, T> {
+    context: &'c Context,
+    object: PhantomData<T>,
+}
+
+impl<'c, T> ObjectSeed<'c, T> {
+    /// In this context.
+    pub fn new(context: &'c Context) -> Self {
+        ObjectSeed { context, object: PhantomData }
+    }
+}
+
+impl<'de, T: Object> DeserializeSeed<'de> for ObjectSeed<'_, T> {
+    type Value = T;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<T, D::Error> {
+        deserializer.deserialize_map(self)
+    }
+}
+
+impl<'de, T: Object> Visitor<'de> for ObjectSeed<'_, T> {
+    type Value = T;
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}, an object", T::NAME)
+    }
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<T, A::Error> {
+        let (mut object, mut seen) = (T::default(), 0);
+        let keys = || KeySeed { context: self.context, object: T::NAME, keys: [T::KEYS, &[]] };
+        while let Some(key) = map.next_key_seed(keys())? {
+            once(&mut seen, key, T::KEYS[key], self.context)?;
+            self.context.enter(Step::Key(T::KEYS[key]));
+            object.read(key, &mut map, self.context)?;
+            self.context.leave();
+        }
+        Ok(object)
+    }
+}
+
+/// Reads a list of objects.
+struct ListSeed<'c, T> {
+    context: &'c Context,
+    object: PhantomData<T>,
+}
+
+impl<'c, T> ListSeed<'c, T> {
+    fn new(context: &'c Context) -> Self {
+        ListSeed { context, object: PhantomData }
+    }
+}
+
+impl<'de, T: Object> DeserializeSeed<'de> for ListSeed<'_, T> {
+    type Value = Vec<T>;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Vec<T>, D::Error> {
+        deserializer.deserialize_seq(self)
+    }
+}
+
+impl<'de, T: Object> Visitor<'de> for ListSeed<'_, T> {
+    type Value = Vec<T>;
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "a list, each {}", T::NAME)
+    }
+    fn visit_seq<A: serde::de::SeqAccess<'de>>(self, mut seq: A) -> Result<Vec<T>, A::Error> {
+        let mut list = Vec::new();
+        loop {
+            self.context.enter(Step::Index(list.len() as u64));
+            match seq.next_element_seed(ObjectSeed::new(self.context))? {
+                Some(object) => list.push(object),
+                None => break,
+            }
+            self.context.leave();
+        }
+        self.context.leave();
+        Ok(list)
+    }
+}

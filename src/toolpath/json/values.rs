@@ -1,0 +1,194 @@
+//! Leaf values of a job: numbers, words from a list, positions.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
+
+use crate::lang::Machine;
+use crate::toolpath::event::{Axes, Coolant, CycleKind, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind};
+use crate::toolpath::{Hole, Units};
+
+/// A number. JSON can't write one that is not finite, so it is finite.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(inline))]
+pub struct Number(pub f64);
+
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NumberVisitor;
+        impl Visitor<'_> for NumberVisitor {
+            type Value = Number;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a number")
+            }
+            fn visit_f64<E>(self, value: f64) -> Result<Number, E> {
+                Ok(Number(value))
+            }
+            fn visit_u64<E>(self, value: u64) -> Result<Number, E> {
+                Ok(Number(value as f64))
+            }
+            fn visit_i64<E>(self, value: i64) -> Result<Number, E> {
+                Ok(Number(value as f64))
+            }
+        }
+        deserializer.deserialize_f64(NumberVisitor)
+    }
+}
+
+/// A value that is written as a word of a fixed list.
+pub trait Words: Copy + 'static {
+    /// The words and what they mean.
+    const WORDS: &'static [(&'static str, Self)];
+}
+
+/// One of the words of `T`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Word<T>(pub T);
+
+impl<'de, T: Words> Deserialize<'de> for Word<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct WordVisitor<T>(PhantomData<T>);
+        impl<T: Words> Visitor<'_> for WordVisitor<T> {
+            type Value = Word<T>;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                let words: Vec<_> = T::WORDS.iter().map(|(word, _)| format!("\"{word}\"")).collect();
+                write!(f, "{}", words.join(" or "))
+            }
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Word<T>, E> {
+                match T::WORDS.iter().find(|(word, _)| *word == text) {
+                    Some((_, value)) => Ok(Word(*value)),
+                    None => Err(E::invalid_value(de::Unexpected::Str(&crate::diag::escaped(text)), &self)),
+                }
+            }
+        }
+        deserializer.deserialize_str(WordVisitor(PhantomData))
+    }
+}
+
+#[cfg(feature = "schema")]
+impl<T: Words> schemars::JsonSchema for Word<T> {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        T::WORDS.iter().map(|(word, _)| *word).collect::<Vec<_>>().join("_").into()
+    }
+    fn inline_schema() -> bool {
+        true
+    }
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let words: Vec<_> = T::WORDS.iter().map(|(word, _)| *word).collect();
+        schemars::json_schema!({ "enum": words })
+    }
+}
+
+macro_rules! words {
+    ($($type:ty: $($word:literal $value:expr),*;)*) => {
+        $(impl Words for $type { const WORDS: &'static [(&'static str, Self)] = &[$(($word, $value)),*]; })*
+    };
+}
+
+words! {
+    Units: "inch" Units::Inch, "mm" Units::Mm;
+    Machine: "mill" Machine::Mill, "lathe" Machine::Lathe, "edm" Machine::Edm;
+    SpindleTurn: "cw" SpindleTurn::Cw, "ccw" SpindleTurn::Ccw, "off" SpindleTurn::Off;
+    Coolant: "on" Coolant::On, "flood" Coolant::On, "mist" Coolant::Mist, "off" Coolant::Off;
+    FeedMode: "per_minute" FeedMode::PerMinute, "per_rev" FeedMode::PerRev, "inverse_time" FeedMode::InverseTime;
+    Direction: "cw" Direction::Cw, "ccw" Direction::Ccw;
+    Plane: "xy" Plane::Xy, "xz" Plane::Xz, "yz" Plane::Yz;
+    Side: "left" Side::Left, "right" Side::Right;
+    StopKind: "program" StopKind::Program, "optional" StopKind::Optional;
+    Section: "leadin" Section::Leadin, "leadout" Section::Leadout, "plunge" Section::Plunge,
+        "retract" Section::Retract, "sidestep" Section::SideStep, "zlevel" Section::ZLevel, "row" Section::Row;
+    SpeedMode: "rpm" SpeedMode::Rpm, "css" SpeedMode::Css;
+    PeckMode: "deep" PeckMode::Deep, "chipbreak" PeckMode::Chipbreak;
+}
+
+impl Words for CycleKind {
+    const WORDS: &'static [(&'static str, Self)] = &CycleKind::NAMES;
+}
+
+/// What a spindle speed counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub enum SpeedMode {
+    Rpm,
+    Css,
+}
+
+/// How a tap pecks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub enum PeckMode {
+    Deep,
+    Chipbreak,
+}
+
+/// A position: up to six numbers, `null` keeps an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Position(pub Axes);
+
+/// Reads a position from a sequence that has begun.
+pub fn position<'de, A: SeqAccess<'de>>(mut seq: A) -> Result<Position, A::Error> {
+    let mut axes = Axes::default();
+    let mut axis = 0;
+    while let Some(value) = seq.next_element::<Option<Number>>()? {
+        if axis == 6 {
+            return Err(de::Error::invalid_length(7, &"at most six coordinates"));
+        }
+        if let Some(Number(value)) = value {
+            axes.set(axis, value);
+        }
+        axis += 1;
+    }
+    Ok(Position(axes))
+}
+
+impl<'de> Deserialize<'de> for Position {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PositionVisitor;
+        impl<'de> Visitor<'de> for PositionVisitor {
+            type Value = Position;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a position, as [1, 2.5, null]")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Position, A::Error> {
+                position(seq)
+            }
+        }
+        deserializer.deserialize_seq(PositionVisitor)
+    }
+}
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Position {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Position".into()
+    }
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "description": "h v d of the part's frame, then rotary a b c in degrees; null or left out keeps the tool's last position",
+            "type": "array", "maxItems": 6, "items": { "type": ["number", "null"] }
+        })
+    }
+}
+
+/// A point of a cycle: a position, or `{"at": position, "depth": number}`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Point(pub Hole);
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Point {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Point".into()
+    }
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let position = generator.subschema_for::<Position>();
+        schemars::json_schema!({
+            "description": "a point of a cycle, with its own depth where it differs",
+            "anyOf": [position.clone(), {
+                "type": "object", "additionalProperties": false, "required": ["at"],
+                "properties": { "at": position, "depth": { "type": "number" } }
+            }]
+        })
+    }
+}

@@ -1,0 +1,27 @@
+//! Toolpath events: what readers produce and the renderer consumes, one at a time.
+
+mod event;
+mod hold;
+mod place;
+mod summary;
+
+pub mod json;
+
+pub use event::{
+    Arc, Axes, Coolant, CycleKind, CycleSpec, Direction, Event, FeedMode, First, Hole, Infeed, Peck, Plane, Section, Side,
+    Spindle, SpindleTurn, Start, StopKind, Tool, ToolChange, Units,
+};
+pub use hold::Hold;
+pub use place::Place;
+pub use summary::Summary;
+
+use crate::diag::Diag;
+
+/// Something that consumes events: the renderer, a summary, a check.
+pub trait Sink {
+    /// Takes one event with its place in the input.
+    ///
+    /// # Errors
+    /// What is wrong with the event; nothing may be pushed after it.
+    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>>;
+}

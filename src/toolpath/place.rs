@@ -1,0 +1,52 @@
+//! Places in a job, small enough to go with every event.
+
+use std::fmt;
+
+/// Where an event stands in its input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Place {
+    /// Line of the input, from 1; 0 when there is none.
+    pub line: u64,
+    /// Column, from 1.
+    pub column: u32,
+    /// Operation, from 1; 0 outside operations.
+    pub operation: u32,
+    /// Item of the operation's path, from 1; 0 for the operation itself.
+    pub item: u64,
+    /// Point of the item's cycle, from 1; 0 for the item itself.
+    pub point: u32,
+    /// Subprogram, from 1, instead of an operation.
+    pub subprogram: u32,
+}
+
+impl Place {
+    /// The path inside the document, as `operations[0].path[3].cycle.points[2]`; empty at the top.
+    pub fn path(&self) -> String {
+        let mut path = match (self.operation, self.subprogram) {
+            (0, 0) => return String::new(),
+            (0, sub) => format!("subprograms[{}]", sub - 1),
+            (operation, _) => format!("operations[{}]", operation - 1),
+        };
+        if self.item > 0 {
+            path += &format!(".path[{}]", self.item - 1);
+        }
+        if self.point > 0 {
+            path += &format!(".cycle.points[{}]", self.point - 1);
+        }
+        path
+    }
+}
+
+impl fmt::Display for Place {
+    /// `12:9, operations[0].path[3]`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.line > 0 {
+            write!(f, "{}:{}", self.line, self.column.max(1))?;
+        }
+        let path = self.path();
+        if !path.is_empty() {
+            write!(f, "{}{path}", if self.line > 0 { ", " } else { "" })?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,101 @@
+//! What is in a job: tools, moves, holes, extents.
+
+use super::event::{Axes, CycleKind, Event, Start, Units};
+use super::{Place, Sink};
+use crate::diag::Diag;
+
+/// Counts a job's events; `postform check` prints it.
+#[derive(Clone, Debug, Default)]
+pub struct Summary {
+    /// Units of the job.
+    pub units: Option<Units>,
+    /// Its name.
+    pub name: Option<String>,
+    /// Its program number.
+    pub program: Option<f64>,
+    /// Tool numbers in the order of their first use, with diameter.
+    pub tools: Vec<(f64, Option<f64>)>,
+    /// Operations.
+    pub operations: u64,
+    /// Rapid moves.
+    pub rapids: u64,
+    /// Straight feed moves.
+    pub lines: u64,
+    /// Arcs.
+    pub arcs: u64,
+    /// Holes by kind of cycle.
+    pub holes: Vec<(CycleKind, u64)>,
+    /// Least and greatest position of each linear axis over all targets, hole bottoms among them.
+    pub extents: [Option<(f64, f64)>; 3],
+    kind: Option<(CycleKind, f64)>,
+    last: [f64; 3],
+}
+
+impl Summary {
+    fn reach(&mut self, to: &Axes) {
+        for axis in 0..3 {
+            if let Some(value) = to.get(axis) {
+                self.last[axis] = value;
+                self.extend(axis, value);
+            }
+        }
+    }
+
+    fn extend(&mut self, axis: usize, value: f64) {
+        let (least, greatest) = self.extents[axis].unwrap_or((value, value));
+        self.extents[axis] = Some((least.min(value), greatest.max(value)));
+    }
+
+    fn start(&mut self, start: &Start) {
+        self.units = Some(start.units);
+        self.name.clone_from(&start.name);
+        self.program = start.program;
+    }
+}
+
+impl Sink for Summary {
+    fn event(&mut self, event: Event<'_>, _: Place) -> Result<(), Box<Diag>> {
+        match event {
+            Event::Start(start) => self.start(start),
+            Event::ToolChange(change) => {
+                self.operations += 1;
+                if let Some(tool) = &change.tool
+                    && !self.tools.iter().any(|(number, _)| *number == tool.number)
+                {
+                    self.tools.push((tool.number, tool.diameter));
+                }
+            }
+            Event::Rapid(to) => {
+                self.rapids += 1;
+                self.reach(&to);
+            }
+            Event::Line { to, .. } | Event::Infeed { infeed: super::Infeed { to, .. }, .. } | Event::Outfeed { to, .. } => {
+                self.lines += 1;
+                self.reach(&to);
+            }
+            Event::Arc { arc, .. } => {
+                self.arcs += 1;
+                self.reach(&arc.to);
+            }
+            Event::CycleBegin(spec) => {
+                self.kind = Some((spec.kind, spec.depth.unwrap_or(0.0)));
+                if !self.holes.iter().any(|(kind, _)| *kind == spec.kind) {
+                    self.holes.push((spec.kind, 0));
+                }
+            }
+            Event::Hole(hole) => {
+                let Some((kind, depth)) = self.kind else { return Ok(()) };
+                if let Some(row) = self.holes.iter_mut().find(|(k, _)| *k == kind) {
+                    row.1 += 1;
+                }
+                self.reach(&hole.at);
+                let bottom = self.last[2] - hole.depth.unwrap_or(depth);
+                if self.extents[2].is_some() {
+                    self.extend(2, bottom);
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}

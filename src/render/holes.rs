@@ -200,23 +200,18 @@ impl Renderer<'_> {
         if !self.differs(target, 0b100) {
             return Ok(());
         }
-        let up = self.position.get(2).is_some_and(|from| target.values[2] > from);
-        if !up {
-            return self.split_rapid(target);
-        }
-        self.raise(target)
+        if self.is_below(target) { self.raise(target) } else { self.split_rapid(target) }
     }
 
     /// An emulated cycle's first line may go across: the tool must not be below the return plane then.
     fn raise_to(&mut self, target: &Axes) -> Done {
-        let below = self.position.get(2).is_some_and(|from| target.values[2] > from + SAME);
+        let below = self.is_below(target) && self.differs(target, 0b100);
         let across = (0..2).any(|axis| self.position.get(axis) != target.get(axis));
         if below && across { self.raise(target) } else { Ok(()) }
     }
 
     fn raise(&mut self, target: &Axes) -> Done {
-        let mut above = self.position;
-        above.set(2, target.values[2]);
+        let above = Axes { given: 0b100, ..*target };
         self.set_targets(&above)?;
         self.split_rapid(&above)?;
         self.set_targets(target)

@@ -142,24 +142,21 @@ impl Renderer<'_> {
             let depth_only = target.given & 0b100 != 0 && self.differs(target, 0b100);
             return self.rapid_block(target, code.filter(|_| depth_only));
         }
-        let up = match (self.position.get(2), target.get(2)) {
-            (Some(from), Some(to)) => to > from,
-            _ => false, // from an unknown height the tool comes from above
-        };
-        let mut first = *target;
-        if up {
-            for axis in [0, 1, 3, 4, 5] {
-                first.values[axis] = self.position.values[axis];
-            }
-            first.given = target.given & 0b100 | self.position.given & !0b100;
-            self.rapid_block(&first, code)?;
+        // only the axes of each part: the others stay where they are, printed or not
+        let part = |axes: u8| Axes { given: target.given & axes, ..*target };
+        if self.is_below(target) {
+            self.rapid_block(&part(0b100), code)?;
             self.rapid_block(target, None)
         } else {
-            first.values[2] = self.position.values[2];
-            first.given = target.given & !0b100 | self.position.given & 0b100;
-            self.rapid_block(&first, None)?;
+            self.rapid_block(&part(!0b100), None)?;
             self.rapid_block(target, code)
         }
+    }
+
+    /// Is the tool known to be below a target? From an unknown height it comes from above.
+    pub(super) fn is_below(&self, target: &Axes) -> bool {
+        let known = self.registers.get(self.letters[self.axes[2]].printed).is_some();
+        known && self.position.get(2).is_some_and(|from| target.values[2] > from)
     }
 
     fn changes_depth_and_plane(&self, target: &Axes) -> bool {
@@ -199,9 +196,20 @@ impl Renderer<'_> {
                 };
             }
         }
-        self.position = *target;
+        self.move_to(target);
         self.last_move = LastMove::Rapid;
         Ok(())
+    }
+
+    /// The tool is there now; axes that the target does not give stay.
+    #[inline]
+    fn move_to(&mut self, target: &Axes) {
+        for axis in 0..6 {
+            if target.given & 1 << axis != 0 {
+                self.position.values[axis] = target.values[axis];
+            }
+        }
+        self.position.given |= target.given;
     }
 
     /// A feed move to a target in program units.

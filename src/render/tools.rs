@@ -87,6 +87,9 @@ impl Renderer<'_> {
             None => {}
         }
         self.run_with_upons(block)?;
+        if let Some(target) = target {
+            self.position = target;
+        }
         self.registers.forget_group(crate::lang::Group::Motion);
         self.last_move = LastMove::None;
         if program.settings.restart_depth {

@@ -1,0 +1,221 @@
+G20 G17 G40 G49 G80 G90 G94
+(POCKET)
+(tool 1, diameter .5)
+G54
+S4000 M3
+M8
+G0 X1.5 Y1.25
+Z1.
+G0 Z.1
+G1 Z0 F8.
+G17 G3 Z-.125 I-.25 J0
+Z-.25 I-.25 J0
+G1 X2.25 F24.
+Y1.5
+G3 X2. Y1.75 I-.25 J0
+G1 X1.
+G3 X.75 Y1.5 I0 J-.25
+G1 Y1.
+G3 X1. Y.75 I.25 J0
+G1 X2.
+G3 X2.25 Y1. I0 J.25
+G1 Y1.25
+G0 Z1.
+S3500 M3
+X-.5 Y-.5
+Z-.5
+G1 G41 X0 Y-.25 D11 F18.
+Y2.5
+X3.
+Y0
+X-.25
+G40 X-.5 Y-.5
+G0 Z1.
+M9
+M5
+G0 G53 Z0
+(change to tool 2, diameter .375, and set its length)
+M0
+G54
+S2500 M3
+M8
+G0 X.375 Y.375
+Z.5
+G0 X.375 Y.375
+Z.5
+Z.1
+G1 Z-.1 F6.
+G4 P.25
+G0 Z.5
+Y2.125
+Z.1
+G1 Z-.1 F6.
+G4 P.25
+G0 Z.5
+X2.625
+Z.1
+G1 Z-.1 F6.
+G4 P.25
+G0 Z.5
+Y.375
+Z.1
+G1 Z-.1 F6.
+G4 P.25
+G0 Z.5
+G0 X1.5 Y.3
+Z.1
+G1 Z-.15 F6.
+G0 Z.5
+Y2.2
+Z.1
+G1 Z-.15 F6.
+G0 Z.5
+M9
+M5
+G0 G53 Z0
+(change to tool 3, diameter .201, and set its length)
+M0
+G54
+S3200 M3
+M7
+G0 X.375 Y.375
+Z.5
+G0 X.375 Y.375
+Z.5
+Z.1
+G1 Z-.15 F9.6
+G0 Z.1
+Z-.1
+G1 Z-.4
+G0 Z.1
+Z-.35
+G1 Z-.65
+G0 Z.1
+Z-.6
+G1 Z-.8
+G0 Z.5
+Y2.125
+Z.1
+G1 Z-.15 F9.6
+G0 Z.1
+Z-.1
+G1 Z-.4
+G0 Z.1
+Z-.35
+G1 Z-.65
+G0 Z.1
+Z-.6
+G1 Z-.8
+G0 Z.5
+X2.625
+Z.1
+G1 Z-.15 F9.6
+G0 Z.1
+Z-.1
+G1 Z-.4
+G0 Z.1
+Z-.35
+G1 Z-.6
+G0 Z.5
+Y.375
+Z.1
+G1 Z-.15 F9.6
+G0 Z.1
+Z-.1
+G1 Z-.4
+G0 Z.1
+Z-.35
+G1 Z-.65
+G0 Z.1
+Z-.6
+G1 Z-.8
+G0 Z.5
+G0 X1.5 Y.3
+Z.1
+G1 Z-.35 F9.6
+G0 Z.5
+Y2.2
+Z.1
+G1 Z-.35 F9.6
+G0 Z.5
+M9
+M5
+G0 G53 Z0
+(change to tool 4, diameter .25, and set its length)
+M0
+G54
+S400 M3
+M8
+G0 X.375 Y.375
+Z.5
+G0 X.375 Y.375
+Z.5
+Z.2
+G1 Z-.5 F20.
+M4
+Z.2
+M3
+G0 Z.5
+Y2.125
+Z.2
+G1 Z-.5 F20.
+M4
+Z.2
+M3
+G0 Z.5
+X2.625
+Z.2
+G1 Z-.5 F20.
+M4
+Z.2
+M3
+G0 Z.5
+Y.375
+Z.2
+G1 Z-.5 F20.
+M4
+Z.2
+M3
+G0 Z.5
+M9
+M5
+G0 G53 Z0
+(change to tool 5, diameter .3745, and set its length)
+M0
+G54
+S600 M3
+M8
+G0 X1.5 Y.3
+Z.5
+G0 X1.5 Y.3
+Z.5
+Z.1
+G1 Z-.4 F4.
+Z.1
+G0 Z.5
+Y2.2
+Z.1
+G1 Z-.4 F4.
+Z.1
+G0 Z.5
+G0 Z1.
+G0 G53 Z0
+G55 X1.5 Y.3
+X1.5 Y.3 Z1.
+Z.5
+Z.1
+G1 Z-.4 F4.
+Z.1
+G0 Z.5
+Y2.2
+Z.1
+G1 Z-.4 F4.
+Z.1
+G0 Z.5
+G4 P.5
+M1
+(CHECK THE DOWEL HOLES)
+M9
+M5
+G0 G53 Z0
+M2

@@ -1,0 +1,131 @@
+//! What the tests share: rendering through the library, without the command line.
+#![allow(dead_code, missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use postform::compile::compile;
+use postform::diag::Diag;
+use postform::render::{Options, Renderer, TraceLine};
+use postform::sema::{Checked, Limits, analyse};
+use postform::source::Source;
+use postform::toolpath::json::{ReadError, read_document, read_lines};
+
+pub fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// A form from text; it calls no other.
+pub fn check(text: &str) -> Checked {
+    analyse(Source::from_text("form.pf", text), Limits::Classic, &mut |_| Err("can't be found".into()))
+}
+
+/// A form from a file; one that it calls stands beside it.
+pub fn check_file(path: &Path) -> Checked {
+    let folder = path.parent().unwrap().to_path_buf();
+    analyse(Source::from_bytes(path.to_string_lossy(), &fs::read(path).unwrap()), Limits::Classic, &mut |name| {
+        fs::read(folder.join(name)).map(|bytes| Source::from_bytes(name, &bytes)).map_err(|e| e.to_string())
+    })
+}
+
+/// What a job prints.
+#[derive(Debug)]
+pub struct Rendered {
+    pub text: String,
+    pub trace: Vec<TraceLine>,
+    pub notes: Vec<Diag>,
+}
+
+pub fn render_checked(checked: &Checked, job: &[u8], lines: bool, options: Options) -> Result<Rendered, Box<Diag>> {
+    if let Some(error) = checked.diags.iter().find(|d| d.is_error()) {
+        return Err(Box::new(error.clone()));
+    }
+    let program = compile(&checked.form);
+    let mut renderer = Renderer::new(&program, Options { trace: true, ..options });
+    let read = if lines { read_lines(job, &mut renderer) } else { read_document(job, &mut renderer) };
+    match read {
+        Ok(()) => Ok(Rendered {
+            text: String::from_utf8(std::mem::take(renderer.text())).unwrap(),
+            trace: std::mem::take(renderer.trace().unwrap()),
+            notes: renderer.notes().to_vec(),
+        }),
+        Err(ReadError::Job(diag)) => Err(diag),
+        Err(ReadError::Io(error)) => panic!("{error}"),
+    }
+}
+
+pub fn render(form: &str, job: &str) -> Result<Rendered, Box<Diag>> {
+    render_checked(&check(form), job.as_bytes(), false, Options::default())
+}
+
+/// The lines that a job prints, or the code of the error.
+pub fn program(form: &str, job: &str) -> Vec<String> {
+    match render(form, job) {
+        Ok(rendered) => rendered.text.lines().map(str::to_owned).collect(),
+        Err(diag) => vec![format!("{} {}", diag.code.name(), diag.message)],
+    }
+}
+
+/// A complete small mill form with these lines in its head and these sequences at its end.
+pub fn mill(head: &str, sequences: &str) -> String {
+    format!(
+        "{head}\nStartCode\n%0\nEnd\n1stToolChange\nT[tool] M6\nS[speed] M[direct]\nG0 G[work] X[h] Y[v] Z[d]\nEnd\n\
+         ToolChange\nT[tool] M6\nS[speed] M[direct]\nG0 G[work] X[h] Y[v] Z[d]\nEnd\nCancel\nG80\nEnd\nEndCode\nM30\nEnd\n{sequences}\n"
+    )
+}
+
+/// A job with one tool, a first rapid to 0 0 1, and these path items.
+pub fn job(path: &str) -> String {
+    format!(
+        "{{\"postform\":1,\"program\":1,\"units\":\"inch\",\"tools\":[{{\"number\":1,\"diameter_offset\":21}},{{\"number\":2}}],\
+         \"operations\":[{{\"tool\":1,\"work\":54,\"spindle\":{{\"speed\":1000,\"direction\":\"cw\"}},\"feed\":10,\
+         \"path\":[{{\"rapid\":[0,0,1]}},{path}]}}]}}"
+    )
+}
+
+/// The program of `mill` and `job` without what comes before and after the path.
+pub fn path_lines(head: &str, sequences: &str, path: &str) -> Vec<String> {
+    let lines = program(&mill(head, sequences), &job(path));
+    if lines.len() == 1 {
+        return lines;
+    }
+    lines[4..lines.len() - 1].to_vec()
+}
+
+/// All samples: a folder each.
+pub fn samples() -> Vec<PathBuf> {
+    let mut folders: Vec<_> = fs::read_dir(root().join("samples")).unwrap().map(|e| e.unwrap().path()).collect();
+    folders.sort();
+    assert!(folders.len() >= 12, "at least 12 samples");
+    folders
+}
+
+/// The form of a sample: its own, or a post that it names.
+pub fn sample_form(folder: &Path) -> Option<PathBuf> {
+    let own = folder.join("form.pf");
+    if own.exists() {
+        return Some(own);
+    }
+    let pointer = fs::read_to_string(folder.join("form")).ok()?;
+    Some(folder.join(pointer.trim()))
+}
+
+/// The job of a sample, and whether it is JSON Lines.
+pub fn sample_job(folder: &Path) -> (PathBuf, bool) {
+    let lines = folder.join("job.jsonl");
+    if lines.exists() { (lines, true) } else { (folder.join("job.json"), false) }
+}
+
+/// Renders a sample with a form.
+pub fn render_sample(folder: &Path, form: &Path) -> Result<Rendered, Box<Diag>> {
+    let (job, lines) = sample_job(folder);
+    render_checked(&check_file(form), &fs::read(job).unwrap(), lines, Options::default())
+}
+
+/// Fails with the lines that differ.
+pub fn assert_same(what: &str, expected: &str, found: &str) {
+    if expected != found {
+        let diff = similar::TextDiff::from_lines(expected, found);
+        panic!("{what} differs:\n{}", diff.unified_diff().header("expected", "found"));
+    }
+}

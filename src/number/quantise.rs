@@ -14,6 +14,9 @@ pub const POWERS: [i64; 19] = {
     powers
 };
 
+/// The same as doubles, for decimals.
+const SCALES: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
+
 /// The largest magnitude that stands exactly in a double.
 const EXACT: f64 = 9_007_199_254_740_992.0;
 
@@ -30,13 +33,14 @@ const EXACT: f64 = 9_007_199_254_740_992.0;
 /// ```
 #[inline]
 pub fn quantise(value: f64, decimals: u8) -> Option<i64> {
-    let scaled = value.abs() * POWERS[decimals as usize] as f64;
-    let floor = scaled.floor();
-    let rest = scaled - floor;
+    let scaled = value.abs() * SCALES[decimals as usize];
+    // a cast cuts off, saturates and makes 0 of NaN; unlike `floor` it is one instruction everywhere
+    let floor = scaled as i64;
+    let rest = scaled - floor as f64;
     // `value` is within half a unit in the last place of its shortest decimal, and the product rounds once more:
     // closer to a tie than that, only the decimal itself can tell. The comparison also sends NaN and huge ones there.
     if (rest - 0.5).abs() > scaled * (4.0 * f64::EPSILON) && scaled < EXACT {
-        let units = floor as i64 + i64::from(rest > 0.5);
+        let units = floor + i64::from(rest > 0.5);
         return Some(if value < 0.0 { -units } else { units });
     }
     by_digits(value, decimals)

@@ -21,70 +21,109 @@ pub fn write_number(
     format: &LetterFormat,
     leading_zero: bool,
 ) -> Result<(), Unprintable> {
-    let decimals = format.dec.count as usize;
+    let decimals = format.dec.count;
     let magnitude = units.unsigned_abs();
-    let scale = POWERS[decimals] as u64;
-    let (whole, fraction) = (magnitude / scale, magnitude % scale);
-    if whole >= POWERS[format.int.count as usize] as u64 {
+    if magnitude >= POWERS[usize::from(format.int.count + decimals)] as u64 {
         return Err(Unprintable::Overflow);
     }
-    match format.sign {
-        Sign::Unsigned if units < 0 => return Err(Unprintable::Negative),
-        Sign::Always if units > 0 => out.push(b'+'),
-        _ if units < 0 => out.push(b'-'),
-        _ => {}
+    if units < 0 && format.sign == Sign::Unsigned {
+        return Err(Unprintable::Negative);
     }
+    // from the last digit to the sign, then out in one piece
+    let mut text = Backwards { bytes: [b'0'; 40], at: 40 };
+    let mut end = text.bytes.len();
     if format.is_implied() {
-        let width = if format.int.fixed { format.int.count as usize + decimals } else { 1 };
-        push_digits(out, magnitude, width);
-        return Ok(());
-    }
-    let fixed_fraction = format.dec.fixed && decimals > 0;
-    let point = match format.point {
-        Point::Always => units != 0 || fixed_fraction,
-        Point::BeforeFraction => fraction != 0 || fixed_fraction,
-        Point::Implied => false,
-    };
-    if format.int.fixed {
-        push_digits(out, whole, format.int.count as usize);
-    } else if whole != 0 || !point || leading_zero || units == 0 {
-        push_digits(out, whole, 1);
-    }
-    if point {
-        out.push(b'.');
-        let start = out.len();
-        if decimals > 0 {
-            push_digits(out, fraction, decimals);
-        }
-        if !format.dec.fixed {
-            while out.len() > start && out.last() == Some(&b'0') {
-                out.pop();
+        text.digits(magnitude, if format.int.fixed { format.int.count + decimals } else { 1 });
+    } else {
+        let (whole, fraction) = split(magnitude, decimals);
+        let fixed_fraction = format.dec.fixed && decimals > 0;
+        let point = match format.point {
+            Point::Always => units != 0 || fixed_fraction,
+            Point::BeforeFraction => fraction != 0 || fixed_fraction,
+            Point::Implied => false,
+        };
+        if point {
+            text.digits(fraction, decimals);
+            if !format.dec.fixed {
+                while end > text.at && text.bytes[end - 1] == b'0' {
+                    end -= 1;
+                }
             }
+            text.push(b'.');
+        }
+        if format.int.fixed {
+            text.digits(whole, format.int.count);
+        } else if whole != 0 || !point || leading_zero || units == 0 {
+            text.digits(whole, 1);
         }
     }
+    if units < 0 {
+        text.push(b'-');
+    } else if format.sign == Sign::Always && units > 0 {
+        text.push(b'+');
+    }
+    out.extend_from_slice(&text.bytes[text.at..end]);
     Ok(())
 }
 
-/// Pushes `value` with at least `width` digits.
+/// Whole part and fraction. Division by a constant is a multiplication, so the usual decimals have one each.
 #[inline]
-fn push_digits(out: &mut Vec<u8>, mut value: u64, width: usize) {
-    let mut digits = [b'0'; 20];
-    let mut at = digits.len();
-    while value >= 100 {
-        let pair = (value % 100) as usize * 2;
-        value /= 100;
-        at -= 2;
-        digits[at..at + 2].copy_from_slice(&PAIRS[pair..pair + 2]);
+fn split(magnitude: u64, decimals: u8) -> (u64, u64) {
+    if let (Ok(small), 1..=6) = (u32::try_from(magnitude), decimals) {
+        let (whole, fraction) = match decimals {
+            1 => (small / 10, small % 10),
+            2 => (small / 100, small % 100),
+            3 => (small / 1000, small % 1000),
+            4 => (small / 10_000, small % 10_000),
+            5 => (small / 100_000, small % 100_000),
+            _ => (small / 1_000_000, small % 1_000_000),
+        };
+        return (whole.into(), fraction.into());
     }
-    if value >= 10 {
-        let pair = value as usize * 2;
-        at -= 2;
-        digits[at..at + 2].copy_from_slice(&PAIRS[pair..pair + 2]);
-    } else if value > 0 {
-        at -= 1;
-        digits[at] = b'0' + value as u8;
+    let scale = POWERS[usize::from(decimals)] as u64;
+    (magnitude / scale, magnitude % scale)
+}
+
+/// Text that grows to the front.
+struct Backwards {
+    bytes: [u8; 40],
+    at: usize,
+}
+
+impl Backwards {
+    #[inline]
+    fn push(&mut self, byte: u8) {
+        self.at -= 1;
+        self.bytes[self.at] = byte;
     }
-    out.extend_from_slice(&digits[at.min(digits.len() - width)..]);
+
+    /// At least `width` digits.
+    #[inline]
+    fn digits(&mut self, mut value: u64, width: u8) {
+        let mut left = width;
+        while value > u64::from(u32::MAX) {
+            self.pair((value % 100) as usize);
+            value /= 100;
+            left = left.saturating_sub(2);
+        }
+        let mut value = value as u32;
+        while value >= 100 || left >= 2 {
+            self.pair((value % 100) as usize);
+            value /= 100;
+            left = left.saturating_sub(2);
+        }
+        if value >= 10 {
+            self.pair(value as usize);
+        } else if value > 0 || left > 0 {
+            self.push(b'0' + value as u8);
+        }
+    }
+
+    #[inline]
+    fn pair(&mut self, value: usize) {
+        self.at -= 2;
+        self.bytes[self.at..self.at + 2].copy_from_slice(&PAIRS[value * 2..value * 2 + 2]);
+    }
 }
 
 /// The digits 00 to 99: two at a time halves the divisions.

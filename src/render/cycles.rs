@@ -80,8 +80,7 @@ impl Renderer<'_> {
         }
         self.cancel()?;
         let Some(cycle) = self.cycle.take() else { return Ok(()) };
-        self.feed = cycle.feed;
-        self.vars.put(VarId::Frate, cycle.feed);
+        self.keep_feed(cycle.feed);
         self.vars.put(VarId::Dwell, None);
         if let Some(last) = cycle.last {
             self.position = last;

@@ -288,8 +288,7 @@ impl Renderer<'_> {
                 }
                 Step::Feed(height, feed) => {
                     to.values[2] = heights.point + height;
-                    self.feed = Some(feed);
-                    self.vars.set(VarId::Frate, feed);
+                    self.keep_feed(Some(feed));
                     self.set_targets(&to)?;
                     self.line_to(&to)?;
                 }

@@ -3,7 +3,7 @@
 use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
 use super::words::{Mode, tenths};
-use crate::compile::LetterKind;
+use crate::compile::{LetterKind, Program};
 use crate::diag::Code;
 use crate::lang::{Group, SequenceId, VarId, VarSet};
 use crate::number::{POWERS, quantise};
@@ -17,6 +17,19 @@ pub(super) const MOVE_VARS: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::D, 
 pub(super) const MEASURES: VarSet =
     VarSet::of(&[VarId::Movelength, VarId::Movetime, VarId::Totalcutdist, VarId::Totalcuttime, VarId::Invtime]);
 
+/// Variables that remember the position before a move.
+const LAST_VARS: VarSet =
+    VarSet::of(&[VarId::Lasth, VarId::Lastv, VarId::Lastd, VarId::Hdist, VarId::Vdist, VarId::Ddist]);
+
+/// Must every move set the position variables? Else they are set when a sequence is about to print.
+pub(super) fn tracks(program: &Program) -> bool {
+    let moves = [SequenceId::RapidCode, SequenceId::LineCode, SequenceId::CwCode, SequenceId::CcwCode];
+    program.printed.with(program.upon_vars).meets(LAST_VARS)
+        || moves.iter().any(|&id| program.block(id).is_some())
+        || !program.settings.limits.is_empty()
+        || program.upon_vars.meets(MOVE_VARS)
+}
+
 /// Linear axes in a set of axes.
 const LINEAR: u8 = 0b111;
 
@@ -24,8 +37,12 @@ impl Renderer<'_> {
     /// A rapid of the path.
     pub(super) fn rapid(&mut self, to: &Axes) -> Done {
         let target = self.target(to);
-        self.close_cycle()?;
-        self.set_targets(&target)?;
+        if self.cycle.is_some() {
+            self.close_cycle()?;
+        }
+        if self.tracks || self.attention {
+            self.set_targets(&target)?;
+        }
         if self.attention {
             self.attend()?;
         }
@@ -39,7 +56,9 @@ impl Renderer<'_> {
             self.close_cycle()?;
         }
         self.take_feed(feed)?;
-        self.set_targets(&target)?;
+        if self.tracks || self.attention {
+            self.set_targets(&target)?;
+        }
         if self.attention {
             self.attend()?;
         }
@@ -91,6 +110,12 @@ impl Renderer<'_> {
         Ok(())
     }
 
+    /// The position variables where the tool is, for a sequence that stands between moves.
+    pub(super) fn set_here(&mut self) -> Done {
+        let here = self.position;
+        if self.tracks { Ok(()) } else { self.set_targets(&here) }
+    }
+
     /// The feed of a move: its own, which the next ones keep.
     #[inline]
     pub(super) fn take_feed(&mut self, feed: Option<f64>) -> Done {
@@ -106,8 +131,15 @@ impl Renderer<'_> {
     #[inline]
     pub(super) fn set_feed(&mut self, feed: f64) {
         let feed = if self.feed_mode == FeedMode::InverseTime { feed } else { feed * self.scale };
-        self.feed = Some(feed);
-        self.vars.set(VarId::Frate, feed);
+        self.keep_feed(Some(feed));
+    }
+
+    /// A feed in program units, for the moves that follow.
+    pub(super) fn keep_feed(&mut self, feed: Option<f64>) {
+        let info = &self.letters[self.program.settings.feed_code];
+        self.feed = feed;
+        self.feed_units = feed.and_then(|feed| quantise(feed, info.format.dec.count));
+        self.vars.put(VarId::Frate, feed);
     }
 
     /// Inverse time: every feed block says its own.
@@ -346,15 +378,19 @@ impl Renderer<'_> {
     /// The feed, when it changed; in inverse time always.
     #[inline]
     pub(super) fn feed_word(&mut self) -> Done {
-        let Some(feed) = self.feed else { return Ok(()) };
         let info = &self.letters[self.program.settings.feed_code];
+        if let Some(units) = self.feed_units
+            && self.registers.holds(info.printed, units, info.format.dec.count)
+            && info.modal
+            && !self.inverse_time()
+        {
+            return Ok(());
+        }
+        let Some(feed) = self.feed else { return Ok(()) };
         let units = self.quantised(info, feed)?;
         if units == 0 {
             let message = format!("the feed {feed} prints as 0 in the format `{}`", info.format);
             return fault(Code::PR002, message, "give the letter more decimals");
-        }
-        if self.registers.holds(info.printed, units, info.format.dec.count) && info.modal && !self.inverse_time() {
-            return Ok(());
         }
         self.put_word(info, units, false)?;
         self.registers.set(info.printed, units, info.format.dec.count);

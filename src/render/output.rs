@@ -20,8 +20,8 @@ pub struct TraceLine {
 pub struct Output {
     /// Finished blocks; the caller takes them.
     pub text: Vec<u8>,
-    /// The words of the open block.
-    block: Vec<u8>,
+    /// Where the open block begins in it.
+    start: usize,
     words: usize,
     numbered: bool,
     next_number: i64,
@@ -71,7 +71,7 @@ impl Output {
     pub fn new(layout: &Layout, trace: bool) -> Output {
         Output {
             text: Vec::with_capacity(128 * 1024),
-            block: Vec::with_capacity(256),
+            start: 0,
             words: 0,
             numbered: false,
             next_number: layout.start,
@@ -85,15 +85,17 @@ impl Output {
     #[inline]
     pub fn word(&mut self, layout: &Layout, glued: bool) -> &mut Vec<u8> {
         if !glued || self.words == 0 {
-            if self.words > 0 && layout.blanks {
-                self.block.push(b' ');
+            if self.words == 0 {
+                self.start = self.text.len();
+            } else if layout.blanks {
+                self.text.push(b' ');
             }
             if !layout.columns.is_empty() {
                 self.to_column(layout);
             }
             self.words += 1;
         }
-        &mut self.block
+        &mut self.text
     }
 
     #[cold]
@@ -102,14 +104,16 @@ impl Output {
             [width] => self.words * width,
             columns => columns.get(self.words).map_or(0, |column| column - 1),
         };
-        while self.block.len() < column {
-            self.block.push(b' ');
+        while self.text.len() < self.start + column {
+            self.text.push(b' ');
         }
     }
 
-    /// Takes the last word back: it could not be printed.
+    /// Takes the open block back: a word of it could not be printed.
     pub fn clear_block(&mut self) {
-        self.block.clear();
+        if self.words > 0 {
+            self.text.truncate(self.start);
+        }
         self.words = 0;
         self.numbered = false;
     }
@@ -141,53 +145,58 @@ impl Output {
         if self.words == 0 {
             return;
         }
-        let start = self.text.len();
-        let due = layout.number_letter.is_some() && !self.numbered && number && !is_frame(&self.block);
-        if due && (self.first_done || layout.number_first) {
-            self.push_number(layout);
-            self.numbered = true;
+        if layout.number_letter.is_some() && !self.numbered && number && !is_frame(&self.text[self.start..]) {
+            if self.first_done || layout.number_first {
+                self.insert_number(layout);
+                self.numbered = true;
+            }
+            self.first_done = true;
         }
-        self.first_done |= due;
         if self.numbered {
             self.next_number += layout.step;
             if self.next_number > layout.largest {
                 self.next_number = layout.start;
             }
         }
-        self.text.extend_from_slice(&self.block);
         if !layout.replace.is_empty() {
-            self.replace(layout, start);
+            self.replace(layout);
         }
-        self.text.extend_from_slice(&layout.eob);
+        if !layout.eob.is_empty() {
+            self.text.extend_from_slice(&layout.eob);
+        }
         self.text.push(b'\n');
         self.lines += 1;
         if let Some(trace) = &mut self.trace {
             trace.push(TraceLine { line: self.lines, form, place });
         }
-        self.block.clear();
         self.words = 0;
         self.numbered = false;
     }
 
-    fn push_number(&mut self, layout: &Layout) {
-        self.text.extend(layout.number_letter);
-        let mut digits = [0; 20];
-        let (mut at, mut rest) = (digits.len(), self.next_number);
-        while rest > 0 || digits.len() - at < layout.width {
+    /// Puts the number before the block: only now is it known that it has none of its own.
+    fn insert_number(&mut self, layout: &Layout) {
+        let mut prefix = [b' '; 24];
+        let mut at = prefix.len() - usize::from(layout.blanks);
+        let (end, mut rest) = (at, self.next_number);
+        while rest > 0 || end - at < layout.width {
             at -= 1;
-            digits[at] = b'0' + (rest % 10) as u8;
+            prefix[at] = b'0' + (rest % 10) as u8;
             rest /= 10;
         }
-        self.text.extend_from_slice(&digits[at..]);
-        if layout.blanks {
-            self.text.push(b' ');
+        if let Some(letter) = layout.number_letter {
+            at -= 1;
+            prefix[at] = letter;
         }
+        let (length, shift) = (self.text.len(), prefix.len() - at);
+        self.text.extend_from_slice(&prefix[at..]); // as many bytes as are needed
+        self.text.copy_within(self.start..length, self.start + shift);
+        self.text[self.start..self.start + shift].copy_from_slice(&prefix[at..]);
     }
 
     #[cold]
-    fn replace(&mut self, layout: &Layout, start: usize) {
+    fn replace(&mut self, layout: &Layout) {
         for (old, new) in &layout.replace {
-            let block = self.text.split_off(start);
+            let block = self.text.split_off(self.start);
             let mut from = 0;
             for at in memchr::memmem::find_iter(&block, old) {
                 self.text.extend_from_slice(&block[from..at]);

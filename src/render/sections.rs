@@ -52,7 +52,10 @@ impl Renderer<'_> {
     fn run_section(&mut self, id: SequenceId) -> Done {
         self.close_cycle()?;
         match self.program.block(id) {
-            Some(block) => self.run_with_upons(block),
+            Some(block) => {
+                self.set_here()?;
+                self.run_with_upons(block)
+            }
             None => Ok(()),
         }
     }
@@ -100,6 +103,7 @@ impl Renderer<'_> {
         let code = if kind == StopKind::Program { program } else { optional };
         self.vars.set(crate::lang::VarId::Stop, code);
         if let Some(block) = self.program.block(SequenceId::Stop) {
+            self.set_here()?;
             return self.run_with_upons(block);
         }
         self.code_word(&sema::Code::plain(b'M', code))?;

@@ -163,6 +163,7 @@ impl Renderer<'_> {
             let message = format!("`tool_order` lists {} tools, the job used {}", order.len(), self.tool_changes);
             return fault(Code::PJ005, message, "list the tools in the order of their use, each change once");
         }
+        self.set_here()?;
         match self.program.block(SequenceId::EndCode) {
             Some(block) => self.run_with_upons(block),
             None => Ok(()),

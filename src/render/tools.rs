@@ -45,8 +45,7 @@ impl Renderer<'_> {
             self.set_work(work);
         }
         self.set_feed_mode(change.feed_mode.unwrap_or(FeedMode::PerMinute));
-        self.feed = None;
-        self.vars.put(VarId::Frate, None);
+        self.keep_feed(None);
         if let Some(feed) = change.feed {
             self.set_feed(feed);
         }

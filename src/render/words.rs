@@ -290,7 +290,7 @@ impl Renderer<'_> {
     }
 
     /// A value in units of its letter's last decimal, its sign reversed where the form says so.
-    #[inline]
+    #[inline(always)]
     pub(super) fn quantised(&self, info: &Letter, value: f64) -> Done<i64> {
         let value = if info.reversed { -value } else { value };
         match quantise(value, info.format.dec.count) {
@@ -305,6 +305,7 @@ impl Renderer<'_> {
     }
 
     /// A code must not be rounded: G59.1 as G59 is another work offset.
+    #[cold]
     fn check_code(&self, info: &Letter, value: f64, units: i64) -> Done {
         let exact = units as f64 / crate::number::POWERS[usize::from(info.format.dec.count)] as f64;
         if (exact - value).abs() < 1e-9 {
@@ -381,5 +382,5 @@ impl Renderer<'_> {
 
 /// A code in tenths: G59.1 is 591.
 pub(super) fn tenths(value: f64) -> i64 {
-    (value * 10.0).round() as i64
+    (value * 10.0 + 0.5) as i64 // codes are not negative
 }

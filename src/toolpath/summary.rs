@@ -69,9 +69,13 @@ impl Sink for Summary {
                 self.rapids += 1;
                 self.reach(&to);
             }
-            Event::Line { to, .. } | Event::Infeed { infeed: super::Infeed { to, .. }, .. } | Event::Outfeed { to, .. } => {
+            Event::Line { to, .. } | Event::Outfeed { to, .. } => {
                 self.lines += 1;
                 self.reach(&to);
+            }
+            Event::Infeed { infeed, .. } => {
+                self.lines += 1;
+                self.reach(&infeed.to);
             }
             Event::Arc { arc, .. } => {
                 self.arcs += 1;

@@ -149,10 +149,10 @@ impl<'s> Builder<'s> {
         }
         if let Some(arc) = &item.arc {
             let arc = arc_of(arc)?;
-            return self.push(Event::Arc { arc, feed });
+            return self.push(Event::Arc { arc: &arc, feed });
         }
         if let (Some(to), Some(side)) = (item.infeed, item.side) {
-            return self.push(Event::Infeed { infeed: Infeed { to: to.0, side: side.0 }, feed });
+            return self.push(Event::Infeed { infeed: &Infeed { to: to.0, side: side.0 }, feed });
         }
         if let Some(to) = item.outfeed {
             return self.push(Event::Outfeed { to: to.0, feed });

@@ -87,40 +87,44 @@ impl Cursor<'_> {
     /// division gives the nearest double, the same that any correct reader finds.
     #[inline]
     fn number(&mut self) -> Option<f64> {
-        let bytes = self.rest;
-        let negative = bytes.first() == Some(&b'-');
-        let start = usize::from(negative);
-        let mut i = start;
-        let mut digits = 0u64;
-        while let Some(d) = bytes.get(i).map(|b| b.wrapping_sub(b'0')).filter(|&d| d < 10) {
-            digits = digits.wrapping_mul(10).wrapping_add(u64::from(d));
-            i += 1;
-        }
-        let whole = i - start;
+        let (negative, digits) = match self.rest {
+            [b'-', rest @ ..] => (true, rest),
+            rest => (false, rest),
+        };
+        let (whole, rest) = run_of_digits(digits, 0);
+        let whole_digits = digits.len() - rest.len();
         // JSON wants a digit before the point and no zero before other digits
-        if whole == 0 || (whole > 1 && bytes[start] == b'0') {
+        if whole_digits == 0 || (whole_digits > 1 && digits[0] == b'0') {
             return None;
         }
-        let mut decimals = 0;
-        if bytes.get(i) == Some(&b'.') {
-            i += 1;
-            let from = i;
-            while let Some(d) = bytes.get(i).map(|b| b.wrapping_sub(b'0')).filter(|&d| d < 10) {
-                digits = digits.wrapping_mul(10).wrapping_add(u64::from(d));
-                i += 1;
+        let (value, decimals, rest) = match rest {
+            [b'.', fraction @ ..] => {
+                let (value, rest) = run_of_digits(fraction, whole);
+                let decimals = fraction.len() - rest.len();
+                if decimals == 0 {
+                    return None;
+                }
+                (value, decimals, rest)
             }
-            decimals = i - from;
-            if decimals == 0 {
-                return None;
-            }
-        }
-        if whole + decimals > 15 || matches!(bytes.get(i), Some(b'e' | b'E')) {
+            rest => (whole, 0, rest),
+        };
+        if whole_digits + decimals > 15 || matches!(rest, [b'e' | b'E', ..]) {
             return None;
         }
-        self.rest = &bytes[i..];
-        let value = digits as f64 / POWERS[decimals];
+        self.rest = rest;
+        let value = value as f64 / POWERS[decimals];
         Some(if negative { -value } else { value })
     }
+}
+
+/// Appends the digits in front to a value; wraps where there are too many, which the caller counts.
+#[inline]
+fn run_of_digits(mut bytes: &[u8], mut value: i64) -> (i64, &[u8]) {
+    while let [digit @ b'0'..=b'9', rest @ ..] = bytes {
+        value = value.wrapping_mul(10).wrapping_add(i64::from(digit - b'0'));
+        bytes = rest;
+    }
+    (value, bytes)
 }
 
 /// Powers of ten that are exact doubles.

@@ -5,15 +5,15 @@
 //! The library does no I/O of its own: files, the terminal and the command line are in the binary.
 #![forbid(unsafe_code)]
 
+pub mod compile;
+pub mod cycle;
 pub mod diag;
 pub mod lang;
+pub mod lint;
 pub mod number;
+pub mod render;
+pub mod sema;
 pub mod source;
 pub mod span;
 pub mod syntax;
-pub mod sema;
-pub mod compile;
 pub mod toolpath;
-pub mod cycle;
-pub mod render;
-pub mod lint;

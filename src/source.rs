@@ -52,6 +52,11 @@ impl Source {
         })
     }
 
+    /// The byte at which each line starts.
+    pub fn line_starts(&self) -> &[u32] {
+        &self.line_starts
+    }
+
     /// Line and column of a byte, both from 1; columns count characters.
     pub fn line_column(&self, at: u32) -> (u32, u32) {
         let line = self.line_starts.partition_point(|&start| start <= at).max(1) - 1;

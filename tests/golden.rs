@@ -45,8 +45,7 @@ fn worked_examples_are_exact() {
 }
 
 /// Examples of lathes, rotary axes and subprograms, which have tests of their own.
-const LATER: &[&str] =
-    &["sub-call", "sub-end", "sub-start", "between", "index", "unwind", "can-thread", "thread-g33"];
+const LATER: &[&str] = &["sub-call", "sub-end", "sub-start", "between", "index", "unwind", "can-thread", "thread-g33"];
 
 /// The program lines that come from a sequence of the form, and for a cycle from Cancel.
 fn lines_of(sequence: &Value, cycle: bool, form: &std::path::Path, rendered: &support::Rendered) -> Vec<String> {

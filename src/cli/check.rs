@@ -40,7 +40,7 @@ fn try_run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
         Err(ReadError::Job(mut diag)) => {
             let place = diag.place.take().filter(|p| !p.is_empty()).map_or(String::new(), |p| format!(":{p}"));
             diag.place = Some(format!("{}{place}", files::name(path)));
-            eprint!("{}", Reporter::new(colour).text(&diag, &[]));
+            eprint!("{}", Reporter::new(colour).text(&[*diag], &[]));
             Ok(Ending::Findings)
         }
     }

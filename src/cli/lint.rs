@@ -6,7 +6,7 @@ use postform::lint::lint;
 
 use super::args::{Format, LintArgs};
 use super::colour::Colour;
-use super::report::Reporter;
+use super::report::{Reporter, count};
 use super::{Ending, forms, json, output};
 
 /// Every finding of every form.
@@ -27,18 +27,17 @@ pub fn run(args: &LintArgs, colour: Colour) -> Ending {
         for (total, count) in totals.iter_mut().zip(json::counts(&diags)) {
             *total += count;
         }
-        for diag in &diags {
-            match args.format {
-                Format::Pretty => text += &reporter.text(diag, &checked.files),
-                Format::Json => findings.push(json::finding(diag, &checked.files)),
-            }
+        match args.format {
+            Format::Pretty => text += &reporter.text(&diags, &checked.files),
+            Format::Json => findings.extend(diags.iter().map(|diag| json::finding(diag, &checked.files))),
         }
     }
     let [errors, warnings, notes] = totals;
     match args.format {
         Format::Json => text = format!("{:#}\n", json::report(findings, totals)),
         Format::Pretty => {
-            text += &format!("{errors} errors, {warnings} warnings, {notes} notes\n");
+            let (errors, warnings) = (count(errors, "error"), count(warnings, "warning"));
+            text += &format!("{errors}, {warnings}, {}\n", count(notes, "note"));
         }
     }
     if let Err(message) = output::standard_output(|out| out.write_all(text.as_bytes())) {

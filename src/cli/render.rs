@@ -15,7 +15,7 @@ use super::args::{CyclesArg, RenderArgs, UnitsArg};
 use super::files::{self, io_message};
 use super::output::Target;
 use super::report::Reporter;
-use super::{Ending, forms, prompt};
+use super::{Ending, forms, prompt, report};
 
 /// How much text waits before it is written.
 const CHUNK: usize = 64 * 1024;
@@ -41,12 +41,11 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     }
     let mut checked = forms::load(&args.form, args.limits)?;
     sort(&mut checked.diags);
-    for diag in checked.diags.iter().filter(|d| d.severity > Severity::Note) {
-        eprint!("{}", reporter.text(diag, &checked.files));
-    }
+    let (shown, _): (Vec<_>, Vec<_>) = checked.diags.iter().cloned().partition(|d| d.severity > Severity::Note);
+    eprint!("{}", reporter.text(&shown, &checked.files));
     if checked.has_errors() {
         let count = checked.diags.iter().filter(|d| d.is_error()).count();
-        eprintln!("{}: {count} errors, nothing was printed", files::name(&args.form));
+        eprintln!("{}: {}, nothing was printed", files::name(&args.form), report::count(count, "error"));
         return Ok(Ending::Findings);
     }
     let program = compile(&checked.form);
@@ -75,10 +74,8 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let read = files::read_job(input, from, &mut writer);
     let mut notes = writer.renderer.notes().to_vec();
     let job = files::name(&args.job);
-    for diag in &mut notes {
-        place_in(&job, diag);
-        eprint!("{}", reporter.text(diag, &checked.files));
-    }
+    notes.iter_mut().for_each(|diag| place_in(&job, diag));
+    eprint!("{}", reporter.text(&notes, &checked.files));
     if let Some((is_trace, error)) = writer.failure.take() {
         let path = if is_trace { args.trace.as_deref() } else { None };
         return output_failed(path.unwrap_or(&args.output), &error);
@@ -88,7 +85,7 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         Err(ReadError::Io(error)) => return Err(io_message("read", &args.job, &error)),
         Err(ReadError::Job(mut diag)) => {
             place_in(&job, &mut diag);
-            eprint!("{}", reporter.text(&diag, &checked.files));
+            eprint!("{}", reporter.text(&[*diag], &checked.files));
             return Ok(Ending::Findings);
         }
     }

@@ -1,18 +1,49 @@
 //! Findings for people: the line of the form with what is wrong under it.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use miette::{
-    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, Severity as Level, SourceCode,
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents,
+    Severity as Level, SourceCode, SourceSpan, SpanContents,
 };
 
 use postform::diag::{Diag, Severity};
 use postform::source::Source;
 
+/// A form file as miette asks for it: found by our line index, so that thousands of findings cost no more each.
+struct Text<'a> {
+    source: &'a Source,
+    /// Its text, safe for a terminal.
+    safe: Cow<'a, str>,
+}
+
+impl SourceCode for Text<'_> {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let (start, end) = (span.offset(), span.offset() + span.len());
+        let line = |at: usize| self.source.line_column(at as u32).0 as usize - 1;
+        let first = line(start).saturating_sub(before);
+        let last = line(end) + after;
+        let lines = self.source.line_starts();
+        let from = lines.get(first).copied().ok_or(MietteError::OutOfBounds)? as usize;
+        let to = lines.get(last + 1).map_or(self.safe.len(), |&next| next as usize);
+        let data = self.safe.as_bytes().get(from..to).ok_or(MietteError::OutOfBounds)?;
+        let span = (from, to - from).into();
+        let count = last + 1 - first;
+        Ok(Box::new(MietteSpanContents::new_named(self.source.name.clone(), data, span, first, 0, count)))
+    }
+}
+
 /// A finding with the text it is about.
 struct Shown<'a> {
     diag: &'a Diag,
-    source: Option<NamedSource<String>>,
+    place: Option<Cow<'a, str>>,
+    source: Option<&'a Text<'a>>,
     file: u32,
 }
 
@@ -24,11 +55,7 @@ impl fmt::Debug for Shown<'_> {
 
 impl fmt::Display for Shown<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.diag.message)?;
-        match &self.diag.place {
-            Some(place) => write!(f, " ({place})"),
-            None => Ok(()),
-        }
+        f.write_str(&self.diag.message)
     }
 }
 
@@ -36,7 +63,11 @@ impl std::error::Error for Shown<'_> {}
 
 impl Diagnostic for Shown<'_> {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        Some(Box::new(self.diag.code.name()))
+        // the header line is never wrapped, so a place in the job stays in one piece there
+        Some(match &self.place {
+            Some(place) => Box::new(format!("{} at {place}", self.diag.code.name())),
+            None => Box::new(self.diag.code.name()),
+        })
     }
 
     fn severity(&self) -> Option<Level> {
@@ -52,7 +83,7 @@ impl Diagnostic for Shown<'_> {
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.source.as_ref().map(|source| source as &dyn SourceCode)
+        self.source.map(|source| source as &dyn SourceCode)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
@@ -78,27 +109,54 @@ impl Reporter {
         Reporter { handler: GraphicalReportHandler::new_themed(theme).with_width(110).with_links(false) }
     }
 
-    /// One finding as text; `files` are those of its form.
-    pub fn text(&self, diag: &Diag, files: &[Source]) -> String {
-        let file = diag.labels.first().map_or(0, |label| label.span.file);
-        let source = match (diag.labels.first(), files.get(file as usize)) {
-            (Some(_), Some(source)) => Some(NamedSource::new(source.name.clone(), shown(&source.text))),
-            _ => None,
-        };
-        let mut text = String::new();
-        match self.handler.render_report(&mut text, &Shown { diag, source, file }) {
-            Ok(()) => text,
-            // a place that can't be drawn must not hide what was found
-            Err(fmt::Error) => format!("{} {}\n", diag.code.name(), diag.message),
+    /// Findings as text; `files` are those of their form.
+    pub fn text(&self, diags: &[Diag], files: &[Source]) -> String {
+        let texts: Vec<Text> = files.iter().map(|source| Text { source, safe: safe(&source.text) }).collect();
+        let mut all = String::new();
+        for diag in diags {
+            let file = diag.labels.first().map_or(0, |label| label.span.file);
+            let mut place = diag.place.as_deref().map(Cow::Borrowed);
+            let mut source = diag.labels.first().and_then(|_| texts.get(file as usize));
+            if let Some(text) = source.filter(|text| too_long_to_draw(diag, text.source, file)) {
+                let (line, column) = text.source.line_column(diag.labels[0].span.start);
+                place.get_or_insert_with(|| format!("{}:{line}:{column}", text.source.name).into());
+                source = None;
+            }
+            let start = all.len();
+            if self.handler.render_report(&mut all, &Shown { diag, place, source, file }).is_err() {
+                // a place that can't be drawn must not hide what was found
+                all.truncate(start);
+                all += &format!("{} {}\n", diag.code.name(), diag.message);
+            }
         }
+        all
     }
 }
 
-/// Form text safe for a terminal: a control character becomes a blank of the same length, so that places stay right.
-fn shown(text: &str) -> String {
-    let safe = |c: char| !c.is_control() || c == '\n' || c == '\t';
-    if text.chars().all(safe) {
-        return text.to_owned();
+/// Longest line that is drawn.
+const LONGEST_LINE: usize = 400;
+
+/// Is one of the lines around the labels no line for a terminal?
+fn too_long_to_draw(diag: &Diag, source: &Source, file: u32) -> bool {
+    let starts = source.line_starts();
+    diag.labels.iter().filter(|label| label.span.file == file).any(|label| {
+        let first = source.line_column(label.span.start).0.saturating_sub(2) as usize;
+        let last = source.line_column(label.span.end).0 as usize + 1;
+        let end = |line: usize| starts.get(line + 1).map_or(source.text.len(), |&next| next as usize);
+        (first..last.min(starts.len())).any(|line| end(line) - starts[line] as usize > LONGEST_LINE)
+    })
+}
+
+/// Form text safe for a terminal: a control character becomes a blank, so that places stay right.
+fn safe(text: &str) -> Cow<'_, str> {
+    let is_safe = |c: char| !c.is_control() || c == '\n' || c == '\t' || c == '\r' || c.len_utf8() > 1;
+    if text.chars().all(is_safe) {
+        return text.into();
     }
-    text.chars().map(|c| if safe(c) || c.len_utf8() > 1 { c } else { ' ' }).collect()
+    text.chars().map(|c| if is_safe(c) { c } else { ' ' }).collect::<String>().into()
+}
+
+/// `1 error`, `2 errors`.
+pub fn count(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }

@@ -4,6 +4,6 @@ mod letters;
 mod lower;
 mod program;
 
-pub use letters::{LetterKind, LetterTable, Letter};
+pub use letters::{Letter, LetterKind, LetterTable};
 pub use lower::compile;
 pub use program::{Block, CycleStyle, Literal, Op, Program, UponBlock};

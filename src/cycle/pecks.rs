@@ -66,7 +66,10 @@ pub fn pecks(
             let shrunk = step - decr * f64::from(repeats);
             next = shrunk.max(least);
             if next <= 0.0 {
-                return Err(Problem::new("cycle.decr.exhausted", "the pecks shrink to nothing before the bottom is reached"));
+                return Err(Problem::new(
+                    "cycle.decr.exhausted",
+                    "the pecks shrink to nothing before the bottom is reached",
+                ));
             }
         }
         list.push(PeckDepth { height: from - reached, feed: None });

@@ -78,7 +78,12 @@ impl Plan {
     ///
     /// # Errors
     /// A depth or feed that is missing, a depth above the clearance.
-    pub fn of(spec: &CycleSpec, own_depth: Option<f64>, defaults: &Defaults, rpm: Option<f64>) -> Result<Plan, Problem> {
+    pub fn of(
+        spec: &CycleSpec,
+        own_depth: Option<f64>,
+        defaults: &Defaults,
+        rpm: Option<f64>,
+    ) -> Result<Plan, Problem> {
         let clear = spec.clear.unwrap_or(defaults.clear);
         let depth = own_depth.or(spec.depth).or_else(|| sink_depth(spec)).or_else(|| spec.webs.last().copied());
         let depth = match (depth, spec.kind) {
@@ -87,7 +92,8 @@ impl Plan {
             (None, _) => return Err(Problem::new("cycle.depth.missing", "the cycle has no depth: give `depth`")),
         };
         if clear + depth < 0.0 {
-            let message = format!("the bottom, {depth} below the point, is above the clearance plane, {clear} above it");
+            let message =
+                format!("the bottom, {depth} below the point, is above the clearance plane, {clear} above it");
             return Err(Problem::new("cycle.depth.above_clear", message));
         }
         let feed = match (spec.feed, spec.kind) {
@@ -292,7 +298,13 @@ fn thru(spec: &CycleSpec, plan: &Plan, defaults: &Defaults, steps: &mut Vec<Step
 }
 
 /// Down beside the hole, across, up to the bottom that is cut from below, and out the same way.
-fn back_bore(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, steps: &mut Vec<Step>) -> Result<(), Problem> {
+fn back_bore(
+    spec: &CycleSpec,
+    plan: &Plan,
+    top: f64,
+    defaults: &Defaults,
+    steps: &mut Vec<Step>,
+) -> Result<(), Problem> {
     let Some(below) = spec.rapto else {
         let message = "a back bore needs `rapto`: how far below the point the tool goes before it cuts upward";
         return Err(Problem::new("cycle.rapto.required", message));

@@ -69,11 +69,13 @@ pub struct Diag {
 
 impl Diag {
     /// A finding with the severity of its code and no place yet.
+    ///
+    /// Messages hold text from files: control characters are escaped, and what is too long is cut in the middle.
     pub fn new(code: Code, message: impl Into<String>) -> Self {
         Diag {
             code,
             severity: code.row().severity,
-            message: message.into(),
+            message: shown(message.into()),
             labels: Vec::new(),
             place: None,
             help: None,
@@ -89,7 +91,7 @@ impl Diag {
 
     /// Adds what to type instead.
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(shown(help.into()));
         self
     }
 
@@ -103,6 +105,20 @@ impl Diag {
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
+}
+
+/// Longest message or help, in characters.
+const LONGEST: usize = 400;
+
+fn shown(text: String) -> String {
+    let text = if text.chars().any(char::is_control) { escaped(&text) } else { text };
+    let count = text.chars().count();
+    if count <= LONGEST {
+        return text;
+    }
+    let head: String = text.chars().take(LONGEST / 2).collect();
+    let tail: String = text.chars().skip(count - LONGEST / 2).collect();
+    format!("{head} … {tail}")
 }
 
 /// Text from a file made safe for a terminal: control characters become escapes.

@@ -11,7 +11,9 @@ pub fn check(checked: &Checked, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF403, format!("{} is emulated, so Cancel is never printed", sequence.id.name()))
                     .at(cancel, "this has no effect")
-                    .help("write `End` alone; or give the cycle a count, if its first lines start a cycle of the control"),
+                    .help(
+                        "write `End` alone; or give the cycle a count, if its first lines start a cycle of the control",
+                    ),
             );
         }
     }

@@ -1,6 +1,6 @@
 //! PF101: words behind two blanks or a tab are a comment, which looks like output and prints nothing.
 
-use crate::diag::{Code, Diag, escaped};
+use crate::diag::{Code, Diag};
 use crate::sema::Checked;
 use crate::span::Span;
 use crate::syntax::{Head, Line, Tail};
@@ -29,7 +29,7 @@ fn look(line: &Line, text: &str, diags: &mut Vec<Diag>) {
     }
     let before = text[line.span.start as usize..lost.span.start as usize].trim_end();
     let gap = Span { start: line.span.start + before.len() as u32, end: lost.span.start, ..lost.span };
-    let words = escaped(lost.text.trim_end());
+    let words = lost.text.trim_end();
     let prints = match before.trim() {
         "" => "the line prints nothing".to_owned(),
         words => format!("only `{words}` is output"),

@@ -14,13 +14,13 @@ pub fn check(checked: &Checked, diags: &mut Vec<Diag>) {
                 continue;
             }
             diags.push(
-                Diag::new(Code::PF404, format!("{} starts a cycle of the control and has no count", sequence.id.name()))
-                    .at(word.span, format!("{text} drills again at each of the lines below it"))
-                    .at(sequence.span, "all lines are printed at every hole")
-                    .help(format!(
-                        "write `{} 1`, if the first line is for the first hole only",
-                        sequence.id.name()
-                    )),
+                Diag::new(
+                    Code::PF404,
+                    format!("{} starts a cycle of the control and has no count", sequence.id.name()),
+                )
+                .at(word.span, format!("{text} drills again at each of the lines below it"))
+                .at(sequence.span, "all lines are printed at every hole")
+                .help(format!("write `{} 1`, if the first line is for the first hole only", sequence.id.name())),
             );
             break;
         }

@@ -118,8 +118,7 @@ impl Renderer<'_> {
         }
         let allowed = if self.units == Units::Mm { 0.01 } else { 0.0005 };
         if (radii[0] - radii[1]).abs() > allowed + 1e-9 {
-            let message =
-                format!("the arc's radius is {:.6} at its start and {:.6} at its end", radii[0], radii[1]);
+            let message = format!("the arc's radius is {:.6} at its start and {:.6} at its end", radii[0], radii[1]);
             return fault(Code::PR005, message, "look at the centre: both ends must be equally far from it");
         }
         Ok(())

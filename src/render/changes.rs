@@ -235,9 +235,8 @@ pub(super) fn settable(name: &str) -> Done<VarId> {
             "take it out; val1 to val10 are free",
         ),
         None => {
-            let shown = crate::diag::escaped(name);
             let help = did_you_mean(name, jobs()).unwrap_or_else(|| "val1 to val10 are free".into());
-            fault(Code::PR016, format!("`{shown}` is no variable"), help)
+            fault(Code::PR016, format!("`{name}` is no variable"), help)
         }
     }
 }

@@ -104,7 +104,8 @@ impl Renderer<'_> {
         let program = self.program;
         let Some(cycle) = &mut self.cycle else { return Ok(()) };
         let cancels = cycle.sequence.and_then(|id| program.block(id)).is_some_and(|block| block.cancel);
-        if std::mem::take(&mut cycle.in_force) && cancels
+        if std::mem::take(&mut cycle.in_force)
+            && cancels
             && let Some(block) = program.block(SequenceId::Cancel)
         {
             self.run_with_upons(block)?;

@@ -64,7 +64,11 @@ impl Renderer<'_> {
         target.set(2, heights.return_plane);
         for axis in 0..2 {
             if target.get(axis).is_none() {
-                return fault(Code::PR006, "the hole's position is unknown", "give both coordinates of the first point");
+                return fault(
+                    Code::PR006,
+                    "the hole's position is unknown",
+                    "give both coordinates of the first point",
+                );
             }
         }
         match block {
@@ -219,11 +223,12 @@ impl Renderer<'_> {
 
     fn warn_of_return(&mut self, block: &Block, heights: Heights) {
         if heights.return_plane > heights.clear + SAME && !block.returns {
-            let message = format!(
-                "the job returns to {}, the cycle stays at {}",
-                heights.return_plane, heights.clear
+            let message = format!("the job returns to {}, the cycle stays at {}", heights.return_plane, heights.clear);
+            self.note(
+                Code::PR013,
+                message,
+                "print `G[retplane]` in the cycle, so that the control knows where to return to",
             );
-            self.note(Code::PR013, message, "print `G[retplane]` in the cycle, so that the control knows where to return to");
         }
     }
 

@@ -223,7 +223,8 @@ impl Renderer<'_> {
         let drop = match mode {
             Mode::All | Mode::Hole => false,
             Mode::Motion | Mode::ArcMotion => {
-                matches!(info.kind, LetterKind::GCode | LetterKind::MCode) && self.code_drops(info.printed, literal.value)
+                matches!(info.kind, LetterKind::GCode | LetterKind::MCode)
+                    && self.code_drops(info.printed, literal.value)
             }
             Mode::NextHole { .. } => true,
         };

@@ -189,7 +189,9 @@ impl Settings {
             C::CtrCode => self.centre = centre(&args)?,
             C::CtrCode180 => self.centre_over_180 = Some(centre(&args)?),
             C::CtrCode360 => match centre(&args)? {
-                ArcCentre::Radius(_) => return bad(all.first(), "a full circle has no radius word: give centre letters"),
+                ArcCentre::Radius(_) => {
+                    return bad(all.first(), "a full circle has no radius word: give centre letters");
+                }
                 letters => self.centre_full = Some(letters),
             },
             C::CtrIncremental => self.centre_incremental = args.switch()?,
@@ -358,7 +360,10 @@ fn prompt(args: &Arguments, span: Span) -> Read<Prompt> {
         return bad(args.all.first(), format!("`{name}` is no variable"));
     };
     if var.row().origin == crate::lang::Origin::Computed {
-        return bad(args.all.first(), format!("[{name}] comes from the toolpath and can't be asked for: use val1 to val10"));
+        return bad(
+            args.all.first(),
+            format!("[{name}] comes from the toolpath and can't be asked for: use val1 to val10"),
+        );
     }
     let text = args.all.get(1).map_or_else(|| var.row().meaning.to_owned(), |a| a.text.clone());
     let default = args.all.get(2).map(number).transpose()?;

@@ -7,9 +7,7 @@ use super::model::{Form, Sequence, Upon};
 use super::settings::{Settings, UnitChoice};
 use super::words::{Context, resolve, variable};
 use crate::diag::{Code, Diag, Severity};
-use crate::lang::{
-    COMMANDS, CommandId, Machine, Machines, SEQUENCES, SequenceId, SequenceName, did_you_mean,
-};
+use crate::lang::{COMMANDS, CommandId, Machine, Machines, SEQUENCES, SequenceId, SequenceName, did_you_mean};
 use crate::number::LetterFormat;
 use crate::source::Source;
 use crate::span::Span;
@@ -223,11 +221,20 @@ impl Analysis {
     fn statement(&mut self, statement: &Statement) {
         let (name, span) = (&statement.name.text, statement.name.span);
         let Some(id) = CommandId::parse(name) else {
+            let is_variable = |text: &String| text.contains('[') || (text.contains('<') && text.ends_with('>'));
+            let whole = statement.args.iter().fold(statement.name.span, |all, arg| all.to(arg.span));
+            if is_variable(name) || statement.args.iter().any(|arg| is_variable(&arg.text)) {
+                self.report(
+                    Diag::new(Code::PF001, "words that print stand outside a sequence")
+                        .at(whole, "this line belongs to no sequence")
+                        .help("put it between a sequence name and its End"),
+                );
+                return;
+            }
             let mut chars = name.bytes();
             let first_is_letter = chars.next().is_some_and(|b| b.is_ascii_alphabetic());
             if first_is_letter && chars.next().is_none_or(|b| b"->+.~ ".contains(&b) || b.is_ascii_digit()) {
-                let shown = statement.args.iter().fold(statement.name.span, |all, arg| all.to(arg.span));
-                self.report(bad_format(shown, "can't be read"));
+                self.report(bad_format(whole, "can't be read"));
             } else {
                 self.report(unknown_name(name, span));
             }
@@ -496,14 +503,8 @@ fn duplicate_sequence(name: &str, span: Span, first: Span) -> Diag {
 }
 
 fn unknown_name(name: &str, span: Span) -> Diag {
-    if name.contains(['[', '<']) {
-        return Diag::new(Code::PF001, "words that print stand outside a sequence")
-            .at(span, "this line belongs to no sequence")
-            .help("put it between a sequence name and its End");
-    }
     let names = || SEQUENCES.iter().map(|s| s.name).chain(COMMANDS.iter().map(|c| c.name));
-    let mut diag = Diag::new(Code::PF201, format!("`{}` is no command or sequence", crate::diag::escaped(name)))
-        .at(span, "unknown");
+    let mut diag = Diag::new(Code::PF201, format!("`{}` is no command or sequence", name)).at(span, "unknown");
     // an abbreviation is no slip of the fingers, but the name that begins with it is meant
     let begins = || names().find(|n| name.len() > 2 && n.to_ascii_lowercase().starts_with(&name.to_ascii_lowercase()));
     diag.help = did_you_mean(name, names())

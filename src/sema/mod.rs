@@ -8,4 +8,4 @@ mod words;
 
 pub use check::{Checked, Limits, analyse};
 pub use model::{Form, Line, Sequence, Upon, Word, WordKind};
-pub use settings::{ArcCentre, Code, DwellWord, Prompt, Settings, SequenceNumbers, TravelLimit, UnitChoice};
+pub use settings::{ArcCentre, Code, DwellWord, Prompt, SequenceNumbers, Settings, TravelLimit, UnitChoice};

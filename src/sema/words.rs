@@ -49,7 +49,8 @@ pub fn variable(name: &Spanned, machine: Machine, diags: &mut Vec<Diag>) -> Opti
 fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut Vec<Word>, diags: &mut Vec<Diag>) {
     let is_word = |p: &Piece| matches!(p.kind, PieceKind::Variable { .. } | PieceKind::Literal { .. });
     // only between two words is a blank missing; texts stick to their variables
-    let glued = previous.is_some_and(|p| !(is_word(p) && (is_word(piece) || matches!(piece.kind, PieceKind::Note { .. }))));
+    let glued =
+        previous.is_some_and(|p| !(is_word(p) && (is_word(piece) || matches!(piece.kind, PieceKind::Note { .. }))));
     let kind = match &piece.kind {
         PieceKind::Variable { letter, name } => {
             let Some(var) = variable(name, context.machine, diags) else { return };
@@ -57,9 +58,7 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
         }
         PieceKind::Literal { letter: b'%', number } if number.text == "0" => WordKind::Text("%".into()),
         PieceKind::Literal { letter, number } => match number.text.parse::<f64>() {
-            Ok(value) => {
-                WordKind::Literal(*letter, format!("{}{}", char::from(*letter), number.text), value)
-            }
+            Ok(value) => WordKind::Literal(*letter, format!("{}{}", char::from(*letter), number.text), value),
             Err(_) => return,
         },
         PieceKind::Stray(text) => {
@@ -126,7 +125,7 @@ fn push_note(
 fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
     if text.contains(['[', ']', '<', '>']) {
         diags.push(
-            Diag::new(Code::PF001, format!("`{}` is no word", crate::diag::escaped(text)))
+            Diag::new(Code::PF001, format!("`{}` is no word", text))
                 .at(span, "a bracket without its partner")
                 .help("variables are written `X[h]`"),
         );
@@ -134,7 +133,7 @@ fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
         diags.push(control_character(c, span));
     } else if after_word {
         diags.push(
-            Diag::new(Code::PF001, format!("`{}` stands directly behind a word", crate::diag::escaped(text)))
+            Diag::new(Code::PF001, format!("`{}` stands directly behind a word", text))
                 .at(span, "this would be printed behind the value")
                 .help("take it out, or put a blank before it"),
         );

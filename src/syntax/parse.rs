@@ -135,6 +135,9 @@ fn statement(at: At, mut line: Line, pair: Pair<Rule>) -> Statement {
     Statement { line, name, args }
 }
 
+/// How far an unknown name may be from its `End`: no form has more sequence lines.
+const LONGEST_SEQUENCE: usize = 150;
+
 /// Does this line open a sequence? A known name does; an unknown one when an `End` comes before the next known name,
 /// so that a misspelt sequence costs one message and not one for each of its lines.
 fn opens_sequence(statement: &Statement, following: &[(usize, &str)]) -> bool {
@@ -145,7 +148,7 @@ fn opens_sequence(statement: &Statement, following: &[(usize, &str)]) -> bool {
     if CommandId::parse(name).is_some() || !name.chars().all(|c| c.is_alphanumeric()) || name.len() < 2 {
         return false;
     }
-    for (_, text) in following {
+    for (_, text) in following.iter().take(LONGEST_SEQUENCE) {
         let mut words = text.trim_start().splitn(2, [' ', '\t', ';']);
         let first = words.next().unwrap_or("");
         if first.eq_ignore_ascii_case("End") {

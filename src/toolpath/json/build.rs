@@ -1,6 +1,8 @@
 //! From objects of a job to events, with the checks that need more than one key.
 
-use super::objects::{ArcObject, CycleObject, EndWord, ItemObject, JobHead, Object, OperationHead, SpindleObject, ToolObject};
+use super::objects::{
+    ArcObject, CycleObject, EndWord, ItemObject, JobHead, Object, OperationHead, SpindleObject, ToolObject,
+};
 use super::values::{Number, PeckMode, SpeedMode};
 use crate::diag::{Code, Diag};
 use crate::toolpath::event::*;
@@ -139,7 +141,11 @@ impl<'s> Builder<'s> {
             _ => return fault(Code::PJ005, "the path item says more than one thing", "make an item of each"),
         }
         if item.side.is_some() != item.infeed.is_some() {
-            return fault(Code::PJ005, "`side` and `infeed` go together", "write {\"infeed\": [1, 2], \"side\": \"left\"}");
+            return fault(
+                Code::PJ005,
+                "`side` and `infeed` go together",
+                "write {\"infeed\": [1, 2], \"side\": \"left\"}",
+            );
         }
         if let Some(to) = item.rapid {
             return self.push(Event::Rapid(to.0));
@@ -259,14 +265,22 @@ impl<'s> Builder<'s> {
 
     fn leave_cycle(&self, what: &str) -> Done {
         if self.in_cycle {
-            return fault(Code::PJ005, format!("{what} inside a cycle"), "end the cycle first with {\"cycle_end\": true}");
+            return fault(
+                Code::PJ005,
+                format!("{what} inside a cycle"),
+                "end the cycle first with {\"cycle_end\": true}",
+            );
         }
         Ok(())
     }
 
     fn in_operation(&self) -> Done {
         if self.place.operation == 0 {
-            return fault(Code::PJ006, "a path item before any operation, so without a tool", "begin an operation first");
+            return fault(
+                Code::PJ006,
+                "a path item before any operation, so without a tool",
+                "begin an operation first",
+            );
         }
         Ok(())
     }

@@ -209,7 +209,8 @@ impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
             Part::Operation => {
                 let head = |head| job.build(|b| b.operation(head));
                 if !streamed::<OperationHead, A>(job, map, head, Part::Path)? {
-                    let diag = Diag::new(Code::PJ004, "an operation without `path`").help("give its moves as \"path\": []");
+                    let diag =
+                        Diag::new(Code::PJ004, "an operation without `path`").help("give its moves as \"path\": []");
                     return Err(job.context.fail(diag));
                 }
             }
@@ -331,9 +332,7 @@ impl<'de> Visitor<'de> for Points<'_, '_, '_, '_> {
 pub fn schema() -> serde_json::Value {
     use super::values::Position;
     let mut generator = schemars::SchemaGenerator::default();
-    let list = |schema: schemars::Schema, description: &str| {
-        serde_json::json!({ "type": "array", "items": schema, "description": description })
-    };
+    let list = |schema: schemars::Schema, description: &str| serde_json::json!({ "type": "array", "items": schema, "description": description });
     _ = generator.subschema_for::<Position>();
     let point = generator.subschema_for::<Point>();
     let mut cycle = generator.subschema_for::<CycleObject>();

@@ -142,7 +142,10 @@ mod tests {
             read(r#"{"line":[1.5,2,-0.1],"feed":300}"#),
             Some(SimpleMove { to: Axes::new(&[1.5, 2.0, -0.1]), feed: Some(300.0), rapid: false })
         );
-        assert_eq!(read(" { \"rapid\" : [ 1 , 2 ] } \r").map(|m| (m.to, m.rapid)), Some((Axes::new(&[1.0, 2.0]), true)));
+        assert_eq!(
+            read(" { \"rapid\" : [ 1 , 2 ] } \r").map(|m| (m.to, m.rapid)),
+            Some((Axes::new(&[1.0, 2.0]), true))
+        );
         for other in [
             r#"{"line":[1,null]}"#,
             r#"{"line":[]}"#,

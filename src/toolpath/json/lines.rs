@@ -8,7 +8,9 @@ use serde::de::{DeserializeSeed, Deserializer, MapAccess, Visitor};
 use super::build::Builder;
 use super::context::{Context, ReadError, Step};
 use super::fast::simple_move;
-use super::objects::{CycleObject, EndWord, ItemObject, JobHead, KeySeed, Object, ObjectSeed, OperationHead, Value, once};
+use super::objects::{
+    CycleObject, EndWord, ItemObject, JobHead, KeySeed, Object, ObjectSeed, OperationHead, Value, once,
+};
 use super::values::Point;
 use crate::diag::{Code, Diag};
 use crate::toolpath::Sink;

@@ -9,7 +9,9 @@ use super::context::{Context, Step};
 use super::values::{Number, PeckMode, Position, SpeedMode, Word};
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, did_you_mean};
-use crate::toolpath::event::{Coolant, CycleKind, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind, Units};
+use crate::toolpath::event::{
+    Coolant, CycleKind, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind, Units,
+};
 
 /// An object with a fixed list of keys.
 pub trait Object: Default {
@@ -226,7 +228,7 @@ impl Value for EndWord {
                 let words = <Section as super::values::Words>::WORDS;
                 match words.iter().find(|(word, _)| *word == text) {
                     Some((_, section)) => Ok(EndWord::Section(*section)),
-                    None => Err(E::invalid_value(serde::de::Unexpected::Str(&crate::diag::escaped(text)), &self)),
+                    None => Err(E::invalid_value(serde::de::Unexpected::Str(text), &self)),
                 }
             }
         }
@@ -323,7 +325,7 @@ impl Visitor<'_> for KeySeed<'_> {
         if let Some(at) = all().position(|known| *known == key) {
             return Ok(at);
         }
-        let mut diag = Diag::new(Code::PJ002, format!("{} has no key `{}`", self.object, crate::diag::escaped(key)));
+        let mut diag = Diag::new(Code::PJ002, format!("{} has no key `{}`", self.object, key));
         diag.help = did_you_mean(key, all().copied())
             .or_else(|| Some(format!("its keys are {}", all().copied().collect::<Vec<_>>().join(", "))));
         Err(self.context.fail(diag))

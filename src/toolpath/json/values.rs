@@ -6,7 +6,9 @@ use std::marker::PhantomData;
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 
 use crate::lang::Machine;
-use crate::toolpath::event::{Axes, Coolant, CycleKind, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind};
+use crate::toolpath::event::{
+    Axes, Coolant, CycleKind, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind,
+};
 use crate::toolpath::{Hole, Units};
 
 /// A number. JSON can't write one that is not finite, so it is finite.
@@ -59,7 +61,7 @@ impl<'de, T: Words> Deserialize<'de> for Word<T> {
             fn visit_str<E: de::Error>(self, text: &str) -> Result<Word<T>, E> {
                 match T::WORDS.iter().find(|(word, _)| *word == text) {
                     Some((_, value)) => Ok(Word(*value)),
-                    None => Err(E::invalid_value(de::Unexpected::Str(&crate::diag::escaped(text)), &self)),
+                    None => Err(E::invalid_value(de::Unexpected::Str(text), &self)),
                 }
             }
         }

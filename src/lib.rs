@@ -4,6 +4,7 @@
 //! program of it, and [`render`] runs that program over [`toolpath`] events to print the blocks of an NC program.
 //! The library does no I/O of its own: files, the terminal and the command line are in the binary.
 #![forbid(unsafe_code)]
+#![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::todo, clippy::dbg_macro)]
 
 pub mod compile;
 pub mod cycle;
@@ -17,3 +18,4 @@ pub mod source;
 pub mod span;
 pub mod syntax;
 pub mod toolpath;
+pub mod trace;

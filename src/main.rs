@@ -1,5 +1,6 @@
 //! The command line of postform.
 #![forbid(unsafe_code)]
+#![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::todo, clippy::dbg_macro)]
 
 mod cli;
 

@@ -274,7 +274,7 @@ fn jobs() {
         ("a number too long for its letter", with("{\"line\":[12345678,0]}"), 1, vec!["PR002", "X is 12345678"]),
         ("a variable that can't be set", head("\"set\":{\"h\":1},"), 1, vec!["PR016"]),
         ("a variable that is none", head("\"set\":{\"vall\":1},"), 1, vec!["PR016", "val1"]),
-        ("metric job, inch form", head("\"units\":\"mm\",").iter().copied().collect(), 1, vec!["PJ010"]),
+        ("metric job, inch form", good.replace("\"inch\"", "\"mm\"").into(), 1, vec!["PR010", "25.4"]),
         ("job for another machine", head("\"machine\":\"lathe\","), 1, vec!["PR008"]),
         ("more than one line of text", with("{\"text\":\"M0\\nM1\"}"), 1, vec!["PJ003"]),
         ("not UTF-8 in a text", [b"{\"name\":\"".as_slice(), b"\xff\"}"].concat(), 1, vec!["PJ001"]),

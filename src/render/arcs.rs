@@ -239,20 +239,8 @@ impl Renderer<'_> {
         let settings = &self.program.settings;
         self.motion_word(piece.plane)?;
         self.motion_word(code)?;
-        let mut units = [0; 6];
-        let mut axes = 0;
-        for axis in 0..6 {
-            let Some(value) = piece.target.get(axis) else { continue };
-            let info = &self.letters[self.axes[axis]];
-            units[axis] = self.quantised(info, value)?;
-            let kept = info.modal && self.registers.holds(info.printed, units[axis], info.format.dec.count);
-            axes |= u8::from(!kept) << axis;
-        }
-        if settings.incremental {
-            self.increments(&piece.target, axes)?;
-        } else {
-            self.axis_words(&units, axes)?;
-        }
+        let axes = self.axis_units(&piece.target)?;
+        self.axis_words(&piece.target, &axes)?;
         if let Some(word) = &settings.second_circle {
             self.end_block();
             self.out.word(&self.layout, false).extend_from_slice(word.as_bytes());

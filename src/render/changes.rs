@@ -132,7 +132,7 @@ impl Renderer<'_> {
     /// A fixture number below 50 counts from the first code, from 50 on it is the code.
     pub(super) fn set_work(&mut self, work: f64) {
         let first = self.program.settings.work;
-        let code = if work < 50.0 && work >= 1.0 { first + work - 1.0 } else { work };
+        let code = if (1.0..50.0).contains(&work) { first + work - 1.0 } else { work };
         self.vars.set(VarId::Work, code);
         self.attention = true;
     }

@@ -90,7 +90,7 @@ impl PlaneArc {
         if tolerance >= self.radius {
             return PI / 2.0;
         }
-        (2.0 * (1.0 - tolerance / self.radius).acos()).min(PI / 2.0).max(1e-4)
+        (2.0 * (1.0 - tolerance / self.radius).acos()).clamp(1e-4, PI / 2.0)
     }
 }
 

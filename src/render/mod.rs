@@ -2,10 +2,12 @@
 
 mod arcs;
 mod changes;
+mod compensation;
 mod cycles;
 mod fault;
 mod geometry;
 mod holes;
+mod measure;
 mod motion;
 mod output;
 mod registers;

@@ -1,6 +1,6 @@
 //! Rapids and feed moves: the form's sequence, or a generated block of what changed.
 
-use super::fault::{Done, fault, fault_at};
+use super::fault::{Done, fault};
 use super::renderer::{LastMove, Renderer};
 use super::words::{Mode, tenths};
 use crate::compile::{LetterKind, Program};
@@ -8,14 +8,10 @@ use crate::diag::Code;
 use crate::lang::{Group, SequenceId, VarId, VarSet};
 use crate::number::{POWERS, quantise};
 use crate::sema;
-use crate::toolpath::{Axes, FeedMode, Infeed, Side};
+use crate::toolpath::{Axes, FeedMode};
 
 /// Variables that a generated move uses.
 pub(super) const MOVE_VARS: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::D, VarId::Frate, VarId::Rotangle]);
-
-/// Variables that need the length of each move.
-pub(super) const MEASURES: VarSet =
-    VarSet::of(&[VarId::Movelength, VarId::Movetime, VarId::Totalcutdist, VarId::Totalcuttime, VarId::Invtime]);
 
 /// Variables that remember the position before a move.
 const LAST_VARS: VarSet =
@@ -28,6 +24,15 @@ pub(super) fn tracks(program: &Program) -> bool {
         || moves.iter().any(|&id| program.block(id).is_some())
         || !program.settings.limits.is_empty()
         || program.upon_vars.meets(MOVE_VARS)
+}
+
+/// A target in units of its letters.
+pub(super) struct AxisUnits {
+    units: [i64; 6],
+    /// Axes that differ from what was printed.
+    changed: u8,
+    /// Those, and the ones that may not be dropped.
+    prints: u8,
 }
 
 /// Linear axes in a set of axes.
@@ -273,31 +278,12 @@ impl Renderer<'_> {
     /// A generated block: motion code, axes that changed, feed. Nothing changed, nothing printed.
     #[inline]
     fn move_block(&mut self, target: &Axes, code: &sema::Code, feeds: bool) -> Done<bool> {
-        let settings = &self.program.settings;
-        let mut units = [0i64; 6];
-        let mut changed = 0u8;
-        let mut printed = 0u8;
-        let mut axes = target.given;
-        while axes != 0 {
-            let axis = axes.trailing_zeros() as usize;
-            axes &= axes - 1;
-            let info = &self.letters[self.axes[axis]];
-            units[axis] = self.quantised(info, target.values[axis])?;
-            if !self.registers.holds(info.printed, units[axis], info.format.dec.count) {
-                changed |= 1 << axis;
-            } else if !info.modal {
-                printed |= 1 << axis;
-            }
-        }
-        if changed == 0 {
+        let axes = self.axis_units(target)?;
+        if axes.changed == 0 {
             return Ok(false);
         }
         self.motion_word(code)?;
-        if settings.incremental {
-            self.increments(target, changed)?;
-        } else {
-            self.axis_words(&units, changed | printed)?;
-        }
+        self.axis_words(target, &axes)?;
         if feeds {
             self.feed_word()?;
         }
@@ -305,21 +291,43 @@ impl Renderer<'_> {
         Ok(true)
     }
 
-    /// The words of these axes.
+    /// A target in units of its letters, and what of it must be printed.
     #[inline]
-    pub(super) fn axis_words(&mut self, units: &[i64; 6], mut axes: u8) -> Done {
+    pub(super) fn axis_units(&self, target: &Axes) -> Done<AxisUnits> {
+        let mut found = AxisUnits { units: [0; 6], changed: 0, prints: 0 };
+        let mut axes = target.given;
         while axes != 0 {
             let axis = axes.trailing_zeros() as usize;
             axes &= axes - 1;
             let info = &self.letters[self.axes[axis]];
-            self.put_word(info, units[axis], false)?;
-            self.registers.set(info.printed, units[axis], info.format.dec.count);
+            let units = self.quantised(info, target.values[axis])?;
+            found.units[axis] = units;
+            let changed = !self.registers.holds(info.printed, units, info.format.dec.count);
+            found.changed |= u8::from(changed) << axis;
+            found.prints |= u8::from(changed || !info.modal) << axis;
+        }
+        Ok(found)
+    }
+
+    /// The words of the axes that must be printed.
+    #[inline]
+    pub(super) fn axis_words(&mut self, target: &Axes, axes: &AxisUnits) -> Done {
+        if self.program.settings.incremental {
+            return self.increments(target, axes.prints);
+        }
+        let mut left = axes.prints;
+        while left != 0 {
+            let axis = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let info = &self.letters[self.axes[axis]];
+            self.put_word(info, axes.units[axis], false)?;
+            self.registers.set(info.printed, axes.units[axis], info.format.dec.count);
         }
         Ok(())
     }
 
     /// Increments between printed positions, so that they add up without a rest.
-    pub(super) fn increments(&mut self, target: &Axes, axes: u8) -> Done {
+    fn increments(&mut self, target: &Axes, axes: u8) -> Done {
         for axis in 0..6 {
             if axes & 1 << axis == 0 {
                 continue;
@@ -407,127 +415,6 @@ impl Renderer<'_> {
     /// Is this motion code the one in force?
     pub(super) fn motion_in_force(&self, code: &sema::Code) -> bool {
         self.registers.group(Group::Motion) == Some(tenths(code.value))
-    }
-
-    /// Lengths and times, for forms that print them.
-    #[cold]
-    pub(super) fn measure(&mut self, target: &Axes, cuts: bool) {
-        let mut square = 0.0;
-        for axis in 0..3 {
-            if let (Some(from), Some(to)) = (self.position.get(axis), target.get(axis)) {
-                square += (to - from) * (to - from);
-            }
-        }
-        self.measured(square.sqrt(), cuts);
-    }
-
-    /// The same for a length that is known.
-    pub(super) fn measured(&mut self, length: f64, cuts: bool) {
-        self.vars.set(VarId::Movelength, length);
-        let Some(feed) = self.feed.filter(|_| cuts) else { return };
-        let minutes = match self.feed_mode {
-            FeedMode::PerMinute => length / feed,
-            FeedMode::PerRev => length / (feed * self.vars.get(VarId::Speed).unwrap_or(0.0)),
-            FeedMode::InverseTime => 1.0 / feed,
-        };
-        if !minutes.is_finite() {
-            return;
-        }
-        self.vars.set(VarId::Movetime, minutes * 60.0);
-        if minutes > 0.0 {
-            self.vars.set(VarId::Invtime, 1.0 / minutes);
-        }
-        let add = |vars: &mut super::vars::Vars, var, value: f64| {
-            let sum = vars.get(var).unwrap_or(0.0) + value;
-            vars.set(var, sum);
-        };
-        add(&mut self.vars, VarId::Totalcutdist, length);
-        add(&mut self.vars, VarId::Totalcuttime, minutes * 60.0);
-    }
-
-    /// Travel limits of the form.
-    #[cold]
-    fn check_limits(&self, target: &Axes) -> Done {
-        for limit in &self.program.settings.limits {
-            let Some(axis) = self.axes.iter().position(|&letter| letter == limit.letter) else { continue };
-            let Some(value) = target.get(axis) else { continue };
-            let scale = if axis < 3 { self.form_scale } else { 1.0 };
-            let (least, greatest) = (limit.least * scale, limit.greatest * scale);
-            if value < least || value > greatest {
-                let letter = char::from(limit.letter);
-                let message = format!("{letter}{value} is beyond the travel from {least} to {greatest}");
-                return fault_at(Code::PR007, message, "move the part, or mend `Limits` in the form", Some(limit.span));
-            }
-        }
-        Ok(())
-    }
-
-    /// The move that turns cutter compensation on.
-    pub(super) fn infeed(&mut self, infeed: &Infeed, feed: Option<f64>) -> Done {
-        let [left, right, _] = self.program.settings.cdc;
-        let code = match infeed.side {
-            Side::Left => left,
-            Side::Right => right,
-        };
-        self.vars.set(VarId::Side, code);
-        self.compensated(&infeed.to, feed, SequenceId::InFeed, code, true)
-    }
-
-    /// The move that turns it off.
-    pub(super) fn outfeed(&mut self, to: &Axes, feed: Option<f64>) -> Done {
-        let off = self.program.settings.cdc[2];
-        self.vars.set(VarId::Side, off);
-        self.compensated(to, feed, SequenceId::OutFeed, off, false)
-    }
-
-    fn compensated(&mut self, to: &Axes, feed: Option<f64>, id: SequenceId, code: f64, offset: bool) -> Done {
-        let program = self.program;
-        let target = self.target(to);
-        self.close_cycle()?;
-        self.take_feed(feed)?;
-        self.set_targets(&target)?;
-        if self.attention {
-            self.attend()?;
-        }
-        if self.measures {
-            self.measure(&target, true);
-        }
-        if let Some(block) = program.block(id) {
-            self.run_with_upons(block)?;
-        } else {
-            self.shifted = false;
-            self.motion_word(&program.settings.feed)?;
-            self.code_word(&sema::Code::plain(b'G', code))?;
-            let mut units = [0; 6];
-            let mut changed = 0;
-            for axis in 0..6 {
-                if target.given & 1 << axis == 0 {
-                    continue;
-                }
-                let info = &self.letters[self.axes[axis]];
-                units[axis] = self.quantised(info, target.values[axis])?;
-                let kept = info.modal && self.registers.holds(info.printed, units[axis], info.format.dec.count);
-                changed |= u8::from(!kept) << axis;
-            }
-            if program.settings.incremental {
-                self.increments(&target, changed)?;
-            } else {
-                self.axis_words(&units, changed)?;
-            }
-            if offset {
-                let Some(register) = self.vars.get(VarId::Dcomp) else {
-                    self.out.clear_block();
-                    let help = "give the tool a \"diameter_offset\"";
-                    return fault(Code::PR001, "cutter compensation without an offset register", help);
-                };
-                self.letter_word(program.settings.cdc_code, register)?;
-            }
-            self.feed_word()?;
-            self.end_block();
-        }
-        self.position = target;
-        self.last_move = LastMove::Line;
-        Ok(())
     }
 }
 

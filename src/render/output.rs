@@ -91,7 +91,7 @@ impl Output {
                 self.text.push(b' ');
             }
             if !layout.columns.is_empty() {
-                self.to_column(layout);
+                self.pad(layout);
             }
             self.words += 1;
         }
@@ -99,7 +99,7 @@ impl Output {
     }
 
     #[cold]
-    fn to_column(&mut self, layout: &Layout) {
+    fn pad(&mut self, layout: &Layout) {
         let column = match layout.columns.as_slice() {
             [width] => self.words * width,
             columns => columns.get(self.words).map_or(0, |column| column - 1),

@@ -132,7 +132,7 @@ impl<'p> Renderer<'p> {
             upon_used: vec![None; program.upons.len()],
             attention: true,
             watches_moves: program.upon_vars.meets(super::motion::MOVE_VARS),
-            measures: program.printed.with(program.upon_vars).meets(super::motion::MEASURES),
+            measures: program.printed.with(program.upon_vars).meets(super::measure::MEASURES),
             tracks: super::motion::tracks(program),
             cycle: None,
             defaults: super::start::no_defaults(),

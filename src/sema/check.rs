@@ -101,12 +101,12 @@ impl Analysis {
         self.files.push(source);
         self.trees.push(tree.clone());
         for item in tree.items {
+            self.items.push(item.clone());
             if let Head::Statement(statement) = &item
                 && matches!(CommandId::parse(&statement.name.text), Some(CommandId::Call | CommandId::CallMe))
             {
                 self.call(statement, open, load);
             }
-            self.items.push(item);
         }
     }
 
@@ -179,14 +179,17 @@ impl Analysis {
                     .help("take it out, or give the lines above it a sequence name"),
             ),
             Head::Sequence(node) => {
-                self.first_sequence.get_or_insert(node.name.line.span);
+                let span = node.name.line.span;
+                if self.first_sequence.is_none_or(|first| first.file != span.file) {
+                    self.first_sequence = Some(span);
+                }
                 self.sequence(node);
             }
         }
     }
 
     fn in_order(&mut self, span: Span, what: &str) {
-        if let Some(first) = self.first_sequence {
+        if let Some(first) = self.first_sequence.filter(|first| first.file == span.file) {
             self.report(
                 Diag::new(Code::PF003, format!("a {what} after the first sequence"))
                     .at(span, format!("this {what}"))

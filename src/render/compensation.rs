@@ -1,0 +1,64 @@
+//! Moves that turn cutter compensation on and off.
+
+use super::fault::{Done, fault};
+use super::renderer::{LastMove, Renderer};
+use crate::diag::Code;
+use crate::lang::{SequenceId, VarId};
+use crate::sema;
+use crate::toolpath::{Axes, Infeed, Side};
+
+impl Renderer<'_> {
+    /// The move that turns cutter compensation on.
+    pub(super) fn infeed(&mut self, infeed: &Infeed, feed: Option<f64>) -> Done {
+        let [left, right, _] = self.program.settings.cdc;
+        let code = match infeed.side {
+            Side::Left => left,
+            Side::Right => right,
+        };
+        self.vars.set(VarId::Side, code);
+        self.compensated(&infeed.to, feed, SequenceId::InFeed, code, true)
+    }
+
+    /// The move that turns it off.
+    pub(super) fn outfeed(&mut self, to: &Axes, feed: Option<f64>) -> Done {
+        let off = self.program.settings.cdc[2];
+        self.vars.set(VarId::Side, off);
+        self.compensated(to, feed, SequenceId::OutFeed, off, false)
+    }
+
+    fn compensated(&mut self, to: &Axes, feed: Option<f64>, id: SequenceId, code: f64, offset: bool) -> Done {
+        let program = self.program;
+        let target = self.target(to);
+        self.close_cycle()?;
+        self.take_feed(feed)?;
+        self.set_targets(&target)?;
+        if self.attention {
+            self.attend()?;
+        }
+        if self.measures {
+            self.measure(&target, true);
+        }
+        if let Some(block) = program.block(id) {
+            self.run_with_upons(block)?;
+        } else {
+            self.shifted = false;
+            self.motion_word(&program.settings.feed)?;
+            self.code_word(&sema::Code::plain(b'G', code))?;
+            let axes = self.axis_units(&target)?;
+            self.axis_words(&target, &axes)?;
+            if offset {
+                let Some(register) = self.vars.get(VarId::Dcomp) else {
+                    self.out.clear_block();
+                    let help = "give the tool a \"diameter_offset\"";
+                    return fault(Code::PR001, "cutter compensation without an offset register", help);
+                };
+                self.letter_word(program.settings.cdc_code, register)?;
+            }
+            self.feed_word()?;
+            self.end_block();
+        }
+        self.position = target;
+        self.last_move = LastMove::Line;
+        Ok(())
+    }
+}

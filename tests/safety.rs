@@ -1,0 +1,244 @@
+//! The safety rules of rendering, each with the part that it saves. Every test prints a short program and reads it
+//! as a machine would.
+#![allow(missing_docs)]
+
+mod support;
+
+use support::{job, mill, path_lines, program};
+
+const DRILL: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+const RETURNS: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+
+/// After a tool change the first position is not repeated, the motion code is: the tool change may have left another.
+#[test]
+fn motion_code_is_unknown_after_a_tool_change() {
+    assert_eq!(path_lines("", "", "{\"rapid\":[0,0,0.5]}"), ["G0 Z.5"]);
+}
+
+/// A position printed as a literal, or after G91 or G28, may stand in another frame: the next move says it again.
+#[test]
+fn positions_in_another_frame_are_unknown() {
+    let form = mill("", "").replacen("G0 G[work] X[h] Y[v] Z[d]", "G91 G28 Z0\nG90\nG0 G[work] X[h] Y[v] Z[d]", 1);
+    let lines = program(&form, &job("{\"line\":[1,0,1]}"));
+    assert_eq!(lines[5..7], ["G0 G54 X0 Y0 Z1.", "G0 X0 Y0 Z1."]);
+}
+
+/// A new work offset makes every position another place.
+#[test]
+fn a_work_offset_makes_positions_unknown() {
+    let path = "{\"line\":[1,1,0]},{\"work\":55},{\"rapid\":[1,1,0]},{\"work\":55},{\"rapid\":[1,1,1]}";
+    assert_eq!(path_lines("", "", path), ["G1 X1. Y1. Z0 F10.", "G55", "G0 X1. Y1. Z0", "Z1."]);
+}
+
+/// Text as it stands may have done anything.
+#[test]
+fn nothing_is_known_after_verbatim_text() {
+    let path = "{\"line\":[1,1,0]},{\"text\":\"G65 P9001\"},{\"line\":[1,2,0]}";
+    assert_eq!(path_lines("", "", path), ["G1 X1. Y1. Z0 F10.", "G65 P9001", "G1 X1. Y2. Z0 F10."]);
+}
+
+/// A feed-mode code makes the feed mean something else.
+#[test]
+fn a_feed_mode_makes_the_feed_unknown() {
+    let form = mill("", "BeginRow\nG94\nEnd");
+    let lines = program(&form, &job("{\"line\":[1,0,0]},{\"begin\":\"row\"},{\"line\":[2,0,0]},{\"end\":\"row\"}"));
+    assert_eq!(lines[4..7], ["G1 X1. Z0 F10.", "G94", "X2. F10."]);
+}
+
+/// An operation that begins with a cut must not rapid to the end of that cut.
+#[test]
+fn a_tool_change_does_not_rapid_to_the_end_of_a_cut() {
+    let text = job("{\"line\":[1,1,-1]}").replace("{\"rapid\":[0,0,1]},", "");
+    assert!(program(&mill("", ""), &text)[0].starts_with("PR012"), "{:?}", program(&mill("", ""), &text));
+}
+
+/// Changes that no Upon serves are printed before the next move, not lost.
+#[test]
+fn changes_that_no_upon_serves_are_printed() {
+    let path = "{\"line\":[1,0,0]},{\"spindle\":{\"speed\":2000}},{\"coolant\":\"mist\"},{\"work\":56},{\"line\":[2,0,0]},\
+                {\"spindle\":{\"direction\":\"off\"}},{\"coolant\":\"off\"},{\"rapid\":[2,0,1]}";
+    let expected = ["G1 X1. Z0 F10.", "G56", "S2000 M3", "M7", "X2. Y0 Z0", "M5", "M9", "G0 Z1."];
+    assert_eq!(path_lines("", "", path), expected);
+}
+
+/// With an Upon the change is the Upon's alone, and it comes before the move.
+#[test]
+fn changes_that_an_upon_serves_are_printed_by_it() {
+    let upon = "Upon [speed]\nG4 P1\nS[speed]\nEnd";
+    let path = "{\"line\":[1,0,0]},{\"spindle\":{\"speed\":2000}},{\"line\":[2,0,0]}";
+    assert_eq!(path_lines("", upon, path), ["G1 X1. Z0 F10.", "G4 P1", "S2000", "X2."]);
+}
+
+/// A work offset that the form has no word for is an error, never G1 for fixture 1.
+#[test]
+fn a_work_offset_without_a_word_is_an_error() {
+    let form = mill("Work 1\nWorkDefault 1", "").replace(" G[work]", "");
+    let lines = program(&form, &job("{\"work\":2},{\"line\":[1,1,1]}"));
+    assert!(lines[0].starts_with("PR017"), "{lines:?}");
+}
+
+/// A second operation with the same tool prints no tool change, but what it changes.
+#[test]
+fn the_same_tool_again_prints_only_changes() {
+    let text = job("{\"line\":[1,0,0]}").replace(
+        "[1,0,0]}]}",
+        "[1,0,0]}]},{\"tool\":1,\"spindle\":{\"speed\":1500},\"feed\":7,\"path\":[{\"line\":[2,0,0]}]}",
+    );
+    assert_eq!(program(&mill("", ""), &text)[4..7], ["G1 X1. Z0 F10.", "S1500 M3", "X2. F7."]);
+}
+
+/// A cycle of the control begins with the tool at the return plane: up alone first, or across first and down last.
+#[test]
+fn a_cycle_begins_at_its_return_plane() {
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"return\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}";
+    let down = ["G0 X1. Y1.", "Z.5", "G98 G81 X1. Y1. Z-1. R.1 F5.", "G80"];
+    assert_eq!(path_lines("", RETURNS, cycle), down);
+    let up = ["G1 Z0 F10.", "G0 Z.5", "G98 G81 X1. Y1. Z-1. R.1 F5.", "G80"];
+    assert_eq!(path_lines("", RETURNS, &format!("{{\"line\":[0,0,0]}},{cycle}")), up);
+}
+
+/// A control would rapid to a higher hole through the material: the cycle is closed, raised and started again.
+#[test]
+fn a_cycle_is_raised_to_a_higher_hole() {
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,1,3],[3,1,0]]}}";
+    let expected = [
+        "G0 X1. Y1.",
+        "Z.1",
+        "G81 X1. Y1. Z-1. R.1 F5.",
+        "G80",
+        "G0 Z3.1",
+        "G81 X2. Y1. Z2. R3.1 F5.",
+        "X3. Z-1. R.1",
+        "G80",
+    ];
+    assert_eq!(path_lines("", DRILL, cycle), expected);
+}
+
+/// The last level is what counts: after the higher hole the tool is above the next one already.
+#[test]
+fn generated_holes_go_up_first_and_down_last() {
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,1,3],[3,1,0]]}}";
+    let expected = [
+        "G0 X1. Y1.", "Z.1", "G1 Z-1. F5.", "G0 Z.1", // the first hole
+        "Z3.1", "X2.", "G1 Z2. F5.", "G0 Z3.1", // up before it goes across
+        "X3.", "Z.1", "G1 Z-1. F5.", "G0 Z.1", // across before it goes down
+    ];
+    assert_eq!(path_lines("", "", cycle), expected);
+}
+
+/// Holes with a depth of their own print it; the others print theirs again.
+#[test]
+fn a_changed_depth_is_printed_at_each_hole_that_changes_it() {
+    let points = "[[1,1,0],{\"at\":[2,1,0],\"depth\":0.5},[3,1,0],[3,1,0]]";
+    let cycle = format!("{{\"cycle\":{{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":{points}}}}}");
+    let expected = ["G81 X1. Y1. Z-1. R1. F5.", "X2. Z-.5", "X3. Z-1.", "X3. Y1.", "G80"];
+    assert_eq!(path_lines("", DRILL, &cycle), expected);
+}
+
+/// Two cycles of one kind in a row: the first is cancelled, the second starts with its whole line.
+#[test]
+fn a_new_cycle_starts_with_its_whole_line() {
+    let cycle = |depth: &str| {
+        format!("{{\"cycle\":{{\"kind\":\"drill\",\"depth\":{depth},\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}}}")
+    };
+    let expected = ["G81 X1. Y1. Z-1. R1. F5.", "G80", "G81 X1. Y1. Z-2. R1. F5.", "G80", "G0 X0"];
+    assert_eq!(path_lines("", DRILL, &format!("{},{},{{\"rapid\":[0]}}", cycle("1"), cycle("2"))), expected);
+}
+
+/// After a cycle only the last hole's position is known: the feed prints again.
+#[test]
+fn the_feed_is_unknown_after_a_cycle() {
+    let path = "{\"line\":[1,1,1]},{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":10,\"points\":[[1,1,0]]}},\
+                {\"line\":[1,2,1]}";
+    let expected = ["G1 X1. Y1. F10.", "G81 X1. Y1. Z-1. R1. F10.", "G80", "G1 Y2. F10."];
+    assert_eq!(path_lines("", DRILL, path), expected);
+}
+
+/// A return plane that the control is not told of is a warning: clamps stand between holes.
+#[test]
+fn a_return_plane_that_is_not_reached_is_a_warning() {
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"return\":2,\"feed\":5,\"points\":[[1,1,0]]}}";
+    let notes = |form: &str| support::render(form, &job(cycle)).map(|r| r.notes).unwrap_or_default();
+    assert!(notes(&mill("", DRILL)).iter().any(|n| n.code.name() == "PR013"));
+    assert!(notes(&mill("", RETURNS)).is_empty());
+}
+
+/// What a cycle's sequence can't say is printed as moves, never left out: here the dwell at the bottom.
+#[test]
+fn a_dwell_that_the_form_does_not_print_becomes_moves() {
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"dwell\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}";
+    let expected = ["G0 X1. Y1.", "G1 Z-1. F5.", "G4 P.5", "G0 Z1."];
+    assert_eq!(path_lines("", DRILL, cycle), expected);
+    let dwells = DRILL.replace("F[frate]", "P[dwell] F[frate]");
+    assert_eq!(path_lines("", &dwells, cycle), ["G81 X1. Y1. Z-1. R1. P.5 F5.", "G80"]);
+}
+
+/// A rigid tap keeps step with the spindle: single moves can't, and never try.
+#[test]
+fn a_rigid_tap_is_never_made_of_moves() {
+    let tap = "{\"cycle\":{\"kind\":\"tap\",\"depth\":1,\"clear\":1,\"feed\":50,\"rigid\":true,\"points\":[[1,1,0]]}}";
+    assert!(path_lines("", "", tap)[0].starts_with("PR009"));
+    let floating = tap.replace(",\"rigid\":true", "");
+    assert_eq!(path_lines("", "", &floating), ["G0 X1. Y1.", "G1 Z-1. F50.", "M4", "Z1.", "M3"]);
+}
+
+/// Arc words are never dropped, although they did not change: no control keeps them.
+#[test]
+fn centre_words_are_always_printed() {
+    let path = "{\"line\":[0,0,0]},{\"arc\":{\"to\":[2,0],\"center\":[1,0],\"direction\":\"cw\"}},\
+                {\"arc\":{\"to\":[4,0],\"center\":[3,0],\"direction\":\"cw\"}}";
+    assert_eq!(path_lines("", "", path), ["G1 Z0 F10.", "G17 G2 X2. I1. J0", "X4. I1. J0"]);
+}
+
+/// An arc so short that its ends print alike would be a full circle at the machine.
+#[test]
+fn a_tiny_arc_does_not_become_a_full_circle() {
+    let path = "{\"line\":[1,0,0]},{\"arc\":{\"to\":[0.9999999,0.00001],\"center\":[0,0],\"direction\":\"ccw\"}},{\"line\":[0,0,0]}";
+    assert_eq!(path_lines("", "", path), ["G1 X1. Z0 F10.", "X0"]);
+}
+
+/// A number that does not fit its letter is an error: a control would alarm or, worse, misread it.
+#[test]
+fn a_number_that_does_not_fit_is_an_error() {
+    assert!(path_lines("X->2.>4", "", "{\"line\":[100,0,0]}")[0].starts_with("PR002"));
+    assert!(path_lines("X >2.>4", "", "{\"line\":[-1,0,0]}")[0].starts_with("PR003"));
+    assert!(path_lines("F >3", "", "{\"line\":[1,0,0],\"feed\":0.4}")[0].starts_with("PR002"));
+    assert!(path_lines("G 2", "", "{\"work\":59.1},{\"line\":[1,0,0]}")[0].starts_with("PR002"));
+}
+
+/// Metric lengths in an inch program move 25.4 times as far.
+#[test]
+fn other_units_need_a_printed_unit_code() {
+    let metric = job("{\"line\":[25.4,0,0]}").replace("inch", "mm");
+    assert!(program(&mill("", ""), &metric)[0].starts_with("PR010"));
+    let form = mill("Units both", "").replacen("%0", "G[unitmode]", 1);
+    assert_eq!(program(&form, &metric)[..5], ["G21", "T1 M6", "S1000 M3", "G0 G54 X0 Y0 Z1.", "G1 X25.4 Z0 F10."]);
+}
+
+/// A comment can't end early and let its rest move the machine.
+#[test]
+fn comments_keep_their_marks() {
+    assert_eq!(path_lines("", "", "{\"comment\":\"a) G0 Z-9 (b\\u0007é%\"}"), ["(A] G0 Z-9 [B??_)"]);
+    assert_eq!(path_lines("Comment ;", "", "{\"comment\":\"a (b)\"}"), [";A (B)"]);
+}
+
+/// Travel limits of the form are checked.
+#[test]
+fn travel_limits_are_kept() {
+    assert!(path_lines("Limits Z -5 5", "", "{\"line\":[1,0,-5.001]}")[0].starts_with("PR007"));
+    assert_eq!(path_lines("Limits Z -5 5", "", "{\"line\":[0,0,-5]}"), ["G1 Z-5. F10."]);
+}
+
+/// A feed move without a feed is an error, not the last tool's feed.
+#[test]
+fn a_move_needs_a_feed() {
+    let text = job("{\"line\":[1,0,0]}").replace("\"feed\":10,", "");
+    assert!(program(&mill("", ""), &text)[0].starts_with("PR011"));
+}
+
+/// Cutter compensation without an offset register is an error.
+#[test]
+fn compensation_needs_its_offset() {
+    let path = "{\"infeed\":[1,0],\"side\":\"left\"},{\"line\":[2,0]},{\"outfeed\":[3,0]}";
+    assert_eq!(path_lines("", "", path), ["G1 G41 X1. D21 F10.", "X2.", "G40 X3."]);
+}

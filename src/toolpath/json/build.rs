@@ -260,6 +260,7 @@ impl<'s> Builder<'s> {
         if self.place.operation == 0 {
             return fault(Code::PJ009, "the job has no operations", "give at least one operation");
         }
+        self.place = Place { line: self.place.line, column: self.place.column, ..Place::default() };
         self.push(Event::Finish)
     }
 

@@ -1,6 +1,6 @@
 //! Where a reader is, and what went wrong there.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::fmt::Write;
 
 use serde::de;
@@ -34,6 +34,10 @@ pub enum Step {
 /// Shared by the readers of one job: the path to where they are, and the failure that stopped them.
 #[derive(Default)]
 pub struct Context {
+    /// Line and column of what was read last; only the document reader counts them.
+    pub at: Cell<(u64, u32)>,
+    /// Where the last point began.
+    pub point_at: Cell<(u64, u32)>,
     path: RefCell<Vec<Step>>,
     failure: RefCell<Option<Box<Diag>>>,
 }

@@ -22,17 +22,17 @@ const MOST_WAITING: usize = 4096;
 /// # Errors
 /// What is wrong with the job, or with what the sink was asked to do, and where.
 pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadError> {
-    let at = Cell::new((1, 0));
-    let reader = Counting { input, at: &at, buffer: Box::new([0; 64 * 1024]), from: 0, to: 0, begun: false };
     let context = Context::default();
-    let job = Job { context: &context, builder: RefCell::new(Builder::new(sink)), at: &at };
+    context.at.set((1, 0));
+    let reader = Counting { input, at: &context.at, buffer: Box::new([0; 64 * 1024]), from: 0, to: 0, begun: false };
+    let job = Job { context: &context, builder: RefCell::new(Builder::new(sink)) };
     let mut deserializer = serde_json::Deserializer::from_reader(reader);
     let read = JobSeed(&job, Part::Job).deserialize(&mut deserializer).and_then(|()| {
         deserializer.end()?;
         job.builder.borrow_mut().finish().map_err(|diag| context.fail_with(diag))
     });
     read.map_err(|error| {
-        let (line, column) = at.get();
+        let (line, column) = context.at.get();
         if line == 1 && column == 0 {
             return ReadError::Job(Box::new(Diag::new(Code::PJ007, "the job is empty").help("write a job file")));
         }
@@ -79,7 +79,6 @@ impl<R: Read> Read for Counting<'_, R> {
 struct Job<'a, 's> {
     context: &'a Context,
     builder: RefCell<Builder<'s>>,
-    at: &'a Cell<(u64, u32)>,
 }
 
 impl<'s> Job<'_, 's> {
@@ -96,7 +95,7 @@ impl<'s> Job<'_, 's> {
 
     /// The place of the value that begins here.
     fn mark(&self) {
-        let (line, column) = self.at.get();
+        let (line, column) = self.context.at.get();
         let mut builder = self.builder.borrow_mut();
         builder.place.line = line;
         builder.place.column = column;
@@ -127,9 +126,11 @@ fn streamed<'de, T: Streamed, A: MapAccess<'de>>(
     while let Some(key) = map.next_key_seed(keys(job.context))? {
         let name = T::KEYS.get(key).copied().unwrap_or(T::LIST[0]);
         once(&mut seen, key, name, job.context)?;
-        job.context.enter(Step::Key(name));
         if key == T::KEYS.len() {
             head(object.take().unwrap_or_default())?;
+        }
+        job.context.enter(Step::Key(name));
+        if key == T::KEYS.len() {
             map.next_value_seed(JobSeed(job, list))?;
             listed = true;
         } else if let Some(object) = &mut object {
@@ -313,7 +314,7 @@ impl<'de> Visitor<'de> for Points<'_, '_, '_, '_> {
             let Some(point) = seq.next_element_seed(PointSeed { context: job.context })? else { break };
             job.context.leave();
             index += 1;
-            self.waiting.push((point, job.at.get()));
+            self.waiting.push((point, job.context.point_at.get()));
             if begun || self.waiting.len() == MOST_WAITING {
                 if !begun {
                     job.build(|b| b.cycle_begin(self.object))?;
@@ -325,32 +326,4 @@ impl<'de> Visitor<'de> for Points<'_, '_, '_, '_> {
         job.context.leave();
         Ok(begun)
     }
-}
-
-/// The JSON Schema of a job document, from the same tables.
-#[cfg(feature = "schema")]
-pub fn schema() -> serde_json::Value {
-    use super::values::Position;
-    let mut generator = schemars::SchemaGenerator::default();
-    let list = |schema: schemars::Schema, description: &str| serde_json::json!({ "type": "array", "items": schema, "description": description });
-    _ = generator.subschema_for::<Position>();
-    let point = generator.subschema_for::<Point>();
-    let mut cycle = generator.subschema_for::<CycleObject>();
-    _ = &mut cycle;
-    let item = generator.subschema_for::<ItemObject>();
-    let operation = generator.subschema_for::<OperationHead>();
-    let mut root = generator.root_schema_for::<JobHead>().to_value();
-    let add = |root: &mut serde_json::Value, pointer: &str, key: &str, value: serde_json::Value| {
-        if let Some(properties) = root.pointer_mut(pointer).and_then(|p| p.as_object_mut()) {
-            properties.insert(key.to_owned(), value);
-        }
-    };
-    add(&mut root, "/properties", "operations", list(operation, "the operations; the last key"));
-    add(&mut root, "/$defs/OperationHead/properties", "path", list(item, "the moves; the last key"));
-    let cycle = serde_json::to_value(cycle).unwrap_or_default();
-    add(&mut root, "/$defs/ItemObject/properties", "cycle", cycle);
-    add(&mut root, "/$defs/CycleObject/properties", "points", list(point, "the points of the cycle"));
-    add(&mut root, "", "title", "postform job".into());
-    add(&mut root, "", "required", serde_json::json!(["operations"]));
-    root
 }

@@ -7,10 +7,12 @@ mod fast;
 mod lines;
 mod objects;
 mod position;
+#[cfg(feature = "schema")]
+mod schema;
 mod values;
 
 pub use context::ReadError;
 pub use document::read_document;
 #[cfg(feature = "schema")]
-pub use document::schema;
+pub use schema::schema;
 pub use lines::read_lines;

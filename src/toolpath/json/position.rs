@@ -29,10 +29,12 @@ impl<'de> Visitor<'de> for PointSeed<'_> {
         f.write_str("a point: a position, or {\"at\": position, \"depth\": number}")
     }
     fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Point, A::Error> {
+        self.context.point_at.set(self.context.at.get());
         Ok(Point(Hole { at: position(seq)?.0, depth: None }))
     }
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Point, A::Error> {
         const KEYS: &[&str] = &["at", "depth"];
+        self.context.point_at.set(self.context.at.get());
         let (mut at, mut depth, mut seen) = (None, None, 0);
         let keys = || KeySeed { context: self.context, object: "a point", keys: [KEYS, &[]] };
         while let Some(key) = map.next_key_seed(keys())? {

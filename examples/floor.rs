@@ -1,0 +1,91 @@
+//! Jobs of any size, and the floors that rendering them is compared with. Used by `benches/throughput`.
+//!
+//! `floor make moves|holes N` writes a JSON Lines job to standard output; `floor serde FILE` parses one with serde and
+//! does nothing with it; `floor write FILE` parses its numbers in the simplest way and prints them with `write!`.
+#![allow(clippy::unwrap_used)]
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, BufWriter, Result, Write, stdout};
+
+fn main() -> Result<()> {
+    let arguments: Vec<String> = std::env::args().collect();
+    let words: Vec<&str> = arguments.iter().skip(1).map(String::as_str).collect();
+    match words.as_slice() {
+        ["make", kind, count] => make(kind, count.parse().unwrap()),
+        ["serde", file] => serde(file),
+        ["write", file] => write(file),
+        _ => {
+            eprintln!("floor make moves|holes N, floor serde FILE, floor write FILE");
+            std::process::exit(2);
+        }
+    }
+}
+
+fn make(kind: &str, count: u64) -> Result<()> {
+    let mut out = BufWriter::new(stdout().lock());
+    writeln!(out, "{{\"start\":{{\"postform\":1,\"program\":1,\"units\":\"mm\",\"tools\":[{{\"number\":1}}]}}}}")?;
+    writeln!(
+        out,
+        "{{\"operation\":{{\"tool\":1,\"work\":54,\"spindle\":{{\"speed\":9000,\"direction\":\"cw\"}},\"feed\":1500}}}}"
+    )?;
+    let mut state = 1u64;
+    let mut next = |range: f64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((state >> 33) as f64 / f64::from(1u32 << 31) * range * 1e4).round() / 1e4
+    };
+    if kind == "holes" {
+        writeln!(out, "{{\"cycle\":{{\"kind\":\"drill\",\"depth\":5,\"clear\":2,\"feed\":200}}}}")?;
+        for _ in 0..count {
+            writeln!(out, "{{\"point\":[{},{},0]}}", next(200.0), next(200.0))?;
+        }
+        writeln!(out, "{{\"cycle_end\":true}}")?;
+    } else {
+        writeln!(out, "{{\"rapid\":[0,0,5]}}")?;
+        for i in 0..count {
+            let (x, y, z) = (next(200.0), next(200.0), -next(2.0));
+            let feed = if i % 50 == 0 { format!(",\"feed\":{}", 500 + i % 2000) } else { String::new() };
+            writeln!(out, "{{\"line\":[{x},{y},{z}]{feed}}}")?;
+        }
+    }
+    writeln!(out, "{{\"end\":true}}")
+}
+
+#[derive(serde::Deserialize)]
+struct Item {
+    line: Option<[f64; 3]>,
+    point: Option<[f64; 3]>,
+    feed: Option<f64>,
+}
+
+fn serde(file: &str) -> Result<()> {
+    let mut sum = 0.0;
+    each_line(file, |line| {
+        if let Ok(item) = serde_json::from_slice::<Item>(line) {
+            let [x, y, z] = item.line.or(item.point).unwrap_or_default();
+            sum += x + y + z + item.feed.unwrap_or(0.0);
+        }
+        Ok(())
+    })?;
+    println!("{sum}");
+    Ok(())
+}
+
+fn write(file: &str) -> Result<()> {
+    let mut out = BufWriter::with_capacity(64 * 1024, stdout().lock());
+    each_line(file, |line| {
+        if let Ok(Item { line: Some([x, y, z]), .. }) = serde_json::from_slice(line) {
+            writeln!(out, "X{x:.4} Y{y:.4} Z{z:.4}")?;
+        }
+        Ok(())
+    })
+}
+
+fn each_line(file: &str, mut f: impl FnMut(&[u8]) -> Result<()>) -> Result<()> {
+    let mut input = BufReader::with_capacity(256 * 1024, File::open(file)?);
+    let mut line = Vec::new();
+    while input.read_until(b'\n', &mut line)? > 0 {
+        f(&line)?;
+        line.clear();
+    }
+    Ok(())
+}

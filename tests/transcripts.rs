@@ -1,0 +1,42 @@
+//! Command lines with what they print: those of the README, of docs/ and of `tests/cmd/`. After a change that is meant,
+//! `TRYCMD=overwrite cargo test --test transcripts` writes them anew; read the difference.
+#![allow(missing_docs)]
+
+mod support;
+
+use std::fs;
+use std::process::Command;
+
+use support::root;
+
+#[test]
+fn transcripts() {
+    trycmd::TestCases::new().case("README.md").case("docs/*.md").case("tests/cmd/*.trycmd");
+}
+
+/// The README's commands for a fresh machine: the first renders, the second is what CI runs.
+#[test]
+fn the_two_commands() {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let block = readme.split("```sh\n").nth(1).unwrap().split("```").next().unwrap();
+    let commands: Vec<&str> = block.lines().collect();
+    assert_eq!(commands.len(), 2);
+    let arguments = commands[0].strip_prefix("cargo run --release -- ").unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_postform")).args(arguments.split(' ')).current_dir(root()).output().unwrap();
+    assert!(output.status.success());
+    let expected = fs::read(root().join("samples/bracket/expected.fanuc.nc")).unwrap();
+    assert!(output.stdout == expected, "the README's first command prints the bracket for Fanuc");
+    let ci = fs::read_to_string(root().join(".ci/run")).unwrap();
+    assert!(ci.lines().any(|line| line.trim() == commands[1]), "CI runs `{}`", commands[1]);
+}
+
+/// The published schema is the one that the types make, and the sample jobs are of its shape.
+#[test]
+fn the_job_schema_is_current() {
+    let output = Command::new(env!("CARGO_BIN_EXE_postform")).args(["check", "--schema"]).output().unwrap();
+    let path = root().join("docs/job.schema.json");
+    if std::env::var("SAMPLES").is_ok_and(|v| v == "overwrite") {
+        fs::write(&path, &output.stdout).unwrap();
+    }
+    assert!(fs::read(path).unwrap() == output.stdout, "`postform check --schema` prints another schema");
+}

@@ -36,7 +36,8 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 const FORM: &str = "Sequence#s N 10 10\nMinRad 0.01";
-const CYCLES: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel\nPeck\nNone\nEnd\nRapidCode\nG0 X[h] Y[v] Z[d]\nEnd";
+const CYCLES: &str =
+    "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel\nPeck\nNone\nEnd\nRapidCode\nG0 X[h] Y[v] Z[d]\nEnd";
 
 #[test]
 fn events_do_not_allocate() {

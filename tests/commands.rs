@@ -5,7 +5,8 @@ mod support;
 
 use support::{job, mill, path_lines, program};
 
-const CORNER: &str = "{\"line\":[1,0,0]},{\"arc\":{\"to\":[2,1],\"center\":[1,1],\"direction\":\"ccw\"}},{\"line\":[2,2,0]}";
+const CORNER: &str =
+    "{\"line\":[1,0,0]},{\"arc\":{\"to\":[2,1],\"center\":[1,1],\"direction\":\"ccw\"}},{\"line\":[2,2,0]}";
 /// Three quarters of a circle.
 const LONG: &str = "{\"line\":[1,0,0]},{\"arc\":{\"to\":[0,-1],\"center\":[0,0],\"direction\":\"ccw\"}}";
 const CIRCLE: &str = "{\"line\":[1,0,0]},{\"arc\":{\"to\":[1,0],\"center\":[0,0],\"direction\":\"cw\"}}";
@@ -17,7 +18,8 @@ fn arcs(head: &str, path: &str) -> Vec<String> {
 #[test]
 fn motion_words() {
     let head = "Rapid G00\nFeed G01\nCW 2\nCCW G03\nFeedCode E\nE >4.>2";
-    let path = "{\"rapid\":[0,0,0.5]},{\"line\":[1,0,0]},{\"arc\":{\"to\":[2,1],\"center\":[1,1],\"direction\":\"ccw\"}}";
+    let path =
+        "{\"rapid\":[0,0,0.5]},{\"line\":[1,0,0]},{\"arc\":{\"to\":[2,1],\"center\":[1,1],\"direction\":\"ccw\"}}";
     assert_eq!(path_lines(head, "", path), ["G00 Z.5", "G01 X1. Z0 E10.", "G17 G03 X2. Y1. I0 J1."]);
     let numbers = "G 2\nM 2";
     assert_eq!(path_lines(numbers, "", "{\"rapid\":[0,0,0.5]}"), ["G00 Z.5"]);
@@ -43,9 +45,11 @@ fn arc_centres_in_three_forms() {
 #[test]
 fn quadrants_planes_helices() {
     assert_eq!(arcs("ByQuadrants? Y", LONG), ["G17 G3 X0 Y1. I-1. J0", "X-1. Y0 I0 J-1.", "X0 Y-1. I1. J0"]);
-    let xz = "{\"line\":[1,0,0]},{\"arc\":{\"to\":[0,null,1],\"center\":[0,null,0],\"direction\":\"cw\",\"plane\":\"xz\"}}";
+    let xz =
+        "{\"line\":[1,0,0]},{\"arc\":{\"to\":[0,null,1],\"center\":[0,null,0],\"direction\":\"cw\",\"plane\":\"xz\"}}";
     assert_eq!(arcs("", xz), ["G18 G2 X0 Z1. I-1. K0"]);
-    let yz = "{\"line\":[0,1,0]},{\"arc\":{\"to\":[null,0,1],\"center\":[null,0,0],\"direction\":\"ccw\",\"plane\":\"yz\"}}";
+    let yz =
+        "{\"line\":[0,1,0]},{\"arc\":{\"to\":[null,0,1],\"center\":[null,0,0],\"direction\":\"ccw\",\"plane\":\"yz\"}}";
     assert_eq!(arcs("", yz), ["G19 G3 Y0 Z1. J-1. K0"]);
     // a plane that the control has not: lines, within the tolerance
     let chords = arcs("ArcPlane G17\nTolerance 0.1", xz);
@@ -94,7 +98,8 @@ fn modality() {
 
 #[test]
 fn inverse_time_says_the_feed_of_every_block() {
-    let text = job("{\"line\":[1,0,1]},{\"line\":[2,0,1]}").replace("\"feed\":10", "\"feed\":10,\"feed_mode\":\"inverse_time\"");
+    let text = job("{\"line\":[1,0,1]},{\"line\":[2,0,1]}")
+        .replace("\"feed\":10", "\"feed\":10,\"feed_mode\":\"inverse_time\"");
     assert_eq!(program(&mill("", ""), &text)[4..7], ["G93", "G1 X1. F10.", "X2. F10."]);
 }
 
@@ -117,7 +122,10 @@ fn block_numbers() {
         lines("Sequence#s N 10 5"),
         ["%", "N10 T1 M6", "N15 S1000 M3", "N20 G0 G54 X0 Y0 Z1.", "N25 G1 X1. F10.", "N30 M30"]
     );
-    assert_eq!(lines("Sequence#s N 1 1\nN 3\nFirst#? N\nLast#? N")[1..], ["T1 M6", "N001 S1000 M3", "N002 G0 G54 X0 Y0 Z1.", "N003 G1 X1. F10.", "M30"]);
+    assert_eq!(
+        lines("Sequence#s N 1 1\nN 3\nFirst#? N\nLast#? N")[1..],
+        ["T1 M6", "N001 S1000 M3", "N002 G0 G54 X0 Y0 Z1.", "N003 G1 X1. F10.", "M30"]
+    );
     // at its width the number starts again
     assert_eq!(lines("Sequence#s N 8 1\nN >1")[1..4], ["N8 T1 M6", "N9 S1000 M3", "N8 G0 G54 X0 Y0 Z1."]);
     assert_eq!(lines("Sequence#s N 10 10\nSpaces? N")[1], "N10T1M6");
@@ -149,9 +157,14 @@ fn rename_lets_one_letter_have_two_formats() {
 
 #[test]
 fn spindle_coolant_and_offsets_are_those_of_the_form() {
-    let form = mill("Spindle M13 M14 M5\nCoolant 50 9 51\nLComp 50\nDComp 60", "")
-        .replacen("S[speed] M[direct]", "S[speed] M[direct] M[cool] H[lcomp] D[dcomp]", 1);
-    let text = job("{\"line\":[1,0,1]}").replace("\"feed\":10", "\"feed\":10,\"coolant\":\"mist\"").replace(",\"diameter_offset\":21", "");
+    let form = mill("Spindle M13 M14 M5\nCoolant 50 9 51\nLComp 50\nDComp 60", "").replacen(
+        "S[speed] M[direct]",
+        "S[speed] M[direct] M[cool] H[lcomp] D[dcomp]",
+        1,
+    );
+    let text = job("{\"line\":[1,0,1]}")
+        .replace("\"feed\":10", "\"feed\":10,\"coolant\":\"mist\"")
+        .replace(",\"diameter_offset\":21", "");
     assert_eq!(program(&form, &text)[2], "S1000 M13 M51 H51 D61");
     let off = job("{\"line\":[1,0,1]}");
     assert_eq!(program(&form, &off)[2], "S1000 M13 M9 H51 D21");
@@ -169,8 +182,14 @@ fn work_offsets_count_from_the_first_code() {
 
 #[test]
 fn dwells_stops_and_compensation() {
-    assert_eq!(path_lines("", "", "{\"dwell\":0.25},{\"stop\":\"optional\"},{\"stop\":\"program\"}"), ["G4 P.25", "M1", "M0"]);
-    assert_eq!(path_lines("Dwell G04 X ms\nStopCode 10 11", "", "{\"dwell\":0.25},{\"stop\":\"optional\"}"), ["G04 X250.", "M11"]);
+    assert_eq!(
+        path_lines("", "", "{\"dwell\":0.25},{\"stop\":\"optional\"},{\"stop\":\"program\"}"),
+        ["G4 P.25", "M1", "M0"]
+    );
+    assert_eq!(
+        path_lines("Dwell G04 X ms\nStopCode 10 11", "", "{\"dwell\":0.25},{\"stop\":\"optional\"}"),
+        ["G04 X250.", "M11"]
+    );
     let path = "{\"infeed\":[1,0],\"side\":\"right\"},{\"line\":[2,0]},{\"outfeed\":[3,0]}";
     assert_eq!(path_lines("CDC 141 142 140\nCDCCode H", "", path), ["G1 G142 X1. H21 F10.", "X2.", "G140 X3."]);
 }
@@ -182,7 +201,11 @@ fn prompted_variables_need_an_answer() {
     assert_eq!(program(&form, &job(path)), ["PR015 [val1] is asked for: Fixture height"]);
     let answered = job(path).replacen("\"program\":1", "\"program\":1,\"set\":{\"val1\":3}", 1);
     assert_eq!(program(&form, &answered)[4], "R3. Q2.5");
-    let changed = job(&format!("{{\"set\":{{\"val2\":7}}}},{path}")).replacen("\"program\":1", "\"program\":1,\"set\":{\"val1\":3}", 1);
+    let changed = job(&format!("{{\"set\":{{\"val2\":7}}}},{path}")).replacen(
+        "\"program\":1",
+        "\"program\":1,\"set\":{\"val1\":3}",
+        1,
+    );
     assert_eq!(program(&form, &changed)[4], "R3. Q7.");
 }
 

@@ -14,7 +14,9 @@ fn interpreted(program: &Path, tools: &str) -> Option<String> {
     let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tools.tbl");
     fs::write(&table, tools).unwrap();
     match Command::new("rs274").arg("-t").arg(&table).arg("-g").arg(program).output() {
-        Ok(output) => Some(String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)),
+        Ok(output) => {
+            Some(String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr))
+        }
         Err(_) => {
             eprintln!("skipped: rs274 is not installed");
             None

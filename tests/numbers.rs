@@ -100,11 +100,11 @@ impl Values {
         let digits = (self.next() % 10u64.pow(1 + (bits >> 8) as u32 % 9)) as f64;
         let mut value = digits / 10f64.powi(places as i32);
         match (bits >> 16) % 8 {
-            0 => value += 0.5 / 10f64.powi(places as i32),                // a tie
-            1 => value = 10f64.powi((bits >> 20) as i32 % 5) - 0.00004,   // a carry
-            2 => value = f64::from_bits(value.to_bits() + 1),             // the next double
+            0 => value += 0.5 / 10f64.powi(places as i32),              // a tie
+            1 => value = 10f64.powi((bits >> 20) as i32 % 5) - 0.00004, // a carry
+            2 => value = f64::from_bits(value.to_bits() + 1),           // the next double
             3 => value = f64::from_bits(value.to_bits().saturating_sub(1)),
-            4 => value /= 3.0,                                            // seventeen digits
+            4 => value /= 3.0, // seventeen digits
             _ => {}
         }
         if bits & 1 << 40 != 0 { -value } else { value }
@@ -112,7 +112,8 @@ impl Values {
 }
 
 const FORMATS: [&str; 14] = [
-    "->3.>4", "->4.>4", "->5.>3", ">6.>4", ">4~>6", ">6", ">3~>1", "->34", "34", "2", "+>3.4", "-3.3", "->3.0", "->9.>9",
+    "->3.>4", "->4.>4", "->5.>3", ">6.>4", ">4~>6", ">6", ">3~>1", "->34", "34", "2", "+>3.4", "-3.3", "->3.0",
+    "->9.>9",
 ];
 
 #[test]

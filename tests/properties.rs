@@ -50,7 +50,10 @@ const START: &str = "\"postform\":1,\"program\":7,\"tools\":[{\"number\":1}]";
 const OPERATION: &str = "\"tool\":1,\"work\":54,\"spindle\":{\"speed\":9,\"direction\":\"cw\"},\"feed\":5";
 
 fn form() -> postform::sema::Checked {
-    check(&mill("Sequence#s N 1 1\nX->9.>4\nY->9.>4\nZ->9.>4\nP->9.>3", "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel"))
+    check(&mill(
+        "Sequence#s N 1 1\nX->9.>4\nY->9.>4\nZ->9.>4\nP->9.>3",
+        "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel",
+    ))
 }
 
 proptest! {

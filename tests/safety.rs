@@ -90,7 +90,8 @@ fn the_same_tool_again_prints_only_changes() {
 /// A cycle of the control begins with the tool at the return plane: up alone first, or across first and down last.
 #[test]
 fn a_cycle_begins_at_its_return_plane() {
-    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"return\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}";
+    let cycle =
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"return\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}";
     let down = ["G0 X1. Y1.", "Z.5", "G98 G81 X1. Y1. Z-1. R.1 F5.", "G80"];
     assert_eq!(path_lines("", RETURNS, cycle), down);
     let up = ["G1 Z0 F10.", "G0 Z.5", "G98 G81 X1. Y1. Z-1. R.1 F5.", "G80"];
@@ -100,7 +101,8 @@ fn a_cycle_begins_at_its_return_plane() {
 /// A control would rapid to a higher hole through the material: the cycle is closed, raised and started again.
 #[test]
 fn a_cycle_is_raised_to_a_higher_hole() {
-    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,1,3],[3,1,0]]}}";
+    let cycle =
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,1,3],[3,1,0]]}}";
     let expected = [
         "G0 X1. Y1.",
         "Z.1",
@@ -117,11 +119,21 @@ fn a_cycle_is_raised_to_a_higher_hole() {
 /// The last level is what counts: after the higher hole the tool is above the next one already.
 #[test]
 fn generated_holes_go_up_first_and_down_last() {
-    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,1,3],[3,1,0]]}}";
+    let cycle =
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,1,3],[3,1,0]]}}";
     let expected = [
-        "G0 X1. Y1.", "Z.1", "G1 Z-1. F5.", "G0 Z.1", // the first hole
-        "Z3.1", "X2.", "G1 Z2. F5.", "G0 Z3.1", // up before it goes across
-        "X3.", "Z.1", "G1 Z-1. F5.", "G0 Z.1", // across before it goes down
+        "G0 X1. Y1.",
+        "Z.1",
+        "G1 Z-1. F5.",
+        "G0 Z.1", // the first hole
+        "Z3.1",
+        "X2.",
+        "G1 Z2. F5.",
+        "G0 Z3.1", // up before it goes across
+        "X3.",
+        "Z.1",
+        "G1 Z-1. F5.",
+        "G0 Z.1", // across before it goes down
     ];
     assert_eq!(path_lines("", "", cycle), expected);
 }
@@ -157,7 +169,8 @@ fn the_feed_is_unknown_after_a_cycle() {
 /// A return plane that the control is not told of is a warning: clamps stand between holes.
 #[test]
 fn a_return_plane_that_is_not_reached_is_a_warning() {
-    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"return\":2,\"feed\":5,\"points\":[[1,1,0]]}}";
+    let cycle =
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"return\":2,\"feed\":5,\"points\":[[1,1,0]]}}";
     let notes = |form: &str| support::render(form, &job(cycle)).map(|r| r.notes).unwrap_or_default();
     assert!(notes(&mill("", DRILL)).iter().any(|n| n.code.name() == "PR013"));
     assert!(notes(&mill("", RETURNS)).is_empty());
@@ -166,7 +179,8 @@ fn a_return_plane_that_is_not_reached_is_a_warning() {
 /// What a cycle's sequence can't say is printed as moves, never left out: here the dwell at the bottom.
 #[test]
 fn a_dwell_that_the_form_does_not_print_becomes_moves() {
-    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"dwell\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}";
+    let cycle =
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"dwell\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}";
     let expected = ["G0 X1. Y1.", "G1 Z-1. F5.", "G4 P.5", "G0 Z1."];
     assert_eq!(path_lines("", DRILL, cycle), expected);
     let dwells = DRILL.replace("F[frate]", "P[dwell] F[frate]");

@@ -24,7 +24,10 @@ fn a_program_line_leads_to_its_form_line_and_item_and_back() {
     assert_eq!(trace.printed_by_form(span).collect::<Vec<_>>(), [second_hole - 1, second_hole, second_hole + 1]);
     let item = Place { operation: 1, item: 1, ..Place::default() };
     // the three holes; Cancel is printed at the item's end
-    assert_eq!(trace.printed_by_item(item).collect::<Vec<_>>(), (second_hole - 1..=second_hole + 2).collect::<Vec<_>>());
+    assert_eq!(
+        trace.printed_by_item(item).collect::<Vec<_>>(),
+        (second_hole - 1..=second_hole + 2).collect::<Vec<_>>()
+    );
     assert_eq!(trace.line(10_000), None);
 }
 

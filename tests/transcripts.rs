@@ -22,7 +22,8 @@ fn the_two_commands() {
     let commands: Vec<&str> = block.lines().collect();
     assert_eq!(commands.len(), 2);
     let arguments = commands[0].strip_prefix("cargo run --release -- ").unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_postform")).args(arguments.split(' ')).current_dir(root()).output().unwrap();
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_postform")).args(arguments.split(' ')).current_dir(root()).output().unwrap();
     assert!(output.status.success());
     let expected = fs::read(root().join("samples/bracket/expected.fanuc.nc")).unwrap();
     assert!(output.stdout == expected, "the README's first command prints the bracket for Fanuc");

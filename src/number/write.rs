@@ -30,8 +30,8 @@ pub fn write_number(
         return Err(Unprintable::Negative);
     }
     // from the last digit to the sign, then out in one piece
-    let mut text = Backwards { bytes: [b'0'; 40], at: 40 };
-    let mut end = text.bytes.len();
+    let mut text = Backwards { bytes: [b'0'; ROOM + SHORT], at: ROOM };
+    let mut end = ROOM;
     if format.is_implied() {
         text.digits(magnitude, if format.int.fixed { format.int.count + decimals } else { 1 });
     } else {
@@ -43,7 +43,7 @@ pub fn write_number(
             Point::Implied => false,
         };
         if point {
-            text.digits(fraction, decimals);
+            text.fraction(fraction, decimals);
             if !format.dec.fixed {
                 while end > text.at && text.bytes[end - 1] == b'0' {
                     end -= 1;
@@ -62,9 +62,22 @@ pub fn write_number(
     } else if format.sign == Sign::Always && units > 0 {
         text.push(b'+');
     }
-    out.extend_from_slice(&text.bytes[text.at..end]);
+    let (start, length) = (out.len(), end - text.at);
+    match text.bytes[text.at..].first_chunk::<SHORT>() {
+        // a copy of fixed length is two instructions; what is too much is cut off again
+        Some(short) if length <= SHORT => {
+            out.extend_from_slice(short);
+            out.truncate(start + length);
+        }
+        _ => out.extend_from_slice(&text.bytes[text.at..end]),
+    }
     Ok(())
 }
+
+/// Room for the longest number: sign, 18 digits, point, a leading zero.
+const ROOM: usize = 24;
+/// Almost every number is shorter.
+const SHORT: usize = 16;
 
 /// Whole part and fraction. Division by a constant is a multiplication, so the usual decimals have one each.
 #[inline]
@@ -86,7 +99,7 @@ fn split(magnitude: u64, decimals: u8) -> (u64, u64) {
 
 /// Text that grows to the front.
 struct Backwards {
-    bytes: [u8; 40],
+    bytes: [u8; ROOM + SHORT],
     at: usize,
 }
 
@@ -95,6 +108,21 @@ impl Backwards {
     fn push(&mut self, byte: u8) {
         self.at -= 1;
         self.bytes[self.at] = byte;
+    }
+
+    /// Exactly so many digits of a fraction.
+    #[inline(always)]
+    fn fraction(&mut self, fraction: u64, decimals: u8) {
+        let Ok(mut rest) = u32::try_from(fraction) else { return self.digits(fraction, decimals) };
+        let mut left = decimals;
+        while left >= 2 {
+            self.pair((rest % 100) as usize);
+            rest /= 100;
+            left -= 2;
+        }
+        if left == 1 {
+            self.push(b'0' + (rest % 10) as u8);
+        }
     }
 
     /// At least `width` digits.

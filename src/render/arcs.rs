@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::fault::{Done, fault};
 use super::geometry::PlaneArc;
-use super::motion::as_number;
+use super::motion::{AxisUnits, as_number};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
 use crate::diag::Code;
@@ -239,7 +239,8 @@ impl Renderer<'_> {
         let settings = &self.program.settings;
         self.motion_word(piece.plane)?;
         self.motion_word(code)?;
-        let axes = self.axis_units(&piece.target)?;
+        let mut axes = AxisUnits::default();
+        self.axis_units(&piece.target, &mut axes)?;
         self.axis_words(&piece.target, &axes)?;
         if let Some(word) = &settings.second_circle {
             self.end_block();

@@ -1,6 +1,7 @@
 //! Moves that turn cutter compensation on and off.
 
 use super::fault::{Done, fault};
+use super::motion::AxisUnits;
 use super::renderer::{LastMove, Renderer};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
@@ -44,7 +45,8 @@ impl Renderer<'_> {
             self.shifted = false;
             self.motion_word(&program.settings.feed)?;
             self.code_word(&sema::Code::plain(b'G', code))?;
-            let axes = self.axis_units(&target)?;
+            let mut axes = AxisUnits::default();
+            self.axis_units(&target, &mut axes)?;
             self.axis_words(&target, &axes)?;
             if offset {
                 let Some(register) = self.vars.get(VarId::Dcomp) else {

@@ -27,6 +27,7 @@ pub(super) fn tracks(program: &Program) -> bool {
 }
 
 /// A target in units of its letters.
+#[derive(Default)]
 pub(super) struct AxisUnits {
     units: [i64; 6],
     /// Axes that differ from what was printed.
@@ -278,7 +279,8 @@ impl Renderer<'_> {
     /// A generated block: motion code, axes that changed, feed. Nothing changed, nothing printed.
     #[inline]
     fn move_block(&mut self, target: &Axes, code: &sema::Code, feeds: bool) -> Done<bool> {
-        let axes = self.axis_units(target)?;
+        let mut axes = AxisUnits::default();
+        self.axis_units(target, &mut axes)?;
         if axes.changed == 0 {
             return Ok(false);
         }
@@ -293,8 +295,7 @@ impl Renderer<'_> {
 
     /// A target in units of its letters, and what of it must be printed.
     #[inline]
-    pub(super) fn axis_units(&self, target: &Axes) -> Done<AxisUnits> {
-        let mut found = AxisUnits { units: [0; 6], changed: 0, prints: 0 };
+    pub(super) fn axis_units(&self, target: &Axes, found: &mut AxisUnits) -> Done {
         let mut axes = target.given;
         while axes != 0 {
             let axis = axes.trailing_zeros() as usize;
@@ -306,7 +307,7 @@ impl Renderer<'_> {
             found.changed |= u8::from(changed) << axis;
             found.prints |= u8::from(changed || !info.modal) << axis;
         }
-        Ok(found)
+        Ok(())
     }
 
     /// The words of the axes that must be printed.

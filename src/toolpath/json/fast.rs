@@ -1,32 +1,45 @@
-//! The shortest way for the two lines that make up most of every JSON Lines job:
-//! `{"line":[1.5,2,-0.1],"feed":300}` and `{"rapid":[1,2,3]}`. Anything else, however slightly, is not read here
+//! The shortest way for the three lines that make up most of every JSON Lines job:
+//! `{"line":[1.5,2,-0.1],"feed":300}`, `{"rapid":[1,2,3]}` and `{"point":[1,2,3]}`. Anything else, however slightly, is not read here
 //! but by serde, so the two ways can't disagree on what is an error; a property test holds them to the same values.
 
 use crate::toolpath::Axes;
 
-/// A plain move.
+/// What a plain line says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A feed move.
+    Line,
+    /// A rapid.
+    Rapid,
+    /// A point of the open cycle.
+    Point,
+}
+
+/// A plain line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SimpleMove {
-    /// Its target.
+pub struct Simple {
+    /// What it says.
+    pub kind: Kind,
+    /// The position.
     pub to: Axes,
-    /// Its feed, if given.
+    /// The feed of a line, if given.
     pub feed: Option<f64>,
-    /// A rapid, else a feed move.
-    pub rapid: bool,
 }
 
 /// Reads such a line, without its line end; `None` when it is any other.
 #[inline]
-pub fn simple_move(line: &[u8]) -> Option<SimpleMove> {
+pub fn simple(line: &[u8]) -> Option<Simple> {
     let mut at = Cursor { rest: line };
     at.blanks();
     at.take(b"{")?;
     at.blanks();
-    let rapid = if at.take(b"\"line\"").is_some() {
-        false
+    let kind = if at.take(b"\"line\"").is_some() {
+        Kind::Line
+    } else if at.take(b"\"rapid\"").is_some() {
+        Kind::Rapid
     } else {
-        at.take(b"\"rapid\"")?;
-        true
+        at.take(b"\"point\"")?;
+        Kind::Point
     };
     at.colon()?;
     at.take(b"[")?;
@@ -45,7 +58,7 @@ pub fn simple_move(line: &[u8]) -> Option<SimpleMove> {
     at.take(b"]")?;
     at.blanks();
     let mut feed = None;
-    if !rapid && at.take(b",").is_some() {
+    if kind == Kind::Line && at.take(b",").is_some() {
         at.blanks();
         at.take(b"\"feed\"")?;
         at.colon()?;
@@ -54,7 +67,7 @@ pub fn simple_move(line: &[u8]) -> Option<SimpleMove> {
     }
     at.take(b"}")?;
     at.blanks();
-    at.rest.is_empty().then_some(SimpleMove { to, feed, rapid })
+    at.rest.is_empty().then_some(Simple { kind, to, feed })
 }
 
 struct Cursor<'a> {
@@ -137,16 +150,17 @@ mod tests {
 
     #[test]
     fn plain_moves_are_read_and_everything_else_is_left() {
-        let read = |text: &str| simple_move(text.as_bytes());
+        let read = |text: &str| simple(text.as_bytes());
         assert_eq!(
             read(r#"{"line":[1.5,2,-0.1],"feed":300}"#),
-            Some(SimpleMove { to: Axes::new(&[1.5, 2.0, -0.1]), feed: Some(300.0), rapid: false })
+            Some(Simple { kind: Kind::Line, to: Axes::new(&[1.5, 2.0, -0.1]), feed: Some(300.0) })
         );
         assert_eq!(
-            read(" { \"rapid\" : [ 1 , 2 ] } \r").map(|m| (m.to, m.rapid)),
-            Some((Axes::new(&[1.0, 2.0]), true))
+            read(" { \"rapid\" : [ 1 , 2 ] } \r").map(|m| (m.to, m.kind)),
+            Some((Axes::new(&[1.0, 2.0]), Kind::Rapid))
         );
         for other in [
+            r#"{"point":[1,2],"feed":5}"#,
             r#"{"line":[1,null]}"#,
             r#"{"line":[]}"#,
             r#"{"line":[1,2,3,4,5,6,7]}"#,
@@ -172,7 +186,7 @@ mod tests {
         fn numbers_are_those_of_serde(text in "-?(0|[1-9][0-9]{0,8})(\\.[0-9]{1,9})?") {
             let line = format!("{{\"line\":[{text}]}}");
             let expected: f64 = serde_json::from_str(&text).unwrap();
-            if let Some(found) = simple_move(line.as_bytes()) {
+            if let Some(found) = simple(line.as_bytes()) {
                 prop_assert_eq!(found.to.values[0].to_bits(), expected.to_bits());
             }
         }

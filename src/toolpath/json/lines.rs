@@ -7,13 +7,13 @@ use serde::de::{DeserializeSeed, Deserializer, MapAccess, Visitor};
 
 use super::build::Builder;
 use super::context::{Context, ReadError, Step};
-use super::fast::simple_move;
+use super::fast::{Kind, simple};
 use super::objects::{
     CycleObject, EndWord, ItemObject, JobHead, KeySeed, Object, ObjectSeed, OperationHead, Value, once,
 };
 use super::values::Point;
 use crate::diag::{Code, Diag};
-use crate::toolpath::Sink;
+use crate::toolpath::{Hole, Sink};
 
 /// Longest line; a longer one is a file of another kind.
 const LONGEST: usize = 4 << 20;
@@ -79,10 +79,16 @@ impl Lines<'_, '_> {
     fn line(&mut self, line: &[u8]) -> Result<(), ReadError> {
         if self.started
             && !self.ended
-            && let Some(simple) = simple_move(line)
+            && let Some(simple) = simple(line)
         {
-            self.builder.place.item += 1;
-            return self.builder.simple_move(simple.to, simple.feed, simple.rapid).map_err(|diag| self.placed(diag));
+            let done = match simple.kind {
+                Kind::Point => self.builder.hole(Hole { at: simple.to, depth: None }),
+                kind => {
+                    self.builder.place.item += 1;
+                    self.builder.simple_move(simple.to, simple.feed, kind == Kind::Rapid)
+                }
+            };
+            return done.map_err(|diag| self.placed(diag));
         }
         self.other(line)
     }

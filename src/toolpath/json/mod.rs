@@ -13,6 +13,6 @@ mod values;
 
 pub use context::ReadError;
 pub use document::read_document;
+pub use lines::read_lines;
 #[cfg(feature = "schema")]
 pub use schema::schema;
-pub use lines::read_lines;

@@ -8,7 +8,8 @@ use super::values::{Point, Position};
 /// The schema as a document. The lists that are read as streams are not in the tables and are added here.
 pub fn schema() -> Value {
     let mut generator = schemars::SchemaGenerator::default();
-    let list = |schema: schemars::Schema, about: &str| json!({ "type": "array", "items": schema, "description": about });
+    let list =
+        |schema: schemars::Schema, about: &str| json!({ "type": "array", "items": schema, "description": about });
     generator.subschema_for::<Position>();
     let points = list(generator.subschema_for::<Point>(), "the points of the cycle");
     let cycle = generator.subschema_for::<CycleObject>().to_value();

@@ -8,6 +8,7 @@ mod forms;
 mod json;
 mod lint;
 mod output;
+mod progress;
 mod prompt;
 mod render;
 mod report;

@@ -14,6 +14,7 @@ use postform::toolpath::{Event, Place, Sink, Units};
 use super::args::{CyclesArg, RenderArgs, UnitsArg};
 use super::files::{self, io_message};
 use super::output::Target;
+use super::progress::Progress;
 use super::report::Reporter;
 use super::{Ending, forms, prompt, report};
 
@@ -70,8 +71,10 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         trace: args.trace.as_deref().map(|path| Target::open(path, false)).transpose()?,
         files: &checked.files,
         failure: None,
+        progress: Some(Progress::new()),
     };
     let read = files::read_job(input, from, &mut writer);
+    writer.progress = None;
     let mut notes = writer.renderer.notes().to_vec();
     let job = files::name(&args.job);
     notes.iter_mut().for_each(|diag| place_in(&job, diag));
@@ -115,6 +118,7 @@ struct Writer<'p> {
     trace: Option<Target>,
     files: &'p [Source],
     failure: Option<(bool, io::Error)>,
+    progress: Option<Progress>,
 }
 
 impl Sink for Writer<'_> {
@@ -130,6 +134,9 @@ impl Sink for Writer<'_> {
 impl Writer<'_> {
     /// Writes what waits. `Err`: it failed, and `failure` says how.
     fn drain(&mut self) -> Result<(), ()> {
+        if let Some(progress) = &mut self.progress {
+            progress.lines(self.renderer.lines());
+        }
         let text = self.renderer.text();
         if let Err(error) = self.target.write(text) {
             self.failure = Some((false, error));

@@ -1,4 +1,6 @@
 //! The vocabulary of POSTFORM, in tables: checks, messages, `explain` and the reference come from here.
+// meanings name variables as [var]
+#![allow(rustdoc::broken_intra_doc_links)]
 
 mod codes;
 mod commands;

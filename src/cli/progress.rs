@@ -1,0 +1,43 @@
+//! Progress of long work, on a terminal only.
+
+use std::io::{IsTerminal, Write, stderr};
+use std::time::{Duration, Instant};
+
+/// Work shorter than this shows nothing.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// How often the line changes.
+const EVERY: Duration = Duration::from_millis(250);
+
+/// A line on standard error that says how far the work is.
+pub struct Progress {
+    started: Instant,
+    shown: Option<Instant>,
+    enabled: bool,
+}
+
+impl Progress {
+    /// Work begins.
+    pub fn new() -> Progress {
+        Progress { started: Instant::now(), shown: None, enabled: stderr().is_terminal() }
+    }
+
+    /// So many program lines are done.
+    pub fn lines(&mut self, lines: u64) {
+        let now = Instant::now();
+        let due = self.shown.map_or(self.started + PATIENCE, |shown| shown + EVERY);
+        if self.enabled && now >= due {
+            eprint!("\r{lines} lines");
+            _ = stderr().flush();
+            self.shown = Some(now);
+        }
+    }
+}
+
+impl Drop for Progress {
+    /// The line is taken away, so that messages begin at their margin.
+    fn drop(&mut self) {
+        if self.shown.is_some() {
+            eprint!("\r\x1b[K");
+        }
+    }
+}

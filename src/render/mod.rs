@@ -14,6 +14,7 @@ mod registers;
 mod renderer;
 mod sections;
 mod start;
+mod subprograms;
 mod tools;
 mod upon;
 mod vars;

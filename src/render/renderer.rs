@@ -71,7 +71,6 @@ pub struct Renderer<'p> {
     /// Factor from the form's lengths to the program's.
     pub(super) form_scale: f64,
     pub(super) units: Units,
-    pub(super) started: bool,
     pub(super) feed: Option<f64>,
     /// The same in units of its letter.
     pub(super) feed_units: Option<i64>,
@@ -90,6 +89,7 @@ pub struct Renderer<'p> {
     pub(super) defaults: Defaults,
     pub(super) steps: Steps,
     pub(super) sections: Vec<Section>,
+    pub(super) subs: super::subprograms::Subprograms,
     /// Parts of an arc; kept so that an arc allocates nothing.
     pub(super) parts: Vec<f64>,
     notes: Vec<Diag>,
@@ -121,7 +121,6 @@ impl<'p> Renderer<'p> {
             scale: 1.0,
             form_scale: 1.0,
             units: Units::Inch,
-            started: false,
             feed: None,
             feed_units: None,
             feed_mode: FeedMode::PerMinute,
@@ -138,6 +137,7 @@ impl<'p> Renderer<'p> {
             defaults: super::start::no_defaults(),
             steps: Steps::default(),
             sections: Vec::new(),
+            subs: Default::default(),
             parts: Vec::new(),
             notes: Vec::new(),
         };
@@ -147,12 +147,12 @@ impl<'p> Renderer<'p> {
 
     /// The text printed so far and not yet taken: take it with `drain` or `clear` when it suits.
     pub fn text(&mut self) -> &mut Vec<u8> {
-        &mut self.out.text
+        self.main_text()
     }
 
     /// The source map of lines not yet taken.
     pub fn trace(&mut self) -> Option<&mut Vec<TraceLine>> {
-        self.out.trace.as_mut()
+        self.main_trace()
     }
 
     /// Warnings and notes so far: each kind of remark once.
@@ -200,6 +200,9 @@ impl<'p> Renderer<'p> {
             Event::Spindle(spindle) => self.change_spindle(&spindle),
             Event::Coolant(coolant) => self.change_coolant(coolant),
             Event::Set(name, value) => self.change_variable(name, value),
+            Event::SubStart(number) => self.sub_start(number),
+            Event::SubEnd => self.sub_end(),
+            Event::SubCall(call) => self.sub_call(call),
             Event::Finish => self.finish(),
         }
     }

@@ -4,7 +4,8 @@ use super::changes::settable;
 use super::fault::{Done, fault};
 use super::output::Layout;
 use super::renderer::Renderer;
-use crate::compile::Op;
+use super::words::Mode;
+use crate::compile::{Block, Op};
 use crate::cycle::Defaults;
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
@@ -74,9 +75,13 @@ impl Renderer<'_> {
             self.end_block();
         }
         if let Some(block) = program.block(SequenceId::StartCode) {
-            self.run_with_upons(block)?;
+            self.upons(block.vars)?;
+            self.shifted = false;
+            // with subprograms first only the leading `%` comes now
+            let now = if settings.subs_first { self.start_code_rest() } else { block.ops.end };
+            self.run(block.ops.start..now, Mode::All)?;
+            self.subs.start_waits = settings.subs_first;
         }
-        self.started = true;
         Ok(())
     }
 
@@ -163,11 +168,32 @@ impl Renderer<'_> {
             let message = format!("`tool_order` lists {} tools, the job used {}", order.len(), self.tool_changes);
             return fault(Code::PJ005, message, "list the tools in the order of their use, each change once");
         }
+        self.begin_main()?;
+        self.check_calls()?;
         self.set_here()?;
-        match self.program.block(SequenceId::EndCode) {
-            Some(block) => self.run_with_upons(block),
-            None => Ok(()),
+        let Some(block) = self.program.block(SequenceId::EndCode) else { return Ok(()) };
+        if !self.has_waiting() {
+            return self.run_with_upons(block);
         }
+        // subprograms stand after the main program, before the `%` that ends the tape
+        let percent = self.closing_percent(block);
+        self.upons(block.vars)?;
+        self.shifted = false;
+        self.run(block.ops.start..percent, Mode::All)?;
+        self.append_waiting();
+        self.run(percent..block.ops.end, Mode::All)
+    }
+
+    /// Where the `%` at the end of EndCode begins; its end, when there is none.
+    fn closing_percent(&self, block: &Block) -> usize {
+        let lines = block.ops.clone().filter(|&i| matches!(self.program.ops[i], Op::Line { .. }));
+        lines.last().filter(|&line| self.is_percent(line)).unwrap_or(block.ops.end)
+    }
+
+    /// Is the line that begins here a `%`?
+    pub(super) fn is_percent(&self, line: usize) -> bool {
+        matches!(self.program.ops.get(line + 1), Some(Op::Text { index, .. })
+            if self.program.texts[*index as usize].starts_with('%'))
     }
 
     /// The last line of EndCode that may have a block number: `%` is none.
@@ -176,9 +202,7 @@ impl Renderer<'_> {
         let mut last = None;
         for i in block.ops.clone() {
             if matches!(self.program.ops[i], Op::Line { .. }) {
-                let is_percent = matches!(self.program.ops.get(i + 1), Some(Op::Text { index, .. })
-                    if self.program.texts[*index as usize].starts_with('%'));
-                if !is_percent {
+                if !self.is_percent(i) {
                     last = Some(i);
                 }
             }

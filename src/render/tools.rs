@@ -14,6 +14,7 @@ impl Renderer<'_> {
     pub(super) fn tool_change(&mut self, change: &ToolChange) -> Done {
         self.close_cycle()?;
         self.check_sections_closed()?;
+        self.begin_main()?;
         let number = change.tool.as_ref().map(|tool| tool.number);
         let changes = number.is_some() && number != self.tool;
         self.conditions(change, changes);

@@ -377,6 +377,19 @@ pub struct Hole {
     pub depth: Option<f64>,
 }
 
+/// A call of a subprogram.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Call {
+    /// The subprogram's number in the job.
+    pub sub: f64,
+    /// How often it runs.
+    pub times: f64,
+    /// Where it is called.
+    pub at: Axes,
+    /// The work offset it is called with.
+    pub work: Option<f64>,
+}
+
 /// One event.
 #[derive(Clone, Debug)]
 #[allow(missing_docs)]
@@ -402,5 +415,8 @@ pub enum Event<'a> {
     Spindle(Spindle),
     Coolant(Coolant),
     Set(&'a str, f64),
+    SubStart(f64),
+    SubEnd,
+    SubCall(&'a Call),
     Finish,
 }

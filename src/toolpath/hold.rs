@@ -76,7 +76,11 @@ impl<'s> Hold<'s> {
                 self.release(First::Cut)?;
                 return self.sink.event(event, place);
             }
-            Event::Start(_) | Event::ToolChange(_) | Event::Finish => {
+            Event::SubCall(call) => {
+                self.release(if call.at.given == 0 { First::Nothing } else { First::Rapid(call.at) })?;
+                return self.sink.event(event, place);
+            }
+            Event::Start(_) | Event::ToolChange(_) | Event::SubStart(_) | Event::SubEnd | Event::Finish => {
                 self.release(First::Nothing)?;
                 return self.sink.event(event, place);
             }

@@ -1,7 +1,8 @@
 //! From objects of a job to events, with the checks that need more than one key.
 
 use super::objects::{
-    ArcObject, CycleObject, EndWord, ItemObject, JobHead, Object, OperationHead, SpindleObject, ToolObject,
+    ArcObject, CallObject, CycleObject, EndWord, ItemObject, JobHead, Object, OperationHead, SpindleObject,
+    SubprogramHead, ToolObject,
 };
 use super::values::{Number, PeckMode, SpeedMode};
 use crate::diag::{Code, Diag};
@@ -23,6 +24,7 @@ pub struct Builder<'s> {
     tool_needed: bool,
     tool: Option<f64>,
     in_cycle: bool,
+    in_subprogram: bool,
 }
 
 impl<'s> Builder<'s> {
@@ -35,6 +37,7 @@ impl<'s> Builder<'s> {
             tool_needed: true,
             tool: None,
             in_cycle: false,
+            in_subprogram: false,
         }
     }
 
@@ -68,9 +71,40 @@ impl<'s> Builder<'s> {
         self.push(Event::Start(&start))
     }
 
+    /// A subprogram begins. Subprograms stand before the operations that call them.
+    pub fn subprogram(&mut self, head: SubprogramHead) -> Done {
+        self.leave_cycle("a subprogram")?;
+        if self.in_subprogram || self.place.operation > 0 {
+            let help = "end it first; subprograms stand one after the other, before the operations";
+            return fault(Code::PJ005, "a subprogram inside another part of the job", help);
+        }
+        let Some(number) = head.number else {
+            return fault(Code::PJ004, "a subprogram without a number", "give each subprogram a \"number\"");
+        };
+        let number = whole("number", number)?;
+        self.place.subprogram += 1;
+        self.place.item = 0;
+        self.in_subprogram = true;
+        self.push(Event::SubStart(number))
+    }
+
+    /// The open subprogram ends.
+    pub fn subprogram_end(&mut self) -> Done {
+        self.leave_cycle("the end of a subprogram")?;
+        if !self.in_subprogram {
+            return fault(Code::PJ005, "the end of a subprogram that did not begin", "take it out");
+        }
+        self.in_subprogram = false;
+        self.push(Event::SubEnd)
+    }
+
     /// An operation begins.
     pub fn operation(&mut self, head: OperationHead) -> Done {
         self.leave_cycle("an operation")?;
+        if self.in_subprogram {
+            return fault(Code::PJ005, "an operation inside a subprogram", "end the subprogram first");
+        }
+        self.place.subprogram = 0;
         self.place.operation += 1;
         self.place.item = 0;
         let number = head.tool.map(|n| n.0).or(self.tool);
@@ -122,6 +156,7 @@ impl<'s> Builder<'s> {
             item.outfeed.is_some(),
             item.begin.is_some(),
             item.end.is_some(),
+            item.call.is_some(),
             item.dwell.is_some(),
             item.stop.is_some(),
             item.comment.is_some(),
@@ -173,6 +208,10 @@ impl<'s> Builder<'s> {
             }
             None => {}
         }
+        if let Some(call) = &item.call {
+            let call = call_of(call)?;
+            return self.push(Event::SubCall(&call));
+        }
         if let Some(seconds) = item.dwell {
             let seconds = not_negative("dwell", seconds)?;
             return self.push(Event::Dwell(seconds));
@@ -212,7 +251,7 @@ impl<'s> Builder<'s> {
     /// The two items that make up most of every job, without an object between.
     #[inline]
     pub fn simple_move(&mut self, to: Axes, feed: Option<f64>, rapid: bool) -> Done {
-        if self.in_cycle || self.place.operation == 0 {
+        if self.in_cycle || (self.place.operation == 0 && !self.in_subprogram) {
             self.leave_cycle("an item")?;
             self.in_operation()?;
         }
@@ -257,6 +296,9 @@ impl<'s> Builder<'s> {
     /// The job ends.
     pub fn finish(&mut self) -> Done {
         self.leave_cycle("the end")?;
+        if self.in_subprogram {
+            return fault(Code::PJ005, "the job ends inside a subprogram", "end the subprogram first");
+        }
         if self.place.operation == 0 {
             return fault(Code::PJ009, "the job has no operations", "give at least one operation");
         }
@@ -276,7 +318,7 @@ impl<'s> Builder<'s> {
     }
 
     fn in_operation(&self) -> Done {
-        if self.place.operation == 0 {
+        if self.place.operation == 0 && !self.in_subprogram {
             return fault(
                 Code::PJ006,
                 "a path item before any operation, so without a tool",
@@ -357,6 +399,22 @@ fn arc_of(object: &ArcObject) -> Result<Arc, Box<Diag>> {
         direction: direction.0,
         plane: object.plane.map_or(Plane::Xy, |p| p.0),
         turns: turns as u32,
+    })
+}
+
+fn call_of(object: &CallObject) -> Result<Call, Box<Diag>> {
+    let Some(sub) = object.sub else {
+        return fault(Code::PJ004, "a call without `sub`", "give the number of the subprogram");
+    };
+    let times = object.times.map_or(Ok(1.0), |n| whole("times", n))?;
+    if times == 0.0 {
+        return fault(Code::PJ003, "`times` is 0", "take the call out, or let it run once");
+    }
+    Ok(Call {
+        sub: whole("sub", sub)?,
+        times,
+        at: object.at.unwrap_or_default().0,
+        work: object.work.map(|w| not_negative("work", w)).transpose()?,
     })
 }
 

@@ -8,7 +8,7 @@ use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 
 use super::build::Builder;
 use super::context::{Context, ReadError, Step};
-use super::objects::{CycleObject, ItemObject, JobHead, KeySeed, Object, OperationHead, once};
+use super::objects::{CycleObject, ItemObject, JobHead, KeySeed, Object, OperationHead, SubprogramHead, once};
 use super::position::PointSeed;
 use super::values::Point;
 use crate::diag::{Code, Diag};
@@ -107,10 +107,10 @@ trait Streamed: Object {
     /// The key of the list, alone.
     const LIST: &'static [&'static str];
 }
-impl Streamed for JobHead {
-    const LIST: &'static [&'static str] = &["operations"];
-}
 impl Streamed for OperationHead {
+    const LIST: &'static [&'static str] = &["path"];
+}
+impl Streamed for SubprogramHead {
     const LIST: &'static [&'static str] = &["path"];
 }
 
@@ -150,6 +150,8 @@ fn streamed<'de, T: Streamed, A: MapAccess<'de>>(
 #[derive(Clone, Copy)]
 enum Part {
     Job,
+    Subprograms,
+    Subprogram,
     Operations,
     Operation,
     Path,
@@ -163,7 +165,7 @@ impl<'de> DeserializeSeed<'de> for JobSeed<'_, '_, '_> {
     type Value = ();
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
         match self.1 {
-            Part::Operations | Part::Path => deserializer.deserialize_seq(self),
+            Part::Subprograms | Part::Operations | Part::Path => deserializer.deserialize_seq(self),
             _ => deserializer.deserialize_map(self),
         }
     }
@@ -175,6 +177,8 @@ impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(match self.1 {
             Part::Job => "a job, an object",
+            Part::Subprograms => "a list of subprograms",
+            Part::Subprogram => "a subprogram, an object",
             Part::Operations => "a list of operations",
             Part::Operation => "an operation, an object",
             Part::Path => "a path, a list of items",
@@ -185,7 +189,11 @@ impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<(), A::Error> {
         let JobSeed(job, part) = self;
-        let element = if matches!(part, Part::Operations) { Part::Operation } else { Part::Item };
+        let element = match part {
+            Part::Subprograms => Part::Subprogram,
+            Part::Operations => Part::Operation,
+            _ => Part::Item,
+        };
         let mut index = 0;
         loop {
             job.context.enter(Step::Index(index));
@@ -203,9 +211,15 @@ impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
         let JobSeed(job, part) = self;
         job.mark();
         match part {
-            Part::Job => {
-                let head = |head| job.build(|b| b.start(head));
-                streamed::<JobHead, A>(job, map, head, Part::Operations)?;
+            Part::Job => self::job(job, map)?,
+            Part::Subprogram => {
+                let head = |head| job.build(|b| b.subprogram(head));
+                if !streamed::<SubprogramHead, A>(job, map, head, Part::Path)? {
+                    let diag =
+                        Diag::new(Code::PJ004, "a subprogram without `path`").help("give its moves as \"path\": []");
+                    return Err(job.context.fail(diag));
+                }
+                job.build(|b| b.subprogram_end())?;
             }
             Part::Operation => {
                 let head = |head| job.build(|b| b.operation(head));
@@ -219,6 +233,38 @@ impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
             _ => item(job, map)?,
         }
         Ok(())
+    }
+}
+
+/// The job: its head, then its subprograms, then its operations, each list passed on as it comes.
+fn job<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
+    const LISTS: &[&str] = &["subprograms", "operations"];
+    let (mut head, mut seen, mut done) = (Some(JobHead::default()), 0, "");
+    let keys = || KeySeed { context: job.context, object: JobHead::NAME, keys: [JobHead::KEYS, LISTS] };
+    while let Some(key) = map.next_key_seed(keys())? {
+        let name = JobHead::KEYS.get(key).or_else(|| LISTS.get(key - JobHead::KEYS.len())).copied().unwrap_or("");
+        once(&mut seen, key, name, job.context)?;
+        let is_list = key >= JobHead::KEYS.len();
+        if done == LISTS[1] || (done == LISTS[0] && name != LISTS[1]) {
+            return Err(job.misplaced(done, JobHead::NAME, name));
+        }
+        if let Some(head) = head.take_if(|_| is_list) {
+            job.build(|b| b.start(head))?;
+        }
+        job.context.enter(Step::Key(name));
+        match &mut head {
+            Some(head) => head.read(key, &mut map, job.context)?,
+            None => {
+                done = name;
+                let part = if name == LISTS[0] { Part::Subprograms } else { Part::Operations };
+                map.next_value_seed(JobSeed(job, part))?;
+            }
+        }
+        job.context.leave();
+    }
+    match head {
+        Some(head) => job.build(|b| b.start(head)),
+        None => Ok(()),
     }
 }
 

@@ -9,7 +9,7 @@ use super::build::Builder;
 use super::context::{Context, ReadError, Step};
 use super::fast::{Kind, simple};
 use super::objects::{
-    CycleObject, EndWord, ItemObject, JobHead, KeySeed, Object, ObjectSeed, OperationHead, Value, once,
+    CycleObject, EndWord, ItemObject, JobHead, KeySeed, Object, ObjectSeed, OperationHead, SubprogramHead, Value, once,
 };
 use super::values::Point;
 use crate::diag::{Code, Diag};
@@ -148,6 +148,8 @@ impl Lines<'_, '_> {
             }
             Line::Point(Point(hole)) => self.builder.hole(hole),
             Line::CycleEnd => self.builder.cycle_end(),
+            Line::Subprogram(head) => self.builder.subprogram(head),
+            Line::SubprogramEnd => self.builder.subprogram_end(),
         }
     }
 
@@ -180,6 +182,8 @@ enum Line {
     Cycle(Box<CycleObject>, Option<Vec<Point>>),
     Point(Point),
     CycleEnd,
+    Subprogram(SubprogramHead),
+    SubprogramEnd,
 }
 
 struct LineSeed<'c> {
@@ -201,7 +205,7 @@ impl<'de> Visitor<'de> for LineSeed<'_> {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Line, A::Error> {
-        const OWN: &[&str] = &["start", "operation", "cycle", "point", "cycle_end"];
+        const OWN: &[&str] = &["start", "operation", "subprogram", "subprogram_end", "cycle", "point", "cycle_end"];
         let context = self.context;
         let (mut item, mut seen) = (ItemObject::default(), 0);
         let mut line = None;
@@ -218,11 +222,13 @@ impl<'de> Visitor<'de> for LineSeed<'_> {
                     line = Some(Line::Cycle(Box::new(cycle), points));
                 }
                 "point" => line = Some(Line::Point(Value::read(&mut map, context)?)),
-                "cycle_end" => {
+                "subprogram" => line = Some(Line::Subprogram(map.next_value_seed(ObjectSeed::new(context))?)),
+                "cycle_end" | "subprogram_end" => {
                     if !map.next_value::<bool>()? {
-                        return Err(context.fail(Diag::new(Code::PJ003, "`cycle_end` is false").help("write true")));
+                        let diag = Diag::new(Code::PJ003, format!("`{name}` is false")).help("write true");
+                        return Err(context.fail(diag));
                     }
-                    line = Some(Line::CycleEnd);
+                    line = Some(if name == "cycle_end" { Line::CycleEnd } else { Line::SubprogramEnd });
                 }
                 _ => item.read(key - OWN.len(), &mut map, context)?,
             }

@@ -138,6 +138,7 @@ objects! {
         "side" side Word<Side>, "side of an infeed";
         "begin" begin Word<Section>, "a named part of the path begins";
         "end" end EndWord, "it ends; in JSON Lines `true` ends the job";
+        "call" call CallObject, "call of a subprogram";
         "dwell" dwell Number, "dwell in seconds";
         "stop" stop Word<StopKind>, "a stop";
         "comment" comment String, "a comment to print";
@@ -147,6 +148,17 @@ objects! {
         "spindle" spindle SpindleObject, "change of the spindle";
         "coolant" coolant Word<Coolant>, "change of the coolant";
         "set" set Values, "values for variables of the form";
+    }
+    /// A subprogram without its path.
+    SubprogramHead "a subprogram" {
+        "number" number Number, "its number";
+    }
+    /// A call of a subprogram.
+    CallObject "a call" {
+        "sub" sub Number, "the subprogram's number";
+        "times" times Number, "how often it runs (1)";
+        "at" at Position, "where it is called";
+        "work" work Number, "work offset of the call";
     }
     /// An arc from the tool's position.
     ArcObject "an arc" {
@@ -196,7 +208,7 @@ objects! {
     }
 }
 
-nested! { ToolObject SpindleObject ArcObject PeckObject }
+nested! { ToolObject SpindleObject ArcObject CallObject PeckObject }
 
 impl Value for super::values::Point {
     fn read<'de, A: MapAccess<'de>>(map: &mut A, context: &Context) -> Result<Self, A::Error> {

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::objects::{CycleObject, ItemObject, JobHead, OperationHead};
+use super::objects::{CycleObject, ItemObject, JobHead, OperationHead, SubprogramHead};
 use super::values::{Point, Position};
 
 /// The schema as a document. The lists that are read as streams are not in the tables and are added here.
@@ -14,10 +14,13 @@ pub fn schema() -> Value {
     let points = list(generator.subschema_for::<Point>(), "the points of the cycle");
     let cycle = generator.subschema_for::<CycleObject>().to_value();
     let path = list(generator.subschema_for::<ItemObject>(), "the moves; the last key");
+    let subprograms = list(generator.subschema_for::<SubprogramHead>(), "subprograms, before the operations");
     let operations = list(generator.subschema_for::<OperationHead>(), "the operations; the last key");
     let mut root = generator.root_schema_for::<JobHead>().to_value();
     for (at, key, value) in [
+        ("/properties", "subprograms", subprograms),
         ("/properties", "operations", operations),
+        ("/$defs/SubprogramHead/properties", "path", path.clone()),
         ("/$defs/OperationHead/properties", "path", path),
         ("/$defs/ItemObject/properties", "cycle", cycle),
         ("/$defs/CycleObject/properties", "points", points),

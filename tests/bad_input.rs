@@ -385,3 +385,20 @@ fn full_disks_and_closed_pipes() {
     expect("a closed pipe", &output, 0, &[]);
     assert!(output.stderr.is_empty());
 }
+
+#[test]
+fn outputs_do_not_replace_their_inputs() {
+    let folder = Folder::new("same_file");
+    let form = folder.write("form.pf", mill("", ""));
+    let text = job("{\"line\":[1,1,0]}");
+    let job = folder.write("job.json", &text);
+    for input in [&job, &form] {
+        let output = Command::new(env!("CARGO_BIN_EXE_postform"))
+            .arg("render")
+            .args([job.as_path(), Path::new("--form"), &form, Path::new("-o"), input])
+            .output()
+            .unwrap();
+        expect("an output over an input", &output, 2, &["is an input"]);
+    }
+    assert_eq!(fs::read_to_string(&job).unwrap(), text);
+}

@@ -256,3 +256,122 @@ fn compensation_needs_its_offset() {
     let path = "{\"infeed\":[1,0],\"side\":\"left\"},{\"line\":[2,0]},{\"outfeed\":[3,0]}";
     assert_eq!(path_lines("", "", path), ["G1 G41 X1. D21 F10.", "X2.", "G40 X3."]);
 }
+
+/// The letter of a dwell may be that of an axis: the axis is then unknown, and the move after it is not lost.
+#[test]
+fn a_dwell_does_not_count_as_a_position() {
+    let path = "{\"line\":[0,0,0]},{\"dwell\":2},{\"line\":[2,0]},{\"line\":[3,0]}";
+    assert_eq!(path_lines("Dwell G4 X s", "", path), ["G1 Z0 F10.", "G4 X2.", "X2.", "X3."]);
+    let feed = "{\"line\":[0,0,0]},{\"dwell\":10},{\"line\":[2,0]}";
+    assert_eq!(path_lines("Dwell G4 F s", "", feed), ["G1 Z0 F10.", "G4 F10.", "X2. F10."]);
+}
+
+/// A sequence that prints an arc's radius alone says at most half a turn: longer arcs are split.
+#[test]
+fn a_radius_sequence_prints_long_arcs_in_parts() {
+    let sequence = "CcwCode\nG3 X[h] Y[v] R[arcrad]\nEnd";
+    let path = "{\"line\":[1,0,1]},{\"arc\":{\"to\":[0,-1],\"center\":[0,0],\"direction\":\"ccw\"}}";
+    assert_eq!(path_lines("", sequence, path)[1..], ["G3 X-.7071 Y.7071 R1.", "X0 Y-1. R1."]);
+}
+
+/// An arc sequence that prints no plane gets the plane's code before it, and so does what follows in another plane.
+#[test]
+fn planes_are_said_where_a_sequence_does_not() {
+    let sequence = "CwCode\nG2 X[h] Y[v] Z[d] R[arcrad]\nEnd";
+    let xz = "{\"line\":[0,0,1]},{\"arc\":{\"to\":[1,0,1],\"center\":[0.5,0,1],\"direction\":\"cw\",\"plane\":\"xz\"}}";
+    let hole = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,0,0]]}}";
+    let lines = path_lines("", &format!("{sequence}\n{DRILL}"), &format!("{xz},{hole}"));
+    assert_eq!(lines, ["G18", "F10.", "G2 X1. R.5", "G17", "G81 X1. Y0 Z-1. R1. F5.", "G80"]);
+}
+
+/// A cycle that prints no position would drill one hole and skip the others: it is printed as moves.
+#[test]
+fn a_cycle_without_a_position_becomes_moves() {
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0],[2,1,0]]}}";
+    let sequence = "Drill\nG81 Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let expected = ["G0 X1. Y1.", "G1 Z-1. F5.", "G0 Z1.", "X2.", "G1 Z-1. F5.", "G0 Z1."];
+    assert_eq!(path_lines("", sequence, cycle), expected);
+}
+
+/// A motion sequence that leaves out an axis that moves would lose the move.
+#[test]
+fn a_motion_sequence_must_print_what_moves() {
+    let sequence = "RapidCode\nG0 X[h] Y[v]\nEnd";
+    assert!(path_lines("", sequence, "{\"rapid\":[0,0,2]}")[0].starts_with("PR017"));
+    assert_eq!(path_lines("", sequence, "{\"rapid\":[1,0]}"), ["G0 X1."]);
+    // a sequence without a feed gets it before
+    let line = "LineCode\nG1 X[h] Y[v] Z[d]\nEnd";
+    assert_eq!(path_lines("", line, "{\"line\":[1,0,1]},{\"line\":[2,0,1]}"), ["F10.", "G1 X1.", "X2."]);
+}
+
+/// Limits hold where an arc reaches farthest and at the bottom of a hole.
+#[test]
+fn travel_limits_hold_along_arcs_and_in_holes() {
+    let arc = "{\"line\":[0,0,1]},{\"arc\":{\"to\":[0,1],\"center\":[0.8,0.5],\"direction\":\"ccw\"}}";
+    assert!(path_lines("Limits X -1 1", "", arc)[0].starts_with("PR007"));
+    let hole = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}";
+    assert!(path_lines("Limits Z -0.5 5", DRILL, hole)[0].starts_with("PR007"));
+}
+
+/// No control drills with cutter compensation on.
+#[test]
+fn a_cycle_under_cutter_compensation_is_an_error() {
+    let path = "{\"infeed\":[1,0],\"side\":\"left\"},{\"rapid\":[2,2,2]},\
+                {\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}";
+    assert!(path_lines("", DRILL, path)[0].starts_with("PR006"));
+}
+
+/// Another tool has no last position: its first rapid must say how high it goes.
+#[test]
+fn a_new_tool_does_not_keep_the_last_ones_depth() {
+    let second = "{\"tool\":2,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3]}]}";
+    let text = job("{\"line\":[1,0,-1]}").replace("-1]}]}]}", &format!("-1]}}]}},{second}]}}"));
+    assert!(program(&mill("", ""), &text)[0].starts_with("PR001 [d]"), "{:?}", program(&mill("", ""), &text));
+}
+
+/// What is left out or contradicts itself without being wrong is a warning.
+#[test]
+fn odd_cycles_are_warned_of() {
+    let warned = |cycle: &str, code: &str| {
+        let rendered = support::render(&mill("", ""), &job(cycle)).unwrap();
+        assert!(rendered.notes.iter().any(|n| n.code.name() == code), "{code}: {:?}", rendered.notes);
+    };
+    warned("{\"cycle\":{\"kind\":\"deep\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}", "PR019");
+    warned(
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"return\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}",
+        "PR020",
+    );
+}
+
+/// A surface speed without its code would be revolutions.
+#[test]
+fn a_surface_speed_prints_its_code() {
+    let css = "{\"spindle\":{\"speed\":100,\"mode\":\"css\"}},{\"line\":[1,0,1]}";
+    assert_eq!(path_lines("", "", css), ["G96 S100 M3", "G1 X1. F10."]);
+    let limited = "{\"spindle\":{\"speed\":100,\"mode\":\"css\",\"max\":3000}},{\"line\":[1,0,1]}";
+    assert!(path_lines("", "", limited)[0].starts_with("PR017"));
+}
+
+/// An Upon Every prints where its variable is used, and nowhere else.
+#[test]
+fn upon_every_prints_at_uses_alone() {
+    let form = mill("", "Upon Every [work]\n(UPON)\nEnd");
+    let lines = program(&form, &job("{\"line\":[1,0,1]}"));
+    assert_eq!(lines.iter().filter(|l| *l == "(UPON)").count(), 1, "{lines:?}");
+    let feeds = path_lines("", "Upon Every [frate]\n(FEED)\nEnd", "{\"rapid\":[1,0,1]},{\"line\":[2,0,1]}");
+    assert_eq!(feeds, ["G0 X1.", "(FEED)", "G1 X2. F10."]);
+}
+
+/// Under VRapid the depth part has its own code even where the form has a RapidCode.
+#[test]
+fn vrapid_splits_before_a_rapid_sequence() {
+    let sequence = "RapidCode\nG0 X[h] Y[v] Z[d]\nEnd";
+    let lines = path_lines("VRapid G0", sequence, "{\"rapid\":[2,2,0.5]}");
+    assert_eq!(lines, ["G0 X2. Y2.", "Z.5"]);
+}
+
+/// Text without anything in it prints no block.
+#[test]
+fn empty_text_prints_nothing() {
+    assert_eq!(path_lines("Sequence#s N 1 1", "", "{\"text\":\" \"},{\"line\":[1,0,1]}").len(), 1);
+}

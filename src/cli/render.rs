@@ -64,6 +64,7 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         set,
         trace: args.trace.is_some(),
     };
+    keep_inputs(args)?;
     let input = files::open(&args.job)?;
     let mut writer = Writer {
         renderer: Renderer::new(&program, options),
@@ -93,6 +94,23 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         }
     }
     writer.finish(args)
+}
+
+/// An output must not replace what it is made of.
+fn keep_inputs(args: &RenderArgs) -> Result<(), String> {
+    let real = |path: &Path| path.canonicalize().ok();
+    let regular = |path: &Path| path.metadata().is_ok_and(|meta| meta.is_file());
+    for output in [Some(args.output.as_path()), args.trace.as_deref()].into_iter().flatten() {
+        if [&args.job, &args.form].iter().any(|input| regular(output) && real(input) == real(output)) {
+            return Err(format!("error: {} is an input: choose another output", files::name(output)));
+        }
+    }
+    match &args.trace {
+        Some(trace) if *trace == args.output && trace != Path::new("-") && !trace.starts_with("/dev") => {
+            Err("error: program and source map can't be one file".into())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The job's name before a place in it.

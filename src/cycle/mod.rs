@@ -2,5 +2,7 @@
 
 mod pecks;
 mod plan;
+mod thread;
 
 pub use plan::{Defaults, Plan, Problem, Step, Steps, plan};
+pub use thread::thread_passes;

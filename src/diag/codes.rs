@@ -56,6 +56,7 @@ codes! {
     PF403 Warning "End Cancel on an emulated cycle"
     PF404 Warning "a machine cycle code in a cycle of several lines without a count"
     PF405 Error "a count or Cancel on a sequence that is no canned cycle"
+    PF406 Warning "a canned cycle that does not print the position"
     // PF6: limits and machine type
     PF601 Error "too many words on a line"
     PF602 Error "too many sequence lines"
@@ -90,7 +91,8 @@ codes! {
     PR015 Error "a prompted variable without an answer"
     PR016 Error "a setting that can't be used"
     PR017 Error "a change that the form can't print"
-    PR018 Warning "a letter keeps its value although the form never prints the change"
+    PR019 Warning "a peck cycle without a step"
+    PR020 Warning "a return plane below the clearance"
 }
 
 impl Code {

@@ -1,6 +1,7 @@
 //! Rules for forms: each finds one thing that costs a part or a spindle. One rule a file, one row here.
 
 mod cancel_emulated;
+mod cycle_without_position;
 mod letter_formats;
 mod lost_words;
 mod machine_code_without_count;
@@ -21,6 +22,7 @@ const RULES: &[Rule] = &[
     letter_formats::check,
     cancel_emulated::check,
     machine_code_without_count::check,
+    cycle_without_position::check,
 ];
 
 /// All findings of a form: those of reading it and those of the rules, in the order of the file.

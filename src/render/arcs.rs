@@ -8,7 +8,7 @@ use super::motion::{AxisUnits, as_number};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
 use crate::diag::Code;
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{Machine, SequenceId, VarId, VarSet};
 use crate::sema::{self, ArcCentre};
 use crate::toolpath::{Arc, Axes, Direction, Plane, Units};
 
@@ -20,6 +20,9 @@ fn plane_axes(plane: Plane) -> ([usize; 2], usize, f64) {
         Plane::Yz => ([1, 2], 0, 19.0),
     }
 }
+
+/// Variables that say where an arc's centre is.
+const CENTRES: VarSet = VarSet::of(&[VarId::Ival, VarId::Jval, VarId::Kval, VarId::Hctr, VarId::Vctr]);
 
 /// An arc or a part of one, ready to print.
 struct Piece<'a> {
@@ -57,6 +60,9 @@ impl Renderer<'_> {
             let rise = target.values[across] - self.position.values[across];
             self.measured((shape.radius * shape.sweep.abs()).hypot(if climbs { rise } else { 0.0 }), true);
         }
+        if !self.program.settings.limits.is_empty() {
+            self.check_arc(&shape, axes, &target)?;
+        }
         let settings = &self.program.settings;
         let plane = settings.planes.iter().find(|plane| plane.value == code);
         let scale = self.form_scale;
@@ -71,6 +77,18 @@ impl Renderer<'_> {
             }
             _ => self.chords(&shape, axes, &target),
         }
+    }
+
+    /// Travel limits where the arc reaches farthest.
+    fn check_arc(&self, arc: &PlaneArc, axes: [usize; 2], target: &Axes) -> Done {
+        let mut parts = Vec::new();
+        arc.quadrant_parts(&mut parts);
+        for part in parts {
+            let (mut at, point) = (*target, arc.point(part));
+            (at.values[axes[0]], at.values[axes[1]]) = (point[0], point[1]);
+            self.check_limits(&at)?;
+        }
+        Ok(())
     }
 
     fn in_plane(&self, position: &Axes, axes: [usize; 2]) -> Option<[f64; 2]> {
@@ -103,8 +121,9 @@ impl Renderer<'_> {
     /// A value as the axis prints it.
     fn printed(&self, axis: usize, value: f64) -> Done<f64> {
         let info = &self.letters[self.axes[axis]];
-        let units = self.quantised(info, value)?;
-        let number = as_number(units, info.format.dec.count);
+        let scale = self.axis_scale[axis];
+        let units = self.quantised(info, value * scale)?;
+        let number = as_number(units, info.format.dec.count) / scale;
         Ok(if info.reversed { -number } else { number })
     }
 
@@ -161,20 +180,22 @@ impl Renderer<'_> {
             arc.quadrant_parts(&mut parts);
         } else {
             let sequence = if arc.sweep > 0.0 { SequenceId::CcwCode } else { SequenceId::CwCode };
-            let radius_only = matches!(settings.centre, ArcCentre::Radius(_)) && self.program.block(sequence).is_none();
+            let block = self.program.block(sequence);
+            // a sequence that prints the radius and no centre can't say more than half a turn
+            let radius_only = match block {
+                Some(block) => block.vars.has(VarId::Arcrad) && !block.vars.meets(CENTRES),
+                None => matches!(settings.centre, ArcCentre::Radius(_)),
+            };
             let full = arc.sweep.abs() > turn - 1e-9;
-            let most = if !radius_only || (full && settings.centre_full.is_some()) {
+            let most = if !radius_only || (block.is_none() && full && settings.centre_full.is_some()) {
                 turn
-            } else if settings.centre_over_180.is_some() && !full {
+            } else if block.is_none() && settings.centre_over_180.is_some() && !full {
                 turn - 1e-6
             } else {
                 PI
             };
             // radius words can't say a full circle, and over 180 degrees only when the form has a way
             arc.equal_parts(most, &mut parts);
-            if parts.is_empty() && full && most < turn {
-                parts.push(0.5);
-            }
         }
         parts.push(1.0);
         let (from, mut done) = (self.position, 0.0);
@@ -223,7 +244,10 @@ impl Renderer<'_> {
         }
         self.shifted = false;
         if let Some(block) = program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
+            self.sequence_says(block, &piece.target)?;
             self.upons(block.vars)?;
+            self.plane_block(piece.plane.value, block)?;
+            self.feed_block(block)?;
             self.shifted = false;
             self.run(block.ops.clone(), Mode::ArcMotion)?;
         } else {
@@ -237,7 +261,9 @@ impl Renderer<'_> {
     /// The generated block: plane, motion code, axes, centre, direction, feed.
     fn arc_block(&mut self, piece: &Piece, code: &sema::Code, centre: &[f64; 2], ccw: bool) -> Done {
         let settings = &self.program.settings;
-        self.motion_word(piece.plane)?;
+        if self.program.settings.machine == Machine::Mill {
+            self.motion_word(piece.plane)?; // a lathe and a wire have but one
+        }
         self.motion_word(code)?;
         let mut axes = AxisUnits::default();
         self.axis_units(&piece.target, &mut axes)?;

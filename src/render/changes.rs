@@ -16,19 +16,8 @@ pub(super) struct Served {
     pub direct: Option<f64>,
     pub cool: Option<f64>,
     pub feed_type: Option<f64>,
+    pub speed_type: Option<f64>,
 }
-
-/// Variables whose pending change the next move uses.
-const CHANGES: VarSet = VarSet::of(&[
-    VarId::Work,
-    VarId::Speed,
-    VarId::Direct,
-    VarId::Cool,
-    VarId::Coolantoff,
-    VarId::Feedtype,
-    VarId::Speedtype,
-    VarId::Maxrpm,
-]);
 
 impl Renderer<'_> {
     /// A word with this variable was printed.
@@ -40,6 +29,7 @@ impl Renderer<'_> {
             VarId::Direct => self.served.direct = Some(value),
             VarId::Cool => self.served.cool = Some(value),
             VarId::Feedtype => self.served.feed_type = Some(value),
+            VarId::Speedtype => self.served.speed_type = Some(value),
             _ if letter == self.program.settings.speed_code => self.served.speed = Some(value),
             _ => {}
         }
@@ -52,6 +42,7 @@ impl Renderer<'_> {
             Group::Spindle => self.served.direct = Some(value),
             Group::Coolant => self.served.cool = Some(value),
             Group::FeedMode => self.served.feed_type = Some(value),
+            Group::SpeedMode => self.served.speed_type = Some(value),
             _ => {}
         }
     }
@@ -61,9 +52,28 @@ impl Renderer<'_> {
         self.served_by(0, var, value);
     }
 
+    /// Variables whose change nothing printed yet: the next move counts as using them.
+    fn pending(&self) -> VarSet {
+        let served = &self.served;
+        let mut set = VarSet::default();
+        for (var, served) in [
+            (VarId::Work, served.work),
+            (VarId::Speed, served.speed),
+            (VarId::Direct, served.direct),
+            (VarId::Cool, served.cool),
+            (VarId::Feedtype, served.feed_type),
+            (VarId::Speedtype, served.speed_type),
+        ] {
+            if self.vars.get(var).is_some_and(|value| served != Some(value)) {
+                set.insert(var);
+            }
+        }
+        set
+    }
+
     /// Changes that nothing printed yet, each as a block of its own.
     pub(super) fn pending_changes(&mut self) -> Done {
-        self.upons(CHANGES)?;
+        self.upons(self.pending())?;
         let settings = &self.program.settings;
         let [cw, ccw, off] = settings.spindle;
         if let Some(work) = self.vars.get(VarId::Work)
@@ -74,7 +84,13 @@ impl Renderer<'_> {
         let speed = self.vars.get(VarId::Speed);
         let direct = self.vars.get(VarId::Direct);
         let turns = direct.is_some_and(|code| code == cw || code == ccw);
-        if turns && (self.served.direct != direct || self.served.speed != speed) {
+        let speed_type = self.vars.get(VarId::Speedtype);
+        let other_mode = self.served.speed_type != speed_type;
+        if turns && (self.served.direct != direct || self.served.speed != speed || other_mode) {
+            if let Some(mode) = speed_type.filter(|_| other_mode) {
+                self.code_word(&sema::Code::plain(b'G', mode))?;
+                self.served.speed_type = Some(mode);
+            }
             if let Some(speed) = speed {
                 self.letter_word(settings.speed_code, speed)?;
                 self.served.speed = Some(speed);
@@ -140,11 +156,10 @@ impl Renderer<'_> {
     /// A change of the spindle.
     pub(super) fn change_spindle(&mut self, spindle: &Spindle) -> Done {
         self.close_cycle()?;
-        self.set_spindle(spindle);
-        Ok(())
+        self.set_spindle(spindle)
     }
 
-    pub(super) fn set_spindle(&mut self, spindle: &Spindle) {
+    pub(super) fn set_spindle(&mut self, spindle: &Spindle) -> Done {
         let settings = &self.program.settings;
         if let Some(speed) = spindle.speed {
             self.vars.set(VarId::Speed, speed);
@@ -162,8 +177,13 @@ impl Renderer<'_> {
         }
         if let Some(max) = spindle.max {
             self.vars.set(VarId::Maxrpm, max);
+            if !self.program.printed.has(VarId::Maxrpm) {
+                let message = format!("the spindle is limited to {max}, and the form nowhere prints [maxrpm]");
+                return fault(Code::PR017, message, "print it, as `G50 S[maxrpm]`, before the spindle starts");
+            }
         }
         self.attention = true;
+        Ok(())
     }
 
     /// A change of the coolant.

@@ -1,10 +1,10 @@
 //! Moves that turn cutter compensation on and off.
 
-use super::fault::{Done, fault};
+use super::fault::{Done, fault, fault_at};
 use super::motion::AxisUnits;
 use super::renderer::{LastMove, Renderer};
 use crate::diag::Code;
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{Machine, SequenceId, VarId};
 use crate::sema;
 use crate::toolpath::{Axes, Infeed, Side};
 
@@ -17,17 +17,19 @@ impl Renderer<'_> {
             Side::Right => right,
         };
         self.vars.set(VarId::Side, code);
-        self.compensated(&infeed.to, feed, SequenceId::InFeed, code, true)
+        self.compensated = true;
+        self.compensate(&infeed.to, feed, SequenceId::InFeed, code, true)
     }
 
     /// The move that turns it off.
     pub(super) fn outfeed(&mut self, to: &Axes, feed: Option<f64>) -> Done {
         let off = self.program.settings.cdc[2];
         self.vars.set(VarId::Side, off);
-        self.compensated(to, feed, SequenceId::OutFeed, off, false)
+        self.compensated = false;
+        self.compensate(to, feed, SequenceId::OutFeed, off, false)
     }
 
-    fn compensated(&mut self, to: &Axes, feed: Option<f64>, id: SequenceId, code: f64, offset: bool) -> Done {
+    fn compensate(&mut self, to: &Axes, feed: Option<f64>, id: SequenceId, code: f64, offset: bool) -> Done {
         let program = self.program;
         let target = self.target(to);
         self.close_cycle()?;
@@ -40,8 +42,20 @@ impl Renderer<'_> {
             self.measure(&target, true);
         }
         if let Some(block) = program.block(id) {
+            let tapers = self.linear == 4 && (2..4).any(|axis| to.get(axis).is_some());
+            let blocks =
+                block.ops.clone().filter(|&i| matches!(program.ops[i], crate::compile::Op::Line { .. })).count();
+            if tapers && blocks > 1 {
+                let message = format!("{} has {blocks} blocks, a four-axis wire takes one", id.name());
+                return fault_at(Code::PR008, message, "write the sequence on one line", Some(block.span));
+            }
+            self.plane_block(17.0, block)?;
             self.run_with_upons(block)?;
         } else {
+            if self.plane != 17.0 && program.settings.machine == Machine::Mill {
+                self.code_word(&sema::Code::plain(b'G', 17.0))?;
+                self.end_block();
+            }
             self.shifted = false;
             self.motion_word(&program.settings.feed)?;
             self.code_word(&sema::Code::plain(b'G', code))?;

@@ -44,8 +44,13 @@ impl Renderer<'_> {
         if self.program.settings.machine == Machine::Edm {
             return fault(Code::PR008, "a wire EDM machine has no canned cycles", "take the cycle out of the job");
         }
+        if self.compensated {
+            let message = "cutter compensation is on, and no control allows a cycle then";
+            return fault(Code::PR006, message, "end the compensation with an `outfeed` before the cycle");
+        }
         let spec = self.scaled(spec);
         let sequence = self.choose(&spec)?;
+        self.warn_of(&spec);
         self.cycle = Some(ActiveCycle {
             spec,
             sequence,
@@ -61,6 +66,20 @@ impl Renderer<'_> {
             feed: self.feed,
         });
         Ok(())
+    }
+
+    /// What a cycle leaves out or contradicts, without being wrong.
+    fn warn_of(&mut self, spec: &CycleSpec) {
+        let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak);
+        if pecks && spec.step.or(self.defaults.step).is_none() && spec.pecks.is_empty() {
+            let message = format!("`{}` has no step and goes down in one peck", spec.kind.name());
+            self.note(Code::PR019, message, "give the cycle a `step`, or the form a `CycleStep`");
+        }
+        let clear = spec.clear.unwrap_or(self.defaults.clear);
+        if let Some(height) = spec.return_height.filter(|&height| height < clear) {
+            let message = format!("the return plane, {height} above the point, is below the clearance, {clear}");
+            self.note(Code::PR020, message, "the clearance is used: give `return` above `clear`, or leave it out");
+        }
     }
 
     /// The cycle ends.
@@ -91,7 +110,7 @@ impl Renderer<'_> {
             for axis in 0..3 {
                 if known & last.given & 1 << axis != 0 {
                     let info = &self.letters[self.axes[axis]];
-                    let units = self.quantised(info, last.values[axis])?;
+                    let units = self.quantised(info, last.values[axis] * self.axis_scale[axis])?;
                     self.registers.set(info.printed, units, info.format.dec.count);
                 }
             }
@@ -205,8 +224,14 @@ impl Renderer<'_> {
         }
         let prints = |vars: &[VarId]| vars.iter().any(|&var| block.vars.has(var));
         let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak) || spec.mode.is_some();
+        let custom = matches!(spec.kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
+        let own = !custom; // what a custom cycle must say, only its form knows
         let missing = [
-            (!spec.pecks.is_empty(), &[][..], "absolute pecks (`pecks`)"),
+            (own, &[VarId::H][..], "the position: [h]"),
+            (own, &[VarId::V], "the position: [v]"),
+            (own && spec.kind != CycleKind::Manual, &[VarId::D, VarId::Depth], "the depth: [d]"),
+            (own && spec.kind != CycleKind::Manual, &[VarId::Frate, VarId::Plunge, VarId::Pitch], "the feed: [frate]"),
+            (!spec.pecks.is_empty(), &[], "absolute pecks (`pecks`)"),
             (spec.times.is_some(), &[], "full retracts between chip breaks (`times`)"),
             (spec.decr.is_some(), &[], "shrinking pecks (`decr`)"),
             (!spec.webs.is_empty(), &[], "webs"),

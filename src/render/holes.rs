@@ -61,6 +61,10 @@ impl Renderer<'_> {
         self.cycle = Some(cycle);
         let (planes, heights) = heights?;
         let mut target = self.target(&hole.at);
+        target.set(2, heights.bottom);
+        if !self.program.settings.limits.is_empty() {
+            self.check_limits(&target)?;
+        }
         target.set(2, heights.return_plane);
         for axis in 0..2 {
             if target.get(axis).is_none() {
@@ -125,6 +129,7 @@ impl Renderer<'_> {
             self.attend()?; // with [d] at the return plane: an Upon must not go down the hole
         }
         self.upons(block.vars.without(crate::lang::VarSet::of(&[VarId::D])))?;
+        self.plane_block(17.0, block)?; // else the control drills along another axis
         self.hole_variables(planes, heights);
         if matches!(block.style, CycleStyle::Emulated) {
             self.raise_to(target)?;
@@ -308,7 +313,7 @@ impl Renderer<'_> {
                 Step::Orient(angle) => {
                     let (code, letter) = &self.program.settings.orient;
                     self.code_word(code)?;
-                    self.letter_word(*letter, angle)?;
+                    self.parameter_word(*letter, angle)?;
                     self.end_block();
                 }
                 Step::ProgramStop => {

@@ -53,12 +53,12 @@ impl Renderer<'_> {
     pub(super) fn check_limits(&self, target: &Axes) -> Done {
         for limit in &self.program.settings.limits {
             let Some(axis) = self.axes.iter().position(|&letter| letter == limit.letter) else { continue };
-            let Some(value) = target.get(axis) else { continue };
-            let scale = if axis < 3 { self.form_scale } else { 1.0 };
+            let Some(value) = target.get(axis).map(|value| value * self.axis_scale[axis]) else { continue };
+            let scale = if axis < self.linear { self.form_scale } else { 1.0 };
             let (least, greatest) = (limit.least * scale, limit.greatest * scale);
             if value < least || value > greatest {
                 let letter = char::from(limit.letter);
-                let message = format!("{letter}{value} is beyond the travel from {least} to {greatest}");
+                let message = format!("{letter}{value:.4} is beyond the travel from {least} to {greatest}");
                 return fault_at(Code::PR007, message, "move the part, or mend `Limits` in the form", Some(limit.span));
             }
         }

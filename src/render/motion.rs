@@ -1,11 +1,11 @@
 //! Rapids and feed moves: the form's sequence, or a generated block of what changed.
 
-use super::fault::{Done, fault};
+use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
 use super::words::{Mode, tenths};
-use crate::compile::{LetterKind, Program};
+use crate::compile::{Block, LetterKind, Op, Program};
 use crate::diag::Code;
-use crate::lang::{Group, SequenceId, VarId, VarSet};
+use crate::lang::{Group, Machine, SequenceId, VarId, VarSet};
 use crate::number::{POWERS, quantise};
 use crate::sema;
 use crate::toolpath::{Axes, FeedMode};
@@ -36,30 +36,42 @@ pub(super) struct AxisUnits {
     prints: u8,
 }
 
-/// Linear axes in a set of axes.
-const LINEAR: u8 = 0b111;
+/// Rotary axes in a set of axes, where three axes are linear.
+const ROTARY: u8 = 0b111_000;
 
 impl Renderer<'_> {
     /// A rapid of the path.
     pub(super) fn rapid(&mut self, to: &Axes) -> Done {
-        let target = self.target(to);
+        let mut target = self.target(to);
         if self.cycle.is_some() {
             self.close_cycle()?;
         }
-        if self.tracks || self.attention {
+        if target.given & ROTARY != 0 {
+            target = self.in_travel(&target)?;
+        }
+        if self.tracks || self.attention || target.given & ROTARY != 0 {
             self.set_targets(&target)?;
         }
         if self.attention {
             self.attend()?;
+        }
+        if target.given & ROTARY != 0 && self.linear == 3 && self.index(&target)? {
+            return Ok(());
+        }
+        if self.watches_moves && self.differs(&target, 0x3f) {
+            self.upons(MOVE_VARS.without(VarSet::of(&[VarId::Frate])))?;
         }
         self.rapid_to(&target)
     }
 
     /// A feed move of the path.
     pub(super) fn line(&mut self, to: &Axes, feed: Option<f64>) -> Done {
-        let target = self.target(to);
+        let mut target = self.target(to);
         if self.cycle.is_some() {
             self.close_cycle()?;
+        }
+        if target.given & ROTARY != 0 && self.linear == 3 {
+            target = self.in_travel(&target)?;
         }
         self.take_feed(feed)?;
         if self.tracks || self.attention {
@@ -68,6 +80,9 @@ impl Renderer<'_> {
         if self.attention {
             self.attend()?;
         }
+        if self.watches_moves && self.differs(&target, 0x3f) {
+            self.upons(MOVE_VARS)?;
+        }
         self.line_to(&target)
     }
 
@@ -75,16 +90,10 @@ impl Renderer<'_> {
     #[inline]
     pub(super) fn target(&self, to: &Axes) -> Axes {
         let mut target = self.position;
-        for axis in 0..3 {
+        for axis in 0..6 {
             if to.given & 1 << axis != 0 {
-                target.values[axis] = to.values[axis] * self.scale;
-            }
-        }
-        if to.given & !LINEAR != 0 {
-            for axis in 3..6 {
-                if to.given & 1 << axis != 0 {
-                    target.values[axis] = to.values[axis];
-                }
+                let scale = if axis < self.linear { self.scale } else { 1.0 };
+                target.values[axis] = to.values[axis] * scale;
             }
         }
         target.given |= to.given;
@@ -95,17 +104,23 @@ impl Renderer<'_> {
     #[inline]
     pub(super) fn set_targets(&mut self, target: &Axes) -> Done {
         const NOW: [VarId; 3] = [VarId::H, VarId::V, VarId::D];
+        const UPPER: [VarId; 2] = [VarId::H2, VarId::V2];
         const LAST: [VarId; 3] = [VarId::Lasth, VarId::Lastv, VarId::Lastd];
         const MOVED: [VarId; 3] = [VarId::Hdist, VarId::Vdist, VarId::Ddist];
-        for axis in 0..3 {
+        if self.linear == 4 {
+            for (axis, var) in (2..4).zip(UPPER) {
+                self.vars.put(var, target.get(axis));
+            }
+        }
+        for axis in 0..self.linear.min(if self.linear == 4 { 2 } else { 3 }) {
             let bit = 1 << axis;
             if target.given & bit == 0 {
                 continue;
             }
-            let value = target.values[axis];
+            let value = target.values[axis] * self.axis_scale[axis];
             self.vars.set(NOW[axis], value);
             if self.position.given & bit != 0 {
-                let before = self.position.values[axis];
+                let before = self.position.values[axis] * self.axis_scale[axis];
                 self.vars.set(LAST[axis], before);
                 self.vars.set(MOVED[axis], value - before);
             }
@@ -157,17 +172,14 @@ impl Renderer<'_> {
     /// What stands between events and the next move.
     #[cold]
     pub(super) fn attend(&mut self) -> Done {
-        self.attention = self.watches_moves;
+        self.attention = false;
         self.pending_changes()?;
-        if self.watches_moves {
-            self.upons(MOVE_VARS)?;
-        }
         Ok(())
     }
 
     /// A rapid to a target in program units, as one block or, under VRapid, split.
     pub(super) fn rapid_to(&mut self, target: &Axes) -> Done {
-        if self.program.settings.depth_rapid.is_some() && self.changes_depth_and_plane(target) {
+        if self.program.settings.depth_rapid.is_some() && self.linear == 3 && self.changes_depth_and_plane(target) {
             return self.split_rapid(target);
         }
         self.rapid_block(target, None)
@@ -209,18 +221,24 @@ impl Renderer<'_> {
                 return false;
             }
             let info = &self.letters[self.axes[axis]];
-            let value = if info.reversed { -target.values[axis] } else { target.values[axis] };
-            quantise(value, info.format.dec.count)
+            let value = target.values[axis] * self.axis_scale[axis];
+            quantise(if info.reversed { -value } else { value }, info.format.dec.count)
                 .is_none_or(|units| !self.registers.holds(info.printed, units, info.format.dec.count))
         })
     }
 
     fn rapid_block(&mut self, target: &Axes, code: Option<sema::Code>) -> Done {
         let program = self.program;
-        match program.block(SequenceId::RapidCode) {
+        // the depth part under VRapid has its own code, which the sequence can't print
+        match program.block(SequenceId::RapidCode).filter(|_| code.is_none()) {
             Some(block) if self.differs(target, 0x3f) => {
-                self.set_targets(target)?;
+                let mut whole = self.position;
+                for axis in (0..6).filter(|axis| target.given & 1 << axis != 0) {
+                    whole.set(axis, target.values[axis]);
+                }
+                self.set_targets(&whole)?;
                 self.measure(target, false);
+                self.sequence_says(block, target)?;
                 self.upons(block.vars)?;
                 self.shifted = false;
                 self.run(block.ops.clone(), Mode::Motion)?;
@@ -261,7 +279,9 @@ impl Renderer<'_> {
         }
         match program.block(SequenceId::LineCode) {
             Some(block) if self.differs(target, 0x3f) => {
+                self.sequence_says(block, target)?;
                 self.upons(block.vars)?;
+                self.feed_block(block)?;
                 self.shifted = false;
                 self.run(block.ops.clone(), Mode::Motion)?;
             }
@@ -301,7 +321,7 @@ impl Renderer<'_> {
             let axis = axes.trailing_zeros() as usize;
             axes &= axes - 1;
             let info = &self.letters[self.axes[axis]];
-            let units = self.quantised(info, target.values[axis])?;
+            let units = self.quantised(info, target.values[axis] * self.axis_scale[axis])?;
             found.units[axis] = units;
             let changed = !self.registers.holds(info.printed, units, info.format.dec.count);
             found.changed |= u8::from(changed) << axis;
@@ -341,7 +361,8 @@ impl Renderer<'_> {
                     "begin with a tool change that prints the position",
                 );
             };
-            let (from, to) = (self.quantised(info, from)?, self.quantised(info, target.values[axis])?);
+            let scale = self.axis_scale[axis];
+            let (from, to) = (self.quantised(info, from * scale)?, self.quantised(info, target.values[axis] * scale)?);
             if to != from {
                 self.put_word(info, to - from, false)?;
             }
@@ -375,6 +396,22 @@ impl Renderer<'_> {
         Ok(())
     }
 
+    /// A word that belongs to the code before it: the time of a dwell, the angle of an orientation. Its letter may
+    /// be that of an axis, the feed or the speed, whose value is then unknown rather than this one.
+    pub(super) fn parameter_word(&mut self, letter: u8, value: f64) -> Done {
+        self.letter_word(letter, value)?;
+        self.registers.forget(self.letters[letter].printed);
+        if letter == self.program.settings.speed_code {
+            self.served.speed = None;
+        }
+        Ok(())
+    }
+
+    /// The word of one axis, always printed.
+    pub(super) fn axis_word(&mut self, axis: usize, target: &Axes) -> Done {
+        self.letter_word(self.axes[axis], target.values[axis] * self.axis_scale[axis])
+    }
+
     /// A letter with a value, always printed.
     pub(super) fn letter_word(&mut self, letter: u8, value: f64) -> Done {
         let info = &self.letters[letter];
@@ -403,6 +440,52 @@ impl Renderer<'_> {
         }
         self.put_word(info, units, false)?;
         self.registers.set(info.printed, units, info.format.dec.count);
+        Ok(())
+    }
+
+    /// A motion sequence must print every axis that moves: a word that the form leaves out is a move that is lost.
+    pub(super) fn sequence_says(&self, block: &Block, target: &Axes) -> Done {
+        const WORDS: [[VarId; 2]; 3] = [[VarId::H, VarId::Hdist], [VarId::V, VarId::Vdist], [VarId::D, VarId::Ddist]];
+        for (axis, words) in WORDS.iter().enumerate().take(self.linear.min(3)) {
+            let moves = target.get(axis).is_some() && target.get(axis) != self.position.get(axis);
+            if moves && self.position.get(axis).is_some() && !words.iter().any(|&var| block.vars.has(var)) {
+                let name = words[0].name();
+                let message = format!("this move changes [{name}], which the sequence does not print");
+                return fault_at(
+                    Code::PR017,
+                    message,
+                    format!("add the word of [{name}] to the sequence"),
+                    Some(block.span),
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// The plane's code as a block of its own, before what prints none and needs it.
+    pub(super) fn plane_block(&mut self, plane: f64, block: &Block) -> Done {
+        let program = self.program;
+        let says = block.ops.clone().any(|i| match program.ops[i] {
+            Op::Literal { index, .. } => {
+                let literal = &program.literals[index as usize];
+                literal.letter == b'G' && (17.0..20.0).contains(&literal.value)
+            }
+            _ => false,
+        });
+        if says || self.plane == plane || program.settings.machine != Machine::Mill {
+            return Ok(());
+        }
+        self.code_word(&sema::Code::plain(b'G', plane))?;
+        self.end_block();
+        Ok(())
+    }
+
+    /// The feed as a block of its own, before a sequence that prints none.
+    pub(super) fn feed_block(&mut self, block: &Block) -> Done {
+        if !block.vars.has(VarId::Frate) {
+            self.feed_word()?;
+            self.end_block();
+        }
         Ok(())
     }
 

@@ -65,6 +65,16 @@ pub struct Renderer<'p> {
     pub(super) position: Axes,
     /// Letters of h v d a b c.
     pub(super) axes: [u8; 6],
+    /// What a position is multiplied with to be printed: 2 for an X that counts diameters.
+    pub(super) axis_scale: [f64; 6],
+    /// How many linear axes there are: four on a wire EDM machine.
+    pub(super) linear: usize,
+    /// Whole turns that Unwind took off each rotary axis.
+    pub(super) wound: [f64; 3],
+    /// The plane that the control is in: what was printed last, also before a tool change.
+    pub(super) plane: f64,
+    /// Cutter compensation is on.
+    pub(super) compensated: bool,
     pub(super) last_move: LastMove,
     /// Factor from the job's lengths to the program's.
     pub(super) scale: f64,
@@ -102,7 +112,10 @@ impl<'p> Renderer<'p> {
         let number = program.settings.numbers.letter.map_or(letters[b'N'].format, |letter| letters[letter].format);
         let layout = Layout::new(&program.settings, number.int.count, number.int.fixed);
         let out = Output::new(&layout, options.trace);
-        let [h, v, d] = program.settings.axes;
+        let settings = &program.settings;
+        let ([h, v, d], [h2, v2, _]) = (settings.axes, settings.axes2);
+        let edm = settings.machine == crate::lang::Machine::Edm;
+        let diameter = if settings.by_diameter { 2.0 } else { 1.0 };
         let mut renderer = Renderer {
             program,
             letters,
@@ -116,7 +129,12 @@ impl<'p> Renderer<'p> {
             shifted: false,
             depth_moved: false,
             position: Axes::default(),
-            axes: [h, v, d, b'A', b'B', b'C'],
+            axes: if edm { [h, v, h2, v2, b'A', b'B'] } else { [h, v, d, b'A', b'B', b'C'] },
+            axis_scale: [1.0, diameter, 1.0, 1.0, 1.0, 1.0],
+            linear: if edm { 4 } else { 3 },
+            wound: [0.0; 3],
+            plane: 17.0,
+            compensated: false,
             last_move: LastMove::None,
             scale: 1.0,
             form_scale: 1.0,
@@ -200,6 +218,8 @@ impl<'p> Renderer<'p> {
             Event::Spindle(spindle) => self.change_spindle(&spindle),
             Event::Coolant(coolant) => self.change_coolant(coolant),
             Event::Set(name, value) => self.change_variable(name, value),
+            Event::Thread(thread) => self.thread(thread),
+            Event::Edm(action) => self.edm(action),
             Event::SubStart(number) => self.sub_start(number),
             Event::SubEnd => self.sub_end(),
             Event::SubCall(call) => self.sub_call(call),

@@ -3,9 +3,9 @@
 use super::fault::{Done, fault};
 use super::renderer::Renderer;
 use crate::diag::Code;
-use crate::lang::SequenceId;
+use crate::lang::{Machine, SequenceId};
 use crate::sema;
-use crate::toolpath::{Section, StopKind};
+use crate::toolpath::{EdmAction, Section, StopKind};
 
 /// The sequences before and after each part.
 fn sequences(section: Section) -> (SequenceId, SequenceId) {
@@ -79,6 +79,21 @@ impl Renderer<'_> {
         }
     }
 
+    /// What a wire EDM machine does between moves, where the form has a sequence for it.
+    pub(super) fn edm(&mut self, action: EdmAction) -> Done {
+        let machine = self.program.settings.machine;
+        if machine != Machine::Edm {
+            let message = format!("a {} has no wire", machine.name());
+            return fault(Code::PR008, message, "take the item out, or render it for a wire EDM machine");
+        }
+        self.run_section(match action {
+            EdmAction::Thread => SequenceId::EdmThread,
+            EdmAction::Cut => SequenceId::EdmCut,
+            EdmAction::PreDrill => SequenceId::EdmPreDrillThread,
+            EdmAction::Submerge => SequenceId::SubmergeTank,
+        })
+    }
+
     /// A dwell in seconds.
     pub(super) fn dwell(&mut self, seconds: f64) -> Done {
         self.close_cycle()?;
@@ -90,7 +105,7 @@ impl Renderer<'_> {
     pub(super) fn dwell_block(&mut self, seconds: f64) -> Done {
         let dwell = &self.program.settings.dwell;
         self.code_word(&dwell.code)?;
-        self.letter_word(dwell.letter, if dwell.milliseconds { seconds * 1000.0 } else { seconds })?;
+        self.parameter_word(dwell.letter, if dwell.milliseconds { seconds * 1000.0 } else { seconds })?;
         self.end_block();
         Ok(())
     }
@@ -148,6 +163,9 @@ impl Renderer<'_> {
     /// A block as it stands: nobody knows what it did.
     pub(super) fn verbatim(&mut self, text: &str) -> Done {
         self.close_cycle()?;
+        if text.trim().is_empty() {
+            return Ok(()); // an empty block is not printed
+        }
         self.registers.forget_all();
         self.out.word(&self.layout, false).extend_from_slice(text.as_bytes());
         self.end_block();

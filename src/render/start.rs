@@ -46,6 +46,7 @@ impl Renderer<'_> {
         self.vars.set(VarId::Lasthole, 0.0);
         self.served.work = Some(settings.work_default);
         self.served.cool = Some(settings.coolant[1]);
+        self.served.speed_type = Some(settings.speed_type[1]);
         self.set_feed_mode(FeedMode::PerMinute);
         self.served.feed_type = self.vars.get(VarId::Feedtype);
     }

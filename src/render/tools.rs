@@ -4,7 +4,7 @@ use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
-use crate::toolpath::{Coolant, FeedMode, First, Tool, ToolChange};
+use crate::toolpath::{Axes, Coolant, FeedMode, First, Tool, ToolChange};
 
 /// The position variables of a tool change.
 const POSITION: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::D]);
@@ -17,7 +17,7 @@ impl Renderer<'_> {
         self.begin_main()?;
         let number = change.tool.as_ref().map(|tool| tool.number);
         let changes = number.is_some() && number != self.tool;
-        self.conditions(change, changes);
+        self.conditions(change, changes)?;
         if let Some(comment) = &change.comment {
             self.comment_block(comment);
         }
@@ -28,14 +28,14 @@ impl Renderer<'_> {
     }
 
     /// Spindle, coolant, work offset and feeds of the operation.
-    fn conditions(&mut self, change: &ToolChange, new_tool: bool) {
+    fn conditions(&mut self, change: &ToolChange, new_tool: bool) -> Done {
         if new_tool {
             for var in [VarId::Speed, VarId::Direct, VarId::Maxrpm] {
                 self.vars.put(var, None);
             }
         }
         if let Some(spindle) = &change.spindle {
-            self.set_spindle(spindle);
+            self.set_spindle(spindle)?;
         }
         match change.coolant {
             Some(coolant) => self.set_coolant(coolant),
@@ -53,6 +53,7 @@ impl Renderer<'_> {
         let plunge = change.plunge.or(change.feed).map(|feed| feed * self.scale);
         self.vars.put(VarId::Plunge, plunge);
         self.attention = true;
+        Ok(())
     }
 
     fn change_tool(&mut self, tool: &Tool, first: &First) -> Done {
@@ -62,6 +63,11 @@ impl Renderer<'_> {
         self.tool = Some(tool.number);
         self.tool_changes += 1;
         let id = if is_first { SequenceId::FirstToolChange } else { SequenceId::ToolChange };
+        // another tool has no last position that a first rapid could keep
+        self.position = Axes::default();
+        for var in [VarId::H, VarId::V, VarId::D] {
+            self.vars.put(var, None);
+        }
         let target = match first {
             First::Rapid(to) => Some(self.target(to)),
             First::Hole(spec, hole) => Some(self.hole_position(spec, hole)?),

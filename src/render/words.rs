@@ -41,6 +41,23 @@ const ARC_WORDS: VarSet = VarSet::of(&[
     VarId::Sweep,
 ]);
 
+/// Variables whose value is a position of the axis that prints them; a dwell or a distance is none.
+const POSITIONS: VarSet = VarSet::of(&[
+    VarId::H,
+    VarId::V,
+    VarId::D,
+    VarId::H2,
+    VarId::V2,
+    VarId::Lasth,
+    VarId::Lastv,
+    VarId::Lastd,
+    VarId::Rotangle,
+    VarId::Lastrotangle,
+    VarId::Rplane,
+    VarId::Vclear,
+    VarId::Pointd,
+]);
+
 impl Renderer<'_> {
     /// The place in the form of what is being printed.
     pub(super) fn form_span(&self) -> Option<Span> {
@@ -142,7 +159,7 @@ impl Renderer<'_> {
         self.put_word(info, units, glued)?;
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => self.printed_code(info.printed, value),
-            LetterKind::Axis if self.shifted => self.registers.forget(info.printed),
+            LetterKind::Axis if self.shifted || !POSITIONS.has(var) => self.registers.forget(info.printed),
             _ => self.registers.set(info.printed, units, decimals),
         }
         if var == VarId::D {
@@ -272,6 +289,9 @@ impl Renderer<'_> {
         let is_feed_mode = letter == b'G' && settings.feed_type.contains(&value);
         match group_of(letter, tenths) {
             Some(group) => {
+                if group == Group::Plane {
+                    self.plane = value;
+                }
                 if matches!(group, Group::FeedMode | Group::Units) || is_feed_mode {
                     self.registers.forget(self.letters[settings.feed_code].printed);
                 }

@@ -377,6 +377,43 @@ pub struct Hole {
     pub depth: Option<f64>,
 }
 
+/// A thread on a lathe. Positions are z and x as a radius.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thread {
+    /// Where it begins: z, and the radius of the crest.
+    pub from: Axes,
+    /// Where it ends.
+    pub to: Axes,
+    /// From crest to crest.
+    pub pitch: f64,
+    /// Height of the thread, on the radius; negative for an inner thread, which is cut outward.
+    pub depth: f64,
+    /// The first cut, on the radius.
+    pub first_depth: Option<f64>,
+    /// The least cut.
+    pub min_depth: Option<f64>,
+    /// Radius at the start less radius at the end.
+    pub taper: Option<f64>,
+    /// Angle of the tip in degrees.
+    pub angle: Option<f64>,
+    /// How many passes.
+    pub passes: Option<f64>,
+    /// Length of the runout, as the control counts it.
+    pub chamfer: Option<f64>,
+    /// How many starts.
+    pub starts: Option<f64>,
+}
+
+/// What a wire EDM machine does between moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum EdmAction {
+    Thread,
+    Cut,
+    PreDrill,
+    Submerge,
+}
+
 /// A call of a subprogram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Call {
@@ -418,5 +455,7 @@ pub enum Event<'a> {
     SubStart(f64),
     SubEnd,
     SubCall(&'a Call),
+    Thread(&'a Thread),
+    Edm(EdmAction),
     Finish,
 }

@@ -72,6 +72,10 @@ impl<'s> Hold<'s> {
                 self.release(spec.map_or(First::Cut, |spec| First::Hole(spec, hole)))?;
                 return self.sink.event(event, place);
             }
+            Event::Thread(thread) => {
+                self.release(First::Rapid(thread.from))?;
+                return self.sink.event(event, place);
+            }
             Event::Line { .. } | Event::Arc { .. } | Event::Infeed { .. } | Event::Outfeed { .. } => {
                 self.release(First::Cut)?;
                 return self.sink.event(event, place);
@@ -91,6 +95,7 @@ impl<'s> Hold<'s> {
             Event::Begin(section) => Waiting::Plain(Event::Begin(section)),
             Event::End(section) => Waiting::Plain(Event::End(section)),
             Event::CycleEnd => Waiting::Plain(Event::CycleEnd),
+            Event::Edm(action) => Waiting::Plain(Event::Edm(action)),
             Event::Dwell(seconds) => Waiting::Plain(Event::Dwell(seconds)),
             Event::Stop(kind) => Waiting::Plain(Event::Stop(kind)),
             Event::Feed(feed) => Waiting::Plain(Event::Feed(feed)),

@@ -8,8 +8,8 @@ mod summary;
 pub mod json;
 
 pub use event::{
-    Arc, Axes, Call, Coolant, CycleKind, CycleSpec, Direction, Event, FeedMode, First, Hole, Infeed, Peck, Plane,
-    Section, Side, Spindle, SpindleTurn, Start, StopKind, Tool, ToolChange, Units,
+    Arc, Axes, Call, Coolant, CycleKind, CycleSpec, Direction, EdmAction, Event, FeedMode, First, Hole, Infeed, Peck,
+    Plane, Section, Side, Spindle, SpindleTurn, Start, StopKind, Thread, Tool, ToolChange, Units,
 };
 pub use hold::Hold;
 pub use place::Place;

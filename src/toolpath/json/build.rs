@@ -2,7 +2,7 @@
 
 use super::objects::{
     ArcObject, CallObject, CycleObject, EndWord, ItemObject, JobHead, Object, OperationHead, SpindleObject,
-    SubprogramHead, ToolObject,
+    SubprogramHead, ThreadObject, ToolObject,
 };
 use super::values::{Number, PeckMode, SpeedMode};
 use crate::diag::{Code, Diag};
@@ -157,6 +157,8 @@ impl<'s> Builder<'s> {
             item.begin.is_some(),
             item.end.is_some(),
             item.call.is_some(),
+            item.thread.is_some(),
+            item.edm.is_some(),
             item.dwell.is_some(),
             item.stop.is_some(),
             item.comment.is_some(),
@@ -207,6 +209,13 @@ impl<'s> Builder<'s> {
                 return fault(Code::PJ003, "`end` is true inside a path", "name the part of the path that ends");
             }
             None => {}
+        }
+        if let Some(thread) = &item.thread {
+            let thread = thread_of(thread)?;
+            return self.push(Event::Thread(&thread));
+        }
+        if let Some(action) = item.edm {
+            return self.push(Event::Edm(action.0));
         }
         if let Some(call) = &item.call {
             let call = call_of(call)?;
@@ -399,6 +408,34 @@ fn arc_of(object: &ArcObject) -> Result<Arc, Box<Diag>> {
         direction: direction.0,
         plane: object.plane.map_or(Plane::Xy, |p| p.0),
         turns: turns as u32,
+    })
+}
+
+fn thread_of(object: &ThreadObject) -> Result<Thread, Box<Diag>> {
+    let (Some(from), Some(to), Some(pitch), Some(depth)) = (object.from, object.to, object.pitch, object.depth) else {
+        return fault(Code::PJ004, "a thread needs `from`, `to`, `pitch` and `depth`", "give all four");
+    };
+    if depth.0 == 0.0 {
+        return fault(Code::PJ003, "`depth` is 0", "give the height of the thread");
+    }
+    let above_zero = |name, n: Option<Number>| n.map(|n| positive(name, n)).transpose();
+    let count = |name, n: Option<Number>| n.map(|n| whole(name, n).and_then(|n| positive(name, Number(n)))).transpose();
+    let starts = count("starts", object.starts)?;
+    if starts.is_some_and(|starts| starts > 100.0) {
+        return fault(Code::PJ003, "`starts` is above 100", "a thread has a few starts");
+    }
+    Ok(Thread {
+        from: from.0,
+        to: to.0,
+        pitch: positive("pitch", pitch)?,
+        depth: depth.0,
+        first_depth: above_zero("first_depth", object.first_depth)?,
+        min_depth: object.min_depth.map(|n| not_negative("min_depth", n)).transpose()?,
+        taper: object.taper.map(|n| n.0),
+        angle: object.angle.map(|n| not_negative("angle", n)).transpose()?,
+        passes: count("passes", object.passes)?,
+        chamfer: object.chamfer.map(|n| not_negative("chamfer", n)).transpose()?,
+        starts,
     })
 }
 

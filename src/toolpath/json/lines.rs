@@ -108,7 +108,20 @@ impl Lines<'_, '_> {
             Ok(line) => self.take(line).map_err(|diag| self.placed(diag)),
             Err(error) => {
                 let column = u32::try_from(error.column()).unwrap_or(u32::MAX).max(1);
-                Err(self.context.explain(error, number, column))
+                let mut place = self.builder.place;
+                place.item += u64::from(place.operation > 0);
+                let mut failure = self.context.explain(error, number, column);
+                if let ReadError::Job(diag) = &mut failure {
+                    if diag.code == Code::PJ008 {
+                        **diag = Diag::new(Code::PJ008, "something stands behind the object on this line");
+                        diag.help = Some("write one item a line".into());
+                    }
+                    let key = self.context.path();
+                    let steps = [place.path(), key].into_iter().filter(|step| !step.is_empty()).collect::<Vec<_>>();
+                    let comma = if steps.is_empty() { "" } else { ", " };
+                    diag.place = Some(format!("{number}:{column}{comma}{}", steps.join(".")));
+                }
+                Err(failure)
             }
         }
     }

@@ -9,6 +9,7 @@ use super::context::{Context, Step};
 use super::values::{Number, PeckMode, Position, SpeedMode, Word};
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, did_you_mean};
+use crate::toolpath::EdmAction;
 use crate::toolpath::event::{
     Coolant, CycleKind, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind, Units,
 };
@@ -139,6 +140,8 @@ objects! {
         "begin" begin Word<Section>, "a named part of the path begins";
         "end" end EndWord, "it ends; in JSON Lines `true` ends the job";
         "call" call CallObject, "call of a subprogram";
+        "thread" thread ThreadObject, "a thread on a lathe";
+        "edm" edm Word<EdmAction>, "what a wire EDM machine does between moves";
         "dwell" dwell Number, "dwell in seconds";
         "stop" stop Word<StopKind>, "a stop";
         "comment" comment String, "a comment to print";
@@ -152,6 +155,20 @@ objects! {
     /// A subprogram without its path.
     SubprogramHead "a subprogram" {
         "number" number Number, "its number";
+    }
+    /// A thread on a lathe; x is a radius.
+    ThreadObject "a thread" {
+        "from" from Position, "where it begins: z, and the radius of the crest";
+        "to" to Position, "where it ends";
+        "pitch" pitch Number, "from crest to crest";
+        "depth" depth Number, "height on the radius; negative for an inner thread";
+        "first_depth" first_depth Number, "the first cut, on the radius";
+        "min_depth" min_depth Number, "the least cut";
+        "taper" taper Number, "radius at the start less radius at the end";
+        "angle" angle Number, "angle of the tip in degrees (60)";
+        "passes" passes Number, "how many passes, instead of first_depth";
+        "chamfer" chamfer Number, "length of the runout, as the control counts it";
+        "starts" starts Number, "how many starts (1)";
     }
     /// A call of a subprogram.
     CallObject "a call" {
@@ -208,7 +225,7 @@ objects! {
     }
 }
 
-nested! { ToolObject SpindleObject ArcObject CallObject PeckObject }
+nested! { ToolObject SpindleObject ArcObject CallObject ThreadObject PeckObject }
 
 impl Value for super::values::Point {
     fn read<'de, A: MapAccess<'de>>(map: &mut A, context: &Context) -> Result<Self, A::Error> {

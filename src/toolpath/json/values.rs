@@ -9,7 +9,7 @@ use crate::lang::Machine;
 use crate::toolpath::event::{
     Axes, Coolant, CycleKind, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind,
 };
-use crate::toolpath::{Hole, Units};
+use crate::toolpath::{EdmAction, Hole, Units};
 
 /// A number. JSON can't write one that is not finite, so it is finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -101,6 +101,7 @@ words! {
     StopKind: "program" StopKind::Program, "optional" StopKind::Optional;
     Section: "leadin" Section::Leadin, "leadout" Section::Leadout, "plunge" Section::Plunge,
         "retract" Section::Retract, "sidestep" Section::SideStep, "zlevel" Section::ZLevel, "row" Section::Row;
+    EdmAction: "thread" EdmAction::Thread, "cut" EdmAction::Cut, "predrill" EdmAction::PreDrill, "submerge" EdmAction::Submerge;
     SpeedMode: "rpm" SpeedMode::Rpm, "css" SpeedMode::Css;
     PeckMode: "deep" PeckMode::Deep, "chipbreak" PeckMode::Chipbreak;
 }

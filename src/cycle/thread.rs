@@ -1,0 +1,75 @@
+//! Passes of a single-point thread.
+
+use super::plan::Problem;
+
+/// Most passes of one thread: more is a slip of the decimal point.
+const MOST_PASSES: usize = 1000;
+
+/// How deep each pass of a thread goes below its crest, in the units of `depth`.
+///
+/// Equal chip area: pass k cuts to `first * sqrt(k)`, the last to the whole depth. `passes` sets the first cut to
+/// `depth / sqrt(passes)`; else `first` is given. No pass cuts less than `least`, except the last.
+///
+/// # Errors
+/// Nothing that says how many passes, or too many of them.
+///
+/// ```
+/// use postform::cycle::thread_passes;
+/// assert_eq!(thread_passes(4.0, None, Some(4), 0.0).map(|p| p.len()), Ok(4));
+/// assert_eq!(thread_passes(4.0, Some(2.0), None, 0.0).map(|p| p.len()), Ok(4));
+/// ```
+pub fn thread_passes(depth: f64, first: Option<f64>, passes: Option<usize>, least: f64) -> Result<Vec<f64>, Problem> {
+    let first = match (passes, first) {
+        (Some(passes), _) if passes > 0 => depth / (passes as f64).sqrt(),
+        (_, Some(first)) if first > 0.0 => first,
+        _ => return Err(Problem::new("cycle.value.missing", "a thread needs `passes` or `first_depth`")),
+    };
+    let mut list: Vec<f64> = Vec::new();
+    loop {
+        let reached = list.last().copied().unwrap_or(0.0);
+        let next = (first * ((list.len() + 1) as f64).sqrt()).max(reached + least);
+        if next >= depth - depth * 1e-9 {
+            list.push(depth);
+            return Ok(list);
+        }
+        if list.len() == MOST_PASSES {
+            return Err(Problem::new(
+                "cycle.step.nonpositive",
+                format!("more than {MOST_PASSES} passes in one thread"),
+            ));
+        }
+        list.push(next);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+        /// Against the closed formula: never too deep, never rising, the last pass at full depth.
+        #[test]
+        fn passes_follow_the_formula(depth in 0.01..5.0f64, first in 0.001..5.0f64, count in 1usize..60, by_count: bool, least in 0.0..0.02f64) {
+            let passes = by_count.then_some(count);
+            let first = if by_count { None } else { Some(first.max(depth / 25.0)) };
+            let list = thread_passes(depth, first, passes, least).unwrap();
+            prop_assert_eq!(*list.last().unwrap(), depth);
+            prop_assert!(list.windows(2).all(|w| w[0] < w[1]));
+            let cut = first.unwrap_or(depth / (count as f64).sqrt());
+            for (k, pass) in list.iter().enumerate().take(list.len() - 1) {
+                let formula = cut * ((k + 1) as f64).sqrt();
+                prop_assert!(*pass >= formula - 1e-9 && *pass < depth);
+                if least == 0.0 { prop_assert!((pass - formula).abs() < 1e-9); }
+            }
+            if by_count && least == 0.0 { prop_assert_eq!(list.len(), count); }
+        }
+    }
+
+    #[test]
+    fn a_thread_that_says_nothing_is_refused() {
+        assert_eq!(thread_passes(1.0, None, None, 0.0).unwrap_err().code, "cycle.value.missing");
+        assert_eq!(thread_passes(1.0, Some(1e-6), None, 0.0).unwrap_err().code, "cycle.step.nonpositive");
+    }
+}

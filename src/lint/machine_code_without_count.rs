@@ -1,11 +1,13 @@
 //! PF404: a cycle of the control in a sequence of several lines would drill each hole again with every line.
 
 use crate::diag::{Code, Diag};
+use crate::lang::SequenceId;
 use crate::sema::{Checked, WordKind};
 
 pub fn check(checked: &Checked, diags: &mut Vec<Diag>) {
     for sequence in checked.form.sequences.values() {
-        if !sequence.id.row().is_cycle || sequence.count.is_some() || sequence.lines.len() < 2 {
+        let threads = matches!(sequence.id, SequenceId::AutoThread | SequenceId::CanThread);
+        if !sequence.id.row().is_cycle || threads || sequence.count.is_some() || sequence.lines.len() < 2 {
             continue;
         }
         for word in sequence.lines.iter().flat_map(|line| &line.words) {

@@ -46,8 +46,8 @@ impl Renderer<'_> {
         if self.cycle.is_some() {
             self.close_cycle()?;
         }
-        if target.given & ROTARY != 0 {
-            target = self.in_travel(&target)?;
+        if to.given & ROTARY != 0 && self.linear == 3 {
+            target = self.in_travel(&target, to.given)?;
         }
         if self.tracks || self.attention || target.given & ROTARY != 0 {
             self.set_targets(&target)?;
@@ -70,8 +70,8 @@ impl Renderer<'_> {
         if self.cycle.is_some() {
             self.close_cycle()?;
         }
-        if target.given & ROTARY != 0 && self.linear == 3 {
-            target = self.in_travel(&target)?;
+        if to.given & ROTARY != 0 && self.linear == 3 {
+            target = self.in_travel(&target, to.given)?;
         }
         self.take_feed(feed)?;
         if self.tracks || self.attention {

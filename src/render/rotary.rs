@@ -11,38 +11,30 @@ const ROTARY: std::ops::Range<usize> = 3..6;
 
 impl Renderer<'_> {
     /// A target whose rotary angles are in the travel of their axes: when one would leave it, the tool is taken out,
-    /// the axis unwound, and angles count modulo 360 from there.
-    pub(super) fn in_travel(&mut self, target: &Axes) -> Done<Axes> {
+    /// the axis unwound, and angles count from there. `given`: the axes that the job's own item gives.
+    pub(super) fn in_travel(&mut self, target: &Axes, given: u8) -> Done<Axes> {
         let mut inside = *target;
-        for axis in ROTARY {
-            let Some(angle) = target.get(axis) else { continue };
+        for axis in ROTARY.filter(|axis| given & 1 << axis != 0) {
+            let turn = axis - ROTARY.start;
             let letter = self.axes[axis];
-            let Some(limit) = self.program.settings.limits.iter().find(|limit| limit.letter == letter) else {
-                continue;
-            };
+            inside.values[axis] = target.values[axis] - self.wound[turn];
+            let Some(limit) = self.program.settings.limits.iter().find(|limit| limit.letter == letter) else { continue };
             let within = |angle: f64| (limit.least..=limit.greatest).contains(&angle);
-            let wound = angle - self.wound[axis - ROTARY.start];
-            inside.values[axis] = wound;
-            if within(wound) {
+            if within(inside.values[axis]) {
                 continue;
             }
-            let turned = wound % 360.0;
-            if !within(turned) {
-                let message = format!(
-                    "{}{turned} is beyond the travel from {} to {}",
-                    char::from(letter),
-                    limit.least,
-                    limit.greatest
-                );
-                return fault(
-                    Code::PR007,
-                    message,
-                    "no turn brings this angle into the travel: index the part by hand",
-                );
+            // whole turns come off where the axis stands, so that the move itself turns as far as it should
+            let here = self.position.get(axis).unwrap_or(0.0);
+            let turns = here - here % 360.0;
+            let angle = inside.values[axis] - turns;
+            if turns == 0.0 || !within(angle) {
+                let letter = char::from(letter);
+                let message = format!("{letter}{angle} is beyond the travel from {} to {}", limit.least, limit.greatest);
+                return fault(Code::PR007, message, "split the move, or turn the other way: no unwinding brings it into the travel");
             }
             self.unwind(axis)?;
-            self.wound[axis - ROTARY.start] += wound - turned;
-            inside.values[axis] = turned;
+            self.wound[turn] += turns;
+            inside.values[axis] = angle;
         }
         Ok(inside)
     }

@@ -6,7 +6,7 @@ use super::fault::{Done, fault_at};
 use super::renderer::Renderer;
 use crate::compile::{Block, Letter, LetterKind, Op};
 use crate::diag::Code;
-use crate::lang::{Frame, Group, VarId, VarSet, frame_of, group_of};
+use crate::lang::{Frame, Group, Machine, VarId, VarSet, frame_of, group_of};
 use crate::number::{LetterFormat, Unprintable, quantise, write_number};
 use crate::span::Span;
 
@@ -279,6 +279,8 @@ impl Renderer<'_> {
         let tenths = tenths(value);
         if letter == b'G' || letter == b'g' {
             match frame_of(tenths) {
+                // on a lathe G92 is a threading cycle
+                Some(Frame::Shifts) if self.program.settings.machine == Machine::Lathe && (920..930).contains(&tenths) => {}
                 Some(Frame::Shifts) => self.shifted = true,
                 Some(Frame::Moves) if self.registers.group(Group::Work) != Some(tenths) => self.forget_axes(),
                 Some(Frame::MovesDepth) => self.depth_moved = true,
@@ -287,6 +289,9 @@ impl Renderer<'_> {
         }
         let settings = &self.program.settings;
         let is_feed_mode = letter == b'G' && settings.feed_type.contains(&value);
+        if is_feed_mode {
+            self.served.feed_type = Some(value);
+        }
         match group_of(letter, tenths) {
             Some(group) => {
                 if group == Group::Plane {

@@ -13,7 +13,8 @@ fn no_sequence_is_without_a_sample_that_prints_it() {
     let text = fs::read_to_string(root().join("docs/sequences.md")).unwrap();
     for sequence in SEQUENCES {
         let row = text.lines().find(|line| line.starts_with(&format!("| `{}` |", sequence.name)));
-        let cells: Vec<&str> = row.unwrap_or_else(|| panic!("no row for {}", sequence.name)).split('|').map(str::trim).collect();
+        let cells: Vec<&str> =
+            row.unwrap_or_else(|| panic!("no row for {}", sequence.name)).split('|').map(str::trim).collect();
         assert_eq!(cells[2], sequence.machines.to_string(), "machines of {}", sequence.name);
         assert_eq!(cells[5], sequence.meaning, "meaning of {}", sequence.name);
         let sample = cells[4].trim_start_matches('[').split(']').next().unwrap();

@@ -1,10 +1,13 @@
 //! PF406: a cycle that does not print the position drills every hole at one place.
 
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{Machine, SequenceId, VarId};
 use crate::sema::{Checked, Word};
 
 pub fn check(checked: &Checked, diags: &mut Vec<Diag>) {
+    if checked.form.settings.machine != Machine::Mill {
+        return; // a lathe drills at its centre
+    }
     for sequence in checked.form.sequences.values() {
         let threads = matches!(sequence.id, SequenceId::AutoThread | SequenceId::CanThread | SequenceId::Cancel);
         if !sequence.id.row().is_cycle || threads || sequence.is_none {

@@ -106,7 +106,7 @@ impl Renderer<'_> {
             self.set_targets(&last)?;
             self.registers.forget_letters();
             self.registers.forget_group(Group::Motion);
-            let known = if cycle.exit_known { 0b111 } else { 0b011 };
+            let known = if cycle.exit_known { 0b111 } else { 0b111 & !self.depth_bit() };
             for axis in 0..3 {
                 if known & last.given & 1 << axis != 0 {
                     let info = &self.letters[self.axes[axis]];
@@ -226,9 +226,10 @@ impl Renderer<'_> {
         let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak) || spec.mode.is_some();
         let custom = matches!(spec.kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
         let own = !custom; // what a custom cycle must say, only its form knows
+        let across = own && self.program.settings.machine == Machine::Mill; // a lathe drills at its centre
         let missing = [
-            (own, &[VarId::H][..], "the position: [h]"),
-            (own, &[VarId::V], "the position: [v]"),
+            (across, &[VarId::H][..], "the position: [h]"),
+            (across, &[VarId::V], "the position: [v]"),
             (own && spec.kind != CycleKind::Manual, &[VarId::D, VarId::Depth], "the depth: [d]"),
             (own && spec.kind != CycleKind::Manual, &[VarId::Frate, VarId::Plunge, VarId::Pitch], "the feed: [frate]"),
             (!spec.pecks.is_empty(), &[], "absolute pecks (`pecks`)"),
@@ -263,9 +264,9 @@ impl Renderer<'_> {
         let spec = self.scaled(spec);
         let planes = self.planes(&spec, hole)?;
         let mut target = self.target(&hole.at);
-        let Some(point) = hole.at.get(2) else { return no_height() };
+        let Some(point) = hole.at.get(self.depth_axis) else { return no_height() };
         let point = point * self.scale;
-        target.set(2, point + spec.return_height.unwrap_or(planes.clear).max(planes.clear));
+        target.set(self.depth_axis, point + spec.return_height.unwrap_or(planes.clear).max(planes.clear));
         Ok(target)
     }
 }

@@ -49,7 +49,7 @@ impl Renderer<'_> {
         let Some(mut cycle) = self.cycle.take() else { return Ok(()) };
         let planes = self.planes(&cycle.spec, hole);
         let scale = self.scale;
-        let point = hole.at.get(2).map(|d| d * scale).or(cycle.point);
+        let point = hole.at.get(self.depth_axis).map(|d| d * scale).or(cycle.point);
         let block = cycle.sequence.and_then(|id| program.block(id));
         let heights = planes.and_then(|planes| {
             let Some(point) = point else { return no_height() };
@@ -61,12 +61,12 @@ impl Renderer<'_> {
         self.cycle = Some(cycle);
         let (planes, heights) = heights?;
         let mut target = self.target(&hole.at);
-        target.set(2, heights.bottom);
+        target.set(self.depth_axis, heights.bottom);
         if !self.program.settings.limits.is_empty() {
             self.check_limits(&target)?;
         }
-        target.set(2, heights.return_plane);
-        for axis in 0..2 {
+        target.set(self.depth_axis, heights.return_plane);
+        for axis in (0..2).filter(|&axis| axis != self.depth_axis) {
             if target.get(axis).is_none() {
                 return fault(
                     Code::PR006,
@@ -180,7 +180,7 @@ impl Renderer<'_> {
             return true;
         }
         // the control would rapid there through the material
-        let level = cycle.last.and_then(|last| last.get(2));
+        let level = cycle.last.and_then(|last| last.get(self.depth_axis));
         if level.is_none_or(|level| heights.clear > level + SAME) {
             return true;
         }
@@ -206,7 +206,7 @@ impl Renderer<'_> {
 
     /// Before a control's cycle: the tool goes to the return plane, up first or down last.
     fn approach(&mut self, target: &Axes) -> Done {
-        if !self.differs(target, 0b100) {
+        if !self.differs(target, self.depth_bit()) {
             return Ok(());
         }
         if self.is_below(target) { self.raise(target) } else { self.split_rapid(target) }
@@ -214,13 +214,13 @@ impl Renderer<'_> {
 
     /// An emulated cycle's first line may go across: the tool must not be below the return plane then.
     fn raise_to(&mut self, target: &Axes) -> Done {
-        let below = self.is_below(target) && self.differs(target, 0b100);
-        let across = (0..2).any(|axis| self.position.get(axis) != target.get(axis));
+        let below = self.is_below(target) && self.differs(target, self.depth_bit());
+        let across = (0..2).any(|axis| axis != self.depth_axis && self.position.get(axis) != target.get(axis));
         if below && across { self.raise(target) } else { Ok(()) }
     }
 
     fn raise(&mut self, target: &Axes) -> Done {
-        let above = Axes { given: 0b100, ..*target };
+        let above = Axes { given: self.depth_bit(), ..*target };
         self.set_targets(&above)?;
         self.split_rapid(&above)?;
         self.set_targets(target)
@@ -240,16 +240,16 @@ impl Renderer<'_> {
     /// Where the tool is after a hole; `exit` is the height, if the sequence does not print it, and whether it is sure.
     fn left_hole(&mut self, target: &Axes, exit: Option<(f64, bool)>) -> Done {
         let mut last = *target;
-        let depth = &self.letters[self.axes[2]];
+        let depth = &self.letters[self.axes[self.depth_axis]];
         let (exit, known) = exit.unwrap_or_else(|| match self.registers.get(depth.printed) {
             Some((units, decimals)) => {
                 let value = as_number(units, decimals);
                 (if depth.reversed { -value } else { value }, true)
             }
-            None => (target.values[2], false),
+            None => (target.values[self.depth_axis], false),
         });
         // what the job means by its last position is the return plane, also where the control stays lower
-        last.set(2, exit);
+        last.set(self.depth_axis, exit);
         self.position = last;
         if let Some(cycle) = &mut self.cycle {
             cycle.last = Some(last);
@@ -285,19 +285,19 @@ impl Renderer<'_> {
             let mut to = *target;
             match *step {
                 Step::Rapid(height) => {
-                    to.values[2] = heights.point + height;
+                    to.values[self.depth_axis] = heights.point + height;
                     self.set_targets(&to)?;
                     self.split_rapid(&to)?;
                 }
                 Step::RapidAside(height, x, y) => {
                     to.values[0] += x;
                     to.values[1] += y;
-                    to.values[2] = heights.point + height;
+                    to.values[self.depth_axis] = heights.point + height;
                     self.set_targets(&to)?;
                     self.split_rapid(&to)?;
                 }
                 Step::Feed(height, feed) => {
-                    to.values[2] = heights.point + height;
+                    to.values[self.depth_axis] = heights.point + height;
                     self.keep_feed(Some(feed));
                     self.set_targets(&to)?;
                     self.line_to(&to)?;
@@ -322,7 +322,7 @@ impl Renderer<'_> {
                 }
             }
         }
-        let exit = self.position.values[2];
+        let exit = self.position.values[self.depth_axis];
         self.left_hole(target, Some((exit, true)))
     }
 

@@ -189,28 +189,34 @@ impl Renderer<'_> {
     pub(super) fn split_rapid(&mut self, target: &Axes) -> Done {
         let code = self.program.settings.depth_rapid.clone();
         if !self.changes_depth_and_plane(target) {
-            let depth_only = target.given & 0b100 != 0 && self.differs(target, 0b100);
+            let depth_only = target.given & self.depth_bit() != 0 && self.differs(target, self.depth_bit());
             return self.rapid_block(target, code.filter(|_| depth_only));
         }
         // only the axes of each part: the others stay where they are, printed or not
+        let depth = self.depth_bit();
         let part = |axes: u8| Axes { given: target.given & axes, ..*target };
         if self.is_below(target) {
-            self.rapid_block(&part(0b100), code)?;
+            self.rapid_block(&part(depth), code)?;
             self.rapid_block(target, None)
         } else {
-            self.rapid_block(&part(!0b100), None)?;
+            self.rapid_block(&part(!depth), None)?;
             self.rapid_block(target, code)
         }
     }
 
     /// Is the tool known to be below a target? From an unknown height it comes from above.
     pub(super) fn is_below(&self, target: &Axes) -> bool {
-        let known = self.registers.get(self.letters[self.axes[2]].printed).is_some();
-        known && self.position.get(2).is_some_and(|from| target.values[2] > from)
+        let known = self.registers.get(self.letters[self.axes[self.depth_axis]].printed).is_some();
+        known && self.position.get(self.depth_axis).is_some_and(|from| target.values[self.depth_axis] > from)
+    }
+
+    /// The depth axis in a set of axes.
+    pub(super) fn depth_bit(&self) -> u8 {
+        1 << self.depth_axis
     }
 
     fn changes_depth_and_plane(&self, target: &Axes) -> bool {
-        self.differs(target, 0b100) && self.differs(target, 0b011)
+        self.differs(target, self.depth_bit()) && self.differs(target, 0b111 & !self.depth_bit())
     }
 
     /// Does a target differ on one of these axes from what was printed?

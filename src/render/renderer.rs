@@ -69,6 +69,8 @@ pub struct Renderer<'p> {
     pub(super) axis_scale: [f64; 6],
     /// How many linear axes there are: four on a wire EDM machine.
     pub(super) linear: usize,
+    /// Along which axis the tool goes into a hole: Z, the first axis of a lathe.
+    pub(super) depth_axis: usize,
     /// Whole turns that Unwind took off each rotary axis.
     pub(super) wound: [f64; 3],
     /// The plane that the control is in: what was printed last, also before a tool change.
@@ -132,6 +134,7 @@ impl<'p> Renderer<'p> {
             axes: if edm { [h, v, h2, v2, b'A', b'B'] } else { [h, v, d, b'A', b'B', b'C'] },
             axis_scale: [1.0, diameter, 1.0, 1.0, 1.0, 1.0],
             linear: if edm { 4 } else { 3 },
+            depth_axis: if settings.machine == crate::lang::Machine::Lathe { 0 } else { 2 },
             wound: [0.0; 3],
             plane: 17.0,
             compensated: false,

@@ -18,7 +18,9 @@ impl Renderer<'_> {
             let turn = axis - ROTARY.start;
             let letter = self.axes[axis];
             inside.values[axis] = target.values[axis] - self.wound[turn];
-            let Some(limit) = self.program.settings.limits.iter().find(|limit| limit.letter == letter) else { continue };
+            let Some(limit) = self.program.settings.limits.iter().find(|limit| limit.letter == letter) else {
+                continue;
+            };
             let within = |angle: f64| (limit.least..=limit.greatest).contains(&angle);
             if within(inside.values[axis]) {
                 continue;
@@ -29,8 +31,13 @@ impl Renderer<'_> {
             let angle = inside.values[axis] - turns;
             if turns == 0.0 || !within(angle) {
                 let letter = char::from(letter);
-                let message = format!("{letter}{angle} is beyond the travel from {} to {}", limit.least, limit.greatest);
-                return fault(Code::PR007, message, "split the move, or turn the other way: no unwinding brings it into the travel");
+                let message =
+                    format!("{letter}{angle} is beyond the travel from {} to {}", limit.least, limit.greatest);
+                return fault(
+                    Code::PR007,
+                    message,
+                    "split the move, or turn the other way: no unwinding brings it into the travel",
+                );
             }
             self.unwind(axis)?;
             self.wound[turn] += turns;
@@ -71,7 +78,10 @@ impl Renderer<'_> {
         let (from, to) = (self.position.get(axis).unwrap_or(0.0), target.values[axis]);
         self.vars.set(VarId::Lastrotangle, from);
         self.vars.set(VarId::Rotangle, to);
-        self.vars.set(VarId::Rotaxdir, if to < from { -1.0 } else { 1.0 });
+        // up to half a turn the job's angles say which way; a view farther off is reached the shorter way round
+        let turn = (to - from + 180.0).rem_euclid(360.0) - 180.0;
+        let way = if (to - from).abs() <= 180.0 { to - from } else { turn };
+        self.vars.set(VarId::Rotaxdir, if way < 0.0 { -1.0 } else { 1.0 });
         let Some(block) = program.block(SequenceId::Index) else { return Ok(false) };
         self.registers.forget_all();
         self.run_with_upons(block)?;

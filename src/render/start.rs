@@ -187,8 +187,8 @@ impl Renderer<'_> {
 
     /// Where the `%` at the end of EndCode begins; its end, when there is none.
     fn closing_percent(&self, block: &Block) -> usize {
-        let lines = block.ops.clone().filter(|&i| matches!(self.program.ops[i], Op::Line { .. }));
-        lines.last().filter(|&line| self.is_percent(line)).unwrap_or(block.ops.end)
+        let mut lines = block.ops.clone().rev().filter(|&i| matches!(self.program.ops[i], Op::Line { .. }));
+        lines.next().filter(|&line| self.is_percent(line)).unwrap_or(block.ops.end)
     }
 
     /// Is the line that begins here a `%`?
@@ -200,14 +200,7 @@ impl Renderer<'_> {
     /// The last line of EndCode that may have a block number: `%` is none.
     pub(super) fn last_line(&self) -> Option<usize> {
         let block = self.program.block(SequenceId::EndCode)?;
-        let mut last = None;
-        for i in block.ops.clone() {
-            if matches!(self.program.ops[i], Op::Line { .. }) {
-                if !self.is_percent(i) {
-                    last = Some(i);
-                }
-            }
-        }
-        last
+        let is_line = |i: &usize| matches!(self.program.ops[*i], Op::Line { .. });
+        block.ops.clone().rev().filter(is_line).find(|&line| !self.is_percent(line))
     }
 }

@@ -99,7 +99,7 @@ impl Renderer<'_> {
         self.registers.forget_group(crate::lang::Group::Motion);
         self.last_move = LastMove::None;
         if program.settings.restart_depth {
-            self.registers.forget(self.letters[self.axes[2]].printed);
+            self.registers.forget(self.letters[self.axes[self.depth_axis]].printed);
         }
         self.force();
         Ok(())
@@ -116,6 +116,9 @@ impl Renderer<'_> {
         self.vars.set(VarId::Lcomp, tool.length_offset.unwrap_or(tool.number + settings.lcomp));
         self.vars.set(VarId::Dcomp, tool.diameter_offset.unwrap_or(tool.number + settings.dcomp));
         self.vars.put(VarId::Turret, tool.turret);
+        // the second turret works from the other side
+        let side = if settings.reverse_turret_2 && tool.turret == Some(2.0) { -1.0 } else { 1.0 };
+        self.axis_scale[1] = self.axis_scale[1].abs() * side;
         if let Some(order) = &self.tool_order {
             if order.get(self.tool_changes) != Some(&tool.number) {
                 let message = format!("tool {} comes next, `tool_order` says otherwise", tool.number);

@@ -113,7 +113,7 @@ impl Renderer<'_> {
     fn end_line(&mut self, line: usize) {
         if self.depth_moved {
             self.depth_moved = false;
-            self.registers.forget(self.axes[2]);
+            self.registers.forget(self.axes[self.depth_axis]);
         }
         if self.out.has_words() {
             let form = self.out.trace.is_some().then(|| self.program.spans[line]);
@@ -280,7 +280,8 @@ impl Renderer<'_> {
         if letter == b'G' || letter == b'g' {
             match frame_of(tenths) {
                 // on a lathe G92 is a threading cycle
-                Some(Frame::Shifts) if self.program.settings.machine == Machine::Lathe && (920..930).contains(&tenths) => {}
+                Some(Frame::Shifts)
+                    if self.program.settings.machine == Machine::Lathe && (920..930).contains(&tenths) => {}
                 Some(Frame::Shifts) => self.shifted = true,
                 Some(Frame::Moves) if self.registers.group(Group::Work) != Some(tenths) => self.forget_axes(),
                 Some(Frame::MovesDepth) => self.depth_moved = true,

@@ -1,0 +1,161 @@
+//! Subprograms, lathes, wire EDM and rotary axes beyond what the samples show.
+#![allow(missing_docs)]
+
+mod support;
+
+use support::{job, mill, path_lines, program};
+
+const SUBS: &str = "SubStart\nO[sub]\nEnd\nSubEnd\nM99\nEnd\nSubCall\nM98 P[sub] L[times]\nEnd";
+
+fn with_subs(subs: &str, path: &str) -> String {
+    job(path).replacen("\"operations\"", &format!("\"subprograms\":[{subs}],\"operations\""), 1)
+}
+
+fn sub(number: u32, path: &str) -> String {
+    format!("{{\"number\":{number},\"path\":[{path}]}}")
+}
+
+const CALL: &str = "{\"call\":{\"sub\":7,\"times\":3}}";
+const MOVE: &str = "{\"rapid\":[0,0,1]}";
+
+#[test]
+fn subprograms_stand_after_the_main_program_by_default() {
+    let lines = program(&mill("", SUBS), &with_subs(&sub(7, MOVE), &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
+    assert_eq!(lines[4..], ["M98 P1 L3", "G0 X1. Y1. Z1.", "M30", "O1", "G0 X0 Y0 Z1.", "M99"]);
+    let kept = program(&mill("RenumSubs? N", SUBS), &with_subs(&sub(7, MOVE), CALL));
+    assert_eq!(kept[4..], ["M98 P7 L3", "M30", "O7", "G0 X0 Y0 Z1.", "M99"]);
+}
+
+#[test]
+fn a_call_is_known_to_move_the_tool() {
+    let path = format!("{CALL},{{\"rapid\":[1]}}");
+    let lines = program(&mill("", SUBS), &with_subs(&sub(7, MOVE), &path));
+    assert_eq!(lines[4..6], ["M98 P1 L3", "G0 X1."]);
+}
+
+#[test]
+fn calls_that_lead_nowhere_or_in_circles_are_errors() {
+    let error = |subs: &str, path: &str| program(&mill("RenumSubs? N", SUBS), &with_subs(subs, path))[0].clone();
+    assert_eq!(error("", CALL), "PR008 the job has no subprogram 7");
+    assert_eq!(error(&sub(7, "{\"call\":{\"sub\":9}}"), CALL), "PR008 the job has no subprogram 9");
+    let circle = format!("{},{}", sub(7, "{\"call\":{\"sub\":8}}"), sub(8, "{\"call\":{\"sub\":7}}"));
+    assert!(error(&circle, MOVE).contains("calls itself"));
+    assert!(error(&sub(7, CALL), MOVE).contains("calls itself"));
+    assert!(error(&format!("{},{}", sub(7, MOVE), sub(7, MOVE)), MOVE).starts_with("PJ010"));
+    let nested = format!("{},{}", sub(8, MOVE), sub(7, "{\"call\":{\"sub\":8,\"times\":2}}"));
+    assert_eq!(
+        program(&mill("", SUBS), &with_subs(&nested, CALL))[6..],
+        ["O1", "G0 X0 Y0 Z1.", "M99", "O2", "M98 P1 L2", "M99"]
+    );
+    assert!(program(&mill("", ""), &with_subs(&sub(7, MOVE), MOVE))[0].contains("no SubStart"));
+}
+
+#[test]
+fn parts_of_a_path_close_in_order() {
+    assert!(path_lines("", "", "{\"begin\":\"row\"},{\"begin\":\"leadin\"},{\"end\":\"row\"}")[0].starts_with("PJ005"));
+    assert!(path_lines("", "", "{\"end\":\"row\"}")[0].starts_with("PJ005"));
+}
+
+fn lathe(head: &str, sequences: &str) -> String {
+    format!(
+        "Machine Lathe\n{head}\nStartCode\n%0\nEnd\n1stToolChange\nT[tool]\nS[speed] M[direct]\nEnd\nToolChange\nT[tool]\nEnd\n\
+         EndCode\nM30\nEnd\n{sequences}\n"
+    )
+}
+
+/// The lines between tool change and end; the tool starts at z 0.2, radius 0.5.
+fn turned(head: &str, sequences: &str, path: &str) -> Vec<String> {
+    let text = job(path).replace("[0,0,1]", "[0.2,0.5]").replace("\"units\"", "\"machine\":\"lathe\",\"units\"");
+    let lines = program(&lathe(head, sequences), &text.replace("\"work\":54,", ""));
+    if lines.len() < 4 { lines } else { lines[3..lines.len() - 1].to_vec() }
+}
+
+#[test]
+fn x_is_a_diameter_on_a_lathe() {
+    assert_eq!(turned("", "", "{\"line\":[-1,0.5]},{\"line\":[-1,0.75]}"), ["G0 Z.2 X1.", "G1 Z-1. F10.", "X1.5"]);
+    assert_eq!(turned("ByDiameter? N", "", "{\"line\":[-1,0.5]}"), ["G0 Z.2 X.5", "G1 Z-1. F10."]);
+    let arc = "{\"arc\":{\"to\":[0.1,0.6],\"center\":[0.1,0.5],\"direction\":\"cw\"}}";
+    assert_eq!(turned("", "", arc), ["G0 Z.2 X1.", "G3 Z.1 X1.2 K-.1 I0 F10."].map(|l| l.replace("G3", "G2")));
+}
+
+#[test]
+fn the_second_turret_works_from_the_other_side() {
+    let text = job("{\"line\":[-1,0.5]}")
+        .replace("[0,0,1]", "[0.2,0.5]")
+        .replace("\"units\"", "\"machine\":\"lathe\",\"units\"")
+        .replace("\"work\":54,", "")
+        .replace("\"diameter_offset\":21", "\"turret\":2");
+    assert_eq!(program(&lathe("RevTurret2? Y", ""), &text)[3], "G0 Z.2 X-1.");
+    assert_eq!(program(&lathe("", ""), &text)[3], "G0 Z.2 X1.");
+}
+
+const THREAD: &str = "{\"thread\":{\"from\":[0.2,0.5],\"to\":[-1],\"pitch\":0.1,\"depth\":0.08,\"passes\":4}}";
+
+#[test]
+fn threads_take_the_best_way_that_the_form_has() {
+    let auto = "AutoThread\nG76 X[v] Z[h] P[depth] Q[peck1] F[frate]\nEnd";
+    let can = "CanThread 1\nG92 X[v] Z[h] F[frate]\nX[v]\nEnd";
+    assert_eq!(turned("Thread G33", &format!("{auto}\n{can}"), THREAD)[1..], ["G76 X.84 Z-1. P.08 Q.04 F.1"]);
+    assert_eq!(turned("Thread G33", can, THREAD)[1..], ["G92 X.92 Z-1. F.1", "X.8869", "X.8614", "X.84"]);
+    assert_eq!(turned("Thread G33", "", THREAD)[1..], ["G33 X.92 Z-1. I0 F.1", "X.8869", "X.8614", "X.84"]);
+    assert!(turned("", "", THREAD)[0].starts_with("PR008"));
+}
+
+#[test]
+fn full_passes_print_approach_cut_clear_and_return() {
+    let two = THREAD.replace("\"passes\":4", "\"passes\":1");
+    let lines = turned("Thread G33\nThreadPasses full", "", &two);
+    assert_eq!(lines[1..], ["X.84", "G33 X.84 Z-1. I0 F.1", "G0 X1.", "Z.2"]);
+}
+
+#[test]
+fn more_starts_begin_a_pitch_further_back_and_tapers_are_radii() {
+    let two = THREAD.replace("\"passes\":4", "\"passes\":1,\"starts\":2");
+    let lines = turned("Thread G33", "", &two);
+    assert_eq!(lines[1..], ["G33 X.84 Z-1. I0 F.2", "G0 Z.3 X1.", "G33 X.84 Z-1. I0 F.2"]);
+    let taper = THREAD.replace("\"to\":[-1]", "\"to\":[-1,0.55]");
+    assert_eq!(turned("Thread G33", "", &taper)[1], "G33 X1.02 Z-1. I-.05 F.1");
+    let inner = THREAD.replace("0.08", "-0.08");
+    assert_eq!(turned("Thread G33", "", &inner)[1..2], ["G33 X1.08 Z-1. I0 F.1"]);
+}
+
+#[test]
+fn threads_need_a_lathe_and_a_turning_spindle() {
+    assert!(path_lines("", "", THREAD)[0].starts_with("PR008"));
+    let stopped = format!("{{\"spindle\":{{\"direction\":\"off\"}}}},{THREAD}");
+    assert!(turned("Thread G33", "", &stopped)[0].starts_with("PR006"));
+}
+
+#[test]
+fn a_lathe_drills_along_z() {
+    let cycle =
+        "{\"rapid\":[0.2,0]},{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[0,0]]}}";
+    let lines = turned("", "Drill\nG81 Z[d] R[vclear] F[frate]\nEnd Cancel\nCancel\nG80\nEnd", cycle);
+    assert_eq!(lines[2..], ["Z.1", "G81 Z-1. R.1 F5.", "G80"]);
+}
+
+#[test]
+fn a_wire_takes_compensation_in_one_block_on_four_axes() {
+    let form = "Machine EDM\nStartCode\n%0\nEnd\nEndCode\nM2\nEnd\nInFeed\nG[side]\nG1 X[h] Y[v]\nEnd";
+    let text = |infeed: &str| {
+        format!(
+            "{{\"machine\":\"edm\",\"operations\":[{{\"feed\":2,\"path\":[{{\"rapid\":[0,0]}},{{\"infeed\":{infeed},\"side\":\"left\"}}]}}]}}"
+        )
+    };
+    assert_eq!(program(form, &text("[1,0]"))[1..4], ["G0 X0 Y0", "G41", "G1 X1. Y0"]);
+    assert!(program(form, &text("[1,0,1,0]"))[0].starts_with("PR008"));
+    assert!(path_lines("", "", "{\"edm\":\"cut\"}")[0].starts_with("PR008"));
+}
+
+#[test]
+fn rotary_travel_needs_an_unwind() {
+    let path = "{\"line\":[0,0,1,300]},{\"line\":[0,0,1,400]}";
+    assert!(path_lines("Limits A -360 360", "", path)[0].starts_with("PR007"));
+    assert_eq!(path_lines("", "", path), ["G1 A300. F10.", "A400."]);
+    // no whole turn to take off: unwinding would not help
+    let unwind = "Unwind\nG0 Z5\nA[lastrotangle]\nEnd";
+    assert!(path_lines("Limits A -360 360", unwind, path)[0].starts_with("PR007"));
+    let far = "{\"line\":[0,0,1,360]},{\"line\":[0,0,1,400]},{\"line\":[0,0,1,450]}";
+    let lines = path_lines("Limits A -360 360", unwind, far);
+    assert_eq!(lines[1..], ["G0 Z5", "A0", "G1 X0 Y0 Z1. A40. F10.", "A90."]);
+}

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::fault::{Done, fault};
 use super::geometry::PlaneArc;
-use super::motion::{AxisUnits, as_number};
+use super::move_words::{AxisUnits, as_number};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
 use crate::diag::Code;

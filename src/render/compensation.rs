@@ -1,7 +1,7 @@
 //! Moves that turn cutter compensation on and off.
 
 use super::fault::{Done, fault, fault_at};
-use super::motion::AxisUnits;
+use super::move_words::AxisUnits;
 use super::renderer::{LastMove, Renderer};
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};

@@ -2,7 +2,7 @@
 
 use super::cycles::{cycle_fault, no_height};
 use super::fault::{Done, fault};
-use super::motion::as_number;
+use super::move_words::as_number;
 use super::renderer::Renderer;
 use super::words::Mode;
 use crate::compile::{Block, CycleStyle};

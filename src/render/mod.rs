@@ -9,6 +9,8 @@ mod geometry;
 mod holes;
 mod measure;
 mod motion;
+mod move_sequences;
+mod move_words;
 mod output;
 mod registers;
 mod renderer;

@@ -3,11 +3,12 @@
 use indexmap::map::Entry;
 
 use super::args::choice_of;
+use super::messages::{bad_format, duplicate_format, duplicate_sequence, unknown_name};
 use super::model::{Form, Sequence, Upon};
 use super::settings::{Settings, UnitChoice};
 use super::words::{Context, resolve, variable};
 use crate::diag::{Code, Diag, Severity};
-use crate::lang::{COMMANDS, CommandId, Machine, Machines, SEQUENCES, SequenceId, SequenceName, did_you_mean};
+use crate::lang::{CommandId, Machine, Machines, SEQUENCES, SequenceId, SequenceName};
 use crate::number::LetterFormat;
 use crate::source::Source;
 use crate::span::Span;
@@ -481,37 +482,4 @@ fn is_none(body: &[Body]) -> bool {
     body.iter().flat_map(|b| &b.words).all(|word| {
         matches!(word.pieces.as_slice(), [syntax::Piece { kind: syntax::PieceKind::Stray(text), .. }] if text.eq_ignore_ascii_case("None"))
     })
-}
-
-fn bad_format(span: Span, why: &str) -> Diag {
-    Diag::new(Code::PF301, format!("the letter format {why}"))
-        .at(span, "this format")
-        .help("write LETTER sign digits point decimals, as `X->3.>4`, `F >3.>6`, `P ->34` or `T 2`")
-}
-
-fn duplicate_format(letter: u8, span: Span, first: Option<Span>) -> Diag {
-    let diag = Diag::new(Code::PF006, format!("{} has two formats", char::from(letter))).at(span, "again here");
-    let diag = match first {
-        Some(first) => diag.at(first, "first here"),
-        None => diag,
-    };
-    diag.help("keep one of them; a letter that needs two can be printed by another letter with `Rename`")
-}
-
-fn duplicate_sequence(name: &str, span: Span, first: Span) -> Diag {
-    Diag::new(Code::PF004, format!("{name} is there twice"))
-        .at(span, "again here")
-        .at(first, "first here")
-        .help("keep one of them")
-}
-
-fn unknown_name(name: &str, span: Span) -> Diag {
-    let names = || SEQUENCES.iter().map(|s| s.name).chain(COMMANDS.iter().map(|c| c.name));
-    let mut diag = Diag::new(Code::PF201, format!("`{}` is no command or sequence", name)).at(span, "unknown");
-    // an abbreviation is no slip of the fingers, but the name that begins with it is meant
-    let begins = || names().find(|n| name.len() > 2 && n.to_ascii_lowercase().starts_with(&name.to_ascii_lowercase()));
-    diag.help = did_you_mean(name, names())
-        .or_else(|| begins().map(|n| format!("did you mean `{n}`?")))
-        .or_else(|| Some("a comment begins with `#`".into()));
-    diag
 }

@@ -2,6 +2,7 @@
 
 mod args;
 mod check;
+mod messages;
 mod model;
 mod settings;
 mod words;

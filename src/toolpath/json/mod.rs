@@ -2,6 +2,7 @@
 
 mod build;
 mod context;
+mod convert;
 mod document;
 mod fast;
 mod lines;

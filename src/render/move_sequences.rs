@@ -1,0 +1,57 @@
+//! Motion sequences of a form: what they must print, and what is printed before them where they do not.
+
+use super::fault::{Done, fault_at};
+use super::renderer::Renderer;
+use crate::compile::{Block, Op};
+use crate::diag::Code;
+use crate::lang::{Machine, VarId};
+use crate::sema;
+use crate::toolpath::Axes;
+
+impl Renderer<'_> {
+    /// A motion sequence must print every axis that moves: a word that the form leaves out is a move that is lost.
+    pub(super) fn sequence_says(&self, block: &Block, target: &Axes) -> Done {
+        const WORDS: [[VarId; 2]; 3] = [[VarId::H, VarId::Hdist], [VarId::V, VarId::Vdist], [VarId::D, VarId::Ddist]];
+        for (axis, words) in WORDS.iter().enumerate().take(self.linear.min(3)) {
+            let moves = target.get(axis).is_some() && target.get(axis) != self.position.get(axis);
+            if moves && self.position.get(axis).is_some() && !words.iter().any(|&var| block.vars.has(var)) {
+                let name = words[0].name();
+                let message = format!("this move changes [{name}], which the sequence does not print");
+                return fault_at(
+                    Code::PR017,
+                    message,
+                    format!("add the word of [{name}] to the sequence"),
+                    Some(block.span),
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// The plane's code as a block of its own, before what prints none and needs it.
+    pub(super) fn plane_block(&mut self, plane: f64, block: &Block) -> Done {
+        let program = self.program;
+        let says = block.ops.clone().any(|i| match program.ops[i] {
+            Op::Literal { index, .. } => {
+                let literal = &program.literals[index as usize];
+                literal.letter == b'G' && (17.0..20.0).contains(&literal.value)
+            }
+            _ => false,
+        });
+        if says || self.plane == plane || program.settings.machine != Machine::Mill {
+            return Ok(());
+        }
+        self.code_word(&sema::Code::plain(b'G', plane))?;
+        self.end_block();
+        Ok(())
+    }
+
+    /// The feed as a block of its own, before a sequence that prints none.
+    pub(super) fn feed_block(&mut self, block: &Block) -> Done {
+        if !block.vars.has(VarId::Frate) {
+            self.feed_word()?;
+            self.end_block();
+        }
+        Ok(())
+    }
+}

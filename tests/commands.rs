@@ -83,6 +83,12 @@ fn arcs_restate_their_code_where_the_form_wants_it() {
 fn increments_add_up_without_a_rest() {
     let path = "{\"line\":[0.33334,0,1]},{\"line\":[0.66668,0,1]},{\"line\":[1,0,1]},{\"line\":[1,0,1]}";
     assert_eq!(path_lines("Incremental? Y", "", path), ["G1 X.3333 F10.", "X.3334", "X.3333"]);
+    // nothing to add is no move, also where nothing is known after a tool change that shifts the frame
+    let form = mill("Incremental? Y", "").replacen("Z[d]", "Z[d] G91", 1);
+    assert_eq!(
+        program(&form, &job("{\"rapid\":[0,0,1]},{\"rapid\":[0,0,2]}"))[3..5],
+        ["G0 G54 X0 Y0 Z1. G91", "G0 Z1."]
+    );
 }
 
 #[test]

@@ -298,7 +298,7 @@ impl Renderer<'_> {
     fn move_block(&mut self, target: &Axes, code: &sema::Code, feeds: bool) -> Done<bool> {
         let mut axes = AxisUnits::default();
         self.axis_units(target, &mut axes)?;
-        if axes.changed == 0 {
+        if axes.changed == 0 || (self.program.settings.incremental && !self.has_increment(target)?) {
             return Ok(false);
         }
         self.motion_word(code)?;

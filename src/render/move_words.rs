@@ -53,6 +53,25 @@ impl Renderer<'_> {
         Ok(())
     }
 
+    /// Does a target differ from the tool's position in what would be printed? An increment of zero is no move, also
+    /// where the letter's last value is unknown.
+    #[cold]
+    pub(super) fn has_increment(&self, target: &Axes) -> Done<bool> {
+        for axis in 0..6 {
+            let (Some(from), Some(to)) = (self.position.get(axis), target.get(axis)) else {
+                if target.get(axis).is_some() {
+                    return Ok(true);
+                }
+                continue;
+            };
+            let (info, scale) = (&self.letters[self.axes[axis]], self.axis_scale[axis]);
+            if self.quantised(info, from * scale)? != self.quantised(info, to * scale)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
     /// Increments between printed positions, so that they add up without a rest.
     fn increments(&mut self, target: &Axes, axes: u8) -> Done {
         for axis in 0..6 {

@@ -35,8 +35,7 @@ struct Piece<'a> {
 impl Renderer<'_> {
     /// An arc of the path.
     pub(super) fn arc(&mut self, arc: &Arc, feed: Option<f64>) -> Done {
-        let mut target = self.target(&arc.to);
-        self.close_cycle()?;
+        let mut target = self.reach(&arc.to)?;
         self.take_feed(feed)?;
         let (axes, across, code) = plane_axes(arc.plane);
         let Some(from) = self.in_plane(&self.position, axes) else {

@@ -31,8 +31,7 @@ impl Renderer<'_> {
 
     fn compensate(&mut self, to: &Axes, feed: Option<f64>, id: SequenceId, code: f64, offset: bool) -> Done {
         let program = self.program;
-        let target = self.target(to);
-        self.close_cycle()?;
+        let target = self.reach(to)?;
         self.take_feed(feed)?;
         self.set_targets(&target)?;
         if self.attention {

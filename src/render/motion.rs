@@ -33,21 +33,15 @@ const ROTARY: u8 = 0b111_000;
 impl Renderer<'_> {
     /// A rapid of the path.
     pub(super) fn rapid(&mut self, to: &Axes) -> Done {
-        let mut target = self.target(to);
-        if self.cycle.is_some() {
-            self.close_cycle()?;
-        }
-        if to.given & ROTARY != 0 && self.linear == 3 {
-            target = self.in_travel(&target, to.given)?;
-        }
+        let target = self.reach(to)?;
         if self.tracks || self.attention || target.given & ROTARY != 0 {
             self.set_targets(&target)?;
         }
         if self.attention {
             self.attend()?;
         }
-        if target.given & ROTARY != 0 && self.linear == 3 && self.index(&target)? {
-            return Ok(());
+        if target.given & ROTARY != 0 && self.turns(&target) {
+            return self.turn_to(&target);
         }
         if self.watches_moves && self.differs(&target, 0x3f) {
             self.upons(MOVE_VARS.without(VarSet::of(&[VarId::Frate])))?;
@@ -57,13 +51,7 @@ impl Renderer<'_> {
 
     /// A feed move of the path.
     pub(super) fn line(&mut self, to: &Axes, feed: Option<f64>) -> Done {
-        let mut target = self.target(to);
-        if self.cycle.is_some() {
-            self.close_cycle()?;
-        }
-        if to.given & ROTARY != 0 && self.linear == 3 {
-            target = self.in_travel(&target, to.given)?;
-        }
+        let target = self.reach(to)?;
         self.take_feed(feed)?;
         if self.tracks || self.attention {
             self.set_targets(&target)?;
@@ -75,6 +63,16 @@ impl Renderer<'_> {
             self.upons(MOVE_VARS)?;
         }
         self.line_to(&target)
+    }
+
+    /// Where an item of the path goes, in the travel of the machine. An open cycle ends before it.
+    #[inline]
+    pub(super) fn reach(&mut self, to: &Axes) -> Done<Axes> {
+        if self.cycle.is_some() {
+            self.close_cycle()?;
+        }
+        let target = self.target(to);
+        if to.given & ROTARY != 0 { self.in_travel(&target, to.given) } else { Ok(target) }
     }
 
     /// A target in program units, with the axes that it keeps.
@@ -115,6 +113,9 @@ impl Renderer<'_> {
                 self.vars.set(LAST[axis], before);
                 self.vars.set(MOVED[axis], value - before);
             }
+        }
+        if target.given & ROTARY != 0 {
+            self.set_angles(target);
         }
         if !self.program.settings.limits.is_empty() {
             self.check_limits(target)?;
@@ -256,7 +257,7 @@ impl Renderer<'_> {
 
     /// The tool is there now; axes that the target does not give stay.
     #[inline]
-    fn move_to(&mut self, target: &Axes) {
+    pub(super) fn move_to(&mut self, target: &Axes) {
         for axis in 0..6 {
             if target.given & 1 << axis != 0 {
                 self.position.values[axis] = target.values[axis];

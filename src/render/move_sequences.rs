@@ -11,21 +11,20 @@ use crate::toolpath::Axes;
 impl Renderer<'_> {
     /// A motion sequence must print every axis that moves: a word that the form leaves out is a move that is lost.
     pub(super) fn sequence_says(&self, block: &Block, target: &Axes) -> Done {
-        const WORDS: [[VarId; 2]; 3] = [[VarId::H, VarId::Hdist], [VarId::V, VarId::Vdist], [VarId::D, VarId::Ddist]];
-        for (axis, words) in WORDS.iter().enumerate().take(self.linear.min(3)) {
-            let moves = target.get(axis).is_some() && target.get(axis) != self.position.get(axis);
-            if moves && self.position.get(axis).is_some() && !words.iter().any(|&var| block.vars.has(var)) {
-                let name = words[0].name();
-                let message = format!("this move changes [{name}], which the sequence does not print");
-                return fault_at(
-                    Code::PR017,
-                    message,
-                    format!("add the word of [{name}] to the sequence"),
-                    Some(block.span),
-                );
-            }
-        }
-        Ok(())
+        use VarId as V;
+        const WORDS: [&[VarId]; 3] = [&[V::H, V::Hdist], &[V::V, V::Vdist], &[V::D, V::Ddist]];
+        const WIRE: [&[VarId]; 4] = [WORDS[0], WORDS[1], &[V::H2], &[V::V2]];
+        let words: &[&[VarId]] = if self.linear == WIRE.len() { &WIRE } else { &WORDS };
+        let moves = |axis: usize| target.get(axis).is_some() && target.get(axis) != self.position.get(axis);
+        let lost = words.iter().enumerate().find(|&(axis, vars)| moves(axis) && !vars.iter().any(|&v| block.vars.has(v)));
+        let turns = self.turned_axes(target).find(|&axis| !self.says_angle(block, axis));
+        let word = match (lost, turns) {
+            (Some((_, vars)), _) => format!("[{}]", vars[0].name()),
+            (None, Some(axis)) => format!("{}[rotangle]", char::from(self.axes[axis])),
+            (None, None) => return Ok(()),
+        };
+        let message = format!("this move changes {word}, which the sequence does not print");
+        fault_at(Code::PR017, message, format!("add the word of {word} to the sequence"), Some(block.span))
     }
 
     /// The plane's code as a block of its own, before what prints none and needs it.

@@ -71,8 +71,9 @@ pub struct Renderer<'p> {
     pub(super) linear: usize,
     /// Along which axis the tool goes into a hole: Z, the first axis of a lathe.
     pub(super) depth_axis: usize,
-    /// Whole turns that Unwind took off each rotary axis.
-    pub(super) wound: [f64; 3],
+    pub(super) angles: super::rotary::Angles,
+    /// Axes whose position variable was printed since this was last cleared, and no literal word after it.
+    pub(super) placed: u8,
     /// The plane that the control is in: what was printed last, also before a tool change.
     pub(super) plane: f64,
     /// Cutter compensation is on.
@@ -135,7 +136,8 @@ impl<'p> Renderer<'p> {
             axis_scale: [1.0, diameter, 1.0, 1.0, 1.0, 1.0],
             linear: if edm { 4 } else { 3 },
             depth_axis: if settings.machine == crate::lang::Machine::Lathe { 0 } else { 2 },
-            wound: [0.0; 3],
+            angles: Default::default(),
+            placed: 0,
             plane: 17.0,
             compensated: false,
             last_move: LastMove::None,

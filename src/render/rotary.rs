@@ -1,23 +1,63 @@
 //! Rotary axes: another view of the part, and travel that ends.
 
-use super::fault::{Done, fault};
+use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
+use crate::compile::{Block, Op};
 use crate::diag::Code;
 use crate::lang::{Group, SequenceId, VarId};
 use crate::toolpath::Axes;
 
-/// The rotary axes among the six.
+/// The rotary axes among the six, where three are linear.
 const ROTARY: std::ops::Range<usize> = 3..6;
+
+/// What is known of the rotary axes; a machine begins with all of them at 0.
+#[derive(Clone, Debug)]
+pub(super) struct Angles {
+    /// Where each stands while the tool's position does not say it.
+    stands: [Option<f64>; 3],
+    /// Where each goes, for `[rotangle]`.
+    now: [Option<f64>; 3],
+    /// Where each was before, for `[lastrotangle]`.
+    last: [Option<f64>; 3],
+    /// Whole turns that Unwind took off each.
+    wound: [f64; 3],
+}
+
+impl Default for Angles {
+    fn default() -> Self {
+        let zero = [Some(0.0); 3];
+        Angles { stands: zero, now: zero, last: zero, wound: [0.0; 3] }
+    }
+}
+
+impl Angles {
+    /// Nobody knows where they stand. Turns that were taken off stay off.
+    pub(super) fn forget(&mut self) {
+        (self.stands, self.now, self.last) = ([None; 3], [None; 3], [None; 3]);
+    }
+
+    /// They stay where the tool's position says, which is about to be forgotten.
+    pub(super) fn keep(&mut self, position: &Axes) {
+        for (stands, axis) in self.stands.iter_mut().zip(ROTARY) {
+            *stands = position.get(axis).or(*stands);
+        }
+    }
+
+    /// Have the same turns been taken off?
+    pub(super) fn wound_as(&self, other: &Angles) -> bool {
+        self.wound == other.wound
+    }
+}
 
 impl Renderer<'_> {
     /// A target whose rotary angles are in the travel of their axes: when one would leave it, the tool is taken out,
     /// the axis unwound, and angles count from there. `given`: the axes that the job's own item gives.
     pub(super) fn in_travel(&mut self, target: &Axes, given: u8) -> Done<Axes> {
         let mut inside = *target;
-        for axis in ROTARY.filter(|axis| given & 1 << axis != 0) {
+        for axis in self.rotary().filter(|axis| given & 1 << axis != 0) {
             let turn = axis - ROTARY.start;
             let letter = self.axes[axis];
-            inside.values[axis] = target.values[axis] - self.wound[turn];
+            inside.values[axis] = target.values[axis] - self.angles.wound[turn];
             let Some(limit) = self.program.settings.limits.iter().find(|limit| limit.letter == letter) else {
                 continue;
             };
@@ -26,7 +66,7 @@ impl Renderer<'_> {
                 continue;
             }
             // whole turns come off where the axis stands, so that the move itself turns as far as it should
-            let here = self.position.get(axis).unwrap_or(0.0);
+            let here = self.angle(axis).unwrap_or(0.0);
             let turns = here - here % 360.0;
             let angle = inside.values[axis] - turns;
             if turns == 0.0 || !within(angle) {
@@ -40,7 +80,7 @@ impl Renderer<'_> {
                 );
             }
             self.unwind(axis)?;
-            self.wound[turn] += turns;
+            self.angles.wound[turn] += turns;
             inside.values[axis] = angle;
         }
         Ok(inside)
@@ -49,45 +89,133 @@ impl Renderer<'_> {
     /// Prints Unwind; the tool is back where it was, its angle modulo 360.
     fn unwind(&mut self, axis: usize) -> Done {
         let program = self.program;
+        let letter = char::from(self.axes[axis]);
         let Some(block) = program.block(SequenceId::Unwind) else {
-            let message =
-                format!("{} reaches the end of its travel, and the form has no Unwind", char::from(self.axes[axis]));
+            let message = format!("{letter} reaches the end of its travel, and the form has no Unwind");
             return fault(Code::PR007, message, "add Unwind: it lifts the tool, turns the axis back and goes on");
         };
-        let here = self.position;
-        let last = here.get(axis).unwrap_or(0.0) % 360.0;
+        if !self.says_angle(block, axis) {
+            let message = format!("{letter} is to be unwound, and Unwind does not print its angle");
+            return fault_at(Code::PR017, message, format!("print `{letter}[lastrotangle]`"), Some(block.span));
+        }
+        let mut here = self.position;
+        here.set(axis, self.angle(axis).unwrap_or(0.0) % 360.0);
         self.set_targets(&here)?;
         for (var, now) in [(VarId::Lasth, 0), (VarId::Lastv, 1), (VarId::Lastd, 2)] {
             self.vars.put(var, here.get(now));
         }
-        self.vars.set(VarId::Lastrotangle, last);
-        self.vars.set(VarId::Rotangle, last);
-        self.registers.forget_all();
-        self.run_with_upons(block)?;
-        self.registers.forget_group(Group::Motion);
-        self.last_move = LastMove::None;
-        self.position.set(axis, last);
+        self.angles.last[axis - ROTARY.start] = here.get(axis);
+        self.vars.put(VarId::Lastrotangle, here.get(axis));
+        self.run_elsewhere(block)?;
+        self.position.set(axis, here.values[axis]);
         Ok(())
     }
 
-    /// A rapid to another rotary view: Index, where the form has it. Whether it was printed.
-    pub(super) fn index(&mut self, target: &Axes) -> Done<bool> {
-        let program = self.program;
-        let turns = |axis: usize| target.get(axis).is_some_and(|angle| angle != self.position.get(axis).unwrap_or(0.0));
-        let Some(axis) = ROTARY.into_iter().find(|&axis| turns(axis)) else { return Ok(false) };
-        let (from, to) = (self.position.get(axis).unwrap_or(0.0), target.values[axis]);
-        self.vars.set(VarId::Lastrotangle, from);
-        self.vars.set(VarId::Rotangle, to);
-        // up to half a turn the job's angles say which way; a view farther off is reached the shorter way round
-        let turn = (to - from + 180.0).rem_euclid(360.0) - 180.0;
-        let way = if (to - from).abs() <= 180.0 { to - from } else { turn };
-        self.vars.set(VarId::Rotaxdir, if way < 0.0 { -1.0 } else { 1.0 });
-        let Some(block) = program.block(SequenceId::Index) else { return Ok(false) };
+    /// A sequence that may leave the path and come back: only what it prints is known afterwards.
+    fn run_elsewhere(&mut self, block: &Block) -> Done {
         self.registers.forget_all();
+        self.placed = 0;
         self.run_with_upons(block)?;
         self.registers.forget_group(Group::Motion);
-        self.position = *target;
         self.last_move = LastMove::None;
-        Ok(true)
+        Ok(())
+    }
+
+    /// Where a rotary axis stands.
+    fn angle(&self, axis: usize) -> Option<f64> {
+        self.position.get(axis).or(self.angles.stands[axis - ROTARY.start])
+    }
+
+    /// The rotary axes of this machine.
+    fn rotary(&self) -> std::ops::Range<usize> {
+        if self.linear == ROTARY.start { ROTARY } else { 0..0 }
+    }
+
+    /// Does a target turn the part?
+    #[inline]
+    pub(super) fn turns(&self, target: &Axes) -> bool {
+        self.turned_axes(target).next().is_some()
+    }
+
+    /// The rotary axes that a target turns.
+    pub(super) fn turned_axes(&self, target: &Axes) -> impl Iterator<Item = usize> {
+        self.rotary().filter(move |&axis| target.get(axis).is_some() && target.get(axis) != self.angle(axis))
+    }
+
+    /// The variables of a target's rotary angles.
+    #[cold]
+    pub(super) fn set_angles(&mut self, target: &Axes) {
+        for axis in self.rotary() {
+            let (Some(to), turn) = (target.get(axis), axis - ROTARY.start) else { continue };
+            let from = self.angle(axis);
+            self.angles.last[turn] = from;
+            self.angles.now[turn] = Some(to);
+            if from == Some(to) {
+                continue;
+            }
+            self.vars.put(VarId::Lastrotangle, from);
+            self.vars.set(VarId::Rotangle, to);
+            // up to half a turn the job's angles say which way; a view farther off is reached the shorter way round
+            let way = from.map(|from| match to - from {
+                way if way.abs() <= 180.0 => way,
+                way => (way + 180.0).rem_euclid(360.0) - 180.0,
+            });
+            self.vars.put(VarId::Rotaxdir, way.map(|way| if way < 0.0 { -1.0 } else { 1.0 }));
+        }
+    }
+
+    /// The angle that a letter prints: its own axis', for `[rotangle]` and `[lastrotangle]`.
+    pub(super) fn angle_of(&self, var: VarId, letter: u8) -> Option<f64> {
+        let axis = self.rotary().find(|&axis| self.axes[axis] == letter)?;
+        let angles = if var == VarId::Rotangle { &self.angles.now } else { &self.angles.last };
+        angles[axis - ROTARY.start]
+    }
+
+    /// Does a sequence print the angle of a rotary axis?
+    pub(super) fn says_angle(&self, block: &Block, axis: usize) -> bool {
+        block.ops.clone().any(|i| {
+            matches!(self.program.ops[i], Op::Var { letter, var: VarId::Rotangle | VarId::Lastrotangle, .. }
+                if letter == self.axes[axis] || !self.axes.contains(&letter))
+        })
+    }
+
+    /// A rapid to another rotary view: Index, where the form has it.
+    pub(super) fn turn_to(&mut self, target: &Axes) -> Done {
+        let program = self.program;
+        let Some(block) = program.block(SequenceId::Index) else { return self.rapid_to(target) };
+        if let Some(axis) = self.turned_axes(target).find(|&axis| !self.says_angle(block, axis)) {
+            let letter = char::from(self.axes[axis]);
+            let message = format!("{letter} turns to {}, which Index does not print", target.values[axis]);
+            return fault_at(Code::PR017, message, format!("add `{letter}[rotangle]` to Index"), Some(block.span));
+        }
+        self.sequence_goes_down(block, target)?;
+        self.run_elsewhere(block)?;
+        let placed = self.placed;
+        self.move_to(&Axes { given: target.given & placed, ..*target });
+        let left = Axes { given: target.given & !placed, ..*target };
+        if left.given == 0 { Ok(()) } else { self.rapid_to(&left) }
+    }
+
+    /// A sequence that goes down must first go everywhere else that the target says.
+    fn sequence_goes_down(&self, block: &Block, target: &Axes) -> Done {
+        if block.vars.has(VarId::D) { self.sequence_says(block, target) } else { Ok(()) }
+    }
+
+    /// What a tool change prints of its first target: rotary axes only where it has a word for them. One that goes
+    /// down must have it: else the part would turn against the tool.
+    pub(super) fn change_turns(&mut self, block: &Block, target: &Axes, given: u8) -> Done<Axes> {
+        let says = |axis: &usize| self.says_angle(block, *axis);
+        let lost = self.turned_axes(target).find(|axis| !says(axis));
+        if let Some(axis) = lost.filter(|_| block.vars.has(VarId::D)) {
+            let (letter, angle) = (char::from(self.axes[axis]), target.values[axis]);
+            let message =
+                format!("the tool begins at {letter}{angle}, and the tool change goes down before the part turns");
+            let help = format!("print `{letter}[rotangle]` in the tool change, before the height");
+            return fault_at(Code::PR017, message, help, Some(block.span));
+        }
+        let unsaid = self.rotary().filter(|axis| !says(axis)).fold(0, |axes, axis| axes | 1 << axis);
+        // only what the first move gives: another tool keeps no position
+        let target = Axes { given: given & !unsaid, ..*target };
+        self.in_travel(&target, given & !unsaid)
     }
 }

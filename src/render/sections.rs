@@ -167,6 +167,7 @@ impl Renderer<'_> {
             return Ok(()); // an empty block is not printed
         }
         self.registers.forget_all();
+        self.displaced(0x3f);
         self.out.word(&self.layout, false).extend_from_slice(text.as_bytes());
         self.end_block();
         Ok(())

@@ -63,20 +63,26 @@ impl Renderer<'_> {
         self.tool = Some(tool.number);
         self.tool_changes += 1;
         let id = if is_first { SequenceId::FirstToolChange } else { SequenceId::ToolChange };
-        // another tool has no last position that a first rapid could keep
+        let block = program.block(id);
+        let first_target = match first {
+            First::Rapid(to) => Some((self.target(to), to.given)),
+            First::Hole(spec, hole) => Some((self.hole_position(spec, hole)?, hole.at.given | self.depth_bit())),
+            First::Cut | First::Nothing => None,
+        };
+        let target = match (first_target, block) {
+            (Some((target, given)), Some(block)) => Some(self.change_turns(block, &target, given)?),
+            _ => None,
+        };
+        // another tool has no last position that a first rapid could keep; the part stays turned as it is
+        self.angles.keep(&self.position);
         self.position = Axes::default();
         for var in [VarId::H, VarId::V, VarId::D] {
             self.vars.put(var, None);
         }
-        let target = match first {
-            First::Rapid(to) => Some(self.target(to)),
-            First::Hole(spec, hole) => Some(self.hole_position(spec, hole)?),
-            First::Cut | First::Nothing => None,
-        };
         self.registers.forget_all();
         self.served.speed = None;
         self.served.direct = None;
-        let Some(block) = program.block(id) else { return Ok(()) };
+        let Some(block) = block else { return Ok(()) };
         match &target {
             Some(target) => self.set_targets(target)?,
             None if block.vars.meets(POSITION) => {
@@ -92,9 +98,10 @@ impl Renderer<'_> {
             }
             None => {}
         }
+        self.placed = 0;
         self.run_with_upons(block)?;
         if let Some(target) = target {
-            self.position = target;
+            self.move_to(&Axes { given: target.given & self.placed, ..target });
         }
         self.registers.forget_group(crate::lang::Group::Motion);
         self.last_move = LastMove::None;

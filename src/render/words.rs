@@ -159,7 +159,17 @@ impl Renderer<'_> {
         self.put_word(info, units, glued)?;
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => self.printed_code(info.printed, value),
-            LetterKind::Axis if self.shifted || !POSITIONS.has(var) => self.registers.forget(info.printed),
+            LetterKind::Axis => {
+                let is_position = POSITIONS.has(var);
+                if is_position {
+                    self.placed |= self.axis_bit(letter);
+                }
+                if self.shifted || !is_position {
+                    self.registers.forget(info.printed);
+                } else {
+                    self.registers.set(info.printed, units, decimals);
+                }
+            }
             _ => self.registers.set(info.printed, units, decimals),
         }
         if var == VarId::D {
@@ -194,7 +204,11 @@ impl Renderer<'_> {
 
     /// The value a variable prints, or none where its word is optional.
     fn value_of(&mut self, var: VarId, letter: u8) -> Done<Option<f64>> {
-        if let Some(value) = self.vars.get(var) {
+        let known = match var {
+            VarId::Rotangle | VarId::Lastrotangle => self.angle_of(var, letter).or(self.vars.get(var)),
+            _ => self.vars.get(var),
+        };
+        if let Some(value) = known {
             return Ok(Some(value));
         }
         match var {
@@ -260,7 +274,10 @@ impl Renderer<'_> {
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => self.printed_code(info.printed, literal.value),
             // a literal position may stand in another frame
-            LetterKind::Axis => self.registers.forget(info.printed),
+            LetterKind::Axis => {
+                self.registers.forget(info.printed);
+                self.displaced(self.axis_bit(literal.letter));
+            }
             LetterKind::Other => match quantise(literal.value, info.format.dec.count) {
                 Some(units) => self.registers.set(info.printed, units, info.format.dec.count),
                 None => self.registers.forget(info.printed),
@@ -309,8 +326,22 @@ impl Renderer<'_> {
         }
     }
 
+    /// The axis of a letter, in a set of axes.
+    fn axis_bit(&self, letter: u8) -> u8 {
+        self.axes.iter().position(|&axis| axis == letter).map_or(0, |axis| 1 << axis)
+    }
+
+    /// These axes are somewhere else now. Positions stay what the job means by them; increments need to know more.
+    pub(super) fn displaced(&mut self, axes: u8) {
+        self.placed &= !axes;
+        if self.program.settings.incremental {
+            self.position.given &= !axes;
+        }
+    }
+
     /// Where the axes are is unknown.
     pub(super) fn forget_axes(&mut self) {
+        self.displaced(0x3f);
         for letter in self.axes.into_iter().chain(self.program.settings.axes2) {
             self.registers.forget(self.letters[letter].printed);
         }

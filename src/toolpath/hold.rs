@@ -60,6 +60,13 @@ impl<'s> Hold<'s> {
     #[cold]
     fn held(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
         let waiting = match event {
+            Event::Work(work) => {
+                // the first position counts from this offset: the tool must not go there in another
+                if let Some((change, _)) = &mut self.change {
+                    change.work = Some(work);
+                }
+                return Ok(());
+            }
             Event::Rapid(to) => {
                 self.release(First::Rapid(to))?;
                 return self.sink.event(event, place);
@@ -99,7 +106,6 @@ impl<'s> Hold<'s> {
             Event::Dwell(seconds) => Waiting::Plain(Event::Dwell(seconds)),
             Event::Stop(kind) => Waiting::Plain(Event::Stop(kind)),
             Event::Feed(feed) => Waiting::Plain(Event::Feed(feed)),
-            Event::Work(work) => Waiting::Plain(Event::Work(work)),
             Event::Spindle(spindle) => Waiting::Plain(Event::Spindle(spindle)),
             Event::Coolant(coolant) => Waiting::Plain(Event::Coolant(coolant)),
         };

@@ -17,7 +17,34 @@ pub(super) struct Served {
     pub cool: Option<f64>,
     pub feed_type: Option<f64>,
     pub speed_type: Option<f64>,
+    pub max: Option<f64>,
 }
+
+impl Served {
+    /// What holds after a subprogram that printed `later`.
+    pub(super) fn then(&self, later: &Served) -> Served {
+        Served {
+            work: later.work.or(self.work),
+            speed: later.speed.or(self.speed),
+            direct: later.direct.or(self.direct),
+            cool: later.cool.or(self.cool),
+            feed_type: later.feed_type.or(self.feed_type),
+            speed_type: later.speed_type.or(self.speed_type),
+            max: later.max.or(self.max),
+        }
+    }
+}
+
+/// The variables of [`Served`].
+pub(super) const CONDITIONS: [VarId; 7] = [
+    VarId::Work,
+    VarId::Speed,
+    VarId::Direct,
+    VarId::Cool,
+    VarId::Feedtype,
+    VarId::Speedtype,
+    VarId::Maxrpm,
+];
 
 impl Renderer<'_> {
     /// A word with this variable was printed.
@@ -30,6 +57,7 @@ impl Renderer<'_> {
             VarId::Cool => self.served.cool = Some(value),
             VarId::Feedtype => self.served.feed_type = Some(value),
             VarId::Speedtype => self.served.speed_type = Some(value),
+            VarId::Maxrpm => self.served.max = Some(value),
             _ if letter == self.program.settings.speed_code => self.served.speed = Some(value),
             _ => {}
         }
@@ -56,19 +84,26 @@ impl Renderer<'_> {
     fn pending(&self) -> VarSet {
         let served = &self.served;
         let mut set = VarSet::default();
-        for (var, served) in [
-            (VarId::Work, served.work),
-            (VarId::Speed, served.speed),
-            (VarId::Direct, served.direct),
-            (VarId::Cool, served.cool),
-            (VarId::Feedtype, served.feed_type),
-            (VarId::Speedtype, served.speed_type),
-        ] {
+        let printed = [
+            served.work,
+            served.speed,
+            served.direct,
+            served.cool,
+            served.feed_type,
+            served.speed_type,
+            served.max,
+        ];
+        for (var, served) in CONDITIONS.into_iter().zip(printed) {
             if self.vars.get(var).is_some_and(|value| served != Some(value)) {
                 set.insert(var);
             }
         }
         set
+    }
+
+    /// Is the work offset all that nothing printed yet?
+    pub(super) fn only_work_waits(&self) -> bool {
+        !self.pending().without(VarSet::of(&[VarId::Work])).meets(VarSet::of(&CONDITIONS))
     }
 
     /// Changes that nothing printed yet, each as a block of its own.
@@ -81,12 +116,19 @@ impl Renderer<'_> {
         {
             self.work_block(work)?;
         }
+        if let Some(max) = self.vars.get(VarId::Maxrpm)
+            && self.served.max != Some(max)
+        {
+            let message = format!("the spindle is limited to {max} from here, and nothing prints it");
+            let help = "the form prints [maxrpm] at a tool change: give the limit there, for the whole time of the tool";
+            return fault(Code::PR017, message, help);
+        }
         let speed = self.vars.get(VarId::Speed);
         let direct = self.vars.get(VarId::Direct);
         let turns = direct.is_some_and(|code| code == cw || code == ccw);
         let speed_type = self.vars.get(VarId::Speedtype);
         let other_mode = self.served.speed_type != speed_type;
-        if turns && (self.served.direct != direct || self.served.speed != speed || other_mode) {
+        if direct != Some(off) && (turns || speed.is_some()) && (self.served.direct != direct || self.served.speed != speed || other_mode) {
             if let Some(mode) = speed_type.filter(|_| other_mode) {
                 self.code_word(&sema::Code::plain(b'G', mode))?;
                 self.served.speed_type = Some(mode);
@@ -99,7 +141,7 @@ impl Renderer<'_> {
                 self.code_word(&sema::Code::plain(b'M', direct))?;
             }
             self.end_block();
-        } else if direct == Some(off) && self.served.direct.is_some_and(|code| code != off) {
+        } else if direct == Some(off) && self.served.direct != Some(off) {
             self.code_word(&sema::Code::plain(b'M', off))?;
             self.end_block();
         }
@@ -161,8 +203,12 @@ impl Renderer<'_> {
 
     pub(super) fn set_spindle(&mut self, spindle: &Spindle) -> Done {
         let settings = &self.program.settings;
+        if let Some(css) = spindle.css {
+            self.vars.set(VarId::Speedtype, settings.speed_type[usize::from(!css)]);
+        }
         if let Some(speed) = spindle.speed {
-            self.vars.set(VarId::Speed, speed);
+            let surface = self.vars.get(VarId::Speedtype) == Some(settings.speed_type[0]);
+            self.vars.set(VarId::Speed, if surface { speed * self.surface_scale() } else { speed });
         }
         if let Some(turn) = spindle.turn {
             let code = match turn {
@@ -171,9 +217,6 @@ impl Renderer<'_> {
                 SpindleTurn::Off => settings.spindle[2],
             };
             self.vars.set(VarId::Direct, code);
-        }
-        if let Some(css) = spindle.css {
-            self.vars.set(VarId::Speedtype, settings.speed_type[usize::from(!css)]);
         }
         if let Some(max) = spindle.max {
             self.vars.set(VarId::Maxrpm, max);
@@ -184,6 +227,16 @@ impl Renderer<'_> {
         }
         self.attention = true;
         Ok(())
+    }
+
+    /// Factor from the job's surface speed to the program's: feet a minute with inches, metres with millimetres.
+    fn surface_scale(&self) -> f64 {
+        const METRES_A_FOOT: f64 = 0.3048;
+        match self.scale {
+            scale if scale > 1.0 => METRES_A_FOOT,
+            scale if scale < 1.0 => 1.0 / METRES_A_FOOT,
+            _ => 1.0,
+        }
     }
 
     /// A change of the coolant.

@@ -97,22 +97,30 @@ impl Renderer<'_> {
             self.vars.set(VarId::Lasthole, 0.0);
             self.place = now;
         }
-        self.cancel()?;
+        self.leave_cycle()?;
         let Some(cycle) = self.cycle.take() else { return Ok(()) };
         self.keep_feed(cycle.feed);
         self.vars.put(VarId::Dwell, None);
-        if let Some(last) = cycle.last {
-            self.position = last;
-            self.set_targets(&last)?;
-            self.registers.forget_letters();
-            self.registers.forget_group(Group::Motion);
-            let known = if cycle.exit_known { 0b111 } else { 0b111 & !self.depth_bit() };
-            for axis in 0..3 {
-                if known & last.given & 1 << axis != 0 {
-                    let info = &self.letters[self.axes[axis]];
-                    let units = self.quantised(info, last.values[axis] * self.axis_scale[axis])?;
-                    self.registers.set(info.printed, units, info.format.dec.count);
-                }
+        Ok(())
+    }
+
+    /// The control leaves the cycle: Cancel, and what is known of the axes after the last hole.
+    pub(super) fn leave_cycle(&mut self) -> Done {
+        self.cancel()?;
+        let Some((last, exit_known)) = self.cycle.as_ref().and_then(|cycle| Some((cycle.last?, cycle.exit_known)))
+        else {
+            return Ok(());
+        };
+        self.position = last;
+        self.set_targets(&last)?;
+        self.registers.forget_letters();
+        self.registers.forget_group(Group::Motion);
+        let known = if exit_known { 0b111 } else { 0b111 & !self.depth_bit() };
+        for axis in 0..3 {
+            if known & last.given & 1 << axis != 0 {
+                let info = &self.letters[self.axes[axis]];
+                let units = self.quantised(info, last.values[axis] * self.axis_scale[axis])?;
+                self.registers.set(info.printed, units, info.format.dec.count);
             }
         }
         Ok(())

@@ -60,7 +60,8 @@ impl Renderer<'_> {
         cycle.point = point;
         self.cycle = Some(cycle);
         let (planes, heights) = heights?;
-        let mut target = self.target(&hole.at);
+        let target = self.target(&hole.at);
+        let mut target = self.in_travel(&target, hole.at.given)?;
         target.set(self.depth_axis, heights.bottom);
         if !self.program.settings.limits.is_empty() {
             self.check_limits(&target)?;
@@ -74,6 +75,15 @@ impl Renderer<'_> {
                     "give both coordinates of the first point",
                 );
             }
+        }
+        if self.turns(&target) {
+            // no cycle turns the part: the control leaves it, and begins it again there
+            self.leave_cycle()?;
+            self.set_targets(&target)?;
+            if self.attention {
+                self.attend()?;
+            }
+            self.turn_to(&target)?;
         }
         match block {
             Some(block) => self.sequence_hole(block, &target, &planes, heights)?,

@@ -1,11 +1,15 @@
 //! Subprograms: where they stand in the program, their numbers, and who calls whom.
 
 use super::fault::{Done, fault};
+use super::changes::{CONDITIONS, Served};
 use super::output::TraceLine;
 use super::renderer::{LastMove, Renderer};
-use crate::compile::Op;
+use super::rotary::Angles;
+use super::vars::Vars;
+use crate::compile::{Block, Op};
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
+use crate::sema;
 use crate::toolpath::{Axes, Call, Place};
 
 /// What is known of the job's subprograms.
@@ -19,6 +23,25 @@ pub(super) struct Subprograms {
     waiting: Waiting,
     /// The rest of StartCode is still to be printed: subprograms come first.
     pub(super) start_waits: bool,
+    /// What is so in the main program, while a subprogram is written.
+    main: Option<Box<State>>,
+}
+
+/// What a subprogram's own items must not change for the program around it.
+#[derive(Debug)]
+struct State {
+    vars: Vars,
+    served: Served,
+    upon_used: Vec<Option<f64>>,
+    angles: Angles,
+    feed: Option<f64>,
+}
+
+/// What a subprogram leaves behind for its caller.
+#[derive(Debug, Default)]
+struct Left {
+    served: Served,
+    upon_used: Vec<Option<f64>>,
 }
 
 /// Text that stands aside, with its source map.
@@ -34,6 +57,9 @@ struct Defined {
     number: f64,
     printed: f64,
     first_block: Option<f64>,
+    left: Left,
+    /// It calls one that comes later: what that one leaves is not known here.
+    calls_ahead: bool,
 }
 
 #[derive(Debug)]
@@ -73,21 +99,60 @@ impl Renderer<'_> {
         };
         let printed = if settings.renumber_subs { self.subs.defined.len() as f64 + 1.0 } else { number };
         let first_block = settings.numbers.letter.map(|_| self.out.number() as f64);
-        self.subs.defined.push(Defined { number, printed, first_block });
+        let left = Left::default();
+        self.subs.defined.push(Defined { number, printed, first_block, left, calls_ahead: false });
         self.subs.open = Some(self.subs.defined.len() - 1);
         if !settings.subs_first {
             self.aside();
         }
+        self.leave_main();
         self.vars.set(VarId::Sub, printed);
+        self.run_with_upons(block)
+    }
+
+    /// In a subprogram nothing is known but what it says itself.
+    fn leave_main(&mut self) {
+        let nothing_served = self.nothing_served();
+        self.subs.main = Some(Box::new(State {
+            vars: self.vars.clone(),
+            served: std::mem::take(&mut self.served),
+            upon_used: std::mem::replace(&mut self.upon_used, nothing_served),
+            angles: self.angles.clone(),
+            feed: self.feed,
+        }));
+        for var in CONDITIONS {
+            self.vars.put(var, None);
+        }
         self.forget_where();
         self.keep_feed(None);
-        self.run_with_upons(block)
+    }
+
+    /// For Upon sequences: whatever a subprogram says of these is a change, because its caller may have said anything.
+    fn nothing_served(&self) -> Vec<Option<f64>> {
+        self.program.upons.iter().map(|upon| CONDITIONS.contains(&upon.var).then_some(f64::NAN)).collect()
+    }
+
+    /// The main program goes on as if the subprogram had not been written, because only calls run it.
+    fn back_to_main(&mut self) {
+        self.forget_where();
+        let Some(main) = self.subs.main.take() else { return };
+        let left = Left { served: self.served, upon_used: std::mem::replace(&mut self.upon_used, main.upon_used) };
+        (self.vars, self.served, self.angles) = (main.vars, main.served, main.angles);
+        self.keep_feed(main.feed);
+        if let Some(sub) = self.subs.open.take().and_then(|open| self.subs.defined.get_mut(open)) {
+            sub.left = left;
+        }
     }
 
     /// The open subprogram ends.
     pub(super) fn sub_end(&mut self) -> Done {
         self.close_cycle()?;
         self.check_sections_closed()?;
+        self.plain_cutting()?;
+        if self.subs.main.as_ref().is_some_and(|main| !main.angles.wound_as(&self.angles)) {
+            let help = "unwind in the main program: a call would leave the axis turned otherwise than the next expects";
+            return fault(Code::PR008, "a rotary axis was unwound inside a subprogram", help);
+        }
         match self.program.block(SequenceId::SubEnd) {
             Some(block) => self.run_with_upons(block)?,
             None => return fault(Code::PR008, "the form has no SubEnd", "add SubEnd to the form"),
@@ -95,8 +160,20 @@ impl Renderer<'_> {
         if !self.program.settings.subs_first {
             self.aside();
         }
-        self.subs.open = None;
-        self.forget_where();
+        self.back_to_main();
+        Ok(())
+    }
+
+    /// Subprograms begin and end in the first plane, without cutter compensation.
+    fn plain_cutting(&mut self) -> Done {
+        if self.compensated {
+            let help = "end the compensation with an `outfeed` before";
+            return fault(Code::PR006, "cutter compensation is on at the border of a subprogram", help);
+        }
+        if self.plane != 17.0 {
+            self.code_word(&sema::Code::plain(b'G', 17.0))?;
+            self.end_block();
+        }
         Ok(())
     }
 
@@ -108,8 +185,8 @@ impl Renderer<'_> {
         let Some(block) = self.program.block(SequenceId::SubCall) else {
             return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
         };
-        let defined = self.subs.defined.iter().find(|sub| sub.number == call.sub);
-        let (printed, first_block) = match defined {
+        let called = self.subs.defined.iter().position(|sub| sub.number == call.sub);
+        let (printed, first_block) = match called.map(|i| &self.subs.defined[i]) {
             Some(sub) => (sub.printed, sub.first_block),
             // inside a subprogram a later one may be called; whether it comes is checked at the end
             None if from.is_some() && !self.program.settings.renumber_subs => (call.sub, None),
@@ -123,21 +200,64 @@ impl Renderer<'_> {
         if let Some(work) = call.work {
             self.set_work(work);
         }
-        let target = self.target(&call.at);
-        self.set_targets(&target)?;
-        if self.attention && !block.vars.has(VarId::Work) {
-            self.attend()?;
-        }
+        self.go_to_call(call, block)?;
         self.vars.set(VarId::Sub, printed);
         self.vars.set(VarId::Times, call.times);
         self.vars.put(VarId::Subline, first_block);
-        self.registers.forget_all();
-        self.run_with_upons(block)?;
-        self.forget_where();
+        // a sequence that does not print how often is printed as often
+        let calls = if block.vars.has(VarId::Times) { 1 } else { call.times as u32 };
+        for _ in 0..calls {
+            self.registers.forget_all();
+            self.run_with_upons(block)?;
+        }
+        self.after_call(called);
         // the call's work offset is the call's alone: what follows is in the operation's again
         self.vars.put(VarId::Work, work);
         self.attention = true;
         Ok(())
+    }
+
+    /// What the call needs before it: changes that its sequence does not print, and the place it is called at.
+    fn go_to_call(&mut self, call: &Call, block: &Block) -> Done {
+        self.plain_cutting()?;
+        let target = self.reach(&call.at)?;
+        self.set_targets(&target)?;
+        if self.attention && !(block.vars.has(VarId::Work) && self.only_work_waits()) {
+            self.attend()?;
+        }
+        let says = |vars: [VarId; 2]| vars.iter().any(|&var| block.vars.has(var));
+        let unsaid = [[VarId::H, VarId::Hdist], [VarId::V, VarId::Vdist], [VarId::D, VarId::Ddist]]
+            .iter()
+            .enumerate()
+            .filter(|(_, vars)| !says(**vars))
+            .fold(0b111_000, |axes, (axis, _)| axes | 1 << axis);
+        let left = Axes { given: call.at.given & unsaid, ..target };
+        if self.turns(&left) {
+            self.turn_to(&left)?;
+        } else if left.given != 0 {
+            self.rapid_to(&left)?;
+        }
+        self.set_targets(&target)
+    }
+
+    /// The subprogram moved the tool, and changed what it says it changed.
+    fn after_call(&mut self, called: Option<usize>) {
+        self.forget_where();
+        let known = called.map(|i| &self.subs.defined[i]).filter(|sub| !sub.calls_ahead);
+        match known {
+            Some(sub) => {
+                self.served = self.served.then(&sub.left.served);
+                for (used, left) in self.upon_used.iter_mut().zip(&sub.left.upon_used) {
+                    *used = left.filter(|value| !value.is_nan()).or(*used);
+                }
+            }
+            None => {
+                self.served = Served::default();
+                if let Some(open) = self.subs.open {
+                    self.subs.defined[open].calls_ahead = true;
+                }
+            }
+        }
     }
 
     /// The main program begins: what waited of StartCode, and Between.
@@ -232,9 +352,10 @@ impl Renderer<'_> {
         }
     }
 
-    /// Nothing is known of the machine any more.
+    /// Nobody knows where the tool and the part are.
     fn forget_where(&mut self) {
         self.registers.forget_all();
+        self.angles.forget();
         self.forget_position();
     }
 

@@ -1,10 +1,10 @@
 //! Threads on a lathe: the control's cycle, a cycle of one pass each, or passes made here.
 
 use super::cycles::cycle_fault;
-use super::fault::{Done, fault};
+use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
-use crate::compile::Block;
+use crate::compile::{Block, Op};
 use crate::cycle::thread_passes;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
@@ -21,7 +21,15 @@ struct Cut {
     inward: f64,
     passes: Vec<f64>,
     lead: f64,
-    taper: f64,
+    /// How much the crest's radius falls from the start to the end, for each unit of length.
+    slope: f64,
+}
+
+impl Cut {
+    /// Radius at the begin of a pass less radius at its end.
+    fn taper(&self, begin: f64) -> f64 {
+        self.slope * (begin - self.end).abs()
+    }
 }
 
 impl Renderer<'_> {
@@ -37,20 +45,26 @@ impl Renderer<'_> {
         }
         let cut = self.cut(thread)?;
         let starts = thread.starts.unwrap_or(1.0);
-        let begin = self.target(&thread.from).get(0);
+        let begin = self.target(&thread.from).values[0];
         self.thread_variables(thread, &cut);
+        if let Some(block) = program.block(SequenceId::AutoThread).or(program.block(SequenceId::CanThread)) {
+            self.thread_says(thread, &cut, block)?;
+        } else if thread.chamfer.is_some_and(|length| length != 0.0) {
+            let help = "leave the chamfer out, or give the form an AutoThread that prints [chams]";
+            return fault(Code::PR017, "passes made of single moves have no chamfer", help);
+        }
         for start in 0..starts as u32 {
             // each start begins one pitch further back
             let back = f64::from(start) * thread.pitch * self.scale;
-            if let Some(begin) = begin {
-                let mut at = self.position;
-                at.set(0, begin + back * if begin >= cut.end { 1.0 } else { -1.0 });
-                self.set_targets(&at)?;
-                if self.attention {
-                    self.attend()?;
-                }
-                self.rapid_to(&at)?;
+            let begin = begin + back * if begin >= cut.end { 1.0 } else { -1.0 };
+            self.vars.set(VarId::Taper, cut.taper(begin));
+            let mut at = self.position;
+            at.set(0, begin);
+            self.set_targets(&at)?;
+            if self.attention {
+                self.attend()?;
             }
+            self.rapid_to(&at)?;
             let here = self.position;
             match (program.block(SequenceId::AutoThread), program.block(SequenceId::CanThread)) {
                 (Some(block), _) => {
@@ -79,7 +93,16 @@ impl Renderer<'_> {
                 "give both coordinates of `from`, and z of `to`",
             );
         };
-        let crest = if thread.to.given & 0b10 != 0 { to.values[1] } else { start };
+        let Some(begin) = from.get(0).filter(|&begin| begin != end) else {
+            return fault(Code::PR006, "the thread has no length", "give `from` and `to` different z");
+        };
+        let taper = thread.taper.map(|taper| taper * self.scale);
+        let crest = if thread.to.given & 0b10 != 0 { to.values[1] } else { start - taper.unwrap_or(0.0) };
+        let falls = start - crest;
+        if let Some(taper) = taper.filter(|taper| (taper - falls).abs() > 1e-9) {
+            let message = format!("the thread's ends differ by {falls} in radius, its `taper` is {taper}");
+            return fault(Code::PR006, message, "give x of `to`, or `taper`, or both alike");
+        }
         let depth = thread.depth.abs() * self.scale;
         let first = thread.first_depth.map(|d| d * self.scale);
         let least = thread.min_depth.unwrap_or(0.0) * self.scale;
@@ -90,7 +113,7 @@ impl Renderer<'_> {
             inward: if thread.depth < 0.0 { 1.0 } else { -1.0 },
             passes,
             lead: thread.pitch * thread.starts.unwrap_or(1.0) * self.scale,
-            taper: thread.taper.map_or(start - crest, |taper| taper * self.scale),
+            slope: falls / (begin - end).abs(),
         })
     }
 
@@ -104,11 +127,53 @@ impl Renderer<'_> {
         self.vars.set(VarId::Peck1, first);
         self.vars.set(VarId::Vbite, thread.min_depth.unwrap_or(0.0) * self.scale);
         self.vars.set(VarId::Vleave, 0.0);
-        self.vars.set(VarId::Taper, cut.taper);
         self.vars.set(VarId::Passes, thread.passes.unwrap_or(cut.passes.len() as f64));
         self.vars.set(VarId::Chams, thread.chamfer.unwrap_or(0.0));
         self.vars.set(VarId::Tipang, angle);
         self.vars.set(VarId::Startang, angle / 2.0);
+    }
+
+    /// What the thread asks for must be in the cycle's words, or stand in its packed parameters.
+    fn thread_says(&self, thread: &Thread, cut: &Cut, block: &Block) -> Done {
+        let packed = self.packed_parameters(block);
+        let in_packed = |digits: std::ops::Range<usize>, value: f64| {
+            packed.as_deref().and_then(|text| text.get(digits)?.parse().ok()) == Some(value)
+        };
+        let prints = |vars: &[VarId]| vars.iter().any(|&var| block.vars.has(var));
+        let starts = thread.starts.unwrap_or(1.0);
+        let missing = [
+            (cut.slope != 0.0 && !prints(&[VarId::Taper]), "the taper: [taper]"),
+            (starts > 1.0 && !prints(&[VarId::Frate]), "the lead of several starts: [frate]"),
+            (!prints(&[VarId::Frate, VarId::Pitch]), "the lead: [frate]"),
+            (
+                thread.angle.is_some_and(|angle| !in_packed(4..6, angle)) && !prints(&[VarId::Tipang, VarId::Startang]),
+                "the angle of the tip: [tipang]",
+            ),
+            (
+                thread.chamfer.is_some_and(|length| !in_packed(2..4, length)) && !prints(&[VarId::Chams]),
+                "the chamfer: [chams]",
+            ),
+        ];
+        match missing.iter().find(|(lost, _)| *lost) {
+            None => Ok(()),
+            Some((_, what)) => {
+                let message = format!("the thread cycle does not print {what}");
+                let help = "add the word, or say it in the packed parameters: `--set tparams=010029` is 1 finishing pass, no chamfer, 29 degrees";
+                fault_at(Code::PR017, message, help, Some(block.span))
+            }
+        }
+    }
+
+    /// The digits of a packed `[tparams]` word: finishing passes, chamfer, angle, two each.
+    fn packed_parameters(&self, block: &Block) -> Option<String> {
+        let letter = block.ops.clone().find_map(|i| match self.program.ops[i] {
+            Op::Var { letter, var: VarId::Tparams, .. } => Some(letter),
+            _ => None,
+        })?;
+        match self.vars.get(VarId::Tparams) {
+            Some(set) => Some(format!("{set:06}")),
+            None => self.letters.packed.iter().find(|(packed, _)| *packed == letter).map(|(_, digits)| digits.clone()),
+        }
     }
 
     /// The end of a pass as the position variables.
@@ -146,11 +211,11 @@ impl Renderer<'_> {
             let end = self.pass_variables(cut, depth)?;
             if program.settings.thread_full {
                 let mut start = *here;
-                start.set(1, end.values[1] + cut.taper);
+                start.set(1, end.values[1] + cut.taper(here.values[0]));
                 self.rapid_to(&start)?;
             }
             if i == 0 || program.settings.thread_full {
-                self.thread_block(code, &end, cut)?;
+                self.thread_block(code, here, &end, cut)?;
             } else {
                 self.axis_word(1, &end)?;
                 self.end_block();
@@ -168,11 +233,11 @@ impl Renderer<'_> {
     }
 
     /// Code, radius, length, taper, lead.
-    fn thread_block(&mut self, code: &sema::Code, end: &Axes, cut: &Cut) -> Done {
+    fn thread_block(&mut self, code: &sema::Code, here: &Axes, end: &Axes, cut: &Cut) -> Done {
         self.code_word(code)?;
         self.axis_word(1, end)?;
         self.axis_word(0, end)?;
-        self.letter_word(b'I', cut.taper)?;
+        self.letter_word(b'I', cut.taper(here.values[0]))?;
         self.letter_word(self.program.settings.feed_code, cut.lead)?;
         self.end_block();
         Ok(())

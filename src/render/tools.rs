@@ -82,6 +82,7 @@ impl Renderer<'_> {
         self.registers.forget_all();
         self.served.speed = None;
         self.served.direct = None;
+        self.served.max = None;
         let Some(block) = block else { return Ok(()) };
         match &target {
             Some(target) => self.set_targets(target)?,

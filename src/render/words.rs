@@ -124,16 +124,12 @@ impl Renderer<'_> {
 
     fn var_word(&mut self, letter: u8, var: VarId, glued: bool, mode: Mode, line_drops: bool) -> Done {
         let info = &self.letters[letter];
-        let Some(value) = self.value_of(var, letter)? else {
-            if var == VarId::Tparams
-                && let Some((_, digits)) = self.letters.packed.iter().find(|(l, _)| *l == letter)
-            {
-                let out = self.out.word(&self.layout, glued);
-                out.push(info.printed);
-                out.extend_from_slice(digits.as_bytes());
-            }
-            return Ok(());
-        };
+        if var == VarId::Tparams
+            && let Some((_, digits)) = self.letters.packed.iter().find(|(l, _)| *l == letter)
+        {
+            return self.packed_word(info, digits, glued);
+        }
+        let Some(value) = self.value_of(var, letter)? else { return Ok(()) };
         let units = self.quantised(info, value)?;
         let decimals = info.format.dec.count;
         let drop = match mode {
@@ -182,6 +178,22 @@ impl Renderer<'_> {
         Ok(())
     }
 
+    /// A word of packed parameters: as the form has them, or as the job sets them, in as many digits.
+    fn packed_word(&mut self, info: &Letter, digits: &str, glued: bool) -> Done {
+        let text = match self.vars.get(VarId::Tparams) {
+            Some(value) => format!("{value:0width$}", width = digits.len()),
+            None => digits.to_owned(),
+        };
+        if text.len() != digits.len() || !text.bytes().all(|digit| digit.is_ascii_digit()) {
+            let message = format!("[tparams] is {text}, its word has {} digits", digits.len());
+            return fault_at(Code::PR002, message, "give a whole number of that many digits", self.form_span());
+        }
+        let out = self.out.word(&self.layout, glued);
+        out.push(info.printed);
+        out.extend_from_slice(text.as_bytes());
+        Ok(())
+    }
+
     /// Does a register hold this already?
     fn holds(&self, info: &Letter, units: i64, value: f64) -> bool {
         match info.kind {
@@ -213,9 +225,8 @@ impl Renderer<'_> {
         }
         match var {
             VarId::Block => return Ok(Some(self.out.number() as f64)),
-            // a cycle without dwell drops the word; a packed format is its own value
+            // a cycle without dwell drops the word
             VarId::Dwell if self.cycle.is_some() => return Ok(None),
-            VarId::Tparams if self.letters.packed.iter().any(|(l, _)| *l == letter) => return Ok(None),
             _ => {}
         }
         let help = match var {

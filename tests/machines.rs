@@ -33,6 +33,42 @@ fn a_call_is_known_to_move_the_tool() {
     assert_eq!(lines[4..6], ["M98 P1 L3", "G0 X1."]);
 }
 
+/// A subprogram is written before the operations, and none of what it changes is so in the main program.
+#[test]
+fn a_subprogram_changes_nothing_but_where_it_is_called() {
+    let inside = "{\"work\":55},{\"coolant\":\"off\"},{\"spindle\":{\"speed\":500}},{\"rapid\":[0,0,1]}";
+    let lines = program(&mill("", SUBS), &with_subs(&sub(7, inside), &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
+    assert_eq!(lines[2..8], ["S1000 M3", "G0 G54 X0 Y0 Z1.", "M98 P1 L3", "G54", "S1000 M3", "G0 X1. Y1. Z1."]);
+    assert_eq!(lines[9..], ["O1", "G55", "S500", "M9", "G0 X0 Y0 Z1.", "M99"]);
+    // also through another subprogram, and where the called one is not known yet
+    let nested = format!("{},{}", sub(7, "{\"call\":{\"sub\":8}}"), sub(8, inside));
+    let lines = program(&mill("RenumSubs? N", SUBS), &with_subs(&nested, &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
+    assert_eq!(lines[4..8], ["M98 P7 L3", "G54", "G97 S1000 M3", "M9"]);
+    // what it does not change is not said again
+    let plain = program(&mill("", SUBS), &with_subs(&sub(7, MOVE), &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
+    assert_eq!(plain[4..6], ["M98 P1 L3", "G0 X1. Y1. Z1."]);
+}
+
+#[test]
+fn a_call_says_how_often_and_where() {
+    let once = SUBS.replace(" L[times]", "");
+    let at = "{\"call\":{\"sub\":7,\"times\":2,\"at\":[5,6]}}";
+    let lines = program(&mill("", &once), &with_subs(&sub(7, MOVE), at));
+    assert_eq!(lines[4..7], ["G0 X5. Y6.", "M98 P1", "M98 P1"]);
+    let says = SUBS.replace("M98 P[sub]", "G0 X[h] Y[v]\nM98 P[sub]");
+    assert_eq!(program(&mill("", &says), &with_subs(&sub(7, MOVE), at))[4..6], ["G0 X5. Y6.", "M98 P1 L2"]);
+}
+
+/// A call may come in any plane: it returns in the first, where the next arcs and cycles are.
+#[test]
+fn calls_are_made_in_the_first_plane_without_compensation() {
+    let arc = "{\"arc\":{\"to\":[1,0,0],\"center\":[0,0,0],\"direction\":\"cw\",\"plane\":\"xz\"}}";
+    let lines = program(&mill("", SUBS), &with_subs(&sub(7, MOVE), &format!("{arc},{CALL}")));
+    assert_eq!(lines[5..7], ["G17", "M98 P1 L3"]);
+    let compensated = format!("{{\"infeed\":[1,0],\"side\":\"left\"}},{CALL}");
+    assert!(program(&mill("", SUBS), &with_subs(&sub(7, MOVE), &compensated))[0].starts_with("PR006 cutter"));
+}
+
 #[test]
 fn calls_that_lead_nowhere_or_in_circles_are_errors() {
     let error = |subs: &str, path: &str| program(&mill("RenumSubs? N", SUBS), &with_subs(subs, path))[0].clone();
@@ -115,8 +151,46 @@ fn more_starts_begin_a_pitch_further_back_and_tapers_are_radii() {
     assert_eq!(lines[1..], ["G33 X.84 Z-1. I0 F.2", "G0 Z.3 X1.", "G33 X.84 Z-1. I0 F.2"]);
     let taper = THREAD.replace("\"to\":[-1]", "\"to\":[-1,0.55]");
     assert_eq!(turned("Thread G33", "", &taper)[1], "G33 X1.02 Z-1. I-.05 F.1");
+    // a taper says the radius at the end; a start further back on the cone has more of it
+    let cone = THREAD.replace("\"to\":[-1]", "\"to\":[-1],\"taper\":0.12,\"starts\":2").replace("4", "1");
+    let lines = turned("Thread G33", "", &cone);
+    assert_eq!(lines[1..], ["G33 X.6 Z-1. I.12 F.2", "G0 Z.3 X1.", "G33 X.6 Z-1. I.13 F.2"]);
+    let both = taper.replace("\"pitch\"", "\"taper\":0.05,\"pitch\"");
+    assert!(turned("Thread G33", "", &both)[0].starts_with("PR006 the thread's ends differ"));
     let inner = THREAD.replace("0.08", "-0.08");
     assert_eq!(turned("Thread G33", "", &inner)[1..2], ["G33 X1.08 Z-1. I0 F.1"]);
+}
+
+/// What a thread asks for is printed, or stands in the packed parameters, or is an error.
+#[test]
+fn a_thread_cycle_loses_none_of_its_parameters() {
+    let auto = "P 010060\nAutoThread\nG76 P[tparams]\nG76 X[v] Z[h] K[depth] F[frate]\nEnd";
+    let asked = |extra: &str| turned("", auto, &THREAD.replace("\"pitch\"", &format!("{extra},\"pitch\"")));
+    assert_eq!(asked("\"angle\":60")[1], "G76 P010060");
+    assert!(asked("\"angle\":29")[0].starts_with("PR017 the thread cycle does not print the angle"));
+    assert!(asked("\"chamfer\":5")[0].starts_with("PR017 the thread cycle does not print the chamfer"));
+    assert!(asked("\"taper\":0.1")[0].starts_with("PR017 the thread cycle does not print the taper"));
+    let set = format!(
+        "{{\"set\":{{\"tparams\":20529}}}},{}",
+        THREAD.replace("\"pitch\"", "\"angle\":29,\"chamfer\":5,\"pitch\"")
+    );
+    assert_eq!(turned("", auto, &set)[1], "G76 P020529");
+    let chamfer = THREAD.replace("\"pitch\"", "\"chamfer\":5,\"pitch\"");
+    assert!(turned("Thread G33", "", &chamfer)[0].starts_with("PR017 passes made of single moves"));
+}
+
+#[test]
+fn a_changed_limit_of_the_spindle_is_printed_or_refused() {
+    let form = lathe("", "").replace("S[speed] M[direct]\nEnd", "G50 S[maxrpm]\nG[speedtype] S[speed] M[direct]\nEnd");
+    let text = |next: &str| {
+        job(&format!("{{\"spindle\":{next}}},{{\"line\":[-1,0.5]}}"))
+            .replace("[0,0,1]", "[0.2,0.5]")
+            .replace("\"units\"", "\"machine\":\"lathe\",\"units\"")
+            .replace("\"work\":54,", "")
+            .replace("\"speed\":1000", "\"speed\":100,\"mode\":\"css\",\"max\":2000")
+    };
+    assert_eq!(program(&form, &text("{\"speed\":90}"))[2..6], ["G50 S2000", "G96 S100 M3", "G0 Z.2 X1.", "S90 M3"]);
+    assert!(program(&form, &text("{\"max\":1500}"))[0].starts_with("PR017 the spindle is limited to 1500"));
 }
 
 #[test]

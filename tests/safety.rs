@@ -4,6 +4,8 @@
 
 mod support;
 
+use postform::render::Options;
+use postform::toolpath::Units;
 use support::{job, mill, path_lines, program};
 
 const DRILL: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -374,4 +376,21 @@ fn vrapid_splits_before_a_rapid_sequence() {
 #[test]
 fn empty_text_prints_nothing() {
     assert_eq!(path_lines("Sequence#s N 1 1", "", "{\"text\":\" \"},{\"line\":[1,0,1]}").len(), 1);
+}
+
+/// A work offset that comes before the first rapid is the one in which the tool change goes there.
+#[test]
+fn the_first_position_is_in_its_own_work_offset() {
+    let text = job("{\"line\":[1,0,1]}").replace("[{\"rapid\"", "[{\"work\":56},{\"rapid\"");
+    assert_eq!(program(&mill("", ""), &text)[3..5], ["G0 G56 X0 Y0 Z1.", "G1 X1. F10."]);
+}
+
+/// Feet a minute are metres a minute in a metric program.
+#[test]
+fn a_surface_speed_follows_the_units() {
+    let text = job("{\"spindle\":{\"speed\":100,\"mode\":\"css\"}},{\"line\":[1,0,1]}");
+    let form = mill("S >5.>1", "").replace("%0\n", "%0\nG[unitmode]\n");
+    let options = Options { units: Some(Units::Mm), ..Options::default() };
+    let rendered = support::render_checked(&support::check(&form), text.as_bytes(), false, options).unwrap();
+    assert!(rendered.text.contains("\nG96 S30.5 M3\n"), "{}", rendered.text);
 }

@@ -36,15 +36,8 @@ impl Served {
 }
 
 /// The variables of [`Served`].
-pub(super) const CONDITIONS: [VarId; 7] = [
-    VarId::Work,
-    VarId::Speed,
-    VarId::Direct,
-    VarId::Cool,
-    VarId::Feedtype,
-    VarId::Speedtype,
-    VarId::Maxrpm,
-];
+pub(super) const CONDITIONS: [VarId; 7] =
+    [VarId::Work, VarId::Speed, VarId::Direct, VarId::Cool, VarId::Feedtype, VarId::Speedtype, VarId::Maxrpm];
 
 impl Renderer<'_> {
     /// A word with this variable was printed.
@@ -84,15 +77,8 @@ impl Renderer<'_> {
     fn pending(&self) -> VarSet {
         let served = &self.served;
         let mut set = VarSet::default();
-        let printed = [
-            served.work,
-            served.speed,
-            served.direct,
-            served.cool,
-            served.feed_type,
-            served.speed_type,
-            served.max,
-        ];
+        let printed =
+            [served.work, served.speed, served.direct, served.cool, served.feed_type, served.speed_type, served.max];
         for (var, served) in CONDITIONS.into_iter().zip(printed) {
             if self.vars.get(var).is_some_and(|value| served != Some(value)) {
                 set.insert(var);
@@ -120,7 +106,8 @@ impl Renderer<'_> {
             && self.served.max != Some(max)
         {
             let message = format!("the spindle is limited to {max} from here, and nothing prints it");
-            let help = "the form prints [maxrpm] at a tool change: give the limit there, for the whole time of the tool";
+            let help =
+                "the form prints [maxrpm] at a tool change: give the limit there, for the whole time of the tool";
             return fault(Code::PR017, message, help);
         }
         let speed = self.vars.get(VarId::Speed);
@@ -128,7 +115,10 @@ impl Renderer<'_> {
         let turns = direct.is_some_and(|code| code == cw || code == ccw);
         let speed_type = self.vars.get(VarId::Speedtype);
         let other_mode = self.served.speed_type != speed_type;
-        if direct != Some(off) && (turns || speed.is_some()) && (self.served.direct != direct || self.served.speed != speed || other_mode) {
+        if direct != Some(off)
+            && (turns || speed.is_some())
+            && (self.served.direct != direct || self.served.speed != speed || other_mode)
+        {
             if let Some(mode) = speed_type.filter(|_| other_mode) {
                 self.code_word(&sema::Code::plain(b'G', mode))?;
                 self.served.speed_type = Some(mode);

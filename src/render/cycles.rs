@@ -3,7 +3,7 @@
 use super::fault::{Done, fault};
 use super::renderer::{Cycles, Renderer};
 use super::vars::Vars;
-use crate::compile::{Block, CycleStyle};
+use crate::compile::{Block, CycleStyle, Op};
 use crate::cycle::{Plan, Problem};
 use crate::diag::Code;
 use crate::lang::{Group, Machine, SequenceId, VarId};
@@ -233,10 +233,21 @@ impl Renderer<'_> {
         let prints = |vars: &[VarId]| vars.iter().any(|&var| block.vars.has(var));
         let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak) || spec.mode.is_some();
         let custom = matches!(spec.kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
+        let program = self.program;
         let own = !custom; // what a custom cycle must say, only its form knows
-        let across = own && self.program.settings.machine == Machine::Mill; // a lathe drills at its centre
+        let across = own && program.settings.machine == Machine::Mill; // a lathe drills at its centre
+        let absolute = |i| match &program.ops[i] {
+            Op::Literal { index, .. } => {
+                let literal = &program.literals[*index as usize];
+                literal.letter == b'G' && literal.value == program.settings.inc_abs[1]
+            }
+            _ => false,
+        };
+        let positions = &[VarId::H, VarId::V, VarId::D, VarId::Vclear, VarId::Rplane];
+        let steps = program.settings.incremental && prints(positions) && !block.ops.clone().any(absolute);
         let missing = [
-            (across, &[VarId::H][..], "the position: [h]"),
+            (steps, &[][..], "increments, which the control expects here"),
+            (across, &[VarId::H], "the position: [h]"),
             (across, &[VarId::V], "the position: [v]"),
             (own && spec.kind != CycleKind::Manual, &[VarId::D, VarId::Depth], "the depth: [d]"),
             (own && spec.kind != CycleKind::Manual, &[VarId::Frate, VarId::Plunge, VarId::Pitch], "the feed: [frate]"),

@@ -8,7 +8,7 @@ use super::words::Mode;
 use crate::compile::{Block, CycleStyle};
 use crate::cycle::{Plan, Step, plan};
 use crate::diag::Code;
-use crate::lang::VarId;
+use crate::lang::{SequenceId, VarId};
 use crate::sema;
 use crate::toolpath::{Axes, Hole};
 
@@ -83,7 +83,10 @@ impl Renderer<'_> {
             if self.attention {
                 self.attend()?;
             }
-            self.turn_to(&target)?;
+            match program.block(SequenceId::Index) {
+                Some(_) => self.turn_to(&target)?,
+                None => self.split_rapid(&target)?,
+            }
         }
         match block {
             Some(block) => self.sequence_hole(block, &target, &planes, heights)?,

@@ -166,6 +166,16 @@ impl Renderer<'_> {
     pub(super) fn attend(&mut self) -> Done {
         self.attention = false;
         self.pending_changes()?;
+        if self.distance_is_wrong() {
+            let [increments, positions] = self.program.settings.inc_abs;
+            let (now, needed, read) = match self.program.settings.incremental {
+                true => (positions, increments, "increments as positions"),
+                false => (increments, positions, "positions as increments"),
+            };
+            let message = format!("the control is in G{now} here, and would read {read}");
+            let help = format!("print G{needed} in the sequence that printed G{now}, after the words that need it");
+            return fault(Code::PR017, message, help);
+        }
         Ok(())
     }
 
@@ -208,7 +218,7 @@ impl Renderer<'_> {
     }
 
     fn changes_depth_and_plane(&self, target: &Axes) -> bool {
-        self.differs(target, self.depth_bit()) && self.differs(target, 0b111 & !self.depth_bit())
+        self.differs(target, self.depth_bit()) && self.differs(target, 0x3f & !self.depth_bit())
     }
 
     /// Does a target differ on one of these axes from what was printed?

@@ -16,7 +16,8 @@ impl Renderer<'_> {
         const WIRE: [&[VarId]; 4] = [WORDS[0], WORDS[1], &[V::H2], &[V::V2]];
         let words: &[&[VarId]] = if self.linear == WIRE.len() { &WIRE } else { &WORDS };
         let moves = |axis: usize| target.get(axis).is_some() && target.get(axis) != self.position.get(axis);
-        let lost = words.iter().enumerate().find(|&(axis, vars)| moves(axis) && !vars.iter().any(|&v| block.vars.has(v)));
+        let lost =
+            words.iter().enumerate().find(|&(axis, vars)| moves(axis) && !vars.iter().any(|&v| block.vars.has(v)));
         let turns = self.turned_axes(target).find(|&axis| !self.says_angle(block, axis));
         let word = match (lost, turns) {
             (Some((_, vars)), _) => format!("[{}]", vars[0].name()),

@@ -83,7 +83,7 @@ impl Renderer<'_> {
                 return fault(
                     Code::PR001,
                     format!("an increment of {} from an unknown position", char::from(info.printed)),
-                    "begin with a tool change that prints the position",
+                    "a tool change that prints the position makes it known; a new work offset or a literal axis word does not",
                 );
             };
             let scale = self.axis_scale[axis];

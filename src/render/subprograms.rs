@@ -1,7 +1,7 @@
 //! Subprograms: where they stand in the program, their numbers, and who calls whom.
 
-use super::fault::{Done, fault};
 use super::changes::{CONDITIONS, Served};
+use super::fault::{Done, fault};
 use super::output::TraceLine;
 use super::renderer::{LastMove, Renderer};
 use super::rotary::Angles;

@@ -106,7 +106,16 @@ impl Renderer<'_> {
         }
         self.end_line(line);
         self.form = None;
+        // looked at before the next move: until then another sequence may put it right
+        self.attention |= self.distance_is_wrong();
         Ok(())
+    }
+
+    /// Would the control read generated positions as increments, or the other way round?
+    pub(super) fn distance_is_wrong(&self) -> bool {
+        let settings = &self.program.settings;
+        let wrong = tenths(settings.inc_abs[usize::from(settings.incremental)]);
+        self.registers.group(Group::Distance) == Some(wrong) && settings.machine != Machine::Lathe
     }
 
     /// Ends a line of a sequence, whose operations begin at `line`.

@@ -1,0 +1,46 @@
+//! `Incremental? Y`: an increment is printed only from a position that the control shares.
+#![allow(missing_docs)]
+
+mod support;
+
+use support::{job, mill, path_lines, program};
+
+fn increments(sequences: &str, path: &str) -> Vec<String> {
+    path_lines("Incremental? Y", sequences, path)
+}
+
+#[test]
+fn increments_count_from_what_the_tool_change_printed() {
+    assert_eq!(increments("", "{\"line\":[1,0,1]},{\"line\":[1,2,0.5]}"), ["G1 X1. F10.", "Y2. Z-.5"]);
+    // this tool change leaves the height out: nobody knows it
+    let low = mill("Incremental? Y", "").replace(" Z[d]", "");
+    assert!(program(&low, &job("{\"line\":[1,0,0]}"))[0].starts_with("PR001 an increment of Z"));
+}
+
+#[test]
+fn nothing_is_known_after_what_moves_the_frame_or_the_tool() {
+    for item in ["{\"work\":55}", "{\"text\":\"G28 X0\"}"] {
+        let lines = increments("", &format!("{{\"line\":[1,0,1]}},{item},{{\"line\":[2,0,1]}}"));
+        assert!(lines[0].starts_with("PR001 an increment of X"), "{item}: {lines:?}");
+    }
+}
+
+#[test]
+fn a_cycle_that_prints_positions_is_printed_as_moves() {
+    let path = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0]]}}";
+    let drill = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let moves = ["G0 X1. Y1.", "Z-.9", "G1 Z-1.1 F5.", "G0 Z1.1"];
+    assert_eq!(increments(drill, path), moves);
+    // a form may say how
+    let own = drill.replace("G81", "G90 G81");
+    assert_eq!(increments(&own, path)[2], "G90 G81 X1. Y1. Z-1. R.1 F5.");
+}
+
+#[test]
+fn a_control_left_in_the_other_distance_mode_is_an_error() {
+    let path = "{\"work\":55},{\"rapid\":[1,0,1]}";
+    let leaves = "Upon [work]\nG[work] G91 G28 Z0\nEnd";
+    assert!(path_lines("", leaves, path)[0].starts_with("PR017 the control is in G91"));
+    let mends = leaves.replace("Z0\n", "Z0\nG90\n");
+    assert_eq!(path_lines("", &mends, path), ["G55 G91 G28 Z0", "G90", "G0 X1. Y0 Z1."]);
+}

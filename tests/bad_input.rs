@@ -257,7 +257,7 @@ fn jobs() {
             "a cycle without depth",
             with("{\"cycle\":{\"kind\":\"drill\",\"feed\":5,\"points\":[[1,1,0]]}}"),
             1,
-            vec!["PR006", "cycle.depth.missing"],
+            vec!["PC002 (cycle.depth.missing)"],
         ),
         (
             "a cycle without points",

@@ -320,7 +320,7 @@ fn travel_limits_hold_along_arcs_and_in_holes() {
 fn a_cycle_under_cutter_compensation_is_an_error() {
     let path = "{\"infeed\":[1,0],\"side\":\"left\"},{\"rapid\":[2,2,2]},\
                 {\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}";
-    assert!(path_lines("", DRILL, path)[0].starts_with("PR006"));
+    assert!(path_lines("", DRILL, path)[0].starts_with("PC041"));
 }
 
 /// Another tool has no last position: its first rapid must say how high it goes.
@@ -338,10 +338,10 @@ fn odd_cycles_are_warned_of() {
         let rendered = support::render(&mill("", ""), &job(cycle)).unwrap();
         assert!(rendered.notes.iter().any(|n| n.code.name() == code), "{code}: {:?}", rendered.notes);
     };
-    warned("{\"cycle\":{\"kind\":\"deep\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}", "PR019");
+    warned("{\"cycle\":{\"kind\":\"deep\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}", "PC060");
     warned(
         "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"return\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}",
-        "PR020",
+        "PC053",
     );
 }
 

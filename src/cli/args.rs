@@ -56,6 +56,15 @@ pub enum CyclesArg {
     Emulated,
 }
 
+/// How deep a countersink of a diameter and an angle is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SinkArg {
+    /// Half the diameter over the tangent of half the angle
+    Geometry,
+    /// Half the diameter times that tangent, as GENER's manual prints it: the same at 90 degrees only
+    Printed,
+}
+
 /// Units of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum UnitsArg {
@@ -82,6 +91,9 @@ pub struct RenderArgs {
     /// Where canned cycles come from
     #[arg(long, value_name = "WHERE", default_value = "form")]
     pub cycles: CyclesArg,
+    /// How deep countersinks are
+    #[arg(long, value_name = "FORMULA", default_value = "geometry")]
+    pub csink_depth: SinkArg,
     /// Units of the program [default: those of the job]
     #[arg(long, value_name = "UNITS")]
     pub units: Option<UnitsArg>,

@@ -11,7 +11,7 @@ use postform::source::Source;
 use postform::toolpath::json::ReadError;
 use postform::toolpath::{Event, Place, Sink, Units};
 
-use super::args::{CyclesArg, RenderArgs, UnitsArg};
+use super::args::{CyclesArg, RenderArgs, SinkArg, UnitsArg};
 use super::files::{self, io_message};
 use super::output::Target;
 use super::progress::Progress;
@@ -62,6 +62,7 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
             UnitsArg::Mm => Units::Mm,
         }),
         set,
+        sink_as_printed: args.csink_depth == SinkArg::Printed,
         trace: args.trace.is_some(),
     };
     keep_inputs(args)?;

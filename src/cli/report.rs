@@ -65,8 +65,8 @@ impl Diagnostic for Shown<'_> {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         // the header line is never wrapped, so a place in the job stays in one piece there
         Some(match &self.place {
-            Some(place) => Box::new(format!("{} at {place}", self.diag.code.name())),
-            None => Box::new(self.diag.code.name()),
+            Some(place) => Box::new(format!("{} at {place}", self.diag.code.title())),
+            None => Box::new(self.diag.code.title()),
         })
     }
 
@@ -126,7 +126,7 @@ impl Reporter {
             if self.handler.render_report(&mut all, &Shown { diag, place, source, file }).is_err() {
                 // a place that can't be drawn must not hide what was found
                 all.truncate(start);
-                all += &format!("{} {}\n", diag.code.name(), diag.message);
+                all += &format!("{} {}\n", diag.code.title(), diag.message);
             }
         }
         all

@@ -1,8 +1,14 @@
 //! Canned cycles as motions: one planner, a pure function from parameters to steps.
 
+mod bore;
+mod check;
 mod pecks;
 mod plan;
+mod problem;
+mod tap;
 mod thread;
 
-pub use plan::{Defaults, Plan, Problem, Step, Steps, plan};
+pub use check::check;
+pub use plan::{Defaults, Plan, Step, Steps, plan};
+pub use problem::Problem;
 pub use thread::thread_passes;

@@ -1,7 +1,9 @@
-//! Depths of a peck cycle.
+//! Pecking: the depths, and the moves between them.
 
-use super::plan::Problem;
-use crate::toolpath::CycleSpec;
+use super::plan::{Defaults, Plan, Step};
+use super::problem::Problem;
+use crate::diag::Code;
+use crate::toolpath::{CycleKind, CycleSpec};
 
 /// Most pecks of one hole: more is a slip of the decimal point.
 const MOST_PECKS: usize = 10_000;
@@ -11,51 +13,110 @@ const SAME: f64 = 1e-9;
 
 /// One peck: the height it feeds to, and its feed where it has its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PeckDepth {
+pub struct Peck {
     /// Height above the point; negative below it.
     pub height: f64,
     /// Its feed, if not the cycle's.
     pub feed: Option<f64>,
 }
 
-/// The pecks from the clearance plane `from` (a height) down to `bottom`.
-///
-/// Steps count from the clearance plane like a control's Q; absolute pecks count from the point. `list` is cleared
-/// first: it is the caller's, so that a hole allocates nothing.
-pub fn pecks(
+/// Pecks with full retracts, or chip breaks with a full retract every `times`.
+pub(super) fn peck(
     spec: &CycleSpec,
+    plan: &Plan,
     from: f64,
-    bottom: f64,
-    (step, least): (Option<f64>, f64),
-    list: &mut Vec<PeckDepth>,
+    defaults: &Defaults,
+    list: &mut Vec<Peck>,
+    steps: &mut Vec<Step>,
 ) -> Result<(), Problem> {
-    list.clear();
-    if !spec.pecks.is_empty() {
-        let mut reached = from;
-        for peck in &spec.pecks {
-            if -peck.to >= reached - SAME {
-                return Err(Problem::new("cycle.depth.order", "absolute pecks must go deeper one by one"));
+    let deep = spec.kind == CycleKind::Deep;
+    let back = spec.back.unwrap_or(if deep { defaults.back_deep } else { defaults.back_chipbreak });
+    pecks(spec, plan, defaults, list)?;
+    let last = list.len() - 1;
+    for (i, peck) in list.iter().enumerate() {
+        if peck.height > from {
+            let message = "the extra rapid ends below the first peck";
+            return Err(Problem::new(Code::PC013, message, "give a smaller `rapto`"));
+        }
+        steps.push(Step::Feed(peck.height, peck.feed.unwrap_or(plan.feed)));
+        if i == last {
+            steps.extend(plan.dwell.map(Step::Dwell));
+            break;
+        }
+        if defaults.dwell_at_steps {
+            steps.extend(plan.dwell.map(Step::Dwell));
+        }
+        let full = deep || spec.times.is_some_and(|m| m >= 1.0 && (i + 1) % (m as usize) == 0);
+        if full {
+            steps.push(Step::Rapid(plan.clear));
+            if defaults.dwell_at_retracts {
+                steps.extend(plan.dwell.map(Step::Dwell));
             }
-            reached = (-peck.to).max(bottom);
-            list.push(PeckDepth { height: reached, feed: peck.feed });
         }
-        if reached > bottom + SAME {
-            list.push(PeckDepth { height: bottom, feed: None });
-        }
-        return Ok(());
+        steps.push(Step::Rapid((peck.height + back).min(plan.clear)));
     }
-    let Some(step) = step else {
-        list.push(PeckDepth { height: bottom, feed: None });
-        return Ok(());
+    Ok(())
+}
+
+/// The pecks down to the bottom of a plan. `list` is cleared first: it is the caller's, so that a hole allocates
+/// nothing.
+pub(super) fn pecks(spec: &CycleSpec, plan: &Plan, defaults: &Defaults, list: &mut Vec<Peck>) -> Result<(), Problem> {
+    list.clear();
+    let bottom = plan.bottom;
+    let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak) || spec.mode.is_some();
+    if !spec.pecks.is_empty() {
+        return absolute(spec, plan, list);
+    }
+    match spec.step.or(defaults.step).filter(|_| pecks) {
+        Some(step) => stepped(spec, plan, (step, defaults), list),
+        None => {
+            list.push(Peck { height: bottom, feed: None });
+            Ok(())
+        }
+    }
+}
+
+fn absolute(spec: &CycleSpec, plan: &Plan, list: &mut Vec<Peck>) -> Result<(), Problem> {
+    let mut reached = plan.clear;
+    for peck in &spec.pecks {
+        if -peck.to >= reached - SAME && !(list.is_empty() && -peck.to <= reached) {
+            let message = format!("the peck to {} does not go deeper than the one before", peck.to);
+            return Err(Problem::new(Code::PC004, message, "give absolute pecks deeper one by one"));
+        }
+        reached = (-peck.to).max(plan.bottom);
+        list.push(Peck { height: reached, feed: peck.feed });
+    }
+    if reached > plan.bottom + SAME {
+        list.push(Peck { height: plan.bottom, feed: None });
+    }
+    Ok(())
+}
+
+/// Steps count from the clearance plane like a control's Q, or from the point like those of APT.
+fn stepped(
+    spec: &CycleSpec,
+    plan: &Plan,
+    (step, defaults): (f64, &Defaults),
+    list: &mut Vec<Peck>,
+) -> Result<(), Problem> {
+    let exhausted = || {
+        let message = "the steps shrink to nothing before the bottom is reached";
+        Problem::new(Code::PC029, message, "give a smaller `decr`, or a `min_step`")
     };
+    if step <= 0.0 || spec.first_step.is_some_and(|step| step <= 0.0) {
+        return Err(Problem::new(Code::PC028, format!("a step of {step}"), "give a step above zero"));
+    }
+    let from = if spec.steps_from_point { 0.0 } else { plan.clear };
     let decr = spec.decr.unwrap_or(0.0);
     let first = spec.first_step.unwrap_or(step);
+    let least = spec.min_step.unwrap_or(defaults.min_step);
     // distances below `from`; k * step rather than a running sum keeps the depths exact
-    let total = from - bottom;
+    let total = from - plan.bottom;
     let (mut reached, mut next, mut repeats) = (0.0, first, 0);
     while reached + next < total - SAME {
         if list.len() == MOST_PECKS {
-            return Err(Problem::new("cycle.step.nonpositive", format!("more than {MOST_PECKS} pecks in one hole")));
+            let message = format!("more than {MOST_PECKS} pecks in one hole");
+            return Err(Problem::new(Code::PC028, message, "give a larger `step`"));
         }
         repeats += 1;
         if decr == 0.0 {
@@ -63,18 +124,14 @@ pub fn pecks(
             next = step;
         } else {
             reached += next;
-            let shrunk = step - decr * f64::from(repeats);
-            next = shrunk.max(least);
+            next = (step - decr * f64::from(repeats)).max(least);
             if next <= 0.0 {
-                return Err(Problem::new(
-                    "cycle.decr.exhausted",
-                    "the pecks shrink to nothing before the bottom is reached",
-                ));
+                return Err(exhausted());
             }
         }
-        list.push(PeckDepth { height: from - reached, feed: None });
+        list.push(Peck { height: from - reached, feed: None });
     }
-    list.push(PeckDepth { height: bottom, feed: None });
+    list.push(Peck { height: plan.bottom, feed: None });
     Ok(())
 }
 
@@ -83,10 +140,14 @@ mod tests {
     use super::*;
     use crate::toolpath::CycleKind;
 
+    fn planned(spec: &CycleSpec, from: f64, bottom: f64, list: &mut Vec<Peck>) -> Result<(), Problem> {
+        pecks(spec, &Plan { clear: from, bottom, feed: 1.0, dwell: None, lead: None }, &Defaults::default(), list)
+    }
+
     fn heights(spec: &CycleSpec, from: f64, bottom: f64, step: Option<f64>) -> Vec<f64> {
         let mut list = Vec::new();
-        pecks(spec, from, bottom, (step, 0.0), &mut list).unwrap();
-        list.iter().map(|p| (p.height * 1e6).round() / 1e6).collect()
+        planned(&CycleSpec { step, ..spec.clone() }, from, bottom, &mut list).unwrap();
+        list.iter().map(|p: &Peck| (p.height * 1e6).round() / 1e6).collect()
     }
 
     #[test]
@@ -95,6 +156,8 @@ mod tests {
         assert_eq!(heights(&spec, 0.1, -0.375, Some(0.125)), [-0.025, -0.15, -0.275, -0.375]);
         assert_eq!(heights(&spec, 0.0, -0.3, Some(0.1)), [-0.1, -0.2, -0.3]);
         assert_eq!(heights(&spec, 0.0, -0.3, None), [-0.3]);
+        let apt = CycleSpec { steps_from_point: true, ..spec };
+        assert_eq!(heights(&apt, 0.1, -0.375, Some(0.125)), [-0.125, -0.25, -0.375]);
     }
 
     #[test]
@@ -102,9 +165,11 @@ mod tests {
         let mut spec = CycleSpec::new(CycleKind::Deep);
         spec.decr = Some(1.0);
         let mut list = Vec::new();
-        pecks(&spec, 0.0, -10.0, (Some(4.0), 2.0), &mut list).unwrap();
+        (spec.step, spec.min_step) = (Some(4.0), Some(2.0));
+        planned(&spec, 0.0, -10.0, &mut list).unwrap();
         assert_eq!(list.iter().map(|p| p.height).collect::<Vec<_>>(), [-4.0, -7.0, -9.0, -10.0]);
         spec.decr = Some(2.0);
-        assert_eq!(pecks(&spec, 0.0, -20.0, (Some(6.0), 0.0), &mut list).unwrap_err().code, "cycle.decr.exhausted");
+        (spec.step, spec.min_step) = (Some(6.0), None);
+        assert_eq!(planned(&spec, 0.0, -20.0, &mut list).unwrap_err().code, Code::PC029);
     }
 }

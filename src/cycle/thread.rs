@@ -1,6 +1,7 @@
 //! Passes of a single-point thread.
 
-use super::plan::Problem;
+use super::problem::Problem;
+use crate::diag::Code;
 
 /// Most passes of one thread: more is a slip of the decimal point.
 const MOST_PASSES: usize = 1000;
@@ -22,7 +23,7 @@ pub fn thread_passes(depth: f64, first: Option<f64>, passes: Option<usize>, leas
     let first = match (passes, first) {
         (Some(passes), _) if passes > 0 => depth / (passes as f64).sqrt(),
         (_, Some(first)) if first > 0.0 => first,
-        _ => return Err(Problem::new("cycle.value.missing", "a thread needs `passes` or `first_depth`")),
+        _ => return Err(Problem::new(Code::PC033, "a thread without its passes", "give `passes` or `first_depth`")),
     };
     let mut list: Vec<f64> = Vec::new();
     loop {
@@ -33,10 +34,8 @@ pub fn thread_passes(depth: f64, first: Option<f64>, passes: Option<usize>, leas
             return Ok(list);
         }
         if list.len() == MOST_PASSES {
-            return Err(Problem::new(
-                "cycle.step.nonpositive",
-                format!("more than {MOST_PASSES} passes in one thread"),
-            ));
+            let message = format!("more than {MOST_PASSES} passes in one thread");
+            return Err(Problem::new(Code::PC028, message, "give a larger `first_depth` or `min_depth`"));
         }
         list.push(next);
     }
@@ -69,7 +68,7 @@ mod tests {
 
     #[test]
     fn a_thread_that_says_nothing_is_refused() {
-        assert_eq!(thread_passes(1.0, None, None, 0.0).unwrap_err().code, "cycle.value.missing");
-        assert_eq!(thread_passes(1.0, Some(1e-6), None, 0.0).unwrap_err().code, "cycle.step.nonpositive");
+        assert_eq!(thread_passes(1.0, None, None, 0.0).unwrap_err().code, Code::PC033);
+        assert_eq!(thread_passes(1.0, Some(1e-6), None, 0.0).unwrap_err().code, Code::PC028);
     }
 }

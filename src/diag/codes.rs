@@ -17,7 +17,7 @@ pub struct CodeRow {
 
 macro_rules! codes {
     ($($name:ident $severity:ident $title:literal)*) => {
-        /// A code of a finding: `PF` form, `PJ` job, `PR` rendering.
+        /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PC` canned cycle, `PR` rendering.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
         pub enum Code { $(#[doc = $title] $name),* }
@@ -73,6 +73,68 @@ codes! {
     PJ008 Error "something after the end of the job"
     PJ009 Error "the job has no operations"
     PJ010 Error "a number there twice"
+    // PL: the CL file
+    PL001 Error "a statement that can't be read"
+    PL002 Error "an unknown minor word"
+    PL003 Warning "an unknown major word"
+    PL004 Error "a statement that postform does not support"
+    PL005 Error "the file does not say its units"
+    PL006 Error "a dialect that must be named"
+    PL007 Error "the file is cut short"
+    PL008 Warning "something that is printed as something else"
+    // PC: canned cycles; the first word is the name that cycles have for it everywhere (docs/cycles.md)
+    PC001 Error "cycle.type.unknown: no such cycle"
+    PC002 Error "cycle.depth.missing: the cycle has no depth"
+    PC003 Error "cycle.depth.above_clear: the bottom is above the clearance plane"
+    PC004 Error "cycle.depth.order: absolute pecks that do not go deeper one by one"
+    PC005 Error "cycle.feed.missing: the cycle has no feed"
+    PC006 Error "cycle.feed.nonpositive: a feed that is not above zero"
+    PC007 Error "cycle.feed.multiple: two feeds where the cycle has one"
+    PC008 Error "cycle.feed.tpi_only_tap: threads per inch for something that is no tap"
+    PC009 Error "cycle.feed.no_spindle: per revolution, and the spindle does not turn"
+    PC010 Error "cycle.clear2.not_allowed: a second clearance that the cycle does not have"
+    PC011 Error "cycle.clear2.twice: the second clearance is there twice"
+    PC012 Error "cycle.rapto.required: a back bore without the plane below"
+    PC013 Error "cycle.rapto.beyond_depth: a rapid past the depth"
+    PC014 Error "cycle.back.depth_below_rapto: a back bore that ends below its beginning"
+    PC015 Error "cycle.bore.jog_without_orient: a jog at an unknown spindle angle"
+    PC016 Error "cycle.option.exclusive: two options of which a cycle has one"
+    PC017 Error "cycle.option.not_allowed: an option of another cycle"
+    PC018 Error "cycle.option.unknown: no such option"
+    PC019 Error "cycle.option.duplicate: an option that is there twice"
+    PC020 Error "cycle.multrd.rigid_only: several starts with a floating tap"
+    PC021 Error "cycle.rigid.unavailable: a tap that only a cycle of the control can make"
+    PC022 Error "cycle.thru.pairs: webs that are not one end, then pairs"
+    PC023 Error "cycle.thru.order: webs that do not go deeper one by one"
+    PC024 Error "cycle.csink.diamet_missing: a countersink without diameter"
+    PC025 Error "cycle.csink.tlangl_missing: a countersink without angle"
+    PC026 Error "cycle.csink.angle_range: an angle that is not between 0 and 180 degrees"
+    PC027 Error "cycle.csink.holdia: a hole not smaller than its countersink"
+    PC028 Error "cycle.step.nonpositive: a step that is not above zero"
+    PC029 Error "cycle.decr.exhausted: steps that shrink to nothing"
+    PC030 Error "cycle.decr.absolute: shrinking steps without a step"
+    PC031 Error "cycle.format.mixed: absolute pecks and steps in one cycle"
+    PC032 Error "cycle.format.positional: numbers without their words"
+    PC033 Error "cycle.value.missing: a word without its number"
+    PC034 Error "cycle.value.count: too many numbers after a word"
+    PC035 Error "cycle.value.sign: a number that can't be negative"
+    PC036 Error "cycle.value.integer: a number that must be whole"
+    PC037 Error "cycle.value.unexpected: a number that belongs to no word"
+    PC038 Error "cycle.on.no_previous: no cycle to bring back"
+    PC039 Error "cycle.auto.syntax: CYCLE/AUTO is ON or OFF"
+    PC040 Error "cycle.return.syntax: a return plane that can't be read"
+    PC041 Error "cycle.compensation: a cycle under cutter compensation"
+    PC042 Error "cycle.arc: an arc inside a cycle"
+    PC051 Warning "cycle.off_inactive: the end of a cycle that has not begun"
+    PC052 Warning "cycle.fedrat_ignored: a feed inside a cycle"
+    PC053 Warning "cycle.return.below_clear: a return plane below the clearance"
+    PC054 Warning "cycle.tap.direction: a tap against the spindle's direction"
+    PC055 Warning "cycle.minstp.unused: a least step without shrinking steps"
+    PC056 Warning "cycle.null_parameter: an empty place between two commas"
+    PC057 Warning "cycle.ratio.unused: a retract feed for a tap that does not feed out"
+    PC058 Warning "cycle.from_inside: FROM inside a cycle"
+    PC059 Warning "cycle.csink.printed: the printed countersink formula cuts too deep here"
+    PC060 Warning "cycle.step.missing: pecks without a step"
     // PR: rendering
     PR001 Error "a variable without a value"
     PR002 Error "a value that does not fit its letter's format"
@@ -91,8 +153,6 @@ codes! {
     PR015 Error "a prompted variable without an answer"
     PR016 Error "a setting that can't be used"
     PR017 Error "a change that the form can't print"
-    PR019 Warning "a peck cycle without a step"
-    PR020 Warning "a return plane below the clearance"
 }
 
 impl Code {
@@ -104,6 +164,16 @@ impl Code {
     /// As printed, `PF101`.
     pub fn name(self) -> &'static str {
         self.row().name
+    }
+
+    /// The name of a cycle's problem, `cycle.depth.missing`; empty for other codes.
+    pub fn key(self) -> &'static str {
+        self.row().title.split_once(": ").map_or("", |(key, _)| key)
+    }
+
+    /// As a message begins: `PF101`, `PC002 (cycle.depth.missing)`.
+    pub fn title(self) -> String {
+        if self.key().is_empty() { self.name().to_owned() } else { format!("{} ({})", self.name(), self.key()) }
     }
 }
 

@@ -4,7 +4,7 @@ use super::fault::{Done, fault};
 use super::renderer::{Cycles, Renderer};
 use super::vars::Vars;
 use crate::compile::{Block, CycleStyle, Op};
-use crate::cycle::{Plan, Problem};
+use crate::cycle::{Plan, check};
 use crate::diag::Code;
 use crate::lang::{Group, Machine, SequenceId, VarId};
 use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole, Peck, Place};
@@ -46,8 +46,9 @@ impl Renderer<'_> {
         }
         if self.compensated {
             let message = "cutter compensation is on, and no control allows a cycle then";
-            return fault(Code::PR006, message, "end the compensation with an `outfeed` before the cycle");
+            return fault(Code::PC041, message, "end the compensation with an `outfeed` before the cycle");
         }
+        check(spec)?;
         let spec = self.scaled(spec);
         let sequence = self.choose(&spec)?;
         self.warn_of(&spec);
@@ -73,12 +74,28 @@ impl Renderer<'_> {
         let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak);
         if pecks && spec.step.or(self.defaults.step).is_none() && spec.pecks.is_empty() {
             let message = format!("`{}` has no step and goes down in one peck", spec.kind.name());
-            self.note(Code::PR019, message, "give the cycle a `step`, or the form a `CycleStep`");
+            self.note(Code::PC060, message, "give the cycle a `step`, or the form a `CycleStep`");
         }
         let clear = spec.clear.unwrap_or(self.defaults.clear);
         if let Some(height) = spec.return_height.filter(|&height| height < clear) {
             let message = format!("the return plane, {height} above the point, is below the clearance, {clear}");
-            self.note(Code::PR020, message, "the clearance is used: give `return` above `clear`, or leave it out");
+            self.note(Code::PC053, message, "the clearance is used: give `return` above `clear`, or leave it out");
+        }
+        let [cw, ccw, _] = self.program.settings.spindle;
+        let needed = if spec.kind == CycleKind::LTap { ccw } else { cw };
+        if spec.kind.is_tap()
+            && self.vars.get(VarId::Direct).is_some_and(|code| code != needed && [cw, ccw].contains(&code))
+        {
+            let message = format!("a `{}` with the spindle in M{}", spec.kind.name(), cw + ccw - needed);
+            self.note(Code::PC054, message, "turn the spindle the other way, or take the other tap");
+        }
+        if spec.ratio.is_some() && (spec.norevr || spec.rapout) {
+            let message = "`ratio` without effect: this tap does not feed out";
+            self.note(Code::PC057, message.into(), "take `ratio` out");
+        }
+        if spec.min_step.is_some() && spec.decr.is_none() && self.program.settings.cycle_min_step == 0.0 {
+            let message = "`min_step` without effect: the steps do not shrink";
+            self.note(Code::PC055, message.into(), "take it out, or give `decr`");
         }
     }
 
@@ -156,6 +173,7 @@ impl Renderer<'_> {
             back: length(spec.back),
             rapto: length(spec.rapto),
             offset: length(spec.offset),
+            offset_y: length(spec.offset_y),
             decr: length(spec.decr),
             min_step: length(spec.min_step),
             diameter: length(spec.diameter),
@@ -171,7 +189,7 @@ impl Renderer<'_> {
     fn choose(&mut self, spec: &CycleSpec) -> Done<Option<SequenceId>> {
         let program = self.program;
         let rigid = spec.kind.is_tap() && spec.rigid.unwrap_or(program.settings.rigid_tap);
-        let emulated = self.options.cycles == Cycles::Emulated;
+        let emulated = self.options.cycles == Cycles::Emulated || spec.emulate && !rigid;
         let candidate = self.candidate(spec).filter(|_| !emulated);
         let why = match candidate.and_then(|id| program.block(id).map(|block| (id, block))) {
             Some((id, block)) => match self.cannot_say(spec, block) {
@@ -231,7 +249,6 @@ impl Renderer<'_> {
             return None;
         }
         let prints = |vars: &[VarId]| vars.iter().any(|&var| block.vars.has(var));
-        let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak) || spec.mode.is_some();
         let custom = matches!(spec.kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
         let program = self.program;
         let own = !custom; // what a custom cycle must say, only its form knows
@@ -262,12 +279,13 @@ impl Renderer<'_> {
             (spec.hole_diameter.is_some(), &[], "the rapid to the cone (`hole_diameter`)"),
             (spec.orient.is_some_and(|a| a != self.defaults.orient), &[], "the spindle angle (`orient`)"),
             (spec.jog.is_some(), &[], "the lift of the jog (`jog`)"),
+            (spec.offset_y.is_some(), &[], "a jog along both axes (`offset_y`)"),
             (spec.offset.is_some(), &[VarId::Sleave], "the jog off the wall: [sleave]"),
             (spec.dwell.or(spec.revs).is_some(), &[VarId::Dwell], "the dwell: [dwell]"),
             (spec.back.is_some(), &[VarId::Sclear, VarId::Vleave], "the secondary clearance: [sclear]"),
             (spec.first_step.is_some(), &[VarId::Peck1, VarId::Inidep], "the first peck: [peck1]"),
             (spec.min_step.is_some(), &[VarId::Sbite], "the least peck: [sbite]"),
-            (pecks && spec.step.is_some(), &[VarId::Vbite], "the peck: [vbite]"),
+            (own && spec.step.is_some(), &[VarId::Vbite], "the peck: [vbite]"),
         ];
         missing.into_iter().find(|(asked, vars, _)| *asked && !prints(vars)).map(|(_, _, what)| what)
     }
@@ -275,7 +293,7 @@ impl Renderer<'_> {
     /// The planes of a cycle at a hole.
     pub(super) fn planes(&self, spec: &CycleSpec, hole: &Hole) -> Done<Plan> {
         let depth = hole.depth.map(|d| d * self.scale);
-        Plan::of(spec, depth, &self.defaults, self.vars.get(VarId::Speed)).or_else(cycle_fault)
+        Ok(Plan::of(spec, depth, &self.defaults, self.vars.get(VarId::Speed))?)
     }
 
     /// Where the tool is before the first hole of a cycle: over it, at the return plane. For tool changes.
@@ -297,9 +315,4 @@ pub(super) fn no_height<T>() -> Done<T> {
         "the cycle's first point has no height",
         "give its third coordinate, the top of the hole, as [1, 1, 0]",
     )
-}
-
-/// A problem of the planner as an error.
-pub(super) fn cycle_fault<T>(problem: Problem) -> Done<T> {
-    fault(Code::PR006, format!("{} ({})", problem.message, problem.code), "mend the cycle in the job")
 }

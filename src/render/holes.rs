@@ -1,6 +1,6 @@
 //! One hole: by the form's sequence, or as generated moves.
 
-use super::cycles::{cycle_fault, no_height};
+use super::cycles::no_height;
 use super::fault::{Done, fault};
 use super::move_words::as_number;
 use super::renderer::Renderer;
@@ -279,7 +279,7 @@ impl Renderer<'_> {
         self.cycle = Some(cycle);
         let done = match planned {
             Ok(()) => self.make_steps(&steps.list, target, planes, heights),
-            Err(problem) => cycle_fault(problem),
+            Err(problem) => Err(problem.into()),
         };
         self.steps = steps;
         done
@@ -294,6 +294,7 @@ impl Renderer<'_> {
         self.split_rapid(target)?;
         self.registers.forget(self.letters[self.program.settings.feed_code].printed);
         let direct = self.vars.get(VarId::Direct);
+        let mut sped_up = false;
         for step in steps {
             let mut to = *target;
             match *step {
@@ -316,12 +317,16 @@ impl Renderer<'_> {
                     self.line_to(&to)?;
                 }
                 Step::Dwell(seconds) => self.dwell_block(seconds)?,
-                Step::SpindleStop => self.spindle_block(self.program.settings.spindle[2])?,
-                Step::SpindleStart => self.spindle_block(self.turning(direct)?)?,
-                Step::SpindleReverse => {
+                Step::SpindleStop => self.spindle_block(self.program.settings.spindle[2], None)?,
+                Step::SpindleStart => {
+                    let speed = std::mem::take(&mut sped_up).then_some(1.0);
+                    self.spindle_block(self.turning(direct)?, speed)?;
+                }
+                Step::SpindleReverse(ratio) => {
                     let [cw, ccw, _] = self.program.settings.spindle;
                     let code = if self.turning(direct)? == cw { ccw } else { cw };
-                    self.spindle_block(code)?;
+                    sped_up = ratio != 1.0;
+                    self.spindle_block(code, sped_up.then_some(ratio))?;
                 }
                 Step::Orient(angle) => {
                     let (code, letter) = &self.program.settings.orient;
@@ -339,7 +344,19 @@ impl Renderer<'_> {
         self.left_hole(target, Some((exit, true)))
     }
 
-    fn spindle_block(&mut self, code: f64) -> Done {
+    /// A direction, and where the speed changes with the feed, this many times the spindle's speed.
+    fn spindle_block(&mut self, code: f64, times: Option<f64>) -> Done {
+        if let Some(times) = times {
+            let Some(speed) = self.vars.get(VarId::Speed) else {
+                let help = "give the operation a spindle speed, or take `ratio` out";
+                return fault(
+                    Code::PC009,
+                    "a tap that comes out faster must turn faster, and its speed is unknown",
+                    help,
+                );
+            };
+            self.letter_word(self.program.settings.speed_code, speed * times)?;
+        }
         self.code_word(&sema::Code::plain(b'M', code))?;
         self.end_block();
         Ok(())

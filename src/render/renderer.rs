@@ -31,6 +31,8 @@ pub struct Options {
     pub units: Option<Units>,
     /// Answers to prompts and values of variables; they go before the job's.
     pub set: Vec<(VarId, f64)>,
+    /// Countersink depths by the formula that GENER's manual prints, which is right at 90 degrees only.
+    pub sink_as_printed: bool,
     /// Keep a source map.
     pub trace: bool,
 }

@@ -30,6 +30,8 @@ pub(super) fn no_defaults() -> Defaults {
         orient: 0.0,
         jog: 0.0,
         sink_clear: None,
+        sink_as_printed: false,
+        rigid: false,
     }
 }
 
@@ -156,6 +158,8 @@ impl Renderer<'_> {
             orient: settings.cycle_orient,
             jog: length(settings.cycle_jog),
             sink_clear: settings.cycle_sink_clear.map(length),
+            sink_as_printed: self.options.sink_as_printed,
+            rigid: false,
         };
     }
 

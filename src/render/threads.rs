@@ -1,6 +1,5 @@
 //! Threads on a lathe: the control's cycle, a cycle of one pass each, or passes made here.
 
-use super::cycles::cycle_fault;
 use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
@@ -106,7 +105,7 @@ impl Renderer<'_> {
         let depth = thread.depth.abs() * self.scale;
         let first = thread.first_depth.map(|d| d * self.scale);
         let least = thread.min_depth.unwrap_or(0.0) * self.scale;
-        let passes = thread_passes(depth, first, thread.passes.map(|n| n as usize), least).or_else(cycle_fault)?;
+        let passes = thread_passes(depth, first, thread.passes.map(|n| n as usize), least)?;
         Ok(Cut {
             end,
             crest,

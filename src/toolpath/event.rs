@@ -329,6 +329,12 @@ pub struct CycleSpec {
     pub norevr: bool,
     pub rapout: bool,
     pub jog: Option<f64>,
+    /// With `offset` along x, the jog off the wall along y.
+    pub offset_y: Option<f64>,
+    /// Steps count from the point, as in APT, and not from the clearance plane, as a control's Q does.
+    pub steps_from_point: bool,
+    /// As single moves, whatever the form has.
+    pub emulate: bool,
 }
 
 impl CycleSpec {
@@ -364,6 +370,9 @@ impl CycleSpec {
             norevr: false,
             rapout: false,
             jog: None,
+            offset_y: None,
+            steps_from_point: false,
+            emulate: false,
         }
     }
 }

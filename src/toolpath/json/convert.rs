@@ -1,7 +1,7 @@
 //! Objects of a job as the events' types, with the checks of their values.
 
 use super::objects::{ArcObject, CallObject, CycleObject, SpindleObject, ThreadObject, ToolObject};
-use super::values::{Number, PeckMode, SpeedMode};
+use super::values::{Number, PeckMode, SpeedMode, StepFrom};
 use crate::diag::{Code, Diag};
 use crate::toolpath::event::*;
 
@@ -173,6 +173,9 @@ pub(super) fn spec_of(object: &CycleObject) -> Result<CycleSpec, Box<Diag>> {
         norevr: object.norevr.unwrap_or(false),
         rapout: object.rapout.unwrap_or(false),
         jog: from_zero("jog", object.jog)?,
+        offset_y: plain(object.offset_y),
+        steps_from_point: object.step_from.is_some_and(|from| from.0 == StepFrom::Point),
+        emulate: object.emulate.unwrap_or(false),
         ..CycleSpec::new(kind.0)
     })
 }

@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, Visitor};
 
 use super::context::{Context, Step};
-use super::values::{Number, PeckMode, Position, SpeedMode, Word};
+use super::values::{Number, PeckMode, Position, SpeedMode, StepFrom, Word};
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, did_you_mean};
 use crate::toolpath::EdmAction;
@@ -213,6 +213,9 @@ objects! {
         "hole_diameter" hole_diameter Number, "hole under a countersink";
         "webs" webs Vec<Number>, "depths of a cycle through webs: end, start, end, ..";
         "mode" mode Word<PeckMode>, "how a tap pecks";
+        "offset_y" offset_y Number, "jog off the wall along y; `offset` is then along x";
+        "step_from" step_from Word<StepFrom>, "where steps begin to count (clear)";
+        "emulate" emulate bool, "print single moves, whatever the form has";
         "pecks" pecks Vec<PeckObject>, "absolute steps";
         "norevr" norevr bool, "a tap that does not reverse";
         "rapout" rapout bool, "a tap that rapids out";

@@ -104,6 +104,7 @@ words! {
     EdmAction: "thread" EdmAction::Thread, "cut" EdmAction::Cut, "predrill" EdmAction::PreDrill, "submerge" EdmAction::Submerge;
     SpeedMode: "rpm" SpeedMode::Rpm, "css" SpeedMode::Css;
     PeckMode: "deep" PeckMode::Deep, "chipbreak" PeckMode::Chipbreak;
+    StepFrom: "clear" StepFrom::Clear, "point" StepFrom::Point;
 }
 
 impl Words for CycleKind {
@@ -124,6 +125,14 @@ pub enum SpeedMode {
 pub enum PeckMode {
     Deep,
     Chipbreak,
+}
+
+/// Where the steps of a peck cycle begin to count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub enum StepFrom {
+    Clear,
+    Point,
 }
 
 /// A position: up to six numbers, `null` keeps an axis.

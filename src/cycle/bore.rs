@@ -1,0 +1,74 @@
+//! Boring: out with the spindle stopped, or moved off the wall at a known angle; and boring from below.
+
+use super::plan::{Defaults, Plan, Step};
+use super::problem::Problem;
+use crate::diag::Code;
+use crate::toolpath::CycleSpec;
+
+/// Down, then out with the spindle stopped, or oriented and off the wall.
+pub(super) fn bore(
+    spec: &CycleSpec,
+    plan: &Plan,
+    top: f64,
+    defaults: &Defaults,
+    steps: &mut Vec<Step>,
+) -> Result<(), Problem> {
+    steps.push(Step::Feed(plan.bottom, plan.feed));
+    steps.extend(plan.dwell.map(Step::Dwell));
+    match spec.orient {
+        None => steps.extend([Step::SpindleStop, Step::Rapid(top), Step::SpindleStart]),
+        Some(angle) => {
+            let (x, y) = aside(spec, angle, defaults);
+            steps.extend([
+                Step::Orient(angle),
+                Step::RapidAside(plan.bottom + spec.jog.unwrap_or(0.0), -x, -y),
+                Step::RapidAside(top, -x, -y),
+                Step::Rapid(top),
+                Step::SpindleStart,
+            ]);
+        }
+    }
+    Ok(())
+}
+
+/// Down beside the hole, across, up to the bottom that is cut from below, and out the same way.
+pub(super) fn back_bore(
+    spec: &CycleSpec,
+    plan: &Plan,
+    top: f64,
+    defaults: &Defaults,
+    steps: &mut Vec<Step>,
+) -> Result<(), Problem> {
+    let Some(below) = spec.rapto else {
+        let message = "a back bore does not say how far below the point the tool goes before it cuts upward";
+        return Err(Problem::new(Code::PC012, message, "give `rapto`"));
+    };
+    if -below > plan.bottom {
+        let message = format!("the cut of a back bore ends {} below the point, it begins at {below}", -plan.bottom);
+        return Err(Problem::new(Code::PC014, message, "give a smaller `depth`, or a deeper `rapto`"));
+    }
+    let angle = spec.orient.unwrap_or(defaults.orient);
+    let (x, y) = aside(spec, angle, defaults);
+    let lift = spec.jog.unwrap_or(0.0);
+    steps.extend([Step::Orient(angle), Step::RapidAside(plan.clear, -x, -y), Step::RapidAside(-below, -x, -y)]);
+    steps.extend([Step::Rapid(-below), Step::SpindleStart, Step::Feed(plan.bottom, plan.feed)]);
+    steps.extend(plan.dwell.map(Step::Dwell));
+    steps.extend([
+        Step::Orient(angle),
+        Step::RapidAside(plan.bottom - lift, -x, -y),
+        Step::RapidAside(top, -x, -y),
+        Step::Rapid(top),
+        Step::SpindleStart,
+    ]);
+    Ok(())
+}
+
+/// How far the tool moves off the wall: as the cycle says, or its jog at the spindle's angle.
+fn aside(spec: &CycleSpec, angle: f64, defaults: &Defaults) -> (f64, f64) {
+    if let (Some(x), Some(y)) = (spec.offset, spec.offset_y) {
+        return (x, y);
+    }
+    let jog = spec.offset.unwrap_or(defaults.jog);
+    let (sin, cos) = angle.to_radians().sin_cos();
+    (jog * cos, jog * sin)
+}

@@ -1,0 +1,27 @@
+//! Why a cycle can't be made.
+
+use crate::diag::{Code, Diag};
+
+/// A problem of a cycle; its code has a name, as `cycle.depth.missing`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// Its code.
+    pub code: Code,
+    /// What is wrong, a sentence.
+    pub message: String,
+    /// What to write instead.
+    pub help: String,
+}
+
+impl Problem {
+    /// A problem with this code.
+    pub fn new(code: Code, message: impl Into<String>, help: impl Into<String>) -> Problem {
+        Problem { code, message: message.into(), help: help.into() }
+    }
+}
+
+impl From<Problem> for Box<Diag> {
+    fn from(problem: Problem) -> Box<Diag> {
+        Box::new(Diag::new(problem.code, problem.message).help(problem.help))
+    }
+}

@@ -1,0 +1,57 @@
+//! Tapping: feed and spindle keep step. With a floating holder single moves can do it; rigidly only the control can.
+
+use super::pecks::{Peck, pecks};
+use super::plan::{Defaults, Plan, Step};
+use super::problem::Problem;
+use crate::diag::Code;
+use crate::toolpath::{CycleKind, CycleSpec};
+
+/// Feed down, reverse, feed out; what is rigid only for comparison.
+pub(super) fn tap(
+    spec: &CycleSpec,
+    plan: &Plan,
+    enter: f64,
+    defaults: &Defaults,
+    list: &mut Vec<Peck>,
+    steps: &mut Vec<Step>,
+) -> Result<(), Problem> {
+    let rigid = spec.rigid == Some(true) || spec.mode.is_some() || spec.step.is_some() || !spec.pecks.is_empty();
+    if rigid && !defaults.rigid {
+        let message = "a rigid or pecking tap keeps step with the spindle, which single moves can't";
+        return Err(Problem::new(Code::PC021, message, "give the form a Tap sequence that prints what the tap needs"));
+    }
+    let dwell = plan.dwell.map(Step::Dwell);
+    if spec.rapout || spec.norevr {
+        steps.push(Step::Feed(plan.bottom, plan.feed));
+        steps.extend(dwell);
+        return Ok(());
+    }
+    let starts = spec.starts.unwrap_or(1.0).max(1.0) as u32;
+    let lead = plan.lead.unwrap_or(0.0);
+    let ratio = spec.ratio.unwrap_or(1.0);
+    for start in 0..starts {
+        let lower = lead * f64::from(start) / f64::from(starts);
+        let out = plan.clear - lower;
+        if start > 0 {
+            steps.push(Step::Rapid(out));
+        }
+        pecks(spec, plan, defaults, list)?;
+        let last = list.len() - 1;
+        for (i, peck) in list.iter().enumerate() {
+            steps.push(Step::Feed(peck.height, plan.feed));
+            if i == last {
+                steps.extend(dwell);
+                steps.extend([Step::SpindleReverse(ratio), Step::Feed(out, plan.feed * ratio), Step::SpindleStart]);
+            } else if spec.mode == Some(CycleKind::Deep) {
+                let in_out = plan.feed * ratio;
+                steps.extend([Step::SpindleReverse(ratio), Step::Feed(enter - lower, in_out), Step::SpindleStart]);
+                steps.push(Step::Feed(peck.height, in_out));
+            } else {
+                let back = spec.back.unwrap_or(defaults.back_chipbreak);
+                let up = (peck.height + back).min(out);
+                steps.extend([Step::SpindleReverse(1.0), Step::Feed(up, plan.feed), Step::SpindleStart]);
+            }
+        }
+    }
+    Ok(())
+}

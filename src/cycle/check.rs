@@ -48,7 +48,7 @@ pub fn check(spec: &CycleSpec) -> Result<(), Problem> {
 
 /// Options by the kinds that have them (cycles.md section 1.5).
 fn options(spec: &CycleSpec) -> Result<(), Problem> {
-    // a tap's steps are printed by its sequence, if any: single moves can't peck with a tap
+    // a tap's steps are for the sequence that prints them
     let pecks: &[CycleKind] = &[Deep, Chipbreak, Tap, LTap];
     let steps_back: &[CycleKind] = &[Deep, Chipbreak, Tap, LTap, Thru];
     let table: [(bool, &str, &[CycleKind]); 20] = [

@@ -15,7 +15,7 @@ pub(super) fn tap(
     list: &mut Vec<Peck>,
     steps: &mut Vec<Step>,
 ) -> Result<(), Problem> {
-    let rigid = spec.rigid == Some(true) || spec.mode.is_some() || spec.step.is_some() || !spec.pecks.is_empty();
+    let rigid = spec.rigid == Some(true) || spec.mode.is_some();
     if rigid && !defaults.rigid {
         let message = "a rigid or pecking tap keeps step with the spindle, which single moves can't";
         return Err(Problem::new(Code::PC021, message, "give the form a Tap sequence that prints what the tap needs"));

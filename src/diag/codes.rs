@@ -135,6 +135,7 @@ codes! {
     PC058 Warning "cycle.from_inside: FROM inside a cycle"
     PC059 Warning "cycle.csink.printed: the printed countersink formula cuts too deep here"
     PC060 Warning "cycle.step.missing: pecks without a step"
+    PC061 Warning "cycle.step.unused: a step for a tap that does not peck"
     // PR: rendering
     PR001 Error "a variable without a value"
     PR002 Error "a value that does not fit its letter's format"

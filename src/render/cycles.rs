@@ -51,7 +51,7 @@ impl Renderer<'_> {
         check(spec)?;
         let spec = self.scaled(spec);
         let sequence = self.choose(&spec)?;
-        self.warn_of(&spec);
+        self.warn_of(&spec, sequence);
         self.cycle = Some(ActiveCycle {
             spec,
             sequence,
@@ -70,7 +70,7 @@ impl Renderer<'_> {
     }
 
     /// What a cycle leaves out or contradicts, without being wrong.
-    fn warn_of(&mut self, spec: &CycleSpec) {
+    fn warn_of(&mut self, spec: &CycleSpec, sequence: Option<SequenceId>) {
         let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak);
         if pecks && spec.step.or(self.defaults.step).is_none() && spec.pecks.is_empty() {
             let message = format!("`{}` has no step and goes down in one peck", spec.kind.name());
@@ -88,6 +88,11 @@ impl Renderer<'_> {
         {
             let message = format!("a `{}` with the spindle in M{}", spec.kind.name(), cw + ccw - needed);
             self.note(Code::PC054, message, "turn the spindle the other way, or take the other tap");
+        }
+        let printed = sequence.and_then(|id| self.program.block(id)).is_some_and(|block| block.vars.has(VarId::Vbite));
+        if spec.kind.is_tap() && spec.mode.is_none() && spec.step.is_some() && !printed {
+            let message = "`step` without effect: this tap goes down in one";
+            self.note(Code::PC061, message.into(), "say how it pecks with `mode`, or take `step` out");
         }
         if spec.ratio.is_some() && (spec.norevr || spec.rapout) {
             let message = "`ratio` without effect: this tap does not feed out";
@@ -249,6 +254,7 @@ impl Renderer<'_> {
             return None;
         }
         let prints = |vars: &[VarId]| vars.iter().any(|&var| block.vars.has(var));
+        let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak) || spec.mode.is_some();
         let custom = matches!(spec.kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
         let program = self.program;
         let own = !custom; // what a custom cycle must say, only its form knows
@@ -285,7 +291,7 @@ impl Renderer<'_> {
             (spec.back.is_some(), &[VarId::Sclear, VarId::Vleave], "the secondary clearance: [sclear]"),
             (spec.first_step.is_some(), &[VarId::Peck1, VarId::Inidep], "the first peck: [peck1]"),
             (spec.min_step.is_some(), &[VarId::Sbite], "the least peck: [sbite]"),
-            (own && spec.step.is_some(), &[VarId::Vbite], "the peck: [vbite]"),
+            (pecks && spec.step.is_some(), &[VarId::Vbite], "the peck: [vbite]"),
         ];
         missing.into_iter().find(|(asked, vars, _)| *asked && !prints(vars)).map(|(_, _, what)| what)
     }

@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use postform::cl::Dialect;
+use postform::toolpath::Units;
+
 use super::colour::Colour;
 
 /// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.
@@ -36,6 +39,25 @@ pub enum From {
     Json,
     /// JSON Lines
     Jsonl,
+    /// An APT CL file
+    Cl,
+}
+
+/// How a job is read.
+#[derive(Debug, Args)]
+pub struct ReadArgs {
+    /// The job's format [default: by its extension]
+    #[arg(long, value_name = "FORMAT")]
+    pub from: Option<From>,
+    /// Who wrote a CL file: gener, catia, creo, nx, solidworks, makino, ncl [default: by its first lines]
+    #[arg(long, value_name = "SYSTEM", value_parser = Dialect::parse)]
+    pub dialect: Option<Dialect>,
+    /// Units of a CL file that does not say them
+    #[arg(long, value_name = "UNITS")]
+    pub assume_units: Option<UnitsArg>,
+    /// Tool number of a CL file that loads none
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(..=99_999_999))]
+    pub assume_tool: Option<u32>,
 }
 
 /// Classic or extended limits.
@@ -74,10 +96,20 @@ pub enum UnitsArg {
     Mm,
 }
 
+impl UnitsArg {
+    /// As the library has it.
+    pub fn units(self) -> Units {
+        match self {
+            UnitsArg::Inch => Units::Inch,
+            UnitsArg::Mm => Units::Mm,
+        }
+    }
+}
+
 /// `postform render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// The job: job.json or .jsonl, or - for standard input
+    /// The job: job.json, .jsonl or a CL file, or - for standard input
     pub job: PathBuf,
     /// The form of the machine
     #[arg(long, value_name = "FORM")]
@@ -100,9 +132,9 @@ pub struct RenderArgs {
     /// Limits of the form
     #[arg(long, value_name = "LIMITS", default_value = "classic")]
     pub limits: LimitsArg,
-    /// The job's format [default: by its extension]
-    #[arg(long, value_name = "FORMAT")]
-    pub from: Option<From>,
+    /// How the job is read
+    #[command(flatten)]
+    pub read: ReadArgs,
     /// Write the source map here: for each program line its form line and job item, as JSON Lines
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
@@ -140,9 +172,9 @@ pub struct CheckArgs {
     /// The job, or - for standard input
     #[arg(required_unless_present = "schema")]
     pub job: Option<PathBuf>,
-    /// The job's format [default: by its extension]
-    #[arg(long, value_name = "FORMAT")]
-    pub from: Option<From>,
+    /// How the job is read
+    #[command(flatten)]
+    pub read: ReadArgs,
     /// Print the JSON Schema of job files instead
     #[arg(long)]
     pub schema: bool,

@@ -3,8 +3,10 @@
 use std::fmt::Write as _;
 use std::io::Write as _;
 
-use postform::toolpath::json::{ReadError, schema};
-use postform::toolpath::{Summary, Units};
+use postform::cl::{Dialect, Report};
+use postform::diag::Diag;
+use postform::toolpath::json::schema;
+use postform::toolpath::{ReadError, Summary, Units};
 
 use super::args::CheckArgs;
 use super::files::{self, io_message};
@@ -28,26 +30,32 @@ fn try_run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
         output::standard_output(|out| out.write_all(text.as_bytes()))?;
         return Ok(Ending::Clean);
     };
-    let from = files::job_format(path, args.from)?;
+    let from = files::job_format(path, &args.read)?;
     let mut summary = Summary::default();
-    match files::read_job(files::open(path)?, from, &mut summary) {
+    let (read, report) = files::read_job(files::open(path)?, from, &args.read, &mut summary);
+    let placed = |mut diag: Diag| {
+        let place = diag.place.take().filter(|p| !p.is_empty()).map_or(String::new(), |p| format!(":{p}"));
+        diag.place = Some(format!("{}{place}", files::name(path)));
+        diag
+    };
+    let warnings: Vec<Diag> = report.warnings.iter().cloned().map(placed).collect();
+    eprint!("{}", Reporter::new(colour).text(&warnings, &[]));
+    match read {
         Ok(()) => {
-            let text = describe(&files::name(path), &summary);
+            let text = describe(&files::name(path), &summary, &report);
             output::standard_output(|out| out.write_all(text.as_bytes()))?;
             Ok(Ending::Clean)
         }
         Err(ReadError::Io(error)) => Err(io_message("read", path, &error)),
-        Err(ReadError::Job(mut diag)) => {
-            let place = diag.place.take().filter(|p| !p.is_empty()).map_or(String::new(), |p| format!(":{p}"));
-            diag.place = Some(format!("{}{place}", files::name(path)));
-            eprint!("{}", Reporter::new(colour).text(&[*diag], &[]));
+        Err(ReadError::Job(diag)) => {
+            eprint!("{}", Reporter::new(colour).text(&[placed(*diag)], &[]));
             Ok(Ending::Findings)
         }
     }
 }
 
 /// The summary as a machinist reads it.
-fn describe(name: &str, summary: &Summary) -> String {
+fn describe(name: &str, summary: &Summary, report: &Report) -> String {
     let mut text = String::new();
     let unit = summary.units.map_or("", Units::name);
     _ = writeln!(text, "{name}: in order");
@@ -56,6 +64,11 @@ fn describe(name: &str, summary: &Summary) -> String {
     }
     if let Some(program) = summary.program {
         _ = writeln!(text, "  program     {program}");
+    }
+    if !report.facts.is_empty() || report.dialect.is_some() || !report.why.is_empty() {
+        let system = report.dialect.unwrap_or(Dialect::Gener).title();
+        let why = if report.why.is_empty() { "nothing says who wrote it" } else { &report.why };
+        _ = writeln!(text, "  written by  {system}: {why}");
     }
     _ = writeln!(text, "  units       {unit}");
     let tools: Vec<String> = summary
@@ -71,10 +84,16 @@ fn describe(name: &str, summary: &Summary) -> String {
     _ = writeln!(text, "  moves       {} rapid, {} straight, {} arcs", summary.rapids, summary.lines, summary.arcs);
     let holes: Vec<String> = summary.holes.iter().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
     _ = writeln!(text, "  holes       {}", if holes.is_empty() { "none".into() } else { holes.join(", ") });
+    if summary.tilts > 0 {
+        _ = writeln!(text, "  tool axis   changes {} times: a job for five axes", summary.tilts);
+    }
     for (axis, extent) in ["h", "v", "d"].iter().zip(&summary.extents) {
         if let Some((least, greatest)) = extent {
             _ = writeln!(text, "  {axis}           {least} to {greatest} {unit}");
         }
+    }
+    for fact in &report.facts {
+        _ = writeln!(text, "  says        {}", postform::diag::escaped(fact));
     }
     text
 }

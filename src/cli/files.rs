@@ -4,11 +4,12 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use postform::cl::{Options, Report, read_cl};
 use postform::diag::escaped;
-use postform::toolpath::Sink;
-use postform::toolpath::json::{ReadError, read_document, read_lines};
+use postform::toolpath::json::{read_document, read_lines};
+use postform::toolpath::{ReadError, Sink};
 
-use super::args::From;
+use super::args::{From, ReadArgs};
 
 /// Largest form: a longer file is none.
 const LARGEST_FORM: u64 = 16 << 20;
@@ -46,25 +47,56 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
+/// What CL files are called.
+const CL: [&str; 7] = ["cl", "apt", "aptsource", "ncl", "cls", "cldata", "as"];
+
 /// The format of a job: as said, else by its extension.
-pub fn job_format(path: &Path, from: Option<From>) -> Result<From, String> {
+pub fn job_format(path: &Path, args: &ReadArgs) -> Result<From, String> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+    let from = format_of(path, args.from, &extension)?;
+    let for_cl = args.dialect.is_some() || args.assume_units.is_some() || args.assume_tool.is_some();
+    if from != From::Cl && for_cl {
+        return Err(format!("error: --dialect and --assume-.. are for CL files, which {} is not", name(path)));
+    }
+    Ok(from)
+}
+
+fn format_of(path: &Path, from: Option<From>, extension: &str) -> Result<From, String> {
+    // Creo numbers its versions: op010.ncl.1
+    let version = extension.bytes().all(|b| b.is_ascii_digit()) && !extension.is_empty();
+    let stem = path.file_stem().map(Path::new).and_then(Path::extension).and_then(|e| e.to_str()).unwrap_or("");
+    let extension = if version { stem.to_ascii_lowercase() } else { extension.to_owned() };
     match (from, extension.as_str()) {
         (Some(from), _) => Ok(from),
         (None, "jsonl" | "ndjson") => Ok(From::Jsonl),
         (None, "json") => Ok(From::Json),
+        (None, extension) if CL.contains(&extension) => Ok(From::Cl),
         (None, _) if path == Path::new("-") => Ok(From::Json),
-        (None, _) => Err(format!(
-            "error: can't tell what {} is by its name: say it with --from json or --from jsonl",
-            name(path)
-        )),
+        (None, _) => {
+            Err(format!("error: can't tell what {} is by its name: say it with --from json, jsonl or cl", name(path)))
+        }
     }
 }
 
-/// Reads a job into a sink.
-pub fn read_job(input: Box<dyn Read>, from: From, sink: &mut dyn Sink) -> Result<(), ReadError> {
-    match from {
+/// Reads a job into a sink. The report is that of a CL file.
+pub fn read_job(
+    input: Box<dyn Read>,
+    from: From,
+    args: &ReadArgs,
+    sink: &mut dyn Sink,
+) -> (Result<(), ReadError>, Report) {
+    let mut report = Report::default();
+    let read = match from {
         From::Json => read_document(input, sink),
         From::Jsonl => read_lines(input, sink),
-    }
+        From::Cl => {
+            let options = Options {
+                dialect: args.dialect,
+                units: args.assume_units.map(|units| units.units()),
+                tool: args.assume_tool.map(f64::from),
+            };
+            read_cl(input, &options, &mut report, sink)
+        }
+    };
+    (read, report)
 }

@@ -8,10 +8,9 @@ use postform::diag::{Code, Diag, Severity};
 use postform::lint::sort;
 use postform::render::{Cycles, Options, Renderer, TraceLine};
 use postform::source::Source;
-use postform::toolpath::json::ReadError;
-use postform::toolpath::{Event, Place, Sink, Units};
+use postform::toolpath::{Event, Place, ReadError, Sink};
 
-use super::args::{CyclesArg, RenderArgs, SinkArg, UnitsArg};
+use super::args::{CyclesArg, RenderArgs, SinkArg};
 use super::files::{self, io_message};
 use super::output::Target;
 use super::progress::Progress;
@@ -34,7 +33,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Ending {
 
 fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
-    let from = files::job_format(&args.job, args.from)?;
+    let from = files::job_format(&args.job, &args.read)?;
     let mut set = prompt::answers(&args.set)?;
     let standard_input = Path::new("-");
     if args.form == standard_input && args.job == standard_input {
@@ -57,10 +56,7 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
             CyclesArg::Form => Cycles::Form,
             CyclesArg::Emulated => Cycles::Emulated,
         },
-        units: args.units.map(|units| match units {
-            UnitsArg::Inch => Units::Inch,
-            UnitsArg::Mm => Units::Mm,
-        }),
+        units: args.units.map(|units| units.units()),
         set,
         sink_as_printed: args.csink_depth == SinkArg::Printed,
         trace: args.trace.is_some(),
@@ -75,9 +71,10 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         failure: None,
         progress: Some(Progress::new()),
     };
-    let read = files::read_job(input, from, &mut writer);
+    let (read, report) = files::read_job(input, from, &args.read, &mut writer);
     writer.progress = None;
-    let mut notes = writer.renderer.notes().to_vec();
+    let mut notes = report.warnings;
+    notes.extend_from_slice(writer.renderer.notes());
     let job = files::name(&args.job);
     notes.iter_mut().for_each(|diag| place_in(&job, diag));
     eprint!("{}", reporter.text(&notes, &checked.files));

@@ -9,6 +9,7 @@ mod tap;
 mod thread;
 
 pub use check::check;
+pub use pecks::stepped_pecks;
 pub use plan::{Defaults, Plan, Step, Steps, plan};
 pub use problem::Problem;
 pub use thread::thread_passes;

@@ -3,7 +3,7 @@
 use super::plan::{Defaults, Plan, Step};
 use super::problem::Problem;
 use crate::diag::Code;
-use crate::toolpath::{CycleKind, CycleSpec};
+use crate::toolpath::{self, CycleKind, CycleSpec};
 
 /// Most pecks of one hole: more is a slip of the decimal point.
 const MOST_PECKS: usize = 10_000;
@@ -133,6 +133,53 @@ fn stepped(
     }
     list.push(Peck { height: plan.bottom, feed: None });
     Ok(())
+}
+
+/// Absolute pecks from a list of steps, each with its feed: the last one repeats, `decr` less each time but never under
+/// `least`, until `depth` is reached; steps that are not needed are left out. Lengths in any unit.
+///
+/// # Errors
+/// A step that is not above zero, or steps that shrink to nothing.
+///
+/// ```
+/// use postform::cycle::stepped_pecks;
+/// let depths = |pecks: Vec<postform::toolpath::Peck>| pecks.iter().map(|p| p.to).collect::<Vec<_>>();
+/// assert_eq!(stepped_pecks(7.0, &[(4.0, None), (2.0, None)], None, None).map(depths), Ok(vec![4.0, 6.0, 7.0]));
+/// ```
+pub fn stepped_pecks(
+    depth: f64,
+    steps: &[(f64, Option<f64>)],
+    decr: Option<f64>,
+    least: Option<f64>,
+) -> Result<Vec<toolpath::Peck>, Problem> {
+    let mut list = Vec::new();
+    let (mut reached, mut shrunk) = (0.0, 0.0);
+    let decr = decr.unwrap_or(0.0);
+    for k in 0.. {
+        let Some(&(step, feed)) = steps.get(k).or(steps.last()) else { break };
+        if k >= steps.len() {
+            shrunk += decr;
+        }
+        let step = if shrunk > 0.0 { (step - shrunk).max(least.unwrap_or(0.0)) } else { step };
+        if step <= 0.0 {
+            let (code, message) = match shrunk > 0.0 {
+                true => (Code::PC029, "the steps shrink to nothing before the depth is reached"),
+                false => (Code::PC028, "a step that is not above zero"),
+            };
+            return Err(Problem::new(code, message, "give larger steps, a smaller `decr`, or a least step"));
+        }
+        if list.len() == MOST_PECKS {
+            let message = format!("more than {MOST_PECKS} pecks in one hole");
+            return Err(Problem::new(Code::PC028, message, "give larger steps"));
+        }
+        reached += step;
+        let last = reached >= depth - SAME;
+        list.push(toolpath::Peck { to: if last { depth } else { reached }, feed });
+        if last {
+            break;
+        }
+    }
+    Ok(list)
 }
 
 #[cfg(test)]

@@ -18,27 +18,38 @@ impl Renderer<'_> {
         };
         self.vars.set(VarId::Side, code);
         self.compensated = true;
-        self.compensate(&infeed.to, feed, SequenceId::InFeed, code, true)
+        self.compensate(&infeed.to, (feed, infeed.rapid), SequenceId::InFeed, code, true)
     }
 
     /// The move that turns it off.
-    pub(super) fn outfeed(&mut self, to: &Axes, feed: Option<f64>) -> Done {
+    pub(super) fn outfeed(&mut self, to: &Axes, feed: Option<f64>, rapid: bool) -> Done {
         let off = self.program.settings.cdc[2];
         self.vars.set(VarId::Side, off);
         self.compensated = false;
-        self.compensate(to, feed, SequenceId::OutFeed, off, false)
+        self.compensate(to, (feed, rapid), SequenceId::OutFeed, off, false)
     }
 
-    fn compensate(&mut self, to: &Axes, feed: Option<f64>, id: SequenceId, code: f64, offset: bool) -> Done {
+    /// `rapid`: the job rapids there; a sequence of the form feeds all the same, which is slower and not wrong.
+    fn compensate(
+        &mut self,
+        to: &Axes,
+        (feed, rapid): (Option<f64>, bool),
+        id: SequenceId,
+        code: f64,
+        offset: bool,
+    ) -> Done {
         let program = self.program;
+        let rapid = rapid && program.block(id).is_none();
         let target = self.reach(to)?;
-        self.take_feed(feed)?;
+        if !rapid {
+            self.take_feed(feed)?;
+        }
         self.set_targets(&target)?;
         if self.attention {
             self.attend()?;
         }
         if self.measures {
-            self.measure(&target, true);
+            self.measure(&target, !rapid);
         }
         if let Some(block) = program.block(id) {
             let tapers = self.linear == 4 && (2..4).any(|axis| to.get(axis).is_some());
@@ -56,7 +67,7 @@ impl Renderer<'_> {
                 self.end_block();
             }
             self.shifted = false;
-            self.motion_word(&program.settings.feed)?;
+            self.motion_word(if rapid { &program.settings.rapid } else { &program.settings.feed })?;
             self.code_word(&sema::Code::plain(b'G', code))?;
             let mut axes = AxisUnits::default();
             self.axis_units(&target, &mut axes)?;
@@ -69,11 +80,13 @@ impl Renderer<'_> {
                 };
                 self.letter_word(program.settings.cdc_code, register)?;
             }
-            self.feed_word()?;
+            if !rapid {
+                self.feed_word()?;
+            }
             self.end_block();
         }
         self.position = target;
-        self.last_move = LastMove::Line;
+        self.last_move = if rapid { LastMove::Rapid } else { LastMove::Line };
         Ok(())
     }
 }

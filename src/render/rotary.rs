@@ -121,6 +121,16 @@ impl Renderer<'_> {
         Ok(())
     }
 
+    /// The job tilts the tool. A form has words for rotary axes, not for the kinematics that a vector needs.
+    pub(super) fn tilt(&mut self, axis: [f64; 3]) -> Done {
+        if axis == [0.0, 0.0, 1.0] {
+            return Ok(());
+        }
+        let [i, j, k] = axis;
+        let message = format!("the tool is tilted to {i:.6}, {j:.6}, {k:.6}, and a form has no words for that");
+        fault(Code::PR008, message, "render the parts of the job that keep the tool upright")
+    }
+
     /// Where a rotary axis stands.
     fn angle(&self, axis: usize) -> Option<f64> {
         self.position.get(axis).or(self.angles.stands[axis - ROTARY.start])

@@ -3,7 +3,7 @@
 use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
 use crate::diag::Code;
-use crate::lang::{SequenceId, VarId, VarSet};
+use crate::lang::{Machine, SequenceId, VarId, VarSet};
 use crate::toolpath::{Axes, Coolant, FeedMode, First, Tool, ToolChange};
 
 /// The position variables of a tool change.
@@ -17,6 +17,10 @@ impl Renderer<'_> {
         self.begin_main()?;
         let number = change.tool.as_ref().map(|tool| tool.number);
         let changes = number.is_some() && number != self.tool;
+        if number.is_none() && self.tool.is_none() && self.program.settings.machine != Machine::Edm {
+            let help = "load a tool before the first motion, or give a CL file one with `--assume-tool`";
+            return fault(Code::PJ006, "the operation has no tool", help);
+        }
         self.conditions(change, changes)?;
         if let Some(comment) = &change.comment {
             self.comment_block(comment);

@@ -211,6 +211,8 @@ pub struct Infeed {
     pub to: Axes,
     /// The side.
     pub side: Side,
+    /// As a rapid.
+    pub rapid: bool,
 }
 
 /// Named parts of a path.
@@ -443,10 +445,25 @@ pub enum Event<'a> {
     Start(&'a Start),
     ToolChange(&'a ToolChange),
     Rapid(Axes),
-    Line { to: Axes, feed: Option<f64> },
-    Arc { arc: &'a Arc, feed: Option<f64> },
-    Infeed { infeed: &'a Infeed, feed: Option<f64> },
-    Outfeed { to: Axes, feed: Option<f64> },
+    Line {
+        to: Axes,
+        feed: Option<f64>,
+    },
+    Arc {
+        arc: &'a Arc,
+        feed: Option<f64>,
+    },
+    Infeed {
+        infeed: &'a Infeed,
+        feed: Option<f64>,
+    },
+    Outfeed {
+        to: Axes,
+        feed: Option<f64>,
+        rapid: bool,
+    },
+    /// The tool axis from here on, a unit vector; a job begins with 0, 0, 1.
+    Tilt([f64; 3]),
     Begin(Section),
     End(Section),
     CycleBegin(&'a CycleSpec),

@@ -99,6 +99,7 @@ impl<'s> Hold<'s> {
             Event::Comment(text) => Waiting::Comment(text.to_owned()),
             Event::Text(text) => Waiting::Text(text.to_owned()),
             Event::Set(name, value) => Waiting::Set(name.to_owned(), value),
+            Event::Tilt(axis) => Waiting::Plain(Event::Tilt(axis)),
             Event::Begin(section) => Waiting::Plain(Event::Begin(section)),
             Event::End(section) => Waiting::Plain(Event::End(section)),
             Event::CycleEnd => Waiting::Plain(Event::CycleEnd),

@@ -3,6 +3,7 @@
 mod event;
 mod hold;
 mod place;
+mod read;
 mod summary;
 
 pub mod json;
@@ -13,6 +14,7 @@ pub use event::{
 };
 pub use hold::Hold;
 pub use place::Place;
+pub use read::ReadError;
 pub use summary::Summary;
 
 use crate::diag::Diag;

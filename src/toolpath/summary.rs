@@ -27,6 +27,8 @@ pub struct Summary {
     pub holes: Vec<(CycleKind, u64)>,
     /// Least and greatest position of each linear axis over all targets, hole bottoms among them.
     pub extents: [Option<(f64, f64)>; 3],
+    /// How often the tool axis changes.
+    pub tilts: u64,
     kind: Option<(CycleKind, f64)>,
     last: [f64; 3],
 }
@@ -81,6 +83,7 @@ impl Sink for Summary {
                 self.arcs += 1;
                 self.reach(&arc.to);
             }
+            Event::Tilt(_) => self.tilts += 1,
             Event::CycleBegin(spec) => {
                 self.kind = Some((spec.kind, spec.depth.unwrap_or(0.0)));
                 if !self.holes.iter().any(|(kind, _)| *kind == spec.kind) {

@@ -9,7 +9,8 @@ use postform::diag::Diag;
 use postform::render::{Options, Renderer, TraceLine};
 use postform::sema::{Checked, Limits, analyse};
 use postform::source::Source;
-use postform::toolpath::json::{ReadError, read_document, read_lines};
+use postform::toolpath::ReadError;
+use postform::toolpath::json::{read_document, read_lines};
 
 pub fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

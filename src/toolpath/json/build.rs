@@ -189,10 +189,10 @@ impl<'s> Builder<'s> {
             return self.push(Event::Arc { arc: &arc, feed });
         }
         if let (Some(to), Some(side)) = (item.infeed, item.side) {
-            return self.push(Event::Infeed { infeed: &Infeed { to: to.0, side: side.0 }, feed });
+            return self.push(Event::Infeed { infeed: &Infeed { to: to.0, side: side.0, rapid: false }, feed });
         }
         if let Some(to) = item.outfeed {
-            return self.push(Event::Outfeed { to: to.0, feed });
+            return self.push(Event::Outfeed { to: to.0, feed, rapid: false });
         }
         if let Some(section) = item.begin {
             return self.push(Event::Begin(section.0));

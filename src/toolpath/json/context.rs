@@ -6,21 +6,7 @@ use std::fmt::Write;
 use serde::de;
 
 use crate::diag::{Code, Diag};
-
-/// Why a job was not read to its end.
-#[derive(Debug)]
-pub enum ReadError {
-    /// The input could not be read.
-    Io(std::io::Error),
-    /// The job is wrong, or what its events asked for is.
-    Job(Box<Diag>),
-}
-
-impl From<Box<Diag>> for ReadError {
-    fn from(diag: Box<Diag>) -> Self {
-        ReadError::Job(diag)
-    }
-}
+use crate::toolpath::ReadError;
 
 /// A step of the path inside the document.
 #[derive(Clone, Copy, Debug)]

@@ -7,12 +7,12 @@ use std::io::Read;
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 
 use super::build::Builder;
-use super::context::{Context, ReadError, Step};
+use super::context::{Context, Step};
 use super::objects::{CycleObject, ItemObject, JobHead, KeySeed, Object, OperationHead, SubprogramHead, once};
 use super::position::PointSeed;
 use super::values::Point;
 use crate::diag::{Code, Diag};
-use crate::toolpath::Sink;
+use crate::toolpath::{ReadError, Sink};
 
 /// Most points of a cycle that wait for keys behind them; more are passed on as they come.
 const MOST_WAITING: usize = 4096;

@@ -6,14 +6,14 @@ use std::io::Read;
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, Visitor};
 
 use super::build::Builder;
-use super::context::{Context, ReadError, Step};
+use super::context::{Context, Step};
 use super::fast::{Kind, simple};
 use super::objects::{
     CycleObject, EndWord, ItemObject, JobHead, KeySeed, Object, ObjectSeed, OperationHead, SubprogramHead, Value, once,
 };
 use super::values::Point;
 use crate::diag::{Code, Diag};
-use crate::toolpath::{Hole, Sink};
+use crate::toolpath::{Hole, ReadError, Sink};
 
 /// Longest line; a longer one is a file of another kind.
 const LONGEST: usize = 4 << 20;

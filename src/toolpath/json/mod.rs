@@ -12,7 +12,6 @@ mod position;
 mod schema;
 mod values;
 
-pub use context::ReadError;
 pub use document::read_document;
 pub use lines::read_lines;
 #[cfg(feature = "schema")]

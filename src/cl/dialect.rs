@@ -1,0 +1,121 @@
+//! The systems that write CL files, and how their files differ.
+
+use crate::lang::did_you_mean;
+
+/// Who wrote a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Dialect {
+    Gener,
+    Catia,
+    Creo,
+    Nx,
+    SolidWorksCam,
+    Makino,
+    Ncl,
+}
+
+/// Which way a CIRCLE with a positive axis turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sense {
+    /// Clockwise, seen from the axis' end: the left-hand rule.
+    LeftHand,
+    /// Counter-clockwise.
+    RightHand,
+}
+
+/// One row of the table.
+struct Row {
+    dialect: Dialect,
+    name: &'static str,
+    title: &'static str,
+    /// What its files begin with, in capitals and without blanks.
+    marks: &'static [&'static str],
+    sense: Option<Sense>,
+    /// The statement that its files end with.
+    last: Option<&'static str>,
+}
+
+/// Marks and senses are those of real files (cl.md sections 2.2 and 2.5).
+#[rustfmt::skip]
+const ROWS: [Row; 7] = [
+    Row { dialect: Dialect::Gener, name: "gener", title: "ICAM GENER", marks: &[], sense: None, last: Some("FINI") },
+    Row { dialect: Dialect::Catia, name: "catia", title: "CATIA", marks: &["$$*CATIA", "CATIAAPTVERSION"], sense: None, last: Some("FINI") },
+    Row { dialect: Dialect::Creo, name: "creo", title: "Creo", marks: &["PRO/CLFILE"], sense: None, last: Some("FINI") },
+    Row { dialect: Dialect::Nx, name: "nx", title: "Siemens NX", marks: &["TOOLPATH/"], sense: Some(Sense::LeftHand), last: Some("END-OF-PATH") },
+    Row { dialect: Dialect::SolidWorksCam, name: "solidworks", title: "SolidWorks CAM", marks: &["CSI_", "TRNTYP"], sense: Some(Sense::RightHand), last: Some("FINI") },
+    Row { dialect: Dialect::Makino, name: "makino", title: "Makino APTCL", marks: &["APTCL-SPEC"], sense: Some(Sense::LeftHand), last: None },
+    Row { dialect: Dialect::Ncl, name: "ncl", title: "NCL", marks: &["NCLCAM"], sense: None, last: Some("FINI") },
+];
+
+impl Dialect {
+    fn row(self) -> &'static Row {
+        &ROWS[self as usize]
+    }
+
+    /// As `--dialect` names it.
+    pub fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// As its users know it.
+    pub fn title(self) -> &'static str {
+        self.row().title
+    }
+
+    /// All names.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        ROWS.iter().map(|row| row.name)
+    }
+
+    /// By its name.
+    ///
+    /// # Errors
+    /// What could have been meant.
+    pub fn parse(name: &str) -> Result<Dialect, String> {
+        match ROWS.iter().find(|row| row.name.eq_ignore_ascii_case(name)) {
+            Some(row) => Ok(row.dialect),
+            None => Err(did_you_mean(name, Self::names())
+                .unwrap_or_else(|| format!("it is one of {}", Self::names().collect::<Vec<_>>().join(", ")))),
+        }
+    }
+
+    pub(super) fn sense(self) -> Option<Sense> {
+        self.row().sense
+    }
+
+    pub(super) fn last_statement(self) -> Option<&'static str> {
+        self.row().last
+    }
+
+    /// The dialect that a line gives away, and its mark.
+    pub(super) fn of_line(line: &[u8]) -> Option<(Dialect, &'static str)> {
+        let plain: Vec<u8> =
+            line.iter().filter(|b| !b.is_ascii_whitespace()).take(200).map(u8::to_ascii_uppercase).collect();
+        ROWS.iter()
+            .flat_map(|row| row.marks.iter().map(move |mark| (row.dialect, *mark)))
+            .find(|(_, mark)| memchr::memmem::find(&plain, mark.as_bytes()).is_some())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_stand_at_their_numbers_and_names_are_found() {
+        for (i, row) in ROWS.iter().enumerate() {
+            assert_eq!(row.dialect as usize, i);
+            assert_eq!(Dialect::parse(row.name), Ok(row.dialect));
+        }
+        assert!(Dialect::parse("catja").unwrap_err().contains("catia"));
+    }
+
+    #[test]
+    fn files_give_themselves_away() {
+        let of = |line: &str| Dialect::of_line(line.as_bytes()).map(|(dialect, _)| dialect);
+        assert_eq!(of("$$*          Pro/CLfile  Version 11.0"), Some(Dialect::Creo));
+        assert_eq!(of("TOOL PATH/ZLEVEL,TOOL,MILL"), Some(Dialect::Nx));
+        assert_eq!(of("GOTO/1,2,3"), None);
+    }
+}

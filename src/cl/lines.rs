@@ -1,0 +1,72 @@
+//! Lines of a CL file, and how they join into statements.
+
+use std::io::{ErrorKind, Read, Result};
+
+/// Longest line and longest statement: a longer one is a file of another kind.
+pub(super) const LONGEST: usize = 1 << 20;
+
+/// Lines of a stream; only one is kept.
+pub(super) struct Lines<R> {
+    input: R,
+    buffer: Vec<u8>,
+    from: usize,
+    to: usize,
+    at_end: bool,
+}
+
+impl<R: Read> Lines<R> {
+    pub(super) fn new(input: R) -> Self {
+        Lines { input, buffer: vec![0; 256 * 1024], from: 0, to: 0, at_end: false }
+    }
+
+    /// The next line without its end; `None` at the end. A line that is too long is cut, which its reader sees.
+    pub(super) fn next(&mut self) -> Result<Option<&[u8]>> {
+        loop {
+            if let Some(length) = memchr::memchr(b'\n', &self.buffer[self.from..self.to]) {
+                let start = self.from;
+                self.from += length + 1;
+                return Ok(Some(&self.buffer[start..start + length]));
+            }
+            if self.at_end || self.to - self.from > LONGEST {
+                let line = self.from..self.to;
+                self.from = self.to;
+                return Ok((!line.is_empty()).then(|| &self.buffer[line]));
+            }
+            self.buffer.copy_within(self.from..self.to, 0);
+            (self.to, self.from) = (self.to - self.from, 0);
+            if self.to == self.buffer.len() {
+                self.buffer.resize(self.to * 2, 0);
+            }
+            match self.input.read(&mut self.buffer[self.to..]) {
+                Ok(0) => self.at_end = true,
+                Ok(count) => self.to += count,
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+}
+
+/// Words whose statement is text to the end of the line, with or without a slash.
+const TEXT: [&str; 7] = ["PARTNO", "PPRINT", "TPRINT", "DISPLY", "INSERT", "REMARK", "LETTER"];
+
+/// The text word that a line begins with, and what follows it.
+pub(super) fn text_statement(line: &[u8]) -> Option<(&'static str, &[u8])> {
+    let word =
+        TEXT.into_iter().find(|w| line.len() >= w.len() && line[..w.len()].eq_ignore_ascii_case(w.as_bytes()))?;
+    let rest = line[word.len()..].trim_ascii_start();
+    Some((word, rest.strip_prefix(b"/").unwrap_or(rest).trim_ascii()))
+}
+
+/// A line without its comment (`$$`), and whether the next one continues it (`$`; what follows that is no part of it).
+pub(super) fn without_comment(line: &[u8]) -> (&[u8], bool) {
+    let mut quoted = false;
+    for (i, &byte) in line.iter().enumerate() {
+        match byte {
+            b'\'' => quoted = !quoted,
+            b'$' if !quoted => return (&line[..i], line.get(i + 1) != Some(&b'$')),
+            _ => {}
+        }
+    }
+    (line, false)
+}

@@ -1,0 +1,168 @@
+//! The words of a statement: numbers, names, and places left empty.
+
+use std::fmt;
+
+/// One word.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Word {
+    /// A number; always finite.
+    Number(f64),
+    /// A name in capitals, or quoted text.
+    Name(String),
+    /// Nothing between two commas.
+    Null,
+}
+
+impl Word {
+    pub(super) fn number(&self) -> Option<f64> {
+        if let Word::Number(value) = self { Some(*value) } else { None }
+    }
+
+    pub(super) fn name(&self) -> Option<&str> {
+        if let Word::Name(name) = self { Some(name) } else { None }
+    }
+
+    pub(super) fn is(&self, name: &str) -> bool {
+        self.name() == Some(name)
+    }
+}
+
+impl fmt::Display for Word {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Word::Number(value) => write!(f, "{value}"),
+            Word::Name(name) => f.write_str(name),
+            Word::Null => f.write_str("nothing"),
+        }
+    }
+}
+
+/// The words of a statement; slashes, commas and parentheses part them, blanks count nowhere outside quotes.
+/// `Err`: a number that is not finite.
+pub(super) fn words(text: &[u8]) -> Result<Vec<Word>, String> {
+    let (mut list, mut word, mut quoted, mut after_comma) = (Vec::new(), String::new(), false, false);
+    for &byte in text.iter().chain(b"\n") {
+        match byte {
+            b'\'' => quoted = !quoted,
+            b',' | b'/' | b'(' | b')' | b'\n' if !quoted || byte == b'\n' => {
+                if !word.is_empty() {
+                    list.push(one(&word)?);
+                } else if after_comma && byte == b',' {
+                    list.push(Word::Null);
+                }
+                after_comma = byte == b',';
+                word.clear();
+            }
+            b' ' | b'\t' | b'\r' if !quoted => {}
+            byte => word.push(char::from(if quoted { byte } else { byte.to_ascii_uppercase() })),
+        }
+    }
+    Ok(list)
+}
+
+fn one(word: &str) -> Result<Word, String> {
+    let numeric = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+    match word.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(Word::Number(value)),
+        Ok(_) if numeric => Err(word.to_owned()),
+        _ => Ok(Word::Name(word.to_owned())),
+    }
+}
+
+/// The numbers of a plain `GOTO/x,y,z[,i,j,k]`, which most of a file is; anything else is left to [`words`].
+#[inline]
+pub(super) fn plain_goto(line: &[u8]) -> Option<([f64; 7], usize)> {
+    let rest = line.trim_ascii_start().strip_prefix(b"GOTO")?;
+    let mut rest = rest.trim_ascii_start().strip_prefix(b"/")?;
+    let mut values = [0.0; 7];
+    for (i, value) in values.iter_mut().enumerate() {
+        (*value, rest) = number(blanks(rest))?;
+        rest = blanks(rest);
+        match rest {
+            [] => return Some((values, i + 1)),
+            [b',', after @ ..] => rest = after,
+            _ => return None,
+        }
+    }
+    None
+}
+
+#[inline]
+fn blanks(mut text: &[u8]) -> &[u8] {
+    while let [b' ' | b'\t' | b'\r', rest @ ..] = text {
+        text = rest;
+    }
+    text
+}
+
+/// A decimal of at most 15 digits: its digits and its power of ten are exact doubles, so one division gives the nearest.
+#[inline]
+fn number(text: &[u8]) -> Option<(f64, &[u8])> {
+    let (negative, mut rest) = match text {
+        [b'-', rest @ ..] => (true, rest),
+        [b'+', rest @ ..] => (false, rest),
+        rest => (false, rest),
+    };
+    let (mut value, mut digits, mut decimals) = (0_i64, 0, None);
+    loop {
+        match rest {
+            [digit @ b'0'..=b'9', after @ ..] => {
+                value = value.wrapping_mul(10).wrapping_add(i64::from(digit - b'0'));
+                digits += 1;
+                if let Some(decimals) = &mut decimals {
+                    *decimals += 1;
+                }
+                rest = after;
+            }
+            [b'.', after @ ..] if decimals.is_none() => {
+                decimals = Some(0);
+                rest = after;
+            }
+            _ => break,
+        }
+    }
+    if digits == 0 || digits > 15 {
+        return None;
+    }
+    let value = value as f64 / crate::number::POWERS[decimals.unwrap_or(0)] as f64;
+    Some((if negative { -value } else { value }, rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn words_are_parted_by_slashes_commas_and_parentheses() {
+        let list = words(b"TLON,GOFWD/ (CIRCLE/ 1., .5, -2,, 3),ON 'a b'").unwrap();
+        let shown: Vec<_> = list.iter().map(ToString::to_string).collect();
+        assert_eq!(shown, ["TLON", "GOFWD", "CIRCLE", "1", "0.5", "-2", "nothing", "3", "ONa b"]);
+        assert_eq!(words(b"SPINDL/ 15 00,1STPECK").unwrap()[1..], [Word::Number(1500.0), Word::Name("1STPECK".into())]);
+        assert!(words(b"GOTO/1e999").is_err());
+    }
+
+    #[test]
+    fn plain_gotos_are_read_and_everything_else_is_left() {
+        assert_eq!(
+            plain_goto(b" GOTO  / 1., -.5 ,3 \r").map(|(v, n)| (v[..n].to_vec(), n)),
+            Some((vec![1.0, -0.5, 3.0], 3))
+        );
+        for other in ["GOTO/1,2,", "GOTO/1,2,3$", "goto/1", "GOTO/1,,2", "GOTO/1e3", "GOTO/-", "GOTO/1.2.3", "GODLTA/1"]
+        {
+            assert_eq!(plain_goto(other.as_bytes()), None, "{other}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+        /// The short way reads what the long way reads.
+        #[test]
+        fn both_ways_read_the_same(text in "[+-]?[0-9]{1,9}(\\.[0-9]{0,6})?|[+-]?\\.[0-9]{1,12}") {
+            let line = format!("GOTO/{text}");
+            let slow = words(line.as_bytes()).unwrap()[1].number().unwrap();
+            let (values, _) = plain_goto(line.as_bytes()).unwrap();
+            prop_assert_eq!(values[0].to_bits(), slow.to_bits());
+        }
+    }
+}

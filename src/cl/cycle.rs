@@ -87,7 +87,9 @@ impl Reader<'_> {
                 if !self.cycle.is_active() && self.dialect() != Dialect::SolidWorksCam {
                     self.warn(Code::PC051, format!("CYCLE/{first}, and no cycle is active"), "take it out");
                 }
-                self.end_cycle()
+                self.end_cycle()?;
+                self.rapid_after_cycle = true;
+                Ok(())
             }
             "INIT" | "CLEAR" if self.dialect() == Dialect::SolidWorksCam => Ok(()),
             "AUTO" => self.cycle_auto(&words[1..]),

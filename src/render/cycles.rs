@@ -287,7 +287,7 @@ impl Renderer<'_> {
             (spec.jog.is_some(), &[], "the lift of the jog (`jog`)"),
             (spec.offset_y.is_some(), &[], "a jog along both axes (`offset_y`)"),
             (spec.offset.is_some(), &[VarId::Sleave], "the jog off the wall: [sleave]"),
-            (spec.dwell.or(spec.revs).is_some(), &[VarId::Dwell], "the dwell: [dwell]"),
+            (spec.dwell.or(spec.revs).is_some_and(|t| t > 0.0), &[VarId::Dwell], "the dwell: [dwell]"),
             (spec.back.is_some(), &[VarId::Sclear, VarId::Vleave], "the secondary clearance: [sclear]"),
             (spec.first_step.is_some(), &[VarId::Peck1, VarId::Inidep], "the first peck: [peck1]"),
             (spec.min_step.is_some(), &[VarId::Sbite], "the least peck: [sbite]"),

@@ -1,6 +1,6 @@
 //! Jobs of any size, and the floors that rendering them is compared with. Used by `benches/throughput`.
 //!
-//! `floor make moves|holes N` writes a JSON Lines job to standard output; `floor serde FILE` parses one with serde and
+//! `floor make moves|holes N` writes a JSON Lines job to standard output, `floor make cl N` the same moves as a CL file; `floor serde FILE` parses one with serde and
 //! does nothing with it; `floor write FILE` parses its numbers in the simplest way and prints them with `write!`.
 #![allow(clippy::unwrap_used)]
 
@@ -15,7 +15,7 @@ fn main() -> Result<()> {
         ["serde", file] => serde(file),
         ["write", file] => write(file),
         _ => {
-            eprintln!("floor make moves|holes N, floor serde FILE, floor write FILE");
+            eprintln!("floor make moves|holes|cl N, floor serde FILE, floor write FILE");
             std::process::exit(2);
         }
     }
@@ -23,16 +23,15 @@ fn main() -> Result<()> {
 
 fn make(kind: &str, count: u64) -> Result<()> {
     let mut out = BufWriter::new(stdout().lock());
+    if kind == "cl" {
+        return make_cl(count, &mut out);
+    }
     writeln!(out, "{{\"start\":{{\"postform\":1,\"program\":1,\"units\":\"mm\",\"tools\":[{{\"number\":1}}]}}}}")?;
     writeln!(
         out,
         "{{\"operation\":{{\"tool\":1,\"work\":54,\"spindle\":{{\"speed\":9000,\"direction\":\"cw\"}},\"feed\":1500}}}}"
     )?;
-    let mut state = 1u64;
-    let mut next = |range: f64| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((state >> 33) as f64 / f64::from(1u32 << 31) * range * 1e4).round() / 1e4
-    };
+    let mut next = numbers();
     if kind == "holes" {
         writeln!(out, "{{\"cycle\":{{\"kind\":\"drill\",\"depth\":5,\"clear\":2,\"feed\":200}}}}")?;
         for _ in 0..count {
@@ -48,6 +47,29 @@ fn make(kind: &str, count: u64) -> Result<()> {
         }
     }
     writeln!(out, "{{\"end\":true}}")
+}
+
+/// Numbers from 0 to a range, the same at every run.
+fn numbers() -> impl FnMut(f64) -> f64 {
+    let mut state = 1u64;
+    move |range| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((state >> 33) as f64 / f64::from(1u32 << 31) * range * 1e4).round() / 1e4
+    }
+}
+
+/// The moves of `make moves` as a CL file.
+fn make_cl(count: u64, out: &mut impl Write) -> Result<()> {
+    writeln!(out, "UNITS/MM\nLOADTL/1\nSPINDL/9000,RPM,CLW\nRAPID\nGOTO/0,0,5\nFEDRAT/1500,MMPM")?;
+    let mut next = numbers();
+    for i in 0..count {
+        let (x, y, z) = (next(200.0), next(200.0), -next(2.0));
+        if i % 50 == 0 {
+            writeln!(out, "FEDRAT/{},MMPM", 500 + i % 2000)?;
+        }
+        writeln!(out, "GOTO/{x:.4},{y:.4},{z:.4}")?;
+    }
+    writeln!(out, "FINI")
 }
 
 #[derive(serde::Deserialize)]

@@ -216,7 +216,7 @@ fn a_wire_takes_compensation_in_one_block_on_four_axes() {
             "{{\"machine\":\"edm\",\"operations\":[{{\"feed\":2,\"path\":[{{\"rapid\":[0,0]}},{{\"infeed\":{infeed},\"side\":\"left\"}}]}}]}}"
         )
     };
-    assert_eq!(program(form, &text("[1,0]"))[1..4], ["G0 X0 Y0", "G41", "G1 X1. Y0"]);
+    assert_eq!(program(form, &text("[1,0]"))[1..4], ["G0 X0 Y0", "F2.", "G41"]);
     assert!(program(form, &text("[1,0,1,0]"))[0].starts_with("PR008"));
     assert!(path_lines("", "", "{\"edm\":\"cut\"}")[0].starts_with("PR008"));
 }

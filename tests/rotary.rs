@@ -29,12 +29,14 @@ fn a_hole_in_another_view_ends_the_cycle_turns_the_part_and_begins_again() {
 }
 
 #[test]
-fn a_hole_beyond_the_travel_unwinds() {
-    let unwind = "Unwind\nG0 Z5\nA[lastrotangle]\nX[lasth] Y[lastv]\nZ[lastd]\nEnd";
+fn a_rapid_beyond_the_travel_goes_to_the_same_view_within_it() {
     let path = format!("{{\"line\":[0,0,1,360]}},{}", holes("[1,1,0,400]"));
-    let lines = path_lines("Limits A -360 360", &format!("{DRILL}\n{unwind}"), &path);
-    assert_eq!(lines[1..5], ["G0 Z5", "A0", "X0 Y0", "Z1."]);
-    assert!(lines[5..].contains(&"G0 X1. Y1. A40.".to_owned()), "{lines:?}");
+    let lines = path_lines("Limits A -360 360", DRILL, &path);
+    assert_eq!(lines[1..], ["G0 X1. Y1. A40.", "Z.1", "G81 X1. Y1. Z-1. R.1 F5.", "G80"]);
+    // and counts from there: 760 is 400 of the axis, which is 40 again
+    let on = format!("{path},{{\"rapid\":[1,1,1,760]}},{{\"line\":[1,1,1,770]}}");
+    let lines = path_lines("Limits A -360 360", DRILL, &on);
+    assert_eq!(lines[5..], ["G0 Z1.", "G1 A50. F10."]);
 }
 
 /// A form that goes down in its tool change must turn the part before.

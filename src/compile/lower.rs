@@ -78,6 +78,10 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Block {
                     Op::Var { letter: *letter, var: *var, glued }
                 }
                 WordKind::Value(var) => Op::Value { var: *var, glued },
+                WordKind::Remark(var) => {
+                    program.printed.insert(*var);
+                    Op::Remark { var: *var, glued }
+                }
                 WordKind::Literal(letter, text, value) => {
                     prints_g98 |= *letter == b'G' && *value == program.settings.return_plane[1];
                     let literal = Literal { letter: *letter, text: text.clone(), value: *value };
@@ -114,7 +118,7 @@ fn is_motion_or_no_code(word: &WordKind) -> bool {
     match word {
         WordKind::Literal(b'G' | b'g', _, value) => [0.0, 1.0, 2.0, 3.0].contains(value),
         WordKind::Literal(letter, ..) | WordKind::Var(letter, _) => !b"GgMm".contains(letter),
-        WordKind::Value(_) | WordKind::Text(_) => true,
+        WordKind::Value(_) | WordKind::Remark(_) | WordKind::Text(_) => true,
     }
 }
 

@@ -31,6 +31,13 @@ pub enum Op {
         /// No blank before it.
         glued: bool,
     },
+    /// A variable's value inside a comment of the program: no control reads it.
+    Remark {
+        /// The variable.
+        var: VarId,
+        /// No blank before it.
+        glued: bool,
+    },
     /// A letter and a number as typed.
     Literal {
         /// Its row in [`Program::literals`].
@@ -80,7 +87,7 @@ pub struct Block {
     pub ops: Range<usize>,
     /// Where the lines begin that an advanced cycle repeats; else the start.
     pub repeat: usize,
-    /// The variables it prints.
+    /// The variables it prints outside comments.
     pub vars: VarSet,
     /// The variables that only the lines before `repeat` print.
     pub setup_vars: VarSet,

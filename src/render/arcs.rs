@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::fault::{Done, fault};
 use super::geometry::PlaneArc;
+use super::motion::MOVE_VARS;
 use super::move_words::{AxisUnits, as_number};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
@@ -35,7 +36,7 @@ struct Piece<'a> {
 impl Renderer<'_> {
     /// An arc of the path.
     pub(super) fn arc(&mut self, arc: &Arc, feed: Option<f64>) -> Done {
-        let mut target = self.reach(&arc.to)?;
+        let mut target = self.reach(&arc.to, false)?;
         self.take_feed(feed)?;
         let (axes, across, code) = plane_axes(arc.plane);
         let Some(from) = self.in_plane(&self.position, axes) else {
@@ -49,9 +50,19 @@ impl Renderer<'_> {
         let centre = self.centre(arc, axes, from, to, ccw)?;
         self.check_radii(axes, from, to, centre)?;
         target.given |= self.position.given;
-        self.set_targets(&target)?;
         if self.attention {
-            self.attend()?;
+            self.attend_here(true)?;
+        }
+        self.set_targets(&target)?;
+        if self.watches_moves {
+            self.upons(MOVE_VARS)?;
+        }
+        if self.differs(&self.position, 1 << axes[0] | 1 << axes[1]) && !self.program.settings.incremental {
+            // the control must begin where its centre is counted from
+            let here = self.position;
+            self.set_targets(&here)?;
+            self.line_to(&here)?;
+            self.set_targets(&target)?;
         }
         let shape = PlaneArc::new(from, to, centre, ccw, arc.turns);
         let climbs = self.differs_by(&target, across);
@@ -71,7 +82,7 @@ impl Renderer<'_> {
             && (3..6).all(|axis| !self.differs_by(&target, axis));
         let shrinks = self.ends_meet(&target, axes) && shape.sweep.abs() < PI;
         match plane {
-            Some(plane) if printable && !shrinks && self.has_centre_words(axes) => {
+            Some(plane) if printable && !shrinks && self.has_centre_words(axes, ccw) => {
                 self.pieces(&Piece { axes, plane, arc: shape, target }, across)
             }
             _ => self.chords(&shape, axes, &target),
@@ -161,7 +172,12 @@ impl Renderer<'_> {
         if named { letters.contains(&natural).then_some(natural) } else { letters.get(axis).copied() }
     }
 
-    fn has_centre_words(&self, axes: [usize; 2]) -> bool {
+    fn has_centre_words(&self, axes: [usize; 2], ccw: bool) -> bool {
+        const WORDS: [&[VarId]; 3] = [&[VarId::Ival, VarId::Hctr], &[VarId::Jval, VarId::Vctr], &[VarId::Kval]];
+        if let Some(block) = self.program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
+            let says = |axis: usize| WORDS[axis].iter().any(|&var| block.vars.has(var));
+            return block.vars.has(VarId::Arcrad) || axes.iter().all(|&axis| says(axis));
+        }
         match &self.program.settings.centre {
             ArcCentre::Radius(_) => true,
             ArcCentre::Letters(letters) => axes.iter().all(|&axis| self.centre_letter(letters, axis).is_some()),
@@ -198,6 +214,7 @@ impl Renderer<'_> {
         }
         parts.push(1.0);
         let (from, mut done) = (self.position, 0.0);
+        let whole_feed = self.feed;
         for &part in &parts {
             let mut target = from;
             if part == 1.0 {
@@ -209,12 +226,21 @@ impl Renderer<'_> {
                 let rise = whole.target.values[across] - from.values[across];
                 target.values[across] = from.values[across] + rise * part;
             }
+            self.share_of_time(whole_feed, part - done);
             let piece = PlaneArc { start: arc.start + arc.sweep * done, sweep: arc.sweep * (part - done), ..*arc };
             self.piece(&Piece { axes: whole.axes, plane: whole.plane, arc: piece, target })?;
             done = part;
         }
+        self.share_of_time(whole_feed, 1.0);
         self.parts = parts;
         Ok(())
+    }
+
+    /// In inverse time a part of a move has a part of its time.
+    fn share_of_time(&mut self, whole: Option<f64>, part: f64) {
+        if self.inverse_time() {
+            self.keep_feed(whole.map(|feed| feed / part));
+        }
     }
 
     /// Prints one arc block or the form's sequence for it.
@@ -225,7 +251,8 @@ impl Renderer<'_> {
             self.set_targets(&piece.target)?;
             return self.line_to(&piece.target); // as an arc it would be a full circle
         }
-        let ccw = piece.arc.sweep > 0.0;
+        // a turret on the other side sees the arc in a mirror
+        let ccw = (piece.arc.sweep > 0.0) != piece.axes.iter().any(|&axis| self.axis_scale[axis] < 0.0);
         let centre = self.centre_values(piece)?;
         self.set_targets(&piece.target)?;
         self.set_arc_variables(piece, &centre);
@@ -284,11 +311,15 @@ impl Renderer<'_> {
     /// The centre as the form counts it: from the printed start, or absolute.
     fn centre_values(&self, piece: &Piece) -> Done<[f64; 2]> {
         let mut values = piece.arc.centre;
+        let mirrored = |axis: usize| self.axis_scale[axis] < 0.0;
         if self.program.settings.centre_incremental {
             for (value, &axis) in values.iter_mut().zip(&piece.axes) {
                 // the control starts where it was told to, not where the job exactly was
                 *value -= self.printed(axis, self.position.values[axis])?;
             }
+        }
+        for (value, &axis) in values.iter_mut().zip(&piece.axes) {
+            *value = if mirrored(axis) { -*value } else { *value };
         }
         Ok(values)
     }
@@ -334,6 +365,9 @@ impl Renderer<'_> {
     fn set_arc_variables(&mut self, piece: &Piece, centre: &[f64; 2]) {
         const VALUES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
         const CENTRES: [Option<VarId>; 3] = [Some(VarId::Hctr), Some(VarId::Vctr), None];
+        for var in VALUES.into_iter().chain(CENTRES.into_iter().flatten()) {
+            self.vars.put(var, None);
+        }
         for (i, &axis) in piece.axes.iter().enumerate() {
             self.vars.set(VALUES[axis], centre[i]);
             if let Some(var) = CENTRES[axis] {
@@ -350,10 +384,20 @@ impl Renderer<'_> {
 
     /// An arc that the form can't print, as lines within its tolerance.
     fn chords(&mut self, arc: &PlaneArc, axes: [usize; 2], target: &Axes) -> Done {
-        let from = self.position;
+        let mut from = self.position;
+        for axis in self.turned_axes(target) {
+            match self.angle(axis) {
+                Some(angle) => from.set(axis, angle),
+                None => {
+                    return fault(Code::PR005, "the arc turns from an unknown angle", "begin with a rapid that says it");
+                }
+            }
+        }
         let mut parts = std::mem::take(&mut self.parts);
         parts.clear();
         arc.equal_parts(arc.chord_angle(self.program.settings.tolerance * self.form_scale), &mut parts);
+        let (whole_feed, share) = (self.feed, 1.0 / (parts.len() + 1) as f64);
+        self.share_of_time(whole_feed, share);
         for &part in &parts {
             let mut to = *target;
             for axis in 0..6 {
@@ -369,6 +413,8 @@ impl Renderer<'_> {
         }
         self.parts = parts;
         self.set_targets(target)?;
-        self.line_to(target)
+        self.line_to(target)?;
+        self.share_of_time(whole_feed, 1.0);
+        Ok(())
     }
 }

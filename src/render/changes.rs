@@ -4,7 +4,7 @@ use super::fault::{Done, fault};
 use super::renderer::Renderer;
 use super::words::tenths;
 use crate::diag::Code;
-use crate::lang::{Group, Origin, VARIABLES, VarId, VarSet, did_you_mean};
+use crate::lang::{Group, Machine, Origin, Unit, VARIABLES, VarId, VarSet, did_you_mean};
 use crate::sema;
 use crate::toolpath::{Coolant, FeedMode, Spindle, SpindleTurn};
 
@@ -21,6 +21,18 @@ pub(super) struct Served {
 }
 
 impl Served {
+    /// The conditions that were printed.
+    pub(super) fn known(&self) -> VarSet {
+        let known: Vec<VarId> =
+            CONDITIONS.into_iter().zip(self.values()).filter_map(|(var, v)| v.map(|_| var)).collect();
+        VarSet::of(&known)
+    }
+
+    /// In the order of [`CONDITIONS`].
+    fn values(&self) -> [Option<f64>; 7] {
+        [self.work, self.speed, self.direct, self.cool, self.feed_type, self.speed_type, self.max]
+    }
+
     /// What holds after a subprogram that printed `later`.
     pub(super) fn then(&self, later: &Served) -> Served {
         Served {
@@ -68,23 +80,20 @@ impl Renderer<'_> {
         }
     }
 
-    /// An Upon sequence printed for this variable.
-    pub(super) fn served_upon(&mut self, var: VarId, value: f64) {
-        self.served_by(0, var, value);
-    }
-
     /// Variables whose change nothing printed yet: the next move counts as using them.
     fn pending(&self) -> VarSet {
-        let served = &self.served;
         let mut set = VarSet::default();
-        let printed =
-            [served.work, served.speed, served.direct, served.cool, served.feed_type, served.speed_type, served.max];
-        for (var, served) in CONDITIONS.into_iter().zip(printed) {
+        for (var, served) in CONDITIONS.into_iter().zip(self.served.values()) {
             if self.vars.get(var).is_some_and(|value| served != Some(value)) {
                 set.insert(var);
             }
         }
         set
+    }
+
+    /// Is something not as the job has it?
+    pub(super) fn has_changes(&self) -> bool {
+        self.pending().meets(VarSet::of(&CONDITIONS))
     }
 
     /// Is the work offset all that nothing printed yet?
@@ -152,6 +161,18 @@ impl Renderer<'_> {
         Ok(())
     }
 
+    /// The work offset, where something that does not print it is about to print a position.
+    pub(super) fn work_before(&mut self) -> Done {
+        match self.vars.get(VarId::Work) {
+            Some(work) if self.served.work != Some(work) => {
+                self.work_block(work)?;
+                self.served_upons(VarId::Work, work);
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The work offset with the letter that the form uses for it.
     fn work_block(&mut self, work: f64) -> Done {
         let letter = self.program.work_letter.unwrap_or(b'G');
@@ -173,16 +194,21 @@ impl Renderer<'_> {
     /// A change of the work offset inside an operation.
     pub(super) fn change_work(&mut self, work: f64) -> Done {
         self.close_cycle()?;
-        self.set_work(work);
-        Ok(())
+        self.set_work(work)
     }
 
     /// A fixture number below 50 counts from the first code, from 50 on it is the code.
-    pub(super) fn set_work(&mut self, work: f64) {
+    pub(super) fn set_work(&mut self, work: f64) -> Done {
         let first = self.program.settings.work;
         let code = if (1.0..50.0).contains(&work) { first + work - 1.0 } else { work };
+        let by_letter = self.program.work_letter.is_some_and(|letter| letter != b'G');
+        if !by_letter && group_is_not_work(code) && self.program.settings.machine == Machine::Mill {
+            let message = format!("the work offset {work} would be G{code}, which is none");
+            return fault(Code::PR017, message, "give the code itself, as 59.1, or a fixture number from 1 to 6");
+        }
         self.vars.set(VarId::Work, code);
         self.attention = true;
+        Ok(())
     }
 
     /// A change of the spindle.
@@ -269,8 +295,13 @@ impl Renderer<'_> {
     pub(super) fn change_variable(&mut self, name: &str, value: f64) -> Done {
         self.close_cycle()?;
         let var = settable(name)?;
-        self.set_variable(var, value);
+        self.set_variable(var, self.from_job(var, value));
         Ok(())
+    }
+
+    /// A variable's value in program units.
+    pub(super) fn from_job(&self, var: VarId, value: f64) -> f64 {
+        if matches!(var.row().unit, Unit::Length | Unit::Feed) { value * self.scale } else { value }
     }
 
     pub(super) fn set_variable(&mut self, var: VarId, value: f64) {

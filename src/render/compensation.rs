@@ -12,10 +12,8 @@ impl Renderer<'_> {
     /// The move that turns cutter compensation on.
     pub(super) fn infeed(&mut self, infeed: &Infeed, feed: Option<f64>) -> Done {
         let [left, right, _] = self.program.settings.cdc;
-        let code = match infeed.side {
-            Side::Left => left,
-            Side::Right => right,
-        };
+        let mirrored = self.axis_scale[1] < 0.0; // a turret on the other side
+        let code = if (infeed.side == Side::Left) != mirrored { left } else { right };
         self.vars.set(VarId::Side, code);
         self.compensated = true;
         self.compensate(&infeed.to, (feed, infeed.rapid), SequenceId::InFeed, code, true)
@@ -40,13 +38,16 @@ impl Renderer<'_> {
     ) -> Done {
         let program = self.program;
         let rapid = rapid && program.block(id).is_none();
-        let target = self.reach(to)?;
+        let target = self.reach(to, false)?;
         if !rapid {
             self.take_feed(feed)?;
         }
-        self.set_targets(&target)?;
         if self.attention {
-            self.attend()?;
+            self.attend_here(true)?;
+        }
+        self.set_targets(&target)?;
+        if self.watches_moves {
+            self.upons(super::motion::MOVE_VARS)?;
         }
         if self.measures {
             self.measure(&target, !rapid);
@@ -59,8 +60,11 @@ impl Renderer<'_> {
                 let message = format!("{} has {blocks} blocks, a four-axis wire takes one", id.name());
                 return fault_at(Code::PR008, message, "write the sequence on one line", Some(block.span));
             }
+            self.sequence_says(block, &target)?;
             self.plane_block(17.0, block)?;
-            self.run_with_upons(block)?;
+            self.upons(block.vars)?;
+            self.feed_block(block)?;
+            self.run_block(block)?;
         } else {
             if self.plane != 17.0 && program.settings.machine == Machine::Mill {
                 self.code_word(&sema::Code::plain(b'G', 17.0))?;

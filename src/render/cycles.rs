@@ -48,6 +48,10 @@ impl Renderer<'_> {
             let message = "cutter compensation is on, and no control allows a cycle then";
             return fault(Code::PC041, message, "end the compensation with an `outfeed` before the cycle");
         }
+        if self.inverse_time() {
+            let message = "a canned cycle in an operation whose feeds are inverse time";
+            return fault(Code::PR006, message, "give the holes an operation of their own with feeds per minute");
+        }
         check(spec)?;
         let spec = self.scaled(spec);
         let sequence = self.choose(&spec)?;

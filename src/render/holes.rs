@@ -5,12 +5,12 @@ use super::fault::{Done, fault};
 use super::move_words::as_number;
 use super::renderer::Renderer;
 use super::words::Mode;
-use crate::compile::{Block, CycleStyle};
+use crate::compile::{Block, CycleStyle, Op};
 use crate::cycle::{Plan, Step, plan};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
 use crate::sema;
-use crate::toolpath::{Axes, Hole};
+use crate::toolpath::{Axes, CycleKind, FeedMode, Hole};
 
 /// Heights that differ by less are one.
 const SAME: f64 = 1e-9;
@@ -61,7 +61,10 @@ impl Renderer<'_> {
         self.cycle = Some(cycle);
         let (planes, heights) = heights?;
         let target = self.target(&hole.at);
-        let mut target = self.in_travel(&target, hole.at.given)?;
+        if hole.at.given & 0b111_000 != 0 && self.turns(&self.unwound(&target, hole.at.given)) {
+            self.leave_cycle()?; // before an axis is unwound
+        }
+        let mut target = self.in_travel(&target, hole.at.given, true)?;
         target.set(self.depth_axis, heights.bottom);
         if !self.program.settings.limits.is_empty() {
             self.check_limits(&target)?;
@@ -76,14 +79,15 @@ impl Renderer<'_> {
                 );
             }
         }
-        if self.turns(&target) {
+        let lost = block.is_some_and(|block| self.sequence_loses(block, &target));
+        if self.turns(&target) || lost {
             // no cycle turns the part: the control leaves it, and begins it again there
             self.leave_cycle()?;
             self.set_targets(&target)?;
             if self.attention {
                 self.attend()?;
             }
-            match program.block(SequenceId::Index) {
+            match program.block(SequenceId::Index).filter(|_| self.turns(&target)) {
                 Some(_) => self.turn_to(&target)?,
                 None => self.split_rapid(&target)?,
             }
@@ -96,6 +100,14 @@ impl Renderer<'_> {
             cycle.holes += 1;
         }
         Ok(())
+    }
+
+    /// Does a hole lie at a place across the tool that its sequence does not print, as on a lathe?
+    fn sequence_loses(&self, block: &Block, target: &Axes) -> bool {
+        const WORDS: [[VarId; 2]; 2] = [[VarId::H, VarId::Hdist], [VarId::V, VarId::Vdist]];
+        (0..2).filter(|&axis| axis != self.depth_axis).any(|axis| {
+            target.get(axis) != self.position.get(axis) && !WORDS[axis].iter().any(|&var| block.vars.has(var))
+        })
     }
 
     /// Variables of a cycle at a hole.
@@ -114,14 +126,15 @@ impl Renderer<'_> {
         vars.set(VarId::Depth, heights.point - heights.bottom);
         vars.set(VarId::Frate, planes.feed);
         vars.set(VarId::Plunge, spec.plunge.unwrap_or(planes.feed));
-        let step = spec.step.or(self.defaults.step);
+        // without a step the cycle goes down in one
+        let step = spec.step.or(self.defaults.step).or(Some(heights.clear - heights.bottom));
         vars.put(VarId::Vbite, step);
         vars.put(VarId::Peck1, spec.first_step.or(step));
         vars.put(VarId::Inidep, spec.first_step.or(step));
         vars.set(VarId::Sbite, spec.min_step.unwrap_or(self.defaults.min_step));
         let back = spec.back.unwrap_or(match spec.kind {
-            crate::toolpath::CycleKind::Chipbreak => self.defaults.back_chipbreak,
-            crate::toolpath::CycleKind::Thru => self.defaults.back_thru,
+            CycleKind::Chipbreak => self.defaults.back_chipbreak,
+            CycleKind::Thru => self.defaults.back_thru,
             _ => self.defaults.back_deep,
         });
         vars.set(VarId::Sclear, back);
@@ -131,8 +144,10 @@ impl Renderer<'_> {
         vars.put(VarId::Dwell, planes.dwell.map(|seconds| seconds * unit));
         let rigid = spec.kind.is_tap() && spec.rigid.unwrap_or(settings.rigid_tap);
         vars.set(VarId::Rigid, f64::from(u8::from(rigid)));
+        let per_rev = self.feed_mode == FeedMode::PerRev;
         let rpm = vars.get(VarId::Speed).filter(|&rpm| rpm > 0.0);
-        vars.put(VarId::Pitch, rpm.map(|rpm| planes.feed / rpm).filter(|_| spec.kind.is_tap()));
+        let pitch = if per_rev { Some(planes.feed) } else { rpm.map(|rpm| planes.feed / rpm) };
+        vars.put(VarId::Pitch, pitch.filter(|_| spec.kind.is_tap()));
     }
 
     /// A hole by a sequence of the form.
@@ -141,16 +156,26 @@ impl Renderer<'_> {
         if self.attention {
             self.attend()?; // with [d] at the return plane: an Upon must not go down the hole
         }
+        self.hole_variables(planes, heights);
+        self.vars.set(VarId::D, heights.return_plane);
         self.upons(block.vars.without(crate::lang::VarSet::of(&[VarId::D])))?;
         self.plane_block(17.0, block)?; // else the control drills along another axis
-        self.hole_variables(planes, heights);
+        self.vars.set(VarId::D, heights.bottom);
         if matches!(block.style, CycleStyle::Emulated) {
             self.raise_to(target)?;
             self.vars.set(VarId::D, heights.bottom);
             self.registers.forget_letters();
             self.shifted = false;
             self.run(block.ops.clone(), Mode::Hole)?;
-            return self.left_hole(target, None);
+            // after a cycle of the control the last height printed is its bottom
+            let cycled = block.ops.clone().any(|i| match self.program.ops[i] {
+                Op::Literal { index, .. } => {
+                    let literal = &self.program.literals[index as usize];
+                    literal.letter == b'G' && (73.0..90.0).contains(&literal.value) && literal.value != 80.0
+                }
+                _ => false,
+            });
+            return self.left_hole(target, cycled.then_some((heights.return_plane, false)));
         }
         let starts = self.starts_cycle(block, heights);
         if starts {
@@ -294,6 +319,11 @@ impl Renderer<'_> {
         self.split_rapid(target)?;
         self.registers.forget(self.letters[self.program.settings.feed_code].printed);
         let direct = self.vars.get(VarId::Direct);
+        let is_left = self.cycle.as_ref().is_some_and(|cycle| cycle.spec.kind == CycleKind::LTap);
+        if is_left && direct == Some(self.program.settings.spindle[0]) {
+            let message = "a left-hand tap made of single moves goes in with the spindle turning clockwise";
+            return fault(Code::PR006, message, "give the operation a spindle with \"direction\": \"ccw\"");
+        }
         let mut sped_up = false;
         for step in steps {
             let mut to = *target;

@@ -1,6 +1,6 @@
 //! Rapids and feed moves: the form's sequence, or a generated block of what changed.
 
-use super::fault::{Done, fault};
+use super::fault::{Done, fault, fault_at};
 use super::move_words::AxisUnits;
 use super::renderer::{LastMove, Renderer};
 use super::words::{Mode, tenths};
@@ -33,14 +33,20 @@ const ROTARY: u8 = 0b111_000;
 impl Renderer<'_> {
     /// A rapid of the path.
     pub(super) fn rapid(&mut self, to: &Axes) -> Done {
-        let target = self.reach(to)?;
+        let target = self.reach(to, true)?;
         if self.tracks || self.attention || target.given & ROTARY != 0 {
             self.set_targets(&target)?;
         }
+        let turns = target.given & ROTARY != 0 && self.turns(&target);
         if self.attention {
+            self.upon_moved = None;
             self.attend()?;
+            if let Some(span) = self.upon_moved.take().filter(|_| turns) {
+                let message = "an Upon sequence moves the tool here before the part turns";
+                return fault_at(Code::PR017, message, "put a rapid that keeps the angle before it", Some(span));
+            }
         }
-        if target.given & ROTARY != 0 && self.turns(&target) {
+        if turns {
             return self.turn_to(&target);
         }
         if self.watches_moves && self.differs(&target, 0x3f) {
@@ -51,13 +57,13 @@ impl Renderer<'_> {
 
     /// A feed move of the path.
     pub(super) fn line(&mut self, to: &Axes, feed: Option<f64>) -> Done {
-        let target = self.reach(to)?;
+        let target = self.reach(to, false)?;
         self.take_feed(feed)?;
-        if self.tracks || self.attention {
-            self.set_targets(&target)?;
-        }
         if self.attention {
-            self.attend()?;
+            self.attend_here(true)?;
+        }
+        if self.tracks || target.given & ROTARY != 0 {
+            self.set_targets(&target)?;
         }
         if self.watches_moves && self.differs(&target, 0x3f) {
             self.upons(MOVE_VARS)?;
@@ -65,14 +71,14 @@ impl Renderer<'_> {
         self.line_to(&target)
     }
 
-    /// Where an item of the path goes, in the travel of the machine. An open cycle ends before it.
+    /// Where an item of the path goes, in the travel of the machine; `free`: out of the part. An open cycle ends before it.
     #[inline]
-    pub(super) fn reach(&mut self, to: &Axes) -> Done<Axes> {
+    pub(super) fn reach(&mut self, to: &Axes, free: bool) -> Done<Axes> {
         if self.cycle.is_some() {
             self.close_cycle()?;
         }
         let target = self.target(to);
-        if to.given & ROTARY != 0 { self.in_travel(&target, to.given) } else { Ok(target) }
+        if to.given & ROTARY != 0 { self.in_travel(&target, to.given, free) } else { Ok(target) }
     }
 
     /// A target in program units, with the axes that it keeps.
@@ -161,6 +167,26 @@ impl Renderer<'_> {
         self.feed_mode == FeedMode::InverseTime
     }
 
+    /// The same before something that is done where the tool is. `cuts`: an Upon that moves the tool would leave out
+    /// a part of the cut.
+    #[cold]
+    pub(super) fn attend_here(&mut self, cuts: bool) -> Done {
+        for var in [VarId::H, VarId::V, VarId::D] {
+            self.vars.put(var, None);
+        }
+        let here = self.position;
+        self.set_targets(&here)?;
+        self.upon_moved = None;
+        self.attend()?;
+        match self.upon_moved.take().filter(|_| cuts) {
+            Some(span) => {
+                let message = "an Upon sequence moves the tool here, and the path goes on with a cut";
+                fault_at(Code::PR012, message, "put a rapid to the beginning of the cut before it", Some(span))
+            }
+            None => Ok(()),
+        }
+    }
+
     /// What stands between events and the next move.
     #[cold]
     pub(super) fn attend(&mut self) -> Done {
@@ -206,10 +232,9 @@ impl Renderer<'_> {
         }
     }
 
-    /// Is the tool known to be below a target? From an unknown height it comes from above.
+    /// Is the tool below a target, by what the job said last? From an unknown height it comes from above.
     pub(super) fn is_below(&self, target: &Axes) -> bool {
-        let known = self.registers.get(self.letters[self.axes[self.depth_axis]].printed).is_some();
-        known && self.position.get(self.depth_axis).is_some_and(|from| target.values[self.depth_axis] > from)
+        self.position.get(self.depth_axis).is_some_and(|from| target.values[self.depth_axis] > from)
     }
 
     /// The depth axis in a set of axes.

@@ -78,6 +78,8 @@ pub struct Renderer<'p> {
     pub(super) placed: u8,
     /// The plane that the control is in: what was printed last, also before a tool change.
     pub(super) plane: f64,
+    /// The distance code that the control is in, in tenths: what was printed last, also before a tool change.
+    pub(super) distance: Option<i64>,
     /// Cutter compensation is on.
     pub(super) compensated: bool,
     pub(super) last_move: LastMove,
@@ -95,6 +97,8 @@ pub struct Renderer<'p> {
     pub(super) tool_changes: usize,
     pub(super) served: super::changes::Served,
     pub(super) upon_used: Vec<Option<f64>>,
+    /// The Upon sequence that printed axis words since this was last cleared.
+    pub(super) upon_moved: Option<crate::span::Span>,
     /// Something must be done before the next move: close a cycle, print a change, look at an Upon.
     pub(super) attention: bool,
     pub(super) watches_moves: bool,
@@ -141,6 +145,7 @@ impl<'p> Renderer<'p> {
             angles: Default::default(),
             placed: 0,
             plane: 17.0,
+            distance: None,
             compensated: false,
             last_move: LastMove::None,
             scale: 1.0,
@@ -154,6 +159,7 @@ impl<'p> Renderer<'p> {
             tool_changes: 0,
             served: super::changes::Served::default(),
             upon_used: vec![None; program.upons.len()],
+            upon_moved: None,
             attention: true,
             watches_moves: program.upon_vars.meets(super::motion::MOVE_VARS),
             measures: program.printed.with(program.upon_vars).meets(super::measure::MEASURES),

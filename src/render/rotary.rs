@@ -43,6 +43,11 @@ impl Angles {
         }
     }
 
+    /// Have turns been taken off?
+    pub(super) fn is_wound(&self) -> bool {
+        self.wound != [0.0; 3]
+    }
+
     /// Have the same turns been taken off?
     pub(super) fn wound_as(&self, other: &Angles) -> bool {
         self.wound == other.wound
@@ -51,8 +56,9 @@ impl Angles {
 
 impl Renderer<'_> {
     /// A target whose rotary angles are in the travel of their axes: when one would leave it, the tool is taken out,
-    /// the axis unwound, and angles count from there. `given`: the axes that the job's own item gives.
-    pub(super) fn in_travel(&mut self, target: &Axes, given: u8) -> Done<Axes> {
+    /// the axis unwound, and angles count from there. `given`: the axes that the job's own item gives. `free`: the tool is
+    /// out of the part, so whole turns more or less are the same view.
+    pub(super) fn in_travel(&mut self, target: &Axes, given: u8, free: bool) -> Done<Axes> {
         let mut inside = *target;
         for axis in self.rotary().filter(|axis| given & 1 << axis != 0) {
             let turn = axis - ROTARY.start;
@@ -64,6 +70,18 @@ impl Renderer<'_> {
             let within = |angle: f64| (limit.least..=limit.greatest).contains(&angle);
             if within(inside.values[axis]) {
                 continue;
+            }
+            if free {
+                // the nearest of the same views that the axis can reach
+                let turns = ((inside.values[axis] - limit.greatest) / 360.0).ceil().max(0.0);
+                let turns =
+                    if turns > 0.0 { turns } else { -((limit.least - inside.values[axis]) / 360.0).ceil().max(0.0) };
+                let angle = inside.values[axis] - turns * 360.0;
+                if within(angle) {
+                    self.angles.wound[turn] += turns * 360.0;
+                    inside.values[axis] = angle;
+                    continue;
+                }
             }
             // whole turns come off where the axis stands, so that the move itself turns as far as it should
             let here = self.angle(axis).unwrap_or(0.0);
@@ -86,6 +104,15 @@ impl Renderer<'_> {
         Ok(inside)
     }
 
+    /// A target less the whole turns that were taken off.
+    pub(super) fn unwound(&self, target: &Axes, given: u8) -> Axes {
+        let mut inside = *target;
+        for axis in self.rotary().filter(|axis| given & 1 << axis != 0) {
+            inside.values[axis] -= self.angles.wound[axis - ROTARY.start];
+        }
+        inside
+    }
+
     /// Prints Unwind; the tool is back where it was, its angle modulo 360.
     fn unwind(&mut self, axis: usize) -> Done {
         let program = self.program;
@@ -94,6 +121,10 @@ impl Renderer<'_> {
             let message = format!("{letter} reaches the end of its travel, and the form has no Unwind");
             return fault(Code::PR007, message, "add Unwind: it lifts the tool, turns the axis back and goes on");
         };
+        if self.compensated {
+            let help = "end the compensation with an `outfeed` before";
+            return fault(Code::PR006, "a rotary axis is unwound under cutter compensation", help);
+        }
         if !self.says_angle(block, axis) {
             let message = format!("{letter} is to be unwound, and Unwind does not print its angle");
             return fault_at(Code::PR017, message, format!("print `{letter}[lastrotangle]`"), Some(block.span));
@@ -132,7 +163,7 @@ impl Renderer<'_> {
     }
 
     /// Where a rotary axis stands.
-    fn angle(&self, axis: usize) -> Option<f64> {
+    pub(super) fn angle(&self, axis: usize) -> Option<f64> {
         self.position.get(axis).or(self.angles.stands[axis - ROTARY.start])
     }
 
@@ -214,7 +245,9 @@ impl Renderer<'_> {
     /// What a tool change prints of its first target: rotary axes only where it has a word for them. One that goes
     /// down must have it: else the part would turn against the tool.
     pub(super) fn change_turns(&mut self, block: &Block, target: &Axes, given: u8) -> Done<Axes> {
-        let says = |axis: &usize| self.says_angle(block, *axis);
+        let down = block.ops.clone().find(|&i| matches!(self.program.ops[i], Op::Var { var: VarId::D, .. }));
+        let before = Block { ops: block.ops.start..down.unwrap_or(block.ops.end), ..block.clone() };
+        let says = |axis: &usize| self.says_angle(&before, *axis);
         let lost = self.turned_axes(target).find(|axis| !says(axis));
         if let Some(axis) = lost.filter(|_| block.vars.has(VarId::D)) {
             let (letter, angle) = (char::from(self.axes[axis]), target.values[axis]);
@@ -226,6 +259,6 @@ impl Renderer<'_> {
         let unsaid = self.rotary().filter(|axis| !says(axis)).fold(0, |axes, axis| axes | 1 << axis);
         // only what the first move gives: another tool keeps no position
         let target = Axes { given: given & !unsaid, ..*target };
-        self.in_travel(&target, given & !unsaid)
+        self.in_travel(&target, given & !unsaid, true)
     }
 }

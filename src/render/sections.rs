@@ -128,7 +128,7 @@ impl Renderer<'_> {
 
     /// Changes of spindle and coolant come before a dwell or stop too.
     fn attend_changes(&mut self) -> Done {
-        if self.attention { self.attend() } else { Ok(()) }
+        if self.attention { self.attend_here(false) } else { Ok(()) }
     }
 
     /// A comment in the marks of the form.
@@ -166,11 +166,43 @@ impl Renderer<'_> {
         if text.trim().is_empty() {
             return Ok(()); // an empty block is not printed
         }
+        self.attend_changes()?;
         self.registers.forget_all();
         self.displaced(0x3f);
+        self.text_codes(text);
         self.out.word(&self.layout, false).extend_from_slice(text.as_bytes());
         self.end_block();
         Ok(())
+    }
+}
+
+impl Renderer<'_> {
+    /// The codes of a text outside comments: what they switch is known, and put back where the job says otherwise.
+    fn text_codes(&mut self, text: &str) {
+        let bytes = text.as_bytes();
+        let (mut at, mut depth) = (0, 0);
+        while at < bytes.len() {
+            let letter = bytes[at].to_ascii_uppercase();
+            at += 1;
+            match letter {
+                b';' if depth == 0 => return,
+                b'(' => depth += 1,
+                b')' => depth -= 1,
+                b'G' | b'M' | b'S' if depth == 0 => {
+                    let end = at + bytes[at..].iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count();
+                    if let Ok(value) = text[at..end].parse::<f64>() {
+                        if letter == b'S' {
+                            self.served.speed = Some(value);
+                        } else {
+                            self.printed_code(letter, value);
+                        }
+                    }
+                    at = end;
+                }
+                _ => {}
+            }
+        }
+        self.registers.forget_all();
     }
 }
 

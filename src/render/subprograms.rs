@@ -8,9 +8,9 @@ use super::rotary::Angles;
 use super::vars::Vars;
 use crate::compile::{Block, Op};
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{SequenceId, VarId, VarSet};
 use crate::sema;
-use crate::toolpath::{Axes, Call, Place};
+use crate::toolpath::{Axes, Call, FeedMode, Place};
 
 /// What is known of the job's subprograms.
 #[derive(Debug, Default)]
@@ -67,6 +67,8 @@ struct Called {
     from: Option<f64>,
     to: f64,
     place: Place,
+    /// What the caller does not know of spindle, coolant and work offset, so that it can't put it back.
+    unknown: VarSet,
 }
 
 impl Renderer<'_> {
@@ -97,7 +99,14 @@ impl Renderer<'_> {
         let Some(block) = self.program.block(SequenceId::SubStart) else {
             return fault(Code::PR008, "the form has no SubStart", "add SubStart, SubEnd and SubCall to the form");
         };
-        let printed = if settings.renumber_subs { self.subs.defined.len() as f64 + 1.0 } else { number };
+        let program = self.vars.get(VarId::Program);
+        if !settings.renumber_subs && program == Some(number) {
+            let message = format!("the subprogram {number} has the number of the program itself");
+            return fault(Code::PJ010, message, "give one of them another number");
+        }
+        let last = self.subs.defined.last().map_or(0.0, |sub| sub.printed);
+        let next = if program == Some(last + 1.0) { last + 2.0 } else { last + 1.0 };
+        let printed = if settings.renumber_subs { next } else { number };
         let first_block = settings.numbers.letter.map(|_| self.out.number() as f64);
         let left = Left::default();
         self.subs.defined.push(Defined { number, printed, first_block, left, calls_ahead: false });
@@ -148,6 +157,9 @@ impl Renderer<'_> {
     pub(super) fn sub_end(&mut self) -> Done {
         self.close_cycle()?;
         self.check_sections_closed()?;
+        if self.attention {
+            self.attend_here(false)?;
+        }
         self.plain_cutting()?;
         if self.subs.main.as_ref().is_some_and(|main| !main.angles.wound_as(&self.angles)) {
             let help = "unwind in the main program: a call would leave the axis turned otherwise than the next expects";
@@ -181,10 +193,18 @@ impl Renderer<'_> {
     pub(super) fn sub_call(&mut self, call: &Call) -> Done {
         self.close_cycle()?;
         let from = self.subs.open.map(|open| self.subs.defined[open].number);
-        self.subs.calls.push(Called { from, to: call.sub, place: self.place });
+        self.subs.calls.push(Called { from, to: call.sub, place: self.place, unknown: VarSet::default() });
         let Some(block) = self.program.block(SequenceId::SubCall) else {
             return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
         };
+        if self.feed_mode != FeedMode::PerMinute {
+            let help = "call it from an operation whose feeds are per minute";
+            return fault(Code::PR008, "a subprogram's feeds are per minute, and the caller's are not", help);
+        }
+        if self.angles.is_wound() {
+            let help = "make the call before an axis is unwound, or turn it back first";
+            return fault(Code::PR008, "a call after a rotary axis was unwound: its angles would mean others", help);
+        }
         let called = self.subs.defined.iter().position(|sub| sub.number == call.sub);
         let (printed, first_block) = match called.map(|i| &self.subs.defined[i]) {
             Some(sub) => (sub.printed, sub.first_block),
@@ -196,9 +216,18 @@ impl Renderer<'_> {
             }
             None => return undefined(call.sub),
         };
+        let unknown: Vec<VarId> = CONDITIONS.into_iter().filter(|&var| self.vars.get(var).is_none()).collect();
+        let unknown = VarSet::of(&unknown);
         let work = self.vars.get(VarId::Work);
+        if call.work.is_some() && work.is_none() {
+            let help = "give the subprogram its own `work` before the call";
+            return fault(Code::PR008, "a call in another work offset from one that is not known here", help);
+        }
         if let Some(work) = call.work {
-            self.set_work(work);
+            self.set_work(work)?;
+        }
+        if let Some(call) = self.subs.calls.last_mut() {
+            call.unknown = unknown;
         }
         self.go_to_call(call, block)?;
         self.vars.set(VarId::Sub, printed);
@@ -220,22 +249,20 @@ impl Renderer<'_> {
     /// What the call needs before it: changes that its sequence does not print, and the place it is called at.
     fn go_to_call(&mut self, call: &Call, block: &Block) -> Done {
         self.plain_cutting()?;
-        let target = self.reach(&call.at)?;
+        let target = self.reach(&call.at, true)?;
         self.set_targets(&target)?;
         if self.attention && !(block.vars.has(VarId::Work) && self.only_work_waits()) {
             self.attend()?;
         }
-        let says = |vars: [VarId; 2]| vars.iter().any(|&var| block.vars.has(var));
-        let unsaid = [[VarId::H, VarId::Hdist], [VarId::V, VarId::Vdist], [VarId::D, VarId::Ddist]]
-            .iter()
-            .enumerate()
-            .filter(|(_, vars)| !says(**vars))
-            .fold(0b111_000, |axes, (axis, _)| axes | 1 << axis);
-        let left = Axes { given: call.at.given & unsaid, ..target };
-        if self.turns(&left) {
-            self.turn_to(&left)?;
-        } else if left.given != 0 {
-            self.rapid_to(&left)?;
+        const WORDS: [[VarId; 2]; 3] = [[VarId::H, VarId::Hdist], [VarId::V, VarId::Vdist], [VarId::D, VarId::Ddist]];
+        let says = |axis: usize| WORDS.get(axis).is_some_and(|vars| vars.iter().any(|&var| block.vars.has(var)));
+        let at = Axes { given: call.at.given, ..target };
+        // all of it: a part alone would go down before it goes across
+        if (0..6).any(|axis| at.get(axis).is_some() && !says(axis)) {
+            if block.vars.has(VarId::Work) {
+                self.work_before()?;
+            }
+            if self.turns(&at) { self.turn_to(&at)? } else { self.rapid_to(&at)? }
         }
         self.set_targets(&target)
     }
@@ -286,6 +313,14 @@ impl Renderer<'_> {
         for call in &self.subs.calls {
             if !self.subs.defined.iter().any(|sub| sub.number == call.to) {
                 return at(call.place, undefined(call.to));
+            }
+            let changes =
+                self.subs.defined.iter().filter(|sub| sub.number == call.to).map(|sub| sub.left.served.known());
+            if call.from.is_some() && changes.into_iter().any(|changes| changes.meets(call.unknown)) {
+                let message =
+                    format!("subprogram {} changes what its caller does not know and can't put back", call.to);
+                let help = "say spindle, coolant and work offset in the calling subprogram before the call";
+                return at(call.place, fault(Code::PR008, message, help));
             }
             // depth first from each call: a chain longer than there are subprograms is a circle
             let mut open: Vec<f64> = call.from.into_iter().collect();
@@ -356,6 +391,9 @@ impl Renderer<'_> {
     fn forget_where(&mut self) {
         self.registers.forget_all();
         self.angles.forget();
+        for var in [VarId::Rotangle, VarId::Lastrotangle, VarId::Rotaxdir] {
+            self.vars.put(var, None);
+        }
         self.forget_position();
     }
 

@@ -42,7 +42,15 @@ impl Renderer<'_> {
         if !self.vars.get(VarId::Direct).is_some_and(|code| code != program.settings.spindle[2]) {
             return fault(Code::PR006, "the spindle does not turn", "give the operation a spindle with a direction");
         }
+        if program.settings.incremental {
+            let help = "thread with a form of positions";
+            return fault(Code::PR008, "a thread's words are positions, and the form prints increments", help);
+        }
         let cut = self.cut(thread)?;
+        if self.position.get(1).is_none() {
+            let help = "begin with a rapid to beside the thread, which says how far it is from the axis";
+            return fault(Code::PR001, "the radius at which the passes of the thread begin is unknown", help);
+        }
         let starts = thread.starts.unwrap_or(1.0);
         let begin = self.target(&thread.from).values[0];
         self.thread_variables(thread, &cut);
@@ -112,7 +120,7 @@ impl Renderer<'_> {
             inward: if thread.depth < 0.0 { 1.0 } else { -1.0 },
             passes,
             lead: thread.pitch * thread.starts.unwrap_or(1.0) * self.scale,
-            slope: falls / (begin - end).abs(),
+            slope: falls / (begin - end).abs() * self.axis_scale[1].signum(),
         })
     }
 
@@ -140,10 +148,16 @@ impl Renderer<'_> {
         };
         let prints = |vars: &[VarId]| vars.iter().any(|&var| block.vars.has(var));
         let starts = thread.starts.unwrap_or(1.0);
+        let auto = self.program.block(SequenceId::AutoThread).is_some();
         let missing = [
             (cut.slope != 0.0 && !prints(&[VarId::Taper]), "the taper: [taper]"),
             (starts > 1.0 && !prints(&[VarId::Frate]), "the lead of several starts: [frate]"),
             (!prints(&[VarId::Frate, VarId::Pitch]), "the lead: [frate]"),
+            (auto && thread.min_depth.is_some() && !prints(&[VarId::Vbite]), "the least cut: [vbite]"),
+            (
+                auto && thread.first_depth.is_some() && !prints(&[VarId::Peck1, VarId::Inidep, VarId::Passes]),
+                "the first cut: [peck1]",
+            ),
             (
                 thread.angle.is_some_and(|angle| !in_packed(4..6, angle)) && !prints(&[VarId::Tipang, VarId::Startang]),
                 "the angle of the tip: [tipang]",
@@ -210,7 +224,7 @@ impl Renderer<'_> {
             let end = self.pass_variables(cut, depth)?;
             if program.settings.thread_full {
                 let mut start = *here;
-                start.set(1, end.values[1] + cut.taper(here.values[0]));
+                start.set(1, end.values[1] + cut.taper(here.values[0]) * self.axis_scale[1].signum());
                 self.rapid_to(&start)?;
             }
             if i == 0 || program.settings.thread_full {

@@ -37,6 +37,7 @@ impl Renderer<'_> {
             for var in [VarId::Speed, VarId::Direct, VarId::Maxrpm] {
                 self.vars.put(var, None);
             }
+            self.vars.set(VarId::Speedtype, self.program.settings.speed_type[1]);
         }
         if let Some(spindle) = &change.spindle {
             self.set_spindle(spindle)?;
@@ -47,7 +48,7 @@ impl Renderer<'_> {
             None => {}
         }
         if let Some(work) = change.work {
-            self.set_work(work);
+            self.set_work(work)?;
         }
         self.set_feed_mode(change.feed_mode.unwrap_or(FeedMode::PerMinute));
         self.keep_feed(None);
@@ -102,6 +103,9 @@ impl Renderer<'_> {
                 };
             }
             None => {}
+        }
+        if block.vars.meets(POSITION) && !block.vars.has(VarId::Work) {
+            self.work_before()?; // the position counts from it
         }
         self.placed = 0;
         self.run_with_upons(block)?;

@@ -41,6 +41,9 @@ const ARC_WORDS: VarSet = VarSet::of(&[
     VarId::Sweep,
 ]);
 
+/// Variables whose value is how far an axis moves.
+const INCREMENTS: VarSet = VarSet::of(&[VarId::Hdist, VarId::Vdist, VarId::Ddist]);
+
 /// Variables whose value is a position of the axis that prints them; a dwell or a distance is none.
 const POSITIONS: VarSet = VarSet::of(&[
     VarId::H,
@@ -90,9 +93,10 @@ impl Renderer<'_> {
                     (line, drops) = (i, droppable);
                 }
                 Op::Var { letter, var, glued } => self.var_word(letter, var, glued, mode, drops)?,
-                Op::Value { var, glued } => {
+                Op::Value { var, glued } | Op::Remark { var, glued } => {
                     if !matches!(mode, Mode::NextHole { .. }) {
-                        self.bare_word(var, glued)?;
+                        let said = matches!(program.ops[i], Op::Value { .. });
+                        self.bare_word(var, glued, said)?;
                     }
                 }
                 Op::Literal { index, glued } => self.literal_word(index as usize, glued, mode),
@@ -107,7 +111,7 @@ impl Renderer<'_> {
         self.end_line(line);
         self.form = None;
         // looked at before the next move: until then another sequence may put it right
-        self.attention |= self.distance_is_wrong();
+        self.attention |= self.distance_is_wrong() || self.has_changes();
         Ok(())
     }
 
@@ -115,14 +119,14 @@ impl Renderer<'_> {
     pub(super) fn distance_is_wrong(&self) -> bool {
         let settings = &self.program.settings;
         let wrong = tenths(settings.inc_abs[usize::from(settings.incremental)]);
-        self.registers.group(Group::Distance) == Some(wrong) && settings.machine != Machine::Lathe
+        self.distance == Some(wrong) && settings.machine != Machine::Lathe
     }
 
     /// Ends a line of a sequence, whose operations begin at `line`.
     fn end_line(&mut self, line: usize) {
         if self.depth_moved {
             self.depth_moved = false;
-            self.registers.forget(self.axes[self.depth_axis]);
+            self.registers.forget(self.letters[self.axes[self.depth_axis]].printed);
         }
         if self.out.has_words() {
             let form = self.out.trace.is_some().then(|| self.program.spans[line]);
@@ -138,7 +142,13 @@ impl Renderer<'_> {
         {
             return self.packed_word(info, digits, glued);
         }
+        if mode == Mode::ArcMotion && ARC_WORDS.has(var) && self.vars.get(var).is_none() {
+            return Ok(()); // the centre along the axis across the plane
+        }
         let Some(value) = self.value_of(var, letter)? else { return Ok(()) };
+        if info.kind == LetterKind::Axis && self.program.settings.incremental && POSITIONS.has(var) {
+            self.check_position_word(letter, var)?;
+        }
         let units = self.quantised(info, value)?;
         let decimals = info.format.dec.count;
         let drop = match mode {
@@ -148,6 +158,8 @@ impl Renderer<'_> {
                 !arc_word
                     && match info.kind {
                         LetterKind::GCode | LetterKind::MCode => self.code_drops(info.printed, value),
+                        // an increment is no position: it may go when it is none
+                        _ if INCREMENTS.has(var) => units == 0,
                         _ => info.modal && self.registers.holds(info.printed, units, decimals),
                     }
                     && !(self.inverse_time() && letter == self.program.settings.feed_code)
@@ -185,6 +197,18 @@ impl Renderer<'_> {
             self.out.prints_number();
         }
         Ok(())
+    }
+
+    /// In a form of increments a position is read as one, unless the control was told otherwise.
+    #[cold]
+    fn check_position_word(&self, letter: u8, var: VarId) -> Done {
+        let [increments, _] = self.program.settings.inc_abs;
+        if self.distance != Some(tenths(increments)) {
+            return Ok(());
+        }
+        let message =
+            format!("{}[{}] is a position, and the control is in G{increments}", char::from(letter), var.name());
+        fault_at(Code::PR017, message, "print G90 before it, or the increment, as [hdist]", self.form_span())
     }
 
     /// A word of packed parameters: as the form has them, or as the job sets them, in as many digits.
@@ -250,8 +274,8 @@ impl Renderer<'_> {
         fault_at(Code::PR001, message, help, self.form_span())
     }
 
-    /// A value without a letter.
-    fn bare_word(&mut self, var: VarId, glued: bool) -> Done {
+    /// A value without a letter; `said`: outside a comment, so that the control reads it.
+    fn bare_word(&mut self, var: VarId, glued: bool, said: bool) -> Done {
         let Some(value) = self.value_of(var, b' ')? else { return Ok(()) };
         let format = *self.bare_format();
         let units = self.units_of(value, &format, "the value")?;
@@ -260,10 +284,12 @@ impl Renderer<'_> {
         if let Err(why) = write_number(out, units, &format, leading) {
             return self.unprintable(why, "the value", value, &format);
         }
-        if var == VarId::Block {
-            self.out.prints_number();
+        if said {
+            if var == VarId::Block {
+                self.out.prints_number();
+            }
+            self.served_by(b' ', var, value);
         }
-        self.served_by(b' ', var, value);
         Ok(())
     }
 
@@ -332,8 +358,10 @@ impl Renderer<'_> {
         }
         match group_of(letter, tenths) {
             Some(group) => {
-                if group == Group::Plane {
-                    self.plane = value;
+                match group {
+                    Group::Plane => self.plane = value,
+                    Group::Distance => self.distance = Some(tenths),
+                    _ => {}
                 }
                 if matches!(group, Group::FeedMode | Group::Units) || is_feed_mode {
                     self.registers.forget(self.letters[settings.feed_code].printed);

@@ -81,6 +81,8 @@ pub enum WordKind {
     Var(u8, VarId),
     /// A variable's value alone.
     Value(VarId),
+    /// A variable inside a comment of the program: its value is for people.
+    Remark(VarId),
     /// A letter with a number, printed as typed.
     Literal(u8, String, f64),
     /// Text as typed.
@@ -99,7 +101,7 @@ impl Word {
     /// Its variable, if it has one.
     pub fn var(&self) -> Option<VarId> {
         match self.kind {
-            WordKind::Var(_, var) | WordKind::Value(var) => Some(var),
+            WordKind::Var(_, var) | WordKind::Value(var) | WordKind::Remark(var) => Some(var),
             _ => None,
         }
     }

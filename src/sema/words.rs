@@ -103,7 +103,7 @@ fn push_note(
                     glued = true;
                 }
                 if let Some(var) = variable(name, context.machine, diags) {
-                    words.push(Word { span: part.span, glued: true, kind: WordKind::Value(var) });
+                    words.push(Word { span: part.span, glued: true, kind: WordKind::Remark(var) });
                 }
             }
             PieceKind::Stray(part) => {

@@ -1,6 +1,6 @@
 //! Holds a tool change until the path's first move is known, because the tool change may print its position.
 
-use super::event::{CycleSpec, Event, First, ToolChange};
+use super::event::{CycleSpec, Event, First, Spindle, ToolChange};
 use super::{Place, Sink};
 use crate::diag::{Code, Diag};
 
@@ -67,6 +67,19 @@ impl<'s> Hold<'s> {
                 }
                 return Ok(());
             }
+            // so does what switches the spindle and the coolant before anything else is done
+            Event::Spindle(spindle) if self.waiting.iter().all(|(w, _)| matches!(w, Waiting::Comment(_))) => {
+                if let Some((change, _)) = &mut self.change {
+                    let before = change.spindle.unwrap_or_default();
+                    change.spindle = Some(Spindle {
+                        speed: spindle.speed.or(before.speed),
+                        turn: spindle.turn.or(before.turn),
+                        css: spindle.css.or(before.css),
+                        max: spindle.max.or(before.max),
+                    });
+                }
+                return Ok(());
+            }
             Event::Rapid(to) => {
                 self.release(First::Rapid(to))?;
                 return self.sink.event(event, place);
@@ -88,8 +101,19 @@ impl<'s> Hold<'s> {
                 return self.sink.event(event, place);
             }
             Event::SubCall(call) => {
-                self.release(if call.at.given == 0 { First::Nothing } else { First::Rapid(call.at) })?;
-                return self.sink.event(event, place);
+                // the tool change goes to the call's place, so in the call's work offset; the operation's comes after
+                let own = self
+                    .change
+                    .as_mut()
+                    .filter(|_| call.work.is_some())
+                    .map(|(change, _)| std::mem::replace(&mut change.work, call.work));
+                let lost = own == Some(None); // the offset that is in force is the renderer's to know
+                self.release(if call.at.given == 0 || lost { First::Nothing } else { First::Rapid(call.at) })?;
+                self.sink.event(event, place)?;
+                return match own.flatten() {
+                    Some(work) => self.sink.event(Event::Work(work), place),
+                    None => Ok(()),
+                };
             }
             Event::Start(_) | Event::ToolChange(_) | Event::SubStart(_) | Event::SubEnd | Event::Finish => {
                 self.release(First::Nothing)?;

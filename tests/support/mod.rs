@@ -78,7 +78,7 @@ pub fn mill(head: &str, sequences: &str) -> String {
 /// A job with one tool, a first rapid to 0 0 1, and these path items.
 pub fn job(path: &str) -> String {
     format!(
-        "{{\"postform\":1,\"program\":1,\"units\":\"inch\",\"tools\":[{{\"number\":1,\"diameter_offset\":21}},{{\"number\":2}}],\
+        "{{\"postform\":1,\"program\":100,\"units\":\"inch\",\"tools\":[{{\"number\":1,\"diameter_offset\":21}},{{\"number\":2}}],\
          \"operations\":[{{\"tool\":1,\"work\":54,\"spindle\":{{\"speed\":1000,\"direction\":\"cw\"}},\"feed\":10,\
          \"path\":[{{\"rapid\":[0,0,1]}},{path}]}}]}}"
     )

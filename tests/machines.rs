@@ -40,10 +40,16 @@ fn a_subprogram_changes_nothing_but_where_it_is_called() {
     let lines = program(&mill("", SUBS), &with_subs(&sub(7, inside), &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
     assert_eq!(lines[2..8], ["S1000 M3", "G0 G54 X0 Y0 Z1.", "M98 P1 L3", "G54", "S1000 M3", "G0 X1. Y1. Z1."]);
     assert_eq!(lines[9..], ["O1", "G55", "S500", "M9", "G0 X0 Y0 Z1.", "M99"]);
-    // also through another subprogram, and where the called one is not known yet
+    // a subprogram in between must know what to put back
     let nested = format!("{},{}", sub(7, "{\"call\":{\"sub\":8}}"), sub(8, inside));
-    let lines = program(&mill("RenumSubs? N", SUBS), &with_subs(&nested, &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
+    let form = mill("RenumSubs? N", SUBS);
+    assert!(program(&form, &with_subs(&nested, CALL))[0].starts_with("PR008 subprogram 8 changes"));
+    let own =
+        "{\"work\":56},{\"coolant\":\"on\"},{\"spindle\":{\"speed\":700}},{\"call\":{\"sub\":8}},{\"rapid\":[0,0,2]}";
+    let nested = format!("{},{}", sub(7, own), sub(8, inside));
+    let lines = program(&form, &with_subs(&nested, &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
     assert_eq!(lines[4..8], ["M98 P7 L3", "G54", "G97 S1000 M3", "M9"]);
+    assert_eq!(lines[12..20], ["G56", "S700", "M8", "M98 P8 L1", "G56", "S700", "M8", "G0 X0 Y0 Z2."]);
     // what it does not change is not said again
     let plain = program(&mill("", SUBS), &with_subs(&sub(7, MOVE), &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
     assert_eq!(plain[4..6], ["M98 P1 L3", "G0 X1. Y1. Z1."]);

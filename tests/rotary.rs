@@ -36,7 +36,7 @@ fn a_rapid_beyond_the_travel_goes_to_the_same_view_within_it() {
     // and counts from there: 760 is 400 of the axis, which is 40 again
     let on = format!("{path},{{\"rapid\":[1,1,1,760]}},{{\"line\":[1,1,1,770]}}");
     let lines = path_lines("Limits A -360 360", DRILL, &on);
-    assert_eq!(lines[5..], ["G0 Z1.", "G1 A50. F10."]);
+    assert_eq!(lines[5..], ["G0 Z1. A40.", "G1 A50. F10."]);
 }
 
 /// A form that goes down in its tool change must turn the part before.

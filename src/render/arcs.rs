@@ -389,7 +389,11 @@ impl Renderer<'_> {
             match self.angle(axis) {
                 Some(angle) => from.set(axis, angle),
                 None => {
-                    return fault(Code::PR005, "the arc turns from an unknown angle", "begin with a rapid that says it");
+                    return fault(
+                        Code::PR005,
+                        "the arc turns from an unknown angle",
+                        "begin with a rapid that says it",
+                    );
                 }
             }
         }

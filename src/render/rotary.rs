@@ -73,12 +73,10 @@ impl Renderer<'_> {
             }
             if free {
                 // the nearest of the same views that the axis can reach
-                let turns = ((inside.values[axis] - limit.greatest) / 360.0).ceil().max(0.0);
-                let turns =
-                    if turns > 0.0 { turns } else { -((limit.least - inside.values[axis]) / 360.0).ceil().max(0.0) };
-                let angle = inside.values[axis] - turns * 360.0;
-                if within(angle) {
-                    self.angles.wound[turn] += turns * 360.0;
+                let (raw, here) = (inside.values[axis], self.angle(axis).unwrap_or(0.0));
+                let nearest = here + (raw - here + 180.0).rem_euclid(360.0) - 180.0;
+                if let Some(angle) = [nearest, nearest - 360.0, nearest + 360.0].into_iter().find(|&a| within(a)) {
+                    self.angles.wound[turn] += raw - angle;
                     inside.values[axis] = angle;
                     continue;
                 }

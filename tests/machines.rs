@@ -239,3 +239,45 @@ fn rotary_travel_needs_an_unwind() {
     let lines = path_lines("Limits A -360 360", unwind, far);
     assert_eq!(lines[1..], ["G0 Z5", "A0", "G1 X0 Y0 Z1. A40. F10.", "A90."]);
 }
+
+#[test]
+fn a_lathe_drills_beside_its_axis_only_where_the_tool_goes() {
+    let cycle = "{\"rapid\":[0.2,0]},{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[0,0],[0,0.5]]}}";
+    let lines = turned("", "Drill\nG81 Z[d] R[vclear] F[frate]\nEnd Cancel\nCancel\nG80\nEnd", cycle);
+    assert_eq!(lines[2..], ["Z.1", "G81 Z-1. R.1 F5.", "G80", "G0 X1.", "G81 Z-1. R.1 F5.", "G80"]);
+}
+
+/// A turret on the other side sees arcs and compensation in a mirror.
+#[test]
+fn a_mirrored_turret_turns_arcs_round() {
+    let arc = "{\"arc\":{\"to\":[0.1,0.6],\"center\":[0.1,0.5],\"direction\":\"cw\"}}";
+    let text = job(arc)
+        .replace("[0,0,1]", "[0.2,0.5]")
+        .replace("\"units\"", "\"machine\":\"lathe\",\"units\"")
+        .replace("\"work\":54,", "")
+        .replace("\"diameter_offset\":21", "\"turret\":2");
+    assert_eq!(program(&lathe("RevTurret2? Y", ""), &text)[4], "G3 Z.1 X-1.2 K-.1 I0 F10.");
+}
+
+/// The tool's surface speed is not the next tool's.
+#[test]
+fn constant_surface_speed_ends_with_its_tool() {
+    let says = "ToolChange\nT[tool]\nG[speedtype] S[speed] M[direct]\nEnd\nEndCode";
+    let form = lathe("", "").replace("ToolChange\nT[tool]\nEnd\nEndCode", says);
+    let second = "{\"tool\":2,\"spindle\":{\"speed\":900,\"direction\":\"cw\"},\"path\":[{\"rapid\":[1,1]}]}";
+    let text = job("{\"line\":[-1,0.5]}")
+        .replace("[0,0,1]", "[0.2,0.5]")
+        .replace("\"units\"", "\"machine\":\"lathe\",\"units\"")
+        .replace("\"work\":54,", "")
+        .replace("\"speed\":1000", "\"speed\":100,\"mode\":\"css\"")
+        .replace("0.5]}]}]}", &format!("0.5]}}]}},{second}]}}"));
+    assert!(program(&form, &text).contains(&"G97 S900 M3".to_owned()), "{:?}", program(&form, &text));
+}
+
+#[test]
+fn numbers_of_subprograms_are_not_the_programs_own() {
+    let text = with_subs(&sub(100, MOVE), "{\"call\":{\"sub\":100}}");
+    assert!(program(&mill("RenumSubs? N", SUBS), &text)[0].starts_with("PJ010 the subprogram 100"));
+    let first = text.replace("\"program\":100", "\"program\":1");
+    assert!(program(&mill("", SUBS), &first).contains(&"M98 P2 L1".to_owned()));
+}

@@ -74,3 +74,25 @@ fn a_motion_sequence_prints_the_angle_or_refuses() {
     let says = "LineCode\nG1 X[h] Y[v] Z[d] A[rotangle] F[frate]\nEnd";
     assert_eq!(path_lines("", says, path), ["G1 X2. Y1. A90. F10."]);
 }
+
+/// The angle stands before the height, and an arc turns the part along its whole way.
+#[test]
+fn the_angle_comes_before_the_height_and_arcs_turn_evenly() {
+    let turned = job("{\"line\":[1,0,1]}").replace("[0,0,1]", "[0,0,1,90]");
+    let late = mill("", "").replace("Z[d]\nEnd", "Z[d]\nA[rotangle]\nEnd");
+    assert!(program(&late, &turned)[0].starts_with("PR017 the tool begins at A90"));
+    let arc = "{\"arc\":{\"to\":[2,0,1,180],\"center\":[1,0,1],\"direction\":\"cw\"}}";
+    let lines = path_lines("Tolerance 0.1", "", arc);
+    let angles: Vec<_> =
+        lines.iter().filter_map(|l| l.split('A').nth(1)?.split('.').next()?.parse::<f64>().ok()).collect();
+    assert!(angles.len() > 2 && angles.windows(2).all(|w| w[0] < w[1]) && angles[0] < 90.0, "{lines:?}");
+}
+
+/// A tool change keeps the angle that a cut left.
+#[test]
+fn the_part_stays_turned_at_a_tool_change() {
+    let second = "{\"tool\":2,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3,1]}]}";
+    let text = job("{\"line\":[1,0,1,20]}").replace("20]}]}]}", &format!("20]}}]}},{second}]}}"));
+    let form = mill("", "").replace("X[h] Y[v] Z[d]\nEnd", "X[h] Y[v] A[rotangle]\nZ[d]\nEnd");
+    assert!(program(&form, &text).contains(&"G0 G54 X3. Y3. A20.".to_owned()), "{:?}", program(&form, &text));
+}

@@ -394,3 +394,124 @@ fn a_surface_speed_follows_the_units() {
     let rendered = support::render_checked(&support::check(&form), text.as_bytes(), false, options).unwrap();
     assert!(rendered.text.contains("\nG96 S30.5 M3\n"), "{}", rendered.text);
 }
+
+/// A tool change that prints no work offset gets it before: its position counts from there.
+#[test]
+fn a_tool_change_goes_to_its_own_work_offset() {
+    let form = mill("", "").replace("G0 G[work] X[h]", "G0 X[h]");
+    let second =
+        "{\"tool\":2,\"work\":55,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3,1]}]}";
+    let text = job("{\"rapid\":[1,0,1]}").replace("1]}]}]}", &format!("1]}}]}},{second}]}}"));
+    assert_eq!(program(&form, &text)[5..9], ["G55", "T2 M6", "S1 M3", "G0 X3. Y3. Z1."]);
+}
+
+/// A variable inside a comment is for people: what it stands for is printed all the same.
+#[test]
+fn a_comment_prints_no_word() {
+    let lines = path_lines("", "LineCode\nG1 X[h] Y[v] Z[d] (FEED [frate])\nEnd", "{\"line\":[1,0,1]}");
+    assert_eq!(lines, ["F10.", "G1 X1. (FEED 10)"]);
+    let begin = "BeginRow\n(AT [work])\nEnd";
+    let path = "{\"work\":55},{\"begin\":\"row\"},{\"end\":\"row\"},{\"rapid\":[1,0,1]}";
+    assert_eq!(path_lines("", begin, path)[..2], ["(AT 55)", "G55"]);
+}
+
+/// Work offset, spindle and coolant stand before text, and codes in text count as printed.
+#[test]
+fn text_comes_after_what_goes_before_it() {
+    let path = "{\"spindle\":{\"direction\":\"off\"}},{\"coolant\":\"on\"},{\"text\":\"M0 (M9)\"},{\"line\":[1,0,1]}";
+    assert_eq!(path_lines("", "", path)[..3], ["M5", "M8", "M0 (M9)"]);
+    let stopped = "{\"text\":\"M5\"},{\"spindle\":{\"direction\":\"cw\"}},{\"line\":[1,0,1]}";
+    assert_eq!(path_lines("", "", stopped)[..2], ["M5", "S1000 M3"]);
+}
+
+/// An Upon body that does not print its change does not hide it.
+#[test]
+fn an_upon_that_says_nothing_serves_nothing() {
+    let lines = path_lines("", "Upon [work]\nG0 G53 Z0\nEnd", "{\"work\":55},{\"rapid\":[1,0,1]}");
+    assert_eq!(lines, ["G0 G53 Z0", "G55", "X1. Y0 Z1."]);
+}
+
+/// An Upon that moves the tool would leave out a part of the cut that follows.
+#[test]
+fn a_cut_does_not_begin_with_an_upon_that_moves() {
+    let upon = "Upon [work]\nG0 G53 Z0\nG[work] X[h] Y[v]\nEnd";
+    for cut in ["{\"line\":[1,1]}", "{\"infeed\":[1,1],\"side\":\"left\"}"] {
+        assert!(path_lines("", upon, &format!("{{\"work\":55}},{cut}"))[0].starts_with("PR012 an Upon"), "{cut}");
+    }
+    // at a stop it goes nowhere
+    let lines = path_lines("", upon, "{\"line\":[4,4]},{\"work\":55},{\"stop\":\"program\"}");
+    assert_eq!(lines[1..], ["G0 G53 Z0", "G55 X4. Y4.", "M0"]);
+}
+
+/// An increment is dropped when it is zero, not when the position was printed before.
+#[test]
+fn increments_of_a_sequence_are_no_positions() {
+    let sequence = "LineCode\nG91 G1 X[hdist] Y[vdist] F[frate]\nG90\nEnd";
+    let lines = path_lines("", sequence, "{\"rapid\":[1,2,1]},{\"line\":[2,4,1]},{\"line\":[3,4,1]}");
+    assert_eq!(lines[1..], ["G91 G1 X1. Y2. F10.", "G90", "G91 X1.", "G90"]);
+}
+
+/// InFeed and OutFeed print every axis that moves, and the feed.
+#[test]
+fn compensation_sequences_lose_nothing() {
+    let infeed = "InFeed\nG1 G[side] D[dcomp] X[h] Y[v]\nEnd";
+    let error = &path_lines("", infeed, "{\"infeed\":[1,0,0.5],\"side\":\"left\"}")[0];
+    assert!(error.starts_with("PR017 this move changes [d]"), "{error}");
+    let lines = path_lines("", infeed, "{\"infeed\":[1,0],\"side\":\"left\",\"feed\":3}");
+    assert_eq!(lines, ["F3.", "G1 G41 D21 X1. Y0"]);
+}
+
+/// An arc sequence that has no word for the centre in this plane is not used for it.
+#[test]
+fn an_arc_sequence_without_its_centre_word_gives_lines() {
+    let sequence = "CwCode\nG2 X[h] Y[v] Z[d] I[ival] J[jval] F[frate]\nEnd";
+    let arc = |plane: &str| {
+        format!("{{\"arc\":{{\"to\":[2,0,1],\"center\":[1,0,1],\"direction\":\"cw\",\"plane\":\"{plane}\"}}}}")
+    };
+    assert!(path_lines("", sequence, &arc("xz"))[0].starts_with("G1 X"));
+    assert_eq!(path_lines("", sequence, &arc("xy")), ["G2 X2. I1. J0 F10."]);
+}
+
+/// A fixture number whose code is no work offset is refused.
+#[test]
+fn fixture_numbers_end_where_work_offsets_do() {
+    assert!(
+        path_lines("", "", "{\"work\":7},{\"rapid\":[1,0,1]}")[0].starts_with("PR017 the work offset 7 would be G60")
+    );
+    assert_eq!(path_lines("", "", "{\"work\":59.1},{\"rapid\":[1,0,1]}")[0], "G59.1");
+}
+
+/// A left-hand tap goes in turning counter-clockwise.
+#[test]
+fn a_left_tap_of_moves_needs_its_direction() {
+    let tap = "{\"cycle\":{\"kind\":\"ltap\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0]]}}";
+    assert!(path_lines("", "", tap)[0].starts_with("PR006 a left-hand tap"));
+    let turned = format!("{{\"spindle\":{{\"direction\":\"ccw\"}}}},{tap}");
+    assert_eq!(path_lines("", "", &turned)[3..], ["G1 Z-1. F5.", "M3", "Z.1", "M4"]);
+}
+
+/// What a sequence switches off is on again before the next move.
+#[test]
+fn what_a_sequence_switches_is_put_back() {
+    let lines = path_lines("", "EndRow\nM5 M9\nM0\nEnd", "{\"begin\":\"row\"},{\"end\":\"row\"},{\"line\":[1,0,1]}");
+    assert_eq!(lines, ["M5 M9", "M0", "S1000 M3", "G1 X1. F10."]);
+}
+
+/// Parts of an arc share its time; a cycle has no inverse time.
+#[test]
+fn inverse_time_is_that_of_the_whole_arc() {
+    let inverse = |path: &str| job(path).replace("\"feed\":10", "\"feed\":10,\"feed_mode\":\"inverse_time\"");
+    let arc = "{\"arc\":{\"to\":[2,0],\"center\":[1,0],\"direction\":\"cw\"},\"feed\":4}";
+    let lines = program(&mill("ByQuadrants? Y", ""), &inverse(arc));
+    assert_eq!(lines[5..7], ["G17 G2 X1. Y1. I1. J0 F8.", "X2. Y0 I0 J-1. F8."]);
+    let hole = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0]]}}";
+    assert!(program(&mill("", ""), &inverse(hole))[0].starts_with("PR006 a canned cycle"));
+}
+
+/// After text nobody knows the height: the tool goes up before it goes across.
+#[test]
+fn the_tool_goes_up_first_also_after_text() {
+    let path = "{\"line\":[0,0,-1]},{\"text\":\"M1\"},\
+                {\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[5,5,0]]}}";
+    assert_eq!(path_lines("", DRILL, path)[1..4], ["M1", "G0 Z.1", "G81 X5. Y5. Z-1. R.1 F5."]);
+}

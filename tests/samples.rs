@@ -7,11 +7,15 @@ mod support;
 use std::fs;
 use std::path::Path;
 
-use support::{assert_same, render_sample, root, sample_form, samples};
+use postform::render::{Cycles, Options};
+use support::{assert_same, render_sample, render_sample_with, root, sample_form, samples};
 
-fn compare(folder: &Path, form: &Path, expected: &Path) {
-    let name = format!("{} by {}", folder.display(), form.display());
-    let rendered = render_sample(folder, form).unwrap_or_else(|diag| panic!("{name}: {diag:?}"));
+fn compare(folder: &Path, form: &Path, expected: &Path, cycles: Cycles) {
+    let name = format!("{} by {}, cycles {cycles:?}", folder.display(), form.display());
+    // a CL file has no program number
+    let program = folder.join("job.cl").exists().then_some(1);
+    let options = Options { cycles, program, ..Options::default() };
+    let rendered = render_sample_with(folder, form, options).unwrap_or_else(|diag| panic!("{name}: {diag:?}"));
     if std::env::var("SAMPLES").is_ok_and(|v| v == "overwrite") {
         fs::write(expected, &rendered.text).unwrap();
     }
@@ -24,14 +28,19 @@ fn samples_print_what_they_say() {
     for folder in samples() {
         assert!(folder.join("README.md").exists(), "{} has no README.md", folder.display());
         if let Some(form) = sample_form(&folder) {
-            compare(&folder, &form, &folder.join("expected.nc"));
+            compare(&folder, &form, &folder.join("expected.nc"), Cycles::Form);
             continue;
         }
         let posts = expected_posts(&folder);
         assert!(!posts.is_empty(), "{} has neither a form nor expected.NAME.nc", folder.display());
         for post in posts {
-            let form = root().join(format!("postforms/{post}.pf"));
-            compare(&folder, &form, &folder.join(format!("expected.{post}.nc")));
+            // expected.NAME.moves.nc is what the post prints with every cycle as single moves
+            let (name, cycles) = match post.strip_suffix(".moves") {
+                Some(name) => (name, Cycles::Emulated),
+                None => (post.as_str(), Cycles::Form),
+            };
+            let form = root().join(format!("postforms/{name}.pf"));
+            compare(&folder, &form, &folder.join(format!("expected.{post}.nc")), cycles);
         }
     }
 }

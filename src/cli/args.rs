@@ -117,6 +117,9 @@ pub struct RenderArgs {
     /// Where the program goes, or - for standard output; it appears there when it is complete
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: PathBuf,
+    /// The program's number [default: the job's]
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(..=99_999_999))]
+    pub program: Option<u32>,
     /// A value for a variable or prompt of the form
     #[arg(long, value_name = "VAR=VALUE")]
     pub set: Vec<String>,

@@ -58,6 +58,7 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         },
         units: args.units.map(|units| units.units()),
         set,
+        program: args.program,
         sink_as_printed: args.csink_depth == SinkArg::Printed,
         trace: args.trace.is_some(),
     };

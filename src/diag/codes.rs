@@ -154,6 +154,7 @@ codes! {
     PR015 Error "a prompted variable without an answer"
     PR016 Error "a setting that can't be used"
     PR017 Error "a change that the form can't print"
+    PR021 Note "a value that the control takes from its own settings"
 }
 
 impl Code {

@@ -93,6 +93,14 @@ impl Renderer<'_> {
             let message = format!("a `{}` with the spindle in M{}", spec.kind.name(), cw + ccw - needed);
             self.note(Code::PC054, message, "turn the spindle the other way, or take the other tap");
         }
+        if spec.back.is_some()
+            && sequence
+                .and_then(|id| self.program.block(id))
+                .is_some_and(|block| !block.vars.has(VarId::Sclear) && !block.vars.has(VarId::Vleave))
+        {
+            let message = "the distance that pecks go back, `back`, is the control's own setting here";
+            self.note(Code::PR021, message.into(), "set it at the control, or print [vleave] in the cycle");
+        }
         let printed = sequence.and_then(|id| self.program.block(id)).is_some_and(|block| block.vars.has(VarId::Vbite));
         if spec.kind.is_tap() && spec.mode.is_none() && spec.step.is_some() && !printed {
             let message = "`step` without effect: this tap goes down in one";
@@ -292,7 +300,6 @@ impl Renderer<'_> {
             (spec.offset_y.is_some(), &[], "a jog along both axes (`offset_y`)"),
             (spec.offset.is_some(), &[VarId::Sleave], "the jog off the wall: [sleave]"),
             (spec.dwell.or(spec.revs).is_some_and(|t| t > 0.0), &[VarId::Dwell], "the dwell: [dwell]"),
-            (spec.back.is_some(), &[VarId::Sclear, VarId::Vleave], "the secondary clearance: [sclear]"),
             (spec.first_step.is_some(), &[VarId::Peck1, VarId::Inidep], "the first peck: [peck1]"),
             (spec.min_step.is_some(), &[VarId::Sbite], "the least peck: [sbite]"),
             (pecks && spec.step.is_some(), &[VarId::Vbite], "the peck: [vbite]"),

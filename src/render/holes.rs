@@ -338,7 +338,7 @@ impl Renderer<'_> {
                     to.values[1] += y;
                     to.values[self.depth_axis] = heights.point + height;
                     self.set_targets(&to)?;
-                    self.split_rapid(&to)?;
+                    self.rapid_block(&to, None)?; // off the wall and up in one: up alone would score it
                 }
                 Step::Feed(height, feed) => {
                     to.values[self.depth_axis] = heights.point + height;

@@ -260,7 +260,7 @@ impl Renderer<'_> {
         })
     }
 
-    fn rapid_block(&mut self, target: &Axes, code: Option<sema::Code>) -> Done {
+    pub(super) fn rapid_block(&mut self, target: &Axes, code: Option<sema::Code>) -> Done {
         let program = self.program;
         // the depth part under VRapid has its own code, which the sequence can't print
         match program.block(SequenceId::RapidCode).filter(|_| code.is_none()) {

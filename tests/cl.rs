@@ -15,7 +15,8 @@ const DRILL: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nE
 
 /// The blocks of a file between tool change and end, then its warnings; or its error.
 fn read(text: &str, options: Options) -> Vec<String> {
-    let checked = support::check(&mill("Units mm", DRILL).replace("G[work] X[h] Y[v] Z[d]\nEnd", "G[work]\nEnd"));
+    let form = mill("Units mm", DRILL).replace("G[work] X[h] Y[v] Z[d]\nEnd", "G[work]\nEnd");
+    let checked = support::check(&form.replace("%0\n", "%0\nG[unitmode]\n"));
     assert!(!checked.has_errors(), "{:?}", checked.diags);
     let program = compile(&checked.form);
     let mut renderer = Renderer::new(&program, postform::render::Options::default());
@@ -244,11 +245,11 @@ fn real_files_are_read_or_refused_for_a_reason() {
         };
         let read_whole = expected == "G0" && !code.starts_with(['P', 'L']);
         assert!(read_whole || code.starts_with(expected), "{name}: {first}");
-        let all = Options { units: Some(Units::Inch), tool: Some(1.0), ..Options::default() };
+        let all = Options { units: Some(Units::Mm), tool: Some(1.0), ..Options::default() };
         let all = if expected == "PL005" { all } else { Options { units: None, ..all } };
         if expected != "G0" {
             let code = read(&text, all)[0].split(' ').next().unwrap().to_owned();
-            let known = ["G0", "G1", "PR008", "PR001"].iter().any(|known| code.starts_with(known));
+            let known = ["G0", "G1", "PR008", "PR001", "PR010"].iter().any(|known| code.starts_with(known));
             assert!(known, "{name}: {code}");
         }
     }

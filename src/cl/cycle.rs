@@ -306,7 +306,7 @@ impl Reader<'_> {
         }
         spec.ratio = coded.number(Opt::Ratio);
         spec.starts = coded.number(Opt::Multrd);
-        if spec.starts.is_some_and(|n| n < 1.0 || n > 100.0 || n.fract() != 0.0) {
+        if spec.starts.is_some_and(|n| !(1.0..=100.0).contains(&n) || n.fract() != 0.0) {
             return fault(Code::PC036, "MULTRD is no whole number of starts", "write MULTRD,2");
         }
         spec.rigid = (coded.has(Opt::Rigid) || coded.has(Opt::Float)).then(|| coded.has(Opt::Rigid));

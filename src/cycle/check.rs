@@ -94,7 +94,7 @@ fn options(spec: &CycleSpec) -> Result<(), Problem> {
 }
 
 fn webs(spec: &CycleSpec) -> Result<(), Problem> {
-    if !spec.webs.is_empty() && spec.webs.len() % 2 == 0 {
+    if !spec.webs.is_empty() && spec.webs.len().is_multiple_of(2) {
         let message = format!("{} depths of webs", spec.webs.len());
         let help = "give an end, then a start and an end for each further web";
         return Err(Problem::new(Code::PC022, message, help));

@@ -295,12 +295,12 @@ impl Renderer<'_> {
     pub(super) fn change_variable(&mut self, name: &str, value: f64) -> Done {
         self.close_cycle()?;
         let var = settable(name)?;
-        self.set_variable(var, self.from_job(var, value));
+        self.set_variable(var, self.in_program_units(var, value));
         Ok(())
     }
 
     /// A variable's value in program units.
-    pub(super) fn from_job(&self, var: VarId, value: f64) -> f64 {
+    pub(super) fn in_program_units(&self, var: VarId, value: f64) -> f64 {
         if matches!(var.row().unit, Unit::Length | Unit::Feed) { value * self.scale } else { value }
     }
 

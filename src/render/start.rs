@@ -120,7 +120,7 @@ impl Renderer<'_> {
     fn answers(&mut self, start: &Start) -> Done {
         for (name, value) in &start.set {
             let var = settable(name)?;
-            self.set_variable(var, self.from_job(var, *value));
+            self.set_variable(var, self.in_program_units(var, *value));
         }
         for (var, value) in self.options.set.clone() {
             self.set_variable(var, value);

@@ -31,6 +31,19 @@ fn the_two_commands() {
     assert!(ci.lines().any(|line| line.trim() == commands[1]), "CI runs `{}`", commands[1]);
 }
 
+/// Each problem of a cycle has its section, which `postform explain` prints.
+#[test]
+fn every_problem_of_a_cycle_is_explained() {
+    let page = fs::read_to_string(root().join("docs/cycles.md")).unwrap();
+    let rows = postform::diag::CODES.iter().filter(|row| row.name.starts_with("PC"));
+    for row in rows {
+        let head = format!("\n### {} {}\n", row.name, row.code.key());
+        let section = page.split_once(&head).unwrap_or_else(|| panic!("docs/cycles.md has no {head}")).1;
+        let section = section.split("\n### ").next().unwrap();
+        assert!(section.contains("*Instead:*") || section.contains("*Better:*"), "{} says nothing to do", row.name);
+    }
+}
+
 /// The published schema is the one that the types make, and the sample jobs are of its shape.
 #[test]
 fn the_job_schema_is_current() {

@@ -30,6 +30,8 @@ pub enum Command {
     Lint(LintArgs),
     /// Read a job, report what is wrong, and print what is in it
     Check(CheckArgs),
+    /// Say what a code means, and what to write instead
+    Explain(ExplainArgs),
 }
 
 /// A file by its format.
@@ -167,6 +169,13 @@ pub struct LintArgs {
     /// Limits of the forms
     #[arg(long, value_name = "LIMITS", default_value = "classic")]
     pub limits: LimitsArg,
+}
+
+/// `postform explain`.
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    /// A code or the name of a cycle's problem, as PC003 or cycle.depth.missing
+    pub code: String,
 }
 
 /// `postform check`.

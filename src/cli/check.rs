@@ -89,6 +89,7 @@ fn describe(name: &str, summary: &Summary, report: &Report) -> String {
     }
     for (axis, extent) in ["h", "v", "d"].iter().zip(&summary.extents) {
         if let Some((least, greatest)) = extent {
+            let [least, greatest] = [least, greatest].map(|length| (length * 1e6).round() / 1e6);
             _ = writeln!(text, "  {axis}           {least} to {greatest} {unit}");
         }
     }

@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod colour;
+mod explain;
 mod files;
 mod forms;
 mod json;
@@ -55,6 +56,7 @@ pub fn run() -> ExitCode {
         Command::Render(args) => render::run(&args, colour),
         Command::Lint(args) => lint::run(&args, arguments.color),
         Command::Check(args) => check::run(&args, colour),
+        Command::Explain(args) => explain::run(&args),
     };
     ending.into()
 }

@@ -7,11 +7,13 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use postform::render::{Cycles, Options};
 use support::root;
 
 /// What the interpreter makes of a program: its canonical calls, or its error.
 fn interpreted(program: &Path, tools: &str) -> Option<String> {
-    let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tools.tbl");
+    let name = format!("{}.tbl", program.file_stem().unwrap().to_string_lossy());
+    let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::write(&table, tools).unwrap();
     match Command::new("rs274").arg("-t").arg(&table).arg("-g").arg(program).output() {
         Ok(output) => {
@@ -38,4 +40,51 @@ fn the_bracket_runs_to_its_end() {
     }
     assert!(fed("2.6250", "2.1250", "-0.6000"), "the hole with its own depth");
     assert!(!fed("2.6250", "2.1250", "-0.8000"), "and no deeper");
+}
+
+/// Positions of the motions between the first and the end, by whether they feed; parts of one straight rapid are joined,
+/// so that up-and-across is one place.
+fn places(calls: &str) -> Vec<(bool, [f64; 3])> {
+    let mut list: Vec<(bool, [f64; 3])> = Vec::new();
+    for line in calls.lines() {
+        let Some((feeds, rest)) = line
+            .split_once("STRAIGHT_TRAVERSE(")
+            .map(|(_, rest)| (false, rest))
+            .or_else(|| line.split_once("STRAIGHT_FEED(").map(|(_, rest)| (true, rest)))
+        else {
+            continue;
+        };
+        let numbers: Vec<f64> = rest.split([',', ')']).filter_map(|n| n.trim().parse().ok()).collect();
+        let to = [numbers[0], numbers[1], numbers[2]];
+        if list.last().is_some_and(|(was, at)| *was == feeds && (*at == to || !feeds)) {
+            list.pop();
+        }
+        list.push((feeds, to));
+    }
+    list
+}
+
+/// What the real interpreter makes of its own cycles is what it makes of the moves: same bottoms, same planes.
+#[test]
+fn cycles_of_the_control_go_where_the_moves_go() {
+    for (name, exact) in [("drill", true), ("face", true), ("ream", true), ("deep", false), ("brkchp", false)] {
+        let folder = root().join(format!("samples/cl-{name}"));
+        let form = root().join("postforms/linuxcnc.pf");
+        let both = [Cycles::Form, Cycles::Emulated].map(|cycles| {
+            let options = Options { cycles, ..Options::default() };
+            let rendered = support::render_sample_with(&folder, &form, options).unwrap();
+            let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{cycles:?}.ngc"));
+            fs::write(&program, &rendered.text).unwrap();
+            let calls = interpreted(&program, "T1 P1 Z0 D10\n")?;
+            assert!(calls.contains("PROGRAM_END()"), "{name}: {}\n{calls}", rendered.text);
+            Some((rendered.text, places(&calls)))
+        });
+        let [Some((cycle, by_control)), Some((moves, by_moves))] = both else { return };
+        assert!(cycle.contains("G80") && cycle != moves, "{name} is printed as the control's cycle\n{cycle}");
+        if exact {
+            assert_eq!(by_control, by_moves, "{name}");
+        }
+        let deepest = |list: &[(bool, [f64; 3])]| list.iter().map(|(_, to)| to[2]).fold(f64::MAX, f64::min);
+        assert_eq!(deepest(&by_control), deepest(&by_moves), "{name}");
+    }
 }

@@ -6,14 +6,17 @@ mod support;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::sync::Mutex;
 
 use postform::render::{Cycles, Options};
 use support::root;
 
 /// What the interpreter makes of a program: its canonical calls, or its error.
 fn interpreted(program: &Path, tools: &str) -> Option<String> {
-    let name = format!("{}.tbl", program.file_stem().unwrap().to_string_lossy());
-    let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    // the interpreter keeps its tools in one place for all of its processes
+    static ONE: Mutex<()> = Mutex::new(());
+    let _one = ONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tools.tbl");
     fs::write(&table, tools).unwrap();
     match Command::new("rs274").arg("-t").arg(&table).arg("-g").arg(program).output() {
         Ok(output) => {

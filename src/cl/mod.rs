@@ -1,6 +1,7 @@
 //! APT CL files: the statements of a CAM system's cutter location file as toolpath events (cl.md).
 
 mod arcs;
+mod coded;
 mod cycle;
 mod cycle_words;
 mod dialect;
@@ -9,6 +10,7 @@ mod machine;
 mod majors;
 mod motion;
 mod reader;
+mod spec;
 mod words;
 
 pub use dialect::Dialect;

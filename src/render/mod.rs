@@ -2,6 +2,7 @@
 
 mod arcs;
 mod changes;
+mod codes;
 mod compensation;
 mod cycles;
 mod fault;

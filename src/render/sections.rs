@@ -176,36 +176,6 @@ impl Renderer<'_> {
     }
 }
 
-impl Renderer<'_> {
-    /// The codes of a text outside comments: what they switch is known, and put back where the job says otherwise.
-    fn text_codes(&mut self, text: &str) {
-        let bytes = text.as_bytes();
-        let (mut at, mut depth) = (0, 0);
-        while at < bytes.len() {
-            let letter = bytes[at].to_ascii_uppercase();
-            at += 1;
-            match letter {
-                b';' if depth == 0 => return,
-                b'(' => depth += 1,
-                b')' => depth -= 1,
-                b'G' | b'M' | b'S' if depth == 0 => {
-                    let end = at + bytes[at..].iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count();
-                    if let Ok(value) = text[at..end].parse::<f64>() {
-                        if letter == b'S' {
-                            self.served.speed = Some(value);
-                        } else {
-                            self.printed_code(letter, value);
-                        }
-                    }
-                    at = end;
-                }
-                _ => {}
-            }
-        }
-        self.registers.forget_all();
-    }
-}
-
 fn part(section: Section) -> &'static str {
     match section {
         Section::Leadin => "lead-in",

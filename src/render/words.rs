@@ -6,7 +6,7 @@ use super::fault::{Done, fault_at};
 use super::renderer::Renderer;
 use crate::compile::{Block, Letter, LetterKind, Op};
 use crate::diag::Code;
-use crate::lang::{Frame, Group, Machine, VarId, VarSet, frame_of, group_of};
+use crate::lang::{VarId, VarSet, group_of};
 use crate::number::{LetterFormat, Unprintable, quantise, write_number};
 use crate::span::Span;
 
@@ -115,13 +115,6 @@ impl Renderer<'_> {
         Ok(())
     }
 
-    /// Would the control read generated positions as increments, or the other way round?
-    pub(super) fn distance_is_wrong(&self) -> bool {
-        let settings = &self.program.settings;
-        let wrong = tenths(settings.inc_abs[usize::from(settings.incremental)]);
-        self.distance == Some(wrong) && settings.machine != Machine::Lathe
-    }
-
     /// Ends a line of a sequence, whose operations begin at `line`.
     fn end_line(&mut self, line: usize) {
         if self.depth_moved {
@@ -197,18 +190,6 @@ impl Renderer<'_> {
             self.out.prints_number();
         }
         Ok(())
-    }
-
-    /// In a form of increments a position is read as one, unless the control was told otherwise.
-    #[cold]
-    fn check_position_word(&self, letter: u8, var: VarId) -> Done {
-        let [increments, _] = self.program.settings.inc_abs;
-        if self.distance != Some(tenths(increments)) {
-            return Ok(());
-        }
-        let message =
-            format!("{}[{}] is a position, and the control is in G{increments}", char::from(letter), var.name());
-        fault_at(Code::PR017, message, "print G90 before it, or the increment, as [hdist]", self.form_span())
     }
 
     /// A word of packed parameters: as the form has them, or as the job sets them, in as many digits.
@@ -335,64 +316,6 @@ impl Renderer<'_> {
         }
         if literal.letter == self.program.settings.speed_code {
             self.served.speed = Some(literal.value);
-        }
-    }
-
-    /// What a printed G or M code does to the registers.
-    pub(super) fn printed_code(&mut self, letter: u8, value: f64) {
-        let tenths = tenths(value);
-        if letter == b'G' || letter == b'g' {
-            match frame_of(tenths) {
-                // on a lathe G92 is a threading cycle
-                Some(Frame::Shifts)
-                    if self.program.settings.machine == Machine::Lathe && (920..930).contains(&tenths) => {}
-                Some(Frame::Shifts) => self.shifted = true,
-                Some(Frame::Moves) if self.registers.group(Group::Work) != Some(tenths) => self.forget_axes(),
-                Some(Frame::MovesDepth) => self.depth_moved = true,
-                _ => {}
-            }
-        }
-        let settings = &self.program.settings;
-        let is_feed_mode = letter == b'G' && settings.feed_type.contains(&value);
-        if is_feed_mode {
-            self.served.feed_type = Some(value);
-        }
-        match group_of(letter, tenths) {
-            Some(group) => {
-                match group {
-                    Group::Plane => self.plane = value,
-                    Group::Distance => self.distance = Some(tenths),
-                    _ => {}
-                }
-                if matches!(group, Group::FeedMode | Group::Units) || is_feed_mode {
-                    self.registers.forget(self.letters[settings.feed_code].printed);
-                }
-                self.registers.set_group(group, tenths);
-                self.served_code(group, value);
-            }
-            None if is_feed_mode => self.registers.forget(self.letters[settings.feed_code].printed),
-            None => {}
-        }
-    }
-
-    /// The axis of a letter, in a set of axes.
-    fn axis_bit(&self, letter: u8) -> u8 {
-        self.axes.iter().position(|&axis| axis == letter).map_or(0, |axis| 1 << axis)
-    }
-
-    /// These axes are somewhere else now. Positions stay what the job means by them; increments need to know more.
-    pub(super) fn displaced(&mut self, axes: u8) {
-        self.placed &= !axes;
-        if self.program.settings.incremental {
-            self.position.given &= !axes;
-        }
-    }
-
-    /// Where the axes are is unknown.
-    pub(super) fn forget_axes(&mut self) {
-        self.displaced(0x3f);
-        for letter in self.axes.into_iter().chain(self.program.settings.axes2) {
-            self.registers.forget(self.letters[letter].printed);
         }
     }
 

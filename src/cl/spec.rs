@@ -1,0 +1,173 @@
+//! A coded CYCLE as a cycle: clearances, dwells, depths, steps and feeds in units of the file.
+
+use super::coded::Coded;
+use super::cycle_words::Opt;
+use super::reader::{Done, Reader, fault};
+use crate::cycle::{Problem, stepped_pecks};
+use crate::diag::{Code, Diag};
+use crate::toolpath::{CycleKind, CycleSpec, Peck, SpindleTurn};
+
+impl Reader<'_> {
+    /// The cycle that is coded, in units of the file a minute.
+    pub(super) fn spec(&mut self, coded: &Coded) -> Done<CycleSpec> {
+        let kind = coded.kind.unwrap_or(CycleKind::Drill);
+        let both = |a: Opt, b: Opt| coded.has(a) && coded.has(b);
+        for (a, b) in [(Opt::Norevr, Opt::Rapout), (Opt::Float, Opt::Rigid), (Opt::Dwell, Opt::Rev)] {
+            if both(a, b) {
+                return fault(
+                    Code::PC016,
+                    "two options of which a cycle has one",
+                    "keep NOREVR or RAPOUT, FLOAT or RIGID, DWELL or REV",
+                );
+            }
+        }
+        let left = coded.has(Opt::Invers);
+        let mut spec = CycleSpec::new(if left { CycleKind::LTap } else { kind });
+        spec.mode = coded.mode;
+        spec.emulate = self.cycle.emulate;
+        spec.steps_from_point = true;
+        let second = self.clearances(coded, kind, &mut spec)?;
+        self.dwells(coded, kind, &mut spec);
+        spec.rapto = coded.number(Opt::Rapto);
+        spec.decr = coded.number(Opt::Decr);
+        spec.min_step = coded.number(Opt::Minstp);
+        spec.times = coded.number(Opt::Times);
+        if spec.times.is_some_and(|n| n < 1.0 || n.fract() != 0.0) {
+            return fault(Code::PC036, "TIMES is no whole number", "write TIMES,2");
+        }
+        spec.ratio = coded.number(Opt::Ratio);
+        spec.starts = coded.number(Opt::Multrd);
+        if spec.starts.is_some_and(|n| !(1.0..=100.0).contains(&n) || n.fract() != 0.0) {
+            return fault(Code::PC036, "MULTRD is no whole number of starts", "write MULTRD,2");
+        }
+        spec.rigid = (coded.has(Opt::Rigid) || coded.has(Opt::Float)).then(|| coded.has(Opt::Rigid));
+        spec.norevr = coded.has(Opt::Norevr);
+        spec.rapout = coded.has(Opt::Rapout);
+        spec.orient = coded.numbers(Opt::Orient).map(|n| n.first().copied().unwrap_or(0.0));
+        if matches!(kind, CycleKind::Bore | CycleKind::Back) {
+            spec.jog = coded.number(Opt::Back);
+            match coded.numbers(Opt::Ofsetl) {
+                Some([x, y]) => (spec.offset, spec.offset_y) = (Some(*x), Some(*y)),
+                offset => spec.offset = offset.and_then(|n| n.first().copied()).or(second),
+            }
+        } else {
+            spec.back = coded.number(Opt::Back).or(second);
+        }
+        spec.diameter = coded.number(Opt::Diamet);
+        spec.angle = coded.number(Opt::Tlangl);
+        spec.hole_diameter = coded.number(Opt::Holdia);
+        self.depths(coded, kind, &mut spec)?;
+        let turns = self.spindle.turn;
+        if kind == CycleKind::Tap && turns.is_some_and(|t| (t == SpindleTurn::Ccw) != left && t != SpindleTurn::Off) {
+            self.warn(Code::PC054, "a tap against the spindle's direction", "look at INVERS, and at SPINDL");
+        }
+        Ok(spec)
+    }
+
+    /// CLEAR is remembered, its second number is not.
+    fn clearances(&mut self, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -> Done<Option<f64>> {
+        let clear = coded.numbers(Opt::Clear);
+        self.cycle.clear = clear.map(|numbers| numbers[0]).or(self.cycle.clear);
+        spec.clear = self.cycle.clear;
+        let Some(second) = clear.and_then(|numbers| numbers.get(1)).copied() else { return Ok(None) };
+        let jogs = matches!(kind, CycleKind::Bore | CycleKind::Back);
+        if !jogs && !matches!(kind, CycleKind::Deep | CycleKind::Chipbreak | CycleKind::Thru) && coded.mode.is_none() {
+            let help = "keep the first number of CLEAR";
+            return fault(Code::PC010, "this cycle has no second clearance", help);
+        }
+        if coded.has(if jogs { Opt::Ofsetl } else { Opt::Back }) {
+            let help = "keep the second number of CLEAR, or BACK or OFSETL";
+            return fault(Code::PC011, "the second clearance is there twice", help);
+        }
+        Ok(Some(second))
+    }
+
+    /// A dwell is not remembered, but FACE without one takes the last.
+    fn dwells(&mut self, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) {
+        let said = (coded.number(Opt::Dwell), coded.number(Opt::Rev));
+        if said != (None, None) {
+            self.cycle.dwell = Some(said);
+        }
+        let takes_last = kind == CycleKind::Face || coded.has(Opt::Norevr);
+        (spec.dwell, spec.revs) = match self.cycle.dwell {
+            Some(last) if takes_last && said == (None, None) => last,
+            _ => said,
+        };
+    }
+
+    /// Depths, steps and feeds.
+    fn depths(&mut self, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -> Done {
+        let pecks = matches!(kind, CycleKind::Deep | CycleKind::Chipbreak) || coded.mode.is_some();
+        let feeds: Vec<_> = coded.groups.iter().filter_map(|group| group.feed.clone()).collect();
+        if feeds.len() > 1 && (!pecks || coded.mode.is_some()) {
+            return fault(Code::PC007, "two feeds where the cycle has one", "keep one");
+        }
+        let mut last = None;
+        let mut of_groups = Vec::new();
+        for group in &coded.groups {
+            last = match &group.feed {
+                Some((unit, value)) => match self.feed_of(unit, *value) {
+                    Some(feed) => Some(self.per_minute(feed)?),
+                    None => None,
+                },
+                None => last,
+            };
+            of_groups.push(last);
+        }
+        spec.feed = of_groups.iter().copied().flatten().next();
+        let depths: Vec<f64> = coded.groups.iter().flat_map(|group| group.depths.iter().copied()).collect();
+        let steps: Vec<f64> = coded.groups.iter().flat_map(|group| group.steps.iter().copied()).collect();
+        if kind == CycleKind::Thru {
+            spec.depth = depths.last().copied();
+            spec.webs = depths;
+            return Ok(());
+        }
+        if depths.len() > 1 && !pecks {
+            return fault(Code::PC034, "more than one depth", "keep one, or drill with DEEP or BRKCHP");
+        }
+        spec.depth = depths.last().copied();
+        if depths.len() > 1 {
+            if !steps.is_empty() {
+                return fault(
+                    Code::PC031,
+                    "absolute depths and steps in one cycle",
+                    "keep the depths, or one depth and STEP",
+                );
+            }
+            if let Some(pair) = depths.windows(2).find(|pair| pair[1] <= pair[0]) {
+                let message = format!("the depth {} comes after {}", pair[1], pair[0]);
+                return fault(Code::PC004, message, "give absolute depths deeper one by one");
+            }
+            let with_feeds = coded.groups.iter().zip(&of_groups);
+            spec.pecks =
+                with_feeds.flat_map(|(group, feed)| group.depths.iter().map(|&to| Peck { to, feed: *feed })).collect();
+            if spec.pecks.iter().any(|peck| peck.feed.is_none()) {
+                return fault(Code::PC005, "the cycle has no feed", "give MMPM, IPM or another after its depths");
+            }
+            return Ok(());
+        }
+        match (steps.as_slice(), spec.depth) {
+            ([], _) if spec.decr.is_some() && pecks => {
+                fault(Code::PC030, "DECR without STEP", "give STEP, or take DECR out")
+            }
+            ([], _) => Ok(()),
+            ([step], _) if feeds.len() <= 1 => {
+                spec.step = Some(*step);
+                if *step <= 0.0 { not_above_zero(*step) } else { Ok(()) }
+            }
+            (_, None) => fault(Code::PC002, "the cycle has no depth", "give DEPTH"),
+            (_, Some(depth)) => {
+                let mut list = Vec::new();
+                for (group, feed) in coded.groups.iter().zip(&of_groups) {
+                    list.extend(group.steps.iter().map(|&step| (step, *feed)));
+                }
+                spec.pecks = stepped_pecks(depth, &list, spec.decr.take(), spec.min_step.take())?;
+                Ok(())
+            }
+        }
+    }
+}
+
+fn not_above_zero(step: f64) -> Done {
+    Err(Box::<Diag>::from(Problem::new(Code::PC028, format!("a step of {step}"), "give a step above zero")))
+}

@@ -1,0 +1,114 @@
+//! What printed codes mean for what is known: modal groups, the frame of axis words, positions and increments.
+
+use super::fault::{Done, fault_at};
+use super::renderer::Renderer;
+use super::words::tenths;
+use crate::diag::Code;
+use crate::lang::{Frame, Group, Machine, VarId, frame_of, group_of};
+
+impl Renderer<'_> {
+    /// What a printed G or M code does to the registers.
+    pub(super) fn printed_code(&mut self, letter: u8, value: f64) {
+        let tenths = tenths(value);
+        if letter == b'G' || letter == b'g' {
+            match frame_of(tenths) {
+                // on a lathe G92 is a threading cycle
+                Some(Frame::Shifts)
+                    if self.program.settings.machine == Machine::Lathe && (920..930).contains(&tenths) => {}
+                Some(Frame::Shifts) => self.shifted = true,
+                Some(Frame::Moves) if self.registers.group(Group::Work) != Some(tenths) => self.forget_axes(),
+                Some(Frame::MovesDepth) => self.depth_moved = true,
+                _ => {}
+            }
+        }
+        let settings = &self.program.settings;
+        let is_feed_mode = letter == b'G' && settings.feed_type.contains(&value);
+        if is_feed_mode {
+            self.served.feed_type = Some(value);
+        }
+        match group_of(letter, tenths) {
+            Some(group) => {
+                match group {
+                    Group::Plane => self.plane = value,
+                    Group::Distance => self.distance = Some(tenths),
+                    _ => {}
+                }
+                if matches!(group, Group::FeedMode | Group::Units) || is_feed_mode {
+                    self.registers.forget(self.letters[settings.feed_code].printed);
+                }
+                self.registers.set_group(group, tenths);
+                self.served_code(group, value);
+            }
+            None if is_feed_mode => self.registers.forget(self.letters[settings.feed_code].printed),
+            None => {}
+        }
+    }
+
+    /// The axis of a letter, in a set of axes.
+    pub(super) fn axis_bit(&self, letter: u8) -> u8 {
+        self.axes.iter().position(|&axis| axis == letter).map_or(0, |axis| 1 << axis)
+    }
+
+    /// These axes are somewhere else now. Positions stay what the job means by them; increments need to know more.
+    pub(super) fn displaced(&mut self, axes: u8) {
+        self.placed &= !axes;
+        if self.program.settings.incremental {
+            self.position.given &= !axes;
+        }
+    }
+
+    /// Where the axes are is unknown.
+    pub(super) fn forget_axes(&mut self) {
+        self.displaced(0x3f);
+        for letter in self.axes.into_iter().chain(self.program.settings.axes2) {
+            self.registers.forget(self.letters[letter].printed);
+        }
+    }
+
+    /// Would the control read generated positions as increments, or the other way round?
+    pub(super) fn distance_is_wrong(&self) -> bool {
+        let settings = &self.program.settings;
+        let wrong = tenths(settings.inc_abs[usize::from(settings.incremental)]);
+        self.distance == Some(wrong) && settings.machine != Machine::Lathe
+    }
+
+    /// In a form of increments a position is read as one, unless the control was told otherwise.
+    #[cold]
+    pub(super) fn check_position_word(&self, letter: u8, var: VarId) -> Done {
+        let [increments, _] = self.program.settings.inc_abs;
+        if self.distance != Some(tenths(increments)) {
+            return Ok(());
+        }
+        let message =
+            format!("{}[{}] is a position, and the control is in G{increments}", char::from(letter), var.name());
+        fault_at(Code::PR017, message, "print G90 before it, or the increment, as [hdist]", self.form_span())
+    }
+
+    /// The codes of a text outside comments: what they switch is known, and put back where the job says otherwise.
+    pub(super) fn text_codes(&mut self, text: &str) {
+        let bytes = text.as_bytes();
+        let (mut at, mut depth) = (0, 0);
+        while at < bytes.len() {
+            let letter = bytes[at].to_ascii_uppercase();
+            at += 1;
+            match letter {
+                b';' if depth == 0 => return,
+                b'(' => depth += 1,
+                b')' => depth -= 1,
+                b'G' | b'M' | b'S' if depth == 0 => {
+                    let end = at + bytes[at..].iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count();
+                    if let Ok(value) = text[at..end].parse::<f64>() {
+                        if letter == b'S' {
+                            self.served.speed = Some(value);
+                        } else {
+                            self.printed_code(letter, value);
+                        }
+                    }
+                    at = end;
+                }
+                _ => {}
+            }
+        }
+        self.registers.forget_all();
+    }
+}

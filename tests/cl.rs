@@ -57,7 +57,7 @@ fn motions_go_where_they_say() {
     assert_eq!(body("GODLTA/1,0,-2\nGODLTA/-3"), ["G1 X1. Z8. F100.", "Z5."]);
     assert_eq!(body("FEDRAT/MMPM,50\nGOTO/1,0,10\nGOTO/2,0,10,75"), ["G1 X1. F50.", "X2. F75."]);
     assert_eq!(body("RAPID/GOTO/5,0,10"), ["X5."]);
-    assert_eq!(body("TRANS/1,2,3\nGOTO/0,0,0\nORIGIN/1,0,0\nGOTO/5,0,0"), ["G1 X1. Y2. Z3. F100.", "X4. Y0 Z0"]);
+    assert_eq!(body("TRANS/1,2,3\nGOTO/0,0,0\nORIGIN/1,0,0\nGOTO/5,0,0"), ["G1 X1. Y2. Z3. F100.", "X5."]);
 }
 
 /// Blanks, case, continuation, comments, record numbers, points without GOTO: as in real files.
@@ -254,4 +254,57 @@ fn real_files_are_read_or_refused_for_a_reason() {
         }
     }
     assert_eq!(names, 12);
+}
+
+/// What belongs together stays together: feeds and speeds, points and their motions, registers and tools.
+#[test]
+fn nothing_is_lost_between_statements() {
+    let drill = "CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2";
+    // the last spindle direction comes back
+    let lines = body("SPINDL/OFF\nGOTO/1,0,10\nSPINDL/ON\nGOTO/2,0,10");
+    assert_eq!(lines, ["M5", "G1 X1. F100.", "S1000 M3", "X2."]);
+    // a feed per revolution follows the spindle inside a cycle
+    let lines = body("CYCLE/DRILL,DEPTH,1,MMPR,.1,CLEAR,2\nGOTO/1,1,0\nSPINDL/500,CLW\nGOTO/2,2,0\nCYCLE/OFF");
+    assert!(lines.contains(&"G99 G81 X2. Y2. Z-1. R2. F50.".to_owned()), "{lines:?}");
+    // GODLTA counts from the point, not from where the hole was left
+    let lines = body(&format!("{drill}\nGOTO/1,1,0\nGODLTA/10,0,0\nCYCLE/OFF\nGODLTA/0,0,50"));
+    assert_eq!(lines[2..], ["G99 G81 X1. Y1. Z-10. R2. F100.", "X11.", "G80", "G0 Z50."]);
+    // both shifts hold
+    assert_eq!(body("TRANS/10,0,0\nORIGIN/0,0,5\nGOTO/1,2,3"), ["G1 X11. Y2. Z-2. F100."]);
+    // CYCLE/ON replaces what it says
+    let lines = body(&format!("{drill}\nCYCLE/ON,DEPTH,5\nGOTO/1,1,0\nCYCLE/OFF"));
+    assert_eq!(lines[2], "G99 G81 X1. Y1. Z-5. R2. F100.");
+    assert_eq!(body("N29 GOTO/6,0,10\n100 GOTO/5,0,10"), ["G1 X6. F100.", "X5."]);
+    for (text, code) in [
+        ("FEDRAT/60\n4,5,6", "PL001 numbers"),
+        ("L1) GOTO/1,1,1", "PL001 `L1` stands before GOTO"),
+        ("COOLNT/FLOOD,OFF", "PL002 COOLNT"),
+        ("LOADTL/2,FOO,7", "PL002 LOADTL"),
+        ("LOADTL/1,OFSETNO,7\nGOTO/1,1,1", "PR017 tool 1 is in"),
+        ("CUTCOM/LEFT,ZXPLAN", "PL002 CUTCOM"),
+        ("SCALE/2", "PL004 SCALE"),
+        ("MODE/INCREM", "PL004 MODE"),
+        ("END\nGOTO/1,1,1", "PL001 a statement after"),
+        ("GOTO/10,0,10\nINDIRV/1,0,0\nTLON,GOFWD/(CIRCLE/0,0,10,10),ON,(LINE/0,0,10,0,10,10)", "PL004 INDIRV"),
+        ("GOTO/10,0,10\nMOVARC/0,0,10,0,0,1,12\nGOTO/0,10,10", "PR005 the CIRCLE has the radius 12"),
+        ("CUTCOM/LEFT\nGOTO/1,0,10\nLOADTL/2\nSPINDL/1,CLW\nRAPID\nGOTO/1,1,1", "PR006 the tool changes"),
+        ("CYCLE/TAP,RIGID,DEPTH,1,MMPR,1\nGOTO/1,1,0", "PR009"),
+    ] {
+        assert!(error(text).starts_with(code), "{text}: {}", error(text));
+    }
+    assert!(read("PARTNO A\rUNITS/MM\rFINI\r", Options::default())[0].starts_with("PL001 the lines end"));
+}
+
+/// Surface speeds are those of the file's units, and their code stands before them.
+#[test]
+fn surface_speeds_have_units_and_their_code() {
+    let text = "UNITS/MM\nLOADTL/1\nSPINDL/SFM,100,CLW\nRAPID\nGOTO/0,0,10\nFINI\n";
+    let form = mill("Units mm", "").replace("%0\n", "%0\nG[unitmode]\n");
+    let rendered = support::render_kind(
+        &support::check(&form),
+        text.as_bytes(),
+        support::Kind::Cl,
+        postform::render::Options::default(),
+    );
+    assert!(rendered.unwrap().text.contains("G96\nT1 M6\nS30"), "30.48 metres a minute");
 }

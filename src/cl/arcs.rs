@@ -5,7 +5,7 @@ use super::motion::numbers;
 use super::reader::{Done, Reader, fault};
 use super::words::Word;
 use crate::diag::Code;
-use crate::toolpath::{Arc, Axes, Direction, Event, Plane};
+use crate::toolpath::{Arc, Axes, Direction, Event, Plane, Units};
 
 /// A direction in space, of length 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +27,8 @@ pub(super) struct PendingArc {
     /// Which of x, y, z its axis is, and whether it points up.
     axis: usize,
     up: bool,
+    /// The radius, where it is said.
+    radius: Option<f64>,
     /// The sense, where the statement itself has one.
     sense: Option<Sense>,
 }
@@ -54,9 +56,10 @@ impl Reader<'_> {
             return fault(Code::PC042, "an arc inside a cycle", "end the cycle before with CYCLE/OFF");
         }
         let values = numbers(words).unwrap_or_default();
-        let (centre, axis) = match values.as_slice() {
-            [x, y, z] | [x, y, z, _] => ([*x, *y, *z], [0.0, 0.0, 1.0]),
-            [x, y, z, i, j, k, ..] => ([*x, *y, *z], [*i, *j, *k]),
+        let (centre, axis, radius) = match values.as_slice() {
+            [x, y, z] => ([*x, *y, *z], [0.0, 0.0, 1.0], None),
+            [x, y, z, radius] => ([*x, *y, *z], [0.0, 0.0, 1.0], Some(*radius)),
+            [x, y, z, i, j, k, rest @ ..] => ([*x, *y, *z], [*i, *j, *k], rest.first().copied()),
             _ => return fault(Code::PL001, "a CIRCLE that can't be read", "write CIRCLE/x,y,z,i,j,k,r"),
         };
         let along = (0..3).find(|&i| axis[i].abs() > 0.999_999);
@@ -64,7 +67,7 @@ impl Reader<'_> {
             return fault(Code::PL004, "an arc in a tilted plane", "let the CAM system write lines for it");
         };
         let centre = [centre[0] + self.offset[0], centre[1] + self.offset[1], centre[2] + self.offset[2]];
-        self.arc = Some(PendingArc { centre, axis: along, up: axis[along] > 0.0, sense });
+        self.arc = Some(PendingArc { centre, axis: along, up: axis[along] > 0.0, radius, sense });
         Ok(())
     }
 
@@ -76,7 +79,15 @@ impl Reader<'_> {
         let Some(from) = self.position else {
             return fault(Code::PR005, "the arc begins at an unknown position", "put a GOTO before it");
         };
-        let sense = match arc.sense.or(self.dialect().sense()) {
+        let away = (0..3).filter(|&i| i != arc.axis).map(|i| (from[i] - arc.centre[i]).powi(2)).sum::<f64>().sqrt();
+        let allowed = if self.units == Some(Units::Inch) { 0.001 } else { 0.02 };
+        if let Some(radius) = arc.radius.filter(|radius| (radius.abs() - away).abs() > allowed) {
+            let message = format!("the CIRCLE has the radius {radius}, the tool is {away:.4} from its centre");
+            return fault(Code::PR005, message, "look at the motion before it");
+        }
+        // GENER's own circles are left-handed, but only a file that is said to be GENER's is taken for one
+        let gener = self.options.dialect.filter(|dialect| *dialect == Dialect::Gener).map(|_| Sense::LeftHand);
+        let sense = match arc.sense.or(self.dialect().sense()).or(gener) {
             Some(sense) => sense,
             None => self.sense_by_tangent(arc, from)?,
         };
@@ -118,7 +129,8 @@ impl Reader<'_> {
             (Some(tangent), Some(heading)) if dot(tangent.0, heading.0) < -TANGENT => Some(Sense::LeftHand),
             _ => None,
         };
-        let help = "say who wrote the file with `--dialect`";
+        let help = "say with `--dialect` whose circles these are: those of nx, makino and gener turn clockwise about their \
+                    axis, those of solidworks counter-clockwise";
         match (self.sense, seen) {
             (Some(before), Some(now)) if before != now => {
                 fault(Code::PL006, "this arc turns the other way than those before it, if it is tangent", help)
@@ -165,7 +177,12 @@ impl Reader<'_> {
         let shift = |p: [f64; 3]| [p[0] + self.offset[0], p[1] + self.offset[1], p[2] + self.offset[2]];
         let (centre, to) = (shift(centre), shift(to));
         let radius = [from[0] - centre[0], from[1] - centre[1], 0.0];
-        let ccw = cross(radius, direction)[2] > 0.0;
-        self.arc_event(&PendingArc { centre, axis: 2, up: true, sense: None }, to, ccw)
+        let turn = cross(radius, direction)[2];
+        if turn.abs() < 0.1 * radius[0].hypot(radius[1]) * direction[0].hypot(direction[1]) {
+            let help = "INDIRV must lie along the arc";
+            return fault(Code::PL004, "INDIRV points to the centre, so nothing says which way the arc turns", help);
+        }
+        self.point = Some(to);
+        self.arc_event(&PendingArc { centre, axis: 2, up: true, radius: None, sense: None }, to, turn > 0.0)
     }
 }

@@ -166,17 +166,36 @@ pub(super) fn over(mut last: Coded, said: Coded) -> Coded {
         last.options.retain(|(found, _)| *found != option);
         last.options.push((option, numbers));
     }
-    if said.groups.iter().any(|group| !group.depths.is_empty() || !group.steps.is_empty()) {
-        let feed = last.groups.first().and_then(|group| group.feed.clone());
+    let depths: Vec<f64> = said.groups.iter().flat_map(|group| group.depths.iter().copied()).collect();
+    let steps: Vec<f64> = said.groups.iter().flat_map(|group| group.steps.iter().copied()).collect();
+    let feed = said.groups.iter().rev().find_map(|group| group.feed.clone());
+    if said.groups.len() > 1 || (last.groups.len() > 1 && !depths.is_empty()) {
+        // a new list of depths or steps, at the feed of the first where it says none
+        let old = last.groups.first().and_then(|group| group.feed.clone());
         last.groups = said.groups;
-        if last.groups.iter().all(|group| group.feed.is_none())
-            && let Some(group) = last.groups.first_mut()
-        {
-            group.feed = feed;
+        for group in &mut last.groups {
+            group.feed = group.feed.take().or_else(|| old.clone());
         }
-    } else if let (Some(new), Some(group)) = (said.groups.first(), last.groups.first_mut()) {
-        group.feed.clone_from(&new.feed);
-        last.groups.iter_mut().skip(1).for_each(|group| group.feed = None);
+        return last;
+    }
+    if last.groups.len() > 1 && !steps.is_empty() {
+        let depth = last.groups.iter().rev().find_map(|group| group.depths.last().copied());
+        let feed = last.groups.first().and_then(|group| group.feed.clone());
+        last.groups = vec![Group { depths: depth.into_iter().collect(), steps: Vec::new(), feed }];
+    }
+    if last.groups.is_empty() {
+        last.groups.push(Group::default());
+    }
+    for (i, group) in last.groups.iter_mut().enumerate() {
+        if i == 0 && !depths.is_empty() {
+            group.depths.clone_from(&depths);
+        }
+        if i == 0 && !steps.is_empty() {
+            group.steps.clone_from(&steps);
+        }
+        if feed.is_some() {
+            group.feed = feed.clone().filter(|_| i == 0);
+        }
     }
     last
 }

@@ -182,6 +182,17 @@ impl Reader<'_> {
         Ok(plane)
     }
 
+    /// Feeds per revolution follow the spindle, also inside a cycle.
+    pub(super) fn cycle_feeds(&mut self) -> Done {
+        if self.cycle.active.is_some()
+            && let Some(coded) = self.cycle.last.clone()
+        {
+            self.close_holes()?;
+            self.cycle.active = Some(self.spec(&coded)?);
+        }
+        Ok(())
+    }
+
     /// The sink leaves the cycle; it may go on after a motion that is none of its points.
     pub(super) fn close_holes(&mut self) -> Done {
         if std::mem::take(&mut self.cycle.open) { self.push(Event::CycleEnd) } else { Ok(()) }

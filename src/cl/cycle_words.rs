@@ -123,6 +123,12 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Result<Vec<Wor
     while let Some(word) = words.next() {
         let at_type = out.is_empty();
         let other = match (dialect, word.name().unwrap_or("")) {
+            (Dialect::Ncl, "FEDTO") if out.first().is_some_and(|word| word.is("CSINK")) => {
+                // diameter and angle
+                out.push(name("DIAMET"));
+                out.extend(words.next().cloned());
+                name("TLANGL")
+            }
             (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "FEDTO") => {
                 flips = dialect == Dialect::Nx; // signed along the axis there, downward elsewhere
                 name("DEPTH")
@@ -150,6 +156,10 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Result<Vec<Wor
             (Dialect::Ncl, "DEEP") if at_type => name("BRKCHP"),
             (Dialect::Ncl, "THRU") if at_type => name("DEEP"),
             (Dialect::Ncl, "BORE") if at_type => name("REAM"),
+            (Dialect::Ncl, "REVERS") if at_type => {
+                out.push(name("TAP"));
+                name("INVERS")
+            }
             _ => match word {
                 Word::Number(value) if std::mem::take(&mut flips) => Word::Number(-value),
                 word => word.clone(),

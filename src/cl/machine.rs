@@ -1,5 +1,6 @@
 //! Tools, spindle, coolant, feeds, units and dwells.
 
+use super::dialect::Dialect;
 use super::motion::numbers;
 use super::reader::{Done, Reader, fault, no_change};
 use super::words::Word;
@@ -8,6 +9,8 @@ use crate::toolpath::{Coolant, Event, Side, Spindle, SpindleTurn, Tool, Units};
 
 /// Millimetres in an inch.
 const MM: f64 = 25.4;
+/// Metres in a foot.
+const METRES_A_FOOT: f64 = 0.3048;
 
 /// A feed as it was said.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +46,8 @@ impl Reader<'_> {
             "IPR" => Feed::Revolution(value * inches),
             "MMPR" => Feed::Revolution(value * inches / MM),
             "PERREV" => Feed::Revolution(value),
+            // PostWorks: below 1 it is the lead
+            "TPI" if self.dialect() == Dialect::Ncl && value < 1.0 => Feed::Revolution(value),
             "TPI" => Feed::Revolution(inches / value),
             _ => return None,
         })
@@ -124,17 +129,27 @@ impl Reader<'_> {
     /// SPINDL: speed, what it counts, direction, in any order.
     pub(super) fn spindl(&mut self, words: &[Word]) -> Done {
         let mut said = Spindle::default();
+        let mut surface = 1.0;
         let mut words = words.iter().peekable();
         while let Some(word) = words.next() {
             match word {
                 Word::Number(speed) if *speed >= 0.0 && said.speed.is_none() => said.speed = Some(*speed),
                 Word::Name(name) => match name.as_str() {
                     "RPM" => said.css = Some(false),
-                    "SFM" | "SMM" => said.css = Some(true),
+                    "SFM" | "SMM" => {
+                        said.css = Some(true);
+                        // what a surface speed counts goes with the units of the file
+                        let metric = self.units.or(self.options.units) == Some(Units::Mm);
+                        surface = match (name.as_str(), metric) {
+                            ("SFM", true) => METRES_A_FOOT,
+                            ("SMM", false) => 1.0 / METRES_A_FOOT,
+                            _ => 1.0,
+                        };
+                    }
                     "CLW" => said.turn = Some(SpindleTurn::Cw),
                     "CCLW" => said.turn = Some(SpindleTurn::Ccw),
                     "OFF" | "STOP" => said.turn = Some(SpindleTurn::Off),
-                    "ON" => said.turn = said.turn.or(self.spindle.turn.filter(|turn| *turn != SpindleTurn::Off)),
+                    "ON" => said.turn = said.turn.or(self.last_turn).or(Some(SpindleTurn::Cw)),
                     "MAXRPM" => said.max = words.next().and_then(Word::number),
                     "RANGE" | "LOW" | "MEDIUM" | "HIGH" => {
                         words.next_if(|word| word.number().is_some());
@@ -150,6 +165,7 @@ impl Reader<'_> {
                 word => return fault(Code::PL001, format!("SPINDL with `{word}`"), "write SPINDL/1200,RPM,CLW"),
             }
         }
+        said.speed = said.speed.map(|speed| speed * surface);
         if said.speed.is_some() && said.turn.is_none() && self.spindle.turn.is_none() {
             said.turn = Some(SpindleTurn::Cw); // APT's default
         }
@@ -159,6 +175,9 @@ impl Reader<'_> {
             css: said.css.or(self.spindle.css),
             max: said.max.or(self.spindle.max),
         };
+        self.last_turn = self.spindle.turn.filter(|turn| *turn != SpindleTurn::Off).or(self.last_turn);
+        self.spindle_is_new = true;
+        self.cycle_feeds()?;
         if said.css == Some(false) {
             said.css = None; // what a form starts with
         }
@@ -171,7 +190,10 @@ impl Reader<'_> {
 
     /// COOLNT.
     pub(super) fn coolnt(&mut self, words: &[Word]) -> Done {
-        let name = words.first().and_then(Word::name).unwrap_or("");
+        let name = match words {
+            [Word::Name(name)] => name.as_str(),
+            _ => return fault(Code::PL002, "COOLNT with more than one word", "write ON, FLOOD, MIST or OFF"),
+        };
         let coolant = match name {
             "ON" | "FLOOD" => Coolant::On,
             "MIST" => Coolant::Mist,
@@ -206,13 +228,38 @@ impl Reader<'_> {
         };
         self.end_cycle()?;
         self.complete_change()?;
-        let register = words.windows(2).find(|pair| pair[0].is("ADJUST")).and_then(|pair| pair[1].number());
+        let register = self.length_register(name, &words[1..])?;
         let tool = Tool { number, length_offset: register, ..Tool::default() };
         let mut change = no_change(Some(tool));
         change.coolant = self.early_coolant.take();
         self.change = Some((change, self.place));
-        self.spindle = Spindle::default();
+        self.rapid_after_cycle = false; // what the tool before left
+        if !std::mem::take(&mut self.spindle_is_new) {
+            self.spindle = Spindle::default();
+        }
         Ok(())
+    }
+
+    /// The words behind a tool's number; those that say its length register.
+    fn length_register(&self, name: &str, words: &[Word]) -> Done<Option<f64>> {
+        let mut register = None;
+        let mut words = words.iter().peekable();
+        while let Some(word) = words.next() {
+            match word.name() {
+                None => {}
+                Some("ADJUST" | "OFSETNO" | "OSETNO") => {
+                    register = words.next_if(|word| word.number().is_some() || word.is("OFF")).and_then(Word::number);
+                }
+                Some("LENGTH" | "SPINDL") => {
+                    words.next_if(|word| word.number().is_some());
+                }
+                Some("MILL" | "DRILL" | "TURN" | "AUTO" | "MANUAL" | "IN") => {}
+                Some(word) => {
+                    return fault(Code::PL002, format!("{name} does not know `{word}`"), format!("write {name}/1"));
+                }
+            }
+        }
+        Ok(register)
     }
 
     /// CUTTER and TLDATA: the first number is the diameter.
@@ -229,7 +276,7 @@ impl Reader<'_> {
             "OFF" => Some(None),
             _ => None,
         };
-        let known = ["XYPLAN", "YZPLAN", "ZXPLAN", "XYPLANE", "OSETNO", "OFSETNO", "NORMDS"];
+        let known = ["XYPLAN", "OSETNO", "OFSETNO", "NORMDS"];
         let mut asked = None;
         for word in words {
             match word {

@@ -57,7 +57,7 @@ const MAJORS: &[(&str, Major)] = &[
     ("UNITS", Major::Units), ("UNIT", Major::Units), ("DELAY", Major::Delay),
     ("STOP", Major::Stop), ("OPSTOP", Major::Opstop), ("TRANS", Major::Trans), ("ORIGIN", Major::Origin),
     ("TLAXIS", Major::Tlaxis), ("SET", Major::Set), ("AUXFUN", Major::Auxfun), ("PREFUN", Major::Prefun),
-    ("$DATA", Major::Data), ("FINI", Major::Fini), ("END", Major::Ignored), ("END-OF-PATH", Major::EndOfPath),
+    ("$DATA", Major::Data), ("FINI", Major::Fini), ("END", Major::Fini), ("END-OF-PATH", Major::EndOfPath),
     ("TOOLPATH", Major::Fact), ("MSYS", Major::Fact), ("CSYS", Major::Fact), ("MACHIN", Major::Fact), ("SYN", Major::Ignored),
     ("MULTAX", Major::Ignored), ("SELECT", Major::Ignored), ("SELCTL", Major::Ignored), ("PAINT", Major::Ignored),
     ("INTOL", Major::Ignored), ("OUTTOL", Major::Ignored), ("TOLER", Major::Ignored), ("AUTOPS", Major::Ignored),
@@ -70,8 +70,11 @@ const MAJORS: &[(&str, Major)] = &[
     ("GOHOME", Major::Refused), ("OPSKIP", Major::Refused), ("ORIANT", Major::Refused), ("ORIENT", Major::Refused),
     ("TLRGT", Major::Refused), ("TLLFT", Major::Refused), ("GOFWD", Major::Refused), ("GOLFT", Major::Refused),
     ("GORGT", Major::Refused), ("GOBACK", Major::Refused), ("SPLINE", Major::Refused), ("NURBS", Major::Refused),
-    ("THREAD", Major::Refused), ("TURRET", Major::Refused), ("MIRROR", Major::Refused), ("REFSYS", Major::Refused),
+    ("THREAD", Major::Refused), ("TURRET", Major::Refused), ("MIRROR", Major::Refused), ("ROTHED", Major::Refused), ("SCALE", Major::Refused), ("MATRIX", Major::Refused), ("REFSYS", Major::Refused),
 ];
+
+/// Words that must not be lost in a statement that is not known.
+const MOTIONS: [&str; 5] = ["GOTO", "GODLTA", "CYCLE", "CIRCLE", "LOADTL"];
 
 /// The major of a word.
 pub(super) fn major(name: &str) -> Major {
@@ -105,8 +108,8 @@ impl Reader<'_> {
             Major::Delay => self.delay(words),
             Major::Stop => self.stop(StopKind::Program),
             Major::Opstop => self.stop(StopKind::Optional),
-            Major::Trans => self.shift(words, 1.0),
-            Major::Origin => self.shift(words, -1.0),
+            Major::Trans => self.shift(words, false),
+            Major::Origin => self.shift(words, true),
             Major::Tlaxis => self.tlaxis(words),
             Major::Set => self.set(name, words),
             Major::Auxfun => self.code('M', name, words),
@@ -119,6 +122,11 @@ impl Reader<'_> {
             }
             Major::EndOfPath | Major::Ignored | Major::None => Ok(()),
             Major::Unknown => {
+                // a label or number before a motion must not hide it
+                if let Some(hidden) = words.iter().filter_map(Word::name).find(|name| MOTIONS.contains(name)) {
+                    let message = format!("`{name}` stands before {hidden}");
+                    return fault(Code::PL001, message, "take it out, or put it on a line of its own");
+                }
                 self.note_unknown(name);
                 Ok(())
             }
@@ -167,7 +175,7 @@ impl Reader<'_> {
 
     /// MODE and SET: what counts is whether positions stay positions.
     fn set(&mut self, name: &str, words: &[Word]) -> Done {
-        if words.iter().any(|word| word.is("INCR")) {
+        if words.iter().any(|word| word.name().is_some_and(|name| name.starts_with("INCR"))) {
             let help = "let the CAM system write absolute positions";
             return fault(Code::PL004, format!("{name} asks for incremental positions"), help);
         }

@@ -49,6 +49,8 @@ impl Reader<'_> {
     #[inline]
     pub(super) fn go(&mut self, to: [f64; 3]) -> Done {
         let rapid = std::mem::take(&mut self.rapid) | std::mem::take(&mut self.rapid_after_cycle);
+        self.point = Some(to);
+        self.spindle_is_new = false;
         if let Some(arc) = self.arc.take() {
             return self.arc_to(&arc, to, rapid);
         }
@@ -92,7 +94,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn godlta(&mut self, words: &[Word]) -> Done {
-        let Some(from) = self.position else {
+        let Some(from) = self.point else {
             return fault(Code::PL001, "GODLTA from an unknown position", "begin with a GOTO or FROM");
         };
         let values = numbers(words).unwrap_or_default();
@@ -119,6 +121,7 @@ impl Reader<'_> {
                     self.set_axis([*i, *j, *k])?;
                 }
                 self.position = Some([x + self.offset[0], y + self.offset[1], z + self.offset[2]]);
+                self.point = self.position;
                 Ok(())
             }
             _ => fault(Code::PL001, "FROM takes a position", "write x, y, z"),
@@ -162,10 +165,11 @@ impl Reader<'_> {
     }
 
     /// TRANS adds to all positions, ORIGIN takes away.
-    pub(super) fn shift(&mut self, words: &[Word], sign: f64) -> Done {
+    pub(super) fn shift(&mut self, words: &[Word], origin: bool) -> Done {
         match numbers(words).as_deref() {
             Some([x, y, z]) => {
-                self.offset = [x * sign, y * sign, z * sign];
+                *(if origin { &mut self.origin } else { &mut self.trans }) = [*x, *y, *z];
+                self.offset = [0, 1, 2].map(|axis| self.trans[axis] - self.origin[axis]);
                 Ok(())
             }
             _ => fault(Code::PL001, "a shift takes three numbers", "write x, y, z"),

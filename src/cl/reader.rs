@@ -11,7 +11,8 @@ use super::majors::{Major, major};
 use super::words::{Word, plain_goto, words};
 use crate::diag::{Code, Diag};
 use crate::toolpath::{
-    Axes, Coolant, Event, First, Hold, Place, ReadError, Side, Sink, Spindle, Start, Tool, ToolChange, Units,
+    Axes, Coolant, Event, First, Hold, Place, ReadError, Side, Sink, Spindle, SpindleTurn, Start, Tool, ToolChange,
+    Units,
 };
 
 /// What a caller may choose.
@@ -68,7 +69,12 @@ pub(super) struct Reader<'s> {
     ended: bool,
     /// Added to every position: TRANS, less ORIGIN.
     pub(super) offset: [f64; 3],
+    pub(super) trans: [f64; 3],
+    pub(super) origin: [f64; 3],
+    /// Where the tool is; after a hole, where it was left.
     pub(super) position: Option<[f64; 3]>,
+    /// The last point that was said, from which GODLTA counts.
+    pub(super) point: Option<[f64; 3]>,
     /// The tool axis.
     pub(super) axis: [f64; 3],
     pub(super) heading: Option<Heading>,
@@ -83,6 +89,10 @@ pub(super) struct Reader<'s> {
     /// So is it after the end of a cycle, unless a feed comes first.
     pub(super) rapid_after_cycle: bool,
     pub(super) spindle: Spindle,
+    /// The direction in which it turned last.
+    pub(super) last_turn: Option<SpindleTurn>,
+    /// It was said since the last motion, so perhaps for the tool that comes.
+    pub(super) spindle_is_new: bool,
     pub(super) diameter: Option<f64>,
     /// Coolant said before the first tool.
     pub(super) early_coolant: Option<Coolant>,
@@ -137,7 +147,10 @@ impl<'s> Reader<'s> {
             started: false,
             ended: false,
             offset: [0.0; 3],
+            trans: [0.0; 3],
+            origin: [0.0; 3],
             position: None,
+            point: None,
             axis: [0.0, 0.0, 1.0],
             heading: None,
             sense: None,
@@ -148,6 +161,8 @@ impl<'s> Reader<'s> {
             rapid: false,
             rapid_after_cycle: false,
             spindle: Spindle::default(),
+            last_turn: None,
+            spindle_is_new: false,
             diameter: None,
             early_coolant: None,
             change: None,
@@ -178,6 +193,19 @@ impl<'s> Reader<'s> {
             return fault(Code::PL001, "a statement longer than 1 MB", "look whether this is a CL file");
         }
         let line = line.trim_ascii();
+        if line.starts_with(b"\xff\xfe") || line.starts_with(b"\xfe\xff") {
+            return fault(Code::PL001, "the file is UTF-16", "save it as plain text (ASCII or UTF-8)");
+        }
+        if line.contains(&b'\r') {
+            return fault(
+                Code::PL001,
+                "the lines end with carriage returns alone",
+                "save the file with LF or CRLF line ends",
+            );
+        }
+        if self.ended && line == b"\x1a" {
+            return Ok(()); // as DOS marks the end of a file
+        }
         if !*continues {
             self.look_at(line);
             if line.starts_with(b"$$->") || line.starts_with(b"$$*") {
@@ -247,12 +275,24 @@ impl<'s> Reader<'s> {
         }
         let Some(first) = list.first() else { return Ok(()) };
         if self.ended {
-            return fault(Code::PL001, "a statement after FINI", "take it out, or FINI");
+            if first.is("FINI") {
+                return Ok(()); // after END
+            }
+            return fault(Code::PL001, "a statement after FINI or END", "take it out, or the end before it");
         }
         let Some(name) = first.name().map(str::to_owned) else {
             // UG writes several points under one GOTO; some records go on without `$`
-            return if self.major == Major::Goto { self.goto_words(&list) } else { Ok(()) };
+            return match self.major {
+                Major::Goto => self.goto_words(&list),
+                Major::Cutter | Major::Data => Ok(()),
+                _ => fault(
+                    Code::PL001,
+                    "numbers that belong to no statement",
+                    "put GOTO/ before them, or `$` at the end before",
+                ),
+            };
         };
+        let name = unnumbered(&name).to_owned();
         list.remove(0);
         self.major = major(&name);
         self.run(self.major, &name, &list)
@@ -408,6 +448,13 @@ impl<'s> Reader<'s> {
         diag.place.get_or_insert_with(|| self.place.to_string());
         ReadError::Job(diag)
     }
+}
+
+/// A major word without the number of its record: `N29 GOTO`, `100 GOTO`.
+fn unnumbered(name: &str) -> &str {
+    let rest =
+        name.strip_prefix('N').unwrap_or(name).trim_start_matches(|c: char| c.is_ascii_digit()).trim_start_matches(')');
+    if major(name) == Major::Unknown && major(rest) != Major::Unknown { rest } else { name }
 }
 
 /// An operation that says nothing yet.

@@ -155,6 +155,7 @@ codes! {
     PR016 Error "a setting that can't be used"
     PR017 Error "a change that the form can't print"
     PR021 Note "a value that the control takes from its own settings"
+    PR022 Note "a rapid printed by a sequence that may feed"
 }
 
 impl Code {

@@ -173,6 +173,17 @@ impl Renderer<'_> {
         }
     }
 
+    /// What the speed counts, where something that does not print it is about to print the speed.
+    pub(super) fn speed_mode_before(&mut self) -> Done {
+        let Some(mode) = self.vars.get(VarId::Speedtype).filter(|mode| self.served.speed_type != Some(*mode)) else {
+            return Ok(());
+        };
+        self.code_word(&sema::Code::plain(b'G', mode))?;
+        self.end_block();
+        self.served.speed_type = Some(mode);
+        Ok(())
+    }
+
     /// The work offset with the letter that the form uses for it.
     fn work_block(&mut self, work: f64) -> Done {
         let letter = self.program.work_letter.unwrap_or(b'G');

@@ -37,6 +37,10 @@ impl Renderer<'_> {
         offset: bool,
     ) -> Done {
         let program = self.program;
+        if rapid && program.block(id).is_some() {
+            let message = format!("a rapid with cutter compensation is printed by {}, which may feed", id.name());
+            self.note(Code::PR022, message, "look at the move");
+        }
         let rapid = rapid && program.block(id).is_none();
         let target = self.reach(to, false)?;
         if !rapid {

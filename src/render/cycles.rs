@@ -208,6 +208,15 @@ impl Renderer<'_> {
         let rigid = spec.kind.is_tap() && spec.rigid.unwrap_or(program.settings.rigid_tap);
         let emulated = self.options.cycles == Cycles::Emulated || spec.emulate && !rigid;
         let candidate = self.candidate(spec).filter(|_| !emulated);
+        let floats = |block: &Block| !program.settings.rigid_tap && !block.vars.has(VarId::Rigid);
+        if spec.rigid == Some(true) && candidate.and_then(|id| program.block(id)).is_some_and(floats) {
+            let message = "a rigid tap, and the form's tap is for a floating holder";
+            return fault(
+                Code::PR009,
+                message,
+                "say `RigidTap? Y` in the form where its tap is rigid, or print [rigid]",
+            );
+        }
         let why = match candidate.and_then(|id| program.block(id).map(|block| (id, block))) {
             Some((id, block)) => match self.cannot_say(spec, block) {
                 None => return Ok((block.style != CycleStyle::Generated).then_some(id)),

@@ -25,8 +25,23 @@ impl Renderer<'_> {
         if let Some(comment) = &change.comment {
             self.comment_block(comment);
         }
-        if let Some(tool) = change.tool.as_ref().filter(|_| changes) {
-            self.change_tool(tool, &change.first)?;
+        match &change.tool {
+            Some(tool) if changes => self.change_tool(tool, &change.first)?,
+            Some(tool) => self.same_registers(tool)?,
+            None => {}
+        }
+        Ok(())
+    }
+
+    /// The tool that is in keeps its offset registers: no sequence would print others.
+    fn same_registers(&self, tool: &Tool) -> Done {
+        let registers =
+            [(VarId::Lcomp, tool.length_offset, "length"), (VarId::Dcomp, tool.diameter_offset, "diameter")];
+        for (var, register, name) in registers {
+            if register.is_some() && register != self.vars.get(var) {
+                let message = format!("tool {} is in, and its {name} offset register changes", tool.number);
+                return fault(Code::PR017, message, "give it a number of its own, or keep the register");
+            }
         }
         Ok(())
     }
@@ -63,6 +78,10 @@ impl Renderer<'_> {
 
     fn change_tool(&mut self, tool: &Tool, first: &First) -> Done {
         let program = self.program;
+        if self.compensated {
+            let help = "end the compensation with an `outfeed` before";
+            return fault(Code::PR006, "the tool changes under cutter compensation", help);
+        }
         let is_first = self.tool.is_none();
         self.tool_variables(tool)?;
         self.tool = Some(tool.number);
@@ -106,6 +125,9 @@ impl Renderer<'_> {
         }
         if block.vars.meets(POSITION) && !block.vars.has(VarId::Work) {
             self.work_before()?; // the position counts from it
+        }
+        if block.vars.has(VarId::Speed) && !block.vars.has(VarId::Speedtype) {
+            self.speed_mode_before()?; // else a surface speed would be revolutions
         }
         self.placed = 0;
         self.run_with_upons(block)?;

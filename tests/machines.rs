@@ -38,8 +38,10 @@ fn a_call_is_known_to_move_the_tool() {
 fn a_subprogram_changes_nothing_but_where_it_is_called() {
     let inside = "{\"work\":55},{\"coolant\":\"off\"},{\"spindle\":{\"speed\":500}},{\"rapid\":[0,0,1]}";
     let lines = program(&mill("", SUBS), &with_subs(&sub(7, inside), &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
-    assert_eq!(lines[2..8], ["S1000 M3", "G0 G54 X0 Y0 Z1.", "M98 P1 L3", "G54", "S1000 M3", "G0 X1. Y1. Z1."]);
-    assert_eq!(lines[9..], ["O1", "G55", "S500", "M9", "G0 X0 Y0 Z1.", "M99"]);
+    // three runs that each begin as the first
+    assert_eq!(lines[4..10], ["M98 P1 L1", "G54", "S1000 M3", "M98 P1 L1", "G54", "S1000 M3"]);
+    assert_eq!(lines[10..14], ["M98 P1 L1", "G54", "S1000 M3", "G0 X1. Y1. Z1."]);
+    assert_eq!(lines[15..], ["O1", "G55", "S500", "M9", "G0 X0 Y0 Z1.", "M99"]);
     // a subprogram in between must know what to put back
     let nested = format!("{},{}", sub(7, "{\"call\":{\"sub\":8}}"), sub(8, inside));
     let form = mill("RenumSubs? N", SUBS);
@@ -48,8 +50,9 @@ fn a_subprogram_changes_nothing_but_where_it_is_called() {
         "{\"work\":56},{\"coolant\":\"on\"},{\"spindle\":{\"speed\":700}},{\"call\":{\"sub\":8}},{\"rapid\":[0,0,2]}";
     let nested = format!("{},{}", sub(7, own), sub(8, inside));
     let lines = program(&form, &with_subs(&nested, &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
-    assert_eq!(lines[4..8], ["M98 P7 L3", "G54", "G97 S1000 M3", "M9"]);
-    assert_eq!(lines[12..20], ["G56", "S700", "M8", "M98 P8 L1", "G56", "S700", "M8", "G0 X0 Y0 Z2."]);
+    assert_eq!(lines[4..8], ["M98 P7 L1", "G54", "G97 S1000 M3", "M9"]);
+    let at = lines.iter().position(|line| line == "O7").unwrap() + 1;
+    assert_eq!(lines[at..at + 8], ["G56", "S700", "M8", "M98 P8 L1", "G56", "S700", "M8", "G0 X0 Y0 Z2."]);
     // what it does not change is not said again
     let plain = program(&mill("", SUBS), &with_subs(&sub(7, MOVE), &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
     assert_eq!(plain[4..6], ["M98 P1 L3", "G0 X1. Y1. Z1."]);
@@ -155,13 +158,13 @@ fn more_starts_begin_a_pitch_further_back_and_tapers_are_radii() {
     let two = THREAD.replace("\"passes\":4", "\"passes\":1,\"starts\":2");
     let lines = turned("Thread G33", "", &two);
     assert_eq!(lines[1..], ["G33 X.84 Z-1. I0 F.2", "G0 Z.3 X1.", "G33 X.84 Z-1. I0 F.2"]);
-    let taper = THREAD.replace("\"to\":[-1]", "\"to\":[-1,0.55]");
-    assert_eq!(turned("Thread G33", "", &taper)[1], "G33 X1.02 Z-1. I-.05 F.1");
+    let taper = THREAD.replace("\"to\":[-1]", "\"to\":[-1,0.45]");
+    assert_eq!(turned("Thread G33", "", &taper)[1], "G33 X.82 Z-1. I.05 F.1");
     // a taper says the radius at the end; a start further back on the cone has more of it
     let cone = THREAD.replace("\"to\":[-1]", "\"to\":[-1],\"taper\":0.12,\"starts\":2").replace("4", "1");
     let lines = turned("Thread G33", "", &cone);
     assert_eq!(lines[1..], ["G33 X.6 Z-1. I.12 F.2", "G0 Z.3 X1.", "G33 X.6 Z-1. I.13 F.2"]);
-    let both = taper.replace("\"pitch\"", "\"taper\":0.05,\"pitch\"");
+    let both = taper.replace("\"pitch\"", "\"taper\":0.07,\"pitch\"");
     assert!(turned("Thread G33", "", &both)[0].starts_with("PR006 the thread's ends differ"));
     let inner = THREAD.replace("0.08", "-0.08");
     assert_eq!(turned("Thread G33", "", &inner)[1..2], ["G33 X1.08 Z-1. I0 F.1"]);
@@ -280,4 +283,12 @@ fn numbers_of_subprograms_are_not_the_programs_own() {
     assert!(program(&mill("RenumSubs? N", SUBS), &text)[0].starts_with("PJ010 the subprogram 100"));
     let first = text.replace("\"program\":100", "\"program\":1");
     assert!(program(&mill("", SUBS), &first).contains(&"M98 P2 L1".to_owned()));
+}
+
+#[test]
+fn threads_are_approached_from_their_own_side() {
+    let inner = THREAD.replace("0.08", "-0.08").replace("[0.2,0.5]", "[0.2,0.4]");
+    assert!(turned("Thread G33", "", &inner)[0].starts_with("PR006 the tool is outside the crest of an inner thread"));
+    let outer = THREAD.replace("[0.2,0.5]", "[0.2,0.6]");
+    assert!(turned("Thread G33", "", &outer)[0].starts_with("PR006 the tool is inside the crest of an outer thread"));
 }

@@ -415,13 +415,19 @@ fn a_comment_prints_no_word() {
     assert_eq!(path_lines("", begin, path)[..2], ["(AT 55)", "G55"]);
 }
 
-/// Work offset, spindle and coolant stand before text, and codes in text count as printed.
+/// Work offset, spindle and coolant stand before text, and codes in text count as printed and as wanted.
 #[test]
 fn text_comes_after_what_goes_before_it() {
     let path = "{\"spindle\":{\"direction\":\"off\"}},{\"coolant\":\"on\"},{\"text\":\"M0 (M9)\"},{\"line\":[1,0,1]}";
     assert_eq!(path_lines("", "", path)[..3], ["M5", "M8", "M0 (M9)"]);
     let stopped = "{\"text\":\"M5\"},{\"spindle\":{\"direction\":\"cw\"}},{\"line\":[1,0,1]}";
     assert_eq!(path_lines("", "", stopped)[..2], ["M5", "S1000 M3"]);
+    let coolant = "{\"text\":\"M8\"},{\"line\":[1,0,1]},{\"work\":55},{\"rapid\":[1,0,2]}";
+    assert_eq!(path_lines("", "", coolant), ["M8", "G1 X1. Y0 Z1. F10.", "G55", "G0 X1. Y0 Z2."]);
+    // what would be read otherwise is put back, or refused
+    assert_eq!(path_lines("", "", "{\"text\":\"G95\"},{\"line\":[1,0,1]}")[1], "G94");
+    assert!(path_lines("", "", "{\"text\":\"G91\"},{\"line\":[1,0,1]}")[0].starts_with("PR017 the control is in G91"));
+    assert!(path_lines("", "", "{\"text\":\"G22 G21\"}")[0].starts_with("PR017 the text changes the units"));
 }
 
 /// An Upon body that does not print its change does not hide it.
@@ -436,7 +442,7 @@ fn an_upon_that_says_nothing_serves_nothing() {
 fn a_cut_does_not_begin_with_an_upon_that_moves() {
     let upon = "Upon [work]\nG0 G53 Z0\nG[work] X[h] Y[v]\nEnd";
     for cut in ["{\"line\":[1,1]}", "{\"infeed\":[1,1],\"side\":\"left\"}"] {
-        assert!(path_lines("", upon, &format!("{{\"work\":55}},{cut}"))[0].starts_with("PR012 an Upon"), "{cut}");
+        assert!(path_lines("", upon, &format!("{{\"work\":55}},{cut}"))[0].starts_with("PR012 this sequence"), "{cut}");
     }
     // at a stop it goes nowhere
     let lines = path_lines("", upon, "{\"line\":[4,4]},{\"work\":55},{\"stop\":\"program\"}");
@@ -514,4 +520,57 @@ fn the_tool_goes_up_first_also_after_text() {
     let path = "{\"line\":[0,0,-1]},{\"text\":\"M1\"},\
                 {\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[5,5,0]]}}";
     assert_eq!(path_lines("", DRILL, path)[1..4], ["M1", "G0 Z.1", "G81 X5. Y5. Z-1. R.1 F5."]);
+}
+
+/// A sequence that took the tool away is no place to cut from, whatever stands between.
+#[test]
+fn a_cut_begins_where_the_path_says() {
+    let upon = "Upon [work]\nG0 G53 Z0\nG[work] X[h] Y[v]\nEnd";
+    for between in ["{\"dwell\":1}", "{\"stop\":\"program\"}", "{\"text\":\"M1\"}", "{\"comment\":\"now\"}"] {
+        let path = format!("{{\"work\":55}},{between},{{\"line\":[1,1]}}");
+        assert!(path_lines("", upon, &path)[0].starts_with("PR012"), "{between}");
+    }
+    let lifts = "EndRow\nG0 Z9\nEnd";
+    let row = "{\"begin\":\"row\"},{\"end\":\"row\"}";
+    assert!(path_lines("", lifts, &format!("{row},{{\"line\":[1,1]}}"))[0].starts_with("PR012"));
+    assert_eq!(path_lines("", lifts, &format!("{row},{{\"rapid\":[1,1,1]}}")), ["G0 Z9", "X1. Y1. Z1."]);
+}
+
+/// What an Upon does for the next tool is not done with the one before.
+#[test]
+fn a_tool_change_needs_no_upon_that_moves() {
+    let upon = "Upon [work]\nG[work] X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd";
+    let second =
+        "{\"tool\":2,\"work\":55,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3,1]}]}";
+    let text = job("{\"rapid\":[1,0,1]}").replace("1]}]}]}", &format!("1]}}]}},{second}]}}"));
+    assert_eq!(program(&mill("", upon), &text)[5..8], ["T2 M6", "S1 M3", "G0 G55 X3. Y3. Z1."]);
+}
+
+/// Inside a control's cycle every axis word is a hole: an Upon ends the cycle first.
+#[test]
+fn an_upon_stands_outside_the_cycle() {
+    let upon = format!("{DRILL}\nUpon [vclear]\nM8 X[h] Y[v]\nEnd");
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,2,-0.3]]}}";
+    let lines = path_lines("", &upon, cycle);
+    let (cancel, upon) = (lines.iter().position(|l| l == "G80"), lines.iter().position(|l| l.starts_with("M8")));
+    assert!(cancel.is_some() && cancel < upon, "{lines:?}");
+}
+
+/// Compensation ends before the tool changes, and begins at a known height.
+#[test]
+fn compensation_has_its_tool_and_height() {
+    let second = "{\"tool\":2,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3,1]}]}";
+    let text = job("{\"infeed\":[1,0],\"side\":\"left\"}").replace("left\"}]}]}", &format!("left\"}}]}},{second}]}}"));
+    assert!(program(&mill("", ""), &text)[0].starts_with("PR006 the tool changes"));
+    let infeed = "InFeed\nG1 G[side] D[dcomp] X[h] Y[v] F[frate]\nEnd";
+    let path = "{\"text\":\"G0 Z5\"},{\"infeed\":[1,0],\"side\":\"left\"}";
+    assert!(path_lines("", infeed, path)[0].starts_with("PR017 nobody knows the height"));
+}
+
+/// Inverse time stands in the block of its move.
+#[test]
+fn inverse_time_needs_its_word_in_the_block() {
+    let text = job("{\"line\":[1,0,1]}").replace("\"feed\":10", "\"feed\":10,\"feed_mode\":\"inverse_time\"");
+    let form = mill("", "LineCode\nG1 X[h] Y[v] Z[d]\nEnd");
+    assert!(program(&form, &text)[0].starts_with("PR017 in inverse time"));
 }

@@ -156,6 +156,7 @@ codes! {
     PR017 Error "a change that the form can't print"
     PR021 Note "a value that the control takes from its own settings"
     PR022 Note "a rapid printed by a sequence that may feed"
+    PR023 Warning "cutter compensation at the end"
 }
 
 impl Code {

@@ -39,6 +39,10 @@ impl Renderer<'_> {
         let mut target = self.reach(&arc.to, false)?;
         self.take_feed(feed)?;
         let (axes, across, code) = plane_axes(arc.plane);
+        if self.compensated && arc.plane != Plane::Xy && self.program.settings.machine == Machine::Mill {
+            let help = "end the compensation with an `outfeed` before";
+            return fault(Code::PR006, "an arc in another plane under cutter compensation", help);
+        }
         let Some(from) = self.in_plane(&self.position, axes) else {
             let help = "begin with a rapid that gives all coordinates";
             return fault(Code::PR005, "the arc begins at an unknown position", help);
@@ -53,6 +57,7 @@ impl Renderer<'_> {
         if self.attention {
             self.attend_here(true)?;
         }
+        self.stands_at_cut()?;
         self.set_targets(&target)?;
         if self.watches_moves {
             self.upons(MOVE_VARS)?;

@@ -81,7 +81,7 @@ impl Renderer<'_> {
     }
 
     /// Variables whose change nothing printed yet: the next move counts as using them.
-    fn pending(&self) -> VarSet {
+    pub(super) fn pending(&self) -> VarSet {
         let mut set = VarSet::default();
         for (var, served) in CONDITIONS.into_iter().zip(self.served.values()) {
             if self.vars.get(var).is_some_and(|value| served != Some(value)) {

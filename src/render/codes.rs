@@ -84,15 +84,15 @@ impl Renderer<'_> {
         fault_at(Code::PR017, message, "print G90 before it, or the increment, as [hdist]", self.form_span())
     }
 
-    /// The codes of a text outside comments: what they switch is known, and put back where the job says otherwise.
-    pub(super) fn text_codes(&mut self, text: &str) {
+    /// The codes of a text outside comments: what they switch is known.
+    pub(super) fn text_codes(&mut self, text: &str) -> Done {
         let bytes = text.as_bytes();
         let (mut at, mut depth) = (0, 0);
         while at < bytes.len() {
             let letter = bytes[at].to_ascii_uppercase();
             at += 1;
             match letter {
-                b';' if depth == 0 => return,
+                b';' if depth == 0 => break,
                 b'(' => depth += 1,
                 b')' => depth -= 1,
                 b'G' | b'M' | b'S' if depth == 0 => {
@@ -100,8 +100,18 @@ impl Renderer<'_> {
                     if let Ok(value) = text[at..end].parse::<f64>() {
                         if letter == b'S' {
                             self.served.speed = Some(value);
+                            self.vars.set(VarId::Speed, value);
+                        } else if self.changes_units(letter, value) {
+                            let message = format!("the text changes the units of the program with G{value}");
+                            return fault_at(
+                                Code::PR017,
+                                message,
+                                "render with `--units`, and take the code out",
+                                None,
+                            );
                         } else {
                             self.printed_code(letter, value);
+                            self.is_the_jobs(letter, value);
                         }
                     }
                     at = end;
@@ -110,5 +120,24 @@ impl Renderer<'_> {
             }
         }
         self.registers.forget_all();
+        self.attention |= self.distance_is_wrong() || self.has_changes();
+        Ok(())
+    }
+
+    /// What a text switches is what the job wants from there on; what its feeds count is not.
+    fn is_the_jobs(&mut self, letter: u8, value: f64) {
+        let var = match group_of(letter, tenths(value)) {
+            Some(Group::Spindle) => VarId::Direct,
+            Some(Group::Coolant) => VarId::Cool,
+            Some(Group::Work) => VarId::Work,
+            Some(Group::SpeedMode) => VarId::Speedtype,
+            _ => return,
+        };
+        self.vars.set(var, value);
+    }
+
+    /// Is this a code of other units than the program's?
+    fn changes_units(&self, letter: u8, value: f64) -> bool {
+        group_of(letter, tenths(value)) == Some(Group::Units) && self.vars.get(VarId::Unitmode) != Some(value)
     }
 }

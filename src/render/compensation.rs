@@ -15,16 +15,18 @@ impl Renderer<'_> {
         let mirrored = self.axis_scale[1] < 0.0; // a turret on the other side
         let code = if (infeed.side == Side::Left) != mirrored { left } else { right };
         self.vars.set(VarId::Side, code);
+        self.compensate(&infeed.to, (feed, infeed.rapid), SequenceId::InFeed, code, true)?;
         self.compensated = true;
-        self.compensate(&infeed.to, (feed, infeed.rapid), SequenceId::InFeed, code, true)
+        Ok(())
     }
 
     /// The move that turns it off.
     pub(super) fn outfeed(&mut self, to: &Axes, feed: Option<f64>, rapid: bool) -> Done {
         let off = self.program.settings.cdc[2];
         self.vars.set(VarId::Side, off);
+        self.compensate(to, (feed, rapid), SequenceId::OutFeed, off, false)?;
         self.compensated = false;
-        self.compensate(to, (feed, rapid), SequenceId::OutFeed, off, false)
+        Ok(())
     }
 
     /// `rapid`: the job rapids there; a sequence of the form feeds all the same, which is slower and not wrong.
@@ -49,6 +51,7 @@ impl Renderer<'_> {
         if self.attention {
             self.attend_here(true)?;
         }
+        self.stands_at_cut()?;
         self.set_targets(&target)?;
         if self.watches_moves {
             self.upons(super::motion::MOVE_VARS)?;
@@ -65,6 +68,11 @@ impl Renderer<'_> {
                 return fault_at(Code::PR008, message, "write the sequence on one line", Some(block.span));
             }
             self.sequence_says(block, &target)?;
+            if self.linear == 3 && !block.vars.has(VarId::D) && self.differs(&target, self.depth_bit()) {
+                let message = format!("nobody knows the height here, and {} does not print it", id.name());
+                let help = "put a rapid before it, or the word of [d] into the sequence";
+                return fault_at(Code::PR017, message, help, Some(block.span));
+            }
             self.plane_block(17.0, block)?;
             self.upons(block.vars)?;
             self.feed_block(block)?;

@@ -92,6 +92,7 @@ impl Renderer<'_> {
                 None => self.split_rapid(&target)?,
             }
         }
+        self.moved_by = None; // every hole is approached by rapids
         match block {
             Some(block) => self.sequence_hole(block, &target, &planes, heights)?,
             None => self.generated_hole(&target, &planes, heights)?,
@@ -158,7 +159,14 @@ impl Renderer<'_> {
         }
         self.hole_variables(planes, heights);
         self.vars.set(VarId::D, heights.return_plane);
-        self.upons(block.vars.without(crate::lang::VarSet::of(&[VarId::D])))?;
+        let used = block.vars.without(crate::lang::VarSet::of(&[VarId::D]));
+        if self.upon_is_due(used, false) {
+            self.leave_cycle()?; // else the control takes its words for those of a hole
+            self.set_targets(target)?;
+            self.hole_variables(planes, heights);
+            self.vars.set(VarId::D, heights.return_plane);
+        }
+        self.upons(used)?;
         self.plane_block(17.0, block)?; // else the control drills along another axis
         self.vars.set(VarId::D, heights.bottom);
         if matches!(block.style, CycleStyle::Emulated) {

@@ -39,13 +39,13 @@ impl Renderer<'_> {
         }
         let turns = target.given & ROTARY != 0 && self.turns(&target);
         if self.attention {
-            self.upon_moved = None;
-            self.attend()?;
-            if let Some(span) = self.upon_moved.take().filter(|_| turns) {
-                let message = "an Upon sequence moves the tool here before the part turns";
-                return fault_at(Code::PR017, message, "put a rapid that keeps the angle before it", Some(span));
+            if turns && self.upon_is_due(self.pending(), true) {
+                let message = "an Upon sequence would move the tool here before the part turns";
+                return fault(Code::PR017, message, "put a rapid that keeps the angle before it");
             }
+            self.attend()?;
         }
+        self.moved_by = None;
         if turns {
             return self.turn_to(&target);
         }
@@ -61,6 +61,8 @@ impl Renderer<'_> {
         self.take_feed(feed)?;
         if self.attention {
             self.attend_here(true)?;
+        } else if self.moved_by.is_some() {
+            self.stands_at_cut()?;
         }
         if self.tracks || target.given & ROTARY != 0 {
             self.set_targets(&target)?;
@@ -176,11 +178,15 @@ impl Renderer<'_> {
         }
         let here = self.position;
         self.set_targets(&here)?;
-        self.upon_moved = None;
         self.attend()?;
-        match self.upon_moved.take().filter(|_| cuts) {
+        if cuts { self.stands_at_cut() } else { Ok(()) }
+    }
+
+    /// A cut begins where the path says, not where a sequence took the tool.
+    pub(super) fn stands_at_cut(&self) -> Done {
+        match self.moved_by {
             Some(span) => {
-                let message = "an Upon sequence moves the tool here, and the path goes on with a cut";
+                let message = "this sequence takes the tool away, and the path goes on with a cut";
                 fault_at(Code::PR012, message, "put a rapid to the beginning of the cut before it", Some(span))
             }
             None => Ok(()),

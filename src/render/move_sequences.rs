@@ -49,6 +49,10 @@ impl Renderer<'_> {
     /// The feed as a block of its own, before a sequence that prints none.
     pub(super) fn feed_block(&mut self, block: &Block) -> Done {
         if !block.vars.has(VarId::Frate) {
+            if self.inverse_time() {
+                let message = "in inverse time each move says its feed, and the sequence does not print [frate]";
+                return fault_at(Code::PR017, message, "add `F[frate]` to the sequence", Some(block.span));
+            }
             self.feed_word()?;
             self.end_block();
         }

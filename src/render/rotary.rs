@@ -43,6 +43,11 @@ impl Angles {
         }
     }
 
+    /// Is any angle known? In a subprogram: one that it said.
+    pub(super) fn is_known(&self) -> bool {
+        self.now.iter().any(Option::is_some)
+    }
+
     /// Have turns been taken off?
     pub(super) fn is_wound(&self) -> bool {
         self.wound != [0.0; 3]

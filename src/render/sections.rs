@@ -54,7 +54,11 @@ impl Renderer<'_> {
         match self.program.block(id) {
             Some(block) => {
                 self.set_here()?;
-                self.run_with_upons(block)
+                self.run_with_upons(block)?;
+                if self.names_axes(block, true) {
+                    self.moved_by = Some(block.span);
+                }
+                Ok(())
             }
             None => Ok(()),
         }
@@ -128,7 +132,9 @@ impl Renderer<'_> {
 
     /// Changes of spindle and coolant come before a dwell or stop too.
     fn attend_changes(&mut self) -> Done {
-        if self.attention { self.attend_here(false) } else { Ok(()) }
+        // where nobody knows the place, what would move the tool waits for the next rapid
+        let lost = self.position.given & 0b11 != 0b11 && self.upon_is_due(self.pending(), true);
+        if self.attention && !lost { self.attend_here(false) } else { Ok(()) }
     }
 
     /// A comment in the marks of the form.
@@ -169,7 +175,7 @@ impl Renderer<'_> {
         self.attend_changes()?;
         self.registers.forget_all();
         self.displaced(0x3f);
-        self.text_codes(text);
+        self.text_codes(text)?;
         self.out.word(&self.layout, false).extend_from_slice(text.as_bytes());
         self.end_block();
         Ok(())

@@ -167,6 +167,10 @@ impl Renderer<'_> {
     pub(super) fn finish(&mut self) -> Done {
         self.close_cycle()?;
         self.check_sections_closed()?;
+        if self.compensated {
+            let message = "cutter compensation is still on at the end of the program";
+            self.note(Code::PR023, message.into(), "end it with an `outfeed`");
+        }
         if let Some(order) = &self.tool_order
             && self.tool_changes != order.len()
         {

@@ -42,6 +42,15 @@ struct State {
 struct Left {
     served: Served,
     upon_used: Vec<Option<f64>>,
+    /// A rotary axis turned.
+    turned: bool,
+}
+
+impl Left {
+    /// Nothing that its next run would find otherwise.
+    fn is_nothing(&self) -> bool {
+        !self.served.known().meets(VarSet::of(&CONDITIONS))
+    }
 }
 
 /// Text that stands aside, with its source map.
@@ -143,9 +152,11 @@ impl Renderer<'_> {
 
     /// The main program goes on as if the subprogram had not been written, because only calls run it.
     fn back_to_main(&mut self) {
+        let turned = self.angles.is_known();
         self.forget_where();
         let Some(main) = self.subs.main.take() else { return };
-        let left = Left { served: self.served, upon_used: std::mem::replace(&mut self.upon_used, main.upon_used) };
+        let upon_used = std::mem::replace(&mut self.upon_used, main.upon_used);
+        let left = Left { served: self.served, upon_used, turned };
         (self.vars, self.served, self.angles) = (main.vars, main.served, main.angles);
         self.keep_feed(main.feed);
         if let Some(sub) = self.subs.open.take().and_then(|open| self.subs.defined.get_mut(open)) {
@@ -229,17 +240,30 @@ impl Renderer<'_> {
         if let Some(call) = self.subs.calls.last_mut() {
             call.unknown = unknown;
         }
-        self.go_to_call(call, block)?;
+        let place = self.go_to_call(call, block)?;
         self.vars.set(VarId::Sub, printed);
         self.vars.set(VarId::Times, call.times);
         self.vars.put(VarId::Subline, first_block);
-        // a sequence that does not print how often is printed as often
-        let calls = if block.vars.has(VarId::Times) { 1 } else { call.times as u32 };
-        for _ in 0..calls {
+        let leaves = called.is_none_or(|i| self.subs.defined[i].calls_ahead || !self.subs.defined[i].left.is_nothing());
+        if call.times > 1.0 && called.is_some_and(|i| self.subs.defined[i].left.turned) {
+            let help = "turn it back at the end of the subprogram, or call it once for each angle";
+            return fault(Code::PR008, "a subprogram that leaves the part turned is called several times", help);
+        }
+        // a sequence that does not print how often is printed as often; so is one whose next run must begin as the first
+        let together = block.vars.has(VarId::Times) && !(leaves && call.times > 1.0);
+        let calls = if together { 1 } else { call.times as u32 };
+        if !together {
+            self.vars.set(VarId::Times, 1.0);
+        }
+        for run in 0..calls {
+            if run > 0 && leaves {
+                self.pending_changes()?;
+            }
+            self.set_targets(&place)?;
             self.registers.forget_all();
             self.run_with_upons(block)?;
+            self.after_call(called);
         }
-        self.after_call(called);
         // the call's work offset is the call's alone: what follows is in the operation's again
         self.vars.put(VarId::Work, work);
         self.attention = true;
@@ -247,7 +271,8 @@ impl Renderer<'_> {
     }
 
     /// What the call needs before it: changes that its sequence does not print, and the place it is called at.
-    fn go_to_call(&mut self, call: &Call, block: &Block) -> Done {
+    /// Returns the place.
+    fn go_to_call(&mut self, call: &Call, block: &Block) -> Done<Axes> {
         self.plain_cutting()?;
         let target = self.reach(&call.at, true)?;
         self.set_targets(&target)?;
@@ -264,7 +289,8 @@ impl Renderer<'_> {
             }
             if self.turns(&at) { self.turn_to(&at)? } else { self.rapid_to(&at)? }
         }
-        self.set_targets(&target)
+        self.set_targets(&target)?;
+        Ok(target)
     }
 
     /// The subprogram moved the tool, and changed what it says it changed.

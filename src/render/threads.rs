@@ -51,6 +51,14 @@ impl Renderer<'_> {
             let help = "begin with a rapid to beside the thread, which says how far it is from the axis";
             return fault(Code::PR001, "the radius at which the passes of the thread begin is unknown", help);
         }
+        let from = self.target(&thread.from).values[1];
+        let beside = self.position.values[1];
+        let wrong = [from, cut.crest].iter().any(|crest| (beside - crest) * cut.inward > 1e-9);
+        if wrong {
+            let (kind, place) = if cut.inward > 0.0 { ("inner", "outside") } else { ("outer", "inside") };
+            let message = format!("the tool is {place} the crest of an {kind} thread, at the radius {beside}");
+            return fault(Code::PR006, message, "rapid to the other side of the crest first");
+        }
         let starts = thread.starts.unwrap_or(1.0);
         let begin = self.target(&thread.from).values[0];
         self.thread_variables(thread, &cut);

@@ -130,6 +130,8 @@ impl Renderer<'_> {
             self.speed_mode_before()?; // else a surface speed would be revolutions
         }
         self.placed = 0;
+        self.moved_by = None;
+        self.upons_of_change(block);
         self.run_with_upons(block)?;
         if let Some(target) = target {
             self.move_to(&Axes { given: target.given & self.placed, ..target });

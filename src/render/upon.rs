@@ -1,21 +1,41 @@
 //! Upon sequences: printed when a variable changes, before what uses it.
 
-use super::fault::Done;
+use super::fault::{Done, fault_at};
 use super::renderer::Renderer;
 use crate::compile::{Block, LetterKind, Op};
+use crate::diag::Code;
 use crate::lang::VarSet;
 
 impl Renderer<'_> {
-    /// Does a sequence print words of axes?
-    fn names_axes(&self, block: &Block) -> bool {
+    /// Does a sequence print words of axes? `typed`: with numbers of its own, so that the tool leaves its place.
+    pub(super) fn names_axes(&self, block: &Block, typed: bool) -> bool {
         block.ops.clone().any(|i| {
             let letter = match self.program.ops[i] {
-                Op::Var { letter, .. } => letter,
+                Op::Var { letter, .. } if !typed => letter,
                 Op::Literal { index, .. } => self.program.literals[index as usize].letter,
                 _ => return false,
             };
             self.letters[letter].kind == LetterKind::Axis
         })
+    }
+
+    /// Is an Upon sequence due before these variables are used? `moving`: one that prints words of axes.
+    pub(super) fn upon_is_due(&self, used: VarSet, moving: bool) -> bool {
+        self.program.upon_vars.meets(used)
+            && self.program.upons.iter().zip(&self.upon_used).any(|(upon, before)| {
+                let Some(value) = self.vars.get(upon.var).filter(|_| used.has(upon.var)) else { return false };
+                let due = upon.every || before.is_some_and(|before| before != value);
+                due && (!moving || self.names_axes(&upon.block, false))
+            })
+    }
+
+    /// A tool change prints what it uses: an Upon that moves would do so with the tool that goes.
+    pub(super) fn upons_of_change(&mut self, block: &Block) {
+        for (i, upon) in self.program.upons.iter().enumerate() {
+            if block.vars.has(upon.var) && self.names_axes(&upon.block, false) {
+                self.upon_used[i] = self.vars.get(upon.var).or(self.upon_used[i]);
+            }
+        }
     }
 
     /// A variable's value was printed otherwise: no Upon is due for it.
@@ -48,9 +68,15 @@ impl Renderer<'_> {
             // the first use only sets the baseline, unless it prints at every use
             let due = if upon.every { true } else { before.is_some_and(|before| before != value) };
             if due {
+                let moves = self.names_axes(&upon.block, false);
+                if moves && self.compensated {
+                    let message = format!("Upon [{}] moves the tool under cutter compensation", upon.var.name());
+                    let help = "end the compensation with an `outfeed` before the change";
+                    return fault_at(Code::PR006, message, help, Some(upon.block.span));
+                }
                 self.run_block(&upon.block)?;
-                if self.names_axes(&upon.block) {
-                    self.upon_moved = Some(upon.block.span);
+                if self.names_axes(&upon.block, true) {
+                    self.moved_by = Some(upon.block.span);
                 }
             }
         }

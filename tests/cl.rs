@@ -288,7 +288,7 @@ fn nothing_is_lost_between_statements() {
         ("GOTO/10,0,10\nINDIRV/1,0,0\nTLON,GOFWD/(CIRCLE/0,0,10,10),ON,(LINE/0,0,10,0,10,10)", "PL004 INDIRV"),
         ("GOTO/10,0,10\nMOVARC/0,0,10,0,0,1,12\nGOTO/0,10,10", "PR005 the CIRCLE has the radius 12"),
         ("CUTCOM/LEFT\nGOTO/1,0,10\nLOADTL/2\nSPINDL/1,CLW\nRAPID\nGOTO/1,1,1", "PR006 the tool changes"),
-        ("CYCLE/TAP,RIGID,DEPTH,1,MMPR,1\nGOTO/1,1,0", "PR009"),
+        ("CYCLE/TAP,RIGID,DEPTH,1,MMPR,1\nGOTO/1,1,0", "PC021"),
     ] {
         assert!(error(text).starts_with(code), "{text}: {}", error(text));
     }

@@ -193,7 +193,7 @@ fn a_dwell_that_the_form_does_not_print_becomes_moves() {
 #[test]
 fn a_rigid_tap_is_never_made_of_moves() {
     let tap = "{\"cycle\":{\"kind\":\"tap\",\"depth\":1,\"clear\":1,\"feed\":50,\"rigid\":true,\"points\":[[1,1,0]]}}";
-    assert!(path_lines("", "", tap)[0].starts_with("PR009"));
+    assert!(path_lines("", "", tap)[0].starts_with("PC021"));
     let floating = tap.replace(",\"rigid\":true", "");
     assert_eq!(path_lines("", "", &floating), ["G0 X1. Y1.", "G1 Z-1. F50.", "M4", "Z1.", "M3"]);
 }

@@ -12,13 +12,15 @@ impl Reader<'_> {
     pub(super) fn spec(&mut self, coded: &Coded) -> Done<CycleSpec> {
         let kind = coded.kind.unwrap_or(CycleKind::Drill);
         let both = |a: Opt, b: Opt| coded.has(a) && coded.has(b);
-        for (a, b) in [(Opt::Norevr, Opt::Rapout), (Opt::Float, Opt::Rigid), (Opt::Dwell, Opt::Rev)] {
+        let pairs = [
+            (Opt::Norevr, Opt::Rapout, "NOREVR and RAPOUT"),
+            (Opt::Float, Opt::Rigid, "FLOAT and RIGID"),
+            (Opt::Dwell, Opt::Rev, "DWELL and REV"),
+        ];
+        for (a, b, words) in pairs {
             if both(a, b) {
-                return fault(
-                    Code::PC016,
-                    "two options of which a cycle has one",
-                    "keep NOREVR or RAPOUT, FLOAT or RIGID, DWELL or REV",
-                );
+                let message = format!("{words} in one cycle");
+                return fault(Code::PC016, message, "keep one of them");
             }
         }
         let left = coded.has(Opt::Invers);

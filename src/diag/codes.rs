@@ -145,7 +145,6 @@ codes! {
     PR006 Error "a canned cycle that can't be made"
     PR007 Error "beyond a travel limit"
     PR008 Error "an event that this machine or form can't do"
-    PR009 Error "a rigid tap without a sequence"
     PR010 Error "units of job and form differ"
     PR011 Error "a move without a feed"
     PR012 Error "a path that begins with a cut"

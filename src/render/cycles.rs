@@ -212,7 +212,7 @@ impl Renderer<'_> {
         if spec.rigid == Some(true) && candidate.and_then(|id| program.block(id)).is_some_and(floats) {
             let message = "a rigid tap, and the form's tap is for a floating holder";
             return fault(
-                Code::PR009,
+                Code::PC021,
                 message,
                 "say `RigidTap? Y` in the form where its tap is rigid, or print [rigid]",
             );
@@ -227,7 +227,7 @@ impl Renderer<'_> {
         };
         if rigid {
             let message = format!("a rigid tap can't be made of single moves, and {why}");
-            return fault(Code::PR009, message, "add a Tap sequence that prints what the tap needs");
+            return fault(Code::PC021, message, "add a Tap sequence that prints what the tap needs");
         }
         if candidate.is_some() {
             self.note(Code::PR014, format!("the cycle is printed as single moves: {why}"), "look at the moves");

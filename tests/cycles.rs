@@ -195,3 +195,91 @@ fn worked_examples_agree() {
         }
     }
 }
+
+/// Every wrong combination by its name, and what is only warned of.
+#[test]
+fn wrong_combinations_have_names() {
+    let cases = [
+        ("WIGGLE,DEPTH,1,MMPM,5", "type.unknown"),
+        ("DRILL,MMPM,5", "depth.missing"),
+        ("DRILL,DEPTH,-2,MMPM,5,CLEAR,1", "depth.above_clear"),
+        ("DEEP,DEPTH,2,1,MMPM,5", "depth.order"),
+        ("DRILL,DEPTH,1", "feed.missing"),
+        ("DRILL,DEPTH,1,MMPM,0", "feed.nonpositive"),
+        ("DRILL,DEPTH,1,MMPM,5,MMPM,6", "feed.multiple"),
+        ("DRILL,DEPTH,1,TPI,20", "feed.tpi_only_tap"),
+        ("DRILL,DEPTH,1,MMPM,5,CLEAR,2,1", "clear2.not_allowed"),
+        ("DEEP,DEPTH,1,STEP,.5,MMPM,5,CLEAR,2,1,BACK,1", "clear2.twice"),
+        ("BORE,DEPTH,1,MMPM,5,CLEAR,2,1,ORIENT,OFSETL,1", "clear2.twice"),
+        ("BORE,BACK,DEPTH,1,MMPM,5", "rapto.required"),
+        ("DRILL,DEPTH,1,MMPM,5,CLEAR,1,RAPTO,3", "rapto.beyond_depth"),
+        ("DEEP,DEPTH,9,STEP,1,MMPM,5,CLEAR,1,RAPTO,4", "rapto.beyond_depth"),
+        ("BORE,BACK,DEPTH,40,MMPM,5,RAPTO,32", "back.depth_below_rapto"),
+        ("BORE,DEPTH,1,MMPM,5,OFSETL,.1", "bore.jog_without_orient"),
+        ("TAP,FLOAT,DEPTH,1,MMPM,5,NOREVR,RAPOUT", "option.exclusive"),
+        ("TAP,FLOAT,RIGID,DEPTH,1,MMPM,5", "option.exclusive"),
+        ("FACE,DEPTH,1,MMPM,5,DWELL,1,REV,2", "option.exclusive"),
+        ("DRILL,DEPTH,1,MMPM,5,STEP,1", "option.not_allowed"),
+        ("MANUAL,DEPTH,1", "option.not_allowed"),
+        ("CSINK,DIAMET,1,TLANGL,90,DEPTH,1,MMPM,5", "option.not_allowed"),
+        ("DEEP,DEPTH,1,STEP,1,MMPM,5,TIMES,2", "option.not_allowed"),
+        ("TAP,DEEP,RIGID,DEPTH,1,STEP,1,MMPM,5,TIMES,2", "option.not_allowed"),
+        ("DRILL,DEPHT,1,MMPM,5", "option.unknown"),
+        ("DRILL,DEPTH,1,MMPM,5,CLEAR,1,CLEAR,2", "option.duplicate"),
+        ("TAP,FLOAT,DEPTH,1,MMPM,5,MULTRD,2", "multrd.rigid_only"),
+        ("TAP,RIGID,DEPTH,1,MMPM,5", "rigid.unavailable"),
+        ("TAP,DEEP,DEPTH,3,STEP,1,MMPM,5", "rigid.unavailable"),
+        ("THRU,DEPTH,1,2,MMPM,5", "thru.pairs"),
+        ("THRU,DEPTH,1,3,2,MMPM,5", "thru.order"),
+        ("CSINK,TLANGL,82,MMPM,5", "csink.diamet_missing"),
+        ("CSINK,DIAMET,8,MMPM,5", "csink.tlangl_missing"),
+        ("CSINK,DIAMET,8,TLANGL,180,MMPM,5", "csink.angle_range"),
+        ("CSINK,DIAMET,8,TLANGL,90,HOLDIA,8,MMPM,5", "csink.holdia"),
+        ("DEEP,DEPTH,1,STEP,0,MMPM,5", "step.nonpositive"),
+        ("DEEP,DEPTH,20,STEP,6,MMPM,5,DECR,2", "decr.exhausted"),
+        ("DEEP,DEPTH,1,2,MMPM,5,DECR,.1", "decr.absolute"),
+        ("DEEP,DEPTH,20,MMPM,5,DECR,.1", "decr.absolute"),
+        ("DEEP,DEPTH,1,2,STEP,1,MMPM,5", "format.mixed"),
+        ("DRILL,1,2,5,MMPM", "format.positional"),
+        ("DRILL,DEPTH,MMPM,5", "value.missing"),
+        ("DRILL,DEPTH,1,2,MMPM,5", "value.count"),
+        ("DRILL,DEPTH,1,MMPM,5,RAPTO,1,2", "value.count"),
+        ("DRILL,DEPTH,1,MMPM,5,RAPTO,-1", "value.sign"),
+        ("BRKCHP,DEPTH,1,STEP,.5,MMPM,5,TIMES,1.5", "value.integer"),
+        ("TAP,RIGID,DEPTH,1,MMPM,5,MULTRD,1.5", "value.integer"),
+        ("ON", "on.no_previous"),
+        ("AUTO", "auto.syntax"),
+        ("RETURN,MAYBE", "return.syntax"),
+    ];
+    let warned = [
+        ("DRILL,DEPTH,1,MMPM,5,CLEAR,2,,", "null_parameter"),
+        ("CSINK,DIAMET,8,TLANGL,100,MMPM,5", "csink.printed"),
+        ("DRILL,DEPTH,1,MMPM,5,CLEAR,2,RETURN,1", "return.below_clear"),
+        ("TAP,FLOAT,DEPTH,1,MMPM,5,INVERS", "tap.direction"),
+        ("DEEP,DEPTH,1,STEP,1,MMPM,5,MINSTP,1", "minstp.unused"),
+        ("TAP,FLOAT,DEPTH,1,MMPM,5,RAPOUT,RATIO,2", "ratio.unused"),
+    ];
+    let read = |statement: &str| {
+        let checked = support::check(&form(&Value::Null, Units::Mm));
+        let program = compile(&checked.form);
+        let options = Options { cycles: Cycles::Emulated, sink_as_printed: true, ..Options::default() };
+        let (mut renderer, mut report) = (Renderer::new(&program, options), Report::default());
+        let head = "UNITS/MM\nLOADTL/1\nSPINDL/1000,CLW\nRAPID\nGOTO/0,0,100\n";
+        let text = format!("{head}CYCLE/{statement}\nGOTO/0,0,0\nCYCLE/OFF\nFINI\n");
+        let read = read_cl(text.as_bytes(), &ClOptions::default(), &mut report, &mut renderer);
+        let mut keys: Vec<&str> = report.warnings.iter().chain(renderer.notes()).map(|diag| diag.code.key()).collect();
+        if let Err(ReadError::Job(diag)) = &read {
+            assert_eq!(diag.place.as_deref().map(|place| place.starts_with('6') || place.starts_with('7')), Some(true));
+            keys = vec![diag.code.key()];
+        }
+        (read.is_err(), keys.iter().map(ToString::to_string).collect::<Vec<_>>())
+    };
+    for (statement, key) in cases {
+        assert_eq!(read(statement), (true, vec![format!("cycle.{key}")]), "{statement}");
+    }
+    for (statement, key) in warned {
+        let (failed, keys) = read(statement);
+        // a tap of moves against the spindle is an error after its warning
+        assert!(keys.contains(&format!("cycle.{key}")) || failed && key == "tap.direction", "{statement}: {keys:?}");
+    }
+}

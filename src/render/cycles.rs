@@ -110,6 +110,11 @@ impl Renderer<'_> {
             let message = "`ratio` without effect: this tap does not feed out";
             self.note(Code::PC057, message.into(), "take `ratio` out");
         }
+        if self.options.sink_as_printed && spec.kind == CycleKind::Csink && spec.angle.is_some_and(|angle| angle > 90.0)
+        {
+            let message = "the printed formula makes this countersink too deep";
+            self.note(Code::PC059, message.into(), "render without `--csink-depth printed`");
+        }
         if spec.min_step.is_some() && spec.decr.is_none() && self.program.settings.cycle_min_step == 0.0 {
             let message = "`min_step` without effect: the steps do not shrink";
             self.note(Code::PC055, message.into(), "take it out, or give `decr`");

@@ -308,3 +308,13 @@ fn surface_speeds_have_units_and_their_code() {
     );
     assert!(rendered.unwrap().text.contains("G96\nT1 M6\nS30"), "30.48 metres a minute");
 }
+
+/// Coolant stays from tool to tool, and CATIA's TOOLNO only describes the tool that LOADTL loads.
+#[test]
+fn what_is_said_once_holds() {
+    let lines = body("COOLNT/FLOOD\nGOTO/1,0,10\nLOADTL/2\nSPINDL/500,CLW\nFEDRAT/9\nRAPID\nGOTO/1,1,1");
+    assert_eq!(lines.iter().filter(|line| *line == "M8" || *line == "M9").collect::<Vec<_>>(), ["M8"]);
+    let options = Options { dialect: Some(Dialect::Catia), ..Options::default() };
+    let text = format!("UNITS/MM\nTOOLNO/1,MILL,MMPM,10,ON,,NOTE\n{}FINI\n", &HEAD[9..]);
+    assert_eq!(read(&text, options), ["G0 X0 Y0 Z10."]);
+}

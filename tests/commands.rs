@@ -190,7 +190,7 @@ fn work_offsets_count_from_the_first_code() {
 fn dwells_stops_and_compensation() {
     assert_eq!(
         path_lines("", "", "{\"dwell\":0.25},{\"stop\":\"optional\"},{\"stop\":\"program\"}"),
-        ["G4 P.25", "M1", "M0"]
+        ["G4 P.25", "M1", "S1000 M3", "M0"]
     );
     assert_eq!(
         path_lines("Dwell G04 X ms\nStopCode 10 11", "", "{\"dwell\":0.25},{\"stop\":\"optional\"}"),

@@ -292,3 +292,30 @@ fn threads_are_approached_from_their_own_side() {
     let outer = THREAD.replace("[0.2,0.5]", "[0.2,0.6]");
     assert!(turned("Thread G33", "", &outer)[0].starts_with("PR006 the tool is inside the crest of an outer thread"));
 }
+
+/// A wire that stands upright has no words for its upper guide; one that leans has them also where compensation begins.
+#[test]
+fn a_leaning_wire_leans_from_its_lead_in() {
+    let form =
+        "Machine EDM\nStartCode\n%0\nEnd\nEndCode\nM2\nEnd\nInFeed\nG1 G[side] X[h] Y[v] U[h2] V[v2] F[frate]\nEnd";
+    let text = |axes: &str| {
+        format!(
+            "{{\"machine\":\"edm\",\"operations\":[{{\"feed\":2,\"path\":[{{\"rapid\":[0,0]}},{{\"infeed\":{axes},\"side\":\"left\"}}]}}]}}"
+        )
+    };
+    assert_eq!(program(form, &text("[5,0]"))[2], "G1 G41 X5. Y0 F2.");
+    assert_eq!(program(form, &text("[5,0,4,1]"))[2], "G1 G41 X5. Y0 U4. V1. F2.");
+}
+
+/// Revolutions are their own limit; a surface speed without one is an error.
+#[test]
+fn revolutions_need_no_limit() {
+    let form = lathe("", "").replace("S[speed] M[direct]\nEnd", "G50 S[maxrpm]\nG[speedtype] S[speed] M[direct]\nEnd");
+    let text = job("{\"line\":[-1,0.5]}")
+        .replace("[0,0,1]", "[0.2,0.5]")
+        .replace("\"units\"", "\"machine\":\"lathe\",\"units\"")
+        .replace("\"work\":54,", "");
+    assert_eq!(program(&form, &text)[2..4], ["G50 S1000", "G97 S1000 M3"]);
+    let surface = text.replace("\"speed\":1000", "\"speed\":100,\"mode\":\"css\"");
+    assert!(program(&form, &surface)[0].starts_with("PR001 [maxrpm]"));
+}

@@ -574,3 +574,10 @@ fn inverse_time_needs_its_word_in_the_block() {
     let form = mill("", "LineCode\nG1 X[h] Y[v] Z[d]\nEnd");
     assert!(program(&form, &text)[0].starts_with("PR017 in inverse time"));
 }
+
+/// Many controls stop spindle and coolant with the program; the cut after it must find them on.
+#[test]
+fn spindle_and_coolant_are_said_again_after_a_stop() {
+    let path = "{\"coolant\":\"on\"},{\"line\":[1,0,1]},{\"stop\":\"program\"},{\"line\":[2,0,1]}";
+    assert_eq!(path_lines("", "", path), ["M8", "G1 X1. F10.", "M0", "S1000 M3", "M8", "X2."]);
+}

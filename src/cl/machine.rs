@@ -205,12 +205,12 @@ impl Reader<'_> {
             }
             _ => return fault(Code::PL002, format!("COOLNT does not know `{name}`"), "write ON, FLOOD, MIST or OFF"),
         };
+        self.coolant = Some(coolant);
         if let Some((change, _)) = &mut self.change {
             change.coolant = Some(coolant);
             return Ok(());
         }
         if !self.has_operation() {
-            self.early_coolant = Some(coolant);
             return Ok(());
         }
         self.close_holes()?;
@@ -219,6 +219,9 @@ impl Reader<'_> {
 
     /// LOADTL/n, LOAD/TOOL,n, TOOLNO/n: a tool change, complete with the next feed motion or spindle.
     pub(super) fn load(&mut self, name: &str, words: &[Word]) -> Done {
+        if name == "TOOLNO" && self.dialect() == Dialect::Catia {
+            return Ok(()); // describes the tool that LOADTL loads
+        }
         let words = match words.first() {
             Some(word) if word.is("TOOL") => &words[1..],
             _ => words,
@@ -231,7 +234,7 @@ impl Reader<'_> {
         let register = self.length_register(name, &words[1..])?;
         let tool = Tool { number, length_offset: register, ..Tool::default() };
         let mut change = no_change(Some(tool));
-        change.coolant = self.early_coolant.take();
+        change.coolant = self.coolant;
         self.change = Some((change, self.place));
         self.rapid_after_cycle = false; // what the tool before left
         if !std::mem::take(&mut self.spindle_is_new) {

@@ -94,8 +94,8 @@ pub(super) struct Reader<'s> {
     /// It was said since the last motion, so perhaps for the tool that comes.
     pub(super) spindle_is_new: bool,
     pub(super) diameter: Option<f64>,
-    /// Coolant said before the first tool.
-    pub(super) early_coolant: Option<Coolant>,
+    /// The coolant, which stays from tool to tool.
+    pub(super) coolant: Option<Coolant>,
     /// A tool change that is not complete.
     pub(super) change: Option<(ToolChange, Place)>,
     pub(super) waiting: Vec<(Waiting, Place)>,
@@ -164,7 +164,7 @@ impl<'s> Reader<'s> {
             last_turn: None,
             spindle_is_new: false,
             diameter: None,
-            early_coolant: None,
+            coolant: None,
             change: None,
             waiting: Vec::new(),
             operations: 0,
@@ -387,7 +387,7 @@ impl<'s> Reader<'s> {
         }
         if self.change.is_none() && self.operations == 0 {
             let tool = self.options.tool.map(|number| Tool { number, diameter: self.diameter, ..Tool::default() });
-            let coolant = self.early_coolant.take();
+            let coolant = self.coolant;
             self.change = Some((ToolChange { coolant, ..no_change(tool) }, self.place));
         }
         if let Some((mut change, place)) = self.change.take() {

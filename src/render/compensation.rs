@@ -68,7 +68,10 @@ impl Renderer<'_> {
                 return fault_at(Code::PR008, message, "write the sequence on one line", Some(block.span));
             }
             self.sequence_says(block, &target)?;
-            if self.linear == 3 && !block.vars.has(VarId::D) && self.differs(&target, self.depth_bit()) {
+            if program.settings.machine == Machine::Mill
+                && !block.vars.has(VarId::D)
+                && self.differs(&target, self.depth_bit())
+            {
                 let message = format!("nobody knows the height here, and {} does not print it", id.name());
                 let help = "put a rapid before it, or the word of [d] into the sequence";
                 return fault_at(Code::PR017, message, help, Some(block.span));
@@ -88,7 +91,7 @@ impl Renderer<'_> {
             let mut axes = AxisUnits::default();
             self.axis_units(&target, &mut axes)?;
             self.axis_words(&target, &axes)?;
-            if offset {
+            if offset && program.settings.machine != Machine::Lathe {
                 let Some(register) = self.vars.get(VarId::Dcomp) else {
                     self.out.clear_block();
                     let help = "give the tool a \"diameter_offset\"";

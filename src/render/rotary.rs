@@ -72,8 +72,10 @@ impl Renderer<'_> {
             let Some(limit) = self.program.settings.limits.iter().find(|limit| limit.letter == letter) else {
                 continue;
             };
+            let free = free
+                && (self.angles.wound[turn] != 0.0 || !(limit.least..=limit.greatest).contains(&inside.values[axis]));
             let within = |angle: f64| (limit.least..=limit.greatest).contains(&angle);
-            if within(inside.values[axis]) {
+            if within(inside.values[axis]) && !free {
                 continue;
             }
             if free {

@@ -3,7 +3,7 @@
 use super::fault::{Done, fault};
 use super::renderer::Renderer;
 use crate::diag::Code;
-use crate::lang::{Machine, SequenceId};
+use crate::lang::{Machine, SequenceId, VarId};
 use crate::sema;
 use crate::toolpath::{EdmAction, Section, StopKind};
 
@@ -120,14 +120,34 @@ impl Renderer<'_> {
         self.attend_changes()?;
         let [program, optional] = self.program.settings.stop_code;
         let code = if kind == StopKind::Program { program } else { optional };
-        self.vars.set(crate::lang::VarId::Stop, code);
-        if let Some(block) = self.program.block(SequenceId::Stop) {
-            self.set_here()?;
-            return self.run_with_upons(block);
+        self.vars.set(VarId::Stop, code);
+        match self.program.block(SequenceId::Stop) {
+            Some(block) => {
+                self.set_here()?;
+                self.run_with_upons(block)?;
+            }
+            None => {
+                self.code_word(&sema::Code::plain(b'M', code))?;
+                self.end_block();
+            }
         }
-        self.code_word(&sema::Code::plain(b'M', code))?;
-        self.end_block();
+        self.stopped();
         Ok(())
+    }
+
+    /// Many controls stop spindle and coolant with the program: before the next move they are said again.
+    fn stopped(&mut self) {
+        for (var, served) in [
+            (VarId::Speed, &mut self.served.speed),
+            (VarId::Direct, &mut self.served.direct),
+            (VarId::Cool, &mut self.served.cool),
+        ] {
+            let off = [self.program.settings.spindle[2], self.program.settings.coolant[1]];
+            if self.vars.get(var).is_some_and(|value| !off.contains(&value)) {
+                *served = None;
+            }
+        }
+        self.attention = true;
     }
 
     /// Changes of spindle and coolant come before a dwell or stop too.

@@ -238,7 +238,13 @@ impl Renderer<'_> {
             return Ok(Some(value));
         }
         match var {
+            // revolutions are their own limit
+            VarId::Maxrpm if self.vars.get(VarId::Speedtype) == Some(self.program.settings.speed_type[1]) => {
+                return Ok(self.vars.get(VarId::Speed));
+            }
             VarId::Block => return Ok(Some(self.out.number() as f64)),
+            // a two-axis job has no upper guide
+            VarId::H2 | VarId::V2 if self.linear == 4 => return Ok(None),
             // a cycle without dwell drops the word
             VarId::Dwell if self.cycle.is_some() => return Ok(None),
             _ => {}

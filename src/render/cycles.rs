@@ -3,7 +3,7 @@
 use super::fault::{Done, fault};
 use super::renderer::{Cycles, Renderer};
 use super::vars::Vars;
-use crate::compile::{Block, CycleStyle, Op};
+use crate::compile::{Block, CycleStyle};
 use crate::cycle::{Plan, check};
 use crate::diag::Code;
 use crate::lang::{Group, Machine, SequenceId, VarId};
@@ -285,15 +285,9 @@ impl Renderer<'_> {
         let program = self.program;
         let own = !custom; // what a custom cycle must say, only its form knows
         let across = own && program.settings.machine == Machine::Mill; // a lathe drills at its centre
-        let absolute = |i| match &program.ops[i] {
-            Op::Literal { index, .. } => {
-                let literal = &program.literals[*index as usize];
-                literal.letter == b'G' && literal.value == program.settings.inc_abs[1]
-            }
-            _ => false,
-        };
+        let absolute = |code| code == program.settings.inc_abs[1];
         let positions = &[VarId::H, VarId::V, VarId::D, VarId::Vclear, VarId::Rplane];
-        let steps = program.settings.incremental && prints(positions) && !block.ops.clone().any(absolute);
+        let steps = program.settings.incremental && prints(positions) && !self.says_code(block, absolute);
         let missing = [
             (steps, &[][..], "increments, which the control expects here"),
             (across, &[VarId::H], "the position: [h]"),

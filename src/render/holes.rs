@@ -5,7 +5,7 @@ use super::fault::{Done, fault};
 use super::move_words::as_number;
 use super::renderer::Renderer;
 use super::words::Mode;
-use crate::compile::{Block, CycleStyle, Op};
+use crate::compile::{Block, CycleStyle};
 use crate::cycle::{Plan, Step, plan};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
@@ -105,10 +105,8 @@ impl Renderer<'_> {
 
     /// Does a hole lie at a place across the tool that its sequence does not print, as on a lathe?
     fn sequence_loses(&self, block: &Block, target: &Axes) -> bool {
-        const WORDS: [[VarId; 2]; 2] = [[VarId::H, VarId::Hdist], [VarId::V, VarId::Vdist]];
-        (0..2).filter(|&axis| axis != self.depth_axis).any(|axis| {
-            target.get(axis) != self.position.get(axis) && !WORDS[axis].iter().any(|&var| block.vars.has(var))
-        })
+        let mut across = (0..2).filter(|&axis| axis != self.depth_axis);
+        across.any(|axis| target.get(axis) != self.position.get(axis) && !self.says_axis(block, axis))
     }
 
     /// Variables of a cycle at a hole.
@@ -176,13 +174,7 @@ impl Renderer<'_> {
             self.shifted = false;
             self.run(block.ops.clone(), Mode::Hole)?;
             // after a cycle of the control the last height printed is its bottom
-            let cycled = block.ops.clone().any(|i| match self.program.ops[i] {
-                Op::Literal { index, .. } => {
-                    let literal = &self.program.literals[index as usize];
-                    literal.letter == b'G' && (73.0..90.0).contains(&literal.value) && literal.value != 80.0
-                }
-                _ => false,
-            });
+            let cycled = self.says_code(block, |code| (73.0..90.0).contains(&code) && code != 80.0);
             return self.left_hole(target, cycled.then_some((heights.return_plane, false)));
         }
         let starts = self.starts_cycle(block, heights);

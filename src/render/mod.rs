@@ -16,6 +16,7 @@ mod output;
 mod registers;
 mod renderer;
 mod rotary;
+mod says;
 mod sections;
 mod start;
 mod subprograms;

@@ -217,14 +217,6 @@ impl Renderer<'_> {
         angles[axis - ROTARY.start]
     }
 
-    /// Does a sequence print the angle of a rotary axis?
-    pub(super) fn says_angle(&self, block: &Block, axis: usize) -> bool {
-        block.ops.clone().any(|i| {
-            matches!(self.program.ops[i], Op::Var { letter, var: VarId::Rotangle | VarId::Lastrotangle, .. }
-                if letter == self.axes[axis] || !self.axes.contains(&letter))
-        })
-    }
-
     /// A rapid to another rotary view: Index, where the form has it.
     pub(super) fn turn_to(&mut self, target: &Axes) -> Done {
         let program = self.program;

@@ -279,11 +279,9 @@ impl Renderer<'_> {
         if self.attention && !(block.vars.has(VarId::Work) && self.only_work_waits()) {
             self.attend()?;
         }
-        const WORDS: [[VarId; 2]; 3] = [[VarId::H, VarId::Hdist], [VarId::V, VarId::Vdist], [VarId::D, VarId::Ddist]];
-        let says = |axis: usize| WORDS.get(axis).is_some_and(|vars| vars.iter().any(|&var| block.vars.has(var)));
         let at = Axes { given: call.at.given, ..target };
         // all of it: a part alone would go down before it goes across
-        if (0..6).any(|axis| at.get(axis).is_some() && !says(axis)) {
+        if (0..6).any(|axis| at.get(axis).is_some() && !self.says_axis(block, axis)) {
             if block.vars.has(VarId::Work) {
                 self.work_before()?;
             }

@@ -2,23 +2,11 @@
 
 use super::fault::{Done, fault_at};
 use super::renderer::Renderer;
-use crate::compile::{Block, LetterKind, Op};
+use crate::compile::Block;
 use crate::diag::Code;
 use crate::lang::VarSet;
 
 impl Renderer<'_> {
-    /// Does a sequence print words of axes? `typed`: with numbers of its own, so that the tool leaves its place.
-    pub(super) fn names_axes(&self, block: &Block, typed: bool) -> bool {
-        block.ops.clone().any(|i| {
-            let letter = match self.program.ops[i] {
-                Op::Var { letter, .. } if !typed => letter,
-                Op::Literal { index, .. } => self.program.literals[index as usize].letter,
-                _ => return false,
-            };
-            self.letters[letter].kind == LetterKind::Axis
-        })
-    }
-
     /// Is an Upon sequence due before these variables are used? `moving`: one that prints words of axes.
     pub(super) fn upon_is_due(&self, used: VarSet, moving: bool) -> bool {
         self.program.upon_vars.meets(used)

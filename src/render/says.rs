@@ -1,0 +1,72 @@
+//! What a sequence prints: codes, axes, angles; and what a move would lose in it.
+
+use super::fault::{Done, fault_at};
+use super::renderer::Renderer;
+use crate::compile::{Block, LetterKind, Op};
+use crate::diag::Code;
+use crate::lang::VarId;
+use crate::toolpath::Axes;
+
+impl Renderer<'_> {
+    /// Does a sequence print a G code as typed that answers this?
+    pub(super) fn says_code(&self, block: &Block, asked: impl Fn(f64) -> bool) -> bool {
+        block.ops.clone().any(|i| match self.program.ops[i] {
+            Op::Literal { index, .. } => {
+                let literal = &self.program.literals[index as usize];
+                literal.letter == b'G' && asked(literal.value)
+            }
+            _ => false,
+        })
+    }
+
+    /// The variables that say where a linear axis goes.
+    fn words_of(&self, axis: usize) -> &'static [VarId] {
+        match (axis, self.linear) {
+            (0, _) => &[VarId::H, VarId::Hdist],
+            (1, _) => &[VarId::V, VarId::Vdist],
+            (2, 4) => &[VarId::H2],
+            (3, 4) => &[VarId::V2],
+            (2, _) => &[VarId::D, VarId::Ddist],
+            _ => &[],
+        }
+    }
+
+    /// Does a sequence print where a linear axis goes?
+    pub(super) fn says_axis(&self, block: &Block, axis: usize) -> bool {
+        self.words_of(axis).iter().any(|&var| block.vars.has(var))
+    }
+
+    /// Does a sequence print words of axes? `typed`: with numbers of its own, so that the tool leaves its place.
+    pub(super) fn names_axes(&self, block: &Block, typed: bool) -> bool {
+        block.ops.clone().any(|i| {
+            let letter = match self.program.ops[i] {
+                Op::Var { letter, .. } if !typed => letter,
+                Op::Literal { index, .. } => self.program.literals[index as usize].letter,
+                _ => return false,
+            };
+            self.letters[letter].kind == LetterKind::Axis
+        })
+    }
+
+    /// Does a sequence print the angle of a rotary axis?
+    pub(super) fn says_angle(&self, block: &Block, axis: usize) -> bool {
+        block.ops.clone().any(|i| {
+            matches!(self.program.ops[i], Op::Var { letter, var: VarId::Rotangle | VarId::Lastrotangle, .. }
+                if letter == self.axes[axis] || !self.axes.contains(&letter))
+        })
+    }
+
+    /// A motion sequence must print every axis that moves: a word that the form leaves out is a move that is lost.
+    pub(super) fn sequence_says(&self, block: &Block, target: &Axes) -> Done {
+        let moves = |axis: usize| target.get(axis).is_some() && target.get(axis) != self.position.get(axis);
+        let lost = (0..self.linear).find(|&axis| moves(axis) && !self.says_axis(block, axis));
+        let turns = self.turned_axes(target).find(|&axis| !self.says_angle(block, axis));
+        let word = match (lost, turns) {
+            (Some(axis), _) => format!("[{}]", self.words_of(axis)[0].name()),
+            (None, Some(axis)) => format!("{}[rotangle]", char::from(self.axes[axis])),
+            (None, None) => return Ok(()),
+        };
+        let message = format!("this move changes {word}, which the sequence does not print");
+        fault_at(Code::PR017, message, format!("add the word of {word} to the sequence"), Some(block.span))
+    }
+}

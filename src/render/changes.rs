@@ -55,21 +55,24 @@ impl Renderer<'_> {
     /// A word with this variable was printed.
     #[inline]
     pub(super) fn served_by(&mut self, letter: u8, var: VarId, value: f64) {
-        match var {
-            VarId::Work => self.served.work = Some(value),
-            VarId::Speed => self.served.speed = Some(value),
-            VarId::Direct => self.served.direct = Some(value),
-            VarId::Cool => self.served.cool = Some(value),
-            VarId::Feedtype => self.served.feed_type = Some(value),
-            VarId::Speedtype => self.served.speed_type = Some(value),
-            VarId::Maxrpm => self.served.max = Some(value),
-            _ if letter == self.program.settings.speed_code => self.served.speed = Some(value),
-            _ => {}
-        }
+        let served = match var {
+            VarId::Work => &mut self.served.work,
+            VarId::Speed => &mut self.served.speed,
+            VarId::Direct => &mut self.served.direct,
+            VarId::Cool => &mut self.served.cool,
+            VarId::Feedtype => &mut self.served.feed_type,
+            VarId::Speedtype => &mut self.served.speed_type,
+            VarId::Maxrpm => &mut self.served.max,
+            _ if letter == self.program.settings.speed_code => &mut self.served.speed,
+            _ => return,
+        };
+        *served = Some(value);
+        self.switched = true;
     }
 
     /// A code of this group was printed.
     pub(super) fn served_code(&mut self, group: Group, value: f64) {
+        self.switched |= !matches!(group, Group::Motion | Group::ReturnPlane);
         match group {
             Group::Work => self.served.work = Some(value),
             Group::Spindle => self.served.direct = Some(value),

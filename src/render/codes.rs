@@ -25,6 +25,7 @@ impl Renderer<'_> {
         let is_feed_mode = letter == b'G' && settings.feed_type.contains(&value);
         if is_feed_mode {
             self.served.feed_type = Some(value);
+            self.switched = true;
         }
         match group_of(letter, tenths) {
             Some(group) => {

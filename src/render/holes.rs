@@ -2,6 +2,7 @@
 
 use super::cycles::no_height;
 use super::fault::{Done, fault};
+use super::motion::ROTARY;
 use super::move_words::as_number;
 use super::renderer::Renderer;
 use super::words::Mode;
@@ -46,25 +47,23 @@ impl Renderer<'_> {
     /// Prints a hole.
     pub(super) fn make_hole(&mut self, hole: &Hole) -> Done {
         let program = self.program;
-        let Some(mut cycle) = self.cycle.take() else { return Ok(()) };
-        let planes = self.planes(&cycle.spec, hole);
-        let scale = self.scale;
-        let point = hole.at.get(self.depth_axis).map(|d| d * scale).or(cycle.point);
+        let (scale, rpm) = (self.scale, self.vars.get(VarId::Speed));
+        let point = hole.at.get(self.depth_axis).map(|d| d * scale);
+        let Some(cycle) = &mut self.cycle else { return Ok(()) };
+        let planes = Plan::of(&cycle.spec, hole.depth.map(|d| d * scale), &self.defaults, rpm)?;
+        let Some(point) = point.or(cycle.point) else { return no_height() };
+        cycle.point = Some(point);
+        let clear = point + planes.clear;
+        let first = *cycle.return_plane.get_or_insert(point + cycle.spec.return_height.unwrap_or(planes.clear));
+        let heights = Heights { point, clear, bottom: point + planes.bottom, return_plane: first.max(clear) };
         let block = cycle.sequence.and_then(|id| program.block(id));
-        let heights = planes.and_then(|planes| {
-            let Some(point) = point else { return no_height() };
-            let clear = point + planes.clear;
-            let first = *cycle.return_plane.get_or_insert(point + cycle.spec.return_height.unwrap_or(planes.clear));
-            Ok((planes, Heights { point, clear, bottom: point + planes.bottom, return_plane: first.max(clear) }))
-        });
-        cycle.point = point;
-        self.cycle = Some(cycle);
-        let (planes, heights) = heights?;
-        let target = self.target(&hole.at);
-        if hole.at.given & 0b111_000 != 0 && self.turns(&self.unwound(&target, hole.at.given)) {
-            self.leave_cycle()?; // before an axis is unwound
+        let mut target = self.target(&hole.at);
+        if hole.at.given & ROTARY != 0 {
+            if self.turns(&self.unwound(&target, hole.at.given)) {
+                self.leave_cycle()?; // before an axis is unwound
+            }
+            target = self.in_travel(&target, hole.at.given, true)?;
         }
-        let mut target = self.in_travel(&target, hole.at.given, true)?;
         target.set(self.depth_axis, heights.bottom);
         if !self.program.settings.limits.is_empty() {
             self.check_limits(&target)?;
@@ -298,14 +297,11 @@ impl Renderer<'_> {
 
     /// A hole as single moves.
     fn generated_hole(&mut self, target: &Axes, planes: &Plan, heights: Heights) -> Done {
-        let Some(cycle) = self.cycle.take() else { return Ok(()) };
-        let mut steps = std::mem::take(&mut self.steps);
-        let planned = plan(&cycle.spec, planes, heights.return_plane - heights.point, &self.defaults, &mut steps);
-        self.cycle = Some(cycle);
-        let done = match planned {
-            Ok(()) => self.make_steps(&steps.list, target, planes, heights),
-            Err(problem) => Err(problem.into()),
-        };
+        let Some(cycle) = &self.cycle else { return Ok(()) };
+        let top = heights.return_plane - heights.point;
+        plan(&cycle.spec, planes, top, &self.defaults, &mut self.steps)?;
+        let steps = std::mem::take(&mut self.steps);
+        let done = self.make_steps(&steps.list, target, planes, heights);
         self.steps = steps;
         done
     }

@@ -28,7 +28,7 @@ pub(super) fn tracks(program: &Program) -> bool {
 }
 
 /// Rotary axes in a set of axes, where three axes are linear.
-const ROTARY: u8 = 0b111_000;
+pub(super) const ROTARY: u8 = 0b111_000;
 
 impl Renderer<'_> {
     /// A rapid of the path.

@@ -99,6 +99,8 @@ pub struct Renderer<'p> {
     pub(super) tool_changes: usize,
     pub(super) served: super::changes::Served,
     pub(super) upon_used: Vec<Option<f64>>,
+    /// A sequence printed a code or value that switches something.
+    pub(super) switched: bool,
     /// The sequence that took the tool away from its place by numbers of its own; a rapid brings it back.
     pub(super) moved_by: Option<crate::span::Span>,
     /// Something must be done before the next move: close a cycle, print a change, look at an Upon.
@@ -161,6 +163,7 @@ impl<'p> Renderer<'p> {
             tool_changes: 0,
             served: super::changes::Served::default(),
             upon_used: vec![None; program.upons.len()],
+            switched: false,
             moved_by: None,
             attention: true,
             watches_moves: program.upon_vars.meets(super::motion::MOVE_VARS),

@@ -111,7 +111,9 @@ impl Renderer<'_> {
         self.end_line(line);
         self.form = None;
         // looked at before the next move: until then another sequence may put it right
-        self.attention |= self.distance_is_wrong() || self.has_changes();
+        if std::mem::take(&mut self.switched) {
+            self.attention |= self.distance_is_wrong() || self.has_changes();
+        }
         Ok(())
     }
 
@@ -322,6 +324,7 @@ impl Renderer<'_> {
         }
         if literal.letter == self.program.settings.speed_code {
             self.served.speed = Some(literal.value);
+            self.switched = true;
         }
     }
 

@@ -318,3 +318,18 @@ fn what_is_said_once_holds() {
     let text = format!("UNITS/MM\nTOOLNO/1,MILL,MMPM,10,ON,,NOTE\n{}FINI\n", &HEAD[9..]);
     assert_eq!(read(&text, options), ["G0 X0 Y0 Z10."]);
 }
+
+/// Units and the system that wrote a file are those of its beginning; nothing later reinterprets what was read.
+#[test]
+fn units_and_dialect_are_known_before_they_are_needed() {
+    let early = "LOADTL/1\nSPINDL/1,CLW\nFEDRAT/5,IPM\nUNITS/MM\nRAPID\nGOTO/0,0,1\nFINI\n";
+    assert!(read(early, Options::default())[0].starts_with("PL005 the file has not said its units yet at 3:1"));
+    // the file's own units go before those that were assumed
+    let own =
+        early.replace("LOADTL", "UNITS/INCHES\nLOADTL").replace("UNITS/MM\n", "").replace("FINI", "GOTO/1,0,1\nFINI");
+    let lines = read(&own, Options { units: Some(Units::Mm), ..Options::default() });
+    assert_eq!(lines, ["G0 X0 Y0 Z1.", "G1 X1. F5."]);
+    // a mark in a later text is no sign of another system, whose circles would turn the other way
+    let arc = "GOTO/1,0,10\nPPRINT/APTCL-SPEC\nCIRCLE/1,1,10,0,0,1,1\nGOTO/2,1,10";
+    assert_eq!(body(arc).last().unwrap(), "G17 G3 X2. Y1. I0 J1.");
+}

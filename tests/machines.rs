@@ -318,4 +318,10 @@ fn revolutions_need_no_limit() {
     assert_eq!(program(&form, &text)[2..4], ["G50 S1000", "G97 S1000 M3"]);
     let surface = text.replace("\"speed\":1000", "\"speed\":100,\"mode\":\"css\"");
     assert!(program(&form, &surface)[0].starts_with("PR001 [maxrpm]"));
+    // and for no more than those, because the control keeps it
+    for later in ["{\"speed\":2000}", "{\"speed\":100,\"mode\":\"css\"}"] {
+        let path = format!("{{\"rapid\":[0.2,0.5]}},{{\"spindle\":{later}}},");
+        let faster = text.replace("{\"rapid\":[0.2,0.5]},", &path);
+        assert!(program(&form, &faster)[0].starts_with("PR017 the tool change limited"), "{later}");
+    }
 }

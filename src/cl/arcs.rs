@@ -80,7 +80,7 @@ impl Reader<'_> {
             return fault(Code::PR005, "the arc begins at an unknown position", "put a GOTO before it");
         };
         let away = (0..3).filter(|&i| i != arc.axis).map(|i| (from[i] - arc.centre[i]).powi(2)).sum::<f64>().sqrt();
-        let allowed = if self.units == Some(Units::Inch) { 0.001 } else { 0.02 };
+        let allowed = if self.units_so_far()? == Units::Inch { 0.001 } else { 0.02 };
         if let Some(radius) = arc.radius.filter(|radius| (radius.abs() - away).abs() > allowed) {
             let message = format!("the CIRCLE has the radius {radius}, the tool is {away:.4} from its centre");
             return fault(Code::PR005, message, "look at the motion before it");

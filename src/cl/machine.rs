@@ -37,20 +37,32 @@ impl Reader<'_> {
     }
 
     /// The feed that a unit word and a number mean, in lengths of the file. `None`: no such word.
-    pub(super) fn feed_of(&self, unit: &str, value: f64) -> Option<Feed> {
-        let inches = if self.units == Some(Units::Mm) || self.options.units == Some(Units::Mm) { MM } else { 1.0 };
-        Some(match unit {
+    pub(super) fn feed_of(&self, unit: &str, value: f64) -> Done<Option<Feed>> {
+        if matches!(unit, "PERMIN" | "PERREV") {
+            return Ok(Some(if unit == "PERMIN" { Feed::Minute(value) } else { Feed::Revolution(value) }));
+        }
+        let inches = if self.units_so_far()? == Units::Mm { MM } else { 1.0 };
+        Ok(Some(match unit {
             "IPM" => Feed::Minute(value * inches),
             "MMPM" => Feed::Minute(value * inches / MM),
-            "PERMIN" => Feed::Minute(value),
             "IPR" => Feed::Revolution(value * inches),
             "MMPR" => Feed::Revolution(value * inches / MM),
-            "PERREV" => Feed::Revolution(value),
             // PostWorks: below 1 it is the lead
             "TPI" if self.dialect() == Dialect::Ncl && value < 1.0 => Feed::Revolution(value),
             "TPI" => Feed::Revolution(inches / value),
-            _ => return None,
-        })
+            _ => return Ok(None),
+        }))
+    }
+
+    /// The file's units; what is said in units of its own can't be converted before they are known.
+    pub(super) fn units_so_far(&self) -> Done<Units> {
+        match self.units.or(self.options.units) {
+            Some(units) => Ok(units),
+            None => {
+                let help = "put UNITS/MM or UNITS/INCHES before it, or say it with `--assume-units`";
+                fault(Code::PL005, "the file has not said its units yet", help)
+            }
+        }
     }
 
     /// A feed in lengths a minute; per revolution it needs a turning spindle.
@@ -81,7 +93,7 @@ impl Reader<'_> {
         let feed = match (words, value) {
             ([Word::Number(value)], _) => Some(Feed::Minute(*value)),
             ([Word::Name(unit), Word::Number(value)] | [Word::Number(value), Word::Name(unit)], _) => {
-                self.feed_of(unit, *value).filter(|_| unit != "TPI")
+                self.feed_of(unit, *value)?.filter(|_| unit != "TPI")
             }
             _ => None,
         };
@@ -139,7 +151,7 @@ impl Reader<'_> {
                     "SFM" | "SMM" => {
                         said.css = Some(true);
                         // what a surface speed counts goes with the units of the file
-                        let metric = self.units.or(self.options.units) == Some(Units::Mm);
+                        let metric = self.units_so_far()? == Units::Mm;
                         surface = match (name.as_str(), metric) {
                             ("SFM", true) => METRES_A_FOOT,
                             ("SMM", false) => 1.0 / METRES_A_FOOT,

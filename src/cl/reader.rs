@@ -247,6 +247,7 @@ impl<'s> Reader<'s> {
     /// Who wrote the file shows in its first lines.
     fn look_at(&mut self, line: &[u8]) {
         if self.report.dialect.is_none()
+            && !self.started
             && let Some((dialect, mark)) = Dialect::of_line(line)
         {
             self.report.dialect = Some(dialect);

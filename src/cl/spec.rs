@@ -3,25 +3,16 @@
 use super::coded::Coded;
 use super::cycle_words::Opt;
 use super::reader::{Done, Reader, fault};
-use crate::cycle::{Problem, stepped_pecks};
-use crate::diag::{Code, Diag};
+use crate::cycle::stepped_pecks;
+use crate::diag::Code;
 use crate::toolpath::{CycleKind, CycleSpec, Peck, SpindleTurn};
 
 impl Reader<'_> {
     /// The cycle that is coded, in units of the file a minute.
     pub(super) fn spec(&mut self, coded: &Coded) -> Done<CycleSpec> {
         let kind = coded.kind.unwrap_or(CycleKind::Drill);
-        let both = |a: Opt, b: Opt| coded.has(a) && coded.has(b);
-        let pairs = [
-            (Opt::Norevr, Opt::Rapout, "NOREVR and RAPOUT"),
-            (Opt::Float, Opt::Rigid, "FLOAT and RIGID"),
-            (Opt::Dwell, Opt::Rev, "DWELL and REV"),
-        ];
-        for (a, b, words) in pairs {
-            if both(a, b) {
-                let message = format!("{words} in one cycle");
-                return fault(Code::PC016, message, "keep one of them");
-            }
+        if coded.has(Opt::Float) && coded.has(Opt::Rigid) {
+            return fault(Code::PC016, "FLOAT and RIGID in one cycle", "keep one of them");
         }
         let left = coded.has(Opt::Invers);
         let mut spec = CycleSpec::new(if left { CycleKind::LTap } else { kind });
@@ -100,20 +91,16 @@ impl Reader<'_> {
     /// Depths, steps and feeds.
     fn depths(&mut self, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -> Done {
         let pecks = matches!(kind, CycleKind::Deep | CycleKind::Chipbreak) || coded.mode.is_some();
-        let feeds: Vec<_> = coded.groups.iter().filter_map(|group| group.feed.clone()).collect();
-        if feeds.len() > 1 && (!pecks || coded.mode.is_some()) {
+        let feeds = coded.groups.iter().filter(|group| group.feed.is_some()).count();
+        if feeds > 1 && (!pecks || coded.mode.is_some()) {
             return fault(Code::PC007, "two feeds where the cycle has one", "keep one");
         }
         let mut last = None;
         let mut of_groups = Vec::new();
         for group in &coded.groups {
-            last = match &group.feed {
-                Some((unit, value)) => match self.feed_of(unit, *value) {
-                    Some(feed) => Some(self.per_minute(feed)?),
-                    None => None,
-                },
-                None => last,
-            };
+            if let Some((unit, value)) = &group.feed {
+                last = self.feed_of(unit, *value)?.map(|feed| self.per_minute(feed)).transpose()?;
+            }
             of_groups.push(last);
         }
         spec.feed = of_groups.iter().copied().flatten().next();
@@ -136,10 +123,6 @@ impl Reader<'_> {
                     "keep the depths, or one depth and STEP",
                 );
             }
-            if let Some(pair) = depths.windows(2).find(|pair| pair[1] <= pair[0]) {
-                let message = format!("the depth {} comes after {}", pair[1], pair[0]);
-                return fault(Code::PC004, message, "give absolute depths deeper one by one");
-            }
             let with_feeds = coded.groups.iter().zip(&of_groups);
             spec.pecks =
                 with_feeds.flat_map(|(group, feed)| group.depths.iter().map(|&to| Peck { to, feed: *feed })).collect();
@@ -153,9 +136,9 @@ impl Reader<'_> {
                 fault(Code::PC030, "DECR without STEP", "give STEP, or take DECR out")
             }
             ([], _) => Ok(()),
-            ([step], _) if feeds.len() <= 1 => {
+            ([step], _) if feeds <= 1 => {
                 spec.step = Some(*step);
-                if *step <= 0.0 { not_above_zero(*step) } else { Ok(()) }
+                Ok(())
             }
             (_, None) => fault(Code::PC002, "the cycle has no depth", "give DEPTH"),
             (_, Some(depth)) => {
@@ -168,8 +151,4 @@ impl Reader<'_> {
             }
         }
     }
-}
-
-fn not_above_zero(step: f64) -> Done {
-    Err(Box::<Diag>::from(Problem::new(Code::PC028, format!("a step of {step}"), "give a step above zero")))
 }

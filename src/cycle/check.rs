@@ -32,6 +32,9 @@ pub fn check(spec: &CycleSpec) -> Result<(), Problem> {
     if spec.starts.is_some_and(|starts| starts > 1.0) && spec.rigid != Some(true) && spec.mode.is_none() {
         return problem(Code::PC020, "several starts with a floating tap", "make the tap rigid, or take `starts` out");
     }
+    if let Some(step) = [spec.step, spec.first_step].into_iter().flatten().find(|&step| step <= 0.0) {
+        return Err(Problem::new(Code::PC028, format!("a step of {step}"), "give a step above zero"));
+    }
     if !spec.pecks.is_empty() && spec.step.or(spec.first_step).is_some() {
         return problem(Code::PC031, "absolute pecks and steps in one cycle", "keep `pecks`, or `depth` and `step`");
     }

@@ -103,9 +103,6 @@ fn stepped(
         let message = "the steps shrink to nothing before the bottom is reached";
         Problem::new(Code::PC029, message, "give a smaller `decr`, or a `min_step`")
     };
-    if step <= 0.0 || spec.first_step.is_some_and(|step| step <= 0.0) {
-        return Err(Problem::new(Code::PC028, format!("a step of {step}"), "give a step above zero"));
-    }
     let from = if spec.steps_from_point { 0.0 } else { plan.clear };
     let decr = spec.decr.unwrap_or(0.0);
     let first = spec.first_step.unwrap_or(step);

@@ -237,6 +237,11 @@ impl VarSet {
         self.0 & other.0 != 0
     }
 
+    /// Is nothing in it?
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
     /// Both together.
     pub fn with(self, other: VarSet) -> VarSet {
         VarSet(self.0 | other.0)

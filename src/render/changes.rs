@@ -23,9 +23,11 @@ pub(super) struct Served {
 impl Served {
     /// The conditions that were printed.
     pub(super) fn known(&self) -> VarSet {
-        let known: Vec<VarId> =
-            CONDITIONS.into_iter().zip(self.values()).filter_map(|(var, v)| v.map(|_| var)).collect();
-        VarSet::of(&known)
+        let mut known = VarSet::default();
+        for (var, _) in CONDITIONS.into_iter().zip(self.values()).filter(|(_, value)| value.is_some()) {
+            known.insert(var);
+        }
+        known
     }
 
     /// In the order of [`CONDITIONS`].
@@ -96,12 +98,12 @@ impl Renderer<'_> {
 
     /// Is something not as the job has it?
     pub(super) fn has_changes(&self) -> bool {
-        self.pending().meets(VarSet::of(&CONDITIONS))
+        !self.pending().is_empty()
     }
 
     /// Is the work offset all that nothing printed yet?
     pub(super) fn only_work_waits(&self) -> bool {
-        !self.pending().without(VarSet::of(&[VarId::Work])).meets(VarSet::of(&CONDITIONS))
+        self.pending().without(VarSet::of(&[VarId::Work])).is_empty()
     }
 
     /// Changes that nothing printed yet, each as a block of its own.
@@ -122,6 +124,7 @@ impl Renderer<'_> {
                 "the form prints [maxrpm] at a tool change: give the limit there, for the whole time of the tool";
             return fault(Code::PR017, message, help);
         }
+        self.check_own_limit()?;
         let speed = self.vars.get(VarId::Speed);
         let direct = self.vars.get(VarId::Direct);
         let turns = direct.is_some_and(|code| code == cw || code == ccw);
@@ -162,6 +165,17 @@ impl Renderer<'_> {
             self.served.feed_type = Some(feed_type);
         }
         Ok(())
+    }
+
+    /// A tool without a limit of its own printed its revolutions as one: it holds for no more, and for no surface speed.
+    fn check_own_limit(&self) -> Done {
+        let Some(limit) = self.served.max.filter(|_| self.vars.get(VarId::Maxrpm).is_none()) else { return Ok(()) };
+        let surface = self.vars.get(VarId::Speedtype) == Some(self.program.settings.speed_type[0]);
+        if !surface && self.vars.get(VarId::Speed).is_none_or(|speed| speed <= limit) {
+            return Ok(());
+        }
+        let message = format!("the tool change limited the spindle to its first speed, {limit}");
+        fault(Code::PR017, message, "give the operation's spindle its `max`")
     }
 
     /// The work offset, where something that does not print it is about to print a position.

@@ -81,10 +81,7 @@ impl Renderer<'_> {
             self.feed_block(block)?;
             self.run_block(block)?;
         } else {
-            if self.plane != 17.0 && program.settings.machine == Machine::Mill {
-                self.code_word(&sema::Code::plain(b'G', 17.0))?;
-                self.end_block();
-            }
+            self.to_plane(17.0)?;
             self.shifted = false;
             self.motion_word(if rapid { &program.settings.rapid } else { &program.settings.feed })?;
             self.code_word(&sema::Code::plain(b'G', code))?;

@@ -10,13 +10,18 @@ use crate::sema;
 impl Renderer<'_> {
     /// The plane's code as a block of its own, before what prints none and needs it.
     pub(super) fn plane_block(&mut self, plane: f64, block: &Block) -> Done {
-        let machine = self.program.settings.machine;
-        if self.plane == plane || machine != Machine::Mill || self.says_code(block, |code| (17.0..20.0).contains(&code))
-        {
+        if self.plane == plane || self.says_code(block, |code| (17.0..20.0).contains(&code)) {
             return Ok(());
         }
-        self.code_word(&sema::Code::plain(b'G', plane))?;
-        self.end_block();
+        self.to_plane(plane)
+    }
+
+    /// The plane's code as a block of its own, where the control is in another; only mills have planes.
+    pub(super) fn to_plane(&mut self, plane: f64) -> Done {
+        if self.plane != plane && self.program.settings.machine == Machine::Mill {
+            self.code_word(&sema::Code::plain(b'G', plane))?;
+            self.end_block();
+        }
         Ok(())
     }
 

@@ -9,7 +9,6 @@ use super::vars::Vars;
 use crate::compile::{Block, Op};
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId, VarSet};
-use crate::sema;
 use crate::toolpath::{Axes, Call, FeedMode, Place};
 
 /// What is known of the job's subprograms.
@@ -49,7 +48,7 @@ struct Left {
 impl Left {
     /// Nothing that its next run would find otherwise.
     fn is_nothing(&self) -> bool {
-        !self.served.known().meets(VarSet::of(&CONDITIONS))
+        self.served.known().is_empty()
     }
 }
 
@@ -193,18 +192,18 @@ impl Renderer<'_> {
             let help = "end the compensation with an `outfeed` before";
             return fault(Code::PR006, "cutter compensation is on at the border of a subprogram", help);
         }
-        if self.plane != 17.0 {
-            self.code_word(&sema::Code::plain(b'G', 17.0))?;
-            self.end_block();
-        }
-        Ok(())
+        self.to_plane(17.0)
     }
 
     /// A call: nothing is known before and after it, because the subprogram moves the tool.
     pub(super) fn sub_call(&mut self, call: &Call) -> Done {
         self.close_cycle()?;
         let from = self.subs.open.map(|open| self.subs.defined[open].number);
-        self.subs.calls.push(Called { from, to: call.sub, place: self.place, unknown: VarSet::default() });
+        let mut unknown = VarSet::default();
+        for var in CONDITIONS.into_iter().filter(|&var| self.vars.get(var).is_none()) {
+            unknown.insert(var);
+        }
+        self.subs.calls.push(Called { from, to: call.sub, place: self.place, unknown });
         let Some(block) = self.program.block(SequenceId::SubCall) else {
             return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
         };
@@ -227,8 +226,6 @@ impl Renderer<'_> {
             }
             None => return undefined(call.sub),
         };
-        let unknown: Vec<VarId> = CONDITIONS.into_iter().filter(|&var| self.vars.get(var).is_none()).collect();
-        let unknown = VarSet::of(&unknown);
         let work = self.vars.get(VarId::Work);
         if call.work.is_some() && work.is_none() {
             let help = "give the subprogram its own `work` before the call";
@@ -236,9 +233,6 @@ impl Renderer<'_> {
         }
         if let Some(work) = call.work {
             self.set_work(work)?;
-        }
-        if let Some(call) = self.subs.calls.last_mut() {
-            call.unknown = unknown;
         }
         let place = self.go_to_call(call, block)?;
         self.vars.set(VarId::Sub, printed);
@@ -256,10 +250,10 @@ impl Renderer<'_> {
             self.vars.set(VarId::Times, 1.0);
         }
         for run in 0..calls {
+            self.set_targets(&place)?;
             if run > 0 && leaves {
                 self.pending_changes()?;
             }
-            self.set_targets(&place)?;
             self.registers.forget_all();
             self.run_with_upons(block)?;
             self.after_call(called);

@@ -2,7 +2,7 @@
 
 use super::fault::{Done, fault_at};
 use super::renderer::Renderer;
-use crate::compile::Block;
+use crate::compile::{Block, UponBlock};
 use crate::diag::Code;
 use crate::lang::VarSet;
 
@@ -12,8 +12,7 @@ impl Renderer<'_> {
         self.program.upon_vars.meets(used)
             && self.program.upons.iter().zip(&self.upon_used).any(|(upon, before)| {
                 let Some(value) = self.vars.get(upon.var).filter(|_| used.has(upon.var)) else { return false };
-                let due = upon.every || before.is_some_and(|before| before != value);
-                due && (!moving || self.names_axes(&upon.block, false))
+                is_due(upon, *before, value) && (!moving || self.names_axes(&upon.block, false))
             })
     }
 
@@ -53,9 +52,7 @@ impl Renderer<'_> {
             }
             let Some(value) = self.vars.get(upon.var) else { continue };
             let before = self.upon_used[i].replace(value);
-            // the first use only sets the baseline, unless it prints at every use
-            let due = if upon.every { true } else { before.is_some_and(|before| before != value) };
-            if due {
+            if is_due(upon, before, value) {
                 let moves = self.names_axes(&upon.block, false);
                 if moves && self.compensated {
                     let message = format!("Upon [{}] moves the tool under cutter compensation", upon.var.name());
@@ -70,4 +67,9 @@ impl Renderer<'_> {
         }
         Ok(())
     }
+}
+
+/// The first use only sets the baseline, unless it prints at every use.
+fn is_due(upon: &UponBlock, before: Option<f64>, value: f64) -> bool {
+    upon.every || before.is_some_and(|before| before != value)
 }

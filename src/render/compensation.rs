@@ -81,7 +81,7 @@ impl Renderer<'_> {
             self.feed_block(block)?;
             self.run_block(block)?;
         } else {
-            self.to_plane(17.0)?;
+            self.enter_plane(17.0)?;
             self.shifted = false;
             self.motion_word(if rapid { &program.settings.rapid } else { &program.settings.feed })?;
             self.code_word(&sema::Code::plain(b'G', code))?;

@@ -13,11 +13,11 @@ impl Renderer<'_> {
         if self.plane == plane || self.says_code(block, |code| (17.0..20.0).contains(&code)) {
             return Ok(());
         }
-        self.to_plane(plane)
+        self.enter_plane(plane)
     }
 
     /// The plane's code as a block of its own, where the control is in another; only mills have planes.
-    pub(super) fn to_plane(&mut self, plane: f64) -> Done {
+    pub(super) fn enter_plane(&mut self, plane: f64) -> Done {
         if self.plane != plane && self.program.settings.machine == Machine::Mill {
             self.code_word(&sema::Code::plain(b'G', plane))?;
             self.end_block();

@@ -192,7 +192,7 @@ impl Renderer<'_> {
             let help = "end the compensation with an `outfeed` before";
             return fault(Code::PR006, "cutter compensation is on at the border of a subprogram", help);
         }
-        self.to_plane(17.0)
+        self.enter_plane(17.0)
     }
 
     /// A call: nothing is known before and after it, because the subprogram moves the tool.

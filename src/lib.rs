@@ -12,6 +12,7 @@ pub mod cycle;
 pub mod diag;
 pub mod lang;
 pub mod lint;
+pub mod nc;
 pub mod number;
 pub mod render;
 pub mod sema;

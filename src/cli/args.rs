@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use postform::cl::Dialect;
+use postform::nc::{Control, Settings, Unpointed};
 use postform::toolpath::Units;
 
 use super::colour::Colour;
@@ -30,6 +31,8 @@ pub enum Command {
     Lint(LintArgs),
     /// Read a job, report what is wrong, and print what is in it
     Check(CheckArgs),
+    /// Run an NC program and print what the machine does
+    Simulate(SimulateArgs),
     /// Say what a code means, and what to write instead
     Explain(ExplainArgs),
 }
@@ -169,6 +172,96 @@ pub struct LintArgs {
     /// Limits of the forms
     #[arg(long, value_name = "LIMITS", default_value = "classic")]
     pub limits: LimitsArg,
+}
+
+/// How a program is run.
+#[derive(Clone, Debug, Args)]
+pub struct ControlArgs {
+    /// By whose rules [default: the form's Control, else fanuc]
+    #[arg(long, value_name = "CONTROL")]
+    pub control: Option<ControlArg>,
+    /// Leave out blocks with a slash
+    #[arg(long)]
+    pub block_delete: bool,
+    /// How far G73 backs off, and how near the last depth G83 goes back [default: as the control]
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub back_off: Option<f64>,
+    /// What a length without a point means on a Fanuc [default: it is an error]
+    #[arg(long, value_name = "MEANING")]
+    pub no_point: Option<NoPoint>,
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(length) if length.is_finite() && length >= 0.0 => Ok(length),
+        _ => Err("a length is a number from 0 on".into()),
+    }
+}
+
+/// Controls whose reading is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ControlArg {
+    /// LinuxCNC 2.9
+    Linuxcnc,
+    /// EMC as its old manual describes it
+    Emc2,
+    /// Fanuc and Haas mills
+    Fanuc,
+}
+
+/// Lengths without a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum NoPoint {
+    /// Whole inches or millimetres
+    Whole,
+    /// Least increments: 0.0001 inch, 0.001 mm
+    Increments,
+}
+
+impl ControlArgs {
+    /// As the library has it; `form` is the form's own control.
+    pub fn settings(&self, form: Option<&str>, units: Units) -> Settings {
+        let control = match self.control {
+            Some(ControlArg::Linuxcnc) => Control::Linuxcnc,
+            Some(ControlArg::Emc2) => Control::Emc2,
+            Some(ControlArg::Fanuc) => Control::Fanuc,
+            None => form.map_or(Control::Fanuc, Control::of_form),
+        };
+        let unpointed = match self.no_point {
+            None => Unpointed::Refused,
+            Some(NoPoint::Whole) => Unpointed::Whole,
+            Some(NoPoint::Increments) => Unpointed::Increments,
+        };
+        Settings { units, block_delete: self.block_delete, back_off: self.back_off, unpointed, ..Settings::new(control) }
+    }
+}
+
+/// How the motions of a program are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MotionFormat {
+    /// A line an action
+    Text,
+    /// JSON Lines
+    Json,
+}
+
+/// `postform simulate`.
+#[derive(Debug, Args)]
+pub struct SimulateArgs {
+    /// The NC program, or - for standard input
+    pub program: PathBuf,
+    /// How it is run
+    #[command(flatten)]
+    pub control: ControlArgs,
+    /// Units before the first G20 or G21
+    #[arg(long, value_name = "UNITS", default_value = "mm")]
+    pub units: UnitsArg,
+    /// How motions are shown
+    #[arg(long, value_name = "FORMAT", default_value = "text")]
+    pub format: MotionFormat,
+    /// Only count: blocks, moves, holes, extents, distances, time
+    #[arg(long)]
+    pub dry: bool,
 }
 
 /// `postform explain`.

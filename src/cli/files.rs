@@ -1,7 +1,7 @@
 //! Input files.
 
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, BufReader, Read, Seek};
 use std::path::Path;
 
 use postform::cl::{Options, Report, read_cl};
@@ -34,6 +34,28 @@ pub fn open(path: &Path) -> Result<Box<dyn Read>, String> {
         Err(error) => Err(io_message("read", path, &error)),
     }
 }
+
+/// An NC program, which must be a file that can be gone back in: others are copied into one.
+pub fn open_program(path: &Path) -> Result<BufReader<File>, String> {
+    let fail = |error: io::Error| io_message("read", path, &error);
+    if path != Path::new("-") {
+        let file = File::open(path).map_err(fail)?;
+        let meta = file.metadata().map_err(fail)?;
+        if meta.is_dir() {
+            return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
+        }
+        if meta.is_file() {
+            return Ok(BufReader::with_capacity(PROGRAM_BUFFER, file));
+        }
+    }
+    let mut copy = tempfile::tempfile().map_err(fail)?;
+    io::copy(&mut open(path)?, &mut copy).map_err(fail)?;
+    copy.rewind().map_err(fail)?;
+    Ok(BufReader::with_capacity(PROGRAM_BUFFER, copy))
+}
+
+/// Bytes of a program that are read at once.
+const PROGRAM_BUFFER: usize = 128 << 10;
 
 /// A whole form.
 pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {

@@ -13,6 +13,7 @@ mod progress;
 mod prompt;
 mod render;
 mod report;
+mod simulate;
 
 use std::process::ExitCode;
 
@@ -56,6 +57,7 @@ pub fn run() -> ExitCode {
         Command::Render(args) => render::run(&args, colour),
         Command::Lint(args) => lint::run(&args, arguments.color),
         Command::Check(args) => check::run(&args, colour),
+        Command::Simulate(args) => simulate::run(&args, colour),
         Command::Explain(args) => explain::run(&args),
     };
     ending.into()

@@ -17,7 +17,7 @@ pub struct CodeRow {
 
 macro_rules! codes {
     ($($name:ident $severity:ident $title:literal)*) => {
-        /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PC` canned cycle, `PR` rendering.
+        /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PC` canned cycle, `PR` rendering, `PN` NC program.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
         pub enum Code { $(#[doc = $title] $name),* }
@@ -156,6 +156,30 @@ codes! {
     PR021 Note "a value that the control takes from its own settings"
     PR022 Note "a rapid printed by a sequence that may feed"
     PR023 Warning "cutter compensation at the end"
+    // PN: NC programs
+    PN001 Error "text that no control reads"
+    PN002 Error "a word that is there twice"
+    PN003 Error "an unknown code"
+    PN004 Error "two codes that exclude each other"
+    PN005 Error "a word that nothing in its block uses"
+    PN006 Error "axis words without a motion, or a motion without axis words"
+    PN007 Error "a word that is missing"
+    PN008 Error "a feed move without a feed"
+    PN009 Error "an arc that can't be an arc"
+    PN010 Error "a program without its end"
+    PN011 Error "an R plane on the wrong side of the bottom"
+    PN012 Error "a cycle and a spindle that does not turn its way"
+    PN013 Error "a code that a mode in force forbids"
+    PN014 Error "an expression or parameter without a value"
+    PN015 Error "a subprogram or loop that leads nowhere"
+    PN016 Error "something that is not simulated"
+    PN017 Error "a number without a point"
+    PN018 Error "a value that makes no sense"
+    PN030 Warning "numbers kept from another mode"
+    PN031 Warning "a rapid that rises on its way"
+    PN032 Warning "a peck shorter than the back-off"
+    PN033 Warning "one P for two codes"
+    PN034 Warning "a cycle that leaves the tool in the hole"
 }
 
 impl Code {

@@ -1,0 +1,381 @@
+//! `postform simulate`.
+
+use std::fmt::Write as _;
+use std::io::{self, Write};
+use std::path::Path;
+
+use postform::diag::{Diag, Severity};
+use postform::nc::{Action, Item, RunError, Simulator, Tally};
+use postform::number::quantise;
+use postform::toolpath::{Direction, Plane, StopKind, Units};
+
+use super::args::{MotionFormat, SimulateArgs};
+use super::files::{self, io_message};
+use super::report::Reporter;
+use super::Ending;
+
+/// How much text waits before it is written.
+const CHUNK: usize = 64 * 1024;
+/// Warnings that are shown; more are counted.
+const MOST_WARNINGS: usize = 20;
+/// Rapid rate of the time estimate, in millimetres a minute.
+const RAPID_RATE: f64 = 10_000.0;
+
+/// Runs a program and prints what the machine does.
+pub fn run(args: &SimulateArgs, colour: bool) -> Ending {
+    match try_run(args, colour) {
+        Ok(ending) => ending,
+        Err(message) => {
+            eprintln!("{message}");
+            Ending::Failed
+        }
+    }
+}
+
+fn try_run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
+    let settings = args.control.settings(None, args.units.units());
+    let mut simulator = Simulator::new(files::open_program(&args.program)?, settings);
+    let mut tally = Tally::new(settings.units);
+    let mut warnings = Vec::new();
+    let mut left_out = 0;
+    let mut items = Vec::new();
+    let mut text = Vec::with_capacity(CHUNK + 4096);
+    let mut out = io::stdout().lock();
+    let refused = loop {
+        items.clear();
+        let step = simulator.step(&mut items);
+        for item in &items {
+            if args.dry {
+                tally.add(item);
+            } else if args.format == MotionFormat::Json {
+                json(item, &mut text);
+            } else {
+                line(item, simulator.text(), &mut text);
+            }
+        }
+        let new = simulator.take_warnings();
+        let room = MOST_WARNINGS.saturating_sub(warnings.len());
+        left_out += new.len().saturating_sub(room);
+        warnings.extend(new.into_iter().take(room));
+        if text.len() >= CHUNK && !write(&mut out, &mut text)? {
+            return Ok(Ending::Clean);
+        }
+        match step {
+            Ok(true) => {}
+            Ok(false) => break None,
+            Err(RunError::Refused(diag, line)) => break Some((diag, line)),
+            Err(RunError::Io(error)) => return Err(io_message("read", &args.program, &error)),
+        }
+    };
+    if let Some((diag, line)) = refused.as_ref().filter(|_| args.format == MotionFormat::Json) {
+        let row = serde_json::json!({ "line": line, "error": diag.code.name(), "message": diag.message });
+        text.extend_from_slice(row.to_string().as_bytes());
+        text.push(b'\n');
+    }
+    if args.dry {
+        let summary = match args.format {
+            MotionFormat::Text => describe(&tally, simulator.blocks()),
+            MotionFormat::Json => counted(&tally, simulator.blocks()),
+        };
+        text.extend_from_slice(summary.as_bytes());
+    }
+    write(&mut out, &mut text)?;
+    out.flush().or_else(ignore_closed)?;
+    drop(out);
+    let reporter = Reporter::new(colour);
+    warnings.iter_mut().for_each(|diag| place(diag, &args.program));
+    eprint!("{}", reporter.text(&warnings, &[]));
+    if left_out > 0 {
+        eprintln!("and {left_out} more warnings");
+    }
+    let Some((mut diag, _)) = refused else { return Ok(Ending::Clean) };
+    place(&mut diag, &args.program);
+    eprint!("{}", reporter.text(&[*diag], &[]));
+    Ok(Ending::Findings)
+}
+
+/// The program's name before the place.
+pub fn place(diag: &mut Diag, program: &Path) {
+    diag.place = Some(format!("{}:{}", files::name(program), diag.place.take().unwrap_or_default()));
+    debug_assert!(diag.severity >= Severity::Note);
+}
+
+/// `false`: whoever read it has seen enough.
+fn write(out: &mut impl Write, text: &mut Vec<u8>) -> Result<bool, String> {
+    let written = out.write_all(text);
+    text.clear();
+    match written {
+        Ok(()) => Ok(true),
+        Err(error) => ignore_closed(error).map(|()| false),
+    }
+}
+
+fn ignore_closed(error: io::Error) -> Result<(), String> {
+    if error.kind() == io::ErrorKind::BrokenPipe {
+        return Ok(());
+    }
+    Err(io_message("write", Path::new("standard output"), &error))
+}
+
+fn plane_name(plane: Plane) -> &'static str {
+    match plane {
+        Plane::Xy => "xy",
+        Plane::Xz => "zx",
+        Plane::Yz => "yz",
+    }
+}
+
+fn turn_name(direction: Direction) -> &'static str {
+    if direction == Direction::Cw { "cw" } else { "ccw" }
+}
+
+fn stop_name(kind: StopKind) -> &'static str {
+    if kind == StopKind::Program { "program" } else { "optional" }
+}
+
+/// One action as a line of text.
+fn line(item: &Item, block: &[u8], out: &mut Vec<u8>) {
+    let what = match &item.action {
+        Action::Rapid { .. } => "rapid",
+        Action::Feed { .. } => "feed",
+        Action::Arc(turn) => turn_name(turn.direction),
+        Action::Dwell(_) => "dwell",
+        Action::Spindle(..) => "spindle",
+        Action::Orient(_) => "orient",
+        Action::Stop(_) => "stop",
+        Action::End => "end",
+        Action::Tool(_) => "tool",
+        Action::Coolant(_) => "coolant",
+        Action::Units(_) => "units",
+        Action::Work(_) => "work",
+        Action::Comment(..) => "comment",
+        _ => return,
+    };
+    let mut digits = itoa::Buffer::new();
+    let number = digits.format(item.line);
+    out.extend(std::iter::repeat_n(b' ', 6usize.saturating_sub(number.len())));
+    out.extend_from_slice(number.as_bytes());
+    out.extend_from_slice(b"  ");
+    out.extend_from_slice(what.as_bytes());
+    out.extend(std::iter::repeat_n(b' ', 8 - what.len()));
+    match &item.action {
+        Action::Rapid { to, machine } => {
+            position(to, out);
+            if *machine != 0 {
+                out.extend_from_slice(b"  (");
+                out.extend((0..6).filter(|axis| machine & 1 << axis != 0).map(|axis| b"XYZABC"[axis]));
+                out.extend_from_slice(b" in machine coordinates)");
+            }
+        }
+        Action::Feed { to, feed, lead } => {
+            position(to, out);
+            match lead {
+                Some(lead) => word(b" lead ", *lead, out),
+                None => word(b" F", *feed, out),
+            }
+        }
+        Action::Arc(turn) => {
+            position(&turn.to, out);
+            word(b" F", turn.feed, out);
+            word(b"  centre X", turn.center[0], out);
+            word(b" Y", turn.center[1], out);
+            word(b" Z", turn.center[2], out);
+            out.extend_from_slice(b" in ");
+            out.extend_from_slice(plane_name(turn.plane).as_bytes());
+            if turn.turns > 0 {
+                word(b", whole turns before: ", f64::from(turn.turns), out);
+            }
+        }
+        Action::Dwell(seconds) => {
+            word(b"", *seconds, out);
+            out.extend_from_slice(b" s");
+        }
+        Action::Spindle(rotation, speed) => {
+            out.extend_from_slice(rotation.name().as_bytes());
+            word(b" S", *speed, out);
+        }
+        Action::Orient(value) | Action::Tool(value) | Action::Work(value) => word(b"", *value, out),
+        Action::Stop(kind) => out.extend_from_slice(stop_name(*kind).as_bytes()),
+        Action::Coolant(kind) => out.extend_from_slice(kind.name().as_bytes()),
+        Action::Units(units) => out.extend_from_slice(units.name().as_bytes()),
+        Action::Comment(start, end) => {
+            let text = block.get(*start..*end).unwrap_or_default();
+            out.extend_from_slice(postform::diag::escaped(String::from_utf8_lossy(text).trim()).as_bytes());
+        }
+        _ => {}
+    }
+    out.push(b'\n');
+}
+
+fn position(to: &[f64; 6], out: &mut Vec<u8>) {
+    word(b"X", to[0], out);
+    word(b" Y", to[1], out);
+    word(b" Z", to[2], out);
+    for (letter, value) in [b" A", b" B", b" C"].iter().zip(&to[3..]).filter(|(_, value)| **value != 0.0) {
+        word(*letter, *value, out);
+    }
+}
+
+/// A number with up to five decimals.
+fn word(before: &[u8], value: f64, out: &mut Vec<u8>) {
+    out.extend_from_slice(before);
+    let Some(units) = quantise(value, 5) else {
+        out.extend_from_slice(format!("{value}").as_bytes());
+        return;
+    };
+    if units < 0 {
+        out.push(b'-');
+    }
+    let units = units.unsigned_abs();
+    out.extend_from_slice(itoa::Buffer::new().format(units / 100_000).as_bytes());
+    let mut rest = units % 100_000;
+    if rest > 0 {
+        out.push(b'.');
+        let mut power = 10_000;
+        while rest > 0 {
+            out.push(b'0' + (rest / power) as u8);
+            rest %= power;
+            power /= 10;
+        }
+    }
+}
+
+/// One action as a JSON object.
+fn json(item: &Item, out: &mut Vec<u8>) {
+    let start = out.len();
+    out.extend_from_slice(b"{\"line\":");
+    out.extend_from_slice(itoa::Buffer::new().format(item.line).as_bytes());
+    match &item.action {
+        Action::Rapid { to, machine } => {
+            list(b",\"rapid\":[", to, out);
+            if *machine != 0 {
+                out.extend_from_slice(b",\"machine\":\"");
+                out.extend((0..6).filter(|axis| machine & 1 << axis != 0).map(|axis| b"xyzabc"[axis]));
+                out.push(b'"');
+            }
+        }
+        Action::Feed { to, feed, lead } => {
+            list(b",\"feed\":[", to, out);
+            match lead {
+                Some(lead) => number(b",\"lead\":", *lead, out),
+                None => number(b",\"f\":", *feed, out),
+            }
+        }
+        Action::Arc(turn) => {
+            list(b",\"arc\":[", &turn.to, out);
+            list(b",\"center\":[", &turn.center, out);
+            name(b",\"plane\":\"", plane_name(turn.plane), out);
+            name(b",\"turn\":\"", turn_name(turn.direction), out);
+            if turn.turns > 0 {
+                number(b",\"turns\":", f64::from(turn.turns), out);
+            }
+            number(b",\"f\":", turn.feed, out);
+        }
+        Action::Dwell(seconds) => number(b",\"dwell\":", *seconds, out),
+        Action::Spindle(rotation, speed) => {
+            name(b",\"spindle\":\"", rotation.name(), out);
+            number(b",\"s\":", *speed, out);
+        }
+        Action::Orient(angle) => number(b",\"orient\":", *angle, out),
+        Action::Stop(kind) => name(b",\"stop\":\"", stop_name(*kind), out),
+        Action::End => name(b",\"stop\":\"", "end", out),
+        Action::Tool(number_of) => number(b",\"tool\":", *number_of, out),
+        Action::Coolant(kind) => name(b",\"coolant\":\"", kind.name(), out),
+        Action::Units(units) => name(b",\"units\":\"", units.name(), out),
+        Action::Work(code) => number(b",\"work\":", *code, out),
+        _ => {
+            out.truncate(start);
+            return;
+        }
+    }
+    out.extend_from_slice(b"}\n");
+}
+
+fn list(before: &[u8], values: &[f64], out: &mut Vec<u8>) {
+    out.extend_from_slice(before);
+    for (i, value) in values.iter().enumerate() {
+        number(if i == 0 { b"" } else { b"," }, *value, out);
+    }
+    out.push(b']');
+}
+
+/// A number so that it reads back as the same double.
+fn number(before: &[u8], value: f64, out: &mut Vec<u8>) {
+    out.extend_from_slice(before);
+    if value.fract() == 0.0 && value.abs() < 1e15 {
+        out.extend_from_slice(itoa::Buffer::new().format(value as i64).as_bytes());
+    } else {
+        out.extend_from_slice(zmij::Buffer::new().format_finite(value).as_bytes());
+    }
+}
+
+fn name(before: &[u8], value: &str, out: &mut Vec<u8>) {
+    out.extend_from_slice(before);
+    out.extend_from_slice(value.as_bytes());
+    out.push(b'"');
+}
+
+/// The summary as a machinist reads it.
+fn describe(tally: &Tally, blocks: u64) -> String {
+    let mut text = String::new();
+    let unit = tally.units.name();
+    let [rapids, feeds, arcs] = tally.moves;
+    _ = writeln!(text, "blocks    {blocks}");
+    _ = writeln!(text, "moves     {rapids} rapid, {feeds} straight, {arcs} arcs");
+    _ = writeln!(text, "holes     {}", tally.holes);
+    _ = writeln!(text, "tools     {}", tally.tools);
+    if let Some(extents) = &tally.extents {
+        for (axis, (least, greatest)) in ["X", "Y", "Z"].iter().zip(extents) {
+            _ = writeln!(text, "{axis} at feed {} to {} {unit}", short(*least), short(*greatest));
+        }
+    }
+    let [rapid, feed] = tally.distances;
+    _ = writeln!(text, "distance  {} {unit} at rapid, {} {unit} at feed", short(rapid), short(feed));
+    let rate = rapid_rate(tally.units);
+    let minutes = [tally.cutting, tally.dwelling, rapid / rate];
+    _ = writeln!(
+        text,
+        "time      {}: cutting {}, dwells {}, rapids {} at {} {unit}/min, without tool changes",
+        clock(minutes.iter().sum()),
+        clock(minutes[0]),
+        clock(minutes[1]),
+        clock(minutes[2]),
+        short(rate)
+    );
+    if tally.timeless > 0 {
+        _ = writeln!(text, "          {} feed moves not counted: their feed follows a spindle without speed", tally.timeless);
+    }
+    text
+}
+
+/// The summary as JSON.
+fn counted(tally: &Tally, blocks: u64) -> String {
+    let [rapids, feeds, arcs] = tally.moves;
+    let rapid = tally.distances[0];
+    let row = serde_json::json!({
+        "blocks": blocks, "units": tally.units.name(), "rapids": rapids, "feeds": feeds, "arcs": arcs,
+        "holes": tally.holes, "tools": tally.tools,
+        "extents": tally.extents.map(|extents| extents.map(|(least, greatest)| [least, greatest])),
+        "distance": { "rapid": rapid, "feed": tally.distances[1] },
+        "minutes": { "cutting": tally.cutting, "dwells": tally.dwelling, "rapids": rapid / rapid_rate(tally.units) },
+    });
+    format!("{row}\n")
+}
+
+fn rapid_rate(units: Units) -> f64 {
+    if units == Units::Inch { RAPID_RATE / 25.0 } else { RAPID_RATE }
+}
+
+fn short(value: f64) -> String {
+    let mut text = Vec::new();
+    word(b"", (value * 1e4).round() / 1e4, &mut text);
+    String::from_utf8_lossy(&text).into_owned()
+}
+
+/// Minutes as 1:02:03.
+fn clock(minutes: f64) -> String {
+    let seconds = (minutes * 60.0).round() as u64;
+    let (hours, rest) = (seconds / 3600, seconds % 3600);
+    if hours > 0 { format!("{hours}:{:02}:{:02}", rest / 60, rest % 60) } else { format!("{}:{:02}", rest / 60, rest % 60) }
+}
+

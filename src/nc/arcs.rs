@@ -1,0 +1,112 @@
+//! G2 and G3.
+
+use super::action::{Action, Turn};
+use super::block::Block;
+use super::codes::letters;
+use super::fault::{Done, refuse};
+use super::machine::{Machine, Out};
+use crate::diag::Code;
+use crate::toolpath::{Direction, Plane, Units};
+
+/// Axes of a plane: first, second, and the one across; their centre letters.
+pub(super) fn axes_of(plane: Plane) -> [usize; 3] {
+    match plane {
+        Plane::Xy => [0, 1, 2],
+        Plane::Xz => [2, 0, 1],
+        Plane::Yz => [1, 2, 0],
+    }
+}
+
+/// Letters of an arc's centre, by axis.
+pub(super) const CENTERS: [u8; 3] = *b"IJK";
+
+impl Machine {
+    /// An arc or helix.
+    pub(super) fn arc(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+        let feed = self.feed_of(block)?;
+        let [first, second, across] = axes_of(self.plane);
+        let from = self.position;
+        let to = self.target(block)?;
+        let direction = if code == 20 { Direction::Cw } else { Direction::Ccw };
+        let words = [first, second].map(|axis| block.get(CENTERS[axis]));
+        let mut center = [from[0], from[1], from[2]];
+        match (block.get(b'R'), words) {
+            (Some(_), _) if block.has(letters("IJK")) => {
+                return refuse(Code::PN009, "an arc with R and with a centre", "write R, or I J K");
+            }
+            (Some(radius), _) => {
+                let (a, b) = ([from[first], from[second]], [to[first], to[second]]);
+                let at = center_of(a, b, radius, direction, self.units)?;
+                (center[first], center[second]) = (at[0], at[1]);
+            }
+            (None, [None, None]) => {
+                return refuse(Code::PN009, "an arc without its centre", "write R, or the centre as I J K of its plane");
+            }
+            (None, words) => {
+                for (axis, word) in [first, second].into_iter().zip(words) {
+                    if self.centers_absolute {
+                        let Some(value) = word else {
+                            let help = "under G90.1 both coordinates of the centre are written";
+                            return refuse(Code::PN009, "half a centre", help);
+                        };
+                        center[axis] = value;
+                    } else {
+                        center[axis] += word.unwrap_or(0.0);
+                    }
+                }
+                self.check_radii(from, to, center)?;
+            }
+        }
+        if block.get(CENTERS[across]).is_some() {
+            let message = format!("{} does not belong to this plane", char::from(CENTERS[across]));
+            return refuse(Code::PN009, message, "write the centre in the letters of the plane, or change the plane");
+        }
+        let turns = match block.get(b'P') {
+            None => 1.0,
+            Some(p) if p.fract() == 0.0 && (1.0..=1e6).contains(&p) && self.control.is_linuxcnc() => p,
+            Some(p) => return refuse(Code::PN018, format!("an arc with P{p}"), "P counts whole turns, of LinuxCNC only"),
+        };
+        // less than a turn, unless it ends where it begins
+        let turn = Turn { to, center, plane: self.plane, direction, turns: turns as u32 - 1, feed };
+        self.position = to;
+        out.push(Action::Arc(Box::new(turn)));
+        Ok(())
+    }
+
+    /// Both ends must lie on one circle, as near as LinuxCNC's manual asks; a Fanuc has a parameter for it.
+    fn check_radii(&self, from: [f64; 6], to: [f64; 6], center: [f64; 3]) -> Done {
+        let [first, second, _] = axes_of(self.plane);
+        let radius = |at: &[f64; 6]| (at[first] - center[first]).hypot(at[second] - center[second]);
+        let (start, end) = (radius(&from), radius(&to));
+        let difference = (start - end).abs();
+        let (most, least) = if self.units == Units::Inch { (0.05, 0.0005) } else { (0.5, 0.005) };
+        if start == 0.0 || difference > most || (difference > least && difference > 0.001 * start) {
+            let message = format!("the arc begins at radius {start:.5} and ends at {end:.5}");
+            return refuse(Code::PN009, message, "look at its end, its centre, and G90.1 or G91.1");
+        }
+        Ok(())
+    }
+}
+
+/// The centre of an arc by its radius, negative for the longer way.
+fn center_of(from: [f64; 2], to: [f64; 2], radius: f64, direction: Direction, units: Units) -> Done<[f64; 2]> {
+    let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+    let chord = dx.hypot(dy);
+    if chord == 0.0 {
+        return refuse(Code::PN009, "a full circle by R", "write its centre: any circle goes through one point");
+    }
+    let half = chord / 2.0;
+    let slack = if units == Units::Inch { 0.0005 } else { 0.005 };
+    if half > radius.abs() + slack {
+        let message = format!("R{radius} is too small: the ends are {chord:.5} apart");
+        return refuse(Code::PN009, message, format!("R must be at least {half:.5}"));
+    }
+    let height = (radius * radius - half * half).max(0.0).sqrt();
+    // left of the chord for the shorter way round counter-clockwise
+    let left = (direction == Direction::Ccw) == (radius > 0.0);
+    let side = if left { 1.0 } else { -1.0 };
+    Ok([
+        from[0] + dx / 2.0 - side * height * dy / chord,
+        from[1] + dy / 2.0 + side * height * dx / chord,
+    ])
+}

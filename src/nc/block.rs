@@ -1,0 +1,401 @@
+//! One block: its words with their values, its codes, and whether they go together.
+
+use super::codes::{AXES, CHECKED, GCode, Group, bit, g_code, letters, m_group, m_words, why_not_run};
+use super::control::Control;
+use super::expression::Reader;
+use super::fault::{Done, Fault, refuse};
+use super::flow::Flow;
+use super::machine::{NO_MOTION, is_cycle};
+use super::parameters::{Parameters, Target};
+use super::scan::{Kind, tokens};
+use crate::diag::Code;
+
+/// Most G codes and M codes of a block that are kept.
+const MOST: usize = 16;
+
+/// A block.
+#[derive(Debug, Default)]
+pub struct Block {
+    /// Values by letter.
+    values: [f64; 26],
+    /// Bit i: letter i is there.
+    pub given: u32,
+    /// Bit i: its value was written as a number without a point.
+    pub whole: u32,
+    /// G codes by group.
+    g: [Option<&'static GCode>; 16],
+    /// A G code is there.
+    has_g: bool,
+    /// M codes in order.
+    m: [u16; MOST],
+    m_count: usize,
+    /// Polar radius `@` and angle `^`.
+    pub polar: [Option<f64>; 2],
+    /// `$` is there.
+    spindle: bool,
+    /// It begins with a slash.
+    pub deleted: bool,
+    /// It is a `%`.
+    pub percent: bool,
+    /// The first comment, without its marks.
+    pub comment: Option<(usize, usize)>,
+    /// Flow of the program: subprograms, loops.
+    pub flow: Option<Flow>,
+    settings: Vec<(Target, f64)>,
+    is_empty: bool,
+}
+
+impl Block {
+    /// A word's value.
+    #[inline]
+    pub fn get(&self, letter: u8) -> Option<f64> {
+        (self.given & bit(letter) != 0).then(|| self.values[usize::from(letter - b'A')])
+    }
+
+    /// Another value for a word that is there.
+    pub fn set(&mut self, letter: u8, value: f64) {
+        self.values[usize::from(letter - b'A')] = value;
+    }
+
+    /// Is any of these words there?
+    #[inline]
+    pub fn has(&self, words: u32) -> bool {
+        self.given & words != 0
+    }
+
+    /// The G code of a group, times ten.
+    #[inline]
+    pub fn g(&self, group: Group) -> Option<u16> {
+        if !self.has_g {
+            return None;
+        }
+        self.g[group as usize].map(|row| row.code)
+    }
+
+    /// Has it G codes besides motions and cycles?
+    #[inline]
+    pub fn has_modes(&self) -> bool {
+        let moves = [Group::Motion as usize, Group::Cycle as usize];
+        self.has_g && self.g.iter().enumerate().any(|(group, row)| row.is_some() && !moves.contains(&group))
+    }
+
+    /// The M codes.
+    pub fn m(&self) -> &[u16] {
+        &self.m[..self.m_count]
+    }
+
+    /// Has it words or polar coordinates of axes?
+    #[inline]
+    pub fn has_axes(&self) -> bool {
+        self.given & AXES != 0 || self.polar != [None; 2]
+    }
+
+    /// Does a code that is no motion take the axis words?
+    pub fn axes_are_taken(&self) -> bool {
+        self.has_g && self.g.iter().flatten().any(|row| row.takes_axes)
+    }
+
+    /// Nothing but blanks, comments and a number.
+    pub fn is_empty(&self) -> bool {
+        self.is_empty
+    }
+
+    /// Reads a line.
+    ///
+    /// # Errors
+    /// What the control can't read, or refuses before it does anything.
+    pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, control: Control) -> Done {
+        self.given = 0;
+        self.whole = 0;
+        self.m_count = 0;
+        self.is_empty = true;
+        if self.has_g {
+            self.g = [None; 16];
+            self.has_g = false;
+        }
+        self.polar = [None; 2];
+        self.spindle = false;
+        self.deleted = false;
+        self.percent = false;
+        self.comment = None;
+        self.flow = None;
+        let mut stream = tokens(line);
+        loop {
+            let here = stream.clone();
+            let Some(token) = stream.next() else { break };
+            match token.kind {
+                Kind::Word(b'O' | b':', number) => {
+                    let mut reader = Reader::new(line, stream);
+                    self.flow = Some(Flow::read(format!("{}", number.value), &mut reader, parameters)?);
+                    self.is_empty = false;
+                    return Ok(());
+                }
+                Kind::Word(letter, number) => {
+                    self.word(letter, number.value, !number.point, token.start, control)?;
+                }
+                Kind::Blank | Kind::LineEnd => {}
+                Kind::Letter(_) | Kind::Symbol(b'#') | Kind::Name => {
+                    return self.read_values(line, Reader::new(line, here), parameters, control);
+                }
+                _ => self.mark(line, token.kind, token.start, token.end, control)?,
+            }
+        }
+        self.check(control)
+    }
+
+    /// The rest of a line that has expressions.
+    #[cold]
+    fn read_values(
+        &mut self,
+        line: &[u8],
+        mut reader: Reader<'_>,
+        parameters: &mut Parameters,
+        control: Control,
+    ) -> Done {
+        while let Some(token) = reader.next() {
+            match token.kind {
+                Kind::LineEnd => {}
+                Kind::Word(letter, number) => {
+                    self.word(letter, number.value, !number.point, token.start, control)?;
+                }
+                Kind::Letter(b'O') => {
+                    let name = match reader.next() {
+                        Some(name) if name.kind == Kind::Quoted => {
+                            String::from_utf8_lossy(reader.text(name)).to_ascii_lowercase()
+                        }
+                        _ => return unreadable(line, token.start, token.end),
+                    };
+                    self.flow = Some(Flow::read(name, &mut reader, parameters)?);
+                    self.is_empty = false;
+                    return Ok(());
+                }
+                Kind::Letter(letter) => {
+                    let value = reader.value(parameters)?;
+                    self.word(letter, value, false, token.start, control)?;
+                }
+                Kind::Symbol(b'#') => {
+                    let target = reader.target(parameters)?;
+                    if !reader.takes(b'=') {
+                        let help = "a parameter at the beginning of a word is set: #1=2";
+                        return Err(Fault::at(Code::PN014, token.start, "a parameter without `=`", help));
+                    }
+                    let value = reader.value(parameters)?;
+                    self.settings.push((target, value));
+                    self.is_empty = false;
+                }
+                Kind::Name => {
+                    let text = String::from_utf8_lossy(reader.text(token)).into_owned();
+                    let message = format!("`{text}` is not simulated");
+                    let help = "jumps and conditions of Fanuc macros are known only at the control";
+                    return Err(Fault::at(Code::PN016, token.start, message, help));
+                }
+                _ => self.mark(line, token.kind, token.start, token.end, control)?,
+            }
+        }
+        self.check(control)?;
+        for (target, value) in self.settings.drain(..) {
+            parameters.set(target, value);
+        }
+        Ok(())
+    }
+
+    /// What is no word.
+    fn mark(&mut self, line: &[u8], kind: Kind, start: usize, end: usize, control: Control) -> Done {
+        match kind {
+            Kind::Comment => {
+                if control.is_linuxcnc() && line[start + 1..end].contains(&b'(') {
+                    return Err(Fault::at(Code::PN001, start, "a comment in a comment", "take the inner `(` out"));
+                }
+                self.comment.get_or_insert((start + 1, end - 1));
+            }
+            Kind::Remark => _ = self.comment.get_or_insert((start + 1, end)),
+            Kind::OpenComment => {
+                return Err(Fault::at(Code::PN001, start, "a comment without its `)`", "close it on this line"));
+            }
+            Kind::Delete => self.deleted = true,
+            Kind::Percent => self.percent = true,
+            Kind::Symbol(b',') => {
+                let help = "program the chamfer or rounding as moves";
+                return Err(Fault::at(Code::PN016, start, "`,C` and `,R` are not simulated", help));
+            }
+            _ => return unreadable(line, start, end),
+        }
+        Ok(())
+    }
+
+    #[inline]
+    fn word(&mut self, letter: u8, value: f64, whole: bool, column: usize, control: Control) -> Done {
+        self.is_empty &= letter == b'N';
+        match letter {
+            b'G' => self.g_word(value, column, control),
+            b'M' => self.m_word(value, column),
+            b'@' | b'^' if control.is_linuxcnc() => {
+                let slot = usize::from(letter == b'^');
+                match self.polar[slot].replace(value) {
+                    None => Ok(()),
+                    Some(_) => twice(letter, column),
+                }
+            }
+            b'$' if control.is_linuxcnc() => {
+                self.spindle = true;
+                Ok(())
+            }
+            b'A'..=b'Z' => {
+                let at = bit(letter);
+                if self.given & at != 0 {
+                    return twice(letter, column);
+                }
+                if at & letters("UVW") != 0 {
+                    let help = "axes are X Y Z A B C";
+                    return Err(Fault::at(Code::PN016, column, format!("the word {}", char::from(letter)), help));
+                }
+                self.given |= at;
+                self.values[usize::from(letter - b'A')] = value;
+                if whole {
+                    self.whole |= at;
+                }
+                Ok(())
+            }
+            _ => {
+                let message = format!("`{}` is no word of this control", char::from(letter));
+                Err(Fault::at(Code::PN001, column, message, "take it out"))
+            }
+        }
+    }
+
+    #[inline]
+    fn g_word(&mut self, value: f64, column: usize, control: Control) -> Done {
+        let tenths = (value * 10.0).round();
+        let code = if (value * 10.0 - tenths).abs() < 1e-3 && (0.0..10_000.0).contains(&tenths) {
+            tenths as u16
+        } else {
+            u16::MAX
+        };
+        let Some(row) = g_code(control, code) else { return unknown_g(value, code, column, control) };
+        self.has_g = true;
+        let group = row.group as usize;
+        // beside a cycle, LinuxCNC takes no notice of G80
+        if control.is_linuxcnc() && row.group == Group::Motion {
+            match self.g[group].map(|before| before.code) {
+                Some(before) if code == NO_MOTION && is_cycle(before) => return Ok(()),
+                Some(NO_MOTION) if is_cycle(code) => self.g[group] = None,
+                _ => {}
+            }
+        }
+        // modal codes that change nothing here may come in numbers
+        if let Some(before) = self.g[group].filter(|_| row.group != Group::Other) {
+            let message = format!("{} and {} are of one group", name_of(before.code), name_of(code));
+            return Err(Fault::at(Code::PN004, column, message, "write them in two blocks, or take one out"));
+        }
+        self.g[group] = Some(row);
+        Ok(())
+    }
+
+    fn m_word(&mut self, value: f64, column: usize) -> Done {
+        let code = value.round();
+        if (value - code).abs() > 1e-4 || !(0.0..=999.0).contains(&code) || self.m_count == MOST {
+            return Err(Fault::at(Code::PN003, column, format!("there is no code M{value}"), "M codes are M0 to M999"));
+        }
+        self.m[self.m_count] = code as u16;
+        self.m_count += 1;
+        Ok(())
+    }
+
+    /// Do its codes and words go together?
+    fn check(&self, control: Control) -> Done {
+        if self.m_count > 0 {
+            self.check_m(control)?;
+        }
+        if control.is_linuxcnc() && self.has(letters("FL")) {
+            for letter in [b'F', b'L'] {
+                if self.get(letter).is_some_and(|value| value < 0.0) {
+                    let letter = char::from(letter);
+                    return refuse(Code::PN018, format!("a negative {letter}"), "write it without the minus");
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_m(&self, control: Control) -> Done {
+        let mut seen = 0u16;
+        for &code in self.m() {
+            let Some(group) = m_group(control, code) else {
+                let help = "it is unknown to this control: take it out";
+                return refuse(Code::PN003, format!("M{code} is unknown"), help);
+            };
+            let at = 1 << group;
+            if group > 0 && seen & at != 0 {
+                let help = "write them in two blocks";
+                return refuse(Code::PN004, format!("M{code} and another M code of its group"), help);
+            }
+            seen |= at;
+        }
+        Ok(())
+    }
+
+    /// Are all words used, where this is the code of its motion?
+    ///
+    /// # Errors
+    /// A word that nothing uses.
+    #[inline]
+    pub fn check_words(&self, motion: Option<&GCode>, control: Control) -> Done {
+        if self.given & CHECKED == 0 && !self.spindle {
+            return Ok(());
+        }
+        self.check_used(motion, control)
+    }
+
+    fn check_used(&self, motion: Option<&GCode>, control: Control) -> Done {
+        let mut used = motion.map_or(0, |row| row.words);
+        if self.has_g {
+            used |= self.g.iter().flatten().fold(0, |words, row| words | row.words);
+        }
+        used |= self.m().iter().fold(0, |words, &code| words | m_words(control, code));
+        if !control.is_linuxcnc() {
+            // offsets may be called ahead, and H or D alone changes the offset
+            used |= letters("DH");
+        }
+        let unused = self.given & CHECKED & !used;
+        if unused != 0 {
+            let letter = char::from(b'A' + unused.trailing_zeros() as u8);
+            let message = format!("{letter} is there, and no code that uses it");
+            return refuse(Code::PN005, message, format!("take the {letter} out, or write its code in this block"));
+        }
+        let spindle = self.m().iter().any(|m| matches!(m, 3..=5 | 19))
+            || [Group::Motion, Group::SpindleMode, Group::FeedMode]
+                .iter()
+                .any(|&group| matches!(self.g(group), Some(330 | 760 | 950 | 960 | 970)));
+        if self.spindle && !spindle {
+            return refuse(Code::PN005, "$ is there, and no code that uses it", "take it out");
+        }
+        Ok(())
+    }
+}
+
+fn twice<T>(letter: u8, column: usize) -> Done<T> {
+    let message = format!("{} stands twice in the block", char::from(letter));
+    Err(Fault::at(Code::PN002, column, message, "keep one of them"))
+}
+
+#[cold]
+fn unknown_g(value: f64, code: u16, column: usize, control: Control) -> Done {
+    Err(match why_not_run(code) {
+        Some(why) => Fault::at(Code::PN016, column, format!("G{value} is not run: {why}"), "run the program without it"),
+        None => {
+            let message = format!("G{value} is no code of this control ({})", control.name());
+            Fault::at(Code::PN003, column, message, "look for a misprint, or choose another `--control`")
+        }
+    })
+}
+
+#[cold]
+fn unreadable<T>(line: &[u8], start: usize, end: usize) -> Done<T> {
+    let text = String::from_utf8_lossy(&line[start..end.max(start + 1).min(line.len())]).into_owned();
+    Err(Fault::at(Code::PN001, start, format!("`{text}` can't be read"), "take it out, or put it into a comment"))
+}
+
+/// `G91.1` of 911.
+pub fn name_of(code: u16) -> String {
+    if code.is_multiple_of(10) { format!("G{}", code / 10) } else { format!("G{}.{}", code / 10, code % 10) }
+}

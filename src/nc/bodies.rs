@@ -1,0 +1,283 @@
+//! What a canned cycle does at its hole, once it stands over it.
+
+use super::action::{Action, Position, Rotation};
+use super::arcs::axes_of;
+use super::control::Control;
+use super::fault::{Done, refuse};
+use super::machine::{Machine, Out};
+use crate::diag::Code;
+use crate::toolpath::{Plane, StopKind, Units};
+
+/// A hole with all that its cycle needs, along the axes of the plane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hole {
+    /// The cycle times ten.
+    pub code: u16,
+    /// The hole; the height does not count.
+    pub at: Position,
+    pub plane: Plane,
+    pub r: f64,
+    pub bottom: f64,
+    /// Where the tool goes back to.
+    pub clear: f64,
+    /// The clear level is a place in machine coordinates.
+    pub dwell: f64,
+    pub peck: f64,
+    pub shift: [f64; 2],
+    pub level: f64,
+    pub feed: f64,
+}
+
+impl Hole {
+    /// Over the hole at a height.
+    #[inline]
+    pub fn over(&self, height: f64) -> Position {
+        let mut to = self.at;
+        to[axes_of(self.plane)[2]] = height;
+        to
+    }
+
+    /// Beside the hole at a height.
+    fn beside(&self, height: f64) -> Position {
+        let mut to = self.over(height);
+        let [first, second, _] = axes_of(self.plane);
+        to[first] += self.shift[0];
+        to[second] += self.shift[1];
+        to
+    }
+}
+
+impl Machine {
+    /// The spindle is switched by the cycle.
+    fn turn(&mut self, rotation: Rotation, out: &mut Out<'_>) {
+        out.push(Action::Spindle(rotation, self.speed));
+    }
+
+    /// How far a peck's rapid stays above the last depth.
+    fn back_off(&self) -> f64 {
+        let inch = self.units == Units::Inch;
+        self.settings.back_off.unwrap_or(match (self.control, inch) {
+            (Control::Fanuc, true) => 0.02,
+            (Control::Fanuc, false) => 0.5,
+            (_, true) => 0.010,
+            (_, false) => 0.254,
+        })
+    }
+
+    #[inline]
+    fn rapid_over(&mut self, hole: &Hole, height: f64, out: &mut Out<'_>) {
+        self.rapid_to(hole.over(height), out);
+    }
+
+    #[inline]
+    fn feed_over(&mut self, hole: &Hole, height: f64, out: &mut Out<'_>) {
+        self.feed_to(hole.over(height), hole.feed, out);
+    }
+
+    /// Drills, from over the hole at R to over the hole at the clear level.
+    pub(super) fn drill(&mut self, hole: &Hole, out: &mut Out<'_>) -> Done {
+        let emc2 = self.control == Control::Emc2;
+        match hole.code {
+            810 => {
+                self.feed_over(hole, hole.bottom, out);
+                self.rapid_over(hole, hole.clear, out);
+            }
+            820 => {
+                self.feed_over(hole, hole.bottom, out);
+                out.push(Action::Dwell(hole.dwell));
+                self.rapid_over(hole, hole.clear, out);
+            }
+            730 | 830 => self.pecks(hole, out)?,
+            740 | 840 => self.tap(hole, out)?,
+            850 => {
+                self.feed_over(hole, hole.bottom, out);
+                // the old manual feeds out all the way
+                self.feed_over(hole, if emc2 { hole.clear } else { hole.r }, out);
+                if !emc2 {
+                    self.rapid_over(hole, hole.clear, out);
+                }
+            }
+            860 => {
+                let turning = self.turning("G86")?;
+                self.feed_over(hole, hole.bottom, out);
+                out.push(Action::Dwell(hole.dwell));
+                self.turn(Rotation::Stop, out);
+                self.rapid_over(hole, hole.clear, out);
+                self.turn(turning, out);
+            }
+            870 => self.back_bore(hole, out)?,
+            880 => {
+                let turning = self.turning("G88")?;
+                self.feed_over(hole, hole.bottom, out);
+                out.push(Action::Dwell(hole.dwell));
+                self.turn(Rotation::Stop, out);
+                out.push(Action::Stop(StopKind::Program));
+                if self.control.is_linuxcnc() {
+                    self.warnings.push((Code::PN034, "G88 does not retract: the operator does, and the next hole is approached as if so"));
+                    self.position = hole.over(hole.clear);
+                } else {
+                    self.rapid_over(hole, hole.clear, out);
+                }
+                self.turn(turning, out);
+            }
+            890 if self.control.is_linuxcnc() => {
+                self.feed_over(hole, hole.bottom, out);
+                out.push(Action::Dwell(hole.dwell));
+                self.feed_over(hole, hole.clear, out);
+            }
+            890 => {
+                self.feed_over(hole, hole.bottom, out);
+                out.push(Action::Dwell(hole.dwell));
+                self.feed_over(hole, hole.r, out);
+                self.rapid_over(hole, hole.clear, out);
+            }
+            760 => self.fine_bore(hole, out),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// G73 breaks the chip, G83 brings it out.
+    fn pecks(&mut self, hole: &Hole, out: &mut Out<'_>) -> Done {
+        let inch = self.units == Units::Inch;
+        if hole.peck <= 0.0 {
+            return refuse(Code::PN018, format!("a peck of {}", hole.peck), "Q must be greater than zero");
+        }
+        let levels = (hole.r - hole.bottom) / hole.peck;
+        if levels > 1e6 {
+            return refuse(Code::PN018, format!("Q{} makes over a million pecks", hole.peck), "write a larger Q");
+        }
+        if self.control == Control::Emc2 && hole.code == 830 {
+            return self.pecks_of_emc2(hole, inch, out);
+        }
+        let back_off = self.back_off();
+        if hole.peck < back_off {
+            self.warnings.push((Code::PN032, "a peck is shorter than the control's back-off: the rapid ends above the last but one"));
+        }
+        let mut depth = hole.r - hole.peck;
+        while depth > hole.bottom {
+            self.feed_over(hole, depth, out);
+            if hole.code == 830 {
+                self.rapid_over(hole, hole.r, out);
+            }
+            self.rapid_over(hole, depth + back_off, out);
+            depth -= hole.peck;
+        }
+        self.feed_over(hole, hole.bottom, out);
+        if hole.dwell > 0.0 && !self.control.is_linuxcnc() {
+            out.push(Action::Dwell(hole.dwell));
+        }
+        self.rapid_over(hole, hole.clear, out);
+        Ok(())
+    }
+
+    /// The old manual's pecks: a quarter of a second, up to the clear level, and feed again from there.
+    fn pecks_of_emc2(&mut self, hole: &Hole, _: bool, out: &mut Out<'_>) -> Done {
+        let mut depth = hole.r;
+        while depth > hole.bottom {
+            depth = (depth - hole.peck).max(hole.bottom);
+            self.feed_over(hole, depth, out);
+            out.push(Action::Dwell(0.25));
+            self.rapid_over(hole, hole.clear, out);
+        }
+        Ok(())
+    }
+
+    /// The direction of the spindle, which must turn.
+    fn turning(&self, cycle: &str) -> Done<Rotation> {
+        if self.spindle == Rotation::Stop {
+            return refuse(Code::PN012, format!("{cycle} with the spindle stopped"), "write M3 or M4 before it");
+        }
+        Ok(self.spindle)
+    }
+
+    fn tap(&mut self, hole: &Hole, out: &mut Out<'_>) -> Done {
+        let (inwards, name) = if hole.code == 840 { (Rotation::Cw, "G84") } else { (Rotation::Ccw, "G74") };
+        let linuxcnc = self.control.is_linuxcnc();
+        if linuxcnc && self.turning(name)? != inwards {
+            let help = "G84 goes in with M3, G74 with M4";
+            return refuse(Code::PN012, format!("{name} with the spindle turning the other way"), help);
+        }
+        let outwards = inwards.reversed();
+        let clear = if linuxcnc { hole.clear } else { hole.r };
+        if !linuxcnc && self.spindle != inwards {
+            self.turn(inwards, out);
+        }
+        self.feed_over(hole, hole.bottom, out);
+        if linuxcnc {
+            self.turn(Rotation::Stop, out);
+            self.turn(outwards, out);
+            out.push(Action::Dwell(hole.dwell));
+        } else {
+            if hole.dwell > 0.0 {
+                out.push(Action::Dwell(hole.dwell));
+            }
+            self.turn(outwards, out);
+        }
+        self.feed_over(hole, clear, out);
+        if linuxcnc {
+            self.turn(Rotation::Stop, out);
+        }
+        self.turn(inwards, out);
+        if !linuxcnc {
+            self.spindle = inwards;
+            self.rapid_over(hole, hole.clear, out);
+        }
+        Ok(())
+    }
+
+    /// Through the hole with the tool turned aside, and up from below.
+    fn back_bore(&mut self, hole: &Hole, out: &mut Out<'_>) -> Done {
+        let turning = self.turning("G87")?;
+        if !self.control.is_linuxcnc() {
+            // a Fanuc's R is below, and Z above: it stands at the initial level now
+            self.turn(Rotation::Stop, out);
+            out.push(Action::Orient(0.0));
+            self.rapid_to(hole.beside(hole.clear), out);
+            self.rapid_to(hole.beside(hole.r), out);
+            self.rapid_over(hole, hole.r, out);
+            self.turn(turning, out);
+            self.feed_over(hole, hole.bottom, out);
+            if hole.dwell > 0.0 {
+                out.push(Action::Dwell(hole.dwell));
+            }
+            self.turn(Rotation::Stop, out);
+            out.push(Action::Orient(0.0));
+            self.rapid_to(hole.beside(hole.bottom), out);
+            self.rapid_to(hole.beside(hole.clear), out);
+            self.rapid_over(hole, hole.clear, out);
+            self.turn(turning, out);
+            return Ok(());
+        }
+        self.rapid_to(hole.beside(hole.r), out);
+        self.turn(Rotation::Stop, out);
+        out.push(Action::Orient(0.0));
+        self.rapid_to(hole.beside(hole.bottom), out);
+        self.rapid_over(hole, hole.bottom, out);
+        self.turn(turning, out);
+        self.feed_over(hole, hole.level, out);
+        self.feed_over(hole, hole.bottom, out);
+        self.turn(Rotation::Stop, out);
+        out.push(Action::Orient(0.0));
+        self.rapid_to(hole.beside(hole.bottom), out);
+        self.rapid_to(hole.beside(hole.clear), out);
+        self.rapid_over(hole, hole.clear, out);
+        self.turn(turning, out);
+        Ok(())
+    }
+
+    /// G76 of a Fanuc mill: stops at an angle, moves off the wall, comes out.
+    fn fine_bore(&mut self, hole: &Hole, out: &mut Out<'_>) {
+        let turning = self.spindle;
+        self.feed_over(hole, hole.bottom, out);
+        if hole.dwell > 0.0 {
+            out.push(Action::Dwell(hole.dwell));
+        }
+        self.turn(Rotation::Stop, out);
+        out.push(Action::Orient(0.0));
+        self.rapid_to(hole.beside(hole.bottom), out);
+        self.rapid_to(hole.beside(hole.clear), out);
+        self.rapid_over(hole, hole.clear, out);
+        self.turn(turning, out);
+    }
+}

@@ -1,0 +1,223 @@
+//! Canned cycles of LinuxCNC and EMC2: what their words mean, how they go from hole to hole (nc.md section 2).
+
+use super::action::{Action, Drilling};
+use super::arcs::{CENTERS, axes_of};
+use super::block::Block;
+use super::bodies::Hole;
+use super::codes::letters;
+use super::control::Control;
+use super::fault::{Done, refuse};
+use super::machine::{Machine, Out};
+use crate::diag::Code;
+use crate::toolpath::{FeedMode, Plane, Units};
+
+/// What a control keeps from one hole to the next.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Series {
+    /// A series of cycles is running.
+    pub running: bool,
+    /// Height of the tool at its beginning.
+    pub initial: f64,
+    /// The numbers as written.
+    pub r: Option<f64>,
+    pub depth: Option<f64>,
+    pub dwell: Option<f64>,
+    pub peck: Option<f64>,
+    pub shift: [Option<f64>; 3],
+    /// In which mode, plane and units R and depth were written.
+    written: Option<(bool, Plane, Units)>,
+}
+
+impl Series {
+    /// A motion that is no cycle ends it.
+    pub fn end(&mut self) {
+        self.running = false;
+    }
+}
+
+/// LinuxCNC's own mark of a word that is not there.
+fn given(word: Option<f64>) -> Option<f64> {
+    word.filter(|&value| value != -1.0)
+}
+
+impl Machine {
+    /// Words of a cycle: those of this block, else kept ones, else an error.
+    pub(super) fn linuxcnc_cycle(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+        self.check_cycle(block)?;
+        let same = self.motion == code;
+        let [first, second, across] = axes_of(self.plane);
+        let name = super::block::name_of(code);
+        let mode = (self.absolute, self.plane, self.units);
+        let kept = self.series;
+        let Some(r) = block.get(b'R').or(kept.r.filter(|_| same)) else {
+            return refuse(Code::PN007, format!("{name} without its R plane"), "write R in the cycle's first block");
+        };
+        let times = repeats(block.get(b'L'))?;
+        let Some(depth) = self.axis_word(block, across).or(kept.depth.filter(|_| same)) else {
+            let axis = char::from(b"XYZ"[across]);
+            let help = format!("write {axis} in the cycle's first block");
+            return refuse(Code::PN007, format!("{name} without its depth"), help);
+        };
+        let reused = block.get(b'R').is_none() || self.axis_word(block, across).is_none();
+        if same && reused && kept.written.is_some_and(|written| written != mode) {
+            self.warnings.push((Code::PN030, "R or depth written under another mode is used again as the same number"));
+        }
+        if !reused {
+            self.series.written = Some(mode);
+        }
+        if !self.series.running || self.control == Control::Emc2 {
+            self.series.initial = self.position[across];
+        }
+        let initial = self.series.initial;
+        let (plane_r, bottom) = if self.absolute { (r, depth) } else { (initial + r, initial + r + depth) };
+        if plane_r < bottom {
+            let message = format!("the R plane {plane_r} is below the bottom {bottom}");
+            return refuse(Code::PN011, message, "look at R, at the depth, and at G90 or G91");
+        }
+        self.series.r = Some(r);
+        self.series.depth = Some(depth);
+        // straight up first, where it is
+        if initial < plane_r {
+            let mut to = self.position;
+            to[across] = plane_r;
+            out.by_cycle = true;
+            self.rapid_to(to, out);
+        }
+        let hole = self.words(code, same, block, &name)?;
+        let hole = Hole { r: plane_r, bottom, clear: if self.to_initial { initial.max(plane_r) } else { plane_r }, ..hole };
+        let was = self.position;
+        let level = was[across];
+        let mut at = self.position;
+        for n in 0..times {
+            if block.polar != [None; 2] {
+                let held = std::mem::replace(&mut self.position, at);
+                let done = self.polar(block, &mut at);
+                self.position = held;
+                done?;
+            }
+            for axis in [first, second] {
+                if let Some(value) = self.axis_word(block, axis) {
+                    at[axis] = if self.absolute { value } else { at[axis] + value };
+                    self.at_machine &= !(1 << axis);
+                }
+            }
+            self.at_machine &= !(1 << across);
+            let hole = Hole { at, ..hole };
+            self.announce(&hole, out);
+            out.by_cycle = true;
+            if n == 0 && level > plane_r {
+                self.rapid_to(hole.over(level), out);
+                self.rapid_to(hole.over(plane_r), out);
+            } else {
+                let across_too = self.position[first] != at[first] || self.position[second] != at[second];
+                if self.position[across] < hole.clear && across_too {
+                    let message = "the rapid to this hole rises on its way: the hole before returned to R only";
+                    self.warnings.push((Code::PN031, message));
+                }
+                self.rapid_to(hole.over(hole.clear), out);
+                if hole.clear > plane_r {
+                    self.rapid_to(hole.over(plane_r), out);
+                }
+            }
+            self.drill(&hole, out)?;
+            out.by_cycle = false;
+        }
+        self.motion = code;
+        self.series.running = true;
+        Ok(())
+    }
+
+    /// A hole as its reader sees it, before its moves.
+    pub(super) fn announce(&self, hole: &Hole, out: &mut Out<'_>) {
+        out.by_cycle = false;
+        let Hole { code, r, bottom, clear, dwell, peck, shift, level, feed, .. } = *hole;
+        let at = hole.over(clear);
+        out.push(Action::Hole(Box::new(Drilling { code, at, r, bottom, clear, dwell, peck, shift, level, feed })));
+    }
+
+    fn check_cycle(&self, block: &Block) -> Done {
+        if block.has(letters("ABC")) {
+            return refuse(Code::PN005, "A, B or C in a canned cycle", "turn the axis in a block before it");
+        }
+        if self.feed == 0.0 {
+            return refuse(Code::PN008, "a canned cycle without a feed", "write F with it");
+        }
+        if self.feed_mode == FeedMode::InverseTime {
+            return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before it");
+        }
+        if self.compensated {
+            return refuse(Code::PN013, "a canned cycle under cutter compensation", "end the compensation with G40 first");
+        }
+        Ok(())
+    }
+
+    /// P, Q and the shift of a block, or those kept; its first block needs them.
+    fn words(&mut self, code: u16, same: bool, block: &Block, name: &str) -> Done<Hole> {
+        let missing = |letter: char| {
+            let help = format!("write {letter} in the cycle's first block");
+            refuse(Code::PN007, format!("{name} without {letter}"), help)
+        };
+        let feed = self.feed;
+        let mut hole = Hole {
+            code,
+            at: self.position,
+            plane: self.plane,
+            r: 0.0,
+            bottom: 0.0,
+            clear: 0.0,
+            dwell: 0.0,
+            peck: 0.0,
+            shift: [0.0; 2],
+            level: 0.0,
+            feed,
+        };
+        if matches!(code, 740 | 820 | 840 | 860 | 880 | 890) {
+            let word = given(block.get(b'P'));
+            if word.is_none() && !same && !matches!(code, 740 | 840) {
+                return missing('P');
+            }
+            if word.is_some() && block.g(super::codes::Group::Once) == Some(40) {
+                self.warnings.push((Code::PN033, "P is the dwell of G4 and of the cycle at once"));
+            }
+            self.series.dwell = word.or(self.series.dwell);
+            hole.dwell = self.series.dwell.unwrap_or(0.0);
+        }
+        if matches!(code, 730 | 830) {
+            let word = given(block.get(b'Q'));
+            if word.is_none() && !same {
+                return missing('Q');
+            }
+            self.series.peck = word.or(self.series.peck);
+            hole.peck = self.series.peck.unwrap_or(0.0);
+        }
+        if code == 870 {
+            for (axis, letter) in CENTERS.into_iter().enumerate() {
+                let word = block.get(letter);
+                if word.is_none() && !same {
+                    return missing(char::from(letter));
+                }
+                self.series.shift[axis] = word.or(self.series.shift[axis]);
+            }
+            let [first, second, across] = axes_of(self.plane).map(|axis| self.series.shift[axis].unwrap_or(0.0));
+            hole.shift = [first, second];
+            let bottom = self.bottom();
+            hole.level = if self.absolute { across } else { bottom + across };
+        }
+        Ok(hole)
+    }
+
+    fn bottom(&self) -> f64 {
+        let (r, depth) = (self.series.r.unwrap_or(0.0), self.series.depth.unwrap_or(0.0));
+        if self.absolute { depth } else { self.series.initial + r + depth }
+    }
+}
+
+/// How often: L, a whole number.
+fn repeats(word: Option<f64>) -> Done<u32> {
+    let times = word.unwrap_or(1.0);
+    let whole = times.round();
+    if (times - whole).abs() > 1e-4 || !(1.0..=1e6).contains(&whole) {
+        return refuse(Code::PN018, format!("L{times} is no number of repeats"), "write L1 or more");
+    }
+    Ok(whole as u32)
+}

@@ -1,0 +1,126 @@
+//! Canned cycles of Fanuc and Haas mills: words are kept until G80, over all cycle codes.
+
+use super::arcs::{CENTERS, axes_of};
+use super::block::{Block, name_of};
+use super::bodies::Hole;
+use super::codes::letters;
+use super::fault::{Done, refuse};
+use super::machine::{Machine, Out};
+use crate::diag::Code;
+use crate::toolpath::FeedMode;
+
+impl Machine {
+    /// A cycle code: the series begins at the tool's height unless one is running.
+    pub(super) fn enter_fanuc_cycle(&mut self, code: u16) {
+        if self.cycle.is_none() {
+            self.series = super::cycles::Series::default();
+        }
+        self.cycle = Some(code);
+    }
+
+    /// A block while a cycle is in force: a hole where it has X, Y, Z or R.
+    pub(super) fn fanuc_cycle(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+        let name = name_of(code);
+        let [first, second, across] = axes_of(self.plane);
+        if !self.series.running {
+            self.series.running = true;
+            self.series.initial = self.position[across];
+        }
+        let initial = self.series.initial;
+        let series = &mut self.series;
+        // increments become places at once: the level they count from is that of the series
+        let word = |letter: u8| block.get(letter);
+        if let Some(r) = word(b'R') {
+            series.r = Some(if self.absolute { r } else { initial + r });
+        }
+        if let Some(depth) = word(b"XYZ"[across]) {
+            series.depth = Some(if self.absolute { depth } else { series.r.unwrap_or(initial) + depth });
+        }
+        if let Some(p) = word(b'P') {
+            series.dwell = Some(if block.whole & super::codes::bit(b'P') != 0 { p / 1000.0 } else { p });
+        }
+        series.peck = word(b'Q').or(series.peck);
+        for (axis, letter) in CENTERS.into_iter().enumerate() {
+            series.shift[axis] = word(letter).or(series.shift[axis]);
+        }
+        if !block.has(letters("XYZABCR")) {
+            return Ok(());
+        }
+        let series = self.series;
+        let (Some(r), Some(bottom)) = (series.r, series.depth) else {
+            let what = if series.r.is_none() { "R plane" } else { "depth" };
+            let help = "write R and Z in the cycle's first block";
+            return refuse(Code::PN007, format!("{name} without its {what}"), help);
+        };
+        if self.compensated {
+            return refuse(Code::PN013, "a canned cycle under cutter compensation", "end the compensation with G40 first");
+        }
+        if self.feed_mode == FeedMode::InverseTime {
+            return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before it");
+        }
+        if self.feed == 0.0 {
+            return refuse(Code::PN008, "a canned cycle without a feed", "write F with it");
+        }
+        let upward = code == 870;
+        if (r < bottom) != upward && r != bottom {
+            let message = format!("the R plane {r} is {} the bottom {bottom}", if upward { "above" } else { "below" });
+            return refuse(Code::PN011, message, "look at R, at Z, and at G90 or G91");
+        }
+        let times = match block.get(b'K').filter(|_| !matches!(code, 760 | 870)).or(block.get(b'L')) {
+            None => 1,
+            Some(times) if times.fract() == 0.0 && (0.0..=9999.0).contains(&times) => times as u32,
+            Some(times) => return refuse(Code::PN018, format!("{times} is no number of repeats"), "write K1 to K9999"),
+        };
+        if upward && !self.to_initial {
+            return refuse(Code::PN013, "G87 under G99", "a back bore returns to the initial level: write G98");
+        }
+        let mut at = self.position;
+        let clear = if self.to_initial { initial.max(r) } else { r };
+        let hole = Hole {
+            code,
+            at,
+            plane: self.plane,
+            r,
+            bottom,
+            clear: if upward { initial } else { clear },
+            dwell: series.dwell.filter(|_| code != 810 && code != 850).unwrap_or(0.0),
+            peck: series.peck.unwrap_or(0.0),
+            shift: self.bore_shift(code),
+            level: bottom,
+            feed: self.feed,
+        };
+        for _ in 0..times {
+            for axis in [first, second, 3, 4, 5] {
+                if let Some(value) = self.axis_word(block, axis) {
+                    at[axis] = if self.absolute { value } else { at[axis] + value };
+                    self.at_machine &= !(1 << axis);
+                }
+            }
+            let hole = Hole { at, ..hole };
+            self.announce(&hole, out);
+            out.by_cycle = true;
+            // across at the height where the tool is, then down to R
+            let height = self.position[across];
+            self.rapid_to(hole.over(height), out);
+            if !upward && height != r {
+                self.at_machine &= !(1 << across);
+                self.rapid_to(hole.over(r), out);
+            }
+            self.drill(&hole, out)?;
+            out.by_cycle = false;
+        }
+        Ok(())
+    }
+
+    /// Off the wall: Q along the first axis, as the parameter stands from the factory, or I and J.
+    fn bore_shift(&self, code: u16) -> [f64; 2] {
+        if !matches!(code, 760 | 870) {
+            return [0.0; 2];
+        }
+        let [first, second, _] = axes_of(self.plane);
+        match [self.series.shift[first], self.series.shift[second]] {
+            [None, None] => [self.series.peck.unwrap_or(0.0), 0.0],
+            shift => shift.map(|value| value.unwrap_or(0.0)),
+        }
+    }
+}

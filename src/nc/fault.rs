@@ -1,0 +1,44 @@
+//! What is wrong with a block.
+
+use crate::diag::{Code, Diag};
+
+/// Why a block is refused, before it is known which block it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// Its row in the table of codes.
+    pub code: Code,
+    /// What is wrong.
+    pub message: String,
+    /// What to write instead.
+    pub help: String,
+    /// The letter or place in the block that it is about: a column from 0.
+    pub column: Option<usize>,
+}
+
+/// A result whose error is a fault, boxed because it is rare.
+pub type Done<T = ()> = Result<T, Box<Fault>>;
+
+impl Fault {
+    /// A fault without a column.
+    pub fn new(code: Code, message: impl Into<String>, help: impl Into<String>) -> Box<Fault> {
+        Box::new(Fault { code, message: message.into(), help: help.into(), column: None })
+    }
+
+    /// A fault at a column of the block.
+    pub fn at(code: Code, column: usize, message: impl Into<String>, help: impl Into<String>) -> Box<Fault> {
+        Box::new(Fault { column: Some(column), ..*Fault::new(code, message, help) })
+    }
+
+    /// As a finding about this line of the program.
+    pub fn diag(self, line: u64, text: &[u8]) -> Diag {
+        let block = String::from_utf8_lossy(text);
+        let mut diag = Diag::new(self.code, format!("{}, in `{}`", self.message, block.trim())).help(self.help);
+        diag.place = Some(format!("{line}:{}", self.column.unwrap_or(0) + 1));
+        diag
+    }
+}
+
+/// A refusal.
+pub fn refuse<T>(code: Code, message: impl Into<String>, help: impl Into<String>) -> Done<T> {
+    Err(Fault::new(code, message, help))
+}

@@ -1,0 +1,100 @@
+//! Coordinate frames: work offsets, G92 and G52, rotation, tool length.
+
+use super::action::Position;
+
+/// The frames of a machine, in the program's units.
+#[derive(Clone, Debug)]
+pub struct Frames {
+    /// Work offsets by number: 0 shifts all of them, 1 to 9 are G54 to G59.3, 10 and on G54.1 P1 and on.
+    work: Vec<Position>,
+    /// Rotation of each work offset about its origin in XY, in degrees.
+    rotation: Vec<f64>,
+    /// Which is active.
+    pub active: usize,
+    /// G92, or G52 of LinuxCNC.
+    pub shift: Position,
+    /// What G92.2 put aside.
+    pub shift_kept: Position,
+    /// Tool length offset.
+    pub tool: [f64; 3],
+}
+
+/// Work offsets that there are: nine, and a Haas's 99 more.
+const OFFSETS: usize = 109;
+
+impl Default for Frames {
+    fn default() -> Self {
+        Frames {
+            work: vec![[0.0; 6]; OFFSETS],
+            rotation: vec![0.0; OFFSETS],
+            active: 1,
+            shift: [0.0; 6],
+            shift_kept: [0.0; 6],
+            tool: [0.0; 3],
+        }
+    }
+}
+
+impl Frames {
+    /// The active rotation.
+    pub fn angle(&self) -> f64 {
+        self.rotation[self.active]
+    }
+
+    /// A place of the program in machine coordinates.
+    pub fn to_machine(&self, at: &Position) -> Position {
+        let mut place = *at;
+        for (value, shift) in place.iter_mut().zip(&self.shift) {
+            *value += shift;
+        }
+        turn(&mut place, self.angle());
+        for (axis, value) in place.iter_mut().enumerate() {
+            *value += self.work[self.active][axis] + self.work[0][axis];
+        }
+        for (value, tool) in place.iter_mut().zip(&self.tool) {
+            *value += tool;
+        }
+        place
+    }
+
+    /// A place in machine coordinates as the program says it.
+    pub fn to_program(&self, at: &Position) -> Position {
+        let mut place = *at;
+        for (value, tool) in place.iter_mut().zip(&self.tool) {
+            *value -= tool;
+        }
+        for (axis, value) in place.iter_mut().enumerate() {
+            *value -= self.work[self.active][axis] + self.work[0][axis];
+        }
+        turn(&mut place, -self.angle());
+        for (value, shift) in place.iter_mut().zip(&self.shift) {
+            *value -= shift;
+        }
+        place
+    }
+
+    /// The work offset of a number, if there is one.
+    pub fn work(&mut self, number: usize) -> Option<(&mut Position, &mut f64)> {
+        Some((self.work.get_mut(number)?, self.rotation.get_mut(number)?))
+    }
+
+    /// All lengths in another unit.
+    pub fn scale(&mut self, factor: f64) {
+        let linear = |place: &mut Position| place[..3].iter_mut().for_each(|v| *v *= factor);
+        self.work.iter_mut().for_each(linear);
+        linear(&mut self.shift);
+        linear(&mut self.shift_kept);
+        self.tool.iter_mut().for_each(|v| *v *= factor);
+    }
+}
+
+/// Turns a place about the origin in XY.
+fn turn(place: &mut Position, degrees: f64) {
+    if degrees == 0.0 {
+        return;
+    }
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let [x, y, ..] = *place;
+    place[0] = x * cos - y * sin;
+    place[1] = x * sin + y * cos;
+}

@@ -1,0 +1,31 @@
+//! NC programs: scanned as bytes, run by the rules of a control.
+//!
+//! Rules of LinuxCNC were observed from outside (nc.md in the specification); those of Fanuc and Haas are the usual
+//! reading of their manuals.
+
+mod action;
+mod arcs;
+mod block;
+mod bodies;
+mod codes;
+mod control;
+mod cycles;
+mod expression;
+mod fanuc_cycles;
+mod fault;
+mod flow;
+mod frames;
+mod machine;
+mod motion;
+mod parameters;
+mod scan;
+mod simulator;
+mod tally;
+mod thread;
+
+pub use action::{Action, Cooling, Drilling, Item, Position, Rotation, Turn};
+pub use control::Control;
+pub use machine::{Machine, Settings, Unpointed};
+pub use scan::{Kind, Number, Token, Tokens, tokens};
+pub use simulator::{RunError, Simulator};
+pub use tally::Tally;

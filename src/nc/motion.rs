@@ -1,0 +1,151 @@
+//! Straight moves: where words lead, G0, G1, G53, G33.
+
+use super::action::{Action, Position};
+use super::block::Block;
+use super::codes::{Group, bit};
+use super::fault::{Done, refuse};
+use super::machine::{Machine, Out};
+use crate::diag::Code;
+use crate::toolpath::{FeedMode, Plane};
+
+/// Letters of the axes.
+const LETTERS: [u8; 6] = *b"XYZABC";
+
+impl Machine {
+    /// The word of an axis as a length: X in diameters is halved.
+    #[inline]
+    pub(super) fn axis_word(&self, block: &Block, axis: usize) -> Option<f64> {
+        let value = block.get(LETTERS[axis])?;
+        Some(if self.diameter && axis == 0 { value / 2.0 } else { value })
+    }
+
+    /// Where a block's axis words lead, in program coordinates.
+    #[inline]
+    pub(super) fn target(&mut self, block: &Block) -> Done<Position> {
+        let mut to = self.position;
+        for (axis, place) in to.iter_mut().enumerate() {
+            let Some(value) = self.axis_word(block, axis) else { continue };
+            if self.absolute {
+                *place = value;
+                self.at_machine &= !(1 << axis);
+            } else {
+                *place += value;
+            }
+        }
+        if block.polar != [None; 2] {
+            self.polar(block, &mut to)?;
+        }
+        Ok(to)
+    }
+
+    /// Polar coordinates: `@` radius, `^` angle.
+    pub(super) fn polar(&self, block: &Block, to: &mut Position) -> Done {
+        if self.plane != Plane::Xy {
+            return refuse(Code::PN005, "polar coordinates outside G17", "write G17 first");
+        }
+        if block.has(bit(b'X') | bit(b'Y')) {
+            return refuse(Code::PN005, "polar coordinates and X or Y in one block", "write one or the other");
+        }
+        let [x, y, ..] = self.position;
+        let (mut radius, mut angle) = (x.hypot(y), y.atan2(x).to_degrees());
+        match (self.absolute, block.polar) {
+            (true, [r, a]) => (radius, angle) = (r.unwrap_or(radius), a.unwrap_or(angle)),
+            (false, _) if x == 0.0 && y == 0.0 => {
+                return refuse(Code::PN018, "polar increments at the origin", "an angle there means nothing: write G90");
+            }
+            (false, [r, a]) => (radius, angle) = (radius + r.unwrap_or(0.0), angle + a.unwrap_or(0.0)),
+        }
+        let (sin, cos) = angle.to_radians().sin_cos();
+        to[0] = radius * cos;
+        to[1] = radius * sin;
+        Ok(())
+    }
+
+    /// A rapid in program coordinates.
+    #[inline]
+    pub(super) fn rapid_to(&mut self, to: Position, out: &mut Out<'_>) {
+        self.position = to;
+        out.push(Action::Rapid { to, machine: self.at_machine });
+    }
+
+    /// A straight feed move.
+    #[inline]
+    pub(super) fn feed_to(&mut self, to: Position, feed: f64, out: &mut Out<'_>) {
+        self.position = to;
+        out.push(Action::Feed { to, feed, lead: None });
+    }
+
+    /// The feed of a block that cuts.
+    #[inline]
+    pub(super) fn feed_of(&self, block: &Block) -> Done<f64> {
+        if self.feed_mode == FeedMode::InverseTime {
+            return match block.get(b'F') {
+                Some(feed) if feed > 0.0 => Ok(feed),
+                _ => refuse(Code::PN008, "G93 without F in the block", "write F in every block that cuts"),
+            };
+        }
+        if self.feed > 0.0 {
+            return Ok(self.feed);
+        }
+        refuse(Code::PN008, "a feed move without a feed", "write F with it")
+    }
+
+    /// G0 or G1.
+    #[inline]
+    pub(super) fn straight(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+        if block.g(Group::Once) == Some(530) {
+            return self.in_machine(code, block, out);
+        }
+        if code == 0 {
+            let to = self.target(block)?;
+            self.rapid_to(to, out);
+            return Ok(());
+        }
+        let feed = self.feed_of(block)?;
+        let to = self.target(block)?;
+        self.feed_to(to, feed, out);
+        Ok(())
+    }
+
+    /// G53: the words are machine coordinates.
+    fn in_machine(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+        if !self.absolute {
+            return refuse(Code::PN018, "G53 under G91", "write G90 with it: increments have no place to begin");
+        }
+        if self.compensated {
+            return refuse(Code::PN013, "G53 under cutter compensation", "end the compensation with G40 first");
+        }
+        let mut place = self.frames.to_machine(&self.position);
+        let mut named = 0;
+        for axis in 0..6 {
+            if let Some(value) = self.axis_word(block, axis) {
+                place[axis] = value;
+                named |= 1 << axis;
+            }
+        }
+        let mut to = self.frames.to_program(&place);
+        for axis in (0..6).filter(|axis| named & 1 << axis == 0) {
+            to[axis] = self.position[axis];
+        }
+        self.at_machine |= named;
+        // a Fanuc goes there at rapid, whatever is in force
+        if code == 0 || !self.control.is_linuxcnc() {
+            self.rapid_to(to, out);
+        } else {
+            let feed = self.feed_of(block)?;
+            self.feed_to(to, feed, out);
+        }
+        Ok(())
+    }
+
+    /// G33: a move that follows the spindle.
+    pub(super) fn synchronised(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+        let Some(lead) = block.get(b'K') else {
+            return refuse(Code::PN007, "G33 without K", "write K with the distance of one turn");
+        };
+        let to = self.target(block)?;
+        self.position = to;
+        out.push(Action::Feed { to, feed: self.feed, lead: Some(lead) });
+        Ok(())
+    }
+}

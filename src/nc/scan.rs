@@ -1,0 +1,293 @@
+//! Bytes of an NC program as tokens that tile each line: nothing is dropped, nothing is guessed.
+//!
+//! Blanks inside numbers, missing blanks between words, lower case and both comment styles are read as controls read
+//! them. The scanner knows no code; what no control could read is [`Kind::Unread`].
+
+/// One token of a line: bytes `start..end`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Token {
+    /// What it is.
+    pub kind: Kind,
+    /// First byte in the line.
+    pub start: usize,
+    /// One past the last byte.
+    pub end: usize,
+}
+
+/// Kinds of tokens. Letters are upper case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// Blanks and tabs.
+    Blank,
+    /// CR, LF or both.
+    LineEnd,
+    /// A letter with its number, sign and blanks included: a word.
+    Word(u8, Number),
+    /// A letter whose value is an expression or a parameter, which follow.
+    Letter(u8),
+    /// A number in an expression, without sign.
+    Number(Number),
+    /// Two letters or more, or letters in an expression: `sub`, `SIN`, `GOTO`.
+    Name,
+    /// `<name>`, with its brackets.
+    Quoted,
+    /// One of `# [ ] = + - * , ` and `/` in an expression; also `**`.
+    Symbol(u8),
+    /// `(...)`, closed.
+    Comment,
+    /// `(...` without its end.
+    OpenComment,
+    /// `;` and the rest of the line.
+    Remark,
+    /// `/` before a block, with a digit where it has one.
+    Delete,
+    /// `%` and what stands behind it.
+    Percent,
+    /// A byte that belongs to nothing.
+    Unread,
+}
+
+/// A number as written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Number {
+    /// Its value, the nearest double.
+    pub value: f64,
+    /// Written with a point.
+    pub point: bool,
+}
+
+/// The tokens of one line, which may end with its line end.
+#[derive(Clone, Debug)]
+pub struct Tokens<'a> {
+    line: &'a [u8],
+    at: usize,
+    /// Open square brackets.
+    depth: u32,
+    /// A value is due: behind `#`, `=` and operators.
+    value: bool,
+    /// Nothing but blanks and a block delete so far.
+    fresh: bool,
+}
+
+/// The tokens of a line.
+pub fn tokens(line: &[u8]) -> Tokens<'_> {
+    Tokens { line, at: 0, depth: 0, value: false, fresh: true }
+}
+
+/// Any blank inside a line.
+#[inline]
+fn is_blank(byte: u8) -> bool {
+    byte == b' ' || byte == b'\t'
+}
+
+impl Iterator for Tokens<'_> {
+    type Item = Token;
+
+    #[inline]
+    fn next(&mut self) -> Option<Token> {
+        let start = self.at;
+        let &byte = self.line.get(start)?;
+        let kind = match byte {
+            b'A'..=b'Z' | b'a'..=b'z' => self.letter(byte.to_ascii_uppercase()),
+            b' ' | b'\t' => {
+                self.at = start + 1;
+                while self.line.get(self.at).is_some_and(|&b| is_blank(b)) {
+                    self.at += 1;
+                }
+                return Some(Token { kind: Kind::Blank, start, end: self.at });
+            }
+            _ => self.other(byte),
+        };
+        self.fresh = self.fresh && kind == Kind::Delete;
+        Some(Token { kind, start, end: self.at })
+    }
+}
+
+impl Tokens<'_> {
+    /// A word, a letter before an expression, or a name.
+    #[inline]
+    fn letter(&mut self, letter: u8) -> Kind {
+        let next = self.at + 1;
+        if self.depth == 0 && !self.value {
+            if let Some((number, end)) = signed(self.line, next) {
+                self.at = end;
+                return Kind::Word(letter, number);
+            }
+            if !self.line.get(next).is_some_and(u8::is_ascii_alphabetic) {
+                self.at = next;
+                return Kind::Letter(letter);
+            }
+        }
+        self.at = next + self.line[next..].iter().take_while(|b| b.is_ascii_alphabetic()).count();
+        self.value = false;
+        Kind::Name
+    }
+
+    #[cold]
+    fn other(&mut self, byte: u8) -> Kind {
+        let rest = &self.line[self.at + 1..];
+        let (kind, len) = match byte {
+            b'\r' if rest.first() == Some(&b'\n') => (Kind::LineEnd, 2),
+            b'\r' | b'\n' => (Kind::LineEnd, 1),
+            b'0'..=b'9' | b'.' => match unsigned(self.line, self.at) {
+                Some((number, end)) if self.value || self.depth > 0 => {
+                    self.value = false;
+                    (Kind::Number(number), end - self.at)
+                }
+                _ => (Kind::Unread, 1),
+            },
+            b'(' => match memchr::memchr(b')', rest) {
+                Some(end) => (Kind::Comment, end + 2),
+                None => (Kind::OpenComment, 1 + self.to_line_end()),
+            },
+            b';' => (Kind::Remark, 1 + self.to_line_end()),
+            b'%' if self.fresh => (Kind::Percent, 1 + self.to_line_end()),
+            b'/' if self.fresh => (Kind::Delete, 1 + usize::from(rest.first().is_some_and(u8::is_ascii_digit))),
+            b'<' => match memchr::memchr(b'>', rest) {
+                Some(end) => (Kind::Quoted, end + 2),
+                None => (Kind::Unread, 1),
+            },
+            b'[' | b']' => {
+                self.depth = if byte == b'[' { self.depth + 1 } else { self.depth.saturating_sub(1) };
+                self.value = false;
+                (Kind::Symbol(byte), 1)
+            }
+            b'*' if rest.first() == Some(&b'*') => (Kind::Symbol(byte), 2),
+            b'#' | b'=' | b'+' | b'-' | b'*' | b'/' | b',' => {
+                self.value = true;
+                (Kind::Symbol(byte), 1)
+            }
+            // polar coordinates, the spindle, and the other mark of a program number
+            b'@' | b'^' | b'$' | b':' => match signed(self.line, self.at + 1) {
+                Some((number, end)) => (Kind::Word(byte, number), end - self.at),
+                None => (Kind::Letter(byte), 1),
+            },
+            _ => (Kind::Unread, 1),
+        };
+        self.at += len;
+        kind
+    }
+
+    /// Bytes behind the next one that are still on this line.
+    fn to_line_end(&self) -> usize {
+        let rest = &self.line[self.at + 1..];
+        rest.iter().position(|&b| b == b'\r' || b == b'\n').unwrap_or(rest.len())
+    }
+}
+
+/// A number with its sign, blanks before it ignored: its end, or `None` if none stands here.
+#[inline]
+fn signed(line: &[u8], at: usize) -> Option<(Number, usize)> {
+    let mut at = skip_blanks(line, at);
+    let negative = match line.get(at) {
+        Some(b'-') => true,
+        Some(b'+') => false,
+        _ => return unsigned(line, at),
+    };
+    at = skip_blanks(line, at + 1);
+    let (mut number, end) = unsigned(line, at)?;
+    if negative {
+        number.value = -number.value;
+    }
+    Some((number, end))
+}
+
+#[inline]
+fn skip_blanks(line: &[u8], mut at: usize) -> usize {
+    while line.get(at).is_some_and(|&b| is_blank(b)) {
+        at += 1;
+    }
+    at
+}
+
+const POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20,
+    1e21, 1e22,
+];
+
+/// Digits and at most one point; blanks between them are ignored.
+#[inline]
+fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
+    let (mut mantissa, mut digits, mut decimals, mut point) = (0u64, 0u32, 0usize, false);
+    let (mut at, mut end) = (start, start);
+    while let Some(&byte) = line.get(at) {
+        let digit = byte.wrapping_sub(b'0');
+        if digit < 10 {
+            mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+            digits += 1;
+            decimals += usize::from(point);
+        } else if byte == b'.' && !point {
+            point = true;
+        } else if is_blank(byte) {
+            at += 1;
+            continue;
+        } else {
+            break;
+        }
+        at += 1;
+        end = at;
+    }
+    if digits == 0 {
+        return None;
+    }
+    let value = if digits <= 15 && decimals < POWERS.len() {
+        mantissa as f64 / POWERS[decimals] // both exact, so this is the nearest double
+    } else {
+        slow(&line[start..end])
+    };
+    Some((Number { value, point }, end))
+}
+
+/// Numbers too long for a double's digits.
+#[cold]
+fn slow(text: &[u8]) -> f64 {
+    let text: String = text.iter().filter(|b| !is_blank(**b)).map(|&b| char::from(b)).collect();
+    text.parse().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(line: &str) -> String {
+        let mut text = String::new();
+        let mut at = 0;
+        for token in tokens(line.as_bytes()) {
+            assert_eq!(token.start, at, "tokens tile the line");
+            at = token.end;
+            text += &match token.kind {
+                Kind::Blank => "_".into(),
+                Kind::LineEnd => "|".into(),
+                Kind::Word(letter, number) => format!("{}{:?} ", char::from(letter), number.value),
+                Kind::Letter(letter) => format!("{}? ", char::from(letter)),
+                Kind::Number(number) => format!("{:?} ", number.value),
+                Kind::Symbol(symbol) => char::from(symbol).to_string(),
+                kind => format!("{kind:?}:{} ", &line[token.start..token.end]),
+            };
+        }
+        assert_eq!(at, line.len());
+        text
+    }
+
+    #[test]
+    fn words_are_read_as_controls_read_them() {
+        assert_eq!(shown("N10G1X1.5Y-.25F100\r\n"), "N10.0 G1.0 X1.5 Y-0.25 F100.0 |");
+        assert_eq!(shown("g1 x 1 2. 5 y + 3"), "G1.0 _X12.5 _Y3.0 ");
+        assert_eq!(shown("/2 G0 X1 (up) Y2 ; rest\n"), "Delete:/2 _G0.0 _X1.0 _Comment:(up) _Y2.0 _Remark:; rest |");
+        assert_eq!(shown("%abc"), "Percent:%abc ");
+        assert_eq!(shown("X1.2.3"), "X1.2 Unread:. Unread:3 ");
+        assert_eq!(shown("X0.1234567890123456789"), "X0.12345678901234568 ");
+        assert_eq!(shown("(open X1"), "OpenComment:(open X1 ");
+        assert_eq!(shown("X 5 \t Y"), "X5.0 _Y? ");
+    }
+
+    #[test]
+    fn expressions_and_o_words_are_taken_apart() {
+        assert_eq!(shown("#1=3 #2=[#1*2+1]"), "#1.0 =3.0 _#2.0 =[#1.0 *2.0 +1.0 ]");
+        assert_eq!(shown("X-[#1+2]Y#<a b>"), "X? -[#1.0 +2.0 ]Y? #Quoted:<a b> ");
+        assert_eq!(shown("o100 call [3]"), "O100.0 _Name:call _[3.0 ]");
+        assert_eq!(shown("o<hole> sub"), "O? Quoted:<hole> _Name:sub ");
+        assert_eq!(shown("X[SIN[30] ** 2]"), "X? [Name:SIN [30.0 ]_*_2.0 ]");
+        assert_eq!(shown("@2^[45]"), "@2.0 ^? [45.0 ]");
+    }
+}

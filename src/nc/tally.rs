@@ -1,0 +1,154 @@
+//! What is in a program: blocks, moves, holes, extents, distances, time.
+
+use super::action::{Action, Item, Position, Turn};
+use super::arcs::axes_of;
+use crate::toolpath::{Direction, FeedMode, Units};
+
+/// Counts what a program does.
+#[derive(Clone, Debug)]
+pub struct Tally {
+    /// Rapids, straight feed moves, arcs.
+    pub moves: [u64; 3],
+    /// Holes of canned cycles.
+    pub holes: u64,
+    /// Tool changes.
+    pub tools: u64,
+    /// Lengths of rapids and of feed moves.
+    pub distances: [f64; 2],
+    /// Least and greatest X, Y, Z of the feed moves, where the tool is between two of them.
+    pub extents: Option<[(f64, f64); 3]>,
+    /// Minutes of feed moves, as programmed.
+    pub cutting: f64,
+    /// Minutes of dwells.
+    pub dwelling: f64,
+    /// Feed moves whose time is unknown: their feed follows a spindle without speed.
+    pub timeless: u64,
+    /// Units of the lengths: those at the program's end.
+    pub units: Units,
+    at: Position,
+    mode: FeedMode,
+    speed: f64,
+}
+
+impl Tally {
+    /// Nothing yet.
+    pub fn new(units: Units) -> Tally {
+        Tally {
+            moves: [0; 3],
+            holes: 0,
+            tools: 0,
+            distances: [0.0; 2],
+            extents: None,
+            cutting: 0.0,
+            dwelling: 0.0,
+            timeless: 0,
+            units,
+            at: [0.0; 6],
+            mode: FeedMode::PerMinute,
+            speed: 0.0,
+        }
+    }
+
+    /// Adds an action.
+    pub fn add(&mut self, item: &Item) {
+        match &item.action {
+            Action::Rapid { to, machine } => {
+                self.moves[0] += 1;
+                // how far a place in machine coordinates is, only the machine knows
+                if *machine == 0 {
+                    self.distances[0] += distance(&self.at, to);
+                }
+                self.at = *to;
+            }
+            Action::Feed { to, feed, lead } => {
+                self.moves[1] += 1;
+                let length = distance(&self.at, to);
+                self.cut(length, *feed, *lead);
+                self.reach(&self.at.clone());
+                self.at = *to;
+                self.reach(to);
+            }
+            Action::Arc(turn) => {
+                self.moves[2] += 1;
+                self.cut(arc_length(&self.at, turn), turn.feed, None);
+                self.reach(&self.at.clone());
+                self.round(turn);
+                self.at = turn.to;
+                self.reach(&turn.to);
+            }
+            Action::Dwell(seconds) => self.dwelling += seconds / 60.0,
+            Action::Spindle(_, speed) => self.speed = *speed,
+            Action::FeedMode(mode) => self.mode = *mode,
+            Action::Tool(_) => self.tools += 1,
+            Action::Hole(_) => self.holes += 1,
+            Action::Units(units) if *units != self.units => {
+                self.units = *units;
+                let factor = if *units == Units::Inch { 1.0 / 25.4 } else { 25.4 };
+                let lengths = self.distances.iter_mut().chain(&mut self.at[..3]);
+                lengths.for_each(|length| *length *= factor);
+                for (least, greatest) in self.extents.iter_mut().flatten() {
+                    (*least, *greatest) = (*least * factor, *greatest * factor);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn cut(&mut self, length: f64, feed: f64, lead: Option<f64>) {
+        self.distances[1] += length;
+        let minutes = match (lead, self.mode) {
+            (Some(lead), _) => length / (lead * self.speed),
+            (None, FeedMode::PerMinute) => length / feed,
+            (None, FeedMode::PerRev) => length / (feed * self.speed),
+            (None, FeedMode::InverseTime) => 1.0 / feed,
+        };
+        if minutes.is_finite() { self.cutting += minutes } else { self.timeless += u64::from(length > 0.0) }
+    }
+
+    fn reach(&mut self, at: &Position) {
+        let extents = self.extents.get_or_insert([(at[0], at[0]), (at[1], at[1]), (at[2], at[2])]);
+        for (axis, (least, greatest)) in extents.iter_mut().enumerate() {
+            (*least, *greatest) = (least.min(at[axis]), greatest.max(at[axis]));
+        }
+    }
+
+    /// The quadrant points that an arc passes.
+    fn round(&mut self, turn: &Turn) {
+        let [first, second, _] = axes_of(turn.plane);
+        let radius = (self.at[first] - turn.center[first]).hypot(self.at[second] - turn.center[second]);
+        let swept = sweep(&self.at, turn);
+        let start = (self.at[second] - turn.center[second]).atan2(self.at[first] - turn.center[first]);
+        let sign = if turn.direction == Direction::Ccw { 1.0 } else { -1.0 };
+        for quadrant in 0..4 {
+            let angle = f64::from(quadrant) * std::f64::consts::FRAC_PI_2;
+            let ahead = (sign * (angle - start)).rem_euclid(std::f64::consts::TAU);
+            if ahead < swept {
+                let mut at = self.at;
+                at[first] = turn.center[first] + radius * angle.cos();
+                at[second] = turn.center[second] + radius * angle.sin();
+                self.reach(&at);
+            }
+        }
+    }
+}
+
+fn distance(from: &Position, to: &Position) -> f64 {
+    (0..3).map(|axis| (to[axis] - from[axis]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Angle that an arc turns, in radians; a whole turn where it ends as it begins.
+pub(crate) fn sweep(from: &Position, turn: &Turn) -> f64 {
+    let [first, second, _] = axes_of(turn.plane);
+    let angle = |at: &Position| (at[second] - turn.center[second]).atan2(at[first] - turn.center[first]);
+    let sign = if turn.direction == Direction::Ccw { 1.0 } else { -1.0 };
+    let part = (sign * (angle(&turn.to) - angle(from))).rem_euclid(std::f64::consts::TAU);
+    let closed = part < 1e-9 || part > std::f64::consts::TAU - 1e-9;
+    let part = if closed { std::f64::consts::TAU } else { part };
+    part + f64::from(turn.turns) * std::f64::consts::TAU
+}
+
+fn arc_length(from: &Position, turn: &Turn) -> f64 {
+    let [first, second, across] = axes_of(turn.plane);
+    let radius = (from[first] - turn.center[first]).hypot(from[second] - turn.center[second]);
+    (radius * sweep(from, turn)).hypot(turn.to[across] - from[across])
+}

@@ -1,0 +1,140 @@
+//! Programs run by the simulator and by LinuxCNC's interpreter, in one language.
+
+use std::io::Cursor;
+
+use postform::nc::{Action, Item, Rotation, RunError, Settings, Simulator};
+
+/// What a machine does, in the words of both.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Call {
+    Rapid([f64; 6]),
+    Feed([f64; 6]),
+    /// End, centre in the plane, turns (negative: clockwise).
+    Arc([f64; 6], [f64; 2], i32),
+    Dwell(f64),
+    Spindle(Rotation),
+    Orient,
+    Stop,
+    OptionalStop,
+}
+
+impl Call {
+    /// The same within the four decimals that the interpreter prints.
+    pub fn is(&self, other: &Call) -> bool {
+        let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 6e-5);
+        match (self, other) {
+            (Call::Rapid(a), Call::Rapid(b)) | (Call::Feed(a), Call::Feed(b)) => near(a, b),
+            (Call::Arc(a, c, n), Call::Arc(b, d, m)) => near(a, b) && near(c, d) && n == m,
+            (Call::Dwell(a), Call::Dwell(b)) => (a - b).abs() < 6e-5,
+            (a, b) => a == b,
+        }
+    }
+}
+
+/// How a program ended: the refused line, if one was.
+pub type Ended = Result<(), u64>;
+
+/// What the simulator makes of a program.
+pub fn simulated(program: &[u8], settings: Settings) -> (Vec<Call>, Ended, Vec<Item>) {
+    let mut simulator = Simulator::new(Cursor::new(program), settings);
+    let mut items = Vec::new();
+    let ended = loop {
+        match simulator.step(&mut items) {
+            Ok(true) => {}
+            Ok(false) => break Ok(()),
+            Err(RunError::Refused(_, line)) => break Err(line),
+            Err(RunError::Io(error)) => panic!("{error}"),
+        }
+    };
+    let mut calls = Vec::new();
+    let mut spindle = Rotation::Stop;
+    for item in &items {
+        calls.push(match &item.action {
+            Action::Rapid { to, .. } => Call::Rapid(*to),
+            Action::Feed { to, .. } => Call::Feed(*to),
+            Action::Arc(turn) => {
+                let [first, second] = match turn.plane {
+                    postform::toolpath::Plane::Xy => [0, 1],
+                    postform::toolpath::Plane::Xz => [2, 0],
+                    postform::toolpath::Plane::Yz => [1, 2],
+                };
+                let turns = turn.turns as i32 + 1;
+                let is_ccw = turn.direction == postform::toolpath::Direction::Ccw;
+                Call::Arc(turn.to, [turn.center[first], turn.center[second]], if is_ccw { turns } else { -turns })
+            }
+            Action::Dwell(seconds) => Call::Dwell(*seconds),
+            Action::Spindle(rotation, _) if *rotation != spindle => {
+                spindle = *rotation;
+                Call::Spindle(spindle)
+            }
+            Action::Orient(_) => Call::Orient,
+            Action::Stop(postform::toolpath::StopKind::Program) => Call::Stop,
+            Action::Stop(_) => Call::OptionalStop,
+            _ => continue,
+        });
+    }
+    (calls, ended, items)
+}
+
+/// The canonical calls of LinuxCNC's interpreter.
+pub fn interpreted(canon: &str) -> Vec<Call> {
+    let text = match canon.rfind("PROGRAM_END") {
+        Some(end) => &canon[..canon[..end].rfind("SET_FEED_MODE").unwrap_or(end)],
+        None => canon,
+    };
+    let mut calls = Vec::new();
+    let mut spindle = Rotation::Stop;
+    let mut plane = [0, 1, 2];
+    for line in text.lines() {
+        let Some((name, rest)) = line.split_once('(') else { continue };
+        let name = name.rsplit(' ').next().unwrap();
+        let numbers: Vec<f64> = rest.split([',', ')']).filter_map(|n| n.trim().parse().ok()).collect();
+        let six = |list: &[f64]| <[f64; 6]>::try_from(&list[..6]).unwrap();
+        let turn = |now: &mut Rotation, to: Rotation| {
+            let changed = *now != to;
+            *now = to;
+            changed.then_some(Call::Spindle(to))
+        };
+        let call = match name {
+            "STRAIGHT_TRAVERSE" => Some(Call::Rapid(six(&numbers))),
+            "STRAIGHT_FEED" => Some(Call::Feed(six(&numbers))),
+            "ARC_FEED" => {
+                let mut to = [0.0; 6];
+                to[plane[0]] = numbers[0];
+                to[plane[1]] = numbers[1];
+                to[plane[2]] = numbers[5];
+                to[3..].copy_from_slice(&numbers[6..9]);
+                Some(Call::Arc(to, [numbers[2], numbers[3]], numbers[4] as i32))
+            }
+            "SELECT_PLANE" => {
+                plane = if rest.contains("XZ") {
+                    [2, 0, 1]
+                } else if rest.contains("YZ") {
+                    [1, 2, 0]
+                } else {
+                    [0, 1, 2]
+                };
+                None
+            }
+            "DWELL" => Some(Call::Dwell(numbers[0])),
+            "START_SPINDLE_CLOCKWISE" => turn(&mut spindle, Rotation::Cw),
+            "START_SPINDLE_COUNTERCLOCKWISE" => turn(&mut spindle, Rotation::Ccw),
+            "STOP_SPINDLE_TURNING" => turn(&mut spindle, Rotation::Stop),
+            "ORIENT_SPINDLE" => Some(Call::Orient),
+            "PROGRAM_STOP" => Some(Call::Stop),
+            "OPTIONAL_PROGRAM_STOP" => Some(Call::OptionalStop),
+            _ => None,
+        };
+        calls.extend(call);
+    }
+    calls
+}
+
+/// The first place where two programs differ, for a message.
+pub fn difference(ours: &[Call], theirs: &[Call]) -> Option<String> {
+    let at = (0..ours.len().max(theirs.len())).find(|&i| match (ours.get(i), theirs.get(i)) {
+        (Some(a), Some(b)) => !a.is(b),
+        _ => true,
+    })?;
+    Some(format!("call {at}: ours {:?}, theirs {:?}", ours.get(at), theirs.get(at)))
+}

@@ -42,8 +42,7 @@ fn compare(program: &str, canon: &str) -> Option<String> {
 fn folder(name: &str, leave: &[String]) {
     let Some(golden) = golden() else { return };
     let (mut wrong, mut seen) = (Vec::new(), 0);
-    let mut paths: Vec<PathBuf> =
-        fs::read_dir(golden.join(name)).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut paths: Vec<PathBuf> = fs::read_dir(golden.join(name)).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.sort();
     for path in paths.iter().filter(|path| path.extension().is_some_and(|e| e == "ngc")) {
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();

@@ -232,7 +232,13 @@ impl ControlArgs {
             Some(NoPoint::Whole) => Unpointed::Whole,
             Some(NoPoint::Increments) => Unpointed::Increments,
         };
-        Settings { units, block_delete: self.block_delete, back_off: self.back_off, unpointed, ..Settings::new(control) }
+        Settings {
+            units,
+            block_delete: self.block_delete,
+            back_off: self.back_off,
+            unpointed,
+            ..Settings::new(control)
+        }
     }
 }
 

@@ -9,10 +9,10 @@ use postform::nc::{Action, Item, RunError, Simulator, Tally};
 use postform::number::quantise;
 use postform::toolpath::{Direction, Plane, StopKind, Units};
 
+use super::Ending;
 use super::args::{MotionFormat, SimulateArgs};
 use super::files::{self, io_message};
 use super::report::Reporter;
-use super::Ending;
 
 /// How much text waits before it is written.
 const CHUNK: usize = 64 * 1024;
@@ -153,11 +153,11 @@ fn line(item: &Item, block: &[u8], out: &mut Vec<u8>) {
     };
     let mut digits = itoa::Buffer::new();
     let number = digits.format(item.line);
-    out.extend(std::iter::repeat_n(b' ', 6usize.saturating_sub(number.len())));
+    out.extend_from_slice(&b"      "[number.len().min(6)..]);
     out.extend_from_slice(number.as_bytes());
     out.extend_from_slice(b"  ");
     out.extend_from_slice(what.as_bytes());
-    out.extend(std::iter::repeat_n(b' ', 8 - what.len()));
+    out.extend_from_slice(&b"        "[what.len()..]);
     match &item.action {
         Action::Rapid { to, machine } => {
             position(to, out);
@@ -217,6 +217,7 @@ fn position(to: &[f64; 6], out: &mut Vec<u8>) {
 }
 
 /// A number with up to five decimals.
+#[inline]
 fn word(before: &[u8], value: f64, out: &mut Vec<u8>) {
     out.extend_from_slice(before);
     let Some(units) = quantise(value, 5) else {
@@ -227,17 +228,26 @@ fn word(before: &[u8], value: f64, out: &mut Vec<u8>) {
         out.push(b'-');
     }
     let units = units.unsigned_abs();
-    out.extend_from_slice(itoa::Buffer::new().format(units / 100_000).as_bytes());
-    let mut rest = units % 100_000;
-    if rest > 0 {
-        out.push(b'.');
-        let mut power = 10_000;
-        while rest > 0 {
-            out.push(b'0' + (rest / power) as u8);
-            rest %= power;
-            power /= 10;
-        }
+    let (whole, part) = (units / 100_000, (units % 100_000) as u32);
+    match whole {
+        0..10 => out.push(b'0' + whole as u8),
+        _ => out.extend_from_slice(itoa::Buffer::new().format(whole).as_bytes()),
     }
+    if part == 0 {
+        return;
+    }
+    let [a, b, c] = [part / 10_000, part / 100 % 100, part % 100];
+    let digits = [
+        b'.',
+        b'0' + a as u8,
+        b'0' + (b / 10) as u8,
+        b'0' + (b % 10) as u8,
+        b'0' + (c / 10) as u8,
+        b'0' + (c % 10) as u8,
+    ];
+    let zeros = digits.iter().rev().take_while(|&&digit| digit == b'0').count();
+    out.extend_from_slice(&digits);
+    out.truncate(out.len() - zeros);
 }
 
 /// One action as a JSON object.
@@ -343,7 +353,11 @@ fn describe(tally: &Tally, blocks: u64) -> String {
         short(rate)
     );
     if tally.timeless > 0 {
-        _ = writeln!(text, "          {} feed moves not counted: their feed follows a spindle without speed", tally.timeless);
+        _ = writeln!(
+            text,
+            "          {} feed moves not counted: their feed follows a spindle without speed",
+            tally.timeless
+        );
     }
     text
 }
@@ -376,6 +390,9 @@ fn short(value: f64) -> String {
 fn clock(minutes: f64) -> String {
     let seconds = (minutes * 60.0).round() as u64;
     let (hours, rest) = (seconds / 3600, seconds % 3600);
-    if hours > 0 { format!("{hours}:{:02}:{:02}", rest / 60, rest % 60) } else { format!("{}:{:02}", rest / 60, rest % 60) }
+    if hours > 0 {
+        format!("{hours}:{:02}:{:02}", rest / 60, rest % 60)
+    } else {
+        format!("{}:{:02}", rest / 60, rest % 60)
+    }
 }
-

@@ -40,7 +40,11 @@ impl Machine {
                 (center[first], center[second]) = (at[0], at[1]);
             }
             (None, [None, None]) => {
-                return refuse(Code::PN009, "an arc without its centre", "write R, or the centre as I J K of its plane");
+                return refuse(
+                    Code::PN009,
+                    "an arc without its centre",
+                    "write R, or the centre as I J K of its plane",
+                );
             }
             (None, words) => {
                 for (axis, word) in [first, second].into_iter().zip(words) {
@@ -64,7 +68,9 @@ impl Machine {
         let turns = match block.get(b'P') {
             None => 1.0,
             Some(p) if p.fract() == 0.0 && (1.0..=1e6).contains(&p) && self.control.is_linuxcnc() => p,
-            Some(p) => return refuse(Code::PN018, format!("an arc with P{p}"), "P counts whole turns, of LinuxCNC only"),
+            Some(p) => {
+                return refuse(Code::PN018, format!("an arc with P{p}"), "P counts whole turns, of LinuxCNC only");
+            }
         };
         // less than a turn, unless it ends where it begins
         let turn = Turn { to, center, plane: self.plane, direction, turns: turns as u32 - 1, feed };
@@ -105,8 +111,5 @@ fn center_of(from: [f64; 2], to: [f64; 2], radius: f64, direction: Direction, un
     // left of the chord for the shorter way round counter-clockwise
     let left = (direction == Direction::Ccw) == (radius > 0.0);
     let side = if left { 1.0 } else { -1.0 };
-    Ok([
-        from[0] + dx / 2.0 - side * height * dy / chord,
-        from[1] + dy / 2.0 + side * height * dx / chord,
-    ])
+    Ok([from[0] + dx / 2.0 - side * height * dy / chord, from[1] + dy / 2.0 + side * height * dx / chord])
 }

@@ -7,7 +7,7 @@ use super::fault::{Done, Fault, refuse};
 use super::flow::Flow;
 use super::machine::{NO_MOTION, is_cycle};
 use super::parameters::{Parameters, Target};
-use super::scan::{Kind, tokens};
+use super::scan::{Kind, tokens, tokens_from};
 use crate::diag::Code;
 
 /// Most G codes and M codes of a block that are kept.
@@ -26,6 +26,10 @@ pub struct Block {
     g: [Option<&'static GCode>; 16],
     /// A G code is there.
     has_g: bool,
+    /// One besides motions and cycles is.
+    has_modes: bool,
+    /// One that uses axis words without being a motion is.
+    takes_axes: bool,
     /// M codes in order.
     m: [u16; MOST],
     m_count: usize,
@@ -75,8 +79,7 @@ impl Block {
     /// Has it G codes besides motions and cycles?
     #[inline]
     pub fn has_modes(&self) -> bool {
-        let moves = [Group::Motion as usize, Group::Cycle as usize];
-        self.has_g && self.g.iter().enumerate().any(|(group, row)| row.is_some() && !moves.contains(&group))
+        self.has_modes
     }
 
     /// The M codes.
@@ -91,8 +94,9 @@ impl Block {
     }
 
     /// Does a code that is no motion take the axis words?
+    #[inline]
     pub fn axes_are_taken(&self) -> bool {
-        self.has_g && self.g.iter().flatten().any(|row| row.takes_axes)
+        self.takes_axes
     }
 
     /// Nothing but blanks, comments and a number.
@@ -111,7 +115,7 @@ impl Block {
         self.is_empty = true;
         if self.has_g {
             self.g = [None; 16];
-            self.has_g = false;
+            (self.has_g, self.has_modes, self.takes_axes) = (false, false, false);
         }
         self.polar = [None; 2];
         self.spindle = false;
@@ -121,7 +125,7 @@ impl Block {
         self.flow = None;
         let mut stream = tokens(line);
         loop {
-            let here = stream.clone();
+            stream.skip_blanks();
             let Some(token) = stream.next() else { break };
             match token.kind {
                 Kind::Word(b'O' | b':', number) => {
@@ -133,9 +137,16 @@ impl Block {
                 Kind::Word(letter, number) => {
                     self.word(letter, number.value, !number.point, token.start, control)?;
                 }
-                Kind::Blank | Kind::LineEnd => {}
+                Kind::Blank => {}
+                Kind::LineEnd if line[token.start] == b'\r' && token.end == token.start + 1 => {}
+                Kind::LineEnd => break,
                 Kind::Letter(_) | Kind::Symbol(b'#') | Kind::Name => {
-                    return self.read_values(line, Reader::new(line, here), parameters, control);
+                    return self.read_values(
+                        line,
+                        Reader::new(line, tokens_from(line, token.start)),
+                        parameters,
+                        control,
+                    );
                 }
                 _ => self.mark(line, token.kind, token.start, token.end, control)?,
             }
@@ -154,7 +165,7 @@ impl Block {
     ) -> Done {
         while let Some(token) = reader.next() {
             match token.kind {
-                Kind::LineEnd => {}
+                Kind::LineEnd => break,
                 Kind::Word(letter, number) => {
                     self.word(letter, number.value, !number.point, token.start, control)?;
                 }
@@ -265,14 +276,12 @@ impl Block {
 
     #[inline]
     fn g_word(&mut self, value: f64, column: usize, control: Control) -> Done {
-        let tenths = (value * 10.0).round();
-        let code = if (value * 10.0 - tenths).abs() < 1e-3 && (0.0..10_000.0).contains(&tenths) {
-            tenths as u16
-        } else {
-            u16::MAX
-        };
+        let code = (value * 10.0 + 0.5) as u16;
+        let code = if (value * 10.0 - f64::from(code)).abs() < 1e-3 { code } else { u16::MAX };
         let Some(row) = g_code(control, code) else { return unknown_g(value, code, column, control) };
         self.has_g = true;
+        self.takes_axes |= row.takes_axes;
+        self.has_modes |= !matches!(row.group, Group::Motion | Group::Cycle);
         let group = row.group as usize;
         // beside a cycle, LinuxCNC takes no notice of G80
         if control.is_linuxcnc() && row.group == Group::Motion {
@@ -381,7 +390,9 @@ fn twice<T>(letter: u8, column: usize) -> Done<T> {
 #[cold]
 fn unknown_g(value: f64, code: u16, column: usize, control: Control) -> Done {
     Err(match why_not_run(code) {
-        Some(why) => Fault::at(Code::PN016, column, format!("G{value} is not run: {why}"), "run the program without it"),
+        Some(why) => {
+            Fault::at(Code::PN016, column, format!("G{value} is not run: {why}"), "run the program without it")
+        }
         None => {
             let message = format!("G{value} is no code of this control ({})", control.name());
             Fault::at(Code::PN003, column, message, "look for a misprint, or choose another `--control`")

@@ -113,7 +113,10 @@ impl Machine {
                 self.turn(Rotation::Stop, out);
                 out.push(Action::Stop(StopKind::Program));
                 if self.control.is_linuxcnc() {
-                    self.warnings.push((Code::PN034, "G88 does not retract: the operator does, and the next hole is approached as if so"));
+                    self.warnings.push((
+                        Code::PN034,
+                        "G88 does not retract: the operator does, and the next hole is approached as if so",
+                    ));
                     self.position = hole.over(hole.clear);
                 } else {
                     self.rapid_over(hole, hole.clear, out);
@@ -152,7 +155,10 @@ impl Machine {
         }
         let back_off = self.back_off();
         if hole.peck < back_off {
-            self.warnings.push((Code::PN032, "a peck is shorter than the control's back-off: the rapid ends above the last but one"));
+            self.warnings.push((
+                Code::PN032,
+                "a peck is shorter than the control's back-off: the rapid ends above the last but one",
+            ));
         }
         let mut depth = hole.r - hole.peck;
         while depth > hole.bottom {

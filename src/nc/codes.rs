@@ -237,10 +237,27 @@ const NOT_RUN: &[(u16, &str)] = &[
     (150, "pocket milling is not simulated"),
 ];
 
+/// Highest code of the tables.
+const HIGHEST: usize = 1870;
+/// Rows by code: where in the table, or past its end.
+static OF_LINUXCNC: [u8; HIGHEST + 1] = index(LINUXCNC);
+static OF_FANUC: [u8; HIGHEST + 1] = index(FANUC);
+
+const fn index(table: &[GCode]) -> [u8; HIGHEST + 1] {
+    let mut rows = [u8::MAX; HIGHEST + 1];
+    let mut i = 0;
+    while i < table.len() {
+        rows[table[i].code as usize] = i as u8;
+        i += 1;
+    }
+    rows
+}
+
 /// The table row of ten times a G number.
+#[inline]
 pub fn g_code(control: Control, code: u16) -> Option<&'static GCode> {
-    let table = if control.is_linuxcnc() { LINUXCNC } else { FANUC };
-    table.binary_search_by_key(&code, |row| row.code).ok().map(|at| &table[at])
+    let (table, index) = if control.is_linuxcnc() { (LINUXCNC, &OF_LINUXCNC) } else { (FANUC, &OF_FANUC) };
+    table.get(usize::from(*index.get(usize::from(code))?))
 }
 
 /// Why a code that some control has is not run.

@@ -84,7 +84,8 @@ impl Machine {
             self.rapid_to(to, out);
         }
         let hole = self.words(code, same, block, &name)?;
-        let hole = Hole { r: plane_r, bottom, clear: if self.to_initial { initial.max(plane_r) } else { plane_r }, ..hole };
+        let hole =
+            Hole { r: plane_r, bottom, clear: if self.to_initial { initial.max(plane_r) } else { plane_r }, ..hole };
         let was = self.position;
         let level = was[across];
         let mut at = self.position;
@@ -146,7 +147,11 @@ impl Machine {
             return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before it");
         }
         if self.compensated {
-            return refuse(Code::PN013, "a canned cycle under cutter compensation", "end the compensation with G40 first");
+            return refuse(
+                Code::PN013,
+                "a canned cycle under cutter compensation",
+                "end the compensation with G40 first",
+            );
         }
         Ok(())
     }

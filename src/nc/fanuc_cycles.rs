@@ -53,7 +53,11 @@ impl Machine {
             return refuse(Code::PN007, format!("{name} without its {what}"), help);
         };
         if self.compensated {
-            return refuse(Code::PN013, "a canned cycle under cutter compensation", "end the compensation with G40 first");
+            return refuse(
+                Code::PN013,
+                "a canned cycle under cutter compensation",
+                "end the compensation with G40 first",
+            );
         }
         if self.feed_mode == FeedMode::InverseTime {
             return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before it");

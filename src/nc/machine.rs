@@ -225,8 +225,10 @@ impl Machine {
                 }
                 Unpointed::Refused => {
                     let name = char::from(letter);
-                    let message = format!("{name}{value} has no point, and its meaning depends on a setting of the control");
-                    let help = format!("write {name}{value}. for whole units, or say `--no-point whole` or `increments`");
+                    let message =
+                        format!("{name}{value} has no point, and its meaning depends on a setting of the control");
+                    let help =
+                        format!("write {name}{value}. for whole units, or say `--no-point whole` or `increments`");
                     return refuse(Code::PN017, message, help);
                 }
             }
@@ -244,7 +246,11 @@ impl Machine {
             }
             // on a Fanuc a cycle runs for an R alone too, and a plane arc for its centre
             let cycle = block.g(Group::Cycle).is_some() || self.cycle.is_some();
-            return Ok(if cycle && !self.control.is_linuxcnc() && block.has(bit(b'R')) { Some(self.motion) } else { None });
+            return Ok(if cycle && !self.control.is_linuxcnc() && block.has(bit(b'R')) {
+                Some(self.motion)
+            } else {
+                None
+            });
         }
         if let Some(code) = word.filter(|&code| code != NO_MOTION) {
             if block.has_axes() && block.axes_are_taken() && self.control.is_linuxcnc() {
@@ -334,7 +340,11 @@ impl Machine {
         }
         if let Some(code) = block.g(Group::Return) {
             if self.compensated && self.control.is_linuxcnc() {
-                return refuse(Code::PN013, "G98 or G99 under cutter compensation", "end the compensation with G40 first");
+                return refuse(
+                    Code::PN013,
+                    "G98 or G99 under cutter compensation",
+                    "end the compensation with G40 first",
+                );
             }
             self.to_initial = code == 980;
         }
@@ -345,7 +355,11 @@ impl Machine {
         let speed = block.get(b'S');
         if let Some(speed) = speed {
             if speed < 0.0 {
-                return refuse(Code::PN018, "a negative S", "write the speed without the minus, the direction as M3 or M4");
+                return refuse(
+                    Code::PN018,
+                    "a negative S",
+                    "write the speed without the minus, the direction as M3 or M4",
+                );
             }
             self.speed = speed;
         }

@@ -51,7 +51,11 @@ impl Machine {
         match (self.absolute, block.polar) {
             (true, [r, a]) => (radius, angle) = (r.unwrap_or(radius), a.unwrap_or(angle)),
             (false, _) if x == 0.0 && y == 0.0 => {
-                return refuse(Code::PN018, "polar increments at the origin", "an angle there means nothing: write G90");
+                return refuse(
+                    Code::PN018,
+                    "polar increments at the origin",
+                    "an angle there means nothing: write G90",
+                );
             }
             (false, [r, a]) => (radius, angle) = (radius + r.unwrap_or(0.0), angle + a.unwrap_or(0.0)),
         }

@@ -81,7 +81,8 @@ impl Parameters {
     /// # Errors
     /// Nothing has set it.
     pub fn named(&self, name: &str) -> Done<f64> {
-        let found = if name.starts_with('_') { self.global.get(name) } else { self.local.last().and_then(|l| l.get(name)) };
+        let found =
+            if name.starts_with('_') { self.global.get(name) } else { self.local.last().and_then(|l| l.get(name)) };
         match found {
             Some(value) => Ok(*value),
             None => {

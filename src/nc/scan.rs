@@ -70,8 +70,14 @@ pub struct Tokens<'a> {
 }
 
 /// The tokens of a line.
+#[inline]
 pub fn tokens(line: &[u8]) -> Tokens<'_> {
     Tokens { line, at: 0, depth: 0, value: false, fresh: true }
+}
+
+/// The tokens of a line from a word on.
+pub(super) fn tokens_from(line: &[u8], at: usize) -> Tokens<'_> {
+    Tokens { line, at, depth: 0, value: false, fresh: false }
 }
 
 /// Any blank inside a line.
@@ -83,7 +89,7 @@ fn is_blank(byte: u8) -> bool {
 impl Iterator for Tokens<'_> {
     type Item = Token;
 
-    #[inline]
+    #[inline(always)]
     fn next(&mut self) -> Option<Token> {
         let start = self.at;
         let &byte = self.line.get(start)?;
@@ -105,7 +111,7 @@ impl Iterator for Tokens<'_> {
 
 impl Tokens<'_> {
     /// A word, a letter before an expression, or a name.
-    #[inline]
+    #[inline(always)]
     fn letter(&mut self, letter: u8) -> Kind {
         let next = self.at + 1;
         if self.depth == 0 && !self.value {
@@ -168,6 +174,12 @@ impl Tokens<'_> {
         kind
     }
 
+    /// Passes over blanks.
+    #[inline]
+    pub(super) fn skip_blanks(&mut self) {
+        self.at = skip_blanks(self.line, self.at);
+    }
+
     /// Bytes behind the next one that are still on this line.
     fn to_line_end(&self) -> usize {
         let rest = &self.line[self.at + 1..];
@@ -176,7 +188,7 @@ impl Tokens<'_> {
 }
 
 /// A number with its sign, blanks before it ignored: its end, or `None` if none stands here.
-#[inline]
+#[inline(always)]
 fn signed(line: &[u8], at: usize) -> Option<(Number, usize)> {
     let mut at = skip_blanks(line, at);
     let negative = match line.get(at) {
@@ -192,7 +204,7 @@ fn signed(line: &[u8], at: usize) -> Option<(Number, usize)> {
     Some((number, end))
 }
 
-#[inline]
+#[inline(always)]
 fn skip_blanks(line: &[u8], mut at: usize) -> usize {
     while line.get(at).is_some_and(|&b| is_blank(b)) {
         at += 1;
@@ -206,26 +218,35 @@ const POWERS: [f64; 23] = [
 ];
 
 /// Digits and at most one point; blanks between them are ignored.
-#[inline]
+#[inline(always)]
 fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
     let (mut mantissa, mut digits, mut decimals, mut point) = (0u64, 0u32, 0usize, false);
-    let (mut at, mut end) = (start, start);
-    while let Some(&byte) = line.get(at) {
-        let digit = byte.wrapping_sub(b'0');
-        if digit < 10 {
+    let mut at = start;
+    loop {
+        let before = at;
+        while let Some(digit) = line.get(at).map(|b| b.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
             mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
-            digits += 1;
-            decimals += usize::from(point);
-        } else if byte == b'.' && !point {
-            point = true;
-        } else if is_blank(byte) {
             at += 1;
-            continue;
-        } else {
-            break;
         }
-        at += 1;
-        end = at;
+        digits += (at - before) as u32;
+        if point {
+            decimals += at - before;
+        }
+        match line.get(at) {
+            Some(b'.') if !point => {
+                point = true;
+                at += 1;
+            }
+            Some(&byte) if is_blank(byte) => {
+                let next = skip_blanks(line, at);
+                match line.get(next) {
+                    Some(b'0'..=b'9') => at = next,
+                    Some(b'.') if !point => at = next,
+                    _ => break,
+                }
+            }
+            _ => break,
+        }
     }
     if digits == 0 {
         return None;
@@ -233,9 +254,9 @@ fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
     let value = if digits <= 15 && decimals < POWERS.len() {
         mantissa as f64 / POWERS[decimals] // both exact, so this is the nearest double
     } else {
-        slow(&line[start..end])
+        slow(&line[start..at])
     };
-    Some((Number { value, point }, end))
+    Some((Number { value, point }, at))
 }
 
 /// Numbers too long for a double's digits.

@@ -159,14 +159,14 @@ impl<R: BufRead + Seek> Simulator<R> {
 
     /// Warnings since the last call, as findings.
     pub fn take_warnings(&mut self) -> Vec<Diag> {
-        let (line, text) = (self.at.line, &self.line);
         let list = self.machine.take_warnings();
+        let (line, text) = (self.at.line, self.text());
         list.into_iter().map(|(code, message)| Fault::new(code, message, code.row().title).diag(line, text)).collect()
     }
 
     fn refused(&mut self, fault: Box<Fault>) -> RunError {
         self.over = true;
-        RunError::Refused(Box::new(fault.diag(self.at.line, &self.line)), self.at.line)
+        RunError::Refused(Box::new(fault.diag(self.at.line, self.text())), self.at.line)
     }
 
     /// The next line into `self.line`; `false` at the end of the input.

@@ -1,11 +1,11 @@
 //! G76 of LinuxCNC: a thread in passes (nc.md section 2.11).
 
 use super::action::Action;
+use super::action::Rotation;
 use super::block::Block;
 use super::codes::letters;
 use super::fault::{Done, refuse};
 use super::machine::{Machine, Out};
-use super::action::Rotation;
 use crate::diag::Code;
 
 /// Most passes of a thread.

@@ -21,3 +21,4 @@ pub mod span;
 pub mod syntax;
 pub mod toolpath;
 pub mod trace;
+pub mod verify;

@@ -31,6 +31,8 @@ pub enum Command {
     Lint(LintArgs),
     /// Read a job, report what is wrong, and print what is in it
     Check(CheckArgs),
+    /// Prove that a program makes the motions of its job
+    Verify(VerifyArgs),
     /// Run an NC program and print what the machine does
     Simulate(SimulateArgs),
     /// Say what a code means, and what to write instead
@@ -111,17 +113,9 @@ impl UnitsArg {
     }
 }
 
-/// `postform render`.
+/// How a job is rendered with a form.
 #[derive(Debug, Args)]
-pub struct RenderArgs {
-    /// The job: job.json, .jsonl or a CL file, or - for standard input
-    pub job: PathBuf,
-    /// The form of the machine
-    #[arg(long, value_name = "FORM")]
-    pub form: PathBuf,
-    /// Where the program goes, or - for standard output; it appears there when it is complete
-    #[arg(short, long, value_name = "OUT", default_value = "-")]
-    pub output: PathBuf,
+pub struct RenderOptions {
     /// The program's number [default: the job's]
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(..=99_999_999))]
     pub program: Option<u32>,
@@ -140,6 +134,22 @@ pub struct RenderArgs {
     /// Limits of the form
     #[arg(long, value_name = "LIMITS", default_value = "classic")]
     pub limits: LimitsArg,
+}
+
+/// `postform render`.
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// The job: job.json, .jsonl or a CL file, or - for standard input
+    pub job: PathBuf,
+    /// The form of the machine
+    #[arg(long, value_name = "FORM")]
+    pub form: PathBuf,
+    /// Where the program goes, or - for standard output; it appears there when it is complete
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: PathBuf,
+    /// How it is rendered
+    #[command(flatten)]
+    pub options: RenderOptions,
     /// How the job is read
     #[command(flatten)]
     pub read: ReadArgs,
@@ -149,6 +159,37 @@ pub struct RenderArgs {
     /// Print to standard output as it comes, even if an error cuts the program short
     #[arg(long)]
     pub stream: bool,
+    /// Run the program, and print it only if it makes the job's motions
+    #[arg(long, conflicts_with = "stream")]
+    pub verify: bool,
+    /// How `--verify` runs it
+    #[command(flatten)]
+    pub control: ControlArgs,
+}
+
+/// `postform verify`.
+#[derive(Debug, Args)]
+pub struct VerifyArgs {
+    /// The job, or - for standard input
+    pub job: PathBuf,
+    /// The form that prints the program; with --nc, what it says of the job's defaults
+    #[arg(long, value_name = "FORM", required_unless_present = "nc")]
+    pub form: Option<PathBuf>,
+    /// A program that is there already
+    #[arg(long, value_name = "NC")]
+    pub nc: Option<PathBuf>,
+    /// How near places must be, in the job's units [default: 0.0001 inch, 0.002 mm]
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub tolerance: Option<f64>,
+    /// How the program is run
+    #[command(flatten)]
+    pub control: ControlArgs,
+    /// How it is rendered
+    #[command(flatten)]
+    pub options: RenderOptions,
+    /// How the job is read
+    #[command(flatten)]
+    pub read: ReadArgs,
 }
 
 /// How findings are shown.

@@ -37,21 +37,52 @@ pub fn open(path: &Path) -> Result<Box<dyn Read>, String> {
 
 /// An NC program, which must be a file that can be gone back in: others are copied into one.
 pub fn open_program(path: &Path) -> Result<BufReader<File>, String> {
-    let fail = |error: io::Error| io_message("read", path, &error);
-    if path != Path::new("-") {
-        let file = File::open(path).map_err(fail)?;
-        let meta = file.metadata().map_err(fail)?;
-        if meta.is_dir() {
-            return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
+    Ok(buffered(Again::open(path)?.file))
+}
+
+/// A file as a program is read.
+pub fn buffered(file: File) -> BufReader<File> {
+    BufReader::with_capacity(PROGRAM_BUFFER, file)
+}
+
+/// An input that is read more than once: what can't be gone back in is copied into a file.
+pub struct Again {
+    file: File,
+}
+
+impl Again {
+    /// Opens a file; standard input and pipes are copied.
+    pub fn open(path: &Path) -> Result<Again, String> {
+        let fail = |error: io::Error| io_message("read", path, &error);
+        if path != Path::new("-") {
+            let file = File::open(path).map_err(fail)?;
+            let meta = file.metadata().map_err(fail)?;
+            if meta.is_dir() {
+                return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
+            }
+            if meta.is_file() {
+                return Ok(Again { file });
+            }
         }
-        if meta.is_file() {
-            return Ok(BufReader::with_capacity(PROGRAM_BUFFER, file));
-        }
+        let mut file = tempfile::tempfile().map_err(fail)?;
+        io::copy(&mut open(path)?, &mut file).map_err(fail)?;
+        file.rewind().map_err(fail)?;
+        Ok(Again { file })
     }
-    let mut copy = tempfile::tempfile().map_err(fail)?;
-    io::copy(&mut open(path)?, &mut copy).map_err(fail)?;
-    copy.rewind().map_err(fail)?;
-    Ok(BufReader::with_capacity(PROGRAM_BUFFER, copy))
+
+    /// The file itself.
+    pub fn into_file(mut self) -> Result<File, String> {
+        self.file.rewind().map_err(|error| io_message("read", Path::new("the program"), &error))?;
+        Ok(self.file)
+    }
+
+    /// From its beginning; only one reader at a time.
+    pub fn read(&self) -> Result<Box<dyn Read>, String> {
+        let fail = |error: io::Error| io_message("read", Path::new("the job"), &error);
+        let mut file = self.file.try_clone().map_err(fail)?;
+        file.rewind().map_err(fail)?;
+        Ok(Box::new(file))
+    }
 }
 
 /// Bytes of a program that are read at once.

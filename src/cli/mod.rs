@@ -9,11 +9,13 @@ mod forms;
 mod json;
 mod lint;
 mod output;
+mod prepare;
 mod progress;
 mod prompt;
 mod render;
 mod report;
 mod simulate;
+mod verify;
 
 use std::process::ExitCode;
 
@@ -57,6 +59,7 @@ pub fn run() -> ExitCode {
         Command::Render(args) => render::run(&args, colour),
         Command::Lint(args) => lint::run(&args, arguments.color),
         Command::Check(args) => check::run(&args, colour),
+        Command::Verify(args) => verify::run(&args, colour),
         Command::Simulate(args) => simulate::run(&args, colour),
         Command::Explain(args) => explain::run(&args),
     };

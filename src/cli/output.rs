@@ -64,6 +64,20 @@ impl Target {
         }
     }
 
+    /// What was written so far, to be read from its beginning; `None` where it is gone.
+    ///
+    /// # Errors
+    /// As the system says.
+    pub fn written(&mut self) -> io::Result<Option<File>> {
+        let mut file = match self {
+            Target::Beside(file, _) => file.reopen()?,
+            Target::Spooled(file, _) => file.try_clone()?,
+            Target::Stream => return Ok(None),
+        };
+        file.rewind()?;
+        Ok(Some(file))
+    }
+
     /// The program is complete: lets it appear.
     ///
     /// # Errors

@@ -3,19 +3,19 @@
 use std::io;
 use std::path::Path;
 
-use postform::compile::compile;
-use postform::diag::{Code, Diag, Severity};
-use postform::lint::sort;
-use postform::render::{Cycles, Options, Renderer, TraceLine};
+use postform::diag::{Code, Diag};
+use postform::render::{Options, Renderer, TraceLine};
 use postform::source::Source;
 use postform::toolpath::{Event, Place, ReadError, Sink};
 
-use super::args::{CyclesArg, RenderArgs, SinkArg};
-use super::files::{self, io_message};
+use super::Ending;
+use super::args::RenderArgs;
+use super::files::{self, Again, io_message};
 use super::output::Target;
+use super::prepare::prepare;
 use super::progress::Progress;
 use super::report::Reporter;
-use super::{Ending, forms, prompt, report};
+use super::verify::{Job, Proof};
 
 /// How much text waits before it is written.
 const CHUNK: usize = 64 * 1024;
@@ -34,41 +34,24 @@ pub fn run(args: &RenderArgs, colour: bool) -> Ending {
 fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
     let from = files::job_format(&args.job, &args.read)?;
-    let mut set = prompt::answers(&args.set)?;
-    let standard_input = Path::new("-");
-    if args.form == standard_input && args.job == standard_input {
-        return Err("error: form and job can't both be standard input".into());
-    }
-    let mut checked = forms::load(&args.form, args.limits)?;
-    sort(&mut checked.diags);
-    let (shown, _): (Vec<_>, Vec<_>) = checked.diags.iter().cloned().partition(|d| d.severity > Severity::Note);
-    eprint!("{}", reporter.text(&shown, &checked.files));
-    if checked.has_errors() {
-        let count = checked.diags.iter().filter(|d| d.is_error()).count();
-        eprintln!("{}: {}, nothing was printed", files::name(&args.form), report::count(count, "error"));
+    let Some(prepared) = prepare(&args.form, &args.options, &args.job, &reporter)? else {
         return Ok(Ending::Findings);
-    }
-    let program = compile(&checked.form);
-    prompt::ask(&program, &mut set, args.job == standard_input)
-        .map_err(|error| io_message("read", Path::new("standard input"), &error))?;
-    let options = Options {
-        cycles: match args.cycles {
-            CyclesArg::Form => Cycles::Form,
-            CyclesArg::Emulated => Cycles::Emulated,
-        },
-        units: args.units.map(|units| units.units()),
-        set,
-        program: args.program,
-        sink_as_printed: args.csink_depth == SinkArg::Printed,
-        trace: args.trace.is_some(),
     };
+    let options = Options { trace: args.trace.is_some(), ..prepared.options.clone() };
     keep_inputs(args)?;
-    let input = files::open(&args.job)?;
+    let job = match args.verify {
+        true => Some(Job { again: Again::open(&args.job)?, from, read: &args.read, path: &args.job }),
+        false => None,
+    };
+    let input = match &job {
+        Some(job) => job.again.read()?,
+        None => files::open(&args.job)?,
+    };
     let mut writer = Writer {
-        renderer: Renderer::new(&program, options),
+        renderer: Renderer::new(&prepared.program, options),
         target: Target::open(&args.output, args.stream)?,
         trace: args.trace.as_deref().map(|path| Target::open(path, false)).transpose()?,
-        files: &checked.files,
+        files: &prepared.files,
         failure: None,
         progress: Some(Progress::new()),
     };
@@ -76,9 +59,9 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     writer.progress = None;
     let mut notes = report.warnings;
     notes.extend_from_slice(writer.renderer.notes());
-    let job = files::name(&args.job);
-    notes.iter_mut().for_each(|diag| place_in(&job, diag));
-    eprint!("{}", reporter.text(&notes, &checked.files));
+    let name = files::name(&args.job);
+    notes.iter_mut().for_each(|diag| place_in(&name, diag));
+    eprint!("{}", reporter.text(&notes, &prepared.files));
     if let Some((is_trace, error)) = writer.failure.take() {
         let path = if is_trace { args.trace.as_deref() } else { None };
         return output_failed(path.unwrap_or(&args.output), &error);
@@ -87,12 +70,34 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         Ok(()) => {}
         Err(ReadError::Io(error)) => return Err(io_message("read", &args.job, &error)),
         Err(ReadError::Job(mut diag)) => {
-            place_in(&job, &mut diag);
-            eprint!("{}", reporter.text(&[*diag], &checked.files));
+            place_in(&name, &mut diag);
+            eprint!("{}", reporter.text(&[*diag], &prepared.files));
             return Ok(Ending::Findings);
         }
     }
-    writer.finish(args)
+    let Some(job) = job else { return writer.finish(args) };
+    if writer.drain().is_err() {
+        return writer.finish(args);
+    }
+    let program = writer.target.written().map_err(|error| io_message("read", &args.output, &error))?;
+    let Some(program) = program else { return Err("error: a program that is streamed can't be verified".into()) };
+    let proof = Proof {
+        job: &job,
+        prepared: Some(&prepared),
+        traced: true,
+        control: &args.control,
+        tolerance: None,
+        name: "the program".into(),
+    };
+    let proven = proof.run(program, &reporter)?;
+    eprint!("{}", proven.text.unwrap_or_default());
+    match proven.ending {
+        Ending::Clean => writer.finish(args),
+        ending => {
+            eprintln!("nothing was printed");
+            Ok(ending)
+        }
+    }
 }
 
 /// An output must not replace what it is made of.
@@ -113,7 +118,7 @@ fn keep_inputs(args: &RenderArgs) -> Result<(), String> {
 }
 
 /// The job's name before a place in it.
-fn place_in(job: &str, diag: &mut Diag) {
+pub fn place_in(job: &str, diag: &mut Diag) {
     diag.place = Some(match diag.place.take() {
         Some(place) if !place.is_empty() => format!("{job}:{place}"),
         _ => job.to_owned(),

@@ -17,7 +17,7 @@ pub struct CodeRow {
 
 macro_rules! codes {
     ($($name:ident $severity:ident $title:literal)*) => {
-        /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PC` canned cycle, `PR` rendering, `PN` NC program.
+        /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PC` canned cycle, `PR` rendering, `PN` NC program, `PV` verify.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
         pub enum Code { $(#[doc = $title] $name),* }
@@ -180,6 +180,27 @@ codes! {
     PN032 Warning "a peck shorter than the back-off"
     PN033 Warning "one P for two codes"
     PN034 Warning "a cycle that leaves the tool in the hole"
+    // PV: what verify finds
+    PV001 Error "another motion"
+    PV002 Error "a hole that is not drilled"
+    PV003 Error "a hole that is drilled twice"
+    PV004 Error "another bottom"
+    PV005 Error "another clearance plane"
+    PV006 Error "another feed"
+    PV007 Error "a cut at rapid"
+    PV008 Error "a rapid at feed"
+    PV009 Error "a rapid too low"
+    PV010 Error "another dwell"
+    PV011 Error "another spindle"
+    PV012 Error "another tool or work offset"
+    PV013 Error "a canned cycle left in force"
+    PV014 Error "a tool without its length offset"
+    PV015 Error "a program that its control refuses"
+    PV016 Error "a cut that the job does not have"
+    PV017 Error "a cut that is missing"
+    PV018 Error "other cutter compensation"
+    PV019 Error "a stop that is missing"
+    PV020 Error "motions that can't be proven"
 }
 
 impl Code {

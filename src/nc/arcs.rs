@@ -9,7 +9,7 @@ use crate::diag::Code;
 use crate::toolpath::{Direction, Plane, Units};
 
 /// Axes of a plane: first, second, and the one across; their centre letters.
-pub(super) fn axes_of(plane: Plane) -> [usize; 3] {
+pub(crate) fn axes_of(plane: Plane) -> [usize; 3] {
     match plane {
         Plane::Xy => [0, 1, 2],
         Plane::Xz => [2, 0, 1],

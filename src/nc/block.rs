@@ -5,7 +5,7 @@ use super::control::Control;
 use super::expression::Reader;
 use super::fault::{Done, Fault, refuse};
 use super::flow::Flow;
-use super::machine::{NO_MOTION, is_cycle};
+use super::machine::{NO_MOTION, Settings, is_cycle};
 use super::parameters::{Parameters, Target};
 use super::scan::{Kind, tokens, tokens_from};
 use crate::diag::Code;
@@ -47,6 +47,7 @@ pub struct Block {
     pub flow: Option<Flow>,
     settings: Vec<(Target, f64)>,
     is_empty: bool,
+    fadal: bool,
 }
 
 impl Block {
@@ -108,7 +109,9 @@ impl Block {
     ///
     /// # Errors
     /// What the control can't read, or refuses before it does anything.
-    pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, control: Control) -> Done {
+    pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, settings: &Settings) -> Done {
+        let control = settings.control;
+        self.fadal = settings.fadal;
         self.given = 0;
         self.whole = 0;
         self.m_count = 0;
@@ -220,6 +223,7 @@ impl Block {
                 self.comment.get_or_insert((start + 1, end - 1));
             }
             Kind::Remark => _ = self.comment.get_or_insert((start + 1, end)),
+            Kind::OpenComment if self.fadal => _ = self.comment.get_or_insert((start + 1, end)),
             Kind::OpenComment => {
                 return Err(Fault::at(Code::PN001, start, "a comment without its `)`", "close it on this line"));
             }
@@ -364,6 +368,9 @@ impl Block {
         if !control.is_linuxcnc() {
             // offsets may be called ahead, and H or D alone changes the offset
             used |= letters("DH");
+        }
+        if self.fadal {
+            used |= letters("E");
         }
         let unused = self.given & CHECKED & !used;
         if unused != 0 {

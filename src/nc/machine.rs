@@ -27,6 +27,13 @@ pub struct Settings {
     pub back_off: Option<f64>,
     /// What a Fanuc makes of a length without a point.
     pub unpointed: Unpointed,
+    /// Where the tool is counts as a place that only the machine knows at the beginning, and its height after a tool
+    /// change; else it is at zero.
+    pub places_unknown: bool,
+    /// I, J and K are places from the beginning, as after G90.1.
+    pub centers_absolute: bool,
+    /// Two things of a FADAL: a comment may go on to the end of its line without a mark, and E is the work offset.
+    pub fadal: bool,
 }
 
 /// What a length without a point means on a Fanuc: a setting of the machine.
@@ -44,7 +51,16 @@ pub enum Unpointed {
 impl Settings {
     /// A control as it is switched on.
     pub fn new(control: Control) -> Settings {
-        Settings { control, units: Units::Mm, block_delete: false, back_off: None, unpointed: Unpointed::Refused }
+        Settings {
+            control,
+            units: Units::Mm,
+            block_delete: false,
+            back_off: None,
+            unpointed: Unpointed::Refused,
+            places_unknown: false,
+            centers_absolute: false,
+            fadal: false,
+        }
     }
 }
 
@@ -117,7 +133,7 @@ impl Machine {
             settings,
             control: settings.control,
             position: [0.0; 6],
-            at_machine: 0,
+            at_machine: if settings.places_unknown { 0b111 } else { 0 },
             frames: Frames::default(),
             motion: NO_MOTION,
             cycle: None,
@@ -125,7 +141,7 @@ impl Machine {
             plane: Plane::Xy,
             units: settings.units,
             absolute: true,
-            centers_absolute: false,
+            centers_absolute: settings.centers_absolute,
             feed_mode: FeedMode::PerMinute,
             feed: 0.0,
             spindle: Rotation::Stop,
@@ -139,9 +155,19 @@ impl Machine {
         }
     }
 
+    /// Units before the first G20 or G21.
+    pub(super) fn begin_in(&mut self, units: Units) {
+        self.units = units;
+    }
+
     /// Where the tool is.
     pub fn position(&self) -> &Position {
         &self.position
+    }
+
+    /// Axes that stand at a place in machine coordinates, as bits.
+    pub fn at_machine(&self) -> u8 {
+        self.at_machine
     }
 
     /// The units in force.
@@ -187,7 +213,7 @@ impl Machine {
         {
             self.feed = feed;
         }
-        let set_up = block.has(letters("STHD")) || !block.m().is_empty();
+        let set_up = block.has(letters("ESTHD")) || !block.m().is_empty();
         if set_up || block.has_modes() {
             self.set_up(block, motion, &mut out)?;
         }
@@ -330,13 +356,11 @@ impl Machine {
         self.compensation(block, motion, out)?;
         self.length(block, out)?;
         self.work_offset(block, out)?;
-        match block.g(Group::Distance) {
-            Some(code) => self.absolute = code == 900,
-            None => {}
+        if let Some(code) = block.g(Group::Distance) {
+            self.absolute = code == 900;
         }
-        match block.g(Group::ArcDistance) {
-            Some(code) => self.centers_absolute = code == 901,
-            None => {}
+        if let Some(code) = block.g(Group::ArcDistance) {
+            self.centers_absolute = code == 901;
         }
         if let Some(code) = block.g(Group::Return) {
             if self.compensated && self.control.is_linuxcnc() {
@@ -378,7 +402,12 @@ impl Machine {
         for &code in block.m() {
             match code {
                 6 => match self.tool {
-                    Some(tool) => out.push(Action::Tool(tool)),
+                    Some(tool) => {
+                        if self.settings.places_unknown {
+                            self.at_machine |= 0b100;
+                        }
+                        out.push(Action::Tool(tool));
+                    }
                     None => return refuse(Code::PN007, "M6 without a tool", "write T and the tool's number before it"),
                 },
                 3..=5 => {
@@ -444,8 +473,13 @@ impl Machine {
     fn length(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let code = match block.g(Group::Length) {
             Some(code) => code,
-            // a Fanuc changes the offset in force by H alone
-            None => return Ok(()),
+            // a Fanuc changes the offset in force by H alone, a FADAL turns it on
+            None => {
+                if let Some(register) = block.get(b'H').filter(|_| !self.control.is_linuxcnc()) {
+                    out.push(Action::Length(Some(register)));
+                }
+                return Ok(());
+            }
         };
         let place = self.frames.to_machine(&self.position);
         match code {
@@ -476,7 +510,12 @@ impl Machine {
     }
 
     fn work_offset(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
-        let Some(code) = block.g(Group::Work) else { return Ok(()) };
+        let Some(code) = block.g(Group::Work) else {
+            if let Some(fixture) = block.get(b'E').filter(|_| self.settings.fadal) {
+                out.push(Action::Work(fixture));
+            }
+            return Ok(());
+        };
         let (number, name) = match (code, block.get(b'P')) {
             (541 | 1540, Some(p)) if (1.0..=99.0).contains(&p) && p.fract() == 0.0 => (9 + p as usize, 1540.0 + p),
             (541 | 1540, _) => {

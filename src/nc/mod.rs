@@ -24,8 +24,10 @@ mod tally;
 mod thread;
 
 pub use action::{Action, Cooling, Drilling, Item, Position, Rotation, Turn};
+pub(crate) use arcs::axes_of;
 pub use control::Control;
 pub use machine::{Machine, Settings, Unpointed};
 pub use scan::{Kind, Number, Token, Tokens, tokens};
 pub use simulator::{RunError, Simulator};
 pub use tally::Tally;
+pub(crate) use tally::sweep;

@@ -121,9 +121,9 @@ impl Machine {
         }
         let mut place = self.frames.to_machine(&self.position);
         let mut named = 0;
-        for axis in 0..6 {
+        for (axis, coordinate) in place.iter_mut().enumerate() {
             if let Some(value) = self.axis_word(block, axis) {
-                place[axis] = value;
+                *coordinate = value;
                 named |= 1 << axis;
             }
         }

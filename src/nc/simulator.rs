@@ -112,6 +112,11 @@ impl<R: BufRead + Seek> Simulator<R> {
         }
     }
 
+    /// The program counts in these units until it says others; before the first block.
+    pub fn begin_in(&mut self, units: crate::toolpath::Units) {
+        self.machine.begin_in(units);
+    }
+
     /// The state of the control.
     pub fn machine(&self) -> &Machine {
         &self.machine
@@ -164,6 +169,7 @@ impl<R: BufRead + Seek> Simulator<R> {
         list.into_iter().map(|(code, message)| Fault::new(code, message, code.row().title).diag(line, text)).collect()
     }
 
+    #[expect(clippy::boxed_local, reason = "faults come in boxes")]
     fn refused(&mut self, fault: Box<Fault>) -> RunError {
         self.over = true;
         RunError::Refused(Box::new(fault.diag(self.at.line, self.text())), self.at.line)
@@ -205,7 +211,7 @@ impl<R: BufRead + Seek> Simulator<R> {
             return refuse(Code::PN001, format!("a line of over {longest} bytes"), "break it into several blocks");
         }
         self.parameters.position = *self.machine.position();
-        self.block.read(&self.line, &mut self.parameters, self.machine.settings.control)?;
+        self.block.read(&self.line, &mut self.parameters, &self.machine.settings)?;
         if self.block.is_empty() && self.block.comment.is_none() {
             if self.block.percent {
                 let ends = self.percent || self.blocks > 0;
@@ -457,7 +463,7 @@ impl<R: BufRead + Seek> Simulator<R> {
                 (Ends::Branch, Step::Else) => return Ok(()),
                 (Ends::Branch, Step::ElseIf(_)) => {
                     // its condition counts now
-                    let read = self.block.read(&self.line, &mut self.parameters, self.machine.settings.control);
+                    let read = self.block.read(&self.line, &mut self.parameters, &self.machine.settings);
                     if let Err(fault) = read {
                         return Err(self.refused(fault));
                     }

@@ -142,7 +142,7 @@ pub(crate) fn sweep(from: &Position, turn: &Turn) -> f64 {
     let angle = |at: &Position| (at[second] - turn.center[second]).atan2(at[first] - turn.center[first]);
     let sign = if turn.direction == Direction::Ccw { 1.0 } else { -1.0 };
     let part = (sign * (angle(&turn.to) - angle(from))).rem_euclid(std::f64::consts::TAU);
-    let closed = part < 1e-9 || part > std::f64::consts::TAU - 1e-9;
+    let closed = !(1e-9..=std::f64::consts::TAU - 1e-9).contains(&part);
     let part = if closed { std::f64::consts::TAU } else { part };
     part + f64::from(turn.turns) * std::f64::consts::TAU
 }

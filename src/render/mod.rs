@@ -28,3 +28,4 @@ mod words;
 
 pub use output::TraceLine;
 pub use renderer::{Cycles, Options, Renderer};
+pub use start::cycle_defaults;

@@ -9,7 +9,7 @@ use crate::compile::{Block, Op};
 use crate::cycle::Defaults;
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
-use crate::sema::UnitChoice;
+use crate::sema::{Settings, UnitChoice};
 use crate::toolpath::{FeedMode, Start, Units};
 
 /// Millimetres in an inch.
@@ -32,6 +32,45 @@ pub(super) fn no_defaults() -> Defaults {
         sink_clear: None,
         sink_as_printed: false,
         rigid: false,
+    }
+}
+
+/// What a form gives where a cycle names nothing, in these units.
+pub fn cycle_defaults(settings: &Settings, units: Units, sink_as_printed: bool) -> Defaults {
+    let scale = factor(units_of(settings).unwrap_or(Units::Inch), units);
+    let length = |value: f64| value * scale;
+    Defaults {
+        clear: length(settings.cycle_clear),
+        step: settings.cycle_step.map(length),
+        min_step: length(settings.cycle_min_step),
+        back_deep: length(settings.cycle_back_deep),
+        back_chipbreak: length(settings.cycle_back_chipbreak),
+        back_thru: length(settings.cycle_back_thru),
+        dwell: settings.cycle_dwell,
+        dwell_at_steps: settings.cycle_dwell_steps,
+        dwell_at_retracts: settings.cycle_dwell_retracts,
+        orient: settings.cycle_orient,
+        jog: length(settings.cycle_jog),
+        sink_clear: settings.cycle_sink_clear.map(length),
+        sink_as_printed,
+        rigid: false,
+    }
+}
+
+/// The one unit that a form is for.
+fn units_of(settings: &Settings) -> Option<Units> {
+    match settings.units {
+        UnitChoice::Inch => Some(Units::Inch),
+        UnitChoice::Mm => Some(Units::Mm),
+        UnitChoice::Both => None,
+    }
+}
+
+fn factor(from: Units, to: Units) -> f64 {
+    match (from, to) {
+        (Units::Inch, Units::Mm) => MM,
+        (Units::Mm, Units::Inch) => 1.0 / MM,
+        _ => 1.0,
     }
 }
 
@@ -92,11 +131,7 @@ impl Renderer<'_> {
     fn choose_units(&mut self, job: Units) -> Done {
         let settings = &self.program.settings;
         self.units = self.options.units.unwrap_or(job);
-        let form = match settings.units {
-            UnitChoice::Inch => Some(Units::Inch),
-            UnitChoice::Mm => Some(Units::Mm),
-            UnitChoice::Both => None,
-        };
+        let form = units_of(settings);
         if form.is_some_and(|form| form != self.units) && !self.program.printed.has(VarId::Unitmode) {
             let (program, form) = (self.units.name(), form.map_or("", Units::name));
             let message = format!("the program would be in {program}, the form is for {form} and prints no [unitmode]");
@@ -105,11 +140,6 @@ impl Renderer<'_> {
             );
             return fault(Code::PR010, message, help);
         }
-        let factor = |from: Units, to: Units| match (from, to) {
-            (Units::Inch, Units::Mm) => MM,
-            (Units::Mm, Units::Inch) => 1.0 / MM,
-            _ => 1.0,
-        };
         self.scale = factor(job, self.units);
         self.form_scale = factor(form.unwrap_or(Units::Inch), self.units);
         self.vars.set(VarId::Unitmode, settings.inch_mm[usize::from(self.units == Units::Mm)]);
@@ -143,24 +173,7 @@ impl Renderer<'_> {
 
     /// Cycle defaults in program units.
     fn set_defaults(&mut self) {
-        let settings = &self.program.settings;
-        let length = |value: f64| value * self.form_scale;
-        self.defaults = Defaults {
-            clear: length(settings.cycle_clear),
-            step: settings.cycle_step.map(length),
-            min_step: length(settings.cycle_min_step),
-            back_deep: length(settings.cycle_back_deep),
-            back_chipbreak: length(settings.cycle_back_chipbreak),
-            back_thru: length(settings.cycle_back_thru),
-            dwell: settings.cycle_dwell,
-            dwell_at_steps: settings.cycle_dwell_steps,
-            dwell_at_retracts: settings.cycle_dwell_retracts,
-            orient: settings.cycle_orient,
-            jog: length(settings.cycle_jog),
-            sink_clear: settings.cycle_sink_clear.map(length),
-            sink_as_printed: self.options.sink_as_printed,
-            rigid: false,
-        };
+        self.defaults = cycle_defaults(&self.program.settings, self.units, self.options.sink_as_printed);
     }
 
     /// The end of the job: EndCode.

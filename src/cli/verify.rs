@@ -1,0 +1,320 @@
+//! `postform verify`, and what `render --verify` asks.
+
+use std::fs::File;
+use std::io::{Seek, Write};
+use std::path::{Path, PathBuf};
+
+use postform::diag::{Code, Diag};
+use postform::nc::Settings;
+use postform::render::{Options, Renderer, TraceLine};
+use postform::toolpath::{Event, Place, ReadError, Sink, Units};
+use postform::verify::{Comparer, Counts, Expectation, Finding, Verdict};
+
+use super::args::{ControlArgs, From, ReadArgs, VerifyArgs};
+use super::files::{self, Again, io_message};
+use super::prepare::{Prepared, prepare};
+use super::report::{self, Reporter};
+use super::{Ending, output, render};
+
+/// Text that waits before it is written.
+const CHUNK: usize = 64 * 1024;
+
+/// Compares a program with its job.
+pub fn run(args: &VerifyArgs, colour: bool) -> Ending {
+    match try_run(args, &Reporter::new(colour)) {
+        Ok(ending) => ending,
+        Err(message) => {
+            eprintln!("{message}");
+            Ending::Failed
+        }
+    }
+}
+
+fn try_run(args: &VerifyArgs, reporter: &Reporter) -> Result<Ending, String> {
+    let from = files::job_format(&args.job, &args.read)?;
+    if args.job == Path::new("-") && args.nc.as_deref() == Some(Path::new("-")) {
+        return Err("error: job and program can't both be standard input".into());
+    }
+    let prepared = match &args.form {
+        Some(form) => match prepare(form, &args.options, &args.job, reporter)? {
+            Some(prepared) => Some(prepared),
+            None => return Ok(Ending::Findings),
+        },
+        None => None,
+    };
+    let job = Job { again: Again::open(&args.job)?, from, read: &args.read, path: &args.job };
+    let (program, name) = match (&args.nc, &prepared) {
+        (Some(path), _) => (Again::open(path)?.into_file()?, files::name(path)),
+        (None, Some(prepared)) => match rendered(&job, prepared, reporter)? {
+            Some(file) => (file, "the program".to_owned()),
+            None => return Ok(Ending::Findings),
+        },
+        (None, None) => return Err("error: give --form, --nc, or both".into()),
+    };
+    let proof = Proof {
+        job: &job,
+        prepared: prepared.as_ref(),
+        traced: args.nc.is_none(),
+        control: &args.control,
+        tolerance: args.tolerance,
+        name,
+    };
+    let proven = proof.run(program, reporter)?;
+    if let Some(text) = &proven.text {
+        output::standard_output(|out| out.write_all(text.as_bytes()))?;
+    }
+    Ok(proven.ending)
+}
+
+/// A job that is read several times.
+pub struct Job<'a> {
+    /// Its text.
+    pub again: Again,
+    /// Its format.
+    pub from: From,
+    /// How it is read.
+    pub read: &'a ReadArgs,
+    /// Its name.
+    pub path: &'a PathBuf,
+}
+
+impl Job<'_> {
+    fn read(&self, sink: &mut dyn Sink) -> Result<Result<(), ReadError>, String> {
+        Ok(files::read_job(self.again.read()?, self.from, self.read, sink).0)
+    }
+}
+
+/// What is to be proven.
+pub struct Proof<'a> {
+    /// The job.
+    pub job: &'a Job<'a>,
+    /// The form, where one is known.
+    pub prepared: Option<&'a Prepared>,
+    /// The form printed the program: each of its lines has a form line.
+    pub traced: bool,
+    /// How the program is run.
+    pub control: &'a ControlArgs,
+    /// How near places must be.
+    pub tolerance: Option<f64>,
+    /// What the program is called.
+    pub name: String,
+}
+
+/// How it came out.
+pub struct Proven {
+    /// The exit status.
+    pub ending: Ending,
+    /// The verdict in a sentence, unless the job itself is wrong.
+    pub text: Option<String>,
+}
+
+impl Proof<'_> {
+    /// Runs the program and compares; differences are shown.
+    pub fn run(&self, program: File, reporter: &Reporter) -> Result<Proven, String> {
+        let form = self.prepared.map(|prepared| &prepared.program.settings);
+        let units = self.prepared.and_then(|prepared| prepared.options.units).unwrap_or(Units::Mm);
+        let control = self.control.settings(form.map(|form| form.control.as_str()), units);
+        let settings = Settings {
+            centers_absolute: form.is_some_and(|form| !form.centre_incremental),
+            fadal: form.is_some_and(|form| form.control == "fadal"),
+            ..control
+        };
+        let sink_as_printed = self.prepared.is_some_and(|prepared| prepared.options.sink_as_printed);
+        let expectation = form.map_or_else(Expectation::default, |form| Expectation::of_form(form, sink_as_printed));
+        let lengths = form.is_none_or(|form| form.control != "grbl");
+        let comparer = Comparer::new(files::buffered(program), settings, expectation, lengths, self.tolerance);
+        let mut comparer = Started { comparer, known: self.prepared.is_none_or(|p| p.options.units.is_none()) };
+        let read = self.job.read(&mut comparer)?;
+        let counts = comparer.comparer.counts();
+        let mut warnings = comparer.comparer.warnings();
+        warnings.iter_mut().for_each(|diag| self.place_in_program(diag));
+        eprint!("{}", reporter.text(&warnings, &[]));
+        let verdict = comparer.comparer.verdict().map_err(|error| io_message("read", Path::new(&self.name), &error))?;
+        let job = files::name(self.job.path);
+        if let Err(error) = read
+            && !matches!(verdict, Verdict::Different(_))
+        {
+            let ReadError::Job(mut diag) = error else {
+                let ReadError::Io(error) = error else { return Err("error: the job can't be read".into()) };
+                return Err(io_message("read", self.job.path, &error));
+            };
+            render::place_in(&job, &mut diag);
+            eprint!("{}", reporter.text(&[*diag], &[]));
+            return Ok(Proven { ending: Ending::Findings, text: None });
+        }
+        let ending = if let Verdict::Different(findings) = &verdict {
+            self.show(findings, reporter)?;
+            Ending::Findings
+        } else {
+            Ending::Clean
+        };
+        Ok(Proven { ending, text: Some(sentence(&verdict, &self.name, &job, counts)) })
+    }
+
+    fn place_in_program(&self, diag: &mut Diag) {
+        diag.place = Some(format!("{}:{}", self.name, diag.place.take().unwrap_or_default()));
+    }
+
+    /// Findings from three sides: the job's item, the form's line, the program's block.
+    fn show(&self, findings: &[Finding], reporter: &Reporter) -> Result<(), String> {
+        let job = files::name(self.job.path);
+        for finding in findings {
+            let traced = match self.prepared.filter(|_| self.traced && finding.line > 0) {
+                Some(prepared) => printed_by(self.job, prepared, finding.line)?,
+                None => None,
+            };
+            let place = finding.place.or(traced.as_ref().map(|line| line.place));
+            let block = match finding.line {
+                0 => String::new(),
+                line => format!("\n{}, line {line}: {}", self.name, finding.block),
+            };
+            let mut diag = Diag::new(finding.code, &finding.message).help(finding.help);
+            diag.message += &postform::diag::escaped(&block).replace("\\n", "\n");
+            diag.place = Some(place.map(|place| place.to_string()).unwrap_or_default());
+            render::place_in(&job, &mut diag);
+            if let Some(span) = traced.and_then(|line| line.form) {
+                diag = diag.at(span, "prints this block");
+            }
+            let files = self.prepared.map_or(&[][..], |prepared| &prepared.files);
+            eprint!("{}", reporter.text(&[diag], files));
+        }
+        Ok(())
+    }
+}
+
+/// Before the first event, the program counts in the job's units unless it was rendered in others.
+struct Started<R> {
+    comparer: Comparer<R>,
+    known: bool,
+}
+
+impl<R: std::io::BufRead + Seek> Sink for Started<R> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+        if let (Event::Start(start), true) = (&event, self.known) {
+            self.comparer.begin_in(start.units);
+        }
+        self.comparer.event(event, place)
+    }
+}
+
+/// The verdict for people.
+fn sentence(verdict: &Verdict, program: &str, job: &str, counts: Counts) -> String {
+    let compared =
+        format!("{}, {}", report::count(counts.cuts as usize, "cut"), report::count(counts.holes as usize, "hole"));
+    match verdict {
+        Verdict::Identical => format!("identical: {program} makes the motions of {job} ({compared})\n"),
+        Verdict::Equivalent(other) => {
+            let list = [
+                (other.pecks, "with other pecks", "hole"),
+                (other.ways, "in another order of axes or higher", "way"),
+                (other.arcs, "made of parts", "arc"),
+                (other.outs, "left at feed farther up", "hole"),
+                (other.entries, "left and entered again", "cut"),
+                (other.slow, "at feed that turn compensation on or off", "rapid"),
+            ];
+            let list: Vec<String> = list
+                .iter()
+                .filter(|(number, ..)| *number > 0)
+                .map(|(number, how, what)| format!("{} {how}", report::count(*number as usize, what)))
+                .collect();
+            format!("equivalent: {program} cuts what {job} asks for ({compared}): {}\n", list.join(", "))
+        }
+        Verdict::Different(findings) => {
+            format!(
+                "different: {program} does not do what {job} asks for: {}\n",
+                report::count(findings.len(), "finding")
+            )
+        }
+    }
+}
+
+/// The job rendered into a file that nobody sees. `None`: it can't be, which was shown.
+fn rendered(job: &Job, prepared: &Prepared, reporter: &Reporter) -> Result<Option<File>, String> {
+    let fail = |error: std::io::Error| io_message("write", Path::new("a temporary file"), &error);
+    let mut sink = Spool {
+        renderer: Renderer::new(&prepared.program, prepared.options.clone()),
+        file: tempfile::tempfile().map_err(fail)?,
+        failure: None,
+    };
+    let read = job.read(&mut sink)?;
+    if read.is_ok() {
+        sink.drain();
+    }
+    if let Some(error) = sink.failure.take() {
+        return Err(fail(error));
+    }
+    match read {
+        Ok(()) => {}
+        Err(ReadError::Io(error)) => return Err(io_message("read", job.path, &error)),
+        Err(ReadError::Job(mut diag)) => {
+            render::place_in(&files::name(job.path), &mut diag);
+            eprint!("{}", reporter.text(&[*diag], &prepared.files));
+            return Ok(None);
+        }
+    }
+    sink.file.rewind().map_err(fail)?;
+    Ok(Some(sink.file))
+}
+
+struct Spool<'p> {
+    renderer: Renderer<'p>,
+    file: File,
+    failure: Option<std::io::Error>,
+}
+
+impl Spool<'_> {
+    fn drain(&mut self) {
+        let text = self.renderer.text();
+        if let Err(error) = self.file.write_all(text) {
+            self.failure = Some(error);
+        }
+        text.clear();
+    }
+}
+
+impl Sink for Spool<'_> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+        self.renderer.event(event, place)?;
+        if self.renderer.text().len() >= CHUNK {
+            self.drain();
+        }
+        match &self.failure {
+            Some(error) => Err(Box::new(Diag::new(Code::PJ001, error.to_string()))),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Form line and job item of a program line, by rendering again.
+fn printed_by(job: &Job, prepared: &Prepared, line: u64) -> Result<Option<TraceLine>, String> {
+    struct Finder<'p> {
+        renderer: Renderer<'p>,
+        line: u64,
+        found: Option<TraceLine>,
+    }
+    impl Finder<'_> {
+        fn look(&mut self) {
+            self.renderer.text().clear();
+            if let Some(lines) = self.renderer.trace() {
+                self.found = self.found.or(lines.iter().find(|traced| traced.line == self.line).copied());
+                lines.clear();
+            }
+        }
+    }
+    impl Sink for Finder<'_> {
+        fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+            let done = self.renderer.event(event, place);
+            self.look();
+            match self.found {
+                // far enough
+                Some(_) => Err(Box::new(Diag::new(Code::PV001, "found"))),
+                None => done,
+            }
+        }
+    }
+    let options = Options { trace: true, ..prepared.options.clone() };
+    let mut finder = Finder { renderer: Renderer::new(&prepared.program, options), line, found: None };
+    _ = job.read(&mut finder)?; // it was read to its end before
+    finder.look();
+    Ok(finder.found)
+}

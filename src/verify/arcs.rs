@@ -1,0 +1,100 @@
+//! Arcs: a program may make them of parts, or of short lines.
+
+use std::io::{BufRead, Seek};
+
+use super::comparer::Sides;
+use super::cut::{ALL, Cut, What, same, shown};
+use crate::diag::{Code, Diag};
+use crate::nc::{Turn, axes_of, sweep};
+use crate::toolpath::Direction;
+
+/// How far parts may leave the circle, in tolerances: centres are rounded too.
+const OFF: f64 = 5.0;
+
+impl<R: BufRead + Seek> Sides<R> {
+    /// The job's arc, as one or in parts; the first was met already.
+    pub(super) fn arc(&mut self, cut: &Cut, turn: &Turn) -> Result<(), Box<Diag>> {
+        let [first, second, across] = axes_of(turn.plane);
+        let radius = (cut.from[first] - turn.center[first]).hypot(cut.from[second] - turn.center[second]);
+        let whole = sweep(&cut.from, turn);
+        let (mut swept, mut parts) = (0.0, 0);
+        let mut from = cut.from;
+        loop {
+            let Some(found) = self.next()? else {
+                let message = format!("the program is over inside the arc to {}", shown(&turn.to, 0b111));
+                return self.differs(Code::PV017, 0, message, "look at the arcs of the form");
+            };
+            if parts > 0 && !self.program.way.is_empty() {
+                let message = "a rapid inside an arc".to_owned();
+                return self.differs(Code::PV001, found.line, message, "look at the arcs of the form");
+            }
+            let end = found.what.end(&found.from);
+            let part = Turn { to: end, turns: 0, ..*turn };
+            let mut angle = sweep(&from, &part);
+            let slack = match found.what {
+                What::Arc(made) => {
+                    if made.plane != turn.plane || made.direction != turn.direction {
+                        let name = if turn.direction == Direction::Cw { "clockwise" } else { "counter-clockwise" };
+                        let message = format!(
+                            "the arc to {} turns the other way, or in another plane: the job's {name}",
+                            shown(&turn.to, 0b111)
+                        );
+                        return self.differs(
+                            Code::PV001,
+                            found.line,
+                            message,
+                            "look at ClockWise, CounterClockWise and ArcPlane",
+                        );
+                    }
+                    angle = sweep(&from, &made);
+                    OFF * self.tolerance
+                }
+                _ => self.chord + self.tolerance,
+            };
+            let middle = middle_of(&from, &found.what, turn, angle);
+            let distance = |at: [f64; 2]| (at[0] - turn.center[first]).hypot(at[1] - turn.center[second]) - radius;
+            let off = distance(middle).abs().max(distance([end[first], end[second]]).abs());
+            swept += angle;
+            let height = cut.from[across] + (turn.to[across] - cut.from[across]) * (swept / whole).min(1.0);
+            let off = off.max((end[across] - height).abs() * f64::from(u8::from(parts > 0 || swept < whole - 1e-6)));
+            if off > slack || swept > whole + 1e-3 {
+                let message = format!(
+                    "a cut goes to {}, not along the job's arc to {}",
+                    shown(&end, 0b111),
+                    shown(&turn.to, 0b111)
+                );
+                return self.differs(
+                    Code::PV001,
+                    found.line,
+                    message,
+                    "look at CtrCode, CtrIncremental? and the radius",
+                );
+            }
+            self.feeds(cut, &found)?;
+            self.advance(&found);
+            parts += 1;
+            from = end;
+            if same(&end, &turn.to, ALL, self.tolerance) && swept > whole - 1e-3 - self.tolerance / radius {
+                self.equivalences.arcs += u64::from(parts > 1);
+                return Ok(());
+            }
+        }
+    }
+}
+
+/// Half way along a part, in the plane.
+fn middle_of(from: &[f64; 6], what: &What, turn: &Turn, angle: f64) -> [f64; 2] {
+    let [first, second, _] = axes_of(turn.plane);
+    match what {
+        What::Arc(made) => {
+            let sign = if made.direction == Direction::Ccw { 1.0 } else { -1.0 };
+            let (sin, cos) = (sign * angle / 2.0).sin_cos();
+            let [x, y] = [from[first] - made.center[first], from[second] - made.center[second]];
+            [made.center[first] + x * cos - y * sin, made.center[second] + x * sin + y * cos]
+        }
+        _ => {
+            let end = what.end(from);
+            [(from[first] + end[first]) / 2.0, (from[second] + end[second]) / 2.0]
+        }
+    }
+}

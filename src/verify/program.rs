@@ -1,0 +1,241 @@
+//! The program's side: its cuts, each with the way that leads to it.
+
+use std::io::{BufRead, Seek};
+
+use super::cut::{Cut, Place, Rapid, State, What};
+use super::finding::Finding;
+use crate::diag::{Code, Diag};
+use crate::nc::{Action, Item, Position, Rotation, RunError, Settings, Simulator};
+use crate::toolpath::{FeedMode, StopKind, Units};
+
+/// A program that is run as far as it was asked for.
+pub(super) struct Program<R> {
+    simulator: Simulator<R>,
+    items: Vec<Item>,
+    next: usize,
+    over: bool,
+    /// Where the tool is.
+    at: Place,
+    unknown: u8,
+    state: State,
+    mode: FeedMode,
+    cycle: bool,
+    /// A tool came, and no length offset since.
+    without_length: bool,
+    lengths: bool,
+    units: Units,
+    /// Units that places are wanted in.
+    wanted: Units,
+    /// The way to the cut.
+    pub way: Vec<Rapid>,
+    /// How many of its rapids come before a change of tool or work offset, after which places are others.
+    pub before: Option<usize>,
+    /// Stops on the way.
+    pub stops: Vec<StopKind>,
+    cut: Option<Cut>,
+    /// Hazards on the way.
+    pub hazards: Vec<Finding>,
+}
+
+impl<R: BufRead + Seek> Program<R> {
+    /// Runs with these settings; `lengths`: tools need their length offset.
+    pub fn new(input: R, settings: Settings, lengths: bool) -> Program<R> {
+        let settings = Settings { places_unknown: true, ..settings };
+        Program {
+            simulator: Simulator::new(input, settings),
+            items: Vec::new(),
+            next: 0,
+            over: false,
+            at: [0.0; 6],
+            unknown: 0b111,
+            state: State { side: Some(None), ..State::default() },
+            mode: FeedMode::PerMinute,
+            cycle: false,
+            without_length: false,
+            lengths,
+            units: settings.units,
+            wanted: settings.units,
+            way: Vec::new(),
+            before: None,
+            stops: Vec::new(),
+            cut: None,
+            hazards: Vec::new(),
+        }
+    }
+
+    /// In which units it counts before it says so.
+    pub fn begin_in(&mut self, units: Units) {
+        self.simulator.begin_in(units);
+        self.units = units;
+    }
+
+    /// In which units places are wanted.
+    pub fn want(&mut self, units: Units) {
+        self.wanted = units;
+    }
+
+    /// The next cut, which stays until it is taken; `None` at the program's end.
+    ///
+    /// # Errors
+    /// The program can't be read, or its control refuses a block.
+    pub fn peek(&mut self) -> Result<Option<Cut>, RunError> {
+        while self.cut.is_none() {
+            if self.next == self.items.len() {
+                if self.over {
+                    return Ok(None);
+                }
+                self.items.clear();
+                self.next = 0;
+                self.over = !self.simulator.step(&mut self.items)?;
+                continue;
+            }
+            let item = self.items[self.next].clone();
+            self.next += 1;
+            self.take_item(&item);
+        }
+        Ok(self.cut)
+    }
+
+    /// The cut is dealt with.
+    pub fn take(&mut self) {
+        if let Some(cut) = self.cut.take() {
+            self.at = cut.what.end(&cut.from);
+            // a cut may say a height that was unknown
+            self.unknown = self.simulator.machine().at_machine();
+            self.way.clear();
+            self.before = None;
+            self.stops.clear();
+        }
+    }
+
+    /// Where the tool stands.
+    pub fn at(&self) -> &Place {
+        &self.at
+    }
+
+    /// The text of the line that is being run.
+    pub fn text(&self) -> String {
+        String::from_utf8_lossy(self.simulator.text()).trim().to_owned()
+    }
+
+    /// Warnings of the simulator.
+    pub fn warnings(&mut self) -> Vec<Diag> {
+        self.simulator.take_warnings()
+    }
+
+    fn scaled(&self, to: &Position) -> Place {
+        let mut place = *to;
+        if self.units != self.wanted {
+            let factor = if self.units == Units::Inch { 25.4 } else { 1.0 / 25.4 };
+            place[..3].iter_mut().for_each(|value| *value *= factor);
+        }
+        place
+    }
+
+    fn factor(&self) -> f64 {
+        match (self.units, self.wanted) {
+            (Units::Inch, Units::Mm) => 25.4,
+            (Units::Mm, Units::Inch) => 1.0 / 25.4,
+            _ => 1.0,
+        }
+    }
+
+    fn take_item(&mut self, item: &Item) {
+        let cut = |program: &Self, what: What, feed: Option<f64>| Cut {
+            from: program.at,
+            unknown: program.unknown,
+            what,
+            feed,
+            mode: program.mode,
+            state: program.state,
+            by_cycle: item.by_cycle,
+            line: item.line,
+        };
+        let feed_of = |program: &Self, feed: f64| {
+            Some(if program.mode == FeedMode::InverseTime { feed } else { feed * program.factor() })
+        };
+        match &item.action {
+            Action::Rapid { to, machine } => {
+                let to = self.scaled(to);
+                self.unknown = *machine;
+                self.at = to;
+                self.way.push(Rapid { to, unknown: *machine, rotation: self.state.rotation });
+            }
+            Action::Feed { to, feed, .. } => {
+                let to = self.scaled(to);
+                if to == self.at && self.unknown == 0 {
+                    return; // a move of no length cuts nothing
+                }
+                self.check_length(item.line);
+                self.cut = Some(cut(self, What::Line { to }, feed_of(self, *feed)));
+            }
+            Action::Arc(turn) => {
+                let mut turn = **turn;
+                turn.to = self.scaled(&turn.to);
+                let factor = self.factor();
+                turn.center.iter_mut().for_each(|value| *value *= factor);
+                self.check_length(item.line);
+                self.cut = Some(cut(self, What::Arc(turn), feed_of(self, turn.feed)));
+            }
+            // one that does not follow a cut only waits
+            Action::Dwell(seconds) if *seconds > 0.0 && self.way.is_empty() => {
+                self.cut = Some(cut(self, What::Dwell(*seconds), None));
+            }
+            Action::Stop(kind) => self.stops.push(*kind),
+            Action::Spindle(rotation, speed) => {
+                self.state.rotation = Some(*rotation);
+                self.state.speed = Some(*speed);
+            }
+            Action::Orient(_) => self.state.rotation = Some(Rotation::Stop),
+            Action::Tool(number) => {
+                if self.cycle {
+                    self.hazard(
+                        Code::PV013,
+                        item.line,
+                        "a canned cycle is still in force at a tool change",
+                        "end it with G80",
+                    );
+                }
+                if self.state.tool != Some(*number) {
+                    self.before = Some(self.way.len());
+                }
+                self.state.tool = Some(*number);
+                self.without_length = self.lengths;
+                self.unknown |= 0b100;
+            }
+            Action::Length(register) => self.without_length = self.lengths && register.is_none() && self.without_length,
+            Action::Units(units) => self.units = *units,
+            Action::FeedMode(mode) => self.mode = *mode,
+            Action::Work(code) if self.state.work != Some(*code) => {
+                self.before = Some(self.way.len());
+                self.state.work = Some(*code);
+            }
+            Action::Compensation(side) => self.state.side = Some(side.map(|(side, _)| side)),
+            Action::Hole(_) => self.cycle = true,
+            Action::CycleOff => self.cycle = false,
+            Action::End => {
+                if self.cycle {
+                    self.hazard(
+                        Code::PV013,
+                        item.line,
+                        "a canned cycle is still in force at the end",
+                        "end it with G80",
+                    );
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn check_length(&mut self, line: u64) {
+        if std::mem::take(&mut self.without_length) {
+            let message = "the tool cuts, and its length offset is not on since it was changed";
+            self.hazard(Code::PV014, line, message, "print G43 H[lcomp] in the tool change");
+        }
+    }
+
+    fn hazard(&mut self, code: Code, line: u64, message: &str, help: &'static str) {
+        let block = self.text();
+        self.hazards.push(Finding { code, message: message.into(), help, place: None, line, block });
+    }
+}

@@ -1,0 +1,194 @@
+//! Ways: rapids from one cut to the next.
+
+use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, same};
+
+/// How a program's way compares with the job's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Compared {
+    /// The same, moves of no length and parts of one straight rapid joined.
+    Same,
+    /// Another order of axes, or higher, and nowhere lower.
+    AsGood,
+    /// Lower than the job's at this place.
+    Lower(Place, f64),
+    /// Across to a place where the job does not go.
+    Elsewhere(Place),
+    /// The same with the spindle turning otherwise.
+    Turning,
+}
+
+/// A way as corners: the start, if it is known, and the ends of its rapids.
+#[derive(Debug, Default)]
+pub(super) struct Way {
+    corners: Vec<Rapid>,
+}
+
+impl Way {
+    /// From a start over these rapids: without those of no length, parts of one straight rapid joined.
+    pub fn set(&mut self, start: Option<Rapid>, rapids: &[Rapid], tolerance: f64) {
+        self.corners.clear();
+        self.corners.extend(start);
+        for rapid in rapids {
+            if let Some(last) = self.corners.last()
+                && same(&last.to, &rapid.to, ALL, tolerance * 1e-3)
+                && last.unknown == rapid.unknown
+            {
+                continue;
+            }
+            if let [.., before, last] = self.corners.as_slice()
+                && last.rotation == rapid.rotation
+                && (before.unknown | last.unknown | rapid.unknown) == 0
+                && straight(&before.to, &last.to, &rapid.to, tolerance)
+            {
+                self.corners.pop();
+            }
+            self.corners.push(*rapid);
+        }
+    }
+
+    /// Does nothing move across at this height or below?
+    pub fn stays_above(&self, height: f64) -> bool {
+        let known = |rapid: &Rapid| rapid.unknown & 1 << DEPTH == 0;
+        across(&self.corners, 0.0).all(|(a, b)| [a, b].iter().all(|corner| !known(corner) || corner.to[DEPTH] > height))
+    }
+}
+
+/// Is b on the straight way from a to c?
+fn straight(a: &Place, b: &Place, c: &Place, tolerance: f64) -> bool {
+    let (mut along, mut length) = (0.0, 0.0);
+    for axis in 0..6 {
+        along += (b[axis] - a[axis]) * (c[axis] - a[axis]);
+        length += (c[axis] - a[axis]).powi(2);
+    }
+    let part = along / length;
+    (0.0..=1.0).contains(&part)
+        && (0..6).all(|axis| (a[axis] + part * (c[axis] - a[axis]) - b[axis]).abs() <= tolerance)
+}
+
+/// Compares the program's way with the job's.
+///
+/// Where both begin is known, the heights of their moves across are compared end by end. Where the job's beginning is
+/// unknown (after a tool change), the program comes to the job's first place from anywhere, but not lower than that.
+pub(super) fn compare(job: &Way, program: &Way, known_start: bool, tolerance: f64) -> Compared {
+    let Some(first) = job.corners.first().filter(|_| !known_start) else {
+        return compare_corners(&job.corners, &program.corners, known_start, tolerance);
+    };
+    let there = |exactly: u8| {
+        program.corners.iter().position(|corner| {
+            corner.unknown == 0
+                && same(&corner.to, &first.to, exactly, tolerance)
+                && corner.to[DEPTH] >= first.to[DEPTH] - tolerance
+        })
+    };
+    let Some(arrived) = there(ALL).or_else(|| there(ACROSS)) else {
+        return compare_corners(&job.corners, &program.corners, false, tolerance);
+    };
+    let low = across(&program.corners[..=arrived], tolerance)
+        .find(|(a, b)| height(a).min(height(b)) < first.to[DEPTH] - tolerance);
+    if let Some((_, b)) = low {
+        return Compared::Lower(b.to, first.to[DEPTH]);
+    }
+    compare_corners(&job.corners, &program.corners[arrived..], true, tolerance)
+}
+
+/// A corner's height: what only the machine knows is high.
+fn height(rapid: &Rapid) -> f64 {
+    if rapid.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { rapid.to[DEPTH] }
+}
+
+/// The moves across between corners.
+fn across(corners: &[Rapid], tolerance: f64) -> impl Iterator<Item = (&Rapid, &Rapid)> {
+    let pairs = corners.windows(2).map(|pair| (&pair[0], &pair[1]));
+    pairs.filter(move |(a, b)| !same(&a.to, &b.to, ACROSS, tolerance))
+}
+
+fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, tolerance: f64) -> Compared {
+    if known_start && job.len() == program.len() {
+        let pairs = || job.iter().zip(program);
+        if pairs().all(|(a, b)| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance)) {
+            let turns =
+                |(a, b): (&Rapid, &Rapid)| a.rotation.is_none_or(|wanted| b.rotation.is_none_or(|is| is == wanted));
+            return if pairs().all(turns) { Compared::Same } else { Compared::Turning };
+        }
+    }
+    let lowest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::INFINITY, f64::min);
+    // nothing of the way may be below all of the job's
+    for corner in program.iter().skip(usize::from(!known_start)) {
+        if height(corner) < lowest - tolerance {
+            return Compared::Lower(corner.to, lowest);
+        }
+    }
+    let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
+    if known_start && across(job, tolerance).count() == across(program, tolerance).count() {
+        let mut pairs = across(job, tolerance).zip(across(program, tolerance));
+        let all = pairs.all(|((a, b), (c, d))| {
+            same(&a.to, &c.to, ACROSS, tolerance)
+                && same(&b.to, &d.to, ACROSS, tolerance)
+                && height(c) >= a.to[DEPTH] - tolerance
+                && height(d) >= b.to[DEPTH] - tolerance
+        });
+        if all {
+            return Compared::AsGood;
+        }
+    }
+    // other corners: nowhere across below what the job crosses at
+    for (a, b) in across(program, tolerance) {
+        if height(a).min(height(b)) < highest - tolerance {
+            let to = b.to;
+            let goes_there = job.iter().any(|corner| same(&corner.to, &to, ACROSS, tolerance));
+            return if goes_there { Compared::Lower(to, highest) } else { Compared::Elsewhere(to) };
+        }
+    }
+    Compared::AsGood
+}
+
+/// What the program does before a change of tool or work offset: nowhere across below where the job crosses, or below
+/// where it stands then.
+pub(super) fn leaves_well(job: &Way, program: &Way, tolerance: f64) -> Option<(Place, f64)> {
+    let heights = |way: &Way| way.corners.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
+    let crossing =
+        across(&job.corners, tolerance).map(|(a, b)| a.to[DEPTH].min(b.to[DEPTH])).fold(f64::INFINITY, f64::min);
+    let limit = if crossing.is_finite() { crossing } else { heights(job) };
+    across(&program.corners, tolerance)
+        .find(|(a, b)| height(a).min(height(b)) < limit - tolerance)
+        .map(|(_, b)| (b.to, limit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn way(points: &[[f64; 3]]) -> Way {
+        let rapids: Vec<Rapid> = points
+            .iter()
+            .map(|&[x, y, z]| Rapid { to: [x, y, z, 0.0, 0.0, 0.0], unknown: 0, rotation: None })
+            .collect();
+        let mut way = Way::default();
+        way.set(None, &rapids, 1e-4);
+        way
+    }
+
+    fn compared(job: &[[f64; 3]], program: &[[f64; 3]]) -> Compared {
+        compare(&way(job), &way(program), true, 1e-4)
+    }
+
+    #[test]
+    fn another_order_of_axes_is_as_good_where_it_is_higher() {
+        let diagonal = [[0.0, 0.0, 5.0], [9.0, 0.0, 1.0]];
+        assert_eq!(compared(&diagonal, &diagonal), Compared::Same);
+        assert_eq!(compared(&diagonal, &[[0.0, 0.0, 5.0], [4.5, 0.0, 3.0], [9.0, 0.0, 1.0]]), Compared::Same);
+        assert_eq!(compared(&diagonal, &[[0.0, 0.0, 5.0], [9.0, 0.0, 5.0], [9.0, 0.0, 1.0]]), Compared::AsGood);
+        assert!(matches!(
+            compared(&diagonal, &[[0.0, 0.0, 5.0], [0.0, 0.0, 1.0], [9.0, 0.0, 1.0]]),
+            Compared::Lower(..)
+        ));
+        assert!(matches!(
+            compared(&diagonal, &[[0.0, 0.0, 5.0], [3.0, 3.0, 2.0], [9.0, 0.0, 1.0]]),
+            Compared::Elsewhere(..)
+        ));
+        assert!(matches!(
+            compared(&diagonal, &[[0.0, 0.0, 5.0], [9.0, 0.0, 5.0], [9.0, 0.0, 0.5], [9.0, 0.0, 1.0]]),
+            Compared::Lower(..)
+        ));
+    }
+}

@@ -48,6 +48,8 @@ pub enum From {
     Jsonl,
     /// An APT CL file
     Cl,
+    /// An NC program
+    Nc,
 }
 
 /// How a job is read.
@@ -59,12 +61,18 @@ pub struct ReadArgs {
     /// Who wrote a CL file: gener, catia, creo, nx, solidworks, makino, ncl [default: by its first lines]
     #[arg(long, value_name = "SYSTEM", value_parser = Dialect::parse)]
     pub dialect: Option<Dialect>,
-    /// Units of a CL file that does not say them
+    /// Units of a CL file or program that does not say them
     #[arg(long, value_name = "UNITS")]
     pub assume_units: Option<UnitsArg>,
-    /// Tool number of a CL file that loads none
+    /// Tool number of a CL file or program that loads none
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(..=99_999_999))]
     pub assume_tool: Option<u32>,
+    /// Whose rules a job that is an NC program follows [default: fanuc]
+    #[arg(long, value_name = "CONTROL")]
+    pub job_control: Option<ControlArg>,
+    /// What a length without a point means in a job that is an NC program [default: it is an error]
+    #[arg(long, value_name = "MEANING")]
+    pub job_no_point: Option<NoPoint>,
 }
 
 /// Classic or extended limits.
@@ -139,7 +147,7 @@ pub struct RenderOptions {
 /// `postform render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// The job: job.json, .jsonl or a CL file, or - for standard input
+    /// The job: job.json, .jsonl, a CL file or an NC program, or - for standard input
     pub job: PathBuf,
     /// The form of the machine
     #[arg(long, value_name = "FORM")]
@@ -259,20 +267,32 @@ pub enum NoPoint {
     Increments,
 }
 
+impl ControlArg {
+    /// As the library has it.
+    pub fn control(self) -> Control {
+        match self {
+            ControlArg::Linuxcnc => Control::Linuxcnc,
+            ControlArg::Emc2 => Control::Emc2,
+            ControlArg::Fanuc => Control::Fanuc,
+        }
+    }
+}
+
+impl NoPoint {
+    /// As the library has it.
+    pub fn unpointed(self) -> Unpointed {
+        match self {
+            NoPoint::Whole => Unpointed::Whole,
+            NoPoint::Increments => Unpointed::Increments,
+        }
+    }
+}
+
 impl ControlArgs {
     /// As the library has it; `form` is the form's own control.
     pub fn settings(&self, form: Option<&str>, units: Units) -> Settings {
-        let control = match self.control {
-            Some(ControlArg::Linuxcnc) => Control::Linuxcnc,
-            Some(ControlArg::Emc2) => Control::Emc2,
-            Some(ControlArg::Fanuc) => Control::Fanuc,
-            None => form.map_or(Control::Fanuc, Control::of_form),
-        };
-        let unpointed = match self.no_point {
-            None => Unpointed::Refused,
-            Some(NoPoint::Whole) => Unpointed::Whole,
-            Some(NoPoint::Increments) => Unpointed::Increments,
-        };
+        let control = self.control.map_or_else(|| form.map_or(Control::Fanuc, Control::of_form), ControlArg::control);
+        let unpointed = self.no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
         Settings {
             units,
             block_delete: self.block_delete,

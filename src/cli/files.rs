@@ -6,10 +6,11 @@ use std::path::Path;
 
 use postform::cl::{Options, Report, read_cl};
 use postform::diag::escaped;
+use postform::nc::{Control, JobOptions, Settings, Unpointed, read_program};
 use postform::toolpath::json::{read_document, read_lines};
-use postform::toolpath::{ReadError, Sink};
+use postform::toolpath::{ReadError, Sink, Units};
 
-use super::args::{From, ReadArgs};
+use super::args::{ControlArg, From, NoPoint, ReadArgs, UnitsArg};
 
 /// Largest form: a longer file is none.
 const LARGEST_FORM: u64 = 16 << 20;
@@ -103,13 +104,21 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
 /// What CL files are called.
 const CL: [&str; 7] = ["cl", "apt", "aptsource", "ncl", "cls", "cldata", "as"];
 
+/// What NC programs are called.
+const NC: [&str; 6] = ["nc", "ngc", "tap", "eia", "min", "mpf"];
+
 /// The format of a job: as said, else by its extension.
 pub fn job_format(path: &Path, args: &ReadArgs) -> Result<From, String> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     let from = format_of(path, args.from, &extension)?;
-    let for_cl = args.dialect.is_some() || args.assume_units.is_some() || args.assume_tool.is_some();
-    if from != From::Cl && for_cl {
-        return Err(format!("error: --dialect and --assume-.. are for CL files, which {} is not", name(path)));
+    if from != From::Cl && args.dialect.is_some() {
+        return Err(format!("error: --dialect is for CL files, which {} is not", name(path)));
+    }
+    if !matches!(from, From::Cl | From::Nc) && (args.assume_units.is_some() || args.assume_tool.is_some()) {
+        return Err(format!("error: --assume-.. is for CL files and NC programs, which {} is not", name(path)));
+    }
+    if from != From::Nc && (args.job_control.is_some() || args.job_no_point.is_some()) {
+        return Err(format!("error: --job-.. is for NC programs, which {} is not", name(path)));
     }
     Ok(from)
 }
@@ -124,11 +133,31 @@ fn format_of(path: &Path, from: Option<From>, extension: &str) -> Result<From, S
         (None, "jsonl" | "ndjson") => Ok(From::Jsonl),
         (None, "json") => Ok(From::Json),
         (None, extension) if CL.contains(&extension) => Ok(From::Cl),
+        (None, extension) if NC.contains(&extension) => Ok(From::Nc),
         (None, _) if path == Path::new("-") => Ok(From::Json),
-        (None, _) => {
-            Err(format!("error: can't tell what {} is by its name: say it with --from json, jsonl or cl", name(path)))
-        }
+        (None, _) => Err(format!(
+            "error: can't tell what {} is by its name: say it with --from json, jsonl, cl or nc",
+            name(path)
+        )),
     }
+}
+
+/// An NC program as a job: it is run twice, so it is copied.
+fn read_nc(
+    mut input: Box<dyn Read>,
+    args: &ReadArgs,
+    report: &mut Report,
+    sink: &mut dyn Sink,
+) -> Result<(), ReadError> {
+    let mut copy = tempfile::tempfile().map_err(ReadError::Io)?;
+    io::copy(&mut input, &mut copy).map_err(ReadError::Io)?;
+    copy.rewind().map_err(ReadError::Io)?;
+    let control = args.job_control.map_or(Control::Fanuc, ControlArg::control);
+    let unpointed = args.job_no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
+    let units = args.assume_units.map(UnitsArg::units);
+    let settings = Settings { unpointed, units: units.unwrap_or(Units::Mm), ..Settings::new(control) };
+    let options = JobOptions { settings, units, tool: args.assume_tool.map(f64::from) };
+    read_program(buffered(copy), &options, &mut report.warnings, sink)
 }
 
 /// Reads a job into a sink. The report is that of a CL file.
@@ -150,6 +179,7 @@ pub fn read_job(
             };
             read_cl(input, &options, &mut report, sink)
         }
+        From::Nc => read_nc(input, args, &mut report, sink),
     };
     (read, report)
 }

@@ -180,6 +180,8 @@ codes! {
     PN032 Warning "a peck shorter than the back-off"
     PN033 Warning "one P for two codes"
     PN034 Warning "a cycle that leaves the tool in the hole"
+    PN035 Warning "something that a job says otherwise or not at all"
+    PN036 Error "something that no job can say"
     // PV: what verify finds
     PV001 Error "another motion"
     PV002 Error "a hole that is not drilled"

@@ -36,7 +36,7 @@ pub enum Action {
         lead: Option<f64>,
     },
     /// An arc or helix at feed.
-    Arc(Box<Turn>),
+    Arc(Turn),
     /// A dwell in seconds.
     Dwell(f64),
     /// The spindle.
@@ -71,6 +71,8 @@ pub enum Action {
     CycleOff,
     /// Text of a comment, by its columns in the line.
     Comment(usize, usize),
+    /// A code that moves nothing and that is not simulated, as M10 or G8: its letter, and ten times its number.
+    LeftOut(u8, u16),
 }
 
 /// What the spindle does.

@@ -75,7 +75,7 @@ impl Machine {
         // less than a turn, unless it ends where it begins
         let turn = Turn { to, center, plane: self.plane, direction, turns: turns as u32 - 1, feed };
         self.position = to;
-        out.push(Action::Arc(Box::new(turn)));
+        out.push(Action::Arc(turn));
         Ok(())
     }
 

@@ -13,7 +13,7 @@ pub struct Frames {
     pub active: usize,
     /// G92, or G52 of LinuxCNC.
     pub shift: Position,
-    /// What G92.2 put aside.
+    /// What G92.3 brings back.
     pub shift_kept: Position,
     /// Tool length offset.
     pub tool: [f64; 3],

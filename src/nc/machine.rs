@@ -423,8 +423,12 @@ impl Machine {
                 7 => out.push(Action::Coolant(Cooling::Mist)),
                 8 => out.push(Action::Coolant(Cooling::Flood)),
                 9 => out.push(Action::Coolant(Cooling::Off)),
-                _ => {}
+                0..=2 | 30 | 60 | 98 | 99 => {}
+                _ => out.push(Action::LeftOut(b'M', code * 10)),
             }
+        }
+        if let Some(code) = block.g(Group::Other) {
+            out.push(Action::LeftOut(b'G', code));
         }
         if speed.is_some() && !turned {
             out.push(Action::Spindle(self.spindle, self.speed));
@@ -594,7 +598,7 @@ impl Machine {
         let place = self.frames.to_machine(&self.position);
         match block.g(Group::Once) {
             Some(921) => (self.frames.shift, self.frames.shift_kept) = ([0.0; 6], [0.0; 6]),
-            Some(922) => self.frames.shift_kept = std::mem::take(&mut self.frames.shift),
+            Some(922) => self.frames.shift = [0.0; 6],
             Some(923) => self.frames.shift = self.frames.shift_kept,
             code => {
                 if !block.has_axes() {
@@ -606,6 +610,9 @@ impl Machine {
                         if code == Some(520) { value } else { self.frames.shift[axis] + self.position[axis] - value };
                 }
             }
+        }
+        if matches!(block.g(Group::Once), Some(520 | 920)) {
+            self.frames.shift_kept = self.frames.shift;
         }
         self.position = self.frames.to_program(&place);
         out.push(Action::Frame);

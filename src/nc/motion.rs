@@ -128,7 +128,9 @@ impl Machine {
             }
         }
         let mut to = self.frames.to_program(&place);
-        for axis in (0..6).filter(|axis| named & 1 << axis == 0) {
+        // in a turned frame, X of the machine moves both axes of the program
+        let turned = if self.frames.angle() == 0.0 { 0 } else { 0b11 };
+        for axis in (0..6).filter(|axis| (named | turned) & 1 << axis == 0) {
             to[axis] = self.position[axis];
         }
         self.at_machine |= named;

@@ -85,7 +85,8 @@ pub struct Simulator<R> {
     labels: HashMap<String, Spot>,
     /// All labels of the rest are known.
     searched: bool,
-    /// Where a sub that is being passed over began.
+    /// The first O number.
+    program: Option<f64>,
     percent: bool,
     over: bool,
     jumps: u64,
@@ -105,6 +106,7 @@ impl<R: BufRead + Seek> Simulator<R> {
             frames: Vec::new(),
             labels: HashMap::new(),
             searched: false,
+            program: None,
             percent: false,
             over: false,
             jumps: 0,
@@ -130,6 +132,20 @@ impl<R: BufRead + Seek> Simulator<R> {
     /// The line that was run last.
     pub fn line(&self) -> u64 {
         self.at.line
+    }
+
+    /// The program's number, where it has one.
+    pub fn program(&self) -> Option<f64> {
+        self.program
+    }
+
+    /// Back to the beginning, with everything as switched on.
+    ///
+    /// # Errors
+    /// The input can't be gone back in.
+    pub fn again(mut self) -> io::Result<Simulator<R>> {
+        self.input.seek(SeekFrom::Start(0))?;
+        Ok(Simulator::new(self.input, self.machine.settings))
     }
 
     /// Blocks run so far.
@@ -278,6 +294,7 @@ impl<R: BufRead + Seek> Simulator<R> {
         let inner = self.frames.last().is_some_and(|frame| frame.label() == label);
         match step {
             Step::Program => {
+                self.program = self.program.or(label.parse().ok());
                 self.labels.insert(label, self.at);
                 // the next program begins: a subprogram without M99 runs into it
                 match self.frames.last() {

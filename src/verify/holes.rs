@@ -88,7 +88,11 @@ impl<R: BufRead + Seek> Sides<R> {
     fn stays_in(&self, hole: &Expected, found: &Cut) -> bool {
         let here = |place: &_| same(&hole.at, place, ACROSS, self.tolerance);
         let end = found.what.end(&found.from);
-        here(&found.from) && here(&end) && self.program.way.iter().all(|rapid| here(&rapid.to))
+        // behind a change of tool it is another hole at this place
+        self.program.before.is_none()
+            && here(&found.from)
+            && here(&end)
+            && self.program.way.iter().all(|rapid| rapid.unknown == 0 && here(&rapid.to))
     }
 }
 

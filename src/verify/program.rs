@@ -170,7 +170,7 @@ impl<R: BufRead + Seek> Program<R> {
                 self.cut = Some(cut(self, What::Line { to }, feed_of(self, *feed)));
             }
             Action::Arc(turn) => {
-                let mut turn = **turn;
+                let mut turn = *turn;
                 turn.to = self.scaled(&turn.to);
                 let factor = self.factor();
                 turn.center.iter_mut().for_each(|value| *value *= factor);

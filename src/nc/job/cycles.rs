@@ -1,0 +1,55 @@
+//! A control's cycle as a cycle of a job. The point is the R plane: a program does not say where the part begins.
+
+use super::unsaid;
+use crate::diag::Diag;
+use crate::nc::action::Drilling;
+use crate::nc::block::name_of;
+use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole};
+
+/// Are two holes of one cycle?
+pub(super) fn is_same(a: &Drilling, b: &Drilling) -> bool {
+    let key = |d: &Drilling| (d.code, [d.r, d.clear, d.dwell, d.peck, d.level, d.feed], d.shift);
+    key(a) == key(b)
+}
+
+/// The cycle of a hole.
+///
+/// # Errors
+/// A cycle that a job can't say.
+pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSpec, Box<Diag>> {
+    let kind = match hole.code {
+        810 => CycleKind::Drill,
+        820 => CycleKind::Face,
+        830 => CycleKind::Deep,
+        730 => CycleKind::Chipbreak,
+        840 => CycleKind::Tap,
+        740 => CycleKind::LTap,
+        850 | 890 => CycleKind::Ream,
+        860 | 760 => CycleKind::Bore,
+        code => {
+            let message = format!("{} has no cycle of a job that does the same", name_of(code));
+            return unsaid(line, message, "program its moves, or write the job by hand");
+        }
+    };
+    let mut spec = CycleSpec::new(kind);
+    spec.clear = Some(0.0);
+    spec.depth = Some(hole.r - hole.bottom);
+    spec.return_height = Some(hole.clear - hole.r);
+    spec.feed = Some(hole.feed);
+    spec.step = Some(hole.peck).filter(|_| matches!(kind, CycleKind::Deep | CycleKind::Chipbreak));
+    // a dwell of zero seconds is one that the cycle must say
+    spec.dwell = Some(hole.dwell).filter(|&seconds| seconds > 0.0 || kind == CycleKind::Face);
+    spec.rigid = (kind.is_tap() && rigid).then_some(true);
+    if hole.code == 760 {
+        spec.orient = Some(0.0);
+        (spec.offset, spec.offset_y) = (Some(-hole.shift[0]), Some(-hole.shift[1]));
+    }
+    Ok(spec)
+}
+
+/// The hole of a cycle.
+pub(super) fn hole_of(hole: &Drilling, first: &Drilling, axes: u8) -> Hole {
+    let mut at = Axes { values: hole.at, given: axes };
+    at.set(2, hole.r);
+    Hole { at, depth: (hole.bottom != first.bottom).then_some(hole.r - hole.bottom) }
+}

@@ -1,0 +1,118 @@
+//! The first run of a program that is read as a job: what must be known before its first move.
+
+use std::collections::BTreeMap;
+use std::io::{BufRead, Seek};
+
+use super::{JobOptions, refused, unsaid, warning};
+use crate::diag::Diag;
+use crate::nc::action::Action;
+use crate::nc::simulator::Simulator;
+use crate::toolpath::{ReadError, Units};
+
+/// Registers of a tool between two tool changes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Registers {
+    pub length: Option<f64>,
+    pub diameter: Option<f64>,
+}
+
+/// What a program says as a whole.
+#[derive(Debug, Default)]
+pub(super) struct Survey {
+    pub program: Option<f64>,
+    pub units: Option<Units>,
+    /// For each tool change, the first for what comes before any.
+    pub registers: Vec<Registers>,
+    /// Rotary axes that move, as bits.
+    pub rotary: u8,
+    /// The highest Z that the program says in work coordinates, in its units at the beginning.
+    pub top: f64,
+}
+
+/// Runs the program once.
+pub(super) fn survey(
+    simulator: &mut Simulator<impl BufRead + Seek>,
+    options: &JobOptions,
+    warnings: &mut Vec<Diag>,
+) -> Result<Survey, ReadError> {
+    let mut survey = Survey { registers: vec![Registers::default()], top: f64::NEG_INFINITY, ..Survey::default() };
+    let mut left_out: BTreeMap<(u8, u16), (u64, u64)> = BTreeMap::new();
+    let mut items = Vec::new();
+    let (mut units, mut moved, mut last) = (options.units, false, [0.0; 6]);
+    loop {
+        items.clear();
+        let more = simulator.step(&mut items).map_err(refused)?;
+        for item in &items {
+            let mut reach = |survey: &mut Survey, to: &[f64; 6], machine: u8| {
+                moved = true;
+                for axis in 3..6 {
+                    if to[axis] != last[axis] {
+                        survey.rotary |= 1 << axis;
+                    }
+                }
+                last = *to;
+                if machine & 0b100 == 0 {
+                    survey.top = survey.top.max(to[2]);
+                }
+            };
+            match &item.action {
+                Action::Rapid { to, machine } => reach(&mut survey, to, *machine),
+                Action::Feed { to, .. } => reach(&mut survey, to, 0),
+                Action::Arc(turn) => reach(&mut survey, &turn.to, 0),
+                Action::Units(now) => {
+                    if moved && units.is_some_and(|units| units != *now) {
+                        let help = "run it in one unit: a job has one";
+                        return Ok(unsaid(item.line, "the program changes its units after its first move", help)?);
+                    }
+                    units = Some(*now);
+                }
+                Action::Tool(_) => survey.registers.push(Registers::default()),
+                Action::Length(Some(register)) => {
+                    let line = item.line;
+                    one(&mut survey.registers, |r| &mut r.length, *register, line, "length offsets, H")?;
+                }
+                Action::Compensation(Some((_, Some(register)))) => {
+                    let line = item.line;
+                    one(&mut survey.registers, |r| &mut r.diameter, *register, line, "diameter offsets, D")?;
+                }
+                // M29: the tap that follows is rigid
+                Action::LeftOut(b'M', 290) => {}
+                Action::LeftOut(letter, code) => {
+                    left_out.entry((*letter, *code)).or_insert((item.line, 0)).1 += 1;
+                }
+                _ => {}
+            }
+        }
+        if !more {
+            break;
+        }
+    }
+    for ((letter, code), (line, count)) in left_out {
+        let number = f64::from(code) / 10.0;
+        let name = format!("{}{number}", char::from(letter));
+        let times = if count > 1 { format!(", {count} times") } else { String::new() };
+        let message = format!("{name}{times} has no place in a job and is left out");
+        warnings.push(warning(line, message, "if the machine needs it, print it by the form"));
+    }
+    survey.program = simulator.program();
+    survey.units = units;
+    Ok(survey)
+}
+
+/// A tool has one register of a kind.
+fn one(
+    registers: &mut [Registers],
+    which: impl Fn(&mut Registers) -> &mut Option<f64>,
+    value: f64,
+    line: u64,
+    name: &str,
+) -> Result<(), Box<Diag>> {
+    let Some(tool) = registers.last_mut() else { return Ok(()) };
+    match which(tool).replace(value) {
+        Some(before) if before != value => {
+            let message = format!("one tool uses two {name}{before} and {value}");
+            unsaid(line, message, "a tool of a job has one: change the tool between them, or the register")
+        }
+        _ => Ok(()),
+    }
+}

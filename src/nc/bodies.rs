@@ -142,7 +142,6 @@ impl Machine {
 
     /// G73 breaks the chip, G83 brings it out.
     fn pecks(&mut self, hole: &Hole, out: &mut Out<'_>) -> Done {
-        let inch = self.units == Units::Inch;
         if hole.peck <= 0.0 {
             return refuse(Code::PN018, format!("a peck of {}", hole.peck), "Q must be greater than zero");
         }
@@ -151,7 +150,7 @@ impl Machine {
             return refuse(Code::PN018, format!("Q{} makes over a million pecks", hole.peck), "write a larger Q");
         }
         if self.control == Control::Emc2 && hole.code == 830 {
-            return self.pecks_of_emc2(hole, inch, out);
+            return self.pecks_of_emc2(hole, out);
         }
         let back_off = self.back_off();
         if hole.peck < back_off {
@@ -178,9 +177,10 @@ impl Machine {
     }
 
     /// The old manual's pecks: a quarter of a second, up to the clear level, and feed again from there.
-    fn pecks_of_emc2(&mut self, hole: &Hole, _: bool, out: &mut Out<'_>) -> Done {
+    fn pecks_of_emc2(&mut self, hole: &Hole, out: &mut Out<'_>) -> Done {
         let mut depth = hole.r;
-        while depth > hole.bottom {
+        // what is left of a sum of decimals is no peck
+        while depth > hole.bottom + 1e-9 {
             depth = (depth - hole.peck).max(hole.bottom);
             self.feed_over(hole, depth, out);
             out.push(Action::Dwell(0.25));

@@ -32,7 +32,9 @@ impl Fault {
     /// As a finding about this line of the program.
     pub fn diag(self, line: u64, text: &[u8]) -> Diag {
         let block = String::from_utf8_lossy(text);
-        let mut diag = Diag::new(self.code, format!("{}, in `{}`", self.message, block.trim())).help(self.help);
+        let block = block.trim();
+        let message = if block.is_empty() { self.message } else { format!("{}, in `{block}`", self.message) };
+        let mut diag = Diag::new(self.code, message).help(self.help);
         diag.place = Some(format!("{line}:{}", self.column.unwrap_or(0) + 1));
         diag
     }

@@ -16,8 +16,8 @@ const LONGEST: usize = 1 << 16;
 const LONGEST_OF_LINUXCNC: usize = 255;
 /// Deepest nesting of subprograms and loops.
 const DEEPEST: usize = 64;
-/// Blocks of a program that may be jumped over or run again before it counts as endless.
-const MOST_JUMPS: u64 = 10_000_000;
+/// Rounds of loops, calls, and blocks passed over, before a program counts as endless.
+const MOST_JUMPS: u64 = 2_000_000;
 
 /// Why a program was not run to its end.
 #[derive(Debug)]
@@ -188,7 +188,9 @@ impl<R: BufRead + Seek> Simulator<R> {
     #[expect(clippy::boxed_local, reason = "faults come in boxes")]
     fn refused(&mut self, fault: Box<Fault>) -> RunError {
         self.over = true;
-        RunError::Refused(Box::new(fault.diag(self.at.line, self.text())), self.at.line)
+        // a loop is refused at its beginning, which is behind the line before
+        let line = self.at.line.max(u64::from(self.blocks > 0));
+        RunError::Refused(Box::new(fault.diag(line, self.text())), line)
     }
 
     /// The next line into `self.line`; `false` at the end of the input.

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, Place, Rapid, What, number, same, shown, turn_as_far};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, Place, Rapid, What, number, over, same, shown, turn_as_far};
 use super::finding::{Equivalences, Finding, Verdict};
 use super::intended::{Expectation, Expected, Job};
 use super::program::Program;
@@ -214,7 +214,7 @@ impl<R: BufRead + Seek> Sides<R> {
         let Some(found) = self.next()? else {
             return match hole {
                 Some(hole) => {
-                    let message = format!("the hole at {} is not drilled: the program is over", shown(&hole.at, 0b11));
+                    let message = format!("the hole at {} is not drilled: the program is over", over(&hole.at));
                     self.differs(Code::PV002, 0, message, "look at the cycle, and at what ends it")
                 }
                 None => {
@@ -290,7 +290,7 @@ impl<R: BufRead + Seek> Sides<R> {
             return self.differs(Code::PV008, line, message, "print the rapid code (G0) for this move");
         }
         if found.by_cycle && hole.is_none() {
-            let place = shown(&found.from, 0b11);
+            let place = over(&found.from);
             let message =
                 format!("the canned cycle is still in force: it drills at {place}, where the job has no hole");
             return self.differs(Code::PV013, line, message, "end the cycle: print G80 in Cancel, and `End Cancel`");
@@ -300,9 +300,9 @@ impl<R: BufRead + Seek> Sides<R> {
             return self.differs(Code::PV001, line, message, "look at what the form prints for the moves before it");
         };
         if !same(&hole.at, &found.from, ACROSS, tolerance) {
-            let at = shown(&hole.at, ACROSS);
+            let at = over(&hole.at);
             if self.last_hole.is_some_and(|last| same(&last.at, &found.from, ACROSS, tolerance)) {
-                let message = format!("the hole at {} is drilled twice", shown(&found.from, ACROSS));
+                let message = format!("the hole at {} is drilled twice", over(&found.from));
                 return self.differs(Code::PV003, line, message, "look for a second position line in the cycle");
             }
             let message = format!("the hole at {at} is not drilled: the next cut begins at {is}");
@@ -310,7 +310,7 @@ impl<R: BufRead + Seek> Sides<R> {
         }
         if unknown & 1 << DEPTH != 0 {
             let message =
-                format!("the hole at {} is drilled from a height that only the machine knows", shown(&hole.at, 0b11));
+                format!("the hole at {} is drilled from a height that only the machine knows", over(&hole.at));
             return self.differs(Code::PV005, line, message, "print [d] before the cycle");
         }
         let message = format!(
@@ -461,7 +461,7 @@ impl<R: BufRead + Seek> Sides<R> {
             }
             let message = format!(
                 "the hole at {} is cut to Z{}, the job's to Z{}",
-                shown(&end, 0b11),
+                over(&end),
                 number(is[DEPTH]),
                 number(end[DEPTH])
             );
@@ -571,7 +571,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             if found.by_cycle {
                 let again = self.last_hole.is_some_and(|last| same(&last.at, &found.from, ACROSS, self.tolerance));
                 let code = if again { Code::PV003 } else { Code::PV013 };
-                let message = format!("the canned cycle drills at {}, and the job is over", shown(&found.from, 0b11));
+                let message = format!("the canned cycle drills at {}, and the job is over", over(&found.from));
                 return self.differs(code, found.line, message, "end the cycle: print G80 in Cancel");
             }
             let message = format!("a cut to {end}, and the job is over");

@@ -99,6 +99,12 @@ pub(super) fn shown(place: &Place, axes: u8) -> String {
     list.join(" ")
 }
 
+/// Where a hole is: X and Y, and angles that are not zero.
+pub(super) fn over(place: &Place) -> String {
+    let turned = (3..6).filter(|&axis| place[axis] != 0.0).map(|axis| 1 << axis).sum::<u8>();
+    shown(place, 0b11 | turned)
+}
+
 /// A number as a person reads it.
 pub(super) fn number(value: f64) -> f64 {
     let rounded = (value * 1e5).round() / 1e5;

@@ -3,7 +3,7 @@
 use std::io::{BufRead, Seek};
 
 use super::comparer::Sides;
-use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, same, shown};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same};
 use super::intended::Expected;
 use crate::diag::{Code, Diag};
 
@@ -31,7 +31,7 @@ impl<R: BufRead + Seek> Sides<R> {
                 let message = format!(
                     "a rapid goes to Z{} in the hole at {}, cut to Z{} so far",
                     number(lowest),
-                    shown(&hole.at, 0b11),
+                    over(&hole.at),
                     number(deepest)
                 );
                 return self.differs(Code::PV009, line, message, "look at the clearance of the pecks");
@@ -42,7 +42,7 @@ impl<R: BufRead + Seek> Sides<R> {
                 What::Line { to } => {
                     let again = deepest <= hole.bottom + tolerance && found.from[DEPTH] >= hole.plane - tolerance;
                     if count > 1 && again && to[DEPTH] < found.from[DEPTH] {
-                        let message = format!("the hole at {} is drilled twice", shown(&hole.at, 0b11));
+                        let message = format!("the hole at {} is drilled twice", over(&hole.at));
                         return self.differs(
                             Code::PV003,
                             line,
@@ -66,7 +66,7 @@ impl<R: BufRead + Seek> Sides<R> {
         if (bottom - hole.bottom).abs() > tolerance {
             let message = format!(
                 "the hole at {} is cut to Z{}, the job's to Z{}",
-                shown(&hole.at, 0b11),
+                over(&hole.at),
                 number(bottom),
                 number(hole.bottom)
             );

@@ -1,4 +1,5 @@
 //! Programs run by the simulator and by LinuxCNC's interpreter, in one language.
+#![allow(dead_code)]
 
 use std::io::Cursor;
 

@@ -109,3 +109,15 @@ fn read_check_and_compile_a_form(bencher: Bencher) {
         compile(&checked.form).ops.len()
     });
 }
+
+#[divan::bench]
+fn scan_a_program(bencher: Bencher) {
+    let mut text = String::new();
+    for [x, y, z] in moves() {
+        _ = writeln!(text, "N10 G1 X{x} Y{y} Z{z} F100. (a comment)");
+    }
+    bencher.counter(BytesCount::of_str(&text)).bench_local(|| {
+        let lines = text.as_bytes().split_inclusive(|&byte| byte == b'\n');
+        lines.map(|line| postform::nc::tokens(line).count()).sum::<usize>()
+    });
+}

@@ -1,7 +1,7 @@
 //! Jobs of any size, and the floors that rendering them is compared with. Used by `benches/throughput`.
 //!
-//! `floor make moves|holes N` writes a JSON Lines job to standard output, `floor make cl N` the same moves as a CL file; `floor serde FILE` parses one with serde and
-//! does nothing with it; `floor write FILE` parses its numbers in the simplest way and prints them with `write!`.
+//! `floor make moves|holes N` writes a JSON Lines job to standard output, `floor make cl N` the same moves as a CL file,
+//! `floor make nc N` and `nc-holes N` programs for LinuxCNC; `floor serde FILE` parses a job with serde and does nothing with it; `floor write FILE` parses its numbers in the simplest way and prints them with `write!`.
 #![allow(clippy::unwrap_used)]
 
 use std::fs::File;
@@ -15,7 +15,7 @@ fn main() -> Result<()> {
         ["serde", file] => serde(file),
         ["write", file] => write(file),
         _ => {
-            eprintln!("floor make moves|holes|cl N, floor serde FILE, floor write FILE");
+            eprintln!("floor make moves|holes|cl|nc|nc-holes N, floor serde FILE, floor write FILE");
             std::process::exit(2);
         }
     }
@@ -23,8 +23,10 @@ fn main() -> Result<()> {
 
 fn make(kind: &str, count: u64) -> Result<()> {
     let mut out = BufWriter::new(stdout().lock());
-    if kind == "cl" {
-        return make_cl(count, &mut out);
+    match kind {
+        "cl" => return make_cl(count, &mut out),
+        "nc" | "nc-holes" => return make_nc(kind == "nc-holes", count, &mut out),
+        _ => {}
     }
     writeln!(out, "{{\"start\":{{\"postform\":1,\"program\":1,\"units\":\"mm\",\"tools\":[{{\"number\":1}}]}}}}")?;
     writeln!(
@@ -47,6 +49,22 @@ fn make(kind: &str, count: u64) -> Result<()> {
         }
     }
     writeln!(out, "{{\"end\":true}}")
+}
+
+/// A program of straight cuts, or of holes of one G81.
+fn make_nc(holes: bool, count: u64, out: &mut impl Write) -> Result<()> {
+    let mut next = numbers();
+    writeln!(out, "G21 G17 G90 G94 F1500\nS9000 M3\nG0 X0 Y0 Z5")?;
+    if holes {
+        writeln!(out, "G99 G81 X0 Y0 Z-5 R2 F200")?;
+    }
+    for _ in 0..count {
+        match holes {
+            true => writeln!(out, "X{} Y{}", next(200.0), next(200.0))?,
+            false => writeln!(out, "G1 X{} Y{} Z{}", next(200.0), next(200.0), -next(2.0))?,
+        }
+    }
+    writeln!(out, "G80\nM2")
 }
 
 /// Numbers from 0 to a range, the same at every run.

@@ -3,13 +3,21 @@
 
 mod support;
 
+#[path = "support/nc.rs"]
+mod nc;
+
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 use std::sync::Mutex;
 
+use nc::{difference, simulated};
+use postform::nc::{Control, Settings};
 use postform::render::{Cycles, Options};
-use support::root;
+use postform::toolpath::Sink;
+use postform::toolpath::json::{read_document, read_lines};
+use postform::verify::{Comparer, Expectation, Verdict};
+use support::{Kind, root, sample_job, samples};
 
 /// What the interpreter makes of a program: its canonical calls, or its error.
 fn interpreted(program: &Path, tools: &str) -> Option<String> {
@@ -90,4 +98,65 @@ fn cycles_of_the_control_go_where_the_moves_go() {
         let deepest = |list: &[(bool, [f64; 3])]| list.iter().map(|(_, to)| to[2]).fold(f64::MAX, f64::min);
         assert_eq!(deepest(&by_control), deepest(&by_moves), "{name}");
     }
+}
+
+/// Every sample that this post can print: the interpreter's motions are those of the simulator, and the simulator's are
+/// those of the job. So the real interpreter does what the job asks for.
+#[test]
+fn samples_run_in_the_interpreter_as_their_jobs_ask() {
+    let form = root().join("postforms/linuxcnc.pf");
+    let checked = support::check_file(&form);
+    let settings = postform::compile::compile(&checked.form).settings;
+    let (mut run, mut compensated) = (0, 0);
+    for folder in samples() {
+        let (job, kind) = sample_job(&folder);
+        let bytes = fs::read(&job).unwrap();
+        let read = |sink: &mut dyn Sink| match kind {
+            Kind::Document => read_document(&bytes[..], sink).is_ok(),
+            Kind::Lines => read_lines(&bytes[..], sink).is_ok(),
+            Kind::Cl => {
+                let mut report = postform::cl::Report::default();
+                postform::cl::read_cl(&bytes[..], &postform::cl::Options::default(), &mut report, sink).is_ok()
+            }
+        };
+        // registers of diameters are tools of the table too
+        let tools: String = (1..40).map(|n| format!("T{n} P{n} Z0 D0.0001\n")).collect();
+        for cycles in [Cycles::Form, Cycles::Emulated] {
+            let options = Options { cycles, program: Some(1), ..Options::default() };
+            // jobs for other machines, and what this post refuses
+            let Ok(rendered) = support::render_sample_with(&folder, &form, options) else { continue };
+            if rendered.notes.iter().any(|note| note.code == postform::diag::Code::PR023) {
+                continue; // ends under compensation, where no control goes home
+            }
+            let name = folder.file_name().unwrap().to_string_lossy().into_owned();
+            let mut comparer = Comparer::new(
+                std::io::Cursor::new(rendered.text.clone()),
+                Settings::new(Control::Linuxcnc),
+                Expectation::of_form(&settings, false),
+                true,
+                None,
+            );
+            let done = read(&mut comparer);
+            let verdict = comparer.verdict().unwrap();
+            if !done && !matches!(verdict, Verdict::Different(_)) {
+                continue; // nothing that can be proven, as a subprogram
+            }
+            assert!(!matches!(verdict, Verdict::Different(_)), "{name} {cycles:?}: {verdict:?}\n{}", rendered.text);
+            let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("sample-{name}-{cycles:?}.ngc"));
+            fs::write(&program, &rendered.text).unwrap();
+            let Some(calls) = interpreted(&program, &tools) else { return };
+            assert!(calls.contains("PROGRAM_END()"), "{name}: {}\n{calls}", rendered.text);
+            let (ours, ended, _) = simulated(rendered.text.as_bytes(), Settings::new(Control::Linuxcnc));
+            assert_eq!(ended, Ok(()), "{name}");
+            // the interpreter offsets the path under compensation, the simulator only follows it
+            if rendered.text.contains("G41") || rendered.text.contains("G42") {
+                compensated += 1;
+            } else {
+                let difference = difference(&ours, &nc::interpreted(&calls));
+                assert_eq!(difference, None, "{name} {cycles:?}\n{}", rendered.text);
+                run += 1;
+            }
+        }
+    }
+    assert!(run >= 20, "{run} programs compared, {compensated} with compensation");
 }

@@ -277,7 +277,7 @@ fn the_same_program_however_it_is_written() {
     for text in variants {
         assert_eq!(motions(Control::Fanuc, &text), wanted, "{text:?}");
     }
-    let latin1 = [&b"(90\xb0)\n"[..], plain[2..].as_bytes()].concat();
+    let latin1 = [&b"(90\xb0)\n"[..], &plain.as_bytes()[2..]].concat();
     let (calls, ended, _) = simulated(&latin1, Settings::new(Control::Fanuc));
     assert_eq!((calls.len(), ended), (2, Ok(())));
     let skipped = Settings { block_delete: true, ..Settings::new(Control::Fanuc) };

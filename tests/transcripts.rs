@@ -44,6 +44,21 @@ fn every_problem_of_a_cycle_is_explained() {
     }
 }
 
+/// So has each problem of a program, and each finding of verify, under the title that the table gives it.
+#[test]
+fn every_problem_of_a_program_is_explained() {
+    for (file, family) in [("docs/programs.md", "PN"), ("docs/verify.md", "PV")] {
+        let page = fs::read_to_string(root().join(file)).unwrap();
+        for row in postform::diag::CODES.iter().filter(|row| row.name.starts_with(family)) {
+            let head = format!("\n### {} {}\n", row.name, row.title);
+            let section = page.split_once(&head).unwrap_or_else(|| panic!("{file} has no {head}")).1;
+            assert!(section.split("\n### ").next().unwrap().contains("*Instead:* "), "{} says nothing to do", row.name);
+        }
+        let sections = page.matches(&format!("\n### {family}")).count();
+        assert_eq!(sections, postform::diag::CODES.iter().filter(|row| row.name.starts_with(family)).count());
+    }
+}
+
 /// The published schema is the one that the types make, and the sample jobs are of its shape.
 #[test]
 fn the_job_schema_is_current() {

@@ -9,7 +9,11 @@ use super::args::ExplainArgs;
 use super::{Ending, output};
 
 /// The pages: a section each, headed by code and name.
-const PAGES: &str = include_str!("../../docs/cycles.md");
+const PAGES: [&str; 3] = [
+    include_str!("../../docs/cycles.md"),
+    include_str!("../../docs/programs.md"),
+    include_str!("../../docs/verify.md"),
+];
 
 /// Prints what a code means and what to write instead.
 pub fn run(args: &ExplainArgs) -> Ending {
@@ -40,8 +44,8 @@ fn names(code: Code) -> impl Iterator<Item = &'static str> {
 /// The section of a code; empty where it has none yet.
 fn page(name: &str) -> String {
     let head = format!("### {name} ");
-    let Some(at) = PAGES.find(&head) else { return String::new() };
-    let body = PAGES[at..].split_once('\n').map_or("", |(_, body)| body);
+    let Some(at) = PAGES.iter().find_map(|page| page.split_once(&head)) else { return String::new() };
+    let body = at.1.split_once('\n').map_or("", |(_, body)| body);
     let end = body.find("\n### ").unwrap_or(body.len());
     format!("\n{}\n", body[..end].trim().replace("*Instead:*", "Instead:").replace("*Better:*", "Better:"))
 }

@@ -133,121 +133,170 @@ fn stop_name(kind: StopKind) -> &'static str {
     if kind == StopKind::Program { "program" } else { "optional" }
 }
 
+/// A line that is written from its end to its beginning: digits come that way, and nothing is copied twice.
+struct Backwards {
+    bytes: [u8; 320],
+    at: usize,
+}
+
+impl Backwards {
+    fn new() -> Backwards {
+        Backwards { bytes: [0; 320], at: 320 }
+    }
+
+    #[inline]
+    fn byte(&mut self, byte: u8) {
+        self.at -= 1;
+        self.bytes[self.at] = byte;
+    }
+
+    #[inline]
+    fn text(&mut self, text: &[u8]) {
+        self.at -= text.len();
+        self.bytes[self.at..][..text.len()].copy_from_slice(text);
+    }
+
+    #[inline]
+    fn whole(&mut self, mut value: u64) {
+        loop {
+            self.byte(b'0' + (value % 10) as u8);
+            value /= 10;
+            if value == 0 {
+                return;
+            }
+        }
+    }
+
+    /// A word: its letter, and a number with up to five decimals.
+    #[inline]
+    fn word(&mut self, letter: &[u8], value: f64) {
+        match quantise(value, 5) {
+            Some(units) => {
+                let size = units.unsigned_abs();
+                let mut part = (size % 100_000) as u32;
+                if part > 0 {
+                    let mut decimals = 5;
+                    while part.is_multiple_of(10) {
+                        part /= 10;
+                        decimals -= 1;
+                    }
+                    for _ in 0..decimals {
+                        self.byte(b'0' + (part % 10) as u8);
+                        part /= 10;
+                    }
+                    self.byte(b'.');
+                }
+                self.whole(size / 100_000);
+                if units < 0 {
+                    self.byte(b'-');
+                }
+            }
+            None => self.text(format!("{value:e}").as_bytes()),
+        }
+        self.text(letter);
+    }
+
+    fn position(&mut self, to: &[f64; 6]) {
+        for (letter, value) in [b" C", b" B", b" A"].iter().zip(to[3..].iter().rev()) {
+            if *value != 0.0 {
+                self.word(*letter, *value);
+            }
+        }
+        self.word(b" Z", to[2]);
+        self.word(b" Y", to[1]);
+        self.word(b"X", to[0]);
+    }
+
+    /// The line's number and what is done, before the rest.
+    fn head(&mut self, line: u64, what: &[u8]) {
+        // the line end alone needs no column
+        if self.at < self.bytes.len() - 1 {
+            self.text(&b"        "[what.len()..]);
+        }
+        self.text(what);
+        self.text(b"  ");
+        let before = self.at;
+        self.whole(line);
+        let width = before - self.at;
+        self.text(&b"      "[width.min(6)..]);
+    }
+}
+
 /// One action as a line of text.
 fn line(item: &Item, block: &[u8], out: &mut Vec<u8>) {
+    let mut text = Backwards::new();
+    text.byte(b'\n');
     let what = match &item.action {
-        Action::Rapid { .. } => "rapid",
-        Action::Feed { .. } => "feed",
-        Action::Arc(turn) => turn_name(turn.direction),
-        Action::Dwell(_) => "dwell",
-        Action::Spindle(..) => "spindle",
-        Action::Orient(_) => "orient",
-        Action::Stop(_) => "stop",
-        Action::End => "end",
-        Action::Tool(_) => "tool",
-        Action::Coolant(_) => "coolant",
-        Action::Units(_) => "units",
-        Action::Work(_) => "work",
-        Action::Comment(..) => "comment",
-        _ => return,
-    };
-    let mut digits = itoa::Buffer::new();
-    let number = digits.format(item.line);
-    out.extend_from_slice(&b"      "[number.len().min(6)..]);
-    out.extend_from_slice(number.as_bytes());
-    out.extend_from_slice(b"  ");
-    out.extend_from_slice(what.as_bytes());
-    out.extend_from_slice(&b"        "[what.len()..]);
-    match &item.action {
         Action::Rapid { to, machine } => {
-            position(to, out);
             if *machine != 0 {
-                out.extend_from_slice(b"  (");
-                out.extend((0..6).filter(|axis| machine & 1 << axis != 0).map(|axis| b"XYZABC"[axis]));
-                out.extend_from_slice(b" in machine coordinates)");
+                text.text(b" in machine coordinates)");
+                (0..6).rev().filter(|axis| machine & 1 << axis != 0).for_each(|axis| text.byte(b"XYZABC"[axis]));
+                text.text(b"  (");
             }
+            text.position(to);
+            "rapid"
         }
         Action::Feed { to, feed, lead } => {
-            position(to, out);
             match lead {
-                Some(lead) => word(b" lead ", *lead, out),
-                None => word(b" F", *feed, out),
+                Some(lead) => text.word(b" lead ", *lead),
+                None => text.word(b" F", *feed),
             }
+            text.position(to);
+            "feed"
         }
         Action::Arc(turn) => {
-            position(&turn.to, out);
-            word(b" F", turn.feed, out);
-            word(b"  centre X", turn.center[0], out);
-            word(b" Y", turn.center[1], out);
-            word(b" Z", turn.center[2], out);
-            out.extend_from_slice(b" in ");
-            out.extend_from_slice(plane_name(turn.plane).as_bytes());
             if turn.turns > 0 {
-                word(b", whole turns before: ", f64::from(turn.turns), out);
+                text.word(b", whole turns before: ", f64::from(turn.turns));
             }
+            text.text(plane_name(turn.plane).as_bytes());
+            text.text(b" in ");
+            text.word(b" Z", turn.center[2]);
+            text.word(b" Y", turn.center[1]);
+            text.word(b"  centre X", turn.center[0]);
+            text.word(b" F", turn.feed);
+            text.position(&turn.to);
+            turn_name(turn.direction)
         }
         Action::Dwell(seconds) => {
-            word(b"", *seconds, out);
-            out.extend_from_slice(b" s");
+            text.text(b" s");
+            text.word(b"", *seconds);
+            "dwell"
         }
         Action::Spindle(rotation, speed) => {
-            out.extend_from_slice(rotation.name().as_bytes());
-            word(b" S", *speed, out);
+            text.word(b" S", *speed);
+            text.text(rotation.name().as_bytes());
+            "spindle"
         }
-        Action::Orient(value) | Action::Tool(value) | Action::Work(value) => word(b"", *value, out),
-        Action::Stop(kind) => out.extend_from_slice(stop_name(*kind).as_bytes()),
-        Action::Coolant(kind) => out.extend_from_slice(kind.name().as_bytes()),
-        Action::Units(units) => out.extend_from_slice(units.name().as_bytes()),
+        Action::Orient(value) => number_line(&mut text, *value, "orient"),
+        Action::Tool(value) => number_line(&mut text, *value, "tool"),
+        Action::Work(value) => number_line(&mut text, *value, "work"),
+        Action::Stop(kind) => name_line(&mut text, stop_name(*kind), "stop"),
+        Action::Coolant(kind) => name_line(&mut text, kind.name(), "coolant"),
+        Action::Units(units) => name_line(&mut text, units.name(), "units"),
+        Action::End => "end",
         Action::Comment(start, end) => {
-            let text = block.get(*start..*end).unwrap_or_default();
-            out.extend_from_slice(postform::diag::escaped(String::from_utf8_lossy(text).trim()).as_bytes());
+            text.byte(b' ');
+            text.head(item.line, b"comment");
+            let comment = String::from_utf8_lossy(block.get(*start..*end).unwrap_or_default());
+            out.extend_from_slice(&text.bytes[text.at..text.bytes.len() - 1]);
+            out.extend_from_slice(postform::diag::escaped(comment.trim()).as_bytes());
+            out.push(b'\n');
+            return;
         }
-        _ => {}
-    }
-    out.push(b'\n');
-}
-
-fn position(to: &[f64; 6], out: &mut Vec<u8>) {
-    word(b"X", to[0], out);
-    word(b" Y", to[1], out);
-    word(b" Z", to[2], out);
-    for (letter, value) in [b" A", b" B", b" C"].iter().zip(&to[3..]).filter(|(_, value)| **value != 0.0) {
-        word(*letter, *value, out);
-    }
-}
-
-/// A number with up to five decimals.
-#[inline]
-fn word(before: &[u8], value: f64, out: &mut Vec<u8>) {
-    out.extend_from_slice(before);
-    let Some(units) = quantise(value, 5) else {
-        out.extend_from_slice(format!("{value}").as_bytes());
-        return;
+        _ => return,
     };
-    if units < 0 {
-        out.push(b'-');
-    }
-    let units = units.unsigned_abs();
-    let (whole, part) = (units / 100_000, (units % 100_000) as u32);
-    match whole {
-        0..10 => out.push(b'0' + whole as u8),
-        _ => out.extend_from_slice(itoa::Buffer::new().format(whole).as_bytes()),
-    }
-    if part == 0 {
-        return;
-    }
-    let [a, b, c] = [part / 10_000, part / 100 % 100, part % 100];
-    let digits = [
-        b'.',
-        b'0' + a as u8,
-        b'0' + (b / 10) as u8,
-        b'0' + (b % 10) as u8,
-        b'0' + (c / 10) as u8,
-        b'0' + (c % 10) as u8,
-    ];
-    let zeros = digits.iter().rev().take_while(|&&digit| digit == b'0').count();
-    out.extend_from_slice(&digits);
-    out.truncate(out.len() - zeros);
+    text.head(item.line, what.as_bytes());
+    out.extend_from_slice(&text.bytes[text.at..]);
+}
+
+fn number_line(text: &mut Backwards, value: f64, what: &'static str) -> &'static str {
+    text.word(b"", value);
+    what
+}
+
+fn name_line(text: &mut Backwards, name: &str, what: &'static str) -> &'static str {
+    text.text(name.as_bytes());
+    what
 }
 
 /// One action as a JSON object.
@@ -381,9 +430,7 @@ fn rapid_rate(units: Units) -> f64 {
 }
 
 fn short(value: f64) -> String {
-    let mut text = Vec::new();
-    word(b"", (value * 1e4).round() / 1e4, &mut text);
-    String::from_utf8_lossy(&text).into_owned()
+    format!("{}", (value * 1e4).round() / 1e4 + 0.0)
 }
 
 /// Minutes as 1:02:03.

@@ -213,15 +213,8 @@ impl<R: BufRead + Seek> Program<R> {
             Action::Compensation(side) => self.state.side = Some(side.map(|(side, _)| side)),
             Action::Hole(_) => self.cycle = true,
             Action::CycleOff => self.cycle = false,
-            Action::End => {
-                if self.cycle {
-                    self.hazard(
-                        Code::PV013,
-                        item.line,
-                        "a canned cycle is still in force at the end",
-                        "end it with G80",
-                    );
-                }
+            Action::End if self.cycle => {
+                self.hazard(Code::PV013, item.line, "a canned cycle is still in force at the end", "end it with G80");
             }
             _ => {}
         }

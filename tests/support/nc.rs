@@ -90,7 +90,11 @@ pub fn interpreted(canon: &str) -> Vec<Call> {
         let Some((name, rest)) = line.split_once('(') else { continue };
         let name = name.rsplit(' ').next().unwrap();
         let numbers: Vec<f64> = rest.split([',', ')']).filter_map(|n| n.trim().parse().ok()).collect();
-        let six = |list: &[f64]| <[f64; 6]>::try_from(&list[..6]).unwrap();
+        let six = |list: &[f64]| {
+            let mut to = [0.0; 6];
+            to[..list.len().min(6)].copy_from_slice(&list[..list.len().min(6)]);
+            to
+        };
         let turn = |now: &mut Rotation, to: Rotation| {
             let changed = *now != to;
             *now = to;

@@ -133,7 +133,6 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
                 std::io::Cursor::new(rendered.text.clone()),
                 Settings::new(Control::Linuxcnc),
                 Expectation::of_form(&settings, false),
-                true,
                 None,
             );
             let done = read(&mut comparer);

@@ -259,6 +259,35 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
     assert_eq!(refused(Control::Fanuc, &long), ("PN001".into(), 1));
 }
 
+/// What a trial machinist and the real interpreter found.
+#[test]
+fn rules_that_are_easily_missed() {
+    let both = |program: &str| motions(Control::Linuxcnc, program);
+    assert_eq!(both("G80 G0 X1\nM2\n"), ["T 1 0 0"], "G80 beside a motion counts for nothing");
+    assert_eq!(both("G0 X[1 EQ 1.00005]\nM2\n"), ["T 1 0 0"]);
+    assert_eq!(both("#1=0\no1 do\n#1=[#1+1]\no1 continue\nG0 X1\no1 while [#1 LT 3]\nM2\n"), Vec::<String>::new());
+    assert_eq!(both("\u{feff}G0 X1\nM2\n"), ["T 1 0 0"], "the mark before UTF-8");
+    assert_eq!(refused(Control::Linuxcnc, "G0 X5 o1 if [1]\nM2\n"), ("PN015".into(), 1));
+    assert_eq!(refused(Control::Linuxcnc, "#5161=10\nM2\n"), ("PN014".into(), 1));
+    assert_eq!(refused(Control::Linuxcnc, "F10\nG81 X1 Z-1 R1\nG53 X2\nM2\n"), ("PN006".into(), 3));
+    assert_eq!(
+        refused(Control::Linuxcnc, "M3 S1\nT1 M6\nF10\nG84 X2 Z-1 R1\nM2\n"),
+        ("PN012".into(), 4),
+        "M6 stops the spindle"
+    );
+    assert_eq!(refused(Control::Fanuc, "G81 X1. Z-1. R.1 F5.\nX3. G4 P200\nM30\n"), ("PN004".into(), 2));
+    assert_eq!(refused(Control::Fanuc, "G1 G41 X1. F9.\nM30\n"), ("PN007".into(), 1));
+    // the spindle stops when the motion is done
+    assert_eq!(fanuc("G1 X1. F10. M5")[..], ["F 1 0 10", "stop"]);
+    // a whole circle by its centre alone
+    assert_eq!(fanuc("G2 X0. I1. F10.\nI2.").len(), 2);
+    // blocks and loops whose moves nobody could wait for
+    let many = refused(Control::Linuxcnc, "F10\nG91 G83 X1 Z-10000 R1 Q.011 L9999\nM2\n");
+    assert_eq!(many, ("PN018".into(), 2));
+    let deep = "F10. G91\nG81 X0. Y0. Z-.1 R.1\nM98 P2 L9999\nM30\nO2\nM98 P3 L9999\nM99\nO3\nX.0001 K9999\nM99\n";
+    assert_eq!(refused(Control::Fanuc, deep).0, "PN015");
+}
+
 /// Line ends, characters and case of all kinds are the same program.
 #[test]
 fn the_same_program_however_it_is_written() {

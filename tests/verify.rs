@@ -43,7 +43,7 @@ fn verified(form: &Checked, program: &str, job: Job<'_>) -> Verdict {
     let compiled = compile(&form.form);
     let settings = Settings::new(Control::of_form(&compiled.settings.control));
     let expectation = Expectation::of_form(&compiled.settings, false);
-    let mut comparer = Comparer::new(Cursor::new(program.to_owned()), settings, expectation, true, None);
+    let mut comparer = Comparer::new(Cursor::new(program.to_owned()), settings, expectation, None);
     let read = job(&mut comparer);
     let verdict = comparer.verdict().unwrap();
     assert!(read || matches!(verdict, Verdict::Different(_)), "the job is read to its end");
@@ -238,7 +238,8 @@ fn changed_programs_are_caught_and_rewritten_ones_are_not() {
     };
     assert_eq!(code("Z-12.25", "Z-2.25"), "PV004");
     assert_eq!(code("X20.", "X21."), "PV002");
-    assert_eq!(code("X40. Y10.", "X40. Y10.5"), "PV015", "the ends of the arc lie on no circle");
+    assert_eq!(code("X40. Y10.", "X40. Y10.5"), "PV001");
+    assert_eq!(code("X40. Y10.", "X40. Y12."), "PV015", "the ends of the arc lie on no circle");
     assert_eq!(code("F300.", "F3000."), "PV006");
     assert_eq!(code("G0 Z50.", "Z50."), "PV008");
     assert_eq!(code("M30\n%\n", ""), "PV015");
@@ -294,4 +295,95 @@ fn becomes_a_job(fanuc: &Checked, text: &str, posts: &[&str]) {
         let against_source = verified(&form, &new, &source);
         assert!(!matches!(against_source, Verdict::Different(_)), "{name}: {against_source:?}\n{new}");
     }
+}
+
+/// A job of one tool in inches.
+fn inches(tool: &str, path: &str) -> String {
+    format!(
+        r#"{{"postform":1,"program":7,"units":"inch","tools":[{{"number":1,"length_offset":1}},{{"number":2,"diameter_offset":12}}],
+        "operations":[{{"tool":{tool},"work":54,"spindle":{{"speed":3000,"direction":"cw"}},"coolant":"flood","feed":20,"path":[{path}]}}]}}"#
+    )
+}
+
+/// Programs of the Haas post, changed in one place: each would have been a part or a tool lost.
+#[test]
+fn one_change_is_never_too_small() {
+    let form = check(&post("haas.pf"));
+    let circle = r#"{"rapid":[2,0,1]},{"line":[2,0,-0.1]},{"arc":{"to":[2,0],"center":[1,0],"direction":"ccw"}},{"rapid":[2,0,1]}"#;
+    let helix = r#"{"rapid":[2,0,1]},{"line":[2,0,0]},{"arc":{"to":[2,0,-0.1],"center":[1,0],"direction":"ccw"}},{"line":[3,0,-0.1]},{"rapid":[3,0,1]}"#;
+    let holes = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"drill","depth":0.5,"clear":0.1,"feed":5,"points":[[1,1,0]]}},{"rapid":[1,1,1]},{"rapid":[3,3,1]},
+        {"cycle":{"kind":"ream","depth":0.4,"clear":0.1,"feed":5,"points":[[3,3,0]]}},{"rapid":[3,3,1]}"#;
+    let deep = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","depth":1,"clear":0.1,"return":0.5,"feed":5,"step":0.25,"points":[[1,1,0],[2,1,0]]}},{"rapid":[3,3,1]}"#;
+    let bore = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"bore","depth":0.5,"clear":0.1,"feed":5,"orient":0,"offset":0.02,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
+    let stop = r#"{"rapid":[2,0,1]},{"line":[2,0,-0.1]},{"rapid":[2,0,1]},{"stop":"program"},{"rapid":[3,0,1]},{"line":[3,0,-0.1]},{"rapid":[3,0,1]}"#;
+    let sides = r#"{"rapid":[2,0,1]},{"rapid":[2,0,-0.1]},{"infeed":[2,1],"side":"left"},{"line":[2,2]},{"outfeed":[3,2]},{"rapid":[3,2,1]}"#;
+    let tap = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"tap","depth":0.5,"clear":0.2,"feed":150,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
+    let mutations = [
+        ("1", circle, "G0 Z1.\n", "G0 X-9. Y9.\n", "PV009"),
+        ("1", circle, "G0 Z1.\n", "G0 Z-5.\n", "PV009"),
+        ("1", circle, "H1", "H7", "PV014"),
+        ("1", circle, "G43", "G44", "PV014"),
+        ("1", circle, "G1 Z-.1", "G49\nG1 Z-.1", "PV014"),
+        ("1", circle, "G43", "G52 Z-1.\nG43", "PV021"),
+        ("1", circle, "G43", "G10 L2 P1 X0 Y0 Z-5.\nG43", "PV021"),
+        ("1", circle, "S3000 M3", "S3000", "PV011"),
+        ("1", circle, "T1 M6", "T1", "PV012"),
+        ("1", circle, "T1 M6", "T1 M6\nG0 G54 X-5. Y-5.\nG43 H1 Z-3.", "PV009"),
+        ("1", circle, "G20 ", "", "PV022"),
+        ("1", circle, "I-1. J0", "I-.9998 J.02", "PV001"),
+        ("1", circle, "G17 G3", "M1\nG17 G3", "PV019"),
+        ("1", circle, "M30", "M99", "PV016"),
+        ("1", helix, "G17 G3 Z-.1 I-1. J0", "G1 Z-.1", "PV001"),
+        ("1", holes, "N110 Z.1", "N110 Z-.45", "PV009"),
+        ("1", deep, "G98 G83", "G98 G73", "PV023"),
+        ("1", deep, "Q.25", "Q25.", "PV023"),
+        ("1", bore, "M19 R0", "(M19)", "PV011"),
+        ("1", stop, "S3000 M3\nN100 M8\nN110", "\nN110", "PV011"),
+        ("2", sides, "D12", "D11", "PV018"),
+        ("2", sides, "G41", "G42", "PV018"),
+        ("1", tap, "F150.", "F151.", "PV006"),
+    ];
+    for (tool, path, from, to, code) in mutations {
+        let text = inches(tool, path);
+        let job = document(&text);
+        let program = rendered(&form, &job, Cycles::Form);
+        let right = verified(&form, &program, &job);
+        assert!(!matches!(right, Verdict::Different(_)), "{right:?}\n{program}");
+        assert!(program.contains(from), "`{from}` in\n{program}");
+        let changed = program.replacen(from, to, 1);
+        let Verdict::Different(findings) = verified(&form, &changed, &job) else {
+            panic!("{from} -> {to} is not found\n{changed}");
+        };
+        let codes: Vec<&str> = findings.iter().map(|finding| finding.code.name()).collect();
+        assert!(codes.contains(&code), "{from} -> {to}: {code} wanted\n{findings:#?}\n{changed}");
+    }
+}
+
+/// Right programs that look unusual: circles after circles, digits that do not close, parts of a cut, a plunge into a hole.
+#[test]
+fn right_programs_are_not_called_wrong() {
+    let paths = [
+        r#"{"rapid":[2,0,1]},{"arc":{"to":[2,0],"center":[1,0],"direction":"ccw"}},{"arc":{"to":[2,0],"center":[1.5,0],"direction":"ccw"}},{"rapid":[2,0,2]}"#,
+        r#"{"rapid":[2,-0.00004,1]},{"line":[2,-0.00004,-0.1]},{"arc":{"to":[2,-0.00004],"center":[1,0],"direction":"ccw"}},{"rapid":[2,0,2]}"#,
+        r#"{"rapid":[2.00004,0.00004,1]},{"line":[2.00004,0.00004,-0.1]},{"arc":{"to":[2.00004,0.00004],"center":[1,0],"direction":"cw"}},{"rapid":[2,0,2]}"#,
+        r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","depth":0.5,"clear":0.1,"feed":5,"step":0.2,"points":[[1,1,0]]}},{"rapid":[1,1,1]},{"line":[1,1,-0.2],"feed":10},{"line":[2,1,-0.2]},{"rapid":[2,1,1]}"#,
+        r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","depth":0.5,"clear":0.1,"feed":5,"step":0.2,"points":[[1,1,0]]}},{"cycle":{"kind":"ream","depth":0.5,"clear":0.1,"feed":5,"points":[[1,1,0]]}}"#,
+    ];
+    for name in ["haas.pf", "fanuc.pf", "linuxcnc.pf"] {
+        let form = check(&post(name));
+        for path in paths {
+            let text = inches("1", path);
+            let job = document(&text);
+            let program = rendered(&form, &job, Cycles::Form);
+            let verdict = verified(&form, &program, &job);
+            assert!(!matches!(verdict, Verdict::Different(_)), "{name}: {verdict:?}\n{program}");
+        }
+    }
+    let form = check(&post("haas.pf"));
+    let text = inches("1", r#"{"rapid":[0,0,1]},{"line":[0,0,-0.1]},{"line":[3,0,-0.1]},{"rapid":[3,0,1]}"#);
+    let job = document(&text);
+    let program = rendered(&form, &job, Cycles::Form);
+    let parts = verified(&form, &program.replacen("X3.", "X1.\nX2.5\nX3.", 1), &job);
+    assert_eq!(parts, Verdict::Equivalent(Equivalences { parts: 1, ..Equivalences::default() }));
+    assert!(matches!(verified(&form, &program.replacen("X3.", "X2.5", 1), &job), Verdict::Different(_)));
 }

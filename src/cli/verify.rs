@@ -121,8 +121,7 @@ impl Proof<'_> {
         };
         let sink_as_printed = self.prepared.is_some_and(|prepared| prepared.options.sink_as_printed);
         let expectation = form.map_or_else(Expectation::default, |form| Expectation::of_form(form, sink_as_printed));
-        let lengths = form.is_none_or(|form| form.control != "grbl");
-        let comparer = Comparer::new(files::buffered(program), settings, expectation, lengths, self.tolerance);
+        let comparer = Comparer::new(files::buffered(program), settings, expectation, self.tolerance);
         let mut comparer = Started { comparer, known: self.prepared.is_none_or(|p| p.options.units.is_none()) };
         let read = self.job.read(&mut comparer)?;
         let counts = comparer.comparer.counts();
@@ -208,6 +207,7 @@ fn sentence(verdict: &Verdict, program: &str, job: &str, counts: Counts) -> Stri
                 (other.pecks, "with other pecks", "hole"),
                 (other.ways, "in another order of axes or higher", "way"),
                 (other.arcs, "made of parts", "arc"),
+                (other.parts, "made of parts", "straight cut"),
                 (other.outs, "left at feed farther up", "hole"),
                 (other.entries, "left and entered again", "cut"),
                 (other.slow, "at feed that turn compensation on or off", "rapid"),

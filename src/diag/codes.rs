@@ -203,6 +203,9 @@ codes! {
     PV018 Error "other cutter compensation"
     PV019 Error "a stop that is missing"
     PV020 Error "motions that can't be proven"
+    PV021 Error "a moved coordinate frame"
+    PV022 Error "units that are not said"
+    PV023 Error "other pecks"
 }
 
 impl Code {

@@ -55,6 +55,8 @@ pub enum Action {
     Units(Units),
     /// What feeds count from here on.
     FeedMode(FeedMode),
+    /// The plane of arcs, cycles and compensation.
+    Plane(Plane),
     /// Work offset, as 54, 59.1, or 1540 + the number of a Haas.
     Work(f64),
     /// Tool length offset by its register; `None` without.
@@ -148,6 +150,8 @@ pub struct Drilling {
     pub code: u16,
     /// Hole, at the height of the clear level.
     pub at: Position,
+    /// The plane across the hole.
+    pub plane: Plane,
     /// The R plane.
     pub r: f64,
     /// The bottom.

@@ -79,13 +79,13 @@ impl Machine {
         Ok(())
     }
 
-    /// Both ends must lie on one circle, as near as LinuxCNC's manual asks; a Fanuc has a parameter for it.
+    /// Both ends must lie on one circle, as near as LinuxCNC was seen to ask; a Fanuc has a parameter for it.
     fn check_radii(&self, from: [f64; 6], to: [f64; 6], center: [f64; 3]) -> Done {
         let [first, second, _] = axes_of(self.plane);
         let radius = |at: &[f64; 6]| (at[first] - center[first]).hypot(at[second] - center[second]);
         let (start, end) = (radius(&from), radius(&to));
         let difference = (start - end).abs();
-        let (most, least) = if self.units == Units::Inch { (0.05, 0.0005) } else { (0.5, 0.005) };
+        let (most, least) = if self.units == Units::Inch { (0.05, 0.002_828) } else { (0.5, 0.028_28) };
         if start == 0.0 || difference > most || (difference > least && difference > 0.001 * start) {
             let message = format!("the arc begins at radius {start:.5} and ends at {end:.5}");
             return refuse(Code::PN009, message, "look at its end, its centre, and G90.1 or G91.1");
@@ -102,7 +102,7 @@ fn center_of(from: [f64; 2], to: [f64; 2], radius: f64, direction: Direction, un
         return refuse(Code::PN009, "a full circle by R", "write its centre: any circle goes through one point");
     }
     let half = chord / 2.0;
-    let slack = if units == Units::Inch { 0.0005 } else { 0.005 };
+    let slack = if units == Units::Inch { 0.000_05 } else { 0.001_27 };
     if half > radius.abs() + slack {
         let message = format!("R{radius} is too small: the ends are {chord:.5} apart");
         return refuse(Code::PN009, message, format!("R must be at least {half:.5}"));

@@ -5,7 +5,7 @@ use super::control::Control;
 use super::expression::Reader;
 use super::fault::{Done, Fault, refuse};
 use super::flow::Flow;
-use super::machine::{NO_MOTION, Settings, is_cycle};
+use super::machine::{NO_MOTION, Settings};
 use super::parameters::{Parameters, Target};
 use super::scan::{Kind, tokens, tokens_from};
 use crate::diag::Code;
@@ -131,6 +131,14 @@ impl Block {
             stream.skip_blanks();
             let Some(token) = stream.next() else { break };
             match token.kind {
+                Kind::Word(b'O' | b':', _) if !self.is_empty => {
+                    return Err(Fault::at(
+                        Code::PN015,
+                        token.start,
+                        "words before an O word",
+                        "write it in a block of its own",
+                    ));
+                }
                 Kind::Word(b'O' | b':', number) => {
                     let mut reader = Reader::new(line, stream);
                     self.flow = Some(Flow::read(format!("{}", number.value), &mut reader, parameters)?);
@@ -208,7 +216,7 @@ impl Block {
         }
         self.check(control)?;
         for (target, value) in self.settings.drain(..) {
-            parameters.set(target, value);
+            parameters.set(target, value)?;
         }
         Ok(())
     }
@@ -287,11 +295,11 @@ impl Block {
         self.takes_axes |= row.takes_axes;
         self.has_modes |= !matches!(row.group, Group::Motion | Group::Cycle);
         let group = row.group as usize;
-        // beside a cycle, LinuxCNC takes no notice of G80
+        // beside another motion, LinuxCNC takes no notice of G80
         if control.is_linuxcnc() && row.group == Group::Motion {
             match self.g[group].map(|before| before.code) {
-                Some(before) if code == NO_MOTION && is_cycle(before) => return Ok(()),
-                Some(NO_MOTION) if is_cycle(code) => self.g[group] = None,
+                Some(_) if code == NO_MOTION => return Ok(()),
+                Some(NO_MOTION) => self.g[group] = None,
                 _ => {}
             }
         }

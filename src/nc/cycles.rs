@@ -86,6 +86,7 @@ impl Machine {
         let hole = self.words(code, same, block, &name)?;
         let hole =
             Hole { r: plane_r, bottom, clear: if self.to_initial { initial.max(plane_r) } else { plane_r }, ..hole };
+        check_moves(times, &hole)?;
         let was = self.position;
         let level = was[across];
         let mut at = self.position;
@@ -131,9 +132,21 @@ impl Machine {
     /// A hole as its reader sees it, before its moves.
     pub(super) fn announce(&self, hole: &Hole, out: &mut Out<'_>) {
         out.by_cycle = false;
-        let Hole { code, r, bottom, clear, dwell, peck, shift, level, feed, .. } = *hole;
+        let Hole { code, plane, r, bottom, clear, dwell, peck, shift, level, feed, .. } = *hole;
         let at = hole.over(clear);
-        out.push(Action::Hole(Box::new(Drilling { code, at, r, bottom, clear, dwell, peck, shift, level, feed })));
+        out.push(Action::Hole(Box::new(Drilling {
+            code,
+            at,
+            plane,
+            r,
+            bottom,
+            clear,
+            dwell,
+            peck,
+            shift,
+            level,
+            feed,
+        })));
     }
 
     fn check_cycle(&self, block: &Block) -> Done {
@@ -215,6 +228,15 @@ impl Machine {
         let (r, depth) = (self.series.r.unwrap_or(0.0), self.series.depth.unwrap_or(0.0));
         if self.absolute { depth } else { self.series.initial + r + depth }
     }
+}
+
+/// A block makes its moves at once: not more than a machine makes in a day.
+pub(super) fn check_moves(times: u32, hole: &Hole) -> Done {
+    let pecks = if hole.peck > 0.0 { ((hole.r - hole.bottom) / hole.peck).abs() } else { 0.0 };
+    if f64::from(times) * (pecks + 4.0) > 1e6 {
+        return refuse(Code::PN018, "a block that makes over a million moves", "look at its repeats and at Q");
+    }
+    Ok(())
 }
 
 /// How often: L, a whole number.

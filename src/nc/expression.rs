@@ -197,9 +197,9 @@ fn apply(operator: &str, left: f64, right: f64) -> Done<f64> {
         "AND" => truth(left != 0.0 && right != 0.0),
         "OR" => truth(left != 0.0 || right != 0.0),
         "XOR" => truth((left != 0.0) != (right != 0.0)),
-        // as LinuxCNC: equal within a millionth
-        "EQ" => truth((left - right).abs() < 1e-6),
-        "NE" => truth((left - right).abs() >= 1e-6),
+        // as LinuxCNC: equal within a ten-thousandth
+        "EQ" => truth((left - right).abs() < 1e-4),
+        "NE" => truth((left - right).abs() >= 1e-4),
         "GT" => truth(left > right),
         "GE" => truth(left >= right),
         "LT" => truth(left < right),

@@ -65,6 +65,10 @@ impl Machine {
         if self.feed == 0.0 {
             return refuse(Code::PN008, "a canned cycle without a feed", "write F with it");
         }
+        if matches!(code, 760 | 870) && series.peck.is_some_and(|q| q < 0.0) {
+            let help = "Q is a distance: a parameter of the control says which way";
+            return refuse(Code::PN018, format!("{name} with a negative Q"), help);
+        }
         let upward = code == 870;
         if (r < bottom) != upward && r != bottom {
             let message = format!("the R plane {r} is {} the bottom {bottom}", if upward { "above" } else { "below" });
@@ -93,6 +97,7 @@ impl Machine {
             level: bottom,
             feed: self.feed,
         };
+        super::cycles::check_moves(times, &hole)?;
         for _ in 0..times {
             for axis in [first, second, 3, 4, 5] {
                 if let Some(value) = self.axis_word(block, axis) {
@@ -116,14 +121,14 @@ impl Machine {
         Ok(())
     }
 
-    /// Off the wall: Q along the first axis, as the parameter stands from the factory, or I and J.
+    /// Off the wall: Q along the first axis, or I and J.
     fn bore_shift(&self, code: u16) -> [f64; 2] {
         if !matches!(code, 760 | 870) {
             return [0.0; 2];
         }
         let [first, second, _] = axes_of(self.plane);
         match [self.series.shift[first], self.series.shift[second]] {
-            [None, None] => [self.series.peck.unwrap_or(0.0), 0.0],
+            [None, None] => [self.settings.bore_shift * self.series.peck.unwrap_or(0.0), 0.0],
             shift => shift.map(|value| value.unwrap_or(0.0)),
         }
     }

@@ -32,6 +32,8 @@ pub struct Settings {
     pub places_unknown: bool,
     /// I, J and K are places from the beginning, as after G90.1.
     pub centers_absolute: bool,
+    /// Which way G76 and G87 of a Fanuc move off the wall along the first axis: a parameter of the machine, 1 or -1.
+    pub bore_shift: f64,
     /// Two things of a FADAL: a comment may go on to the end of its line without a mark, and E is the work offset.
     pub fadal: bool,
 }
@@ -59,6 +61,7 @@ impl Settings {
             unpointed: Unpointed::Refused,
             places_unknown: false,
             centers_absolute: false,
+            bore_shift: 1.0,
             fadal: false,
         }
     }
@@ -103,6 +106,11 @@ pub struct Machine {
     pub(super) spindle: Rotation,
     pub(super) speed: f64,
     pub(super) compensated: bool,
+    side: Option<Side>,
+    /// D, which a Fanuc keeps.
+    diameter_register: Option<f64>,
+    /// A tool length offset is on.
+    length_on: bool,
     /// G98: cycles return to the initial level.
     pub(super) to_initial: bool,
     pub(super) diameter: bool,
@@ -147,6 +155,9 @@ impl Machine {
             spindle: Rotation::Stop,
             speed: 0.0,
             compensated: false,
+            side: None,
+            diameter_register: None,
+            length_on: false,
             to_initial: !settings.control.is_linuxcnc(),
             diameter: false,
             homes: [[0.0; 6]; 2],
@@ -166,8 +177,14 @@ impl Machine {
     }
 
     /// Axes that stand at a place in machine coordinates, as bits.
+    #[inline]
     pub fn at_machine(&self) -> u8 {
         self.at_machine
+    }
+
+    /// Is a tool length offset on?
+    pub(super) fn length_on(&self) -> bool {
+        self.length_on
     }
 
     /// The units in force.
@@ -216,6 +233,9 @@ impl Machine {
         let set_up = block.has(letters("ESTHD")) || !block.m().is_empty();
         if set_up || block.has_modes() {
             self.set_up(block, motion, &mut out)?;
+        }
+        if block.g(Group::Once) == Some(530) && (!matches!(motion, Some(0 | 10)) || in_force.is_some()) {
+            return refuse(Code::PN006, "G53 without G0 or G1", "write G0 with it, and end a cycle with G80 before");
         }
         if block.axes_are_taken() || block.g(Group::Once).is_some() {
             self.once(block, &mut out)?;
@@ -270,13 +290,11 @@ impl Machine {
             if block.axes_are_taken() {
                 return Ok(None);
             }
-            // on a Fanuc a cycle runs for an R alone too, and a plane arc for its centre
+            // on a Fanuc a cycle runs for an R alone too, and a whole circle for its centre alone
             let cycle = block.g(Group::Cycle).is_some() || self.cycle.is_some();
-            return Ok(if cycle && !self.control.is_linuxcnc() && block.has(bit(b'R')) {
-                Some(self.motion)
-            } else {
-                None
-            });
+            let circle = !cycle && matches!(self.motion, 20 | 30) && block.has(letters("IJK"));
+            let runs = !self.control.is_linuxcnc() && (circle || cycle && block.has(bit(b'R')));
+            return Ok(runs.then_some(self.motion));
         }
         if let Some(code) = word.filter(|&code| code != NO_MOTION) {
             if block.has_axes() && block.axes_are_taken() && self.control.is_linuxcnc() {
@@ -327,6 +345,11 @@ impl Machine {
     fn set_up(&mut self, block: &Block, motion: Option<u16>, out: &mut Out<'_>) -> Done {
         self.spindle_and_tool(block, out)?;
         if block.g(Group::Once) == Some(40) {
+            let x_is_no_time = block.has(bit(b'X')) && block.has(bit(b'P'));
+            if !self.control.is_linuxcnc() && (block.has(letters("YZABC")) || x_is_no_time) {
+                let help = "write the dwell in a block of its own: X is its time, too";
+                return refuse(Code::PN004, "G4 and axis words in one block", help);
+            }
             let seconds = match (block.get(b'P'), block.get(b'X')) {
                 (Some(p), _) => self.seconds(p, block),
                 (None, Some(x)) if !self.control.is_linuxcnc() => x,
@@ -337,15 +360,20 @@ impl Machine {
             }
             out.push(Action::Dwell(seconds));
         }
-        match block.g(Group::Plane) {
-            Some(170) => self.plane = Plane::Xy,
-            Some(180) => self.plane = Plane::Xz,
-            Some(190) => self.plane = Plane::Yz,
-            _ => {}
+        let plane = match block.g(Group::Plane) {
+            Some(180) => Plane::Xz,
+            Some(190) => Plane::Yz,
+            Some(_) => Plane::Xy,
+            None => self.plane,
+        };
+        if plane != self.plane {
+            self.plane = plane;
+            out.push(Action::Plane(plane));
         }
+        let feed = block.get(b'F').filter(|_| !self.control.is_linuxcnc());
         match block.g(Group::Units) {
-            Some(200) => self.set_units(Units::Inch, out),
-            Some(210) => self.set_units(Units::Mm, out),
+            Some(200) => self.set_units(Units::Inch, feed, out),
+            Some(210) => self.set_units(Units::Mm, feed, out),
             _ => {}
         }
         match block.g(Group::Diameter) {
@@ -398,33 +426,29 @@ impl Machine {
             }
             self.tool = Some(tool);
         }
+        if block.m().contains(&6) {
+            self.change_tool(out)?;
+        }
         let mut turned = false;
         for &code in block.m() {
             match code {
-                6 => match self.tool {
-                    Some(tool) => {
-                        if self.settings.places_unknown {
-                            self.at_machine |= 0b100;
-                        }
-                        out.push(Action::Tool(tool));
-                    }
-                    None => return refuse(Code::PN007, "M6 without a tool", "write T and the tool's number before it"),
-                },
+                // a Fanuc stops spindle and coolant when the block's motion is done
+                5 | 9 if !self.control.is_linuxcnc() => turned |= code == 5,
                 3..=5 => {
                     turned = true;
-                    self.spindle = match code {
-                        3 => Rotation::Cw,
-                        4 => Rotation::Ccw,
-                        _ => Rotation::Stop,
-                    };
-                    out.push(Action::Spindle(self.spindle, self.speed));
+                    self.turn_spindle(code, out);
                 }
                 19 => out.push(Action::Orient(block.get(b'R').unwrap_or(0.0))),
                 7 => out.push(Action::Coolant(Cooling::Mist)),
                 8 => out.push(Action::Coolant(Cooling::Flood)),
                 9 => out.push(Action::Coolant(Cooling::Off)),
-                0..=2 | 30 | 60 | 98 | 99 => {}
+                0..=2 | 6 | 30 | 60 | 98 | 99 => {}
                 _ => out.push(Action::LeftOut(b'M', code * 10)),
+            }
+        }
+        for group in [Group::Path, Group::Once] {
+            if let Some(code) = block.g(group).filter(|&code| group == Group::Path || code == 90) {
+                out.push(Action::LeftOut(b'G', code));
             }
         }
         if let Some(code) = block.g(Group::Other) {
@@ -436,12 +460,34 @@ impl Machine {
         Ok(())
     }
 
+    fn turn_spindle(&mut self, code: u16, out: &mut Out<'_>) {
+        self.spindle = match code {
+            3 => Rotation::Cw,
+            4 => Rotation::Ccw,
+            _ => Rotation::Stop,
+        };
+        out.push(Action::Spindle(self.spindle, self.speed));
+    }
+
+    /// M6: the spindle stands afterwards.
+    fn change_tool(&mut self, out: &mut Out<'_>) -> Done {
+        let Some(tool) = self.tool else {
+            return refuse(Code::PN007, "M6 without a tool", "write T and the tool's number before it");
+        };
+        if self.settings.places_unknown {
+            self.at_machine |= 0b100;
+        }
+        self.spindle = Rotation::Stop;
+        out.push(Action::Tool(tool));
+        Ok(())
+    }
+
     /// P in seconds: on a Fanuc milliseconds when it has no point.
     pub(super) fn seconds(&self, p: f64, block: &Block) -> f64 {
         if !self.control.is_linuxcnc() && block.whole & bit(b'P') != 0 { p / 1000.0 } else { p }
     }
 
-    fn set_units(&mut self, units: Units, out: &mut Out<'_>) {
+    fn set_units(&mut self, units: Units, feed: Option<f64>, out: &mut Out<'_>) {
         if units != self.units {
             let factor = if units == Units::Inch { 1.0 / 25.4 } else { 25.4 };
             self.units = units;
@@ -451,14 +497,28 @@ impl Machine {
             if self.feed_mode != FeedMode::InverseTime {
                 self.feed *= factor;
             }
+            // LinuxCNC takes F before the units of its block, a Fanuc after them
+            if let Some(feed) = feed {
+                self.feed = feed;
+            }
         }
         out.push(Action::Units(units));
     }
 
     fn compensation(&mut self, block: &Block, motion: Option<u16>, out: &mut Out<'_>) -> Done {
-        let Some(code) = block.g(Group::Compensation) else { return Ok(()) };
+        if !self.control.is_linuxcnc() {
+            self.diameter_register = block.get(b'D').or(self.diameter_register);
+        }
+        let Some(code) = block.g(Group::Compensation) else {
+            // another register while it is on
+            if let (Some(side), Some(_), false) = (self.side, block.get(b'D'), self.control.is_linuxcnc()) {
+                out.push(Action::Compensation(Some((side, self.diameter_register))));
+            }
+            return Ok(());
+        };
         if code == 400 {
             self.compensated = false;
+            self.side = None;
             out.push(Action::Compensation(None));
             return Ok(());
         }
@@ -470,7 +530,18 @@ impl Machine {
         }
         self.compensated = true;
         let side = if matches!(code, 410 | 411) { Side::Left } else { Side::Right };
-        out.push(Action::Compensation(Some((side, block.get(b'D')))));
+        // LinuxCNC takes the tool's own diameter where no register is named
+        let register = match code {
+            411 | 421 => None, // a diameter, and no register
+            _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool),
+            _ => self.diameter_register,
+        };
+        if register.is_none() && !self.control.is_linuxcnc() {
+            let help = "write D with the tool's register: G41 D1";
+            return refuse(Code::PN007, "cutter compensation without D", help);
+        }
+        self.side = Some(side);
+        out.push(Action::Compensation(Some((side, register))));
         Ok(())
     }
 
@@ -480,12 +551,14 @@ impl Machine {
             // a Fanuc changes the offset in force by H alone, a FADAL turns it on
             None => {
                 if let Some(register) = block.get(b'H').filter(|_| !self.control.is_linuxcnc()) {
+                    self.length_on = true;
                     out.push(Action::Length(Some(register)));
                 }
                 return Ok(());
             }
         };
         let place = self.frames.to_machine(&self.position);
+        self.length_on = code != 490;
         match code {
             490 => {
                 self.frames.tool = [0.0; 3];
@@ -505,8 +578,9 @@ impl Machine {
                     let help = "write H with the tool's register: G43 H1";
                     return refuse(Code::PN007, "a tool length offset without H", help);
                 }
-                // no table of tools tells its length: it counts as zero
-                out.push(Action::Length(Some(register.unwrap_or(0.0))));
+                // no table of tools tells its length: it counts as zero; G44 takes it off instead
+                let register = register.unwrap_or(0.0);
+                out.push(Action::Length(Some(if code == 440 { -register } else { register })));
             }
         }
         self.position = self.frames.to_program(&place);
@@ -553,10 +627,11 @@ impl Machine {
         let l = block.get(b'L').unwrap_or(-1.0);
         if !self.control.is_linuxcnc() && l != 2.0 && l != 20.0 {
             // tool registers; no position depends on them here
+            out.push(Action::LeftOut(b'G', 100));
             return Ok(());
         }
         if self.control.is_linuxcnc() && [1.0, 10.0, 11.0].contains(&l) {
-            return Ok(());
+            return refuse(Code::PN016, "G10 on the tool table is not simulated", "set the tool table at the machine");
         }
         let Some(p) = block.get(b'P').filter(|p| p.fract() == 0.0 && *p >= 0.0) else {
             return refuse(Code::PN007, "G10 without the number of its offset", "write P1 for G54");
@@ -577,6 +652,7 @@ impl Machine {
         let Some((work, rotation)) = self.frames.work(number) else {
             return refuse(Code::PN018, format!("there is no work offset P{p}"), "write P1 for G54");
         };
+        let before = [*work, [*rotation; 6]];
         for (axis, value) in words.iter().enumerate() {
             let Some(value) = *value else { continue };
             work[axis] = match l == 20.0 && control.is_linuxcnc() {
@@ -589,13 +665,15 @@ impl Machine {
         if let Some(angle) = block.get(b'R') {
             *rotation = angle;
         }
+        let changed = [*work, [*rotation; 6]] != before;
         self.position = self.frames.to_program(&place);
-        out.push(Action::Frame);
+        out.push(if changed { Action::Frame } else { Action::LeftOut(b'G', 100) });
         Ok(())
     }
 
     fn shift_frame(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let place = self.frames.to_machine(&self.position);
+        let before = self.frames.shift;
         match block.g(Group::Once) {
             Some(921) => (self.frames.shift, self.frames.shift_kept) = ([0.0; 6], [0.0; 6]),
             Some(922) => self.frames.shift = [0.0; 6],
@@ -615,7 +693,9 @@ impl Machine {
             self.frames.shift_kept = self.frames.shift;
         }
         self.position = self.frames.to_program(&place);
-        out.push(Action::Frame);
+        if self.frames.shift != before {
+            out.push(Action::Frame);
+        }
         Ok(())
     }
 
@@ -698,6 +778,8 @@ impl Machine {
         let mut next = Next::On;
         for &code in block.m() {
             match code {
+                5 if !self.control.is_linuxcnc() => self.turn_spindle(5, out),
+                9 if !self.control.is_linuxcnc() => out.push(Action::Coolant(Cooling::Off)),
                 0 | 60 => out.push(Action::Stop(StopKind::Program)),
                 1 => out.push(Action::Stop(StopKind::Optional)),
                 2 | 30 => {

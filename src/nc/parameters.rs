@@ -93,7 +93,14 @@ impl Parameters {
     }
 
     /// Sets a parameter.
-    pub fn set(&mut self, target: Target, value: f64) {
+    ///
+    /// # Errors
+    /// It is one of LinuxCNC's own, which are not simulated.
+    pub fn set(&mut self, target: Target, value: f64) -> Done {
+        if self.control.is_linuxcnc() && matches!(target, Target::Number(5000..)) {
+            let help = "set offsets by G10, G52 and G92; #1 to #4999 are the program's";
+            return refuse(Code::PN014, "a parameter of the control itself is not simulated", help);
+        }
         match target {
             Target::Number(number) => self.numbered[number] = Some(value),
             Target::Name(name) if name.starts_with('_') => _ = self.global.insert(name, value),
@@ -103,6 +110,7 @@ impl Parameters {
                 }
             }
         }
+        Ok(())
     }
 
     /// A subprogram begins: `#1` to `#30` are its arguments.

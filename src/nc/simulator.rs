@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::io::{self, BufRead, Seek, SeekFrom};
 
-use super::action::Item;
+use super::action::{Action, Item};
 use super::block::Block;
 use super::fault::{Done, Fault, refuse};
 use super::flow::{Flow, Step};
@@ -18,6 +18,9 @@ const LONGEST_OF_LINUXCNC: usize = 255;
 const DEEPEST: usize = 64;
 /// Rounds of loops, calls, and blocks passed over, before a program counts as endless.
 const MOST_JUMPS: u64 = 2_000_000;
+
+/// Actions of subprograms and loops after which a program counts as endless.
+const MOST_REPEATED: u64 = 50_000_000;
 
 /// Why a program was not run to its end.
 #[derive(Debug)]
@@ -89,7 +92,11 @@ pub struct Simulator<R> {
     program: Option<f64>,
     percent: bool,
     over: bool,
+    /// It ended with M99, which begins it again.
+    again: bool,
     jumps: u64,
+    /// Actions inside subprograms and loops.
+    repeated: u64,
     blocks: u64,
 }
 
@@ -109,7 +116,9 @@ impl<R: BufRead + Seek> Simulator<R> {
             program: None,
             percent: false,
             over: false,
+            again: false,
             jumps: 0,
+            repeated: 0,
             blocks: 0,
         }
     }
@@ -132,6 +141,11 @@ impl<R: BufRead + Seek> Simulator<R> {
     /// The line that was run last.
     pub fn line(&self) -> u64 {
         self.at.line
+    }
+
+    /// Did the program end with M99, which begins it again?
+    pub fn begins_again(&self) -> bool {
+        self.again
     }
 
     /// The program's number, where it has one.
@@ -215,6 +229,10 @@ impl<R: BufRead + Seek> Simulator<R> {
         if self.line.is_empty() {
             return Ok(false);
         }
+        if self.at.byte == 0 && self.line.starts_with(b"\xef\xbb\xbf") {
+            // the mark that some editors put before UTF-8: blanks keep columns and bytes right
+            self.line[..3].fill(b' ');
+        }
         self.at.byte += self.line.len() as u64;
         self.at.line += 1;
         Ok(true)
@@ -238,14 +256,26 @@ impl<R: BufRead + Seek> Simulator<R> {
             }
             return Ok(Jump::On);
         }
-        if self.block.deleted && self.machine.settings.block_delete {
-            return Ok(Jump::On);
+        if self.block.deleted {
+            if self.machine.settings.block_delete {
+                return Ok(Jump::On);
+            }
+            items.push(Item { line: self.at.line, by_cycle: false, action: Action::LeftOut(b'/', 0) });
         }
         self.blocks += 1;
         if let Some(flow) = self.block.flow.take() {
             return self.follow(flow);
         }
-        match self.machine.run(&mut self.block, self.at.line, items)? {
+        let before = items.len();
+        let next = self.machine.run(&mut self.block, self.at.line, items)?;
+        if !self.frames.is_empty() {
+            self.repeated += (items.len() - before) as u64;
+            if self.repeated > MOST_REPEATED {
+                let help = "look at the repeats of subprograms, loops and cycles inside each other";
+                return refuse(Code::PN015, "the program does not come to an end", help);
+            }
+        }
+        match next {
             Next::On => Ok(Jump::On),
             Next::End => Ok(Jump::End),
             Next::Call(_, 0) => Ok(Jump::On),
@@ -417,7 +447,8 @@ impl<R: BufRead + Seek> Simulator<R> {
                     self.frames.pop();
                     return Ok(Jump::Skip(label, Ends::Repeat));
                 }
-                Frame::Do { .. } if for_good => {
+                Frame::Do { .. } if !for_good => return Ok(Jump::Skip(label, Ends::Test)),
+                Frame::Do { .. } => {
                     self.frames.pop();
                     return Ok(Jump::Skip(label, Ends::Do));
                 }
@@ -453,6 +484,7 @@ impl<R: BufRead + Seek> Simulator<R> {
             return refuse(Code::PN015, format!("{what} ends, and was not called"), "call it, or take the end out");
         }
         // M99 in a main program begins it again: once is enough
+        self.again = true;
         Ok(Jump::End)
     }
 
@@ -475,6 +507,10 @@ impl<R: BufRead + Seek> Simulator<R> {
                 | (Ends::Do, Step::While(_))
                 | (Ends::Repeat, Step::EndRepeat)
                 | (Ends::If, Step::EndIf) => return Ok(()),
+                (Ends::Test, Step::While(_)) => {
+                    let line = Spot { byte: self.at.byte - self.line.len() as u64, line: self.at.line - 1 };
+                    return self.go(line);
+                }
                 (Ends::Branch, Step::EndIf) => {
                     self.frames.pop();
                     return Ok(());
@@ -529,6 +565,8 @@ enum Ends {
     Repeat,
     If,
     Branch,
+    /// The condition of a `do`, which is run.
+    Test,
 }
 
 /// Where to go from a line.

@@ -295,6 +295,10 @@ impl Renderer<'_> {
         if self.program.settings.machine == Machine::Mill {
             self.motion_word(piece.plane)?; // a lathe and a wire have but one
         }
+        if !self.differs(&piece.target, 0x3f) {
+            // a whole circle has no axis words: controls want its code said again
+            self.registers.forget_group(crate::lang::Group::Motion);
+        }
         self.motion_word(code)?;
         let mut axes = AxisUnits::default();
         self.axis_units(&piece.target, &mut axes)?;

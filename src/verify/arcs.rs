@@ -18,7 +18,6 @@ impl<R: BufRead + Seek> Sides<R> {
         let radius = (cut.from[first] - turn.center[first]).hypot(cut.from[second] - turn.center[second]);
         let whole = sweep(&cut.from, turn);
         let (mut swept, mut parts) = (0.0, 0);
-        let mut from = cut.from;
         loop {
             let Some(found) = self.next()? else {
                 let message = format!("the program is over inside the arc to {}", shown(&turn.to, 0b111));
@@ -30,7 +29,9 @@ impl<R: BufRead + Seek> Sides<R> {
             }
             let end = found.what.end(&found.from);
             let part = Turn { to: end, turns: 0, ..*turn };
-            let mut angle = sweep(&from, &part);
+            // from where the program stands: its digits may close a circle that the job's do not, and the other way
+            let mut angle = sweep(&found.from, &part);
+            let mut bulge = radius * (1.0 - (angle.min(std::f64::consts::TAU) / 2.0).cos());
             let slack = match found.what {
                 What::Arc(made) => {
                     if made.plane != turn.plane || made.direction != turn.direction {
@@ -46,14 +47,16 @@ impl<R: BufRead + Seek> Sides<R> {
                             "look at ClockWise, CounterClockWise and ArcPlane",
                         );
                     }
-                    angle = sweep(&from, &made);
+                    angle = sweep(&found.from, &made);
+                    bulge = 0.0;
                     OFF * self.tolerance
                 }
                 _ => self.chord + self.tolerance,
             };
-            let middle = middle_of(&from, &found.what, turn, angle);
-            let distance = |at: [f64; 2]| (at[0] - turn.center[first]).hypot(at[1] - turn.center[second]) - radius;
-            let off = distance(middle).abs().max(distance([end[first], end[second]]).abs());
+            let distance =
+                |at: [f64; 2]| ((at[0] - turn.center[first]).hypot(at[1] - turn.center[second]) - radius).abs();
+            let points = (1..8).map(|part| distance(point_of(&found, turn, angle * f64::from(part) / 8.0)));
+            let off = points.fold(distance([end[first], end[second]]), f64::max).max(bulge);
             swept += angle;
             let height = cut.from[across] + (turn.to[across] - cut.from[across]) * (swept / whole).min(1.0);
             let off = off.max((end[across] - height).abs() * f64::from(u8::from(parts > 0 || swept < whole - 1e-6)));
@@ -70,10 +73,9 @@ impl<R: BufRead + Seek> Sides<R> {
                     "look at CtrCode, CtrIncremental? and the radius",
                 );
             }
-            self.feeds(cut, &found)?;
+            self.feeds(cut, &found, false)?;
             self.advance(&found);
             parts += 1;
-            from = end;
             if same(&end, &turn.to, ALL, self.tolerance) && swept > whole - 1e-3 - self.tolerance / radius {
                 self.equivalences.arcs += u64::from(parts > 1);
                 return Ok(());
@@ -82,19 +84,19 @@ impl<R: BufRead + Seek> Sides<R> {
     }
 }
 
-/// Half way along a part, in the plane.
-fn middle_of(from: &[f64; 6], what: &What, turn: &Turn, angle: f64) -> [f64; 2] {
+/// A point of a part after an angle, in the plane; the end of a straight one.
+fn point_of(found: &Cut, turn: &Turn, angle: f64) -> [f64; 2] {
     let [first, second, _] = axes_of(turn.plane);
-    match what {
+    match found.what {
         What::Arc(made) => {
             let sign = if made.direction == Direction::Ccw { 1.0 } else { -1.0 };
-            let (sin, cos) = (sign * angle / 2.0).sin_cos();
-            let [x, y] = [from[first] - made.center[first], from[second] - made.center[second]];
+            let (sin, cos) = (sign * angle).sin_cos();
+            let [x, y] = [found.from[first] - made.center[first], found.from[second] - made.center[second]];
             [made.center[first] + x * cos - y * sin, made.center[second] + x * sin + y * cos]
         }
         _ => {
-            let end = what.end(from);
-            [(from[first] + end[first]) / 2.0, (from[second] + end[second]) / 2.0]
+            let end = found.what.end(&found.from);
+            [end[first], end[second]]
         }
     }
 }

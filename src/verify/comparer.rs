@@ -2,11 +2,11 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, Place, Rapid, What, number, over, same, shown, turn_as_far};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, Place, Rapid, What, lies_between, number, over, same, shown, turn_as_far};
 use super::finding::{Equivalences, Finding, Verdict};
 use super::intended::{Expectation, Expected, Job};
 use super::program::Program;
-use super::way::{Compared, Way, compare, leaves_well};
+use super::way::{Compared, Way, compare, leaves_hole, leaves_low};
 use crate::diag::{Code, Diag};
 use crate::nc::{RunError, Settings};
 use crate::toolpath::{self, Event, Sink, StopKind, Units};
@@ -24,7 +24,7 @@ pub(super) trait Intent {
     /// A stop.
     fn stop(&mut self, kind: StopKind);
     /// The motions of a hole begin over it, and end.
-    fn hole_begins(&mut self);
+    fn hole_begins(&mut self, hole: &Expected);
     fn hole_ends(&mut self, hole: &Expected) -> Result<(), Box<Diag>>;
     /// From here on places are others: another tool or work offset.
     fn lost(&mut self, tool: bool);
@@ -52,7 +52,7 @@ pub(super) struct Sides<R> {
     left: Vec<Rapid>,
     left_start: Option<Rapid>,
     lost: bool,
-    stops: Vec<StopKind>,
+    pub stops: Vec<StopKind>,
     /// Both ways as corners; kept so that a cut allocates nothing.
     ways: [Way; 2],
     /// The job's cuts in a hole of pecks.
@@ -64,9 +64,15 @@ pub(super) struct Sides<R> {
     place: toolpath::Place,
     /// The last hole.
     last_hole: Option<Expected>,
+    /// Over which hole the job is, and whether its way there leaves the axis of the hole: it must then be that way.
+    over: Option<Place>,
+    aside: bool,
+    /// The tool was changed since the last cut.
+    pub new_tool: bool,
+    pub tools: bool,
     failure: Option<RunError>,
     units: Option<f64>,
-    counts: Counts,
+    pub counts: Counts,
 }
 
 /// How much was compared.
@@ -82,21 +88,13 @@ pub struct Counts {
 const TOLERANCES: [f64; 2] = [1e-4, 2e-3];
 
 impl<R: BufRead + Seek> Comparer<R> {
-    /// Compares with this program.
-    ///
-    /// `lengths`: the machine has tool length offsets. `tolerance` in the job's units; else 0.0001 inch or 0.002 mm.
-    pub fn new(
-        program: R,
-        settings: Settings,
-        expectation: Expectation,
-        lengths: bool,
-        tolerance: Option<f64>,
-    ) -> Comparer<R> {
+    /// Compares with this program. `tolerance` in the job's units; else 0.0001 inch or 0.002 mm.
+    pub fn new(program: R, settings: Settings, expectation: Expectation, tolerance: Option<f64>) -> Comparer<R> {
         let origin = Rapid { to: [0.0; 6], unknown: 0b111, rotation: None };
         Comparer {
             job: Job::new(expectation),
             sides: Sides {
-                program: Program::new(program, settings, lengths),
+                program: Program::new(program, settings, expectation.tools, expectation.units_due),
                 program_start: origin,
                 way: Vec::new(),
                 start: None,
@@ -112,6 +110,10 @@ impl<R: BufRead + Seek> Comparer<R> {
                 findings: Vec::new(),
                 place: toolpath::Place::default(),
                 last_hole: None,
+                over: None,
+                aside: false,
+                new_tool: false,
+                tools: expectation.tools,
                 failure: None,
                 units: tolerance,
                 counts: Counts::default(),
@@ -202,6 +204,8 @@ impl<R: BufRead + Seek> Sides<R> {
         self.way.clear();
         self.left.clear();
         self.lost = false;
+        self.new_tool = false;
+        self.aside = false;
         self.start = Some(Rapid { to: cut.what.end(&cut.from), unknown: 0, rotation: None });
     }
 
@@ -233,8 +237,8 @@ impl<R: BufRead + Seek> Sides<R> {
         };
         self.kinds(cut, &found)?;
         self.begins(cut, &found, hole)?;
-        self.compare_ways(&found)?;
-        self.states(cut, &found)?;
+        self.compare_ways(found.line)?;
+        self.states(cut, &found, hole.is_some_and(|hole| hole.is_tap))?;
         Ok(found)
     }
 
@@ -322,124 +326,102 @@ impl<R: BufRead + Seek> Sides<R> {
     }
 
     /// The ways to a cut.
-    fn compare_ways(&mut self, found: &Cut) -> Result<(), Box<Diag>> {
+    fn compare_ways(&mut self, line: u64) -> Result<(), Box<Diag>> {
         let tolerance = self.tolerance;
-        let [job, program] = &mut self.ways;
         let split = self.program.before.filter(|_| self.lost).unwrap_or(0);
-        if split > 0 || (self.lost && !self.left.is_empty()) {
-            job.set(self.left_start, &self.left, tolerance);
-            program.set(Some(self.program_start), &self.program.way[..split], tolerance);
-            let lower = leaves_well(job, program, tolerance).filter(|_| self.left_start.is_some());
-            if let Some((to, limit)) = lower {
-                let message =
-                    format!("before the change a rapid crosses to {}, below Z{}", shown(&to, 0b111), number(limit));
-                return self.differs(Code::PV009, found.line, message, "go up first");
-            }
+        if self.lost {
+            self.compare_leaving(split, line)?;
         }
+        let [job, program] = &mut self.ways;
         let rest = &self.program.way[split..];
         // after a change the way begins anywhere
-        let begin = match (self.lost, split) {
-            (false, _) | (true, 0) => Some(self.program_start),
-            (true, _) => None,
-        };
+        let begin = if self.lost && self.program.before.is_some() { None } else { Some(self.program_start) };
         job.set(self.start, &self.way, tolerance);
         program.set(begin, rest, tolerance);
         let known = !self.lost && self.program_start.unknown == 0;
         match compare(job, program, known, tolerance) {
             Compared::Same => Ok(()),
-            Compared::AsGood => {
+            Compared::AsGood { step_by_step } if step_by_step || !self.aside => {
                 self.equivalences.ways += u64::from(known);
                 Ok(())
             }
-            Compared::Turning => {
-                let message = "the spindle does not turn as the job says while the tool leaves".to_owned();
-                self.differs(Code::PV011, found.line, message, "look at the spindle codes of the cycle")
-            }
+            Compared::AsGood { .. } => self.stays_at_wall(line),
+            Compared::Turning => self.turns_otherwise(line),
             Compared::Lower(to, limit) => {
                 let message = format!(
                     "a rapid goes to {}, lower than the job's ways here, Z{}",
                     shown(&to, 0b111),
                     number(limit)
                 );
-                self.differs(
-                    Code::PV009,
-                    found.line,
-                    message,
-                    "print the height before the position, or return to [rplane]",
-                )
+                self.differs(Code::PV009, line, message, "print the height before the position, or return to [rplane]")
             }
             Compared::Elsewhere(to) => {
                 let message = format!("a rapid goes to {}, where the job does not go", shown(&to, 0b111));
-                self.differs(Code::PV001, found.line, message, "look at what the form prints for this move")
+                self.differs(Code::PV001, line, message, "look at what the form prints for this move")
             }
         }
     }
 
-    /// Tool, work offset, spindle, compensation.
-    fn states(&mut self, cut: &Cut, found: &Cut) -> Result<(), Box<Diag>> {
-        let (wanted, is) = (&cut.state, &found.state);
-        let line = found.line;
-        if let Some(missing) = self.stops.iter().find(|kind| !self.program.stops.contains(kind)) {
-            let message = format!(
-                "the job's {} stop is missing",
-                if *missing == StopKind::Program { "program" } else { "optional" }
-            );
-            return self.differs(Code::PV019, line, message, "print M0 or M1");
-        }
-        self.stops.clear();
-        if let (Some(a), Some(b)) = (wanted.tool, is.tool)
-            && a != b
-        {
-            let message = format!("tool {b} cuts, the job has tool {a} here");
-            return self.differs(Code::PV012, line, message, "print T[tool] in the tool change");
-        }
-        if let (Some(a), Some(b)) = (wanted.work, is.work)
-            && a != b
-        {
-            let message = format!("the work offset is G{b}, the job's is G{a}");
-            return self.differs(Code::PV012, line, message, "print G[work] in the tool change, or in `Upon [work]`");
-        }
-        if !cut.what.feeds() {
-            return Ok(());
-        }
-        if let (Some(a), Some(b)) = (wanted.rotation, is.rotation)
-            && a != b
-        {
-            let message = format!("the spindle is {}, the job wants {}", b.name(), a.name());
-            return self.differs(Code::PV011, line, message, "print M[direct] with the speed");
-        }
-        if let (Some(a), Some(b)) = (wanted.speed, is.speed)
-            && (a - b).abs() > (0.01 * a).max(1.0)
-        {
-            let message = format!("the spindle turns S{}, the job wants {}", number(b), number(a));
-            return self.differs(Code::PV011, line, message, "print S[speed]");
-        }
-        if let (Some(a), Some(b)) = (wanted.side, is.side)
-            && a != b
-        {
-            let name = |side: Option<toolpath::Side>| match side {
-                None => "off",
-                Some(toolpath::Side::Left) => "left",
-                Some(toolpath::Side::Right) => "right",
-            };
-            let message = format!("cutter compensation is {}, the job wants {}", name(b), name(a));
-            return self.differs(Code::PV018, line, message, "look at InFeed and OutFeed");
-        }
-        self.feeds(cut, found)
+    fn stays_at_wall(&mut self, line: u64) -> Result<(), Box<Diag>> {
+        let message = "the tool does not leave the wall of the hole as the job says".to_owned();
+        self.differs(Code::PV001, line, message, "print the cycle's orientation and shift, as G76 Q[sleave]")
     }
 
-    /// The feed, within what its digits are rounded off.
-    pub fn feeds(&mut self, cut: &Cut, found: &Cut) -> Result<(), Box<Diag>> {
-        let (Some(wanted), Some(is)) = (cut.feed, found.feed) else { return Ok(()) };
-        if cut.mode != found.mode {
-            let message = "feeds count otherwise: per minute, per turn or inverse time".to_owned();
-            return self.differs(Code::PV006, found.line, message, "print G[feedtype]");
+    fn turns_otherwise(&mut self, line: u64) -> Result<(), Box<Diag>> {
+        let message = "the spindle does not turn as the job says while the tool leaves".to_owned();
+        self.differs(Code::PV011, line, message, "look at the spindle codes of the cycle")
+    }
+
+    /// The way away from the last cut of a tool or work offset, or of the program.
+    fn compare_leaving(&mut self, until: usize, line: u64) -> Result<(), Box<Diag>> {
+        let tolerance = self.tolerance;
+        let [job, program] = &mut self.ways;
+        if self.left_start.is_none() {
+            return Ok(()); // nothing was cut before
         }
-        if (wanted - is).abs() <= (0.01 * wanted).max(1e-9) {
-            return Ok(());
+        job.set(self.left_start, &self.left, tolerance);
+        program.set(Some(self.program_start), &self.program.way[..until], tolerance);
+        match leaves_hole(job, program, tolerance) {
+            Some(Compared::Turning) => return self.turns_otherwise(line),
+            Some(_) if self.aside => return self.stays_at_wall(line),
+            _ => {}
         }
-        let message = format!("the feed is {}, the job's {}", number(is), number(wanted));
-        self.differs(Code::PV006, found.line, message, "print F[frate] where the feed changes")
+        let [job, program] = &mut self.ways;
+        let Some((to, limit)) = leaves_low(job, program, tolerance) else { return Ok(()) };
+        let message = format!("after the last cut a rapid goes to {}, below Z{}", shown(&to, 0b111), number(limit));
+        self.differs(Code::PV009, line, message, "go up first, as high as the job does")
+    }
+
+    /// A straight cut, as one or in parts that lie on it.
+    fn line(&mut self, cut: &Cut, first: &Cut, hole: Option<&Expected>) -> Result<(), Box<Diag>> {
+        let end = cut.what.end(&cut.from);
+        let mut found = *first;
+        let mut parts = 1;
+        loop {
+            let to = found.what.end(&found.from);
+            let is_part = !same(&to, &end, ALL, self.tolerance) && lies_between(&cut.from, &to, &end, self.tolerance);
+            if !is_part {
+                break;
+            }
+            self.feeds(cut, &found, hole.is_some_and(|hole| hole.is_tap))?;
+            self.advance(&found);
+            let next = self.next()?.filter(|next| {
+                matches!(next.what, What::Line { .. })
+                    && self.program.way.is_empty()
+                    && self.program.stops.is_empty()
+                    && lies_between(&to, &next.what.end(&next.from), &end, self.tolerance)
+            });
+            let Some(next) = next else {
+                return self.ends(&cut.from, end, &found, hole);
+            };
+            found = next;
+            parts += 1;
+        }
+        self.ends(&cut.from, end, &found, hole)?;
+        self.feeds(cut, &found, hole.is_some_and(|hole| hole.is_tap))?;
+        self.equivalences.parts += u64::from(parts > 1);
+        self.advance(&found);
+        Ok(())
     }
 
     /// Both straight cuts end at one place.
@@ -480,6 +462,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
     }
 
     fn rapid(&mut self, rapid: Rapid) -> Result<(), Box<Diag>> {
+        self.aside |= self.over.is_some_and(|over| !same(&over, &rapid.to, ACROSS, self.tolerance));
         self.way.push(rapid);
         Ok(())
     }
@@ -508,10 +491,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
                 let message = "an arc, where the job cuts straight".to_owned();
                 return self.differs(Code::PV001, found.line, message, "look at the motion code");
             }
-            _ => {
-                self.ends(&cut.from, cut.what.end(&cut.from), &found, hole)?;
-                self.advance(&found);
-            }
+            _ => self.line(cut, &found, hole)?,
         }
         self.leave(cut);
         Ok(())
@@ -535,7 +515,8 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         self.stops.push(kind);
     }
 
-    fn hole_begins(&mut self) {
+    fn hole_begins(&mut self, hole: &Expected) {
+        self.over = Some(hole.at);
         self.pecks.clear();
     }
 
@@ -544,6 +525,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             self.compare_pecks(hole)?;
         }
         self.counts.holes += 1;
+        self.over = None;
         self.last_hole = Some(*hole);
         Ok(())
     }
@@ -553,6 +535,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             self.left_start = self.start.take();
             self.left.append(&mut self.way);
         }
+        self.new_tool |= tool;
         self.lost = true;
         self.way.clear();
         self.start = None;
@@ -577,6 +560,13 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             let message = format!("a cut to {end}, and the job is over");
             return self.differs(Code::PV016, found.line, message, "look at EndCode");
         }
+        if !self.lost {
+            self.left_start = self.start.take();
+            self.left.append(&mut self.way);
+        }
+        let until = self.program.way.len();
+        self.compare_leaving(until, 0)?;
+        self.program.ended();
         Ok(())
     }
 }

@@ -52,6 +52,9 @@ pub(super) struct State {
     pub speed: Option<f64>,
     /// Cutter compensation: `None` inside is off.
     pub side: Option<Option<Side>>,
+    /// Registers of tool length, and of the diameter while compensation is on.
+    pub length: Option<f64>,
+    pub diameter: Option<f64>,
 }
 
 /// A cut.
@@ -89,6 +92,18 @@ pub(super) fn same(a: &Place, b: &Place, axes: u8, tolerance: f64) -> bool {
 /// Do two cuts turn their angles as far?
 pub(super) fn turn_as_far(a: [&Place; 2], b: [&Place; 2]) -> bool {
     (3..6).all(|axis| ((a[1][axis] - a[0][axis]) - (b[1][axis] - b[0][axis])).abs() <= 0.002)
+}
+
+/// Is b on the straight way from a to c?
+pub(super) fn lies_between(a: &Place, b: &Place, c: &Place, tolerance: f64) -> bool {
+    let (mut along, mut length) = (0.0, 0.0);
+    for axis in 0..6 {
+        along += (b[axis] - a[axis]) * (c[axis] - a[axis]);
+        length += (c[axis] - a[axis]).powi(2);
+    }
+    let part = along / length;
+    (0.0..=1.0).contains(&part)
+        && (0..6).all(|axis| (a[axis] + part * (c[axis] - a[axis]) - b[axis]).abs() <= tolerance)
 }
 
 /// `X1 Y2.5 Z-0.1`, with angles where there are any.

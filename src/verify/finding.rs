@@ -29,6 +29,8 @@ pub struct Equivalences {
     pub ways: u64,
     /// Arcs made of parts.
     pub arcs: u64,
+    /// Straight cuts made of parts.
+    pub parts: u64,
     /// Holes that are left at feed to a higher place.
     pub outs: u64,
     /// Cuts that were left and entered again where they go on.

@@ -7,6 +7,9 @@ use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same};
 use super::intended::Expected;
 use crate::diag::{Code, Diag};
 
+/// How much longer a control's pecks may be than the job's.
+const MOST: f64 = 1.5;
+
 impl<R: BufRead + Seek> Sides<R> {
     /// The program's cuts in this hole, of which the first was met already.
     pub(super) fn compare_pecks(&mut self, hole: &Expected) -> Result<(), Box<Diag>> {
@@ -17,8 +20,11 @@ impl<R: BufRead + Seek> Sides<R> {
         let mut identical = true;
         let mut count = 0;
         let mut line = 0;
+        let (mut strokes, mut longest, mut out) = (0, 0.0f64, true);
         while let Some(found) = self.next()? {
-            if count > 0 && !self.stays_in(hole, &found) {
+            // at the bottom, a feed from above is another hole, or another item of the job
+            let again = deepest <= hole.bottom + tolerance && found.from[DEPTH] >= hole.plane - tolerance;
+            if count > 0 && (!self.stays_in(hole, &found) || again) {
                 break;
             }
             line = found.line;
@@ -26,7 +32,8 @@ impl<R: BufRead + Seek> Sides<R> {
             identical &= wanted.is_some_and(|wanted| is_same(wanted, &found, tolerance));
             count += 1;
             // a rapid in the hole stays where it was cut
-            let lowest = self.program.way.iter().map(|rapid| rapid.to[DEPTH]).fold(f64::INFINITY, f64::min);
+            let heights = || self.program.way.iter().map(|rapid| rapid.to[DEPTH]);
+            let lowest = heights().fold(f64::INFINITY, f64::min);
             if count > 1 && lowest < deepest - tolerance {
                 let message = format!(
                     "a rapid goes to Z{} in the hole at {}, cut to Z{} so far",
@@ -40,21 +47,16 @@ impl<R: BufRead + Seek> Sides<R> {
                 What::Dwell(seconds) => dwell = seconds,
                 What::Arc(_) => break,
                 What::Line { to } => {
-                    let again = deepest <= hole.bottom + tolerance && found.from[DEPTH] >= hole.plane - tolerance;
-                    if count > 1 && again && to[DEPTH] < found.from[DEPTH] {
-                        let message = format!("the hole at {} is drilled twice", over(&hole.at));
-                        return self.differs(
-                            Code::PV003,
-                            line,
-                            message,
-                            "look for a second position line in the cycle",
-                        );
+                    if strokes > 0 && to[DEPTH] < deepest - tolerance {
+                        out &= heights().any(|height| height >= hole.plane - tolerance);
                     }
-                    let first = pecks.first().copied();
-                    if let Some(first) = first.filter(|_| pecks.iter().all(|peck| peck.feed == pecks[0].feed)) {
-                        self.feeds(&first, &found)?;
+                    let first = pecks[0];
+                    if pecks.iter().all(|peck| peck.feed == first.feed || !peck.what.feeds()) {
+                        self.feeds(&first, &found, hole.is_tap)?;
                     }
                     if to[DEPTH] < deepest {
+                        strokes += 1;
+                        longest = longest.max(deepest - to[DEPTH]);
                         dwell = 0.0;
                         deepest = to[DEPTH];
                     }
@@ -62,6 +64,7 @@ impl<R: BufRead + Seek> Sides<R> {
             }
             self.advance(&found);
         }
+        self.check_pecks(&pecks, hole, [strokes as f64, longest], out, line)?;
         let bottom = deepest;
         if (bottom - hole.bottom).abs() > tolerance {
             let message = format!(
@@ -81,6 +84,43 @@ impl<R: BufRead + Seek> Sides<R> {
         self.equivalences.pecks += u64::from(!identical);
         pecks.clear();
         self.pecks = pecks;
+        Ok(())
+    }
+
+    /// Other pecks are as good, but pecks they must be, out of the hole between them where the job's are.
+    fn check_pecks(
+        &mut self,
+        pecks: &[Cut],
+        hole: &Expected,
+        [strokes, longest]: [f64; 2],
+        out: bool,
+        line: u64,
+    ) -> Result<(), Box<Diag>> {
+        let mut deepest = hole.plane;
+        let (mut wanted, mut wanted_longest) = (0.0, 0.0f64);
+        for peck in pecks {
+            let to = peck.what.end(&peck.from)[DEPTH];
+            if to < deepest {
+                wanted += 1.0;
+                wanted_longest = wanted_longest.max(deepest - to);
+                deepest = to;
+            }
+        }
+        let help = "print Q[vbite] with G83 or G73, as the job's kind is";
+        if wanted > 1.0 && (strokes < 2.0 || longest > MOST * wanted_longest) {
+            let message = format!(
+                "the hole at {} is cut {} at once, the job pecks by {}",
+                over(&hole.at),
+                number(longest),
+                number(wanted_longest)
+            );
+            return self.differs(Code::PV023, line, message, help);
+        }
+        if wanted > 1.0 && hole.retracts && !out {
+            let message =
+                format!("between pecks the tool stays in the hole at {}, the job brings it out", over(&hole.at));
+            return self.differs(Code::PV023, line, message, help);
+        }
         Ok(())
     }
 

@@ -24,13 +24,27 @@ pub struct Expectation {
     pub first_work: f64,
     /// Work offset that holds before the job names one.
     pub work: Option<f64>,
+    /// What a tool's number is raised by for its length and diameter registers, where the job names none.
+    pub registers: Option<[f64; 2]>,
+    /// The machine loads tools (M6) and has length offsets.
+    pub tools: bool,
+    /// Only the program says its units.
+    pub units_due: bool,
 }
 
 impl Default for Expectation {
     /// What holds without a form: nothing is filled in.
     fn default() -> Self {
         let defaults = Defaults { rigid: true, ..Defaults::default() };
-        Expectation { defaults: [defaults; 2], chord: [0.001, 0.02], first_work: 54.0, work: None }
+        Expectation {
+            defaults: [defaults; 2],
+            chord: [0.001, 0.02],
+            first_work: 54.0,
+            work: None,
+            registers: None,
+            tools: true,
+            units_due: true,
+        }
     }
 }
 
@@ -45,6 +59,9 @@ impl Expectation {
             chord: [chord.max(0.001), (chord * 25.4).max(0.02)],
             first_work: settings.work,
             work: Some(settings.work_default),
+            registers: Some([settings.lcomp, settings.dcomp]),
+            tools: settings.control != "grbl",
+            units_due: settings.units == UnitChoice::Both,
         }
     }
 }
@@ -60,6 +77,10 @@ pub(super) struct Expected {
     pub dwell: Option<f64>,
     /// Its pecks may be others.
     pub pecks: bool,
+    /// Between pecks the tool comes out of the hole.
+    pub retracts: bool,
+    /// A tap: feed and speed are its pitch.
+    pub is_tap: bool,
 }
 
 /// An open cycle.
@@ -79,6 +100,7 @@ pub(super) struct Job {
     pub state: State,
     css: bool,
     cycle: Option<Open>,
+    diameter: Option<f64>,
     steps: Steps,
     compensation: bool,
 }
@@ -94,6 +116,7 @@ impl Job {
             state: State { side: Some(None), ..State::default() },
             css: false,
             cycle: None,
+            diameter: None,
             steps: Steps::default(),
             compensation: false,
         }
@@ -185,6 +208,10 @@ impl Job {
     fn tool_change(&mut self, change: &ToolChange, to: &mut impl Intent) -> Result<(), Box<Diag>> {
         if let Some(tool) = change.tool.as_ref().filter(|tool| self.state.tool != Some(tool.number)) {
             self.state.tool = Some(tool.number);
+            let [length, diameter] =
+                self.expectation.registers.map_or([None; 2], |by| by.map(|by| Some(tool.number + by)));
+            self.state.length = tool.length_offset.or(length).filter(|_| self.expectation.tools);
+            self.diameter = tool.diameter_offset.or(diameter);
             (self.state.speed, self.state.rotation) = (None, None);
             self.at = Axes { given: self.at.given & !0b111, ..self.at };
             to.lost(true);
@@ -271,6 +298,7 @@ impl Job {
     ) -> Result<(), Box<Diag>> {
         let target = self.target(to);
         self.state.side = Some(side);
+        self.state.diameter = self.diameter.filter(|_| side.is_some());
         self.compensation = side.is_some();
         if rapid {
             let cut = self.cut(What::Line { to: target.values });
@@ -319,6 +347,7 @@ impl Job {
         let first = *open.first_return.get_or_insert(point + open.spec.return_height.unwrap_or(planes.clear));
         let return_plane = first.max(clear);
         let kind = open.spec.kind;
+        let mode = open.spec.mode;
         let custom = matches!(kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
         let mut steps = std::mem::take(&mut self.steps);
         if custom {
@@ -331,7 +360,15 @@ impl Job {
         target.set(DEPTH, return_plane);
         let plane = steps.list.iter().take_while(|step| matches!(step, Step::Rapid(_))).last();
         let plane = if let Some(Step::Rapid(height)) = plane { point + height } else { clear };
-        let expected = Expected { at: target.values, plane, bottom: point + planes.bottom, dwell: planes.dwell, pecks };
+        let expected = Expected {
+            at: target.values,
+            plane,
+            bottom: point + planes.bottom,
+            dwell: planes.dwell,
+            pecks,
+            retracts: kind == CycleKind::Deep || mode == Some(CycleKind::Deep),
+            is_tap: kind.is_tap(),
+        };
         let list = std::mem::take(&mut steps.list);
         let done = self.steps(&list, point, target, &expected, to);
         steps.list = list;
@@ -350,7 +387,7 @@ impl Job {
         let (feed, state) = (self.feed, self.state);
         self.at = target;
         to.rapid(self.rapid_to(target.values, None))?;
-        to.hole_begins();
+        to.hole_begins(hole);
         for step in steps {
             let mut at = target;
             match *step {

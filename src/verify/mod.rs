@@ -10,6 +10,7 @@ mod finding;
 mod holes;
 mod intended;
 mod program;
+mod state;
 mod way;
 
 pub use comparer::{Comparer, Counts};

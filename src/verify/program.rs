@@ -20,9 +20,11 @@ pub(super) struct Program<R> {
     state: State,
     mode: FeedMode,
     cycle: bool,
-    /// A tool came, and no length offset since.
-    without_length: bool,
+    /// The tool's missing length offset was told.
+    length_told: bool,
     lengths: bool,
+    linuxcnc: bool,
+    units_said: bool,
     units: Units,
     /// Units that places are wanted in.
     wanted: Units,
@@ -30,8 +32,9 @@ pub(super) struct Program<R> {
     pub way: Vec<Rapid>,
     /// How many of its rapids come before a change of tool or work offset, after which places are others.
     pub before: Option<usize>,
-    /// Stops on the way.
-    pub stops: Vec<StopKind>,
+    /// Stops on the way, and whether the tool stood in a cut.
+    pub stops: Vec<(StopKind, bool)>,
+    cuts: bool,
     cut: Option<Cut>,
     /// Hazards on the way.
     pub hazards: Vec<Finding>,
@@ -39,8 +42,10 @@ pub(super) struct Program<R> {
 
 impl<R: BufRead + Seek> Program<R> {
     /// Runs with these settings; `lengths`: tools need their length offset.
-    pub fn new(input: R, settings: Settings, lengths: bool) -> Program<R> {
-        let settings = Settings { places_unknown: true, ..settings };
+    ///
+    /// `units_due`: nothing but the program says its units.
+    pub fn new(input: R, settings: Settings, lengths: bool, units_due: bool) -> Program<R> {
+        let settings = Settings { places_unknown: true, bore_shift: -1.0, ..settings };
         Program {
             simulator: Simulator::new(input, settings),
             items: Vec::new(),
@@ -48,16 +53,26 @@ impl<R: BufRead + Seek> Program<R> {
             over: false,
             at: [0.0; 6],
             unknown: 0b111,
-            state: State { side: Some(None), ..State::default() },
+            // as switched on
+            state: State {
+                side: Some(None),
+                rotation: Some(Rotation::Stop),
+                speed: Some(0.0),
+                work: (!settings.fadal).then_some(54.0),
+                ..State::default()
+            },
             mode: FeedMode::PerMinute,
             cycle: false,
-            without_length: false,
+            length_told: false,
             lengths,
+            linuxcnc: settings.control.is_linuxcnc(),
+            units_said: !units_due,
             units: settings.units,
             wanted: settings.units,
             way: Vec::new(),
             before: None,
             stops: Vec::new(),
+            cuts: false,
             cut: None,
             hazards: Vec::new(),
         }
@@ -105,6 +120,7 @@ impl<R: BufRead + Seek> Program<R> {
             self.way.clear();
             self.before = None;
             self.stops.clear();
+            self.cuts = true;
         }
     }
 
@@ -181,7 +197,13 @@ impl<R: BufRead + Seek> Program<R> {
             Action::Dwell(seconds) if *seconds > 0.0 && self.way.is_empty() => {
                 self.cut = Some(cut(self, What::Dwell(*seconds), None));
             }
-            Action::Stop(kind) => self.stops.push(*kind),
+            Action::Stop(kind) => {
+                self.stops.push((*kind, self.cuts && self.way.is_empty() && !item.by_cycle));
+                // a Haas stops the spindle, and no form may count on another control's going on
+                if *kind == StopKind::Program && !item.by_cycle && !self.linuxcnc {
+                    self.state.rotation = Some(Rotation::Stop);
+                }
+            }
             Action::Spindle(rotation, speed) => {
                 self.state.rotation = Some(*rotation);
                 self.state.speed = Some(*speed);
@@ -199,18 +221,32 @@ impl<R: BufRead + Seek> Program<R> {
                 if self.state.tool != Some(*number) {
                     self.before = Some(self.way.len());
                 }
+                if self.state.tool != Some(*number) {
+                    self.state.length = None;
+                    self.length_told = false;
+                }
                 self.state.tool = Some(*number);
-                self.without_length = self.lengths;
+                self.state.rotation = Some(Rotation::Stop);
                 self.unknown |= 0b100;
             }
-            Action::Length(register) => self.without_length = self.lengths && register.is_none() && self.without_length,
-            Action::Units(units) => self.units = *units,
+            Action::Length(register) => self.state.length = *register,
+            Action::Units(units) => {
+                self.units = *units;
+                self.units_said = true;
+            }
+            Action::Frame | Action::LeftOut(b'G', 100) => {
+                let message = "the program moves its coordinate frame: the job's places lie elsewhere then";
+                self.hazard(Code::PV021, item.line, message, "take G10, G52 or G92 out");
+            }
             Action::FeedMode(mode) => self.mode = *mode,
             Action::Work(code) if self.state.work != Some(*code) => {
                 self.before = Some(self.way.len());
                 self.state.work = Some(*code);
             }
-            Action::Compensation(side) => self.state.side = Some(side.map(|(side, _)| side)),
+            Action::Compensation(side) => {
+                self.state.side = Some(side.map(|(side, _)| side));
+                self.state.diameter = side.and_then(|(_, register)| register);
+            }
             Action::Hole(_) => self.cycle = true,
             Action::CycleOff => self.cycle = false,
             Action::End if self.cycle => {
@@ -220,14 +256,37 @@ impl<R: BufRead + Seek> Program<R> {
         }
     }
 
+    /// Before a cut: what must have been said.
     fn check_length(&mut self, line: u64) {
-        if std::mem::take(&mut self.without_length) {
-            let message = "the tool cuts, and its length offset is not on since it was changed";
+        let due = self.lengths && self.state.tool.is_some() && self.state.length.is_none();
+        if due && !std::mem::replace(&mut self.length_told, true) {
+            let message = "the tool cuts, and its length offset is not on";
             self.hazard(Code::PV014, line, message, "print G43 H[lcomp] in the tool change");
+        }
+        if !std::mem::replace(&mut self.units_said, true) {
+            let message = "the program cuts before it says its units";
+            self.hazard(
+                Code::PV022,
+                line,
+                message,
+                "print G[unitmode] in StartCode, or give the form, if it is for one unit",
+            );
+        }
+    }
+
+    /// What the program did before its end, besides cutting.
+    pub fn ended(&mut self) {
+        if self.simulator.begins_again() {
+            let line = self.simulator.line();
+            self.hazard(Code::PV016, line, "the program ends with M99, which begins it again", "end it with M30 or M2");
         }
     }
 
     fn hazard(&mut self, code: Code, line: u64, message: &str, help: &'static str) {
+        // told once: a form makes the same mistake at every tool
+        if self.hazards.iter().any(|told| told.code == code && told.message == message) {
+            return;
+        }
         let block = self.text();
         self.hazards.push(Finding { code, message: message.into(), help, place: None, line, block });
     }

@@ -1,14 +1,14 @@
 //! Ways: rapids from one cut to the next.
 
-use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, same};
+use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, lies_between, same};
 
 /// How a program's way compares with the job's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Compared {
     /// The same, moves of no length and parts of one straight rapid joined.
     Same,
-    /// Another order of axes, or higher, and nowhere lower.
-    AsGood,
+    /// Another order of axes, or higher, and nowhere lower; each move across has its own in the job, or not.
+    AsGood { step_by_step: bool },
     /// Lower than the job's at this place.
     Lower(Place, f64),
     /// Across to a place where the job does not go.
@@ -38,7 +38,7 @@ impl Way {
             if let [.., before, last] = self.corners.as_slice()
                 && last.rotation == rapid.rotation
                 && (before.unknown | last.unknown | rapid.unknown) == 0
-                && straight(&before.to, &last.to, &rapid.to, tolerance)
+                && lies_between(&before.to, &last.to, &rapid.to, tolerance)
             {
                 self.corners.pop();
             }
@@ -51,18 +51,6 @@ impl Way {
         let known = |rapid: &Rapid| rapid.unknown & 1 << DEPTH == 0;
         across(&self.corners, 0.0).all(|(a, b)| [a, b].iter().all(|corner| !known(corner) || corner.to[DEPTH] > height))
     }
-}
-
-/// Is b on the straight way from a to c?
-fn straight(a: &Place, b: &Place, c: &Place, tolerance: f64) -> bool {
-    let (mut along, mut length) = (0.0, 0.0);
-    for axis in 0..6 {
-        along += (b[axis] - a[axis]) * (c[axis] - a[axis]);
-        length += (c[axis] - a[axis]).powi(2);
-    }
-    let part = along / length;
-    (0.0..=1.0).contains(&part)
-        && (0..6).all(|axis| (a[axis] + part * (c[axis] - a[axis]) - b[axis]).abs() <= tolerance)
 }
 
 /// Compares the program's way with the job's.
@@ -83,10 +71,12 @@ pub(super) fn compare(job: &Way, program: &Way, known_start: bool, tolerance: f6
     let Some(arrived) = there(ALL).or_else(|| there(ACROSS)) else {
         return compare_corners(&job.corners, &program.corners, false, tolerance);
     };
-    let low = across(&program.corners[..=arrived], tolerance)
+    // the beginning is where the last cut ended
+    let low = program.corners[..=arrived].iter().skip(1).find(|corner| height(corner) < first.to[DEPTH] - tolerance);
+    let crosses = across(&program.corners[..=arrived], tolerance)
         .find(|(a, b)| height(a).min(height(b)) < first.to[DEPTH] - tolerance);
-    if let Some((_, b)) = low {
-        return Compared::Lower(b.to, first.to[DEPTH]);
+    if let Some(corner) = low.or(crosses.map(|(_, b)| b)) {
+        return Compared::Lower(corner.to, first.to[DEPTH]);
     }
     compare_corners(&job.corners, &program.corners[arrived..], true, tolerance)
 }
@@ -111,14 +101,19 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, toleranc
             return if pairs().all(turns) { Compared::Same } else { Compared::Turning };
         }
     }
-    let lowest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::INFINITY, f64::min);
-    // nothing of the way may be below all of the job's
+    let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
+    let crossing = across(job, tolerance).map(|(a, b)| height(a).min(height(b))).fold(highest, f64::min);
+    // at a place the way may be as low as the job's is there, and elsewhere as low as the job crosses
     for corner in program.iter().skip(usize::from(!known_start)) {
-        if height(corner) < lowest - tolerance {
-            return Compared::Lower(corner.to, lowest);
+        let there = job.iter().filter(|other| same(&other.to, &corner.to, ACROSS, tolerance));
+        let floor = there.map(|other| other.to[DEPTH]).reduce(f64::min).unwrap_or(crossing);
+        if height(corner) < floor - tolerance {
+            return Compared::Lower(corner.to, floor);
         }
     }
-    let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
+    // a spindle that must stand while the tool leaves
+    let turning = |corners: &[Rapid]| corners.get(1).and_then(|corner| corner.rotation);
+    let turns = known_start && turning(job).is_some_and(|wanted| turning(program).is_some_and(|is| is != wanted));
     if known_start && across(job, tolerance).count() == across(program, tolerance).count() {
         let mut pairs = across(job, tolerance).zip(across(program, tolerance));
         let all = pairs.all(|((a, b), (c, d))| {
@@ -128,7 +123,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, toleranc
                 && height(d) >= b.to[DEPTH] - tolerance
         });
         if all {
-            return Compared::AsGood;
+            return if turns { Compared::Turning } else { Compared::AsGood { step_by_step: true } };
         }
     }
     // other corners: nowhere across below what the job crosses at
@@ -139,19 +134,38 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, toleranc
             return if goes_there { Compared::Lower(to, highest) } else { Compared::Elsewhere(to) };
         }
     }
-    Compared::AsGood
+    if turns { Compared::Turning } else { Compared::AsGood { step_by_step: false } }
 }
 
-/// What the program does before a change of tool or work offset: nowhere across below where the job crosses, or below
-/// where it stands then.
-pub(super) fn leaves_well(job: &Way, program: &Way, tolerance: f64) -> Option<(Place, f64)> {
-    let heights = |way: &Way| way.corners.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
-    let crossing =
-        across(&job.corners, tolerance).map(|(a, b)| a.to[DEPTH].min(b.to[DEPTH])).fold(f64::INFINITY, f64::min);
-    let limit = if crossing.is_finite() { crossing } else { heights(job) };
-    across(&program.corners, tolerance)
-        .find(|(a, b)| height(a).min(height(b)) < limit - tolerance)
-        .map(|(_, b)| (b.to, limit))
+/// Out of a hole whose cycle says how the spindle stands and where it moves: are the job's corners there, with it?
+pub(super) fn leaves_hole(job: &Way, program: &Way, tolerance: f64) -> Option<Compared> {
+    let told = job.corners.iter().skip(1).filter(|corner| corner.rotation.is_some());
+    for corner in told {
+        match program.corners.iter().skip(1).find(|other| same(&other.to, &corner.to, ALL, tolerance)) {
+            Some(other) if other.rotation.is_some() && other.rotation != corner.rotation => {
+                return Some(Compared::Turning);
+            }
+            Some(_) => {}
+            None => return Some(Compared::AsGood { step_by_step: false }),
+        }
+    }
+    None
+}
+
+/// The program's way after a last cut: nowhere across below where the job crosses, and down only to where the job goes.
+pub(super) fn leaves_low(job: &Way, program: &Way, tolerance: f64) -> Option<(Place, f64)> {
+    let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();
+    let highest = heights(&job.corners).into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let crossing = across(&job.corners, tolerance).map(|(a, b)| a.to[DEPTH].min(b.to[DEPTH])).fold(highest, f64::min);
+    let low = across(&program.corners, tolerance).find(|(a, b)| height(a).min(height(b)) < crossing - tolerance);
+    if let Some((_, b)) = low {
+        return Some((b.to, crossing));
+    }
+    // where the job only goes up, so does the program
+    let floor = heights(&job.corners).into_iter().skip(1).reduce(f64::min).unwrap_or(highest);
+    let mut pairs = program.corners.windows(2);
+    let dives = pairs.find(|pair| height(&pair[1]) < height(&pair[0]) && height(&pair[1]) < floor - tolerance);
+    dives.map(|pair| (pair[1].to, floor))
 }
 
 #[cfg(test)]
@@ -177,7 +191,10 @@ mod tests {
         let diagonal = [[0.0, 0.0, 5.0], [9.0, 0.0, 1.0]];
         assert_eq!(compared(&diagonal, &diagonal), Compared::Same);
         assert_eq!(compared(&diagonal, &[[0.0, 0.0, 5.0], [4.5, 0.0, 3.0], [9.0, 0.0, 1.0]]), Compared::Same);
-        assert_eq!(compared(&diagonal, &[[0.0, 0.0, 5.0], [9.0, 0.0, 5.0], [9.0, 0.0, 1.0]]), Compared::AsGood);
+        assert_eq!(
+            compared(&diagonal, &[[0.0, 0.0, 5.0], [9.0, 0.0, 5.0], [9.0, 0.0, 1.0]]),
+            Compared::AsGood { step_by_step: true }
+        );
         assert!(matches!(
             compared(&diagonal, &[[0.0, 0.0, 5.0], [0.0, 0.0, 1.0], [9.0, 0.0, 1.0]]),
             Compared::Lower(..)

@@ -36,7 +36,8 @@ pub fn read_program(
     warnings: &mut Vec<Diag>,
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
-    let settings = Settings { places_unknown: true, ..options.settings };
+    // off the wall to the side that a job's bore has at angle zero
+    let settings = Settings { places_unknown: true, bore_shift: -1.0, ..options.settings };
     let mut simulator = Simulator::new(input, settings);
     let survey = survey(&mut simulator, options, warnings)?;
     let mut simulator = simulator.again().map_err(ReadError::Io)?;

@@ -7,8 +7,8 @@ use crate::diag::{Code, Diag};
 use crate::lang::Machine;
 use crate::nc::action::{Action, Cooling, Drilling, Item, Position, Rotation, Turn};
 use crate::toolpath::{
-    Arc, Axes, Coolant, CycleSpec, Event, FeedMode, First, Infeed, Place, Side, Sink, Spindle, SpindleTurn, Start,
-    Tool, ToolChange,
+    Arc, Axes, Coolant, CycleSpec, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Spindle, SpindleTurn,
+    Start, Tool, ToolChange,
 };
 
 /// What is switched on a machine, for comparison: what was said, and what is wanted now.
@@ -37,6 +37,7 @@ pub(super) struct Reader<'a> {
     wanted: Switches,
     said: Switches,
     mode: FeedMode,
+    plane: Plane,
     at: Position,
     /// Axes whose place a job knows.
     known: u8,
@@ -70,6 +71,7 @@ impl<'a> Reader<'a> {
             wanted: Switches::default(),
             said: Switches::default(),
             mode: FeedMode::PerMinute,
+            plane: Plane::Xy,
             at: [0.0; 6],
             known: 0,
             home: None,
@@ -133,6 +135,15 @@ impl<'a> Reader<'a> {
                 Ok(())
             }
             Action::Coolant(cooling) => {
+                let both = [Some(Coolant::On), Some(Coolant::Mist)];
+                let wanted = if *cooling == Cooling::Flood { Coolant::On } else { Coolant::Mist };
+                if *cooling != Cooling::Off
+                    && both.contains(&self.wanted.coolant)
+                    && self.wanted.coolant != Some(wanted)
+                {
+                    let message = "flood and mist at once: a job has one of them, the later";
+                    self.warnings.push(warning(item.line, message, "print the other by the form"));
+                }
                 self.wanted.coolant = Some(match cooling {
                     Cooling::Flood => Coolant::On,
                     Cooling::Mist => Coolant::Mist,
@@ -149,10 +160,26 @@ impl<'a> Reader<'a> {
                 self.operation = true; // a job's operation has one
                 Ok(())
             }
+            Action::Compensation(Some((_, None))) => unsaid(
+                item.line,
+                "compensation by a diameter in the block (G41.1, G42.1)",
+                "use a register, D with G41 or G42",
+            ),
+            Action::Compensation(Some(_)) if self.plane != Plane::Xy => {
+                unsaid(item.line, "cutter compensation outside G17", "a job's compensation is in XY")
+            }
             Action::Compensation(side) => self.compensation(side.map(|(side, _)| side)),
+            Action::Plane(plane) => {
+                self.plane = *plane;
+                Ok(())
+            }
             Action::LeftOut(b'M', 290) => {
                 self.rigid = true;
                 Ok(())
+            }
+            Action::Frame if self.place.operation > 0 => {
+                let help = "write the places in one frame: a job has no G10, G52 or G92";
+                unsaid(item.line, "the program moves its coordinate frame between its moves", help)
             }
             Action::Frame => {
                 if !std::mem::replace(&mut self.framed, true) {
@@ -259,7 +286,8 @@ impl<'a> Reader<'a> {
 
     fn spindle(&self) -> Spindle {
         Spindle {
-            speed: self.wanted.speed.filter(|&speed| speed > 0.0),
+            // a standing spindle's zero is no speed
+            speed: self.wanted.speed.filter(|&speed| speed > 0.0 || self.turns()),
             turn: Some(match self.wanted.rotation {
                 Some(Rotation::Cw) => SpindleTurn::Cw,
                 Some(Rotation::Ccw) => SpindleTurn::Ccw,
@@ -268,6 +296,10 @@ impl<'a> Reader<'a> {
             css: self.wanted.css,
             max: None,
         }
+    }
+
+    fn turns(&self) -> bool {
+        matches!(self.wanted.rotation, Some(Rotation::Cw | Rotation::Ccw))
     }
 
     /// What was switched since the last move.
@@ -372,6 +404,16 @@ impl<'a> Reader<'a> {
     }
 
     fn hole(&mut self, hole: &Drilling) -> Result<(), Box<Diag>> {
+        if hole.plane != Plane::Xy {
+            let help = "program its moves: a job's cycles go along Z";
+            return unsaid(self.place.line, "a canned cycle outside G17", help);
+        }
+        // a rigid tap turns the spindle its own way
+        match hole.code {
+            840 if !self.turns() => self.wanted.rotation = Some(Rotation::Cw),
+            740 if self.wanted.rotation != Some(Rotation::Ccw) => self.wanted.rotation = Some(Rotation::Ccw),
+            _ => {}
+        }
         let first = match &self.cycle {
             Some((_, first)) if is_same(first, hole) && self.said == self.wanted => *first,
             _ => {
@@ -430,6 +472,7 @@ impl<'a> Reader<'a> {
         }
         self.changes += 1;
         self.operation = true;
+        self.wanted.rotation = Some(Rotation::Stop);
         self.said = Switches::default();
         if self.tool.replace(number) == Some(number) && self.place.operation > 0 {
             // no form prints a change to the tool that is there

@@ -38,11 +38,23 @@ pub(super) fn survey(
     let mut survey = Survey { registers: vec![Registers::default()], top: f64::NEG_INFINITY, ..Survey::default() };
     let mut left_out: BTreeMap<(u8, u16), (u64, u64)> = BTreeMap::new();
     let mut items = Vec::new();
+    let (mut length, mut told) = (false, false);
     let (mut units, mut moved, mut last) = (options.units, false, [0.0; 6]);
     loop {
         items.clear();
         let more = simulator.step(&mut items).map_err(refused)?;
         for item in &items {
+            if let Action::Feed { .. } | Action::Arc(_) = &item.action
+                && !length
+                && !std::mem::replace(&mut told, true)
+            {
+                let message = "a tool cuts without a length offset, and the form will turn its own on";
+                warnings.push(warning(
+                    item.line,
+                    message,
+                    "look whether the machine has tool lengths, and what its registers hold",
+                ));
+            }
             let mut reach = |survey: &mut Survey, to: &[f64; 6], machine: u8| {
                 moved = true;
                 for axis in 3..6 {
@@ -66,8 +78,14 @@ pub(super) fn survey(
                     }
                     units = Some(*now);
                 }
+                Action::Length(None) => length = false,
+                Action::Length(Some(register)) if *register < 0.0 => {
+                    let help = "give the tool a register with the other sign, and G43";
+                    return Ok(unsaid(item.line, "G44, a length offset that is taken off", help)?);
+                }
                 Action::Tool(_) => survey.registers.push(Registers::default()),
                 Action::Length(Some(register)) => {
+                    length = true;
                     let line = item.line;
                     one(&mut survey.registers, |r| &mut r.length, *register, line, "length offsets, H")?;
                 }
@@ -88,11 +106,17 @@ pub(super) fn survey(
         }
     }
     for ((letter, code), (line, count)) in left_out {
-        let number = f64::from(code) / 10.0;
-        let name = format!("{}{number}", char::from(letter));
+        let name = match letter {
+            b'/' => "block delete".to_owned(),
+            _ => format!("{}{}", char::from(letter), f64::from(code) / 10.0),
+        };
         let times = if count > 1 { format!(", {count} times") } else { String::new() };
         let message = format!("{name}{times} has no place in a job and is left out");
         warnings.push(warning(line, message, "if the machine needs it, print it by the form"));
+    }
+    if simulator.begins_again() {
+        let message = "the program ends with M99 and begins again; a job ends";
+        warnings.push(warning(simulator.line(), message, "print M99 in EndCode"));
     }
     survey.program = simulator.program();
     survey.units = units;

@@ -10,6 +10,7 @@ pub mod cl;
 pub mod compile;
 pub mod cycle;
 pub mod diag;
+pub mod diff;
 pub mod lang;
 pub mod lint;
 pub mod nc;

@@ -33,6 +33,8 @@ pub enum Command {
     Check(CheckArgs),
     /// Prove that a program makes the motions of its job
     Verify(VerifyArgs),
+    /// Show what changed between two NC programs
+    Diff(DiffArgs),
     /// Run an NC program and print what the machine does
     Simulate(SimulateArgs),
     /// Say what a code means, and what to write instead
@@ -329,6 +331,72 @@ pub struct SimulateArgs {
     /// Only count: blocks, moves, holes, extents, distances, time
     #[arg(long)]
     pub dry: bool,
+}
+
+/// How a comparison is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DiffFormat {
+    /// Unified, or side by side on a wide terminal, with changed words marked
+    Text,
+    /// One JSON document
+    Json,
+    /// A page that stands alone
+    Html,
+}
+
+/// How blocks of both programs are laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Layout {
+    /// Side by side where the terminal has 140 columns or more
+    Auto,
+    /// One below the other
+    Unified,
+    /// Side by side
+    Side,
+}
+
+/// `postform diff`.
+#[derive(Debug, Args)]
+pub struct DiffArgs {
+    /// OLD and NEW program; with --form the JOB; with --forms OLD.pf, NEW.pf and the JOB
+    #[arg(required = true, num_args = 1..=3, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// What does not count, of numbers, comments, spaces, case, format, order, all, none
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', default_value = "numbers,spaces,case,format")]
+    pub ignore: Vec<String>,
+    /// By how much numbers may differ and be the same
+    #[arg(long, value_name = "NUMBER", value_parser = length, default_value = "0")]
+    pub tolerance: f64,
+    /// Compare what the machine does, not what is written
+    #[arg(long)]
+    pub motion: bool,
+    /// Unchanged blocks around changed ones
+    #[arg(long, value_name = "BLOCKS", default_value_t = 3)]
+    pub context: usize,
+    /// How the comparison is shown
+    #[arg(long, value_name = "FORMAT", default_value = "text")]
+    pub format: DiffFormat,
+    /// How text is laid out
+    #[arg(long, value_name = "LAYOUT", default_value = "auto")]
+    pub layout: Layout,
+    /// Print the JOB with this form, and compare it with --against
+    #[arg(long, value_name = "FORM", requires = "against", conflicts_with = "forms")]
+    pub form: Option<PathBuf>,
+    /// The program of before
+    #[arg(long, value_name = "OLD", requires = "form")]
+    pub against: Option<PathBuf>,
+    /// Print the JOB with both forms, and compare
+    #[arg(long)]
+    pub forms: bool,
+    /// How programs are run for --motion
+    #[command(flatten)]
+    pub control: ControlArgs,
+    /// How jobs are rendered
+    #[command(flatten)]
+    pub options: RenderOptions,
+    /// How jobs are read
+    #[command(flatten)]
+    pub read: ReadArgs,
 }
 
 /// `postform explain`.

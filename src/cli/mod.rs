@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod colour;
+mod diff;
 mod explain;
 mod files;
 mod forms;
@@ -60,6 +61,7 @@ pub fn run() -> ExitCode {
         Command::Lint(args) => lint::run(&args, arguments.color),
         Command::Check(args) => check::run(&args, colour),
         Command::Verify(args) => verify::run(&args, colour),
+        Command::Diff(args) => diff::run(&args, arguments.color),
         Command::Simulate(args) => simulate::run(&args, colour),
         Command::Explain(args) => explain::run(&args),
     };

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::Path;
 
-use postform::diag::{Diag, Severity};
+use postform::diag::Diag;
 use postform::nc::{Action, Item, RunError, Simulator, Tally};
 use postform::number::quantise;
 use postform::toolpath::{Direction, Plane, StopKind, Units};
@@ -83,21 +83,21 @@ fn try_run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     out.flush().or_else(ignore_closed)?;
     drop(out);
     let reporter = Reporter::new(colour);
-    warnings.iter_mut().for_each(|diag| place(diag, &args.program));
+    let name = files::name(&args.program);
+    warnings.iter_mut().for_each(|diag| place(diag, &name));
     eprint!("{}", reporter.text(&warnings, &[]));
     if left_out > 0 {
         eprintln!("and {left_out} more warnings");
     }
     let Some((mut diag, _)) = refused else { return Ok(Ending::Clean) };
-    place(&mut diag, &args.program);
+    place(&mut diag, &name);
     eprint!("{}", reporter.text(&[*diag], &[]));
     Ok(Ending::Findings)
 }
 
 /// The program's name before the place.
-pub fn place(diag: &mut Diag, program: &Path) {
-    diag.place = Some(format!("{}:{}", files::name(program), diag.place.take().unwrap_or_default()));
-    debug_assert!(diag.severity >= Severity::Note);
+pub fn place(diag: &mut Diag, program: &str) {
+    diag.place = Some(format!("{program}:{}", diag.place.take().unwrap_or_default()));
 }
 
 /// `false`: whoever read it has seen enough.

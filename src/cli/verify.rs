@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{Seek, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use postform::diag::{Code, Diag};
 use postform::nc::Settings;
@@ -75,7 +75,7 @@ pub struct Job<'a> {
     /// How it is read.
     pub read: &'a ReadArgs,
     /// Its name.
-    pub path: &'a PathBuf,
+    pub path: &'a Path,
 }
 
 impl Job<'_> {
@@ -230,9 +230,27 @@ fn sentence(verdict: &Verdict, program: &str, job: &str, counts: Counts) -> Stri
 
 /// The job rendered into a file that nobody sees. `None`: it can't be, which was shown.
 fn rendered(job: &Job, prepared: &Prepared, reporter: &Reporter) -> Result<Option<File>, String> {
+    Ok(spooled(job, prepared, reporter, false)?.map(|(file, _)| file))
+}
+
+/// The same, with where each line came from.
+pub fn rendered_with_trace(
+    job: &Job,
+    prepared: &Prepared,
+    reporter: &Reporter,
+) -> Result<Option<(File, Vec<TraceLine>)>, String> {
+    spooled(job, prepared, reporter, true)
+}
+
+fn spooled(
+    job: &Job,
+    prepared: &Prepared,
+    reporter: &Reporter,
+    trace: bool,
+) -> Result<Option<(File, Vec<TraceLine>)>, String> {
     let fail = |error: std::io::Error| io_message("write", Path::new("a temporary file"), &error);
     let mut sink = Spool {
-        renderer: Renderer::new(&prepared.program, prepared.options.clone()),
+        renderer: Renderer::new(&prepared.program, Options { trace, ..prepared.options.clone() }),
         file: tempfile::tempfile().map_err(fail)?,
         failure: None,
     };
@@ -253,7 +271,8 @@ fn rendered(job: &Job, prepared: &Prepared, reporter: &Reporter) -> Result<Optio
         }
     }
     sink.file.rewind().map_err(fail)?;
-    Ok(Some(sink.file))
+    let lines = sink.renderer.trace().map(std::mem::take).unwrap_or_default();
+    Ok(Some((sink.file, lines)))
 }
 
 struct Spool<'p> {

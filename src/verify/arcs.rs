@@ -74,7 +74,7 @@ impl<R: BufRead + Seek> Sides<R> {
                 );
             }
             self.feeds(cut, &found, false)?;
-            self.advance(&found);
+            self.advance();
             parts += 1;
             if same(&end, &turn.to, ALL, self.tolerance) && swept > whole - 1e-3 - self.tolerance / radius {
                 self.equivalences.arcs += u64::from(parts > 1);

@@ -43,8 +43,6 @@ pub struct Comparer<R> {
 /// Both sides where they stand.
 pub(super) struct Sides<R> {
     pub program: Program<R>,
-    /// Where the program's way begins.
-    program_start: Rapid,
     /// The job's way, and where it begins if that is known.
     way: Vec<Rapid>,
     start: Option<Rapid>,
@@ -90,12 +88,10 @@ const TOLERANCES: [f64; 2] = [1e-4, 2e-3];
 impl<R: BufRead + Seek> Comparer<R> {
     /// Compares with this program. `tolerance` in the job's units; else 0.0001 inch or 0.002 mm.
     pub fn new(program: R, settings: Settings, expectation: Expectation, tolerance: Option<f64>) -> Comparer<R> {
-        let origin = Rapid { to: [0.0; 6], unknown: 0b111, rotation: None };
         Comparer {
             job: Job::new(expectation),
             sides: Sides {
                 program: Program::new(program, settings, expectation.tools, expectation.units_due),
-                program_start: origin,
                 way: Vec::new(),
                 start: None,
                 left: Vec::new(),
@@ -194,9 +190,8 @@ impl<R: BufRead + Seek> Sides<R> {
     }
 
     /// The program's cut is dealt with.
-    pub fn advance(&mut self, cut: &Cut) {
+    pub fn advance(&mut self) {
         self.program.take();
-        self.program_start = Rapid { to: *self.program.at(), unknown: 0, rotation: cut.state.rotation };
     }
 
     /// The job's cut is dealt with: its next way begins where it ends.
@@ -211,9 +206,9 @@ impl<R: BufRead + Seek> Sides<R> {
 
     /// The program's next cut, whose way, beginning and state are as they must be.
     pub fn meet(&mut self, cut: &Cut, hole: Option<&Expected>) -> Result<Cut, Box<Diag>> {
-        while let Some(found) = self.next()?.filter(|found| self.enters_again(cut, found)) {
+        while self.next()?.is_some_and(|found| self.enters_again(cut, &found)) {
             self.equivalences.entries += 1;
-            self.advance(&found);
+            self.advance();
         }
         let Some(found) = self.next()? else {
             return match hole {
@@ -251,7 +246,7 @@ impl<R: BufRead + Seek> Sides<R> {
             return false;
         }
         let [_, program] = &mut self.ways;
-        program.set(Some(self.program_start), &self.program.way, self.tolerance);
+        program.set(Some(self.program.start()), &self.program.way, self.tolerance);
         let above = !height_known || found.from[DEPTH] > to[DEPTH];
         same(&found.from, &to, ACROSS, self.tolerance) && above && program.stays_above(to[DEPTH])
     }
@@ -335,10 +330,10 @@ impl<R: BufRead + Seek> Sides<R> {
         let [job, program] = &mut self.ways;
         let rest = &self.program.way[split..];
         // after a change the way begins anywhere
-        let begin = if self.lost && self.program.before.is_some() { None } else { Some(self.program_start) };
+        let begin = if self.lost && self.program.before.is_some() { None } else { Some(self.program.start()) };
         job.set(self.start, &self.way, tolerance);
         program.set(begin, rest, tolerance);
-        let known = !self.lost && self.program_start.unknown == 0;
+        let known = !self.lost && self.program.start().unknown == 0;
         match compare(job, program, known, tolerance) {
             Compared::Same => Ok(()),
             Compared::AsGood { step_by_step } if step_by_step || !self.aside => {
@@ -380,7 +375,7 @@ impl<R: BufRead + Seek> Sides<R> {
             return Ok(()); // nothing was cut before
         }
         job.set(self.left_start, &self.left, tolerance);
-        program.set(Some(self.program_start), &self.program.way[..until], tolerance);
+        program.set(Some(self.program.start()), &self.program.way[..until], tolerance);
         match leaves_hole(job, program, tolerance) {
             Some(Compared::Turning) => return self.turns_otherwise(line),
             Some(_) if self.aside => return self.stays_at_wall(line),
@@ -404,7 +399,7 @@ impl<R: BufRead + Seek> Sides<R> {
                 break;
             }
             self.feeds(cut, &found, hole.is_some_and(|hole| hole.is_tap))?;
-            self.advance(&found);
+            self.advance();
             let next = self.next()?.filter(|next| {
                 matches!(next.what, What::Line { .. })
                     && self.program.way.is_empty()
@@ -420,7 +415,7 @@ impl<R: BufRead + Seek> Sides<R> {
         self.ends(&cut.from, end, &found, hole)?;
         self.feeds(cut, &found, hole.is_some_and(|hole| hole.is_tap))?;
         self.equivalences.parts += u64::from(parts > 1);
-        self.advance(&found);
+        self.advance();
         Ok(())
     }
 
@@ -485,7 +480,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
                     let message = format!("the dwell is {} s, the job's {} s", number(is), number(wanted));
                     return self.differs(Code::PV010, found.line, message, "look at the unit of the dwell (`Dwell`)");
                 }
-                self.advance(&found);
+                self.advance();
             }
             (_, What::Arc(_)) => {
                 let message = "an arc, where the job cuts straight".to_owned();

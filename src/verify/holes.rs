@@ -62,7 +62,7 @@ impl<R: BufRead + Seek> Sides<R> {
                     }
                 }
             }
-            self.advance(&found);
+            self.advance();
         }
         self.check_pecks(&pecks, hole, [strokes as f64, longest], out, line)?;
         let bottom = deepest;

@@ -10,9 +10,11 @@ mod finding;
 mod holes;
 mod intended;
 mod program;
+mod programs;
 mod state;
 mod way;
 
 pub use comparer::{Comparer, Counts};
 pub use finding::{Equivalences, Finding, Verdict};
 pub use intended::Expectation;
+pub use programs::{MotionDifference, NoMotion, compare_motions};

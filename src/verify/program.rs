@@ -28,6 +28,7 @@ pub(super) struct Program<R> {
     units: Units,
     /// Units that places are wanted in.
     wanted: Units,
+    start: Rapid,
     /// The way to the cut.
     pub way: Vec<Rapid>,
     /// How many of its rapids come before a change of tool or work offset, after which places are others.
@@ -69,6 +70,7 @@ impl<R: BufRead + Seek> Program<R> {
             units_said: !units_due,
             units: settings.units,
             wanted: settings.units,
+            start: Rapid { to: [0.0; 6], unknown: 0b111, rotation: None },
             way: Vec::new(),
             before: None,
             stops: Vec::new(),
@@ -117,6 +119,7 @@ impl<R: BufRead + Seek> Program<R> {
             self.at = cut.what.end(&cut.from);
             // a cut may say a height that was unknown
             self.unknown = self.simulator.machine().at_machine();
+            self.start = Rapid { to: self.at, unknown: self.unknown, rotation: cut.state.rotation };
             self.way.clear();
             self.before = None;
             self.stops.clear();
@@ -124,9 +127,9 @@ impl<R: BufRead + Seek> Program<R> {
         }
     }
 
-    /// Where the tool stands.
-    pub fn at(&self) -> &Place {
-        &self.at
+    /// Where the way began: at the end of the last cut.
+    pub fn start(&self) -> Rapid {
+        self.start
     }
 
     /// The text of the line that is being run.

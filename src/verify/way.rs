@@ -46,6 +46,16 @@ impl Way {
         }
     }
 
+    /// The same corners, known or not?
+    pub fn is(&self, other: &Way, tolerance: f64) -> bool {
+        self.corners.len() == other.corners.len()
+            && self
+                .corners
+                .iter()
+                .zip(&other.corners)
+                .all(|(a, b)| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance))
+    }
+
     /// Does nothing move across at this height or below?
     pub fn stays_above(&self, height: f64) -> bool {
         let known = |rapid: &Rapid| rapid.unknown & 1 << DEPTH == 0;

@@ -1,0 +1,137 @@
+//! A comparison as one HTML page that stands alone: it can be mailed, and needs nothing from the network.
+
+use std::fmt::Write as _;
+use std::ops::Range;
+
+use postform::diag::escaped;
+use postform::diff::{Comparison, Edit, Hunk, Options, Summary, changed_spans};
+
+use super::sides::Side;
+use super::text::{grouped, sentence};
+
+const STYLE: &str = "\
+body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:80rem;padding:0 1rem;color:#1b1f24;background:#fff}
+h1{font-size:1.25rem;margin:0 0 .25rem}p{margin:.25rem 0 1rem}code{font:13px/1.5 ui-monospace,monospace}
+table{border-collapse:collapse;width:100%;table-layout:fixed;margin:0 0 1.25rem;border:1px solid #d0d7de}
+td{font:13px/1.5 ui-monospace,monospace;white-space:pre-wrap;overflow-wrap:anywhere;padding:0 .5rem;vertical-align:top}
+td.n{width:4.5rem;color:#57606a;text-align:right;user-select:none;background:#f6f8fa}
+td.old{background:#ffebe9}td.new{background:#dafbe1}td.moved{background:#ddf4ff}
+mark{background:#ffc1ba;color:inherit;border-radius:2px}td.new mark{background:#9be9a8}
+td.origin{color:#57606a;background:#f6f8fa;text-align:right;font-size:12px}
+@media(prefers-color-scheme:dark){body{background:#0d1117;color:#e6edf3}table{border-color:#30363d}td.n,td.origin{background:#161b22;color:#8b949e}
+td.old{background:#49202499}td.new{background:#12361f}td.moved{background:#12304d}mark{background:#8e3a36}td.new mark{background:#1f6f35}}
+";
+
+/// The page.
+pub fn page(
+    old: &Side,
+    new: &Side,
+    comparison: &Comparison,
+    summary: &Summary,
+    context: usize,
+    options: &Options,
+) -> String {
+    let mut text = String::new();
+    let (a, b) = (safe(old.name.as_bytes()), safe(new.name.as_bytes()));
+    let found =
+        if comparison.is_same() { "no differences".to_owned() } else { safe(sentence(summary).trim().as_bytes()) };
+    _ = write!(
+        text,
+        "<!doctype html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>{a} and {b}</title>\n\
+         <style>{STYLE}</style></head>\n<body>\n<h1>What changed</h1>\n<p><code>{a}</code> before, <code>{b}</code> after: {found}</p>\n"
+    );
+    if comparison.is_coarse {
+        text += "<p>The programs are too different for the shortest answer: this one is right and longer.</p>\n";
+    }
+    for group in grouped(&comparison.hunks, context) {
+        table(old, new, group, context, options, &mut text);
+    }
+    text += "</body>\n</html>\n";
+    text
+}
+
+fn table(old: &Side, new: &Side, hunks: &[Hunk], context: usize, options: &Options, out: &mut String) {
+    let (Some(first), Some(last)) = (hunks.first(), hunks.last()) else { return };
+    out.push_str("<table>\n");
+    let mut at = (first.old.start.saturating_sub(context), first.new.start.saturating_sub(context));
+    for hunk in hunks {
+        unchanged(old, new, at.0..hunk.old.start, at.1..hunk.new.start, out);
+        hunk.edits.iter().for_each(|edit| row(old, new, edit, options, out));
+        // who printed what is new
+        if let Some(origin) = hunk.new.clone().next().and_then(|line| new.origin(line)) {
+            _ = writeln!(
+                out,
+                "<tr><td colspan=\"4\" class=\"origin\">printed by {}</td></tr>",
+                safe(origin.as_bytes())
+            );
+        }
+        at = (hunk.old.end, hunk.new.end);
+    }
+    let end = ((last.old.end + context).min(old.program.len()), (last.new.end + context).min(new.program.len()));
+    unchanged(old, new, at.0..end.0, at.1..end.1, out);
+    out.push_str("</table>\n");
+}
+
+/// Lines that are the same, as far as both sides have them.
+fn unchanged(old: &Side, new: &Side, before: Range<usize>, after: Range<usize>, out: &mut String) {
+    // what does not count may make one side longer: the last lines stand together
+    let both = before.len().min(after.len());
+    let (a, b) = (before.end - both, after.end - both);
+    for i in 0..both {
+        cells(
+            &cell(Some(a + i), old.program.text(a + i), &[], ""),
+            &cell(Some(b + i), new.program.text(b + i), &[], ""),
+            out,
+        );
+    }
+}
+
+fn row(old: &Side, new: &Side, edit: &Edit, options: &Options, out: &mut String) {
+    let none = cell(None, b"", &[], "");
+    match *edit {
+        Edit::Removed(line) => cells(&cell(Some(line), old.program.text(line), &[], "old"), &none, out),
+        Edit::Added(line) => cells(&none, &cell(Some(line), new.program.text(line), &[], "new"), out),
+        Edit::Moved(a, b) => cells(
+            &cell(Some(a), old.program.text(a), &[], "moved"),
+            &cell(Some(b), new.program.text(b), &[], "moved"),
+            out,
+        ),
+        Edit::Changed(a, b) => {
+            let (before, after) = (old.program.text(a), new.program.text(b));
+            let [gone, come] = changed_spans(before, after, &options.ignore);
+            cells(&cell(Some(a), before, &gone, "old"), &cell(Some(b), after, &come, "new"), out);
+        }
+    }
+}
+
+fn cells(old: &str, new: &str, out: &mut String) {
+    _ = writeln!(out, "<tr>{old}{new}</tr>");
+}
+
+fn cell(line: Option<usize>, text: &[u8], marked: &[Range<usize>], class: &str) -> String {
+    let number = line.map_or(String::new(), |line| (line + 1).to_string());
+    let mut body = String::new();
+    let mut at = 0;
+    for span in marked {
+        _ = write!(body, "{}<mark>{}</mark>", safe(&text[at..span.start]), safe(&text[span.clone()]));
+        at = span.end;
+    }
+    body += &safe(&text[at..]);
+    format!("<td class=\"n\">{number}</td><td class=\"{class}\">{body}</td>")
+}
+
+/// Text of a program in a page: nothing of it is markup.
+fn safe(text: &[u8]) -> String {
+    let mut out = String::new();
+    for c in escaped(&String::from_utf8_lossy(text)).chars() {
+        match c {
+            '&' => out += "&amp;",
+            '<' => out += "&lt;",
+            '>' => out += "&gt;",
+            '"' => out += "&quot;",
+            c => out.push(c),
+        }
+    }
+    out
+}

@@ -1,0 +1,145 @@
+//! `postform diff`.
+
+mod html;
+mod json;
+mod sides;
+mod text;
+
+use std::io::{Cursor, IsTerminal, Write};
+
+use postform::diff::{Ignore, Options, Program, Summary, compare};
+use postform::nc::{Kind, RunError, tokens};
+use postform::toolpath::Units;
+use postform::verify::{MotionDifference, NoMotion, compare_motions};
+
+use super::args::{DiffArgs, DiffFormat, Layout};
+use super::colour::Colour;
+use super::report::Reporter;
+use super::{Ending, output, simulate};
+use sides::{Side, sides};
+
+/// Compares two programs.
+pub fn run(args: &DiffArgs, colour: Colour) -> Ending {
+    match try_run(args, colour) {
+        Ok(ending) => ending,
+        Err(message) => {
+            eprintln!("{message}");
+            Ending::Failed
+        }
+    }
+}
+
+fn try_run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
+    let options = Options { ignore: ignored(&args.ignore)?, tolerance: args.tolerance, ..Options::default() };
+    if args.motion && args.format == DiffFormat::Html {
+        return Err("error: --motion has one difference, which --format text or json shows".into());
+    }
+    let reporter = Reporter::new(colour.on_stderr());
+    let Some([old, new]) = sides(args, &reporter)? else { return Ok(Ending::Findings) };
+    let text = if args.motion {
+        match motions(args, &old, &new, &reporter)? {
+            Outcome::Refused => return Ok(Ending::Findings),
+            Outcome::Same => {
+                return said(match args.format {
+                    DiffFormat::Text => String::new(),
+                    _ => json::motion(&old, &new, None),
+                });
+            }
+            Outcome::Different(difference) => match args.format {
+                DiffFormat::Text => text::motion(&old, &new, &difference),
+                _ => json::motion(&old, &new, Some(&difference)),
+            },
+        }
+    } else {
+        let comparison = compare(&old.program, &new.program, &options);
+        let summary = Summary::of(&comparison, &old.program, &new.program, &options.ignore);
+        let text = match args.format {
+            DiffFormat::Text => match columns(args.layout) {
+                Some(columns) => {
+                    let colour = colour.on_stdout();
+                    text::side_by_side(&old, &new, &comparison, &summary, args.context, columns, colour)
+                }
+                None => text::unified(&old, &new, &comparison, &summary, args, &options, colour.on_stdout()),
+            },
+            DiffFormat::Json => json::document(&old, &new, &comparison, &summary, &options),
+            DiffFormat::Html => html::page(&old, &new, &comparison, &summary, args.context, &options),
+        };
+        if comparison.is_same() {
+            return said(text);
+        }
+        text
+    };
+    said(text)?;
+    Ok(Ending::Findings)
+}
+
+/// Columns for programs side by side; `None`: one below the other.
+fn columns(layout: Layout) -> Option<usize> {
+    const WIDE: usize = 140;
+    let terminal = || terminal_size::terminal_size().map(|(width, _)| usize::from(width.0));
+    match layout {
+        Layout::Unified => None,
+        Layout::Side => Some(terminal().unwrap_or(WIDE)),
+        Layout::Auto => terminal().filter(|&columns| columns >= WIDE && std::io::stdout().is_terminal()),
+    }
+}
+
+fn said(text: String) -> Result<Ending, String> {
+    output::standard_output(|out| out.write_all(text.as_bytes()))?;
+    Ok(Ending::Clean)
+}
+
+/// The names of `--ignore`.
+fn ignored(names: &[String]) -> Result<Ignore, String> {
+    let mut ignore = Ignore::default();
+    for name in names {
+        match name.as_str() {
+            "none" => {}
+            "all" => Ignore::NAMES.iter().for_each(|name| _ = ignore.set(name)),
+            name if ignore.set(name) => {}
+            name => {
+                let known = Ignore::NAMES.join(", ");
+                return Err(format!(
+                    "error: there is no `{name}` to ignore\n  help: take some of {known}, all or none"
+                ));
+            }
+        }
+    }
+    Ok(ignore)
+}
+
+/// What the first G20 or G21 of a program says.
+fn units_of(program: &Program) -> Option<Units> {
+    (0..program.len()).flat_map(|line| tokens(program.line(line))).find_map(|token| match token.kind {
+        Kind::Word(b'G', number) if number.value == 20.0 => Some(Units::Inch),
+        Kind::Word(b'G', number) if number.value == 21.0 => Some(Units::Mm),
+        _ => None,
+    })
+}
+
+enum Outcome {
+    Same,
+    Different(MotionDifference),
+    Refused,
+}
+
+/// What both machines do.
+fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Result<Outcome, String> {
+    // a program that does not say its units counts in those of --units, or millimetres
+    let said = || units_of(&old.program).or_else(|| units_of(&new.program));
+    let units = args.options.units.map(|units| units.units()).or_else(said).unwrap_or(Units::Mm);
+    let settings = [old, new].map(|side| args.control.settings(side.control.as_deref(), units));
+    let tolerance = if args.tolerance > 0.0 { args.tolerance } else { 1e-6 };
+    let inputs = [old, new].map(|side| Cursor::new(side.program.bytes()));
+    let [a, b] = inputs;
+    match compare_motions(a, b, settings, units, tolerance) {
+        Ok(None) => Ok(Outcome::Same),
+        Ok(Some(difference)) => Ok(Outcome::Different(difference)),
+        Err(NoMotion(which, RunError::Refused(mut diag, _))) => {
+            simulate::place(&mut diag, if which == 0 { &old.name } else { &new.name });
+            eprint!("{}", reporter.text(&[*diag], &[]));
+            Ok(Outcome::Refused)
+        }
+        Err(NoMotion(_, RunError::Io(error))) => Err(format!("error: can't read the program: {error}")),
+    }
+}

@@ -1,0 +1,119 @@
+//! Where the two programs come from.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use postform::diff::Program;
+use postform::render::TraceLine;
+use postform::source::Source;
+use postform::trace::Trace;
+
+use super::super::args::DiffArgs;
+use super::super::files::{self, Again, io_message};
+use super::super::prepare::{Prepared, prepare};
+use super::super::report::Reporter;
+use super::super::verify::{Job, rendered_with_trace};
+
+/// A program, and what is known of it.
+pub struct Side {
+    /// What it is called.
+    pub name: String,
+    /// Its text.
+    pub program: Program,
+    /// The control of the form that printed it.
+    pub control: Option<String>,
+    /// Where its lines come from, and the form's text.
+    pub trace: Option<(Trace, Vec<Source>)>,
+}
+
+impl Side {
+    /// Form line and job item that printed a line, counted from 0: `form.pf:12, operations[0].path[3]`.
+    pub fn origin(&self, line: usize) -> Option<String> {
+        let (trace, files) = self.trace.as_ref()?;
+        let TraceLine { form, place, .. } = trace.line(line as u64 + 1)?;
+        let form = form.and_then(|span| {
+            let source = files.get(span.file as usize)?;
+            Some(format!("{}:{}", source.name, source.line_column(span.start).0))
+        });
+        let form = form.unwrap_or_else(|| "generated".to_owned());
+        let path = place.path();
+        Some(if path.is_empty() { form } else { format!("{form} for {path}") })
+    }
+}
+
+impl Side {
+    /// The form line that printed a line.
+    pub fn form_line(&self, line: usize) -> Option<&str> {
+        let (trace, files) = self.trace.as_ref()?;
+        let span = trace.line(line as u64 + 1)?.form?;
+        let source = files.get(span.file as usize)?;
+        source.text.lines().nth(source.line_column(span.start).0 as usize - 1)
+    }
+}
+
+/// Both programs. `None`: one can't be rendered, which was shown.
+pub fn sides(args: &DiffArgs, reporter: &Reporter) -> Result<Option<[Side; 2]>, String> {
+    match (&args.form, &args.against, args.files.as_slice()) {
+        (Some(form), Some(old), [job]) => {
+            let old = read(old)?;
+            let Some([new]) = printed([form], job, args, reporter)? else { return Ok(None) };
+            Ok(Some([old, new]))
+        }
+        (Some(_), ..) => {
+            Err("error: with --form and --against comes one job: postform diff --form FORM --against OLD JOB".into())
+        }
+        (None, _, [old, new, job]) if args.forms => printed([old, new], job, args, reporter),
+        (None, _, [old, new]) if !args.forms => {
+            if old == new && *old == Path::new("-") {
+                return Err("error: only one of the programs can be standard input".into());
+            }
+            Ok(Some([read(old)?, read(new)?]))
+        }
+        _ if args.forms => {
+            Err("error: --forms takes two forms and a job: postform diff --forms OLD.pf NEW.pf JOB".into())
+        }
+        _ => Err("error: diff takes two programs: postform diff OLD NEW".into()),
+    }
+}
+
+fn read(path: &Path) -> Result<Side, String> {
+    let mut bytes = Vec::new();
+    let mut input = files::open(path)?;
+    input.read_to_end(&mut bytes).map_err(|error| io_message("read", path, &error))?;
+    Ok(Side { name: files::name(path), program: program(path, bytes)?, control: None, trace: None })
+}
+
+fn program(path: &Path, bytes: Vec<u8>) -> Result<Program, String> {
+    Program::new(bytes).map_err(|_| format!("error: {} is larger than 4 GB", files::name(path)))
+}
+
+/// The job printed by each form.
+fn printed<const N: usize, P: AsRef<Path>>(
+    forms: [P; N],
+    job: &Path,
+    args: &DiffArgs,
+    reporter: &Reporter,
+) -> Result<Option<[Side; N]>, String> {
+    let from = files::job_format(job, &args.read)?;
+    let job = Job { again: Again::open(job)?, from, read: &args.read, path: job };
+    let mut sides = Vec::with_capacity(N);
+    for form in &forms {
+        let form = form.as_ref();
+        let Some(prepared) = prepare(form, &args.options, job.path, reporter)? else { return Ok(None) };
+        let Some((file, lines)) = rendered_with_trace(&job, &prepared, reporter)? else { return Ok(None) };
+        sides.push(side(form, file, lines, prepared)?);
+    }
+    Ok(sides.try_into().ok())
+}
+
+fn side(form: &Path, mut file: File, lines: Vec<TraceLine>, prepared: Prepared) -> Result<Side, String> {
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(|error| io_message("read", Path::new("the program"), &error))?;
+    Ok(Side {
+        name: format!("the program of {}", files::name(form)),
+        program: program(form, bytes)?,
+        control: Some(prepared.program.settings.control.clone()),
+        trace: Some((Trace::new(lines), prepared.files)),
+    })
+}

@@ -1,0 +1,241 @@
+//! A comparison for people: unified, the changed words marked under their block.
+
+use std::fmt::Write as _;
+use std::ops::Range;
+
+use postform::diag::escaped;
+use postform::diff::{Comparison, Edit, Hunk, Options, Summary, changed_spans};
+use postform::verify::MotionDifference;
+
+use super::super::args::DiffArgs;
+use super::super::report::count;
+use super::sides::Side;
+
+const RED: &str = "\x1b[31m";
+const GREEN: &str = "\x1b[32m";
+const CYAN: &str = "\x1b[36m";
+const PLAIN: &str = "\x1b[0m";
+
+/// Unified text.
+pub fn unified(
+    old: &Side,
+    new: &Side,
+    comparison: &Comparison,
+    summary: &Summary,
+    args: &DiffArgs,
+    options: &Options,
+    colour: bool,
+) -> String {
+    if comparison.is_same() {
+        return String::new();
+    }
+    let mut page = Page { old, new, options, colour, text: String::new() };
+    _ = writeln!(page.text, "--- {}\n+++ {}", old.name, new.name);
+    for group in grouped(&comparison.hunks, args.context) {
+        page.group(group, args.context);
+    }
+    page.text += &sentence(summary);
+    if comparison.is_coarse {
+        page.text += "the programs are too different for the shortest answer: this one is right and longer\n";
+    }
+    page.text
+}
+
+/// The same side by side, in so many columns.
+pub fn side_by_side(
+    old: &Side,
+    new: &Side,
+    comparison: &Comparison,
+    summary: &Summary,
+    context: usize,
+    columns: usize,
+    colour: bool,
+) -> String {
+    if comparison.is_same() {
+        return String::new();
+    }
+    let width = (columns.max(60) - 3) / 2;
+    let mut text = String::new();
+    let mut row = |left: &str, sign: char, right: &str, shade: &str| {
+        let (on, off) = if colour && !shade.is_empty() { (shade, PLAIN) } else { ("", "") };
+        let (left, right) = (fitted(left, width), fitted(right, width));
+        let line = format!("{left:width$} {sign} {right}");
+        _ = writeln!(text, "{on}{}{off}", line.trim_end());
+    };
+    row(&old.name, ' ', &new.name, "");
+    for group in grouped(&comparison.hunks, context) {
+        let (Some(first), Some(last)) = (group.first(), group.last()) else { continue };
+        let head = format!("line {}", first.old.start.saturating_sub(context) + 1);
+        row(&head, '@', &format!("line {}", first.new.start.saturating_sub(context) + 1), CYAN);
+        let mut at = first.old.start.saturating_sub(context);
+        let mut shift = first.new.start as i64 - first.old.start as i64;
+        let same = |row: &mut dyn FnMut(&str, char, &str, &str), lines: Range<usize>, shift: i64| {
+            for line in lines {
+                let other = usize::try_from(line as i64 + shift).ok().filter(|&other| other < new.program.len());
+                let right = other.map_or(String::new(), |other| shown(new.program.text(other)));
+                row(&shown(old.program.text(line)), ' ', &right, "");
+            }
+        };
+        for hunk in group {
+            same(&mut row, at..hunk.old.start, shift);
+            for edit in &hunk.edits {
+                match *edit {
+                    Edit::Removed(a) => row(&shown(old.program.text(a)), '<', "", RED),
+                    Edit::Added(b) => row("", '>', &shown(new.program.text(b)), GREEN),
+                    Edit::Changed(a, b) => row(&shown(old.program.text(a)), '|', &shown(new.program.text(b)), CYAN),
+                    Edit::Moved(a, b) => row(&shown(old.program.text(a)), '~', &shown(new.program.text(b)), CYAN),
+                }
+            }
+            at = hunk.old.end;
+            shift = hunk.new.end as i64 - hunk.old.end as i64;
+        }
+        same(&mut row, at..(last.old.end + context).min(old.program.len()), shift);
+    }
+    text + &sentence(summary)
+}
+
+/// Hunks whose contexts meet stand together.
+pub fn grouped(hunks: &[Hunk], context: usize) -> impl Iterator<Item = &[Hunk]> {
+    hunks.chunk_by(move |a, b| b.old.start.saturating_sub(a.old.end) <= 2 * context)
+}
+
+struct Page<'a> {
+    old: &'a Side,
+    new: &'a Side,
+    options: &'a Options,
+    colour: bool,
+    text: String,
+}
+
+impl Page<'_> {
+    fn group(&mut self, hunks: &[Hunk], context: usize) {
+        let (Some(first), Some(last)) = (hunks.first(), hunks.last()) else { return };
+        let from = |range: &Range<usize>| range.start.saturating_sub(context);
+        let (start, new_start) = (from(&first.old), from(&first.new));
+        let end = (last.old.end + context).min(self.old.program.len());
+        let new_end = (last.new.end + context).min(self.new.program.len());
+        let head = format!("@@ -{},{} +{},{} @@", start + 1, end - start, new_start + 1, new_end - new_start);
+        self.line(CYAN, &head);
+        let mut at = start;
+        for hunk in hunks {
+            self.unchanged(at..hunk.old.start);
+            for edit in &hunk.edits {
+                self.edit(edit);
+            }
+            self.origin(hunk);
+            at = hunk.old.end;
+        }
+        self.unchanged(at..end);
+    }
+
+    fn unchanged(&mut self, lines: Range<usize>) {
+        for line in lines {
+            let text = shown(self.old.program.text(line));
+            _ = writeln!(self.text, " {text}");
+        }
+    }
+
+    fn edit(&mut self, edit: &Edit) {
+        let (old, new) = (&self.old.program, &self.new.program);
+        match *edit {
+            Edit::Removed(line) => self.line(RED, &format!("-{}", shown(old.text(line)))),
+            Edit::Added(line) => self.line(GREEN, &format!("+{}", shown(new.text(line)))),
+            Edit::Changed(a, b) => {
+                let (before, after) = (old.text(a), new.text(b));
+                let [gone, come] = changed_spans(before, after, &self.options.ignore);
+                self.line(RED, &format!("-{}", shown(before)));
+                self.marks(before, &gone);
+                self.line(GREEN, &format!("+{}", shown(after)));
+                self.marks(after, &come);
+            }
+            Edit::Moved(a, b) => {
+                let text = shown(old.text(a));
+                self.line(CYAN, &format!("~{text}  (line {} of the old program, {} of the new)", a + 1, b + 1));
+            }
+        }
+    }
+
+    /// Which words, under their line.
+    fn marks(&mut self, line: &[u8], spans: &[Range<usize>]) {
+        if spans.is_empty() || line.iter().any(|byte| !(b' '..=b'~').contains(byte)) {
+            return; // places are columns only where a byte is one
+        }
+        let mut marks = vec![b' '; line.len()];
+        spans.iter().for_each(|span| marks[span.clone()].fill(b'^'));
+        let text = String::from_utf8_lossy(&marks).trim_end().to_owned();
+        self.line(CYAN, &format!("?{text}"));
+    }
+
+    /// Who printed what is new.
+    fn origin(&mut self, hunk: &Hunk) {
+        let line = hunk.new.clone().find(|_| true).filter(|&line| line < self.new.program.len());
+        if let Some(origin) = line.and_then(|line| self.new.origin(line)) {
+            self.line(CYAN, &format!("    printed by {}", escaped(&origin)));
+        }
+        let change = hunk.edits.iter().find_map(|edit| match *edit {
+            Edit::Changed(a, b) => Some((self.old.form_line(a)?.to_owned(), self.new.form_line(b)?.to_owned())),
+            _ => None,
+        });
+        if let Some((before, after)) = change.filter(|(before, after)| before != after) {
+            self.line(RED, &format!("    form: - {}", escaped(&before)));
+            self.line(GREEN, &format!("    form: + {}", escaped(&after)));
+        }
+    }
+
+    fn line(&mut self, colour: &str, text: &str) {
+        if self.colour {
+            _ = writeln!(self.text, "{colour}{text}{PLAIN}");
+        } else {
+            _ = writeln!(self.text, "{text}");
+        }
+    }
+}
+
+/// Text in a column: what does not fit is seen to be missing.
+fn fitted(text: &str, width: usize) -> String {
+    if text.chars().count() <= width {
+        return text.to_owned();
+    }
+    text.chars().take(width - 1).chain(['…']).collect()
+}
+
+fn shown(line: &[u8]) -> String {
+    escaped(&String::from_utf8_lossy(line))
+}
+
+/// What changed, by kinds.
+pub fn sentence(summary: &Summary) -> String {
+    let blocks = [
+        (summary.changed, "changed"),
+        (summary.added, "added"),
+        (summary.removed, "removed"),
+        (summary.moved, "moved"),
+    ];
+    let blocks: Vec<String> = blocks
+        .iter()
+        .filter(|(number, _)| *number > 0)
+        .map(|(number, what)| format!("{} {what}", count(*number, "block")))
+        .collect();
+    let mut kinds: Vec<String> =
+        summary.letters.iter().map(|(letter, number)| format!("{letter} in {}", count(*number, "block"))).collect();
+    kinds.extend(
+        summary.more.iter().map(|(word, number)| format!("{} more in {}", escaped(word), count(*number, "block"))),
+    );
+    kinds.extend(
+        summary.less.iter().map(|(word, number)| format!("{} less in {}", escaped(word), count(*number, "block"))),
+    );
+    let kinds = if kinds.is_empty() { String::new() } else { format!(": {}", kinds.join(", ")) };
+    format!("{}{kinds}\n", blocks.join(", "))
+}
+
+/// The first difference of motions.
+pub fn motion(old: &Side, new: &Side, difference: &MotionDifference) -> String {
+    let mut text = format!("the machine does something else: {}\n", difference.message);
+    for (sign, side, (line, block)) in [('-', old, &difference.blocks[0]), ('+', new, &difference.blocks[1])] {
+        _ = match line {
+            0 => writeln!(text, "{sign} {}: its end", side.name),
+            _ => writeln!(text, "{sign} {}, line {line}: {}", side.name, escaped(block)),
+        };
+    }
+    text
+}

@@ -1,0 +1,77 @@
+//! A line as a number: lines are the same when their numbers are.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use super::ignore::Ignore;
+use crate::nc::{Kind, Token, tokens};
+
+/// The key of a line; `None` when nothing of it counts.
+///
+/// Two different lines have one key by chance once in 2^64: a program has fewer lines than that.
+pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
+    let mut whole = DefaultHasher::new();
+    let mut sum = 0u64;
+    let mut counts = false;
+    let mut parts = tokens(line).peekable();
+    while let Some(token) = parts.next() {
+        if !is_seen(&token, ignore) {
+            continue;
+        }
+        counts = true;
+        let mut one = DefaultHasher::new();
+        hash_token(&token, line, ignore, &mut one);
+        // what belongs to a letter stays with it
+        if matches!(token.kind, Kind::Letter(_)) {
+            while let Some(next) = parts.next_if(is_value) {
+                if is_seen(&next, ignore) {
+                    hash_token(&next, line, ignore, &mut one);
+                }
+            }
+        }
+        let one = one.finish();
+        if ignore.order { sum = sum.wrapping_add(one) } else { one.hash(&mut whole) }
+    }
+    counts.then(|| if ignore.order { sum } else { whole.finish() })
+}
+
+/// Does a token count?
+pub(super) fn is_seen(token: &Token, ignore: &Ignore) -> bool {
+    match token.kind {
+        Kind::Blank | Kind::LineEnd => !ignore.spaces,
+        Kind::Comment | Kind::OpenComment | Kind::Remark => !ignore.comments,
+        Kind::Word(b'N', _) => !ignore.numbers,
+        _ => true,
+    }
+}
+
+/// Part of an expression behind a letter.
+fn is_value(token: &Token) -> bool {
+    matches!(token.kind, Kind::Symbol(_) | Kind::Number(_) | Kind::Name | Kind::Quoted | Kind::Blank)
+}
+
+fn hash_token(token: &Token, line: &[u8], ignore: &Ignore, hasher: &mut impl Hasher) {
+    let text = &line[token.start..token.end];
+    match token.kind {
+        Kind::Word(letter, number) if ignore.format => {
+            if ignore.case {
+                letter.hash(hasher)
+            } else {
+                text[0].hash(hasher)
+            }
+            // zero has one sign
+            (number.value + 0.0).to_bits().hash(hasher);
+        }
+        Kind::Number(number) if ignore.format => number.value.to_bits().hash(hasher),
+        Kind::Comment | Kind::OpenComment | Kind::Remark => text.hash(hasher),
+        _ => {
+            for &byte in text {
+                let is_blank = byte == b' ' || byte == b'\t';
+                if is_blank && ignore.spaces {
+                    continue;
+                }
+                if ignore.case { byte.to_ascii_uppercase().hash(hasher) } else { byte.hash(hasher) }
+            }
+            0xffu8.hash(hasher);
+        }
+    }
+}

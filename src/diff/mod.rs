@@ -1,0 +1,14 @@
+//! What changed between two NC programs: blocks compared by their words, not by their text.
+
+mod align;
+mod ignore;
+mod key;
+mod program;
+mod summary;
+mod words;
+
+pub use align::{Comparison, Edit, Hunk, Options, compare};
+pub use ignore::Ignore;
+pub use program::Program;
+pub use summary::Summary;
+pub use words::changed_spans;

@@ -1,0 +1,58 @@
+//! A program in memory: its bytes, and where its lines are.
+
+/// A program whose lines are known by number.
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    bytes: Vec<u8>,
+    /// Where lines begin, and where the last one ends.
+    starts: Vec<u32>,
+}
+
+/// A program is larger than what 32 bits count: its size in bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooLarge(pub usize);
+
+impl Program {
+    /// Finds the lines of a program.
+    ///
+    /// # Errors
+    /// It is larger than four gigabytes.
+    pub fn new(bytes: Vec<u8>) -> Result<Program, TooLarge> {
+        if u32::try_from(bytes.len()).is_err() {
+            return Err(TooLarge(bytes.len()));
+        }
+        let mut starts = vec![0];
+        starts.extend(memchr::memchr_iter(b'\n', &bytes).map(|at| at as u32 + 1));
+        if starts.last().is_some_and(|&last| (last as usize) < bytes.len()) {
+            starts.push(bytes.len() as u32);
+        }
+        Ok(Program { bytes, starts })
+    }
+
+    /// Its text.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// How many lines it has.
+    pub fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Has it none?
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// A line, from 0, with its end.
+    pub fn line(&self, number: usize) -> &[u8] {
+        &self.bytes[self.starts[number] as usize..self.starts[number + 1] as usize]
+    }
+
+    /// A line without its end.
+    pub fn text(&self, number: usize) -> &[u8] {
+        let line = self.line(number);
+        let line = line.strip_suffix(b"\n").unwrap_or(line);
+        line.strip_suffix(b"\r").unwrap_or(line)
+    }
+}

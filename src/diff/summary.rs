@@ -1,0 +1,81 @@
+//! What changed, by kinds.
+
+use std::collections::BTreeMap;
+
+use super::align::{Comparison, Edit};
+use super::ignore::Ignore;
+use super::program::Program;
+use super::words::{Word, words};
+
+/// Counts of what changed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// Blocks changed, removed, added, moved.
+    pub changed: usize,
+    #[allow(missing_docs)]
+    pub removed: usize,
+    #[allow(missing_docs)]
+    pub added: usize,
+    #[allow(missing_docs)]
+    pub moved: usize,
+    /// Changed blocks in which a letter's number changed, by letter.
+    pub letters: BTreeMap<char, usize>,
+    /// Codes and words that changed blocks have more, and less.
+    pub more: BTreeMap<String, usize>,
+    #[allow(missing_docs)]
+    pub less: BTreeMap<String, usize>,
+}
+
+impl Summary {
+    /// Counts a comparison.
+    pub fn of(comparison: &Comparison, old: &Program, new: &Program, ignore: &Ignore) -> Summary {
+        let mut summary = Summary::default();
+        let mut moved = 0;
+        for edit in comparison.edits() {
+            match *edit {
+                Edit::Removed(_) => summary.removed += 1,
+                Edit::Added(_) => summary.added += 1,
+                Edit::Moved(..) => moved += 1,
+                Edit::Changed(a, b) => {
+                    summary.changed += 1;
+                    summary.block(&words(old.line(a), ignore), old.line(a), &words(new.line(b), ignore), new.line(b));
+                }
+            }
+        }
+        summary.moved = moved / 2; // it is told at both ends
+        summary
+    }
+
+    fn block(&mut self, old: &[Word], old_text: &[u8], new: &[Word], new_text: &[u8]) {
+        // codes are themselves, other words are their letter
+        let is_code = |word: &Word| matches!(word.letter, 0 | b'G' | b'M');
+        let name = |word: &Word, text: &[u8]| {
+            let text = String::from_utf8_lossy(&text[word.span.clone()]).trim().to_ascii_uppercase();
+            if is_code(word) { text } else { char::from(word.letter).to_string() }
+        };
+        for word in new.iter().filter(|word| !is_code(word)) {
+            match old.iter().find(|before| before.letter == word.letter) {
+                Some(before) if !before.is(word) => {
+                    *self.letters.entry(char::from(word.letter)).or_default() += 1;
+                }
+                Some(_) => {}
+                None => *self.more.entry(name(word, new_text)).or_default() += 1,
+            }
+        }
+        for word in old.iter().filter(|word| !is_code(word)) {
+            if !new.iter().any(|after| after.letter == word.letter) {
+                *self.less.entry(name(word, old_text)).or_default() += 1;
+            }
+        }
+        let codes = |list: &[Word], text: &[u8]| -> Vec<String> {
+            list.iter().filter(|word| is_code(word)).map(|word| name(word, text)).collect()
+        };
+        let (before, after) = (codes(old, old_text), codes(new, new_text));
+        for code in after.iter().filter(|code| !before.contains(code)) {
+            *self.more.entry(code.clone()).or_default() += 1;
+        }
+        for code in before.iter().filter(|code| !after.contains(code)) {
+            *self.less.entry(code.clone()).or_default() += 1;
+        }
+    }
+}

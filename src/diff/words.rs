@@ -1,0 +1,92 @@
+//! Inside a changed block: which words changed.
+
+use std::ops::Range;
+
+use similar::{Algorithm, DiffTag, capture_diff_slices};
+
+use super::ignore::Ignore;
+use super::key::is_seen;
+use crate::nc::{Kind, tokens};
+
+/// A word or comment of a block.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Word {
+    /// Its bytes in the line.
+    pub span: Range<usize>,
+    /// Its letter; 0 for what is no word.
+    pub letter: u8,
+    /// Its number, where it has one.
+    pub value: Option<f64>,
+    /// As compared.
+    key: Vec<u8>,
+}
+
+impl Word {
+    /// Is it the same, as compared?
+    pub fn is(&self, other: &Word) -> bool {
+        self.key == other.key
+    }
+}
+
+/// The words of a block that count.
+pub(super) fn words(line: &[u8], ignore: &Ignore) -> Vec<Word> {
+    let mut list: Vec<Word> = Vec::new();
+    let mut open = false;
+    for token in tokens(line).filter(|token| is_seen(token, ignore)) {
+        if matches!(token.kind, Kind::Blank | Kind::LineEnd) {
+            continue;
+        }
+        let text = &line[token.start..token.end];
+        let continues = matches!(token.kind, Kind::Symbol(_) | Kind::Number(_) | Kind::Name | Kind::Quoted);
+        if let Some(last) = list.last_mut().filter(|_| open && continues) {
+            last.span.end = token.end;
+            last.key.extend_from_slice(text);
+            continue;
+        }
+        let (letter, value) = match token.kind {
+            Kind::Word(letter, number) => (letter, Some(number.value + 0.0)),
+            Kind::Letter(letter) => (letter, None),
+            _ => (0, None),
+        };
+        let key = match value.filter(|_| ignore.format) {
+            Some(value) => [&[letter][..], &value.to_bits().to_le_bytes()].concat(),
+            None if ignore.case && letter != 0 => text.to_ascii_uppercase(),
+            None => text.to_vec(),
+        };
+        open = value.is_none();
+        list.push(Word { span: token.start..token.end, letter, value, key });
+    }
+    list
+}
+
+/// Are two blocks the same when numbers may differ by so much?
+pub(super) fn within(old: &[Word], new: &[Word], tolerance: f64) -> bool {
+    old.len() == new.len()
+        && old.iter().zip(new).all(|(a, b)| match (a.value, b.value) {
+            (Some(x), Some(y)) => a.letter == b.letter && (x - y).abs() <= tolerance,
+            _ => a.key == b.key,
+        })
+}
+
+/// How many words two blocks share, of the longer one's.
+pub(super) fn likeness(old: &[Word], new: &[Word]) -> f64 {
+    let letters = |list: &[Word]| -> Vec<u8> { list.iter().map(|word| word.letter).collect() };
+    let (a, b) = (letters(old), letters(new));
+    let shared = a.iter().filter(|letter| b.contains(letter)).count();
+    shared as f64 / a.len().max(b.len()).max(1) as f64
+}
+
+/// The places of changed words in an old and a new block.
+pub fn changed_spans(old: &[u8], new: &[u8], ignore: &Ignore) -> [Vec<Range<usize>>; 2] {
+    let (before, after) = (words(old, ignore), words(new, ignore));
+    let keys = |list: &[Word]| -> Vec<Vec<u8>> { list.iter().map(|word| word.key.clone()).collect() };
+    let mut spans = [Vec::new(), Vec::new()];
+    for op in capture_diff_slices(Algorithm::RawMyers, &keys(&before), &keys(&after)) {
+        let (tag, from, to) = op.as_tag_tuple();
+        if tag != DiffTag::Equal {
+            spans[0].extend(before[from].iter().map(|word| word.span.clone()));
+            spans[1].extend(after[to].iter().map(|word| word.span.clone()));
+        }
+    }
+    spans
+}

@@ -1,0 +1,149 @@
+//! Two programs by what a machine does: another way to write the same motions is no difference.
+
+use std::io::{BufRead, Seek};
+
+use super::cut::{ALL, Cut, State, What, number, same, shown};
+use super::program::Program;
+use super::way::{Compared, Way, compare, leaves_low};
+use crate::nc::{RunError, Settings, axes_of};
+use crate::toolpath::Units;
+
+/// The first difference of two programs' motions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionDifference {
+    /// What differs.
+    pub message: String,
+    /// Line and text of the blocks, old and new; line 0 where a program is over.
+    pub blocks: [(u64, String); 2],
+}
+
+/// Why motions can't be compared: a program (0 old, 1 new) that can't be read or that its control refuses.
+#[derive(Debug)]
+pub struct NoMotion(pub usize, pub RunError);
+
+/// Compares what two programs do, cut by cut; units, order of words and canned cycles do not matter.
+///
+/// # Errors
+/// One of them can't be run.
+pub fn compare_motions<R: BufRead + Seek>(
+    old: R,
+    new: R,
+    settings: [Settings; 2],
+    units: Units,
+    tolerance: f64,
+) -> Result<Option<MotionDifference>, NoMotion> {
+    let [mut a, mut b] = [(old, settings[0]), (new, settings[1])].map(|(input, settings)| {
+        let mut program = Program::new(input, settings, false, false);
+        program.want(units);
+        program
+    });
+    let mut ways = [Way::default(), Way::default()];
+    loop {
+        let x = a.peek().map_err(|error| NoMotion(0, error))?;
+        let y = b.peek().map_err(|error| NoMotion(1, error))?;
+        let blocks = |a: &Program<R>, b: &Program<R>| {
+            [(x.map_or(0, |cut| cut.line), a.text()), (y.map_or(0, |cut| cut.line), b.text())]
+        };
+        let starts = [a.start(), b.start()];
+        for (way, (program, start)) in ways.iter_mut().zip([(&a, starts[0]), (&b, starts[1])]) {
+            way.set(Some(start), &program.way, tolerance);
+        }
+        let (Some(cut), Some(found)) = (x, y) else {
+            // in neither direction: going out higher is another motion, too
+            let low = |a: usize, b: usize| leaves_low(&ways[a], &ways[b], tolerance).is_some();
+            let leaves_well = ways[0].is(&ways[1], tolerance) || !low(0, 1) && !low(1, 0);
+            if x.is_none() && y.is_none() && leaves_well {
+                return Ok(None);
+            }
+            let message = match (x, y) {
+                (Some(cut), _) => format!("the new program is over, and a cut to {} is missing", end(&cut)),
+                (None, Some(cut)) => format!("the old program is over, and the new one cuts to {}", end(&cut)),
+                (None, None) => "the tool leaves the last cut on another way".to_owned(),
+            };
+            return Ok(Some(MotionDifference { message, blocks: blocks(&a, &b) }));
+        };
+        let known = starts.iter().all(|start| start.unknown == 0);
+        let way = match ways[0].is(&ways[1], tolerance) {
+            true => Compared::Same,
+            false => match compare(&ways[0], &ways[1], known, tolerance) {
+                Compared::AsGood { .. } => higher(compare(&ways[1], &ways[0], known, tolerance)),
+                other => other,
+            },
+        };
+        if let Some(message) = differs(&cut, &found, way, tolerance) {
+            return Ok(Some(MotionDifference { message, blocks: blocks(&a, &b) }));
+        }
+        a.take();
+        b.take();
+    }
+}
+
+/// What the old way is to the new one, the other way round: where the old one is lower, the new one is elsewhere.
+fn higher(other: Compared) -> Compared {
+    match other {
+        Compared::Lower(to, _) => Compared::Elsewhere(to),
+        other => other,
+    }
+}
+
+fn end(cut: &Cut) -> String {
+    shown(&cut.what.end(&cut.from), 0b111)
+}
+
+fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64) -> Option<String> {
+    let near = |a: f64, b: f64| (a - b).abs() <= tolerance.max(1e-9 * a.abs());
+    if !same(&cut.from, &found.from, ALL, tolerance) {
+        return Some(format!("a cut begins at {}, before at {}", shown(&found.from, 0b111), shown(&cut.from, 0b111)));
+    }
+    match way {
+        Compared::Same | Compared::AsGood { .. } | Compared::Turning => {}
+        Compared::Lower(to, _) => return Some(format!("a rapid goes to {}, lower than before", shown(&to, 0b111))),
+        Compared::Elsewhere(to) => return Some(format!("the rapids about {} go another way", shown(&to, 0b111))),
+    }
+    match (cut.what, found.what) {
+        (What::Dwell(a), What::Dwell(b)) if !near(a, b) => {
+            return Some(format!("a dwell of {} s, before {} s", number(b), number(a)));
+        }
+        (What::Dwell(_), What::Dwell(_)) => {}
+        (What::Arc(a), What::Arc(b)) => {
+            let [first, second, _] = axes_of(a.plane);
+            let centre = near(a.center[first], b.center[first]) && near(a.center[second], b.center[second]);
+            if (a.plane, a.direction, a.turns) != (b.plane, b.direction, b.turns) || !centre {
+                return Some(format!("another arc to {}", shown(&b.to, 0b111)));
+            }
+        }
+        (What::Line { .. }, What::Line { .. }) => {}
+        _ => return Some("a straight cut, an arc or a dwell became another of them".to_owned()),
+    }
+    let (a, b) = (cut.what.end(&cut.from), found.what.end(&found.from));
+    if !same(&a, &b, ALL, tolerance) {
+        return Some(format!("a cut goes to {}, before to {}", shown(&b, 0b111), shown(&a, 0b111)));
+    }
+    if cut.mode != found.mode {
+        return Some("feeds count otherwise: per minute, per turn or inverse time".to_owned());
+    }
+    if let (Some(a), Some(b)) = (cut.feed, found.feed)
+        && (a - b).abs() > 1e-6 * a.abs() + tolerance
+    {
+        return Some(format!("the feed is {}, before {}", number(b), number(a)));
+    }
+    state(&cut.state, &found.state)
+}
+
+fn state(before: &State, now: &State) -> Option<String> {
+    let pairs = [
+        ("the tool", before.tool, now.tool),
+        ("the length register", before.length, now.length),
+        ("the diameter register", before.diameter, now.diameter),
+        ("the work offset", before.work, now.work),
+        ("the spindle speed", before.speed, now.speed),
+    ];
+    let text = |value: Option<f64>| value.map_or("none".to_owned(), |value| number(value).to_string());
+    if let Some((name, a, b)) = pairs.into_iter().find(|(_, a, b)| a != b) {
+        return Some(format!("{name} is {}, before {}", text(b), text(a)));
+    }
+    if before.rotation != now.rotation {
+        return Some("the spindle turns otherwise".to_owned());
+    }
+    (before.side != now.side).then(|| "cutter compensation is otherwise".to_owned())
+}

@@ -1,0 +1,80 @@
+//! Actions as JSON Lines.
+
+use postform::nc::{Action, Item};
+
+use super::{plane_name, stop_name, turn_name};
+
+/// One action as a JSON object.
+pub fn json(item: &Item, out: &mut Vec<u8>) {
+    let start = out.len();
+    out.extend_from_slice(b"{\"line\":");
+    out.extend_from_slice(itoa::Buffer::new().format(item.line).as_bytes());
+    match &item.action {
+        Action::Rapid { to, machine } => {
+            list(b",\"rapid\":[", to, out);
+            if *machine != 0 {
+                out.extend_from_slice(b",\"machine\":\"");
+                out.extend((0..6).filter(|axis| machine & 1 << axis != 0).map(|axis| b"xyzabc"[axis]));
+                out.push(b'"');
+            }
+        }
+        Action::Feed { to, feed, lead } => {
+            list(b",\"feed\":[", to, out);
+            match lead {
+                Some(lead) => number(b",\"lead\":", *lead, out),
+                None => number(b",\"f\":", *feed, out),
+            }
+        }
+        Action::Arc(turn) => {
+            list(b",\"arc\":[", &turn.to, out);
+            list(b",\"center\":[", &turn.center, out);
+            name(b",\"plane\":\"", plane_name(turn.plane), out);
+            name(b",\"turn\":\"", turn_name(turn.direction), out);
+            if turn.turns > 0 {
+                number(b",\"turns\":", f64::from(turn.turns), out);
+            }
+            number(b",\"f\":", turn.feed, out);
+        }
+        Action::Dwell(seconds) => number(b",\"dwell\":", *seconds, out),
+        Action::Spindle(rotation, speed) => {
+            name(b",\"spindle\":\"", rotation.name(), out);
+            number(b",\"s\":", *speed, out);
+        }
+        Action::Orient(angle) => number(b",\"orient\":", *angle, out),
+        Action::Stop(kind) => name(b",\"stop\":\"", stop_name(*kind), out),
+        Action::End => name(b",\"stop\":\"", "end", out),
+        Action::Tool(number_of) => number(b",\"tool\":", *number_of, out),
+        Action::Coolant(kind) => name(b",\"coolant\":\"", kind.name(), out),
+        Action::Units(units) => name(b",\"units\":\"", units.name(), out),
+        Action::Work(code) => number(b",\"work\":", *code, out),
+        _ => {
+            out.truncate(start);
+            return;
+        }
+    }
+    out.extend_from_slice(b"}\n");
+}
+
+fn list(before: &[u8], values: &[f64], out: &mut Vec<u8>) {
+    out.extend_from_slice(before);
+    for (i, value) in values.iter().enumerate() {
+        number(if i == 0 { b"" } else { b"," }, *value, out);
+    }
+    out.push(b']');
+}
+
+/// A number so that it reads back as the same double.
+fn number(before: &[u8], value: f64, out: &mut Vec<u8>) {
+    out.extend_from_slice(before);
+    if value.fract() == 0.0 && value.abs() < 1e15 {
+        out.extend_from_slice(itoa::Buffer::new().format(value as i64).as_bytes());
+    } else {
+        out.extend_from_slice(zmij::Buffer::new().format_finite(value).as_bytes());
+    }
+}
+
+fn name(before: &[u8], value: &str, out: &mut Vec<u8>) {
+    out.extend_from_slice(before);
+    out.extend_from_slice(value.as_bytes());
+    out.push(b'"');
+}

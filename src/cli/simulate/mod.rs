@@ -1,0 +1,134 @@
+//! `postform simulate`.
+
+mod json;
+mod summary;
+mod text;
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use postform::diag::Diag;
+use postform::nc::{RunError, Simulator, Tally};
+use postform::toolpath::{Direction, Plane, StopKind};
+
+use super::Ending;
+use super::args::{MotionFormat, SimulateArgs};
+use super::files::{self, io_message};
+use super::report::Reporter;
+
+/// How much text waits before it is written.
+const CHUNK: usize = 64 * 1024;
+/// Warnings that are shown; more are counted.
+const MOST_WARNINGS: usize = 20;
+
+/// Runs a program and prints what the machine does.
+pub fn run(args: &SimulateArgs, colour: bool) -> Ending {
+    match try_run(args, colour) {
+        Ok(ending) => ending,
+        Err(message) => {
+            eprintln!("{message}");
+            Ending::Failed
+        }
+    }
+}
+
+fn try_run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
+    let settings = args.control.settings(None, args.units.units());
+    let mut simulator = Simulator::new(files::open_program(&args.program)?, settings);
+    let mut tally = Tally::new(settings.units);
+    let mut warnings = Vec::new();
+    let mut left_out = 0;
+    let mut items = Vec::new();
+    let mut text = Vec::with_capacity(CHUNK + 4096);
+    let mut out = io::stdout().lock();
+    let refused = loop {
+        items.clear();
+        let step = simulator.step(&mut items);
+        for item in &items {
+            if args.dry {
+                tally.add(item);
+            } else if args.format == MotionFormat::Json {
+                json::json(item, &mut text);
+            } else {
+                text::line(item, simulator.text(), &mut text);
+            }
+        }
+        let new = simulator.take_warnings();
+        let room = MOST_WARNINGS.saturating_sub(warnings.len());
+        left_out += new.len().saturating_sub(room);
+        warnings.extend(new.into_iter().take(room));
+        if text.len() >= CHUNK && !write(&mut out, &mut text)? {
+            return Ok(Ending::Clean);
+        }
+        match step {
+            Ok(true) => {}
+            Ok(false) => break None,
+            Err(RunError::Refused(diag, line)) => break Some((diag, line)),
+            Err(RunError::Io(error)) => return Err(io_message("read", &args.program, &error)),
+        }
+    };
+    if let Some((diag, line)) = refused.as_ref().filter(|_| args.format == MotionFormat::Json) {
+        let row = serde_json::json!({ "line": line, "error": diag.code.name(), "message": diag.message });
+        text.extend_from_slice(row.to_string().as_bytes());
+        text.push(b'\n');
+    }
+    if args.dry {
+        let summary = match args.format {
+            MotionFormat::Text => summary::describe(&tally, simulator.blocks()),
+            MotionFormat::Json => summary::counted(&tally, simulator.blocks()),
+        };
+        text.extend_from_slice(summary.as_bytes());
+    }
+    write(&mut out, &mut text)?;
+    out.flush().or_else(ignore_closed)?;
+    drop(out);
+    let reporter = Reporter::new(colour);
+    let name = files::name(&args.program);
+    warnings.iter_mut().for_each(|diag| place(diag, &name));
+    eprint!("{}", reporter.text(&warnings, &[]));
+    if left_out > 0 {
+        eprintln!("and {left_out} more warnings");
+    }
+    let Some((mut diag, _)) = refused else { return Ok(Ending::Clean) };
+    place(&mut diag, &name);
+    eprint!("{}", reporter.text(&[*diag], &[]));
+    Ok(Ending::Findings)
+}
+
+/// The program's name before the place.
+pub fn place(diag: &mut Diag, program: &str) {
+    diag.place = Some(format!("{program}:{}", diag.place.take().unwrap_or_default()));
+}
+
+/// `false`: whoever read it has seen enough.
+fn write(out: &mut impl Write, text: &mut Vec<u8>) -> Result<bool, String> {
+    let written = out.write_all(text);
+    text.clear();
+    match written {
+        Ok(()) => Ok(true),
+        Err(error) => ignore_closed(error).map(|()| false),
+    }
+}
+
+fn ignore_closed(error: io::Error) -> Result<(), String> {
+    if error.kind() == io::ErrorKind::BrokenPipe {
+        return Ok(());
+    }
+    Err(io_message("write", Path::new("standard output"), &error))
+}
+
+fn plane_name(plane: Plane) -> &'static str {
+    match plane {
+        Plane::Xy => "xy",
+        Plane::Xz => "zx",
+        Plane::Yz => "yz",
+    }
+}
+
+fn turn_name(direction: Direction) -> &'static str {
+    if direction == Direction::Cw { "cw" } else { "ccw" }
+}
+
+fn stop_name(kind: StopKind) -> &'static str {
+    if kind == StopKind::Program { "program" } else { "optional" }
+}

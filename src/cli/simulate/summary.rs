@@ -1,0 +1,79 @@
+//! What is in a program, counted.
+
+use std::fmt::Write as _;
+
+use postform::nc::Tally;
+use postform::toolpath::Units;
+
+/// Rapid rate of the time estimate, in millimetres a minute.
+const RAPID_RATE: f64 = 10_000.0;
+
+/// The summary as a machinist reads it.
+pub fn describe(tally: &Tally, blocks: u64) -> String {
+    let mut text = String::new();
+    let unit = tally.units.name();
+    let [rapids, feeds, arcs] = tally.moves;
+    _ = writeln!(text, "blocks    {blocks}");
+    _ = writeln!(text, "moves     {rapids} rapid, {feeds} straight, {arcs} arcs");
+    _ = writeln!(text, "holes     {}", tally.holes);
+    _ = writeln!(text, "tools     {}", tally.tools);
+    if let Some(extents) = &tally.extents {
+        for (axis, (least, greatest)) in ["X", "Y", "Z"].iter().zip(extents) {
+            _ = writeln!(text, "{axis} at feed {} to {} {unit}", short(*least), short(*greatest));
+        }
+    }
+    let [rapid, feed] = tally.distances;
+    _ = writeln!(text, "distance  {} {unit} at rapid, {} {unit} at feed", short(rapid), short(feed));
+    let rate = rapid_rate(tally.units);
+    let minutes = [tally.cutting, tally.dwelling, rapid / rate];
+    _ = writeln!(
+        text,
+        "time      {}: cutting {}, dwells {}, rapids {} at {} {unit}/min, without tool changes",
+        clock(minutes.iter().sum()),
+        clock(minutes[0]),
+        clock(minutes[1]),
+        clock(minutes[2]),
+        short(rate)
+    );
+    if tally.timeless > 0 {
+        _ = writeln!(
+            text,
+            "          {} feed moves not counted: their feed follows a spindle without speed",
+            tally.timeless
+        );
+    }
+    text
+}
+
+/// The summary as JSON.
+pub fn counted(tally: &Tally, blocks: u64) -> String {
+    let [rapids, feeds, arcs] = tally.moves;
+    let rapid = tally.distances[0];
+    let row = serde_json::json!({
+        "blocks": blocks, "units": tally.units.name(), "rapids": rapids, "feeds": feeds, "arcs": arcs,
+        "holes": tally.holes, "tools": tally.tools,
+        "extents": tally.extents.map(|extents| extents.map(|(least, greatest)| [least, greatest])),
+        "distance": { "rapid": rapid, "feed": tally.distances[1] },
+        "minutes": { "cutting": tally.cutting, "dwells": tally.dwelling, "rapids": rapid / rapid_rate(tally.units) },
+    });
+    format!("{row}\n")
+}
+
+fn rapid_rate(units: Units) -> f64 {
+    if units == Units::Inch { RAPID_RATE / 25.0 } else { RAPID_RATE }
+}
+
+fn short(value: f64) -> String {
+    format!("{}", (value * 1e4).round() / 1e4 + 0.0)
+}
+
+/// Minutes as 1:02:03.
+fn clock(minutes: f64) -> String {
+    let seconds = (minutes * 60.0).round() as u64;
+    let (hours, rest) = (seconds / 3600, seconds % 3600);
+    if hours > 0 {
+        format!("{hours}:{:02}:{:02}", rest / 60, rest % 60)
+    } else {
+        format!("{}:{:02}", rest / 60, rest % 60)
+    }
+}

@@ -1,0 +1,172 @@
+//! Actions as lines of text.
+
+use postform::nc::{Action, Item};
+use postform::number::quantise;
+
+use super::{plane_name, stop_name, turn_name};
+
+/// A line that is written from its end to its beginning: digits come that way, and nothing is copied twice.
+struct Backwards {
+    bytes: [u8; 320],
+    at: usize,
+}
+
+impl Backwards {
+    fn new() -> Backwards {
+        Backwards { bytes: [0; 320], at: 320 }
+    }
+
+    #[inline]
+    fn byte(&mut self, byte: u8) {
+        self.at -= 1;
+        self.bytes[self.at] = byte;
+    }
+
+    #[inline]
+    fn text(&mut self, text: &[u8]) {
+        self.at -= text.len();
+        self.bytes[self.at..][..text.len()].copy_from_slice(text);
+    }
+
+    #[inline]
+    fn whole(&mut self, mut value: u64) {
+        loop {
+            self.byte(b'0' + (value % 10) as u8);
+            value /= 10;
+            if value == 0 {
+                return;
+            }
+        }
+    }
+
+    /// A word: its letter, and a number with up to five decimals.
+    #[inline]
+    fn word(&mut self, letter: &[u8], value: f64) {
+        match quantise(value, 5) {
+            Some(units) => {
+                let size = units.unsigned_abs();
+                let mut part = (size % 100_000) as u32;
+                if part > 0 {
+                    let mut decimals = 5;
+                    while part.is_multiple_of(10) {
+                        part /= 10;
+                        decimals -= 1;
+                    }
+                    for _ in 0..decimals {
+                        self.byte(b'0' + (part % 10) as u8);
+                        part /= 10;
+                    }
+                    self.byte(b'.');
+                }
+                self.whole(size / 100_000);
+                if units < 0 {
+                    self.byte(b'-');
+                }
+            }
+            None => self.text(format!("{value:e}").as_bytes()),
+        }
+        self.text(letter);
+    }
+
+    fn position(&mut self, to: &[f64; 6]) {
+        for (letter, value) in [b" C", b" B", b" A"].iter().zip(to[3..].iter().rev()) {
+            if *value != 0.0 {
+                self.word(*letter, *value);
+            }
+        }
+        self.word(b" Z", to[2]);
+        self.word(b" Y", to[1]);
+        self.word(b"X", to[0]);
+    }
+
+    /// The line's number and what is done, before the rest.
+    fn head(&mut self, line: u64, what: &[u8]) {
+        // the line end alone needs no column
+        if self.at < self.bytes.len() - 1 {
+            self.text(&b"        "[what.len()..]);
+        }
+        self.text(what);
+        self.text(b"  ");
+        let before = self.at;
+        self.whole(line);
+        let width = before - self.at;
+        self.text(&b"      "[width.min(6)..]);
+    }
+}
+
+/// One action as a line of text.
+pub fn line(item: &Item, block: &[u8], out: &mut Vec<u8>) {
+    let mut text = Backwards::new();
+    text.byte(b'\n');
+    let what = match &item.action {
+        Action::Rapid { to, machine } => {
+            if *machine != 0 {
+                text.text(b" in machine coordinates)");
+                (0..6).rev().filter(|axis| machine & 1 << axis != 0).for_each(|axis| text.byte(b"XYZABC"[axis]));
+                text.text(b"  (");
+            }
+            text.position(to);
+            "rapid"
+        }
+        Action::Feed { to, feed, lead } => {
+            match lead {
+                Some(lead) => text.word(b" lead ", *lead),
+                None => text.word(b" F", *feed),
+            }
+            text.position(to);
+            "feed"
+        }
+        Action::Arc(turn) => {
+            if turn.turns > 0 {
+                text.word(b", whole turns before: ", f64::from(turn.turns));
+            }
+            text.text(plane_name(turn.plane).as_bytes());
+            text.text(b" in ");
+            text.word(b" Z", turn.center[2]);
+            text.word(b" Y", turn.center[1]);
+            text.word(b"  centre X", turn.center[0]);
+            text.word(b" F", turn.feed);
+            text.position(&turn.to);
+            turn_name(turn.direction)
+        }
+        Action::Dwell(seconds) => {
+            text.text(b" s");
+            text.word(b"", *seconds);
+            "dwell"
+        }
+        Action::Spindle(rotation, speed) => {
+            text.word(b" S", *speed);
+            text.text(rotation.name().as_bytes());
+            "spindle"
+        }
+        Action::Orient(value) => number_line(&mut text, *value, "orient"),
+        Action::Tool(value) => number_line(&mut text, *value, "tool"),
+        Action::Work(value) => number_line(&mut text, *value, "work"),
+        Action::Stop(kind) => name_line(&mut text, stop_name(*kind), "stop"),
+        Action::Coolant(kind) => name_line(&mut text, kind.name(), "coolant"),
+        Action::Units(units) => name_line(&mut text, units.name(), "units"),
+        Action::End => "end",
+        Action::Comment(start, end) => {
+            text.byte(b' ');
+            text.head(item.line, b"comment");
+            let comment = String::from_utf8_lossy(block.get(*start..*end).unwrap_or_default());
+            out.extend_from_slice(&text.bytes[text.at..text.bytes.len() - 1]);
+            out.extend_from_slice(postform::diag::escaped(comment.trim()).as_bytes());
+            out.push(b'\n');
+            return;
+        }
+        _ => return,
+    };
+    text.head(item.line, what.as_bytes());
+    out.extend_from_slice(&text.bytes[text.at..]);
+}
+
+fn number_line(text: &mut Backwards, value: f64, what: &'static str) -> &'static str {
+    text.word(b"", value);
+    what
+}
+
+fn name_line(text: &mut Backwards, name: &str, what: &'static str) -> &'static str {
+    text.text(name.as_bytes());
+    what
+}

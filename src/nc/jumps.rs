@@ -1,0 +1,313 @@
+//! Ways through a program that are not straight on: subprograms, branches, loops.
+
+use std::io::{BufRead, Seek};
+
+use super::fault::{Done, Fault, refuse};
+use super::flow::{Flow, Step};
+use super::simulator::{RunError, Simulator};
+use crate::diag::Code;
+
+/// Deepest nesting of subprograms and loops.
+const DEEPEST: usize = 64;
+
+/// A place in the program to go to: byte and lines before it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    pub byte: u64,
+    pub line: u64,
+}
+
+/// What runs inside the main program.
+#[derive(Debug)]
+pub(super) enum Frame {
+    /// A subprogram: where it was called, and how often it still runs.
+    Call { label: String, back: Spot, start: Spot, times: u32, arguments: bool },
+    /// A `while`, from its line.
+    While { label: String, start: Spot },
+    /// A `do`, from its line.
+    Do { label: String, start: Spot },
+    /// A `repeat`, from the line behind it.
+    Repeat { label: String, start: Spot, left: u32 },
+    /// An `if` one of whose branches runs.
+    If { label: String },
+}
+
+impl Frame {
+    fn label(&self) -> &str {
+        match self {
+            Frame::Call { label, .. }
+            | Frame::While { label, .. }
+            | Frame::Do { label, .. }
+            | Frame::Repeat { label, .. }
+            | Frame::If { label } => label,
+        }
+    }
+}
+
+/// What ends a part that is passed over.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Ends {
+    Sub,
+    While,
+    Do,
+    Repeat,
+    If,
+    Branch,
+    /// The condition of a `do`, which is run.
+    Test,
+}
+
+/// Where to go from a line.
+pub(super) enum Jump {
+    On,
+    End,
+    To(Spot),
+    Find(String, u32),
+    Skip(String, Ends),
+}
+
+impl<R: BufRead + Seek> Simulator<R> {
+    pub(super) fn push(&mut self, frame: Frame) -> Done {
+        if self.frames.len() == DEEPEST {
+            let help = "look for a subprogram that calls itself";
+            return refuse(Code::PN015, format!("subprograms and loops more than {DEEPEST} deep"), help);
+        }
+        self.frames.push(frame);
+        Ok(())
+    }
+
+    /// A block with an O word.
+    pub(super) fn follow(&mut self, flow: Flow) -> Done<Jump> {
+        let Flow { label, step } = flow;
+        let inner = self.frames.last().is_some_and(|frame| frame.label() == label);
+        match step {
+            Step::Program => {
+                self.program = self.program.or(label.parse().ok());
+                self.labels.insert(label, self.at);
+                // the next program begins: a subprogram without M99 runs into it
+                match self.frames.last() {
+                    Some(Frame::Call { .. }) => {
+                        refuse(Code::PN015, "the subprogram has no end", "end it with M99 before the next O number")
+                    }
+                    _ => Ok(Jump::On),
+                }
+            }
+            Step::Sub => {
+                self.labels.insert(label.clone(), self.at);
+                Ok(Jump::Skip(label, Ends::Sub))
+            }
+            Step::Call(arguments) => {
+                let Some(&start) = self.labels.get(&label) else {
+                    let help = "subprograms in other files are not simulated: define it in this one, before its call";
+                    return refuse(Code::PN015, format!("there is no subprogram o{label}"), help);
+                };
+                self.parameters.enter(&arguments);
+                self.push(Frame::Call { label, back: self.at, start, times: 1, arguments: true })?;
+                Ok(Jump::To(start))
+            }
+            Step::EndSub | Step::Return => self.return_from(&format!("o{label}")),
+            Step::If(true) => self.push(Frame::If { label }).map(|()| Jump::On),
+            Step::If(false) => {
+                self.push(Frame::If { label: label.clone() })?;
+                Ok(Jump::Skip(label, Ends::Branch))
+            }
+            // a branch has run
+            Step::ElseIf(_) | Step::Else if inner => {
+                self.frames.pop();
+                Ok(Jump::Skip(label, Ends::If))
+            }
+            Step::EndIf if inner => {
+                self.frames.pop();
+                Ok(Jump::On)
+            }
+            Step::While(is_so) => {
+                if let Some(Frame::Do { label: opened, start }) = self.frames.last()
+                    && *opened == label
+                {
+                    let start = *start;
+                    if is_so {
+                        return Ok(Jump::To(start));
+                    }
+                    self.frames.pop();
+                    return Ok(Jump::On);
+                }
+                if !is_so {
+                    return Ok(Jump::Skip(label, Ends::While));
+                }
+                let start = Spot { byte: self.at.byte - self.line.len() as u64, line: self.at.line - 1 };
+                self.push(Frame::While { label, start })?;
+                Ok(Jump::On)
+            }
+            Step::Do => {
+                let start = self.at;
+                self.push(Frame::Do { label, start })?;
+                Ok(Jump::On)
+            }
+            Step::Repeat(times) => {
+                let times = times.round();
+                if !(0.0..=1e9).contains(&times) {
+                    return refuse(Code::PN015, format!("{times} repeats"), "repeat a number of times from 0 on");
+                }
+                if times < 1.0 {
+                    return Ok(Jump::Skip(label, Ends::Repeat));
+                }
+                let start = self.at;
+                self.push(Frame::Repeat { label, start, left: times as u32 - 1 })?;
+                Ok(Jump::On)
+            }
+            Step::EndWhile if inner => match self.frames.pop() {
+                Some(Frame::While { start, .. }) => Ok(Jump::To(start)),
+                _ => self.stray(&label),
+            },
+            Step::EndRepeat if inner => match self.frames.last_mut() {
+                Some(Frame::Repeat { left: 0, .. }) => {
+                    self.frames.pop();
+                    Ok(Jump::On)
+                }
+                Some(Frame::Repeat { left, start, .. }) => {
+                    *left -= 1;
+                    Ok(Jump::To(*start))
+                }
+                _ => self.stray(&label),
+            },
+            Step::Break | Step::Continue => self.out_of_loop(label, step == Step::Break),
+            _ => self.stray(&label),
+        }
+    }
+
+    /// Leaves a loop, or its rest.
+    pub(super) fn out_of_loop(&mut self, label: String, for_good: bool) -> Done<Jump> {
+        while let Some(frame) = self.frames.last_mut() {
+            if frame.label() != label {
+                if !matches!(frame, Frame::If { .. }) {
+                    return self.stray(&label);
+                }
+                self.frames.pop();
+                continue;
+            }
+            match frame {
+                Frame::While { start, .. } if !for_good => {
+                    let start = *start;
+                    self.frames.pop();
+                    return Ok(Jump::To(start));
+                }
+                Frame::Repeat { start, left, .. } if !for_good && *left > 0 => {
+                    *left -= 1;
+                    return Ok(Jump::To(*start));
+                }
+                Frame::While { .. } => {
+                    self.frames.pop();
+                    return Ok(Jump::Skip(label, Ends::While));
+                }
+                Frame::Repeat { .. } => {
+                    self.frames.pop();
+                    return Ok(Jump::Skip(label, Ends::Repeat));
+                }
+                Frame::Do { .. } if !for_good => return Ok(Jump::Skip(label, Ends::Test)),
+                Frame::Do { .. } => {
+                    self.frames.pop();
+                    return Ok(Jump::Skip(label, Ends::Do));
+                }
+                _ => return self.stray(&label),
+            }
+        }
+        self.stray(&label)
+    }
+
+    pub(super) fn stray<T>(&self, label: &str) -> Done<T> {
+        let help = "every part of a loop or branch has the number of its beginning";
+        refuse(Code::PN015, format!("o{label} belongs to nothing that is open here"), help)
+    }
+
+    /// The end of a subprogram, or M99.
+    pub(super) fn return_from(&mut self, what: &str) -> Done<Jump> {
+        while let Some(frame) = self.frames.last_mut() {
+            if let Frame::Call { back, start, times, arguments, .. } = frame {
+                *times -= 1;
+                if *times > 0 {
+                    return Ok(Jump::To(*start));
+                }
+                let (back, arguments) = (*back, *arguments);
+                if arguments {
+                    self.parameters.leave();
+                }
+                self.frames.pop();
+                return Ok(Jump::To(back));
+            }
+            self.frames.pop(); // loops and branches end with their subprogram
+        }
+        if self.machine.settings.control.is_linuxcnc() {
+            return refuse(Code::PN015, format!("{what} ends, and was not called"), "call it, or take the end out");
+        }
+        // M99 in a main program begins it again: once is enough
+        self.again = true;
+        Ok(Jump::End)
+    }
+
+    /// Passes over lines until the end of what a label began.
+    pub(super) fn skip(&mut self, label: &str, ends: Ends) -> Result<(), RunError> {
+        let begin = self.at.line;
+        loop {
+            if !self.read_line()? {
+                let message = format!("o{label} of line {begin} has no end");
+                return Err(self.refused(Fault::new(Code::PN015, message, "end it with the word that belongs to it")));
+            }
+            self.count_jump()?;
+            let Some((found, step)) = Flow::head(&self.line) else { continue };
+            if found != label {
+                continue;
+            }
+            match (ends, step) {
+                (Ends::Sub, Step::EndSub)
+                | (Ends::While, Step::EndWhile)
+                | (Ends::Do, Step::While(_))
+                | (Ends::Repeat, Step::EndRepeat)
+                | (Ends::If, Step::EndIf) => return Ok(()),
+                (Ends::Test, Step::While(_)) => {
+                    let line = Spot { byte: self.at.byte - self.line.len() as u64, line: self.at.line - 1 };
+                    return self.go(line);
+                }
+                (Ends::Branch, Step::EndIf) => {
+                    self.frames.pop();
+                    return Ok(());
+                }
+                (Ends::Branch, Step::Else) => return Ok(()),
+                (Ends::Branch, Step::ElseIf(_)) => {
+                    // its condition counts now
+                    let read = self.block.read(&self.line, &mut self.parameters, &self.machine.settings);
+                    if let Err(fault) = read {
+                        return Err(self.refused(fault));
+                    }
+                    if let Some(Flow { step: Step::ElseIf(true), .. }) = self.block.flow.take() {
+                        return Ok(());
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// A subprogram of M98, which may stand behind the main program.
+    pub(super) fn find(&mut self, label: String, times: u32) -> Result<(), RunError> {
+        let back = self.at;
+        if !self.labels.contains_key(&label) && !self.searched {
+            let text = self.line.clone();
+            while self.read_line()? {
+                if let Some((found, Step::Program | Step::Sub)) = Flow::head(&self.line) {
+                    self.labels.entry(found).or_insert(self.at);
+                }
+            }
+            self.searched = true;
+            self.go(back)?;
+            self.line = text;
+        }
+        let Some(&start) = self.labels.get(&label) else {
+            let help = "subprograms in other files are not simulated: add it behind M30";
+            return Err(self.refused(Fault::new(Code::PN015, format!("there is no subprogram O{label}"), help)));
+        };
+        if let Err(fault) = self.push(Frame::Call { label, back, start, times, arguments: false }) {
+            return Err(self.refused(fault));
+        }
+        self.go(start)
+    }
+}

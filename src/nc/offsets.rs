@@ -1,0 +1,124 @@
+//! Codes that hold for their block: offsets set (G10), frames shifted (G52, G92), the way home (G28, G30).
+
+use super::action::Action;
+use super::block::Block;
+use super::codes::Group;
+use super::fault::{Done, refuse};
+use super::machine::{Machine, Out};
+use crate::diag::Code;
+
+impl Machine {
+    /// Codes that hold for their block: G10, G28, G30, G52, G92.
+    pub(super) fn once(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+        match block.g(Group::Once) {
+            Some(100) => self.set_data(block, out),
+            Some(code @ (280 | 300)) => self.go_home(usize::from(code == 300), block, out),
+            Some(code @ (281 | 301)) => {
+                self.homes[usize::from(code == 301)] = self.frames.to_machine(&self.position);
+                Ok(())
+            }
+            Some(520 | 920..=923) => self.shift_frame(block, out),
+            _ => Ok(()),
+        }
+    }
+
+    pub(super) fn set_data(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+        let l = block.get(b'L').unwrap_or(-1.0);
+        if !self.control.is_linuxcnc() && l != 2.0 && l != 20.0 {
+            // tool registers; no position depends on them here
+            out.push(Action::LeftOut(b'G', 100));
+            return Ok(());
+        }
+        if self.control.is_linuxcnc() && [1.0, 10.0, 11.0].contains(&l) {
+            return refuse(Code::PN016, "G10 on the tool table is not simulated", "set the tool table at the machine");
+        }
+        let Some(p) = block.get(b'P').filter(|p| p.fract() == 0.0 && *p >= 0.0) else {
+            return refuse(Code::PN007, "G10 without the number of its offset", "write P1 for G54");
+        };
+        if l != 2.0 && l != 20.0 {
+            return refuse(Code::PN016, format!("G10 L{l} is not simulated"), "offsets are set by G10 L2 and L20");
+        }
+        let active = self.frames.active;
+        let number = match (p as usize, self.control.is_linuxcnc()) {
+            (0, true) => active,
+            // an additional offset of a Haas or Fanuc
+            (p, false) if l == 20.0 => p + 9,
+            (p, _) => p,
+        };
+        let place = self.frames.to_machine(&self.position);
+        let words: [Option<f64>; 6] = std::array::from_fn(|axis| self.axis_word(block, axis));
+        let (absolute, control, position) = (self.absolute, self.control, self.position);
+        let Some((work, rotation)) = self.frames.work(number) else {
+            return refuse(Code::PN018, format!("there is no work offset P{p}"), "write P1 for G54");
+        };
+        let before = [*work, [*rotation; 6]];
+        for (axis, value) in words.iter().enumerate() {
+            let Some(value) = *value else { continue };
+            work[axis] = match l == 20.0 && control.is_linuxcnc() {
+                // so that the tool stands at the value
+                true => work[axis] + position[axis] - value,
+                false if absolute || control.is_linuxcnc() => value,
+                false => work[axis] + value,
+            };
+        }
+        if let Some(angle) = block.get(b'R') {
+            *rotation = angle;
+        }
+        let changed = [*work, [*rotation; 6]] != before;
+        self.position = self.frames.to_program(&place);
+        out.push(if changed { Action::Frame } else { Action::LeftOut(b'G', 100) });
+        Ok(())
+    }
+
+    pub(super) fn shift_frame(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+        let place = self.frames.to_machine(&self.position);
+        let before = self.frames.shift;
+        match block.g(Group::Once) {
+            Some(921) => (self.frames.shift, self.frames.shift_kept) = ([0.0; 6], [0.0; 6]),
+            Some(922) => self.frames.shift = [0.0; 6],
+            Some(923) => self.frames.shift = self.frames.shift_kept,
+            code => {
+                if !block.has_axes() {
+                    return refuse(Code::PN006, "the code needs axis words and has none", "write the axes it shifts");
+                }
+                for axis in 0..6 {
+                    let Some(value) = self.axis_word(block, axis) else { continue };
+                    self.frames.shift[axis] =
+                        if code == Some(520) { value } else { self.frames.shift[axis] + self.position[axis] - value };
+                }
+            }
+        }
+        if matches!(block.g(Group::Once), Some(520 | 920)) {
+            self.frames.shift_kept = self.frames.shift;
+        }
+        self.position = self.frames.to_program(&place);
+        if self.frames.shift != before {
+            out.push(Action::Frame);
+        }
+        Ok(())
+    }
+
+    /// By way of a place to the reference point.
+    pub(super) fn go_home(&mut self, which: usize, block: &Block, out: &mut Out<'_>) -> Done {
+        if self.compensated {
+            return refuse(Code::PN013, "G28 or G30 under cutter compensation", "end the compensation with G40 first");
+        }
+        let named: u8 = (0..6).filter(|&axis| self.axis_word(block, axis).is_some()).map(|axis| 1 << axis).sum();
+        if named == 0 && !self.control.is_linuxcnc() {
+            return refuse(Code::PN006, "G28 or G30 without axes", "write the axes that go home, as G91 G28 Z0");
+        }
+        let axes = if named == 0 { 0x3f } else { named };
+        let way = self.target(block)?;
+        self.rapid_to(way, out);
+        let home = self.frames.to_program(&self.homes[which]);
+        let mut to = self.position;
+        for axis in (0..6).filter(|axis| axes & 1 << axis != 0) {
+            to[axis] = home[axis];
+        }
+        // an axis at angle zero is at its reference point
+        self.at_machine |= axes & 0b111;
+        self.position = to;
+        out.push(Action::Rapid { to, machine: self.at_machine });
+        Ok(())
+    }
+}

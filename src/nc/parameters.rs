@@ -97,6 +97,10 @@ impl Parameters {
     /// # Errors
     /// It is one of LinuxCNC's own, which are not simulated.
     pub fn set(&mut self, target: Target, value: f64) -> Done {
+        if !self.control.is_linuxcnc() && matches!(target, Target::Number(34..=99 | 200..=499 | 1000..)) {
+            let help = "variables of a program are #1 to #33, #100 to #199 and #500 to #999";
+            return refuse(Code::PN014, "a variable of the control itself is not simulated", help);
+        }
         if self.control.is_linuxcnc() && matches!(target, Target::Number(5000..)) {
             let help = "set offsets by G10, G52 and G92; #1 to #4999 are the program's";
             return refuse(Code::PN014, "a parameter of the control itself is not simulated", help);

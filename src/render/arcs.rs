@@ -225,9 +225,13 @@ impl Renderer<'_> {
             if part == 1.0 {
                 target = whole.target;
             } else {
-                let point = arc.point(part);
-                target.values[whole.axes[0]] = point[0];
-                target.values[whole.axes[1]] = point[1];
+                // after whole turns it is where it began, to the last digit: else a turn would be an arc of no length
+                let turns = arc.sweep * part / turn;
+                if (turns - turns.round()).abs() > 1e-9 {
+                    let point = arc.point(part);
+                    target.values[whole.axes[0]] = point[0];
+                    target.values[whole.axes[1]] = point[1];
+                }
                 let rise = whole.target.values[across] - from.values[across];
                 target.values[across] = from.values[across] + rise * part;
             }

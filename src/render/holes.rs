@@ -205,7 +205,10 @@ impl Renderer<'_> {
             _ => self.run(block.ops.clone(), Mode::All)?,
         }
         let initial = self.cycle.as_ref().map_or(heights.return_plane, |cycle| cycle.initial_level);
-        let exit = if block.returns { initial.max(heights.clear) } else { heights.clear };
+        // with [retplane] the code says whether it returns: G98 where the job goes higher, else G99
+        let higher = heights.return_plane > heights.clear + SAME;
+        let returns = block.returns && (higher || !block.vars.has(VarId::Retplane));
+        let exit = if returns { initial.max(heights.clear) } else { heights.clear };
         let known = block.returns || heights.return_plane <= heights.clear + SAME;
         self.left_hole(target, Some((exit, known)))
     }

@@ -6,7 +6,7 @@ use super::comparer::Sides;
 use super::cut::{ALL, Cut, What, same, shown};
 use crate::diag::{Code, Diag};
 use crate::nc::{Turn, axes_of, sweep};
-use crate::toolpath::Direction;
+use crate::toolpath::{Direction, FeedMode};
 
 /// How far parts may leave the circle, in tolerances: centres are rounded too.
 const OFF: f64 = 5.0;
@@ -17,6 +17,8 @@ impl<R: BufRead + Seek> Sides<R> {
         let [first, second, across] = axes_of(turn.plane);
         let radius = (cut.from[first] - turn.center[first]).hypot(cut.from[second] - turn.center[second]);
         let whole = sweep(&cut.from, turn);
+        // digits turn a small arc by more than a large one
+        let slack_angle = 1e-3 + OFF * self.tolerance / radius;
         let (mut swept, mut parts) = (0.0, 0);
         loop {
             let Some(found) = self.next()? else {
@@ -60,7 +62,7 @@ impl<R: BufRead + Seek> Sides<R> {
             swept += angle;
             let height = cut.from[across] + (turn.to[across] - cut.from[across]) * (swept / whole).min(1.0);
             let off = off.max((end[across] - height).abs() * f64::from(u8::from(parts > 0 || swept < whole - 1e-6)));
-            if off > slack || swept > whole + 1e-3 {
+            if off > slack || swept > whole + slack_angle {
                 let message = format!(
                     "a cut goes to {}, not along the job's arc to {}",
                     shown(&end, 0b111),
@@ -73,10 +75,12 @@ impl<R: BufRead + Seek> Sides<R> {
                     "look at CtrCode, CtrIncremental? and the radius",
                 );
             }
-            self.feeds(cut, &found, false)?;
+            let share = if cut.mode == FeedMode::InverseTime { angle / whole } else { 1.0 };
+            let part = Cut { feed: cut.feed.map(|feed| feed / share), ..*cut };
+            self.feeds(&part, &found, false)?;
             self.advance();
             parts += 1;
-            if same(&end, &turn.to, ALL, self.tolerance) && swept > whole - 1e-3 - self.tolerance / radius {
+            if same(&end, &turn.to, ALL, self.tolerance) && swept > whole - slack_angle {
                 self.equivalences.arcs += u64::from(parts > 1);
                 return Ok(());
             }

@@ -2,14 +2,16 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, Place, Rapid, What, lies_between, number, over, same, shown, turn_as_far};
+use super::cut::{
+    ACROSS, ALL, Cut, DEPTH, Place, Rapid, State, What, lies_between, number, over, same, shown, turn_as_far,
+};
 use super::finding::{Equivalences, Finding, Verdict};
 use super::intended::{Expectation, Expected, Job};
 use super::program::Program;
 use super::way::{Compared, Way, compare, leaves_hole, leaves_low};
 use crate::diag::{Code, Diag};
 use crate::nc::{RunError, Settings};
-use crate::toolpath::{self, Event, Sink, StopKind, Units};
+use crate::toolpath::{self, Event, FeedMode, Sink, StopKind, Units};
 
 /// What the job's side tells of.
 pub(super) trait Intent {
@@ -65,6 +67,9 @@ pub(super) struct Sides<R> {
     /// Over which hole the job is, and whether its way there leaves the axis of the hole: it must then be that way.
     over: Option<Place>,
     aside: bool,
+    left_aside: bool,
+    /// What was in force at the program's last cut.
+    pub before: State,
     /// The tool was changed since the last cut.
     pub new_tool: bool,
     pub tools: bool,
@@ -108,6 +113,8 @@ impl<R: BufRead + Seek> Comparer<R> {
                 last_hole: None,
                 over: None,
                 aside: false,
+                left_aside: false,
+                before: State::default(),
                 new_tool: false,
                 tools: expectation.tools,
                 failure: None,
@@ -240,7 +247,8 @@ impl<R: BufRead + Seek> Sides<R> {
     /// After the tool was taken out, as to unwind an axis: straight down again to where the cut goes on.
     fn enters_again(&mut self, cut: &Cut, found: &Cut) -> bool {
         let What::Line { to } = found.what else { return false };
-        let here = self.start.is_some_and(|start| same(&start.to, &cut.from, ALL, self.tolerance));
+        let here = self.start.is_some_and(|start| same(&start.to, &cut.from, ALL, self.tolerance))
+            || self.program.way.iter().any(|rapid| rapid.unknown & 1 << DEPTH != 0);
         let height_known = found.unknown & 1 << DEPTH == 0;
         if !here || found.unknown & ACROSS != 0 || !same(&cut.from, &to, ALL, self.tolerance) {
             return false;
@@ -378,7 +386,7 @@ impl<R: BufRead + Seek> Sides<R> {
         program.set(Some(self.program.start()), &self.program.way[..until], tolerance);
         match leaves_hole(job, program, tolerance) {
             Some(Compared::Turning) => return self.turns_otherwise(line),
-            Some(_) if self.aside => return self.stays_at_wall(line),
+            Some(_) if self.left_aside => return self.stays_at_wall(line),
             _ => {}
         }
         let [job, program] = &mut self.ways;
@@ -398,7 +406,7 @@ impl<R: BufRead + Seek> Sides<R> {
             if !is_part {
                 break;
             }
-            self.feeds(cut, &found, hole.is_some_and(|hole| hole.is_tap))?;
+            self.feeds(&in_parts(cut, &found), &found, hole.is_some_and(|hole| hole.is_tap))?;
             self.advance();
             let next = self.next()?.filter(|next| {
                 matches!(next.what, What::Line { .. })
@@ -413,7 +421,7 @@ impl<R: BufRead + Seek> Sides<R> {
             parts += 1;
         }
         self.ends(&cut.from, end, &found, hole)?;
-        self.feeds(cut, &found, hole.is_some_and(|hole| hole.is_tap))?;
+        self.feeds(&in_parts(cut, &found), &found, hole.is_some_and(|hole| hole.is_tap))?;
         self.equivalences.parts += u64::from(parts > 1);
         self.advance();
         Ok(())
@@ -449,6 +457,19 @@ impl<R: BufRead + Seek> Sides<R> {
     }
 }
 
+/// The cut as one of its parts must be: in inverse time a part has a part of the time.
+fn in_parts(cut: &Cut, part: &Cut) -> Cut {
+    let length = |cut: &Cut| {
+        let end = cut.what.end(&cut.from);
+        (0..6).map(|axis| (end[axis] - cut.from[axis]).powi(2)).sum::<f64>().sqrt()
+    };
+    let share = length(part) / length(cut);
+    match cut.mode {
+        FeedMode::InverseTime => Cut { feed: cut.feed.map(|feed| feed / share), ..*cut },
+        _ => *cut,
+    }
+}
+
 impl<R: BufRead + Seek> Intent for Sides<R> {
     fn units(&mut self, units: Units, chord: f64) {
         self.program.want(units);
@@ -457,6 +478,11 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
     }
 
     fn rapid(&mut self, rapid: Rapid) -> Result<(), Box<Diag>> {
+        // a rapid of no length is none
+        let here = self.way.last().or(self.start.as_ref());
+        if here.is_some_and(|here| here.to == rapid.to && here.unknown == rapid.unknown) && rapid.rotation.is_none() {
+            return Ok(());
+        }
         self.aside |= self.over.is_some_and(|over| !same(&over, &rapid.to, ACROSS, self.tolerance));
         self.way.push(rapid);
         Ok(())
@@ -528,8 +554,9 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
     fn lost(&mut self, tool: bool) {
         if !self.lost {
             self.left_start = self.start.take();
-            self.left.append(&mut self.way);
+            self.left_aside = std::mem::take(&mut self.aside);
         }
+        self.left.append(&mut self.way);
         self.new_tool |= tool;
         self.lost = true;
         self.way.clear();
@@ -555,11 +582,15 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             let message = format!("a cut to {end}, and the job is over");
             return self.differs(Code::PV016, found.line, message, "look at EndCode");
         }
+        let until = match (self.lost, self.program.before) {
+            (true, Some(split)) => split,
+            _ => self.program.way.len(),
+        };
         if !self.lost {
             self.left_start = self.start.take();
-            self.left.append(&mut self.way);
+            self.left_aside = self.aside;
         }
-        let until = self.program.way.len();
+        self.left.append(&mut self.way);
         self.compare_leaving(until, 0)?;
         self.program.ended();
         Ok(())

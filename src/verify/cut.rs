@@ -1,7 +1,7 @@
 //! Cuts and the ways to them: what job and program are compared by.
 
 use crate::nc::{Rotation, Turn};
-use crate::toolpath::{FeedMode, Side};
+use crate::toolpath::{FeedMode, Plane, Side};
 
 /// A place: X Y Z in the job's units and A B C in degrees.
 pub(super) type Place = [f64; 6];
@@ -55,6 +55,10 @@ pub(super) struct State {
     /// Registers of tool length, and of the diameter while compensation is on.
     pub length: Option<f64>,
     pub diameter: Option<f64>,
+    /// The speed is a surface speed.
+    pub css: bool,
+    /// The plane that compensation is in.
+    pub plane: Plane,
 }
 
 /// A cut.

@@ -22,8 +22,10 @@ impl<R: BufRead + Seek> Sides<R> {
         let mut line = 0;
         let (mut strokes, mut longest, mut out) = (0, 0.0f64, true);
         while let Some(found) = self.next()? {
-            // at the bottom, a feed from above is another hole, or another item of the job
-            let again = deepest <= hole.bottom + tolerance && found.from[DEPTH] >= hole.plane - tolerance;
+            // at the bottom, what is not of the same block's cycle is another hole, or another item of the job
+            let same_block = found.by_cycle && found.line == line;
+            let feeds_down = found.what.end(&found.from)[DEPTH] < found.from[DEPTH];
+            let again = count > 0 && deepest <= hole.bottom + tolerance && feeds_down && !same_block;
             if count > 0 && (!self.stays_in(hole, &found) || again) {
                 break;
             }

@@ -172,8 +172,11 @@ impl Job {
                 Ok(())
             }
             Event::Work(work) => {
+                let before = self.state.work;
                 self.work(work);
-                to.lost(false);
+                if self.state.work != before {
+                    to.lost(false);
+                }
                 Ok(())
             }
             Event::Spindle(spindle) => {
@@ -238,6 +241,7 @@ impl Job {
 
     fn spindle(&mut self, spindle: &Spindle) {
         self.css = spindle.css.unwrap_or(self.css);
+        self.state.css = self.css;
         if let Some(turn) = spindle.turn {
             self.state.rotation = Some(match turn {
                 SpindleTurn::Cw => Rotation::Cw,

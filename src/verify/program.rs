@@ -33,6 +33,8 @@ pub(super) struct Program<R> {
     pub way: Vec<Rapid>,
     /// How many of its rapids come before a change of tool or work offset, after which places are others.
     pub before: Option<usize>,
+    /// Length register and work offset of the rapids on the way whose height is known.
+    pub moved_with: Vec<[Option<f64>; 2]>,
     /// Stops on the way, and whether the tool stood in a cut.
     pub stops: Vec<(StopKind, bool)>,
     cuts: bool,
@@ -73,6 +75,7 @@ impl<R: BufRead + Seek> Program<R> {
             start: Rapid { to: [0.0; 6], unknown: 0b111, rotation: None },
             way: Vec::new(),
             before: None,
+            moved_with: Vec::new(),
             stops: Vec::new(),
             cuts: false,
             cut: None,
@@ -123,6 +126,7 @@ impl<R: BufRead + Seek> Program<R> {
             self.way.clear();
             self.before = None;
             self.stops.clear();
+            self.moved_with.clear();
             self.cuts = true;
         }
     }
@@ -177,6 +181,15 @@ impl<R: BufRead + Seek> Program<R> {
             Action::Rapid { to, machine } => {
                 let to = self.scaled(to);
                 self.unknown = *machine;
+                if *machine & 0b100 == 0 {
+                    let with = [self.state.length, self.state.work];
+                    if to[2] != self.at[2] && self.length_is_due() {
+                        self.without_length(item.line, "the tool goes down, and its length offset is not on");
+                    }
+                    if self.moved_with.last() != Some(&with) {
+                        self.moved_with.push(with);
+                    }
+                }
                 self.at = to;
                 self.way.push(Rapid { to, unknown: *machine, rotation: self.state.rotation });
             }
@@ -205,6 +218,10 @@ impl<R: BufRead + Seek> Program<R> {
                 // a Haas stops the spindle, and no form may count on another control's going on
                 if *kind == StopKind::Program && !item.by_cycle && !self.linuxcnc {
                     self.state.rotation = Some(Rotation::Stop);
+                }
+                // without tool changes, the operator changes the tool
+                if *kind == StopKind::Program && !self.lengths {
+                    self.before = Some(self.way.len());
                 }
             }
             Action::Spindle(rotation, speed) => {
@@ -237,6 +254,8 @@ impl<R: BufRead + Seek> Program<R> {
                 self.units = *units;
                 self.units_said = true;
             }
+            Action::SurfaceSpeed(limit) => self.state.css = limit.is_some(),
+            Action::Plane(plane) => self.state.plane = *plane,
             Action::Frame | Action::LeftOut(b'G', 100) => {
                 let message = "the program moves its coordinate frame: the job's places lie elsewhere then";
                 self.hazard(Code::PV021, item.line, message, "take G10, G52 or G92 out");
@@ -261,10 +280,8 @@ impl<R: BufRead + Seek> Program<R> {
 
     /// Before a cut: what must have been said.
     fn check_length(&mut self, line: u64) {
-        let due = self.lengths && self.state.tool.is_some() && self.state.length.is_none();
-        if due && !std::mem::replace(&mut self.length_told, true) {
-            let message = "the tool cuts, and its length offset is not on";
-            self.hazard(Code::PV014, line, message, "print G43 H[lcomp] in the tool change");
+        if self.length_is_due() {
+            self.without_length(line, "the tool cuts, and its length offset is not on");
         }
         if !std::mem::replace(&mut self.units_said, true) {
             let message = "the program cuts before it says its units";
@@ -274,6 +291,16 @@ impl<R: BufRead + Seek> Program<R> {
                 message,
                 "print G[unitmode] in StartCode, or give the form, if it is for one unit",
             );
+        }
+    }
+
+    fn length_is_due(&self) -> bool {
+        self.lengths && self.state.tool.is_some() && self.state.length.is_none()
+    }
+
+    fn without_length(&mut self, line: u64, message: &str) {
+        if !std::mem::replace(&mut self.length_told, true) {
+            self.hazard(Code::PV014, line, message, "print G43 H[lcomp] in the tool change, before the height");
         }
     }
 

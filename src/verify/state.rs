@@ -5,7 +5,7 @@ use std::io::{BufRead, Seek};
 use super::comparer::{Counts, Sides};
 use super::cut::{Cut, number};
 use crate::diag::{Code, Diag};
-use crate::toolpath::{self, StopKind};
+use crate::toolpath::{self, FeedMode, StopKind};
 
 /// How far feeds and speeds may be off for their digits.
 const ROUNDED: f64 = 0.01;
@@ -61,13 +61,34 @@ impl<R: BufRead + Seek> Sides<R> {
         if !cut.what.feeds() {
             return Ok(());
         }
+        // on its way the tool may have been moved in the offsets of before, and in no others
+        let allowed = [[self.before.length, self.before.work], [is.length, is.work]];
+        if self.tools
+            && let Some([length, work]) = self.program.moved_with.iter().find(|with| !allowed.contains(with)).copied()
+        {
+            let text =
+                |name: &str, value: Option<f64>| value.map_or(format!("no {name}"), |v| format!("{name}{}", number(v)));
+            let message =
+                format!("the tool comes to this cut with {} in {}", text("H", length), text("work offset ", work));
+            let code = if work == is.work { Code::PV014 } else { Code::PV012 };
+            return self.differs(code, line, message, "print the offsets before the first height");
+        }
+        self.before = *is;
         if let (Some(a), Some(b)) = (wanted.rotation, is.rotation)
             && a != b
         {
             let message = format!("the spindle is {}, the job wants {}", b.name(), a.name());
             return self.differs(Code::PV011, line, message, "print M[direct] with the speed");
         }
-        if let (Some(a), Some(b)) = (wanted.speed, is.speed)
+        if wanted.speed.is_some() && wanted.css != is.css {
+            let message = format!(
+                "the speed counts {}, the job's does not",
+                if is.css { "at the surface (G96)" } else { "turns" }
+            );
+            return self.differs(Code::PV011, line, message, "print G[speedtype]");
+        }
+        if let (Some(a), Some(b)) =
+            (wanted.speed.filter(|_| wanted.rotation != Some(crate::nc::Rotation::Stop)), is.speed)
             && (a - b).abs() > (if tap { PITCH } else { ROUNDED } * a).max(0.5)
         {
             let message = format!("the spindle turns S{}, the job wants {}", number(b), number(a));
@@ -84,12 +105,20 @@ impl<R: BufRead + Seek> Sides<R> {
             let message = format!("cutter compensation is {}, the job wants {}", name(b), name(a));
             return self.differs(Code::PV018, line, message, "look at InFeed and OutFeed");
         }
+        if wanted.side.flatten().is_some() && is.plane != toolpath::Plane::Xy {
+            let message = "cutter compensation is in another plane than XY".to_owned();
+            return self.differs(Code::PV018, line, message, "print G17 before it");
+        }
         if let (Some(a), b) = (wanted.diameter, is.diameter)
             && Some(a) != b
         {
             let b = b.map_or("none".to_owned(), |b| format!("D{}", number(b)));
             let message = format!("cutter compensation takes register {b}, the job's tool has D{}", number(a));
             return self.differs(Code::PV018, line, message, "print D[dcomp] in InFeed");
+        }
+        // of a cut in parts each part is looked at, where its share is known
+        if cut.mode == FeedMode::InverseTime && found.mode == FeedMode::InverseTime {
+            return Ok(());
         }
         self.feeds(cut, found, tap)
     }

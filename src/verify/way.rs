@@ -99,7 +99,9 @@ fn height(rapid: &Rapid) -> f64 {
 /// The moves across between corners.
 fn across(corners: &[Rapid], tolerance: f64) -> impl Iterator<Item = (&Rapid, &Rapid)> {
     let pairs = corners.windows(2).map(|pair| (&pair[0], &pair[1]));
-    pairs.filter(move |(a, b)| !same(&a.to, &b.to, ACROSS, tolerance))
+    // a whole turn is a move, though it ends where it began
+    let turns = |a: &Rapid, b: &Rapid| (3..6).any(|axis| (a.to[axis] - b.to[axis]).abs() > 0.001);
+    pairs.filter(move |(a, b)| !same(&a.to, &b.to, ACROSS, tolerance) || turns(a, b))
 }
 
 fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, tolerance: f64) -> Compared {
@@ -136,9 +138,19 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, toleranc
             return if turns { Compared::Turning } else { Compared::AsGood { step_by_step: true } };
         }
     }
-    // other corners: nowhere across below what the job crosses at
-    for (a, b) in across(program, tolerance) {
-        if height(a).min(height(b)) < highest - tolerance {
+    // other corners: nowhere across below what the job crosses at, and not at all where the job stays
+    let stays = across(job, tolerance).next().is_none();
+    let is_the_jobs = |a: &Rapid, b: &Rapid| {
+        across(job, tolerance).any(|(c, d)| {
+            same(&a.to, &c.to, ACROSS, tolerance)
+                && same(&b.to, &d.to, ACROSS, tolerance)
+                && height(a) >= c.to[DEPTH] - tolerance
+                && height(b) >= d.to[DEPTH] - tolerance
+        })
+    };
+    for (a, b) in across(program, tolerance).filter(|(a, b)| !is_the_jobs(a, b)) {
+        let low = height(a).min(height(b));
+        if low < highest - tolerance || (stays && known_start && low.is_finite()) {
             let to = b.to;
             let goes_there = job.iter().any(|corner| same(&corner.to, &to, ACROSS, tolerance));
             return if goes_there { Compared::Lower(to, highest) } else { Compared::Elsewhere(to) };

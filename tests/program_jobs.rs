@@ -63,6 +63,21 @@ fn motions_feeds_and_switches_stay_what_they_were() {
     }
 }
 
+/// Stops stay, also where a feed mode changes; before one the tool goes up, as it went home.
+#[test]
+fn stops_and_the_way_before_them_stay() {
+    let lines = path("G81 X1. Z-1. R.1 F5.\nG80 G94\nM1\nG81 X2. Z-1. R.1");
+    assert!(lines.contains(&"M1".to_owned()), "{lines:?}");
+    let (text, _) =
+        printed(&format!("{HEAD}G95 G81 X1. Z-1. R.1 F.05\nG80 G94\nM0\nM3\nG81 X2. Z-1. R.1 F5.\nG80\nM30\n"))
+            .unwrap();
+    assert!(text.contains(" M0\n"), "{text}");
+    let (text, warnings) = printed(&format!("{HEAD}G0 Z3.\nZ1.\nG1 Z-.1 F5.\nG91 G28 Z0\nM0\nG90\nM30\n")).unwrap();
+    let (up, stop) = (text.find("G0 Z3.\n").unwrap(), text.find(" M0\n").unwrap());
+    assert!(text[up + 1..].contains("G0 Z3.") && up < stop, "{text}");
+    assert!(warnings.iter().any(|warning| warning.contains("reference point")), "{warnings:?}");
+}
+
 #[test]
 fn what_no_job_can_say_is_refused() {
     let cases = [
@@ -74,6 +89,8 @@ fn what_no_job_can_say_is_refused() {
         ("G41 D1 G1 X1. F5.\nX2.\nD3 X3.\nG40 X4.", "two diameter registers of one tool"),
         ("G43 H2 Z2.\nG1 Z-.1 F5.", "two length registers of one tool"),
         ("G98 G87 X1. Z-.3 R-.8 Q.1 F5.\nG80", "a back bore"),
+        ("G99 G76 X1. Z-.3 R.1 Q.02 F5.\nG80", "a fine bore, whose side only the control knows"),
+        ("G54.1 P8\nG1 Z-.1 F5.", "an additional work offset"),
         ("M19\nG1 Z-.1 F5.", "an orientation"),
         ("G1 Z-.1 F5.\nG21 X10.", "other units"),
         ("G28 G91 Z0\nG90 G1 X1. F5.", "a cut from the reference point"),

@@ -581,3 +581,32 @@ fn spindle_and_coolant_are_said_again_after_a_stop() {
     let path = "{\"coolant\":\"on\"},{\"line\":[1,0,1]},{\"stop\":\"program\"},{\"line\":[2,0,1]}";
     assert_eq!(path_lines("", "", path), ["M8", "G1 X1. F10.", "M0", "S1000 M3", "M8", "X2."]);
 }
+
+/// Turns of a helix end where they begin, to the last digit; else a turn would be printed as an arc of no length.
+#[test]
+fn whole_turns_end_where_they_begin() {
+    let path = r#"{"rapid":[3.25,3.78125,0.1]},{"arc":{"to":[3.25,3.78125,-0.6],"center":[3.75,3.78125],"direction":"cw","turns":5}}"#;
+    let lines = path_lines("X->4.>4\nY->4.>4\nZ->4.>4\nI->4.>4\nJ->4.>4", "", path);
+    let arcs: Vec<&String> = lines.iter().filter(|line| line.contains(" J")).collect();
+    assert_eq!(arcs.len(), 6, "{lines:?}");
+    assert!(arcs.iter().all(|line| !line.contains('X') && !line.contains('Y')), "{lines:?}");
+}
+
+/// Two whole circles after each other: controls want the code of a block without axis words.
+#[test]
+fn a_whole_circle_says_its_code() {
+    let circles = r#"{"rapid":[2,0,1]},{"arc":{"to":[2,0],"center":[1,0],"direction":"ccw"}},{"arc":{"to":[2,0],"center":[1.5,0],"direction":"ccw"}}"#;
+    let lines = path_lines("", "", circles);
+    assert_eq!(lines[1..], ["G17 G3 I-1. J0 F10.", "G3 I-.5 J0"]);
+}
+
+/// After G99 the tool stands at R: a higher hole needs the cycle ended, and the tool raised.
+#[test]
+fn a_higher_hole_after_a_lower_one_is_approached_from_above() {
+    let drill = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let holes = r#"{"rapid":[0,0,2]},{"cycle":{"kind":"drill","depth":0.5,"clear":0.1,"feed":5,"points":[[1,1,0],[2,1,0.5],[3,1,0],[4,1,0.2]]}}"#;
+    let lines = path_lines("", drill, holes);
+    let at = lines.iter().position(|line| line.contains("X4.")).unwrap();
+    let before = &lines[at - 2..at];
+    assert_eq!(before, ["G80", "G0 Z.3"], "{lines:?}");
+}

@@ -333,6 +333,14 @@ fn one_change_is_never_too_small() {
         ("1", circle, "I-1. J0", "I-.9998 J.02", "PV001"),
         ("1", circle, "G17 G3", "M1\nG17 G3", "PV019"),
         ("1", circle, "M30", "M99", "PV016"),
+        ("1", circle, "G43 H1 Z1.", "Z1.\nG43 H1", "PV014"),
+        ("1", circle, "G43 H1 Z1.", "G43 H9 Z1.\nG43 H1", "PV014"),
+        ("1", circle, "G43 H1 Z1.", "G43 H1 Z1.\nG55 Z.5\nG54 Z1.", "PV012"),
+        ("1", circle, "G43", "#5221=1.\nG43", "PV015"),
+        ("1", circle, "S3000 M3", "G96 S3000 M3", "PV011"),
+        ("1", circle, "G17 G3", "G0 X3.\nX2.\nG17 G3", "PV001"),
+        ("1", circle, "G17 G3", "G0 A360.\nG17 G3", "PV001"),
+        ("1", sides, "G1 G41", "G18 G1 G41", "PV018"),
         ("1", helix, "G17 G3 Z-.1 I-1. J0", "G1 Z-.1", "PV001"),
         ("1", holes, "N110 Z.1", "N110 Z-.45", "PV009"),
         ("1", deep, "G98 G83", "G98 G73", "PV023"),
@@ -369,9 +377,17 @@ fn right_programs_are_not_called_wrong() {
         r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","depth":0.5,"clear":0.1,"feed":5,"step":0.2,"points":[[1,1,0]]}},{"rapid":[1,1,1]},{"line":[1,1,-0.2],"feed":10},{"line":[2,1,-0.2]},{"rapid":[2,1,1]}"#,
         r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","depth":0.5,"clear":0.1,"feed":5,"step":0.2,"points":[[1,1,0]]}},{"cycle":{"kind":"ream","depth":0.5,"clear":0.1,"feed":5,"points":[[1,1,0]]}}"#,
     ];
+    let more = [
+        r#"{"rapid":[0,0,1]},{"line":[1.0931,1.03565,-0.1]},{"arc":{"to":[1.06185,1.0669],"center":[1.06185,1.03565],"direction":"ccw"}},{"rapid":[1.06185,1.0669,1]}"#,
+        r#"{"rapid":[0,0,1]},{"line":[1,1,-0.1]},{"rapid":[1,1,-0.1]},{"dwell":1},{"line":[2,1,-0.1]},{"rapid":[2,1,1]}"#,
+        r#"{"rapid":[0,0,2]},{"cycle":{"kind":"drill","depth":0.5,"clear":0.1,"return":0.5,"feed":5,"points":[[1,1,0]]}},{"rapid":[2,2,1]},{"work":54},{"cycle":{"kind":"drill","depth":0.5,"clear":0.1,"return":0.8,"feed":5,"points":[[3,1,0]]}},{"rapid":[2,2,2]}"#,
+        r#"{"rapid":[0,0,1]},{"cycle":{"kind":"chipbreak","depth":0.9,"clear":0.3,"feed":5,"step":0.2,"points":[[1,1,0]]}},{"cycle":{"kind":"deep","depth":1.4,"clear":0.05,"feed":2,"step":0.1,"points":[[1,1,0]]}},{"rapid":[0,0,1]}"#,
+        r#"{"rapid":[0,0,2]},{"cycle":{"kind":"drill","depth":0.5,"clear":0.1,"feed":5,"points":[[1,1,0],[2,1,0.5],[3,1,0],[4,1,0.2]]}},{"rapid":[0,0,2]}"#,
+        r#"{"rapid":[3.25,3.78125,0.1]},{"arc":{"to":[3.25,3.78125,-0.6],"center":[3.75,3.78125],"direction":"cw","turns":5}},{"rapid":[3.75,3.78125,1]}"#,
+    ];
     for name in ["haas.pf", "fanuc.pf", "linuxcnc.pf"] {
         let form = check(&post(name));
-        for path in paths {
+        for path in paths.into_iter().chain(more) {
             let text = inches("1", path);
             let job = document(&text);
             let program = rendered(&form, &job, Cycles::Form);

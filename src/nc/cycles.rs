@@ -91,7 +91,8 @@ impl Machine {
         let level = was[across];
         let mut at = self.position;
         for n in 0..times {
-            if block.polar != [None; 2] {
+            // an absolute place stays where it was the first time
+            if block.polar != [None; 2] && (n == 0 || !self.absolute) {
                 let held = std::mem::replace(&mut self.position, at);
                 let done = self.polar(block, &mut at);
                 self.position = held;

@@ -122,7 +122,10 @@ impl Machine {
                     turned = true;
                     self.turn_spindle(code, out);
                 }
-                19 => out.push(Action::Orient(block.get(b'R').unwrap_or(0.0))),
+                19 => {
+                    self.spindle = Rotation::Stop; // it stands at its angle
+                    out.push(Action::Orient(block.get(b'R').unwrap_or(0.0)));
+                }
                 7 => out.push(Action::Coolant(Cooling::Mist)),
                 8 => out.push(Action::Coolant(Cooling::Flood)),
                 9 => out.push(Action::Coolant(Cooling::Off)),
@@ -261,6 +264,12 @@ impl Machine {
                 if block.get(b'H').is_none() && !self.control.is_linuxcnc() {
                     let help = "write H with the tool's register: G43 H1";
                     return refuse(Code::PN007, "a tool length offset without H", help);
+                }
+                if code == 432 && block.get(b'H').is_none() {
+                    return refuse(Code::PN007, "G43.2 without H", "write H with the tool's number");
+                }
+                if code != 432 {
+                    self.frames.tool = [0.0; 3]; // what G43.1 set is gone
                 }
                 // no table of tools tells its length: it counts as zero; G44 takes it off instead
                 let register = register.unwrap_or(0.0);

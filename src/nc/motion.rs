@@ -52,6 +52,9 @@ impl Machine {
         let [x, y, ..] = self.position;
         let (mut radius, mut angle) = (x.hypot(y), y.atan2(x).to_degrees());
         match (self.absolute, block.polar) {
+            (true, [_, None]) if x == 0.0 && y == 0.0 => {
+                return refuse(Code::PN018, "a polar radius at the origin without its angle", "write ^ with it");
+            }
             (true, [r, a]) => (radius, angle) = (r.unwrap_or(radius), a.unwrap_or(angle)),
             (false, _) if x == 0.0 && y == 0.0 => {
                 return refuse(

@@ -150,7 +150,10 @@ impl Tokens<'_> {
             b'%' if self.fresh => (Kind::Percent, 1 + self.to_line_end()),
             b'/' if self.fresh => (Kind::Delete, 1 + usize::from(rest.first().is_some_and(u8::is_ascii_digit))),
             b'<' => match memchr::memchr(b'>', rest) {
-                Some(end) => (Kind::Quoted, end + 2),
+                Some(end) => {
+                    self.value = false;
+                    (Kind::Quoted, end + 2)
+                }
                 None => (Kind::Unread, 1),
             },
             b'[' | b']' => {

@@ -38,7 +38,9 @@ impl Machine {
                 refuse(Code::PN007, message, "G76 needs P, Z, I, J and K")
             }
         };
-        let (pitch, i, j, k) = (need(b'P')?, need(b'I')?, need(b'J')?, need(b'K')?);
+        // lengths along X are diameters under G7
+        let scale = if self.diameter { 0.5 } else { 1.0 };
+        let (pitch, i, j, k) = (need(b'P')?, need(b'I')? * scale, need(b'J')? * scale, need(b'K')? * scale);
         let degression = block.get(b'R').unwrap_or(1.0).max(1.0);
         let checks = [
             (i == 0.0, "I is 0: it says how far the crest is from the drive line"),
@@ -51,7 +53,8 @@ impl Machine {
             return refuse(Code::PN018, *message, "G76 P(pitch) Z(end) I(crest) J(first cut) K(depth)");
         }
         let target = self.target(block)?;
-        let ends = block.get(b'L').unwrap_or(0.0);
+        // without a length there is no taper
+        let ends = block.get(b'L').filter(|_| block.get(b'E').is_some_and(|e| e != 0.0)).unwrap_or(0.0);
         let mut tan = block.get(b'Q').unwrap_or(0.0).to_radians().tan();
         if target[2] > self.position[2] {
             tan = -tan;

@@ -30,7 +30,8 @@ impl Way {
         self.corners.extend(start);
         for rapid in rapids {
             if let Some(last) = self.corners.last()
-                && same(&last.to, &rapid.to, ALL, tolerance * 1e-3)
+                // a whole turn is a move
+                && last.to.iter().zip(&rapid.to).all(|(a, b)| (a - b).abs() <= tolerance * 1e-3)
                 && last.unknown == rapid.unknown
             {
                 continue;
@@ -153,7 +154,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, toleranc
         if low < highest - tolerance || (stays && known_start && low.is_finite()) {
             let to = b.to;
             let goes_there = job.iter().any(|corner| same(&corner.to, &to, ACROSS, tolerance));
-            return if goes_there { Compared::Lower(to, highest) } else { Compared::Elsewhere(to) };
+            return if goes_there && !stays { Compared::Lower(to, highest) } else { Compared::Elsewhere(to) };
         }
     }
     if turns { Compared::Turning } else { Compared::AsGood { step_by_step: false } }

@@ -25,7 +25,11 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
         840 => CycleKind::Tap,
         740 => CycleKind::LTap,
         850 | 890 => CycleKind::Ream,
-        860 | 760 => CycleKind::Bore,
+        860 => CycleKind::Bore,
+        760 => {
+            let help = "write the bore by hand, with `orient`, `offset` and the side";
+            return unsaid(line, "G76: to which side it leaves the wall is a parameter of the control", help);
+        }
         code => {
             let message = format!("{} has no cycle of a job that does the same", name_of(code));
             return unsaid(line, message, "program its moves, or write the job by hand");
@@ -40,10 +44,6 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
     // a dwell of zero seconds is one that the cycle must say
     spec.dwell = Some(hole.dwell).filter(|&seconds| seconds > 0.0 || kind == CycleKind::Face);
     spec.rigid = (kind.is_tap() && rigid).then_some(true);
-    if hole.code == 760 {
-        spec.orient = Some(0.0);
-        (spec.offset, spec.offset_y) = (Some(-hole.shift[0]), Some(-hole.shift[1]));
-    }
     Ok(spec)
 }
 

@@ -151,6 +151,10 @@ impl<'a> Reader<'a> {
                 });
                 Ok(())
             }
+            Action::Work(code) if *code > 1540.0 => {
+                let message = format!("the work offset G54.1 P{}", code - 1540.0);
+                unsaid(item.line, message, "a job names G54 to G59.3")
+            }
             Action::Work(code) => {
                 self.wanted.work = Some(*code);
                 Ok(())
@@ -338,18 +342,8 @@ impl<'a> Reader<'a> {
         let axes = self.axes(to);
         let new_tool = self.operation && self.tool_is_new();
         if let Some(line) = self.home.take().filter(|_| !new_tool) {
-            // in the middle of a tool's work: as high as the program ever goes
-            let message = "the way to the reference point has no place in a job";
-            let help = "it becomes a rapid to the highest Z that the program says: look whether that clears the clamps";
-            if !self.warnings.iter().any(|w| w.message == message) {
-                self.warnings.push(warning(line, message, help));
-            }
-            let mut above = Axes { values: *to, given: 0b100 };
-            above.values[2] = self.survey.top;
-            self.move_begins(First::Rapid(above))?;
-            self.step();
-            self.push(Event::Rapid(above))?;
-            let across = Axes { values: above.values, given: axes.given & !0b100 };
+            self.homeward(line, *to)?;
+            let across = Axes { values: *to, given: axes.given & !0b100 };
             self.push(Event::Rapid(across))?;
         }
         self.move_begins(First::Rapid(axes))?;
@@ -362,6 +356,20 @@ impl<'a> Reader<'a> {
             Some(None) => self.push(Event::Outfeed { to: axes, feed: None, rapid: true }),
             None => self.push(Event::Rapid(axes)),
         }
+    }
+
+    /// To the reference point in the middle of a tool's work: as high as the program ever goes.
+    fn homeward(&mut self, line: u64, to: Position) -> Result<(), Box<Diag>> {
+        let message = "the way to the reference point has no place in a job";
+        let help = "it becomes a rapid to the highest Z that the program says: look whether that clears the clamps";
+        if !self.warnings.iter().any(|w| w.message == message) {
+            self.warnings.push(warning(line, message, help));
+        }
+        let mut above = Axes { values: to, given: 0b100 };
+        above.values[2] = self.survey.top;
+        self.move_begins(First::Rapid(above))?;
+        self.step();
+        self.push(Event::Rapid(above))
     }
 
     /// Does the operation that begins load another tool?
@@ -448,15 +456,17 @@ impl<'a> Reader<'a> {
     /// What is done where the tool stands.
     fn between(&mut self, event: Event<'_>) -> Result<(), Box<Diag>> {
         self.end_cycle()?;
-        if self.operation {
-            // before a tool's first move: the tool change of the form has its own stops and waits
-            if !matches!(event, Event::Stop(crate::toolpath::StopKind::Optional)) {
-                let message = "a stop or dwell before a tool's first move is left out";
-                self.warnings.push(warning(self.place.line, message, "print it in the form's tool change"));
-            }
+        if self.operation && (self.place.operation == 0 || self.tool_is_new()) {
+            // the tool change of the form has its own stops and waits
+            let message = "a stop or dwell before a tool's first move is left out";
+            self.warnings.push(warning(self.place.line, message, "print it in the form's tool change"));
             return Ok(());
         }
-        self.switch()?;
+        if let Some(line) = self.home.take() {
+            // the operator finds the tool there
+            self.homeward(line, self.at)?;
+        }
+        self.move_begins(First::Nothing)?;
         self.step();
         self.push(event)
     }

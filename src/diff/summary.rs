@@ -50,8 +50,12 @@ impl Summary {
         // codes are themselves, other words are their letter
         let is_code = |word: &Word| matches!(word.letter, 0 | b'G' | b'M');
         let name = |word: &Word, text: &[u8]| {
-            let text = String::from_utf8_lossy(&text[word.span.clone()]).trim().to_ascii_uppercase();
-            if is_code(word) { text } else { char::from(word.letter).to_string() }
+            let text = String::from_utf8_lossy(&text[word.span.clone()]).trim().to_owned();
+            match word.letter {
+                0 => text, // a comment is as it is written
+                _ if is_code(word) => text.to_ascii_uppercase(),
+                letter => char::from(letter).to_string(),
+            }
         };
         for word in new.iter().filter(|word| !is_code(word)) {
             match old.iter().find(|before| before.letter == word.letter) {

@@ -203,6 +203,9 @@ fn shown(line: &[u8]) -> String {
     escaped(&String::from_utf8_lossy(line))
 }
 
+/// Kinds of changes that the summary names.
+const MOST_KINDS: usize = 20;
+
 /// What changed, by kinds.
 pub fn sentence(summary: &Summary) -> String {
     let blocks = [
@@ -224,6 +227,11 @@ pub fn sentence(summary: &Summary) -> String {
     kinds.extend(
         summary.less.iter().map(|(word, number)| format!("{} less in {}", escaped(word), count(*number, "block"))),
     );
+    let left_out = kinds.len().saturating_sub(MOST_KINDS);
+    if left_out > 0 {
+        kinds.truncate(MOST_KINDS);
+        kinds.push(format!("and {left_out} more kinds of changes"));
+    }
     let kinds = if kinds.is_empty() { String::new() } else { format!(": {}", kinds.join(", ")) };
     format!("{}{kinds}\n", blocks.join(", "))
 }

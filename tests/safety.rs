@@ -610,3 +610,12 @@ fn a_higher_hole_after_a_lower_one_is_approached_from_above() {
     let before = &lines[at - 2..at];
     assert_eq!(before, ["G80", "G0 Z.3"], "{lines:?}");
 }
+
+/// A feed that its format rounds to nothing is an error in a cycle as it is in a move.
+#[test]
+fn a_feed_that_prints_as_nothing_is_an_error() {
+    let tap = "Tap\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let path = r#"{"cycle":{"kind":"tap","rigid":false,"depth":0.5,"clear":0.1,"feed":0.0034,"points":[[1,1,0]]}}"#;
+    let lines = path_lines("F >4.>2", tap, path);
+    assert!(lines.len() == 1 && lines[0].starts_with("PR002"), "{lines:?}");
+}

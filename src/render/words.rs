@@ -61,6 +61,9 @@ const POSITIONS: VarSet = VarSet::of(&[
     VarId::Pointd,
 ]);
 
+/// Variables of feeds and pecks: rounded to nothing, they would stop the machine or never end.
+const FEEDS: VarSet = VarSet::of(&[VarId::Frate, VarId::Plunge, VarId::Pitch, VarId::Vbite]);
+
 impl Renderer<'_> {
     /// The place in the form of what is being printed.
     pub(super) fn form_span(&self) -> Option<Span> {
@@ -146,6 +149,10 @@ impl Renderer<'_> {
         }
         let units = self.quantised(info, value)?;
         let decimals = info.format.dec.count;
+        if units == 0 && value != 0.0 && FEEDS.has(var) {
+            let message = format!("[{}] is {value} and prints as 0 in the format `{}`", var.name(), info.format);
+            return fault_at(Code::PR002, message, "give the letter more decimals", self.form_span());
+        }
         let drop = match mode {
             Mode::All => false,
             Mode::Motion | Mode::ArcMotion => {

@@ -55,7 +55,7 @@ fn post(name: &str) -> String {
 }
 
 /// Every kind of cycle that forms can print, with depths and heights that change, and a return plane.
-const CYCLES: &str = r#"{"postform":1,"program":7,"units":"mm","tools":[{"number":1,"diameter":6},{"number":2,"diameter":5}],"operations":[
+const CYCLES: &str = r#"{"postform":1,"program":7,"units":"mm","tools":[{"number":1,"diameter":6},{"number":2,"diameter":5},{"number":3,"diameter":5},{"number":4,"diameter":9}],"operations":[
 {"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"path":[
  {"rapid":[0,0,50]},
  {"cycle":{"kind":"drill","depth":10,"clear":2,"feed":100,"points":[[0,0,0],[10,0,0],{"at":[20,0,0],"depth":12}]}},
@@ -67,7 +67,20 @@ const CYCLES: &str = r#"{"postform":1,"program":7,"units":"mm","tools":[{"number
  {"cycle":{"kind":"ream","depth":9,"clear":2,"feed":60,"points":[[0,50,0],[10,50,0]]}},
  {"cycle":{"kind":"bore","depth":9,"clear":2,"feed":60,"points":[[0,60,0],[10,60,0]]}},
  {"cycle":{"kind":"csink","depth":2,"clear":2,"feed":60,"points":[[0,70,0],[10,70,0]]}},
- {"cycle":{"kind":"thru","clear":2,"feed":60,"webs":[5,12,20],"points":[[0,80,0]]}}
+ {"cycle":{"kind":"thru","clear":2,"feed":60,"webs":[5,12,20],"points":[[0,80,0]]}},
+ {"rapid":[0,80,50]}
+]},
+{"tool":3,"work":54,"spindle":{"speed":600,"direction":"ccw"},"path":[
+ {"rapid":[0,0,50]},
+ {"cycle":{"kind":"ltap","rigid":false,"depth":9,"clear":4,"feed":600,"points":[[0,90,0],[10,90,0]]}},
+ {"rapid":[0,0,50]}
+]},
+{"tool":4,"work":54,"spindle":{"speed":700,"direction":"cw"},"path":[
+ {"rapid":[0,0,50]},
+ {"cycle":{"kind":"back","depth":10,"rapto":20,"orient":0,"offset":2,"clear":4,"feed":60,"points":[[0,95,0]]}},
+ {"cycle":{"kind":"bore","depth":9,"orient":0,"offset":0.5,"clear":4,"feed":60,"points":[[0,97,0]]}},
+ {"cycle":{"kind":"manual","clear":4,"points":[[0,99,0]]}},
+ {"rapid":[0,0,50]}
 ]},
 {"tool":2,"work":55,"spindle":{"speed":500,"direction":"cw"},"path":[
  {"rapid":[0,0,50]},
@@ -257,13 +270,20 @@ fn changed_programs_are_caught_and_rewritten_ones_are_not() {
 fn programs_become_jobs() {
     let fanuc = check(&post("fanuc.pf"));
     // an M29 makes the tap rigid, which linuxcnc.pf refuses; a program does not say the diameters that grbl.pf prints
-    for (text, posts) in [(CYCLES.to_owned(), &["haas.pf"][..]), (without_tap(), &["linuxcnc.pf"])] {
+    for (text, posts) in [(plain(), &["haas.pf"][..]), (without_tap(), &["linuxcnc.pf"])] {
         becomes_a_job(&fanuc, &text, posts);
     }
 }
 
+/// Without the operations whose orientations no job read from a program can say.
+fn plain() -> String {
+    let (first, rest) = CYCLES.split_once(",\n{\"tool\":3").unwrap();
+    let (_, last) = rest.split_once(",\n{\"tool\":2").unwrap();
+    format!("{first},\n{{\"tool\":2{last}")
+}
+
 fn without_tap() -> String {
-    let (first, _) = CYCLES.split_once(",\n{\"tool\":2").unwrap();
+    let (first, _) = CYCLES.split_once(",\n{\"tool\":3").unwrap();
     format!("{first}]}}")
 }
 

@@ -148,7 +148,7 @@ pub struct Turn {
 pub struct Drilling {
     /// The cycle's G code times ten.
     pub code: u16,
-    /// Hole, at the height of the clear level.
+    /// Over the hole, at the height of the clear level; while the cycle is worked out the height does not count.
     pub at: Position,
     /// The plane across the hole.
     pub plane: Plane,

@@ -1,34 +1,14 @@
 //! What a canned cycle does at its hole, once it stands over it.
 
-use super::action::{Action, Position, Rotation};
+use super::action::{Action, Drilling, Position, Rotation};
 use super::arcs::axes_of;
 use super::control::Control;
 use super::fault::{Done, refuse};
 use super::machine::{Machine, Out};
 use crate::diag::Code;
-use crate::toolpath::{Plane, StopKind, Units};
+use crate::toolpath::{StopKind, Units};
 
-/// A hole with all that its cycle needs, along the axes of the plane.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Hole {
-    /// The cycle times ten.
-    pub code: u16,
-    /// The hole; the height does not count.
-    pub at: Position,
-    pub plane: Plane,
-    pub r: f64,
-    pub bottom: f64,
-    /// Where the tool goes back to.
-    pub clear: f64,
-    /// The clear level is a place in machine coordinates.
-    pub dwell: f64,
-    pub peck: f64,
-    pub shift: [f64; 2],
-    pub level: f64,
-    pub feed: f64,
-}
-
-impl Hole {
+impl Drilling {
     /// Over the hole at a height.
     #[inline]
     pub fn over(&self, height: f64) -> Position {
@@ -65,17 +45,17 @@ impl Machine {
     }
 
     #[inline]
-    fn rapid_over(&mut self, hole: &Hole, height: f64, out: &mut Out<'_>) {
+    fn rapid_over(&mut self, hole: &Drilling, height: f64, out: &mut Out<'_>) {
         self.rapid_to(hole.over(height), out);
     }
 
     #[inline]
-    fn feed_over(&mut self, hole: &Hole, height: f64, out: &mut Out<'_>) {
+    fn feed_over(&mut self, hole: &Drilling, height: f64, out: &mut Out<'_>) {
         self.feed_to(hole.over(height), hole.feed, out);
     }
 
     /// Drills, from over the hole at R to over the hole at the clear level.
-    pub(super) fn drill(&mut self, hole: &Hole, out: &mut Out<'_>) -> Done {
+    pub(super) fn drill(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
         let emc2 = self.control == Control::Emc2;
         match hole.code {
             810 => {
@@ -141,7 +121,7 @@ impl Machine {
     }
 
     /// G73 breaks the chip, G83 brings it out.
-    fn pecks(&mut self, hole: &Hole, out: &mut Out<'_>) -> Done {
+    fn pecks(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
         if hole.peck <= 0.0 {
             return refuse(Code::PN018, format!("a peck of {}", hole.peck), "Q must be greater than zero");
         }
@@ -177,7 +157,7 @@ impl Machine {
     }
 
     /// The old manual's pecks: a quarter of a second, up to the clear level, and feed again from there.
-    fn pecks_of_emc2(&mut self, hole: &Hole, out: &mut Out<'_>) -> Done {
+    fn pecks_of_emc2(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
         let mut depth = hole.r;
         // what is left of a sum of decimals is no peck
         while depth > hole.bottom + 1e-9 {
@@ -197,7 +177,7 @@ impl Machine {
         Ok(self.spindle)
     }
 
-    fn tap(&mut self, hole: &Hole, out: &mut Out<'_>) -> Done {
+    fn tap(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
         let (inwards, name) = if hole.code == 840 { (Rotation::Cw, "G84") } else { (Rotation::Ccw, "G74") };
         let linuxcnc = self.control.is_linuxcnc();
         if linuxcnc && self.turning(name)? != inwards {
@@ -215,9 +195,7 @@ impl Machine {
             self.turn(outwards, out);
             out.push(Action::Dwell(hole.dwell));
         } else {
-            if hole.dwell > 0.0 {
-                out.push(Action::Dwell(hole.dwell));
-            }
+            wait(hole, out);
             self.turn(outwards, out);
         }
         self.feed_over(hole, clear, out);
@@ -232,8 +210,18 @@ impl Machine {
         Ok(())
     }
 
+    /// Stops at an angle, moves off the wall and comes out.
+    fn leave_aside(&mut self, hole: &Drilling, turning: Rotation, out: &mut Out<'_>) {
+        self.turn(Rotation::Stop, out);
+        out.push(Action::Orient(0.0));
+        self.rapid_to(hole.beside(hole.bottom), out);
+        self.rapid_to(hole.beside(hole.clear), out);
+        self.rapid_over(hole, hole.clear, out);
+        self.turn(turning, out);
+    }
+
     /// Through the hole with the tool turned aside, and up from below.
-    fn back_bore(&mut self, hole: &Hole, out: &mut Out<'_>) -> Done {
+    fn back_bore(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
         let turning = self.turning("G87")?;
         if !self.control.is_linuxcnc() {
             // a Fanuc's R is below, and Z above: it stands at the initial level now
@@ -244,15 +232,8 @@ impl Machine {
             self.rapid_over(hole, hole.r, out);
             self.turn(turning, out);
             self.feed_over(hole, hole.bottom, out);
-            if hole.dwell > 0.0 {
-                out.push(Action::Dwell(hole.dwell));
-            }
-            self.turn(Rotation::Stop, out);
-            out.push(Action::Orient(0.0));
-            self.rapid_to(hole.beside(hole.bottom), out);
-            self.rapid_to(hole.beside(hole.clear), out);
-            self.rapid_over(hole, hole.clear, out);
-            self.turn(turning, out);
+            wait(hole, out);
+            self.leave_aside(hole, turning, out);
             return Ok(());
         }
         self.rapid_to(hole.beside(hole.r), out);
@@ -263,27 +244,22 @@ impl Machine {
         self.turn(turning, out);
         self.feed_over(hole, hole.level, out);
         self.feed_over(hole, hole.bottom, out);
-        self.turn(Rotation::Stop, out);
-        out.push(Action::Orient(0.0));
-        self.rapid_to(hole.beside(hole.bottom), out);
-        self.rapid_to(hole.beside(hole.clear), out);
-        self.rapid_over(hole, hole.clear, out);
-        self.turn(turning, out);
+        self.leave_aside(hole, turning, out);
         Ok(())
     }
 
-    /// G76 of a Fanuc mill: stops at an angle, moves off the wall, comes out.
-    fn fine_bore(&mut self, hole: &Hole, out: &mut Out<'_>) {
+    /// G76 of a Fanuc mill.
+    fn fine_bore(&mut self, hole: &Drilling, out: &mut Out<'_>) {
         let turning = self.spindle;
         self.feed_over(hole, hole.bottom, out);
-        if hole.dwell > 0.0 {
-            out.push(Action::Dwell(hole.dwell));
-        }
-        self.turn(Rotation::Stop, out);
-        out.push(Action::Orient(0.0));
-        self.rapid_to(hole.beside(hole.bottom), out);
-        self.rapid_to(hole.beside(hole.clear), out);
-        self.rapid_over(hole, hole.clear, out);
-        self.turn(turning, out);
+        wait(hole, out);
+        self.leave_aside(hole, turning, out);
+    }
+}
+
+/// A dwell of no length is none.
+fn wait(hole: &Drilling, out: &mut Out<'_>) {
+    if hole.dwell > 0.0 {
+        out.push(Action::Dwell(hole.dwell));
     }
 }

@@ -3,7 +3,6 @@
 use super::action::{Action, Drilling};
 use super::arcs::{CENTERS, axes_of};
 use super::block::Block;
-use super::bodies::Hole;
 use super::codes::letters;
 use super::control::Control;
 use super::fault::{Done, refuse};
@@ -84,8 +83,12 @@ impl Machine {
             self.rapid_to(to, out);
         }
         let hole = self.words(code, same, block, &name)?;
-        let hole =
-            Hole { r: plane_r, bottom, clear: if self.to_initial { initial.max(plane_r) } else { plane_r }, ..hole };
+        let hole = Drilling {
+            r: plane_r,
+            bottom,
+            clear: if self.to_initial { initial.max(plane_r) } else { plane_r },
+            ..hole
+        };
         check_moves(times, &hole)?;
         let was = self.position;
         let level = was[across];
@@ -105,7 +108,7 @@ impl Machine {
                 }
             }
             self.at_machine &= !(1 << across);
-            let hole = Hole { at, ..hole };
+            let hole = Drilling { at, ..hole };
             self.announce(&hole, out);
             out.by_cycle = true;
             if n == 0 && level > plane_r {
@@ -131,23 +134,10 @@ impl Machine {
     }
 
     /// A hole as its reader sees it, before its moves.
-    pub(super) fn announce(&self, hole: &Hole, out: &mut Out<'_>) {
+    pub(super) fn announce(&self, hole: &Drilling, out: &mut Out<'_>) {
         out.by_cycle = false;
-        let Hole { code, plane, r, bottom, clear, dwell, peck, shift, level, feed, .. } = *hole;
-        let at = hole.over(clear);
-        out.push(Action::Hole(Box::new(Drilling {
-            code,
-            at,
-            plane,
-            r,
-            bottom,
-            clear,
-            dwell,
-            peck,
-            shift,
-            level,
-            feed,
-        })));
+        let at = hole.over(hole.clear);
+        out.push(Action::Hole(Box::new(Drilling { at, ..*hole })));
     }
 
     fn check_cycle(&self, block: &Block) -> Done {
@@ -171,13 +161,13 @@ impl Machine {
     }
 
     /// P, Q and the shift of a block, or those kept; its first block needs them.
-    fn words(&mut self, code: u16, same: bool, block: &Block, name: &str) -> Done<Hole> {
+    fn words(&mut self, code: u16, same: bool, block: &Block, name: &str) -> Done<Drilling> {
         let missing = |letter: char| {
             let help = format!("write {letter} in the cycle's first block");
             refuse(Code::PN007, format!("{name} without {letter}"), help)
         };
         let feed = self.feed;
-        let mut hole = Hole {
+        let mut hole = Drilling {
             code,
             at: self.position,
             plane: self.plane,
@@ -232,7 +222,7 @@ impl Machine {
 }
 
 /// A block makes its moves at once: not more than a machine makes in a day.
-pub(super) fn check_moves(times: u32, hole: &Hole) -> Done {
+pub(super) fn check_moves(times: u32, hole: &Drilling) -> Done {
     let pecks = if hole.peck > 0.0 { ((hole.r - hole.bottom) / hole.peck).abs() } else { 0.0 };
     if f64::from(times) * (pecks + 4.0) > 1e6 {
         return refuse(Code::PN018, "a block that makes over a million moves", "look at its repeats and at Q");

@@ -1,8 +1,8 @@
 //! Canned cycles of Fanuc and Haas mills: words are kept until G80, over all cycle codes.
 
+use super::action::Drilling;
 use super::arcs::{CENTERS, axes_of};
 use super::block::{Block, name_of};
-use super::bodies::Hole;
 use super::codes::letters;
 use super::fault::{Done, refuse};
 use super::machine::{Machine, Out};
@@ -84,7 +84,7 @@ impl Machine {
         }
         let mut at = self.position;
         let clear = if self.to_initial { initial.max(r) } else { r };
-        let hole = Hole {
+        let hole = Drilling {
             code,
             at,
             plane: self.plane,
@@ -105,7 +105,7 @@ impl Machine {
                     self.at_machine &= !(1 << axis);
                 }
             }
-            let hole = Hole { at, ..hole };
+            let hole = Drilling { at, ..hole };
             self.announce(&hole, out);
             out.by_cycle = true;
             // across at the height where the tool is, then down to R

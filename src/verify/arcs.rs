@@ -78,7 +78,7 @@ impl<R: BufRead + Seek> Sides<R> {
             let share = if cut.mode == FeedMode::InverseTime { angle / whole } else { 1.0 };
             let part = Cut { feed: cut.feed.map(|feed| feed / share), ..*cut };
             self.feeds(&part, &found, false)?;
-            self.advance();
+            self.program.take();
             parts += 1;
             if same(&end, &turn.to, ALL, self.tolerance) && swept > whole - slack_angle {
                 self.equivalences.arcs += u64::from(parts > 1);

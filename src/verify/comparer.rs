@@ -196,11 +196,6 @@ impl<R: BufRead + Seek> Sides<R> {
         }
     }
 
-    /// The program's cut is dealt with.
-    pub fn advance(&mut self) {
-        self.program.take();
-    }
-
     /// The job's cut is dealt with: its next way begins where it ends.
     pub fn leave(&mut self, cut: &Cut) {
         self.way.clear();
@@ -215,7 +210,7 @@ impl<R: BufRead + Seek> Sides<R> {
     pub fn meet(&mut self, cut: &Cut, hole: Option<&Expected>) -> Result<Cut, Box<Diag>> {
         while self.next()?.is_some_and(|found| self.enters_again(cut, &found)) {
             self.equivalences.entries += 1;
-            self.advance();
+            self.program.take();
         }
         let Some(found) = self.next()? else {
             return match hole {
@@ -407,7 +402,7 @@ impl<R: BufRead + Seek> Sides<R> {
                 break;
             }
             self.feeds(&in_parts(cut, &found), &found, hole.is_some_and(|hole| hole.is_tap))?;
-            self.advance();
+            self.program.take();
             let next = self.next()?.filter(|next| {
                 matches!(next.what, What::Line { .. })
                     && self.program.way.is_empty()
@@ -423,7 +418,7 @@ impl<R: BufRead + Seek> Sides<R> {
         self.ends(&cut.from, end, &found, hole)?;
         self.feeds(&in_parts(cut, &found), &found, hole.is_some_and(|hole| hole.is_tap))?;
         self.equivalences.parts += u64::from(parts > 1);
-        self.advance();
+        self.program.take();
         Ok(())
     }
 
@@ -506,7 +501,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
                     let message = format!("the dwell is {} s, the job's {} s", number(is), number(wanted));
                     return self.differs(Code::PV010, found.line, message, "look at the unit of the dwell (`Dwell`)");
                 }
-                self.advance();
+                self.program.take();
             }
             (_, What::Arc(_)) => {
                 let message = "an arc, where the job cuts straight".to_owned();

@@ -64,7 +64,7 @@ impl<R: BufRead + Seek> Sides<R> {
                     }
                 }
             }
-            self.advance();
+            self.program.take();
         }
         self.check_pecks(&pecks, hole, [strokes as f64, longest], out, line)?;
         let bottom = deepest;

@@ -4,7 +4,7 @@ ci:
 
 # rewrite expected programs and transcripts; read the difference before committing
 overwrite:
-    SAMPLES=overwrite cargo test --test samples
+    SAMPLES=overwrite cargo test --test samples --test reference
     TRYCMD=overwrite cargo test --test transcripts
 
 # figures for docs/performance.md

@@ -11,6 +11,8 @@ pub mod compile;
 pub mod cycle;
 pub mod diag;
 pub mod diff;
+pub mod explain;
+pub mod fmt;
 pub mod lang;
 pub mod lint;
 pub mod nc;

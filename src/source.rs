@@ -48,7 +48,8 @@ impl Source {
                 return None; // what follows the last line end is no line
             }
             let line = line.strip_suffix('\n').unwrap_or(line);
-            Some((start, line.strip_suffix('\r').unwrap_or(line)))
+            // more than one where a file went through a transfer that added its own
+            Some((start, line.trim_end_matches('\r')))
         })
     }
 

@@ -113,7 +113,7 @@ proptest! {
             }
         }
         prop_assert_eq!(lines, text.lines().count().max(usize::from(text.is_empty())));
-        for diag in postform::lint::lint(&checked) {
+        for diag in postform::lint::lint(&checked, &Default::default()).diags {
             for label in diag.labels {
                 prop_assert!(text.get(label.span.range()).is_some(), "{:?}", label);
             }
@@ -130,7 +130,7 @@ proptest! {
         bytes[at] = byte;
         let source = postform::source::Source::from_bytes("f.pf", &bytes);
         let checked = postform::sema::analyse(source, Default::default(), &mut |_| Err("no".into()));
-        postform::lint::lint(&checked);
+        postform::lint::lint(&checked, &Default::default());
         if !checked.has_errors() {
             let job = std::fs::read(support::root().join("samples/bracket/job.json")).unwrap();
             _ = render_checked(&checked, &job, false, Options::default());

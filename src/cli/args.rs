@@ -37,8 +37,16 @@ pub enum Command {
     Diff(DiffArgs),
     /// Run an NC program and print what the machine does
     Simulate(SimulateArgs),
-    /// Say what a code means, and what to write instead
+    /// Write forms in the canonical layout
+    Fmt(FmtArgs),
+    /// Say what a code, command, variable, sequence or cycle means
     Explain(ExplainArgs),
+    /// Write a commented form to start from
+    New(NewArgs),
+    /// Print the completions of a shell
+    Completions(CompletionsArgs),
+    /// Print the man page
+    Man,
 }
 
 /// A file by its format.
@@ -55,7 +63,7 @@ pub enum From {
 }
 
 /// How a job is read.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct ReadArgs {
     /// The job's format [default: by its extension]
     #[arg(long, value_name = "FORMAT")]
@@ -78,8 +86,9 @@ pub struct ReadArgs {
 }
 
 /// Classic or extended limits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum LimitsArg {
+    #[default]
     /// 15 words a line, 150 lines a form
     Classic,
     /// The same as warnings
@@ -141,9 +150,9 @@ pub struct RenderOptions {
     /// Units of the program [default: those of the job]
     #[arg(long, value_name = "UNITS")]
     pub units: Option<UnitsArg>,
-    /// Limits of the form
-    #[arg(long, value_name = "LIMITS", default_value = "classic")]
-    pub limits: LimitsArg,
+    /// Limits of the form [default: of postform.toml, else classic]
+    #[arg(long, value_name = "LIMITS")]
+    pub limits: Option<LimitsArg>,
 }
 
 /// `postform render`.
@@ -151,9 +160,9 @@ pub struct RenderOptions {
 pub struct RenderArgs {
     /// The job: job.json, .jsonl, a CL file or an NC program, or - for standard input
     pub job: PathBuf,
-    /// The form of the machine
+    /// The form of the machine [default: that of postform.toml]
     #[arg(long, value_name = "FORM")]
-    pub form: PathBuf,
+    pub form: Option<PathBuf>,
     /// Where the program goes, or - for standard output; it appears there when it is complete
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: PathBuf,
@@ -183,7 +192,7 @@ pub struct VerifyArgs {
     /// The job, or - for standard input
     pub job: PathBuf,
     /// The form that prints the program; with --nc, what it says of the job's defaults
-    #[arg(long, value_name = "FORM", required_unless_present = "nc")]
+    #[arg(long, value_name = "FORM")]
     pub form: Option<PathBuf>,
     /// A program that is there already
     #[arg(long, value_name = "NC")]
@@ -207,22 +216,35 @@ pub struct VerifyArgs {
 pub enum Format {
     /// With the lines they are about
     Pretty,
-    /// One JSON document
+    /// One JSON document, version 1
     Json,
+    /// Annotations of GitHub's workflows
+    Github,
+    /// A SARIF 2.1.0 log
+    Sarif,
 }
 
 /// `postform lint`.
 #[derive(Debug, Args)]
 pub struct LintArgs {
-    /// Forms, or - for standard input
+    /// Forms, folders of forms, or - for standard input
     #[arg(required = true, value_name = "FORM")]
     pub forms: Vec<PathBuf>,
+    /// Mend what can be mended without changing any program
+    #[arg(long)]
+    pub fix: bool,
+    /// Show what the other fixes change in a program; with --fix, make them
+    #[arg(long)]
+    pub unsafe_fixes: bool,
+    /// The job on which --unsafe-fixes shows it [default: a sample for the form's machine]
+    #[arg(long, value_name = "JOB", requires = "unsafe_fixes")]
+    pub job: Option<PathBuf>,
     /// How findings are shown
     #[arg(long, value_name = "FORMAT", default_value = "pretty")]
     pub format: Format,
-    /// Limits of the forms
-    #[arg(long, value_name = "LIMITS", default_value = "classic")]
-    pub limits: LimitsArg,
+    /// Limits of the form [default: of postform.toml, else classic]
+    #[arg(long, value_name = "LIMITS")]
+    pub limits: Option<LimitsArg>,
 }
 
 /// How a program is run.
@@ -399,11 +421,63 @@ pub struct DiffArgs {
     pub read: ReadArgs,
 }
 
+/// `postform fmt`.
+#[derive(Debug, Args)]
+pub struct FmtArgs {
+    /// Forms, folders of forms, or - to filter standard input
+    #[arg(required = true, value_name = "FORM")]
+    pub forms: Vec<PathBuf>,
+    /// Write nothing, name the forms that are laid out otherwise
+    #[arg(long)]
+    pub check: bool,
+}
+
 /// `postform explain`.
 #[derive(Debug, Args)]
 pub struct ExplainArgs {
-    /// A code or the name of a cycle's problem, as PC003 or cycle.depth.missing
-    pub code: String,
+    /// As PC003, cycle.depth.missing, Rapid, [vclear], Drill or deep
+    #[arg(required_unless_present = "list")]
+    pub what: Vec<String>,
+    /// Name everything that can be asked for
+    #[arg(long)]
+    pub list: bool,
+}
+
+/// `postform new`.
+#[derive(Debug, Args)]
+pub struct NewArgs {
+    /// For which control or machine
+    #[arg(long, value_name = "NAME")]
+    pub control: NewControl,
+    /// Where the form goes, or - for standard output; a file that is there stays
+    #[arg(short, long, value_name = "FORM", default_value = "-")]
+    pub output: PathBuf,
+}
+
+/// What `postform new` has forms for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum NewControl {
+    /// Fanuc 0i-M, vertical mill
+    Fanuc,
+    /// Haas VF
+    Haas,
+    /// Fadal, format 1
+    Fadal,
+    /// LinuxCNC, mill
+    Linuxcnc,
+    /// Grbl
+    Grbl,
+    /// Fanuc 0i-T, lathe
+    Lathe,
+    /// Wire EDM with four axes
+    Edm,
+}
+
+/// `postform completions`.
+#[derive(Debug, Args)]
+pub struct CompletionsArgs {
+    /// Which shell
+    pub shell: clap_complete::Shell,
 }
 
 /// `postform check`.

@@ -3,18 +3,22 @@
 mod args;
 mod check;
 mod colour;
+mod config;
 mod diff;
 mod explain;
 mod files;
+mod fmt;
 mod forms;
-mod json;
 mod lint;
+mod new;
 mod output;
+mod parallel;
 mod prepare;
 mod progress;
 mod prompt;
 mod render;
 mod report;
+mod shells;
 mod simulate;
 mod verify;
 
@@ -63,7 +67,11 @@ pub fn run() -> ExitCode {
         Command::Verify(args) => verify::run(&args, colour),
         Command::Diff(args) => diff::run(&args, arguments.color),
         Command::Simulate(args) => simulate::run(&args, colour),
+        Command::Fmt(args) => fmt::run(&args),
         Command::Explain(args) => explain::run(&args),
+        Command::New(args) => new::run(&args),
+        Command::Completions(args) => shells::completions(&args),
+        Command::Man => shells::man(),
     };
     ending.into()
 }

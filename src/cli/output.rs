@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
+use super::Ending;
 use super::files::io_message;
 
 /// A file that is being written and not there yet.
@@ -118,5 +119,16 @@ pub fn standard_output(write: impl FnOnce(&mut io::StdoutLock) -> io::Result<()>
             Err(io_message("write", Path::new("standard output"), &error))
         }
         _ => Ok(()),
+    }
+}
+
+/// Writes to standard output and ends the command with it.
+pub fn shown(write: impl FnOnce(&mut io::StdoutLock) -> io::Result<()>) -> Ending {
+    match standard_output(write) {
+        Ok(()) => Ending::Clean,
+        Err(message) => {
+            eprintln!("{message}");
+            Ending::Failed
+        }
     }
 }

@@ -9,6 +9,7 @@ use postform::render::{Cycles, Options};
 use postform::source::Source;
 
 use super::args::{CyclesArg, RenderOptions, SinkArg};
+use super::config::Config;
 use super::files::{self, io_message};
 use super::report::Reporter;
 use super::{forms, prompt, report};
@@ -30,7 +31,8 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
     if form == standard_input && job == standard_input {
         return Err("error: form and job can't both be standard input".into());
     }
-    let mut checked = forms::load(form, args.limits)?;
+    let limits = args.limits.or(Config::near(form)?.limits).unwrap_or_default();
+    let mut checked = forms::load(form, limits)?;
     sort(&mut checked.diags);
     let (shown, _): (Vec<_>, Vec<_>) = checked.diags.iter().cloned().partition(|d| d.severity > Severity::Note);
     eprint!("{}", reporter.text(&shown, &checked.files));

@@ -10,6 +10,7 @@ use postform::toolpath::{Event, Place, ReadError, Sink};
 
 use super::Ending;
 use super::args::RenderArgs;
+use super::config::Config;
 use super::files::{self, Again, io_message};
 use super::output::Target;
 use super::prepare::prepare;
@@ -34,11 +35,15 @@ pub fn run(args: &RenderArgs, colour: bool) -> Ending {
 fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
     let from = files::job_format(&args.job, &args.read)?;
-    let Some(prepared) = prepare(&args.form, &args.options, &args.job, &reporter)? else {
+    let form = args.form.clone().or(Config::near(&args.job)?.form);
+    let Some(form) = form else {
+        return Err("error: which form? Give --form, or name one in postform.toml: form = \"fanuc.pf\"".into());
+    };
+    let Some(prepared) = prepare(&form, &args.options, &args.job, &reporter)? else {
         return Ok(Ending::Findings);
     };
     let options = Options { trace: args.trace.is_some(), ..prepared.options.clone() };
-    keep_inputs(args)?;
+    keep_inputs(args, &form)?;
     let job = match args.verify {
         true => Some(Job { again: Again::open(&args.job)?, from, read: &args.read, path: &args.job }),
         false => None,
@@ -101,11 +106,11 @@ fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
 }
 
 /// An output must not replace what it is made of.
-fn keep_inputs(args: &RenderArgs) -> Result<(), String> {
+fn keep_inputs(args: &RenderArgs, form: &Path) -> Result<(), String> {
     let real = |path: &Path| path.canonicalize().ok();
     let regular = |path: &Path| path.metadata().is_ok_and(|meta| meta.is_file());
     for output in [Some(args.output.as_path()), args.trace.as_deref()].into_iter().flatten() {
-        if [&args.job, &args.form].iter().any(|input| regular(output) && real(input) == real(output)) {
+        if [args.job.as_path(), form].iter().any(|input| regular(output) && real(input) == real(output)) {
             return Err(format!("error: {} is an input: choose another output", files::name(output)));
         }
     }

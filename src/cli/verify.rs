@@ -11,6 +11,7 @@ use postform::toolpath::{Event, Place, ReadError, Sink, Units};
 use postform::verify::{Comparer, Counts, Expectation, Finding, Verdict};
 
 use super::args::{ControlArgs, From, ReadArgs, VerifyArgs};
+use super::config::Config;
 use super::files::{self, Again, io_message};
 use super::prepare::{Prepared, prepare};
 use super::report::{self, Reporter};
@@ -35,7 +36,12 @@ fn try_run(args: &VerifyArgs, reporter: &Reporter) -> Result<Ending, String> {
     if args.job == Path::new("-") && args.nc.as_deref() == Some(Path::new("-")) {
         return Err("error: job and program can't both be standard input".into());
     }
-    let prepared = match &args.form {
+    let config = Config::near(&args.job)?;
+    let form = match args.nc {
+        Some(_) => args.form.clone(), // a program is proven without a form, unless one is named
+        None => args.form.clone().or(config.form),
+    };
+    let prepared = match &form {
         Some(form) => match prepare(form, &args.options, &args.job, reporter)? {
             Some(prepared) => Some(prepared),
             None => return Ok(Ending::Findings),
@@ -49,13 +55,15 @@ fn try_run(args: &VerifyArgs, reporter: &Reporter) -> Result<Ending, String> {
             Some(file) => (file, "the program".to_owned()),
             None => return Ok(Ending::Findings),
         },
-        (None, None) => return Err("error: give --form, --nc, or both".into()),
+        (None, None) => return Err("error: give --form, --nc, or both; or name a form in postform.toml".into()),
     };
+    let by_config = config.control.filter(|_| prepared.is_none());
+    let control = ControlArgs { control: args.control.control.or(by_config), ..args.control.clone() };
     let proof = Proof {
         job: &job,
         prepared: prepared.as_ref(),
         traced: args.nc.is_none(),
-        control: &args.control,
+        control: &control,
         tolerance: args.tolerance,
         name,
     };

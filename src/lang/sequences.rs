@@ -20,10 +20,14 @@ pub struct Sequence {
     pub meaning: &'static str,
     /// Where that comes from.
     pub standing: Standing,
+    /// The job's item that prints it.
+    pub event: &'static str,
+    /// The folder of samples/ that shows it.
+    pub sample: &'static str,
 }
 
 macro_rules! sequences {
-    ($($id:ident $name:literal $kind:ident $machines:literal $required:literal $standing:ident $meaning:literal)*) => {
+    ($($id:ident $name:literal $kind:ident $machines:literal $required:literal $standing:ident $meaning:literal $event:literal $sample:literal)*) => {
         /// A sequence; `Upon [var]` is one for each variable.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
@@ -38,6 +42,8 @@ macro_rules! sequences {
             required: Machines::of($required),
             meaning: $meaning,
             standing: $standing,
+            event: $event,
+            sample: $sample,
         }),*];
     };
     (@cycle) => { true };
@@ -46,55 +52,55 @@ macro_rules! sequences {
 
 #[rustfmt::skip]
 sequences! {
-    StartCode         "StartCode"         plain "MLE" "MLE" Doc "the beginning of the program"
-    EndCode           "EndCode"           plain "MLE" "MLE" Doc "the end of the program (on EDM by our decision)"
-    FirstToolChange   "1stToolChange"     plain "ML"  "ML"  Doc "the program's first tool change"
-    ToolChange        "ToolChange"        plain "ML"  "ML"  Doc "every later tool change"
-    RapidCode         "RapidCode"         plain "MLE" ""    Doc "a rapid move, instead of the generated block"
-    LineCode          "LineCode"          plain "ML"  ""    Doc "a feed move, instead of the generated block"
-    CwCode            "CwCode"            plain "MLE" ""    Doc "a clockwise arc, instead of the generated block"
-    CcwCode           "CcwCode"           plain "MLE" ""    Doc "a counter-clockwise arc, instead of the generated block"
-    InFeed            "InFeed"            plain "MLE" ""    Doc "the move into the part that turns cutter compensation on"
-    OutFeed           "OutFeed"           plain "MLE" ""    Doc "the move away from the part that turns cutter compensation off"
-    BeginLeadin       "BeginLeadin"       plain "MLE" ""    Doc "before the lead-in moves"
-    EndLeadin         "EndLeadin"         plain "MLE" ""    Doc "after the lead-in moves"
-    BeginLeadout      "BeginLeadout"      plain "MLE" ""    Doc "before the lead-out moves"
-    EndLeadout        "EndLeadout"        plain "MLE" ""    Doc "after the lead-out moves"
-    BeginPlunge       "BeginPlunge"       plain "MLE" ""    Doc "before the plunge moves"
-    EndPlunge         "EndPlunge"         plain "MLE" ""    Doc "after the plunge moves"
-    BeginRetract      "BeginRetract"      plain "MLE" ""    Doc "before the retract moves"
-    EndRetract        "EndRetract"        plain "MLE" ""    Doc "after the retract moves"
-    BeginSideStep     "BeginSideStep"     plain "MLE" ""    Doc "before the side step moves"
-    EndSideStep       "EndSideStep"       plain "MLE" ""    Doc "after the side step moves"
-    BeginZLevel       "BeginZLevel"       plain "MLE" ""    Doc "before the moves of one Z level"
-    EndZLevel         "EndZLevel"         plain "MLE" ""    Doc "after the moves of one Z level"
-    BeginRow          "BeginRow"          plain "M"   ""    Doc "before each pass of a pocket or surface cut"
-    EndRow            "EndRow"            plain "M"   ""    Doc "after each pass of a pocket or surface cut"
-    Index             "Index"             plain "M"   ""    Doc "instead of a rapid to another rotary view"
-    Unwind            "Unwind"            plain "M"   ""    Doc "when a rotary axis would leave its travel"
-    SubStart          "SubStart"          plain "M"   ""    Doc "the beginning of a subprogram"
-    SubEnd            "SubEnd"            plain "M"   ""    Doc "the end of a subprogram"
-    SubCall           "SubCall"           plain "M"   ""    Doc "the call of a subprogram"
-    Between           "Between"           plain "M"   ""    Doc "after the last subprogram, before the main program"
-    EdmCut            "EdmCut"            plain "E"   ""    Doc "cuts the wire"
-    EdmThread         "EdmThread"         plain "E"   ""    Doc "threads the wire"
-    EdmPreDrillThread "EdmPreDrillThread" plain "E"   ""    Doc "predrills a thread point"
-    SubmergeTank      "SubmergeTank"      plain "E"   ""    Doc "fills the tank"
-    Stop              "Stop"              plain "E"   ""    Doc "a program stop"
-    AutoThread        "AutoThread"        cycle "L"   ""    Doc "the control's own threading cycle"
-    CanThread         "CanThread"         cycle "L"   ""    Doc "a threading cycle of one pass each, instead of AutoThread"
-    Back              "Back"              cycle "M"   ""    Doc "back boring"
-    Bore              "Bore"              cycle "ML"  ""    Doc "boring: feed down, rapid out"
-    Cancel            "Cancel"            cycle "ML"  ""    Doc "ends a machine cycle"
-    Chipbreak         "Chipbreak"         cycle "ML"  ""    Doc "pecking that only breaks the chip"
-    Custom1           "Custom1"           cycle "ML"  ""    Doc "a cycle of the machine that the others do not cover"
-    Custom2           "Custom2"           cycle "ML"  ""    Doc "a cycle of the machine that the others do not cover"
-    Custom3           "Custom3"           cycle "ML"  ""    Doc "a cycle of the machine that the others do not cover"
-    Drill             "Drill"             cycle "ML"  ""    Doc "straight drilling"
-    LTap              "LTap"              cycle "M"   ""    Doc "left-hand tapping"
-    Peck              "Peck"              cycle "ML"  ""    Doc "deep drilling with full retracts; `None` generates the moves"
-    Ream              "Ream"              cycle "ML"  ""    Doc "reaming: feed down, feed out"
-    Tap               "Tap"               cycle "ML"  ""    Ours "tapping; the manual lists it, its page is not public"
+    StartCode         "StartCode"         plain "MLE" "MLE" Doc "the beginning of the program" "`start`" "start-code"
+    EndCode           "EndCode"           plain "MLE" "MLE" Doc "the end of the program (on EDM by our decision)" "end of the job" "end-code"
+    FirstToolChange   "1stToolChange"     plain "ML"  "ML"  Doc "the program's first tool change" "first operation" "first-tool-change"
+    ToolChange        "ToolChange"        plain "ML"  "ML"  Doc "every later tool change" "operation with another `tool`" "tool-change-mill"
+    RapidCode         "RapidCode"         plain "MLE" ""    Doc "a rapid move, instead of the generated block" "`rapid`" "rapid-code"
+    LineCode          "LineCode"          plain "ML"  ""    Doc "a feed move, instead of the generated block" "`line`" "line-code"
+    CwCode            "CwCode"            plain "MLE" ""    Doc "a clockwise arc, instead of the generated block" "`arc` cw" "cw-code"
+    CcwCode           "CcwCode"           plain "MLE" ""    Doc "a counter-clockwise arc, instead of the generated block" "`arc` ccw" "ccw-code"
+    InFeed            "InFeed"            plain "MLE" ""    Doc "the move into the part that turns cutter compensation on" "`infeed`" "infeed"
+    OutFeed           "OutFeed"           plain "MLE" ""    Doc "the move away from the part that turns cutter compensation off" "`outfeed`" "outfeed"
+    BeginLeadin       "BeginLeadin"       plain "MLE" ""    Doc "before the lead-in moves" "`begin` leadin" "sections"
+    EndLeadin         "EndLeadin"         plain "MLE" ""    Doc "after the lead-in moves" "`end` leadin" "sections"
+    BeginLeadout      "BeginLeadout"      plain "MLE" ""    Doc "before the lead-out moves" "`begin` leadout" "sections"
+    EndLeadout        "EndLeadout"        plain "MLE" ""    Doc "after the lead-out moves" "`end` leadout" "sections"
+    BeginPlunge       "BeginPlunge"       plain "MLE" ""    Doc "before the plunge moves" "`begin` plunge" "sections"
+    EndPlunge         "EndPlunge"         plain "MLE" ""    Doc "after the plunge moves" "`end` plunge" "sections"
+    BeginRetract      "BeginRetract"      plain "MLE" ""    Doc "before the retract moves" "`begin` retract" "sections"
+    EndRetract        "EndRetract"        plain "MLE" ""    Doc "after the retract moves" "`end` retract" "sections"
+    BeginSideStep     "BeginSideStep"     plain "MLE" ""    Doc "before the side step moves" "`begin` sidestep" "sections"
+    EndSideStep       "EndSideStep"       plain "MLE" ""    Doc "after the side step moves" "`end` sidestep" "sections"
+    BeginZLevel       "BeginZLevel"       plain "MLE" ""    Doc "before the moves of one Z level" "`begin` zlevel" "sections"
+    EndZLevel         "EndZLevel"         plain "MLE" ""    Doc "after the moves of one Z level" "`end` zlevel" "sections"
+    BeginRow          "BeginRow"          plain "M"   ""    Doc "before each pass of a pocket or surface cut" "`begin` row" "begin-row"
+    EndRow            "EndRow"            plain "M"   ""    Doc "after each pass of a pocket or surface cut" "`end` row" "end-row"
+    Index             "Index"             plain "M"   ""    Doc "instead of a rapid to another rotary view" "`rapid` to another rotary angle" "index"
+    Unwind            "Unwind"            plain "M"   ""    Doc "when a rotary axis would leave its travel" "a rotary angle beyond `Limits`" "unwind"
+    SubStart          "SubStart"          plain "M"   ""    Doc "the beginning of a subprogram" "`subprograms`" "sub-start"
+    SubEnd            "SubEnd"            plain "M"   ""    Doc "the end of a subprogram" "end of a subprogram" "sub-end"
+    SubCall           "SubCall"           plain "M"   ""    Doc "the call of a subprogram" "`call`" "sub-call"
+    Between           "Between"           plain "M"   ""    Doc "after the last subprogram, before the main program" "after the subprograms, with `Subs1st? Y`" "between"
+    EdmCut            "EdmCut"            plain "E"   ""    Doc "cuts the wire" "`edm` cut" "wire"
+    EdmThread         "EdmThread"         plain "E"   ""    Doc "threads the wire" "`edm` thread" "wire"
+    EdmPreDrillThread "EdmPreDrillThread" plain "E"   ""    Doc "predrills a thread point" "`edm` predrill" "wire"
+    SubmergeTank      "SubmergeTank"      plain "E"   ""    Doc "fills the tank" "`edm` submerge" "wire"
+    Stop              "Stop"              plain "E"   ""    Doc "a program stop" "`stop`" "wire"
+    AutoThread        "AutoThread"        cycle "L"   ""    Doc "the control's own threading cycle" "`thread`" "lathe-part"
+    CanThread         "CanThread"         cycle "L"   ""    Doc "a threading cycle of one pass each, instead of AutoThread" "`thread`" "can-thread"
+    Back              "Back"              cycle "M"   ""    Doc "back boring" "`cycle` back" "back-machine"
+    Bore              "Bore"              cycle "ML"  ""    Doc "boring: feed down, rapid out" "`cycle` bore" "bore-machine"
+    Cancel            "Cancel"            cycle "ML"  ""    Doc "ends a machine cycle" "end of a cycle with `End Cancel`" "cancel-with"
+    Chipbreak         "Chipbreak"         cycle "ML"  ""    Doc "pecking that only breaks the chip" "`cycle` chipbreak" "chipbreak-machine"
+    Custom1           "Custom1"           cycle "ML"  ""    Doc "a cycle of the machine that the others do not cover" "`cycle` custom1, or the kind its remark names" "custom1-machine"
+    Custom2           "Custom2"           cycle "ML"  ""    Doc "a cycle of the machine that the others do not cover" "`cycle` custom2, or the kind its remark names" "more-cycles"
+    Custom3           "Custom3"           cycle "ML"  ""    Doc "a cycle of the machine that the others do not cover" "`cycle` custom3, or the kind its remark names" "more-cycles"
+    Drill             "Drill"             cycle "ML"  ""    Doc "straight drilling" "`cycle` drill" "drill-machine"
+    LTap              "LTap"              cycle "M"   ""    Doc "left-hand tapping" "`cycle` ltap" "ltap-machine"
+    Peck              "Peck"              cycle "ML"  ""    Doc "deep drilling with full retracts; `None` generates the moves" "`cycle` deep" "peck-machine"
+    Ream              "Ream"              cycle "ML"  ""    Doc "reaming: feed down, feed out" "`cycle` ream" "more-cycles"
+    Tap               "Tap"               cycle "ML"  ""    Ours "tapping; the manual lists it, its page is not public" "`cycle` tap" "more-cycles"
 }
 
 impl SequenceId {

@@ -25,9 +25,9 @@ pub enum Limits {
 }
 
 /// Most words on a sequence line [doc].
-const MOST_WORDS: usize = 15;
+pub const MOST_WORDS: usize = 15;
 /// Most sequence lines in a form [doc].
-const MOST_LINES: usize = 150;
+pub const MOST_LINES: usize = 150;
 /// Deepest nesting of `Call`.
 const MOST_CALLS: usize = 8;
 

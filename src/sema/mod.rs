@@ -7,6 +7,6 @@ mod model;
 mod settings;
 mod words;
 
-pub use check::{Checked, Limits, analyse};
+pub use check::{Checked, Limits, MOST_LINES, MOST_WORDS, analyse};
 pub use model::{Form, Line, Sequence, Upon, Word, WordKind};
 pub use settings::{ArcCentre, Code, DwellWord, Prompt, SequenceNumbers, Settings, TravelLimit, UnitChoice};

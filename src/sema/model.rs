@@ -105,4 +105,25 @@ impl Word {
             _ => None,
         }
     }
+
+    /// Its variable, unless that stands in a comment.
+    pub fn printed_var(&self) -> Option<VarId> {
+        match self.kind {
+            WordKind::Var(_, var) | WordKind::Value(var) => Some(var),
+            _ => None,
+        }
+    }
+
+    /// Is it one of these codes, as typed?
+    pub fn is_code(&self, letter: u8, codes: &[f64]) -> bool {
+        matches!(self.kind, WordKind::Literal(own, _, value) if own == letter && codes.contains(&value))
+    }
+
+    /// Its number, if it has this letter and is typed.
+    pub fn typed(&self, letter: u8) -> Option<f64> {
+        match self.kind {
+            WordKind::Literal(own, _, value) if own == letter => Some(value),
+            _ => None,
+        }
+    }
 }

@@ -18,6 +18,40 @@ pub struct Form {
     pub items: Vec<Head>,
 }
 
+impl Form {
+    /// Commands and what looks like one.
+    pub fn statements(&self) -> impl Iterator<Item = &Statement> {
+        self.items.iter().filter_map(|item| if let Head::Statement(statement) = item { Some(statement) } else { None })
+    }
+
+    /// Sequences.
+    pub fn sequences(&self) -> impl Iterator<Item = &SequenceNode> {
+        self.items.iter().filter_map(|item| if let Head::Sequence(node) = item { Some(node) } else { None })
+    }
+
+    /// The words of all sequences.
+    pub fn words(&self) -> impl Iterator<Item = &Word> {
+        self.sequences().flat_map(|node| &node.body).flat_map(|body| &body.words)
+    }
+
+    /// All lines, in the order of the file.
+    pub fn lines(&self) -> Vec<&Line> {
+        let mut lines = Vec::new();
+        for item in &self.items {
+            match item {
+                Head::Blank(line) | Head::Format { line, .. } | Head::StrayEnd(line) => lines.push(line),
+                Head::Statement(statement) => lines.push(&statement.line),
+                Head::Sequence(node) => {
+                    lines.push(&node.name.line);
+                    lines.extend(node.body.iter().map(|body| &body.line));
+                    lines.extend(node.end.iter().map(|end| &end.line));
+                }
+            }
+        }
+        lines
+    }
+}
+
 /// An item of the form's outermost level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Head {

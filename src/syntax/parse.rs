@@ -148,13 +148,15 @@ fn opens_sequence(statement: &Statement, following: &[(usize, &str)]) -> bool {
     if CommandId::parse(name).is_some() || !name.chars().all(|c| c.is_alphanumeric()) || name.len() < 2 {
         return false;
     }
-    for (_, text) in following.iter().take(LONGEST_SEQUENCE) {
-        let mut words = text.trim_start().splitn(2, [' ', '\t', ';']);
-        let first = words.next().unwrap_or("");
+    // the layout must not matter: neither empty lines nor how words are set apart
+    let lines = following
+        .iter()
+        .map(|(_, text)| text.split([' ', '\t', ';']).filter(|word| !word.is_empty()).collect::<Vec<_>>());
+    for all in lines.filter(|all| all.first().is_some_and(|word| !word.starts_with('#'))).take(LONGEST_SEQUENCE) {
+        let first = all[0];
         if first.eq_ignore_ascii_case("End") {
             return true;
         }
-        let all: Vec<&str> = text.split_whitespace().collect();
         let looks_like_a_name = all.len() == 1 && first.len() > 3 && first.bytes().all(|b| b.is_ascii_alphabetic());
         if looks_like_a_name || CommandId::parse(first).is_some() || SequenceName::parse(&all).is_some() {
             return false;

@@ -1,6 +1,8 @@
 //! What the tests share: rendering through the library, without the command line.
 #![allow(dead_code, missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+pub mod pages;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -143,8 +145,13 @@ pub fn render_sample(folder: &Path, form: &Path) -> Result<Rendered, Box<Diag>> 
 }
 
 pub fn render_sample_with(folder: &Path, form: &Path, options: Options) -> Result<Rendered, Box<Diag>> {
+    render_checked_sample(folder, &check_file(form), options)
+}
+
+/// Renders a sample with a form that was read.
+pub fn render_checked_sample(folder: &Path, form: &Checked, options: Options) -> Result<Rendered, Box<Diag>> {
     let (job, kind) = sample_job(folder);
-    render_kind(&check_file(form), &fs::read(job).unwrap(), kind, options)
+    render_kind(form, &fs::read(job).unwrap(), kind, options)
 }
 
 /// Fails with the lines that differ.

@@ -12,7 +12,7 @@ use postform::nc::{RunError, Simulator, Tally};
 use postform::toolpath::{Direction, Plane, StopKind};
 
 use super::Ending;
-use super::args::{MotionFormat, SimulateArgs};
+use super::args::{ControlArgs, MotionFormat, SimulateArgs};
 use super::files::{self, io_message};
 use super::report::Reporter;
 
@@ -33,7 +33,9 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Ending {
 }
 
 fn try_run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
-    let settings = args.control.settings(None, args.units.units());
+    let config = super::config::Config::near(&args.program)?;
+    let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };
+    let settings = control.settings(None, args.units.units());
     let mut simulator = Simulator::new(files::open_program(&args.program)?, settings);
     let mut tally = Tally::new(settings.units);
     let mut warnings = Vec::new();

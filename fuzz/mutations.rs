@@ -1,0 +1,102 @@
+//! Random mutations of the forms that ship, by the million: each is read and looked at, every eighth mended and laid out.
+//!
+//! `mutations COUNT SEED`; a panic names the seed of its mutation, with which it is made again (`mutations 1 SEED`).
+
+use std::fs;
+use std::time::Instant;
+
+use postform::fmt::format;
+use postform::lint::{Levels, edited, edits_of, fixes_of, lint};
+use postform::sema::{Checked, Limits, analyse};
+use postform::source::Source;
+
+/// Pieces of forms that mean something in the wrong place.
+const PIECES: &[&str] = &[
+    "End", "End Cancel", "Cancel", "Drill", "Upon [work]", "None", "\n", "\r\n", "  ", "\t", " ", "#", "# postform: allow PF101",
+    "(", ")", "[", "]", "<h>", "X[h]", "G0", "G91", "G28", "G81", "%0", "X->3.>4", "P->34", "Call x.pf", ";", "é", "\u{0}", "\u{feff}",
+];
+
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        // splitmix64: every seed gives another sequence
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.next() % n.max(1) as u64) as usize
+    }
+}
+
+fn checked(bytes: &[u8]) -> Checked {
+    analyse(Source::from_bytes("form.pf", bytes), Limits::Classic, &mut |_| Err("can't be found".into()))
+}
+
+fn mutated(forms: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
+    let mut form = forms[random.below(forms.len())].clone();
+    for _ in 0..=random.below(6) {
+        let at = random.below(form.len() + 1);
+        match random.below(7) {
+            0 if at < form.len() => _ = form.remove(at),
+            1 => form.insert(at, random.next() as u8),
+            2 => _ = form.splice(at..at, PIECES[random.below(PIECES.len())].bytes()),
+            3 if at < form.len() => form[at] = random.next() as u8,
+            4 => _ = form.drain(at..(at + random.below(60)).min(form.len())),
+            5 => {
+                // a part of another form
+                let other = &forms[random.below(forms.len())];
+                let from = random.below(other.len());
+                form.splice(at..at, other[from..(from + random.below(80)).min(other.len())].iter().copied());
+            }
+            _ => form.truncate(at.max(form.len() / 2)),
+        }
+    }
+    form
+}
+
+fn look(bytes: &[u8], thoroughly: bool) {
+    let form = checked(bytes);
+    let text = &form.files[0].text;
+    let findings = lint(&form, &Levels::default());
+    for label in findings.diags.iter().flat_map(|diag| &diag.labels) {
+        assert!(text.get(label.span.range()).is_some(), "a place outside the text");
+    }
+    if !thoroughly {
+        return;
+    }
+    let fixes = fixes_of(&findings.diags, true);
+    if !fixes.is_empty() {
+        lint(&checked(edited(text, &edits_of(&fixes, 0)).as_bytes()), &Levels::default());
+    }
+    let once = format(&form.files[0]);
+    assert_eq!(format(&Source::from_text("form.pf", once.as_str())), once, "the layout is not stable");
+}
+
+fn main() {
+    let mut args = std::env::args().skip(1).map(|arg| arg.parse().expect("a number"));
+    let (count, first): (u64, u64) = (args.next().unwrap_or(1_000_000), args.next().unwrap_or(0));
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let list = |folder: &str| fs::read_dir(format!("{root}/{folder}")).expect(folder).flatten().map(|e| e.path());
+    let mut paths: Vec<_> = list("postforms").chain(list("samples").map(|folder| folder.join("form.pf"))).collect();
+    paths.sort();
+    let forms: Vec<Vec<u8>> = paths.iter().filter_map(|path| fs::read(path).ok()).collect();
+    assert!(forms.len() > 40, "the forms that ship");
+    let start = Instant::now();
+    for seed in first..first + count {
+        let bytes = mutated(&forms, &mut Random(seed));
+        let panicked = std::panic::catch_unwind(|| look(&bytes, seed % 8 == 0)).is_err();
+        if panicked {
+            eprintln!("mutation {seed}:\n{}", String::from_utf8_lossy(&bytes));
+            std::process::exit(1);
+        }
+        if seed % 500_000 == 499_999 {
+            println!("{} mutations, {:.0} s", seed + 1 - first, start.elapsed().as_secs_f64());
+        }
+    }
+    println!("{count} mutations of {} forms, no panic, {:.0} s", forms.len(), start.elapsed().as_secs_f64());
+}

@@ -1,0 +1,105 @@
+//! Findings as a SARIF 2.1.0 log, which code hosts and editors read.
+
+use serde_json::{Value, json};
+
+use postform::diag::{CODES, CodeRow, Diag, Severity};
+use postform::source::Source;
+use postform::span::Span;
+
+use super::Linted;
+
+/// The whole log.
+pub fn log(linted: &[Linted]) -> Value {
+    let rules: Vec<&CodeRow> = CODES.iter().filter(|row| row.name.starts_with("PF")).collect();
+    let described: Vec<Value> = rules
+        .iter()
+        .map(|row| {
+            json!({
+                "id": row.name,
+                "shortDescription": { "text": row.title },
+                "help": { "text": format!("postform explain {}", row.name) },
+                "defaultConfiguration": { "level": level(row.severity) },
+            })
+        })
+        .collect();
+    let results: Vec<Value> =
+        linted.iter().flat_map(|form| form.diags.iter().map(|diag| result(diag, &form.files, &rules))).collect();
+    json!({
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [{
+            "tool": { "driver": { "name": "postform", "version": env!("CARGO_PKG_VERSION"), "rules": described } },
+            "columnKind": "unicodeCodePoints",
+            "results": results,
+        }],
+    })
+}
+
+fn result(diag: &Diag, files: &[Source], rules: &[&CodeRow]) -> Value {
+    let text = match &diag.help {
+        Some(help) => format!("{}. {help}", diag.message),
+        None => diag.message.clone(),
+    };
+    let mut result = json!({
+        "ruleId": diag.code.name(),
+        "ruleIndex": rules.iter().position(|row| row.code == diag.code),
+        "level": level(diag.severity),
+        "message": { "text": text },
+        "locations": diag.labels.iter().take(1).filter_map(|label| location(label.span, files, None)).collect::<Vec<_>>(),
+    });
+    let related: Vec<Value> =
+        diag.labels.iter().skip(1).filter_map(|label| location(label.span, files, Some(&label.text))).collect();
+    if !related.is_empty() {
+        result["relatedLocations"] = related.into();
+    }
+    if let Some(fix) = &diag.fix {
+        let change = |(span, text): &(Span, String)| {
+            let source = files.get(span.file as usize)?;
+            Some(json!({
+                "artifactLocation": { "uri": uri(&source.name) },
+                "replacements": [{ "deletedRegion": region(*span, source), "insertedContent": { "text": text } }],
+            }))
+        };
+        let changes: Vec<Value> = fix.edits.iter().filter_map(change).collect();
+        result["fixes"] = json!([{ "description": { "text": fix.title }, "artifactChanges": changes }]);
+    }
+    result
+}
+
+fn level(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
+    }
+}
+
+fn location(span: Span, files: &[Source], text: Option<&str>) -> Option<Value> {
+    let source = files.get(span.file as usize)?;
+    let mut location = json!({
+        "physicalLocation": { "artifactLocation": { "uri": uri(&source.name) }, "region": region(span, source) },
+    });
+    if let Some(text) = text {
+        location["message"] = json!({ "text": text });
+    }
+    Some(location)
+}
+
+fn region(span: Span, source: &Source) -> Value {
+    let (line, column) = source.line_column(span.start);
+    let (end_line, end_column) = source.line_column(span.end);
+    json!({ "startLine": line, "startColumn": column, "endLine": end_line, "endColumn": end_column })
+}
+
+/// A file's name as a relative reference.
+fn uri(name: &str) -> String {
+    let mut uri = String::with_capacity(name.len());
+    for byte in name.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'.' | b'-' | b'_' | b'~' => uri.push(char::from(byte)),
+            b'\\' => uri.push('/'),
+            _ => uri += &format!("%{byte:02X}"),
+        }
+    }
+    uri
+}

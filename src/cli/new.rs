@@ -1,0 +1,48 @@
+//! `postform new`.
+
+use std::io::Write as _;
+
+use super::args::{NewArgs, NewControl};
+use super::files::name;
+use super::output::Target;
+use super::{Ending, output};
+
+/// The form to start from: one that ships, lint-clean and rendered in tests.
+fn form(control: NewControl) -> &'static str {
+    match control {
+        NewControl::Fanuc => include_str!("../../postforms/fanuc.pf"),
+        NewControl::Haas => include_str!("../../postforms/haas.pf"),
+        NewControl::Fadal => include_str!("../../postforms/fadal.pf"),
+        NewControl::Linuxcnc => include_str!("../../postforms/linuxcnc.pf"),
+        NewControl::Grbl => include_str!("../../postforms/grbl.pf"),
+        NewControl::Lathe => include_str!("../../postforms/fanuc-lathe.pf"),
+        NewControl::Edm => include_str!("../../postforms/wire-edm.pf"),
+    }
+}
+
+/// Writes the form; a file that is there is somebody's work and stays.
+pub fn run(args: &NewArgs) -> Ending {
+    let text = form(args.control);
+    if args.output.as_os_str() == "-" {
+        return output::shown(|out| out.write_all(text.as_bytes()));
+    }
+    if args.output.exists() {
+        eprintln!("error: {} is there already\n  help: take another name, or remove it first", name(&args.output));
+        return Ending::Failed;
+    }
+    let written = Target::open(&args.output, false).and_then(|mut target| {
+        let fail = |error| super::files::io_message("write", &args.output, &error);
+        target.write(text.as_bytes()).map_err(fail)?;
+        target.complete().map_err(fail)
+    });
+    match written {
+        Ok(()) => {
+            eprintln!("{} is written: change it, then `postform lint {0}`", name(&args.output));
+            Ending::Clean
+        }
+        Err(message) => {
+            eprintln!("{message}");
+            Ending::Failed
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Examples out of the forms that ship: what `explain` shows is what renders.
+
+use crate::lang::{SequenceId, VarId};
+use crate::sema::{Limits, analyse};
+use crate::source::Source;
+
+/// The posts, the commonest first.
+const POSTS: &[(&str, &str)] = &[
+    ("postforms/fanuc.pf", include_str!("../../postforms/fanuc.pf")),
+    ("postforms/haas-4axis.pf", include_str!("../../postforms/haas-4axis.pf")),
+    ("postforms/fadal-subs.pf", include_str!("../../postforms/fadal-subs.pf")),
+    ("postforms/fanuc-lathe.pf", include_str!("../../postforms/fanuc-lathe.pf")),
+    ("postforms/haas-lathe.pf", include_str!("../../postforms/haas-lathe.pf")),
+    ("postforms/wire-edm.pf", include_str!("../../postforms/wire-edm.pf")),
+];
+
+macro_rules! samples {
+    ($($name:literal)*) => {
+        const SAMPLES: &[(&str, &str)] = &[$((
+            concat!("samples/", $name, "/form.pf"),
+            include_str!(concat!("../../samples/", $name, "/form.pf")),
+        )),*];
+    };
+}
+
+// one for each sequence that no post has, by the table of sequences
+samples! {
+    "back-machine" "begin-row" "between" "bore-machine" "can-thread" "cancel-with" "ccw-code" "chipbreak-machine"
+    "custom1-machine" "cw-code" "drill-machine" "end-code" "end-row" "first-tool-change" "index" "infeed"
+    "line-code" "ltap-machine" "more-cycles" "outfeed" "peck-machine" "rapid-code" "sections" "start-code"
+    "sub-call" "sub-end" "sub-start" "thread-g33" "tool-change-mill" "unwind" "upon-work"
+}
+
+/// Text of a form and its name.
+pub struct Example {
+    /// The lines.
+    pub text: String,
+    /// Where they stand.
+    pub form: &'static str,
+}
+
+fn forms() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
+    POSTS.iter().chain(SAMPLES)
+}
+
+/// A sequence from its name to its End.
+pub fn sequence(id: SequenceId) -> Option<Example> {
+    let sample = format!("samples/{}/form.pf", id.row().sample);
+    let own = SAMPLES.iter().filter(|(name, _)| *name == sample);
+    forms().chain(own).find_map(|(form, text)| {
+        let tree = crate::syntax::parse(&Source::from_text(*form, *text), 0);
+        let node = tree.sequences().find(|node| SequenceId::parse(&node.name.name.text) == Some(id))?;
+        let end = node.end.as_ref()?.line.span.end as usize;
+        Some(Example { text: text.get(node.name.line.span.start as usize..end)?.to_owned(), form })
+    })
+}
+
+/// A line that prints a variable.
+pub fn variable(var: VarId) -> Option<Example> {
+    let word = format!("[{}]", var.name());
+    forms().find_map(|(form, text)| {
+        let line = text.lines().find(|line| !line.starts_with('#') && line.contains(&word))?;
+        Some(Example { text: line.to_owned(), form })
+    })
+}
+
+/// A command as forms give it.
+pub fn command(name: &str) -> Option<Example> {
+    forms().find_map(|(form, text)| {
+        // commands stand before the first sequence
+        let source = Source::from_text(*form, *text);
+        let checked = analyse(source, Limits::Classic, &mut |_| Err(String::new()));
+        let tree = checked.trees.first()?;
+        let statement = tree.statements().find(|statement| statement.name.text.eq_ignore_ascii_case(name))?;
+        Some(Example { text: text.get(statement.line.span.range())?.to_owned(), form })
+    })
+}

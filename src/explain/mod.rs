@@ -1,0 +1,96 @@
+//! What each code, command, variable, sequence and cycle means, from the tables and pages that the reference is made of.
+// pages name variables as [var]
+#![allow(rustdoc::broken_intra_doc_links)]
+
+mod examples;
+mod pages;
+pub mod reference;
+mod words;
+
+use crate::diag::{CODES, CodeRow};
+use crate::lang::{COMMANDS, CommandId, SEQUENCES, SequenceId, VARIABLES, VarId, did_you_mean};
+
+/// The text for a code, command, variable, sequence or cycle, whatever the case it is asked for in.
+///
+/// # Errors
+/// There is no such thing; the text says what may have been meant.
+pub fn explain(what: &str) -> Result<String, String> {
+    let asked = what.trim();
+    let bare = asked.trim_matches(['[', ']', '<', '>']);
+    let mut texts = Vec::new();
+    if let Some(row) = CODES.iter().find(|row| names_of(row).any(|name| name.eq_ignore_ascii_case(asked))) {
+        texts.push(code(row));
+    }
+    // some names are both, as Thread and [thread] could be: whoever asks with brackets wants the variable
+    if asked == bare {
+        texts.extend(SequenceId::parse(asked).map(words::sequence));
+        texts.extend(CommandId::parse(asked).map(words::command));
+        if asked.eq_ignore_ascii_case("Upon") || asked.eq_ignore_ascii_case("Upon Every") {
+            texts.push(words::upon());
+        }
+    }
+    texts.extend(VarId::parse(bare).map(words::variable));
+    if asked == bare {
+        texts.extend(words::cycle(asked));
+    }
+    match texts.is_empty() {
+        false => Ok(texts.join("\n")),
+        true => Err(did_you_mean(bare, all_names()).unwrap_or_else(|| {
+            "ask for a code (PF101, cycle.depth.missing), a command, a variable, a sequence or a kind of cycle; \
+             --list names them all"
+                .into()
+        })),
+    }
+}
+
+/// Everything that can be asked for, in groups.
+pub fn list() -> String {
+    let mut text = String::from("Codes\n");
+    for row in CODES {
+        let title = row.title.split_once(": ").map_or(row.title, |(_, title)| title);
+        text += &format!("  {:<28} {:<7} {title}\n", row.code.title(), row.severity.name());
+    }
+    text += "\nCommands\n";
+    COMMANDS.iter().for_each(|row| text += &format!("  {:<20} {}\n", row.name, row.meaning));
+    text += "\nSequences\n";
+    let upons = [("Upon [var]", "when a variable changes"), ("Upon Every [var]", "whenever a variable is used")];
+    let rows = SEQUENCES.iter().map(|row| (row.name, row.meaning)).chain(upons);
+    rows.for_each(|(name, meaning)| text += &format!("  {name:<20} {meaning}\n"));
+    text += "\nCycles of a job\n";
+    words::CYCLES.iter().for_each(|row| text += &format!("  {:<20} {}\n", row.name, row.meaning));
+    text += "\nVariables\n";
+    VARIABLES.iter().for_each(|row| text += &format!("  {:<20} {}\n", format!("[{}]", row.name), row.meaning));
+    text
+}
+
+/// What a code is called.
+fn names_of(row: &'static CodeRow) -> impl Iterator<Item = &'static str> {
+    [row.name, row.code.key()].into_iter().filter(|name| !name.is_empty())
+}
+
+fn all_names() -> impl Iterator<Item = &'static str> {
+    let codes = CODES.iter().flat_map(names_of);
+    let words = COMMANDS.iter().map(|row| row.name).chain(SEQUENCES.iter().map(|row| row.name));
+    codes.chain(words).chain(VARIABLES.iter().map(|row| row.name)).chain(words::CYCLES.iter().map(|row| row.name))
+}
+
+/// A code: its page, or its section of one.
+fn code(row: &CodeRow) -> String {
+    let title = row.title.split_once(": ").map_or(row.title, |(_, title)| title);
+    let head = format!("{} ({}): {title}\n", row.code.title(), row.severity.name());
+    format!("{head}\n{}\n", plain(&pages::of(row)))
+}
+
+/// Markdown as text for a terminal.
+fn plain(text: &str) -> String {
+    let mut out = String::new();
+    for line in text.trim().lines() {
+        match line.strip_prefix("## ") {
+            Some(heading) => out += heading,
+            None if line.starts_with("```") => continue,
+            None => out += &line.replace("*Instead:*", "Instead:").replace("*Better:*", "Better:"),
+        }
+        out.push('\n');
+    }
+    out.trim_end().to_owned()
+}

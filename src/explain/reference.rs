@@ -1,0 +1,113 @@
+//! The reference pages of docs/, made from the tables. A test holds the files to them.
+
+use super::words::{origin, standing, takes, unit};
+use crate::diag::CODES;
+use crate::lang::{COMMANDS, Machines, SEQUENCES, VARIABLES};
+use crate::lint::RULES;
+
+/// The first lines of a page that nobody should edit.
+fn head(title: &str, lead: &str) -> String {
+    format!("# {title}\n\n<!-- made from the tables of the source: `just overwrite` -->\n\n{lead}\n\n")
+}
+
+/// A cell of a table.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
+/// docs/commands.md.
+pub fn commands() -> String {
+    let mut text = head(
+        "Commands of forms",
+        "They stand before the first sequence. `postform explain NAME` shows one with an example.",
+    );
+    text += "| command | takes | without it | does | standing |\n| --- | --- | --- | --- | --- |\n";
+    for row in COMMANDS {
+        let default = if row.default.is_empty() { "-".to_owned() } else { format!("`{}`", row.default) };
+        let times = if row.repeats { ", as often as needed" } else { "" };
+        text += &format!(
+            "| `{}` | {}{times} | {default} | {} | {} |\n",
+            row.name,
+            cell(&takes(row.args)),
+            cell(row.meaning),
+            standing(row.standing)
+        );
+    }
+    text
+}
+
+/// docs/variables.md.
+pub fn variables() -> String {
+    let mut text = head(
+        "Variables of forms",
+        "Written with a letter, as `X[h]`, or alone. `postform explain NAME` shows one with an example.",
+    );
+    let mut group = "";
+    for row in VARIABLES {
+        if row.group != group {
+            group = row.group;
+            let first = if text.ends_with("|\n") { "\n" } else { "" };
+            text += &format!(
+                "{first}## {group}\n\n| variable | is | counts | on | set by |\n| --- | --- | --- | --- | --- |\n"
+            );
+        }
+        let (counts, by) = (unit(row.unit), origin(row.origin));
+        text += &format!("| `[{}]` | {} | {counts} | {} | {by} |\n", row.name, cell(row.meaning), row.machines);
+    }
+    text
+}
+
+/// docs/sequences.md.
+pub fn sequences() -> String {
+    let mut text = head(
+        "Sequences",
+        "Every sequence, the machines that have it, the job's item that prints it, and a sample that shows it.",
+    );
+    text += "| sequence | machines | event | sample | printed | needed on |\n| --- | --- | --- | --- | --- | --- |\n";
+    for row in SEQUENCES {
+        let needed = if row.required == Machines::of("") { "-".into() } else { row.required.to_string() };
+        text += &format!(
+            "| `{}` | {} | {} | [{}](../samples/{}) | {} | {needed} |\n",
+            row.name,
+            row.machines,
+            row.event,
+            row.sample,
+            row.sample,
+            cell(row.meaning)
+        );
+    }
+    text += "| `Upon [var]` | mill | the next use of a variable that changed | [upon-work](../samples/upon-work) | when a variable changes | - |\n";
+    text += "| `Upon Every [var]` | mill | every use of a variable | [upon-every-tool](../samples/upon-every-tool) | whenever a variable is used | - |\n";
+    text += "| `Thread G33` (a command) | lathe | `thread` | [thread-g33](../samples/thread-g33) | each pass, where the form has no threading cycle | - |\n";
+    text
+}
+
+/// Families of a form's codes.
+const FAMILIES: [(&str, &str); 7] = [
+    ("PF0", "Structure"),
+    ("PF1", "Blanks and comments"),
+    ("PF2", "Names"),
+    ("PF3", "Numbers and letter formats"),
+    ("PF4", "Sequences and cycles"),
+    ("PF5", "Modality"),
+    ("PF6", "Limits and machine type"),
+];
+
+/// docs/rules/README.md.
+pub fn rules() -> String {
+    let lead = "What `postform lint` finds in a form. An *error* keeps anything from being printed; *rule* marks what is found \
+                beyond reading the form, and may be turned off ([lint](../lint.md)).";
+    let mut text = head("Findings in forms", lead);
+    for (family, title) in FAMILIES {
+        text += &format!("## {title}\n\n| code | finds | severity | |\n| --- | --- | --- | --- |\n");
+        for row in CODES.iter().filter(|row| row.name.starts_with(family)) {
+            let rule = if RULES.iter().any(|rule| rule.code == row.code) { "rule" } else { "" };
+            text +=
+                &format!("| [{}]({}.md) | {} | {} | {rule} |\n", row.name, row.name, row.title, row.severity.name());
+        }
+        text.push('\n');
+    }
+    text.truncate(text.trim_end().len());
+    text.push('\n');
+    text
+}

@@ -1,0 +1,171 @@
+//! Commands, variables, sequences and kinds of cycles in words.
+
+use super::examples::{self, Example};
+use crate::lang::{Args, CommandId, Machines, Origin, SequenceId, Standing, Unit, VarId};
+
+/// A kind of cycle that jobs ask for.
+pub struct CycleRow {
+    /// As jobs name it.
+    pub name: &'static str,
+    /// The sequence that serves it.
+    pub served_by: &'static str,
+    /// What the tool does.
+    pub meaning: &'static str,
+}
+
+macro_rules! cycles {
+    ($($name:literal $served_by:literal $meaning:literal)*) => {
+        /// All kinds.
+        pub const CYCLES: &[CycleRow] = &[$(CycleRow { name: $name, served_by: $served_by, meaning: $meaning }),*];
+    };
+}
+
+#[rustfmt::skip]
+cycles! {
+    "drill"     "Drill" "feed to the bottom, rapid out"
+    "face"      "a Custom labelled Face, else Drill where that prints [dwell]" "feed to the bottom, dwell, rapid out"
+    "tap"       "Tap" "feed to the bottom, reverse the spindle, feed out"
+    "ltap"      "LTap" "as tap, with a left-hand thread"
+    "bore"      "Bore" "feed to the bottom, stop the spindle, rapid out"
+    "back"      "Back" "down beside the hole with the spindle oriented, across, feed up"
+    "ream"      "Ream" "feed in, feed out"
+    "deep"      "Peck" "pecks with a full retract after each"
+    "chipbreak" "Chipbreak" "pecks with a short retract after each"
+    "thru"      "a Custom labelled Thru, else moves" "feed through one web after the other"
+    "csink"     "a Custom labelled Csink, else moves" "to the depth that a diameter and an angle ask for"
+    "manual"    "a Custom labelled Manual, else moves" "stop over the point; a person does the rest"
+    "custom1"   "Custom1" "what the form's Custom1 does"
+    "custom2"   "Custom2" "what the form's Custom2 does"
+    "custom3"   "Custom3" "what the form's Custom3 does"
+}
+
+/// Where a meaning comes from.
+pub fn standing(standing: Standing) -> &'static str {
+    match standing {
+        Standing::Doc => "stated in the manual",
+        Standing::Ex => "the only reading that prints the manual's examples",
+        Standing::Ours => "decided by us, because nothing public settles it",
+    }
+}
+
+/// What a command takes.
+pub fn takes(args: Args) -> String {
+    let range = |least: u8, most: u8, one: &str, many: &str| match (least, most) {
+        (1, 1) => format!("one {one}"),
+        (least, most) if least == most => format!("{least} {many}"),
+        (least, most) => format!("{least} to {most} {many}"),
+    };
+    match args {
+        Args::Text => "text, to the end of the line".into(),
+        Args::Switch => "Y or N".into(),
+        Args::Codes(least, most) => range(least, most, "code", "codes"),
+        Args::Letters(least, most) => range(least, most, "letter", "letters"),
+        Args::Numbers(least, most) => range(least, most, "number", "numbers"),
+        Args::Choice(words) => format!("one of {}", words.join(", ")),
+        Args::Words(what) => what.to_owned(),
+    }
+}
+
+/// What a value counts.
+pub fn unit(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Length => "length",
+        Unit::Angle => "degrees",
+        Unit::Feed => "feed",
+        Unit::Speed => "speed",
+        Unit::Time => "time",
+        Unit::Code => "code",
+        Unit::Count => "whole number",
+        Unit::Number => "number",
+    }
+}
+
+/// Who sets a value.
+pub fn origin(origin: Origin) -> &'static str {
+    match origin {
+        Origin::Computed => "postform, from the toolpath",
+        Origin::Job => "the job's `set`, --set or a prompt",
+    }
+}
+
+/// A page: heading, lines of a table, example.
+fn page(head: &str, lines: &[(&str, String)], example: Option<Example>) -> String {
+    let mut text = format!("{head}\n\n");
+    for (name, value) in lines.iter().filter(|(_, value)| !value.is_empty()) {
+        text += &format!("{name:<9} {value}\n");
+    }
+    if let Some(Example { text: example, form }) = example {
+        text += &format!("\nExample, {form}:\n");
+        example.lines().for_each(|line| text += &format!("  {line}\n"));
+    }
+    text
+}
+
+/// A command.
+pub fn command(id: CommandId) -> String {
+    let row = id.row();
+    let without = if row.default.is_empty() { "nothing".to_owned() } else { row.default.to_owned() };
+    let times = if row.repeats { "as often as needed" } else { "once" };
+    let lines = [
+        ("does", row.meaning.to_owned()),
+        ("takes", takes(row.args)),
+        ("without", without),
+        ("stands", format!("before the first sequence, {times}")),
+        ("standing", standing(row.standing).to_owned()),
+    ];
+    page(&format!("{} (command)", row.name), &lines, examples::command(row.name))
+}
+
+/// A variable.
+pub fn variable(id: VarId) -> String {
+    let row = id.row();
+    let lines = [
+        ("is", row.meaning.to_owned()),
+        ("counts", unit(row.unit).to_owned()),
+        ("set by", origin(row.origin).to_owned()),
+        ("group", row.group.to_owned()),
+        ("on", row.machines.to_string()),
+    ];
+    page(&format!("[{}] (variable)", row.name), &lines, examples::variable(id))
+}
+
+/// A sequence.
+pub fn sequence(id: SequenceId) -> String {
+    let row = id.row();
+    let kind = if row.is_cycle { "canned cycle" } else { "sequence" };
+    let required = if row.required == Machines::of("") { String::new() } else { row.required.to_string() };
+    let lines = [
+        ("is", row.meaning.to_owned()),
+        ("prints at", row.event.replace('`', "")),
+        ("on", row.machines.to_string()),
+        ("needed on", required),
+        ("standing", standing(row.standing).to_owned()),
+        ("sample", format!("samples/{}", row.sample)),
+    ];
+    page(&format!("{} ({kind})", row.name), &lines, examples::sequence(id))
+}
+
+/// `Upon [var]`.
+pub fn upon() -> String {
+    let lines = [
+        ("is", "a sequence that is printed when a variable changes, before what uses it".to_owned()),
+        ("every", "Upon Every [var] is printed at every use".to_owned()),
+        ("on", "mill".to_owned()),
+        ("standing", standing(Standing::Doc).to_owned()),
+        ("sample", "samples/upon-work, samples/upon-every-tool".to_owned()),
+    ];
+    let text = "Upon [work]\nG91 G28 Z0\nG90\nG[work] G0 X[h] Y[v]\nEnd".to_owned();
+    page("Upon [var] (sequence)", &lines, Some(Example { text, form: "postforms/fanuc.pf" }))
+}
+
+/// A kind of cycle; sequences have their own page.
+pub fn cycle(name: &str) -> Option<String> {
+    let row = CYCLES.iter().find(|row| row.name.eq_ignore_ascii_case(name))?;
+    let lines = [
+        ("is", row.meaning.to_owned()),
+        ("served by", row.served_by.to_owned()),
+        ("else", "moves that postform makes; a rigid tap is an error then".to_owned()),
+        ("in a job", format!("{{\"cycle\": {{\"kind\": \"{}\", ..}}}} (docs/cycles.md)", row.name)),
+    ];
+    Some(page(&format!("{} (cycle of a job)", row.name), &lines, None))
+}

@@ -1,0 +1,229 @@
+//! One canonical layout for forms. It changes blanks, case and older spellings; never what is rendered.
+
+use crate::lang::{CommandId, SequenceName, VarId};
+use crate::source::Source;
+use crate::syntax::{self, Body, End, Head, Line, Piece, PieceKind, SequenceNode, Spanned, Statement, Tail};
+
+/// A form in the canonical layout. Lines that make no sense stay as they are.
+pub fn format(source: &Source) -> String {
+    let tree = syntax::parse(source, 0);
+    let mut page = Page { source, lines: Vec::new() };
+    let mut after_sequence = false;
+    for item in &tree.items {
+        let is_sequence = matches!(item, Head::Sequence(_));
+        if is_sequence {
+            page.gap_before_comments();
+        } else if after_sequence {
+            page.gap();
+        }
+        match item {
+            Head::Blank(line) => page.remark(line),
+            Head::Format { line, letter, spec } => page.push(format_of(letter, spec), line),
+            Head::Statement(statement) => page.push(page.statement(statement), &statement.line),
+            Head::StrayEnd(line) => page.push("End".into(), line),
+            Head::Sequence(node) => page.sequence(node),
+        }
+        after_sequence = is_sequence;
+    }
+    page.text()
+}
+
+/// The lines so far; an empty one is a gap.
+struct Page<'a> {
+    source: &'a Source,
+    lines: Vec<String>,
+}
+
+impl Page<'_> {
+    /// One empty line, unless there is one or the page begins.
+    fn gap(&mut self) {
+        if self.lines.last().is_some_and(|line| !line.is_empty()) {
+            self.lines.push(String::new());
+        }
+    }
+
+    /// A gap before the comments that stand directly above what comes now: they speak of it.
+    fn gap_before_comments(&mut self) {
+        let comments = self.lines.iter().rev().take_while(|line| line.starts_with('#')).count();
+        let at = self.lines.len() - comments;
+        if at > 0 && !self.lines[at - 1].is_empty() {
+            self.lines.insert(at, String::new());
+        }
+    }
+
+    /// A line with words and what stands behind them.
+    fn push(&mut self, words: String, line: &Line) {
+        self.lines.push(words + &self.tail(&line.tail, true));
+    }
+
+    /// A line without words.
+    fn remark(&mut self, line: &Line) {
+        match &line.tail {
+            Tail::None => self.gap(),
+            tail => self.lines.push(self.tail(tail, false)),
+        }
+    }
+
+    /// A comment as ` # text`; text that is lost stays lost, and stays in sight.
+    fn tail(&self, tail: &Tail, behind_words: bool) -> String {
+        match tail {
+            Tail::None => String::new(),
+            Tail::Comment(span) => {
+                let text = self.source.slice(*span).trim_end_matches([' ', '\t']);
+                let inner = &text[1..];
+                let blank = if inner.is_empty() || inner.starts_with([' ', '\t', '#', '!']) { "" } else { " " };
+                format!("{}#{blank}{inner}", if behind_words { " " } else { "" })
+            }
+            Tail::Lost(lost) => {
+                let gap = if behind_words { "   " } else { "  " };
+                format!("{gap}{}", lost.text.trim_end_matches([' ', '\t']))
+            }
+        }
+    }
+
+    /// A command or a sequence's name line, without what stands behind it.
+    fn statement(&self, statement: &Statement) -> String {
+        let args = statement.args.iter().map(|arg| self.source.slice(arg.span));
+        match CommandId::parse(&statement.name.text) {
+            Some(id) => [id.name()].into_iter().chain(args).collect::<Vec<_>>().join(" "),
+            // no command: what was meant is in how it is written
+            None => {
+                let end = statement.args.last().map_or(statement.name.span, |arg| arg.span);
+                self.source.slice(statement.name.span.to(end)).to_owned()
+            }
+        }
+    }
+
+    fn name_line(&self, statement: &Statement) -> String {
+        let mut words = vec![statement.name.text.as_str()];
+        words.extend(statement.args.iter().map(|arg| arg.text.as_str()));
+        let named = |text: &str| {
+            let inner = text.trim_matches(['[', ']', '<', '>']);
+            format!("[{}]", spelt(inner))
+        };
+        let used = match SequenceName::parse(&words) {
+            Some(SequenceName::Plain(id, count)) => {
+                let spelt = if words[0].eq_ignore_ascii_case(id.name()) { 1 } else { 2 };
+                let used = spelt + usize::from(count.is_some());
+                Some((format!("{}{}", id.name(), count.map(|c| format!(" {c}")).unwrap_or_default()), used))
+            }
+            Some(SequenceName::Upon(var)) if !var.is_empty() => Some((format!("Upon {}", named(var)), 2)),
+            Some(SequenceName::UponEvery(var)) if !var.is_empty() => Some((format!("Upon Every {}", named(var)), 3)),
+            _ => None,
+        };
+        match used {
+            Some((name, used)) if used >= words.len() => name,
+            // more words than a name has: an error, left as it is
+            _ => self.statement(statement),
+        }
+    }
+
+    fn sequence(&mut self, node: &SequenceNode) {
+        let name = self.name_line(&node.name);
+        self.push(name, &node.name.line);
+        let first = self.lines.len();
+        for body in &node.body {
+            if !body.words.is_empty() {
+                let words = self.words(body);
+                self.push(words, &body.line);
+            } else if self.lines.len() > first || body.line.tail != Tail::None {
+                self.remark(&body.line);
+            }
+        }
+        if self.lines.len() > first && self.lines.last().is_some_and(String::is_empty) {
+            self.lines.pop();
+        }
+        if let Some(end) = &node.end {
+            let words = self.end(end);
+            self.push(words, &end.line);
+        }
+    }
+
+    fn end(&self, end: &End) -> String {
+        let mut text = "End".to_owned();
+        for arg in &end.args {
+            let cancel = arg.text.eq_ignore_ascii_case("Cancel");
+            text += &format!(" {}", if cancel { "Cancel" } else { &arg.text });
+        }
+        text
+    }
+
+    fn words(&self, body: &Body) -> String {
+        let mut text = String::new();
+        for (i, word) in body.words.iter().enumerate() {
+            if i > 0 {
+                text.push(' ');
+            }
+            for (j, piece) in word.pieces.iter().enumerate() {
+                if j > 0 && missing_blank(&word.pieces[j - 1], piece) {
+                    text.push(' ');
+                }
+                self.piece(piece, &mut text);
+            }
+        }
+        text
+    }
+
+    fn piece(&self, piece: &Piece, text: &mut String) {
+        match &piece.kind {
+            PieceKind::Variable { letter, name } => {
+                text.extend(letter.map(char::from));
+                text.push('[');
+                text.push_str(spelt(&name.text));
+                text.push(']');
+            }
+            PieceKind::Note { parts, closed } => {
+                text.push('(');
+                parts.iter().for_each(|part| self.piece(part, text));
+                text.push_str(if *closed { ")" } else { "" });
+            }
+            PieceKind::Literal { .. } | PieceKind::Stray(_) => text.push_str(self.source.slice(piece.span)),
+        }
+    }
+
+    fn text(mut self) -> String {
+        while self.lines.last().is_some_and(String::is_empty) {
+            self.lines.pop();
+        }
+        self.lines.iter().flat_map(|line| [line.as_str(), "\n"]).collect()
+    }
+}
+
+/// A variable's name as the table has it; an unknown one as it is.
+fn spelt(name: &str) -> &str {
+    match VarId::parse(name) {
+        Some(var) => var.name(),
+        None => name,
+    }
+}
+
+/// Two words without a blank between them: the output has one all the same.
+fn missing_blank(before: &Piece, piece: &Piece) -> bool {
+    let is_word = |piece: &Piece| matches!(piece.kind, PieceKind::Variable { .. } | PieceKind::Literal { .. });
+    is_word(before) && (is_word(piece) || matches!(piece.kind, PieceKind::Note { .. }))
+}
+
+/// `X->3.>4`, `F >3.>6`, `A010360`: the sign has its column, and is a blank where there is none.
+fn format_of(letter: &Spanned, spec: &Spanned) -> String {
+    let digits = spec.text.trim();
+    let packed = digits.len() >= 3 && digits.bytes().all(|b| b.is_ascii_digit());
+    let blank = if packed || digits.starts_with(['-', '+']) { "" } else { " " };
+    format!("{}{blank}{digits}", letter.text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blanks_case_and_older_spellings_become_canonical() {
+        let text = "\u{feff}#a note\r\nRAPID;  G0\r\nx ->3.>4\r\nF   >3.>6\r\n\r\n\r\ndrill   remark  here \r\n\r\n G0 X<H>Y[v]  # go\r\n\
+                    T[tool]\tM6\r\n\r\nend cancel\r\n# of the next\r\nchip break 1\r\nG73\r\nEND\r\n\r\n";
+        let source = Source::from_bytes("f", text.as_bytes());
+        assert_eq!(
+            format(&source),
+            "# a note\nRapid   G0\nx->3.>4\nF   >3.>6\n\nDrill   remark  here\nG0 X[h] Y[v] # go\nT[tool]   M6\nEnd Cancel\n\n\
+             # of the next\nChipbreak 1\nG73\nEnd\n"
+        );
+    }
+}

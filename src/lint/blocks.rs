@@ -1,0 +1,88 @@
+//! The blocks of a body as a control would read them: which modes hold where each word stands.
+
+use crate::lang::VarId;
+use crate::sema::{Line, Word, WordKind};
+
+use super::view::{Body, View, is_cycle_code};
+
+/// How the tool moves in a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Nobody has said it yet in this body.
+    Unknown,
+    /// G0.
+    Rapid,
+    /// G1.
+    Line,
+    /// G2, G3.
+    Arc,
+    /// A cycle of the control.
+    Cycle,
+}
+
+/// A line with the modes that hold in it: a control acts on all codes of a block at once.
+pub struct Block<'a> {
+    /// The line.
+    pub line: &'a Line,
+    /// How it moves.
+    pub motion: Motion,
+    /// G91 holds.
+    pub incremental: bool,
+    /// The block has G28 or G30: its axis words are a point on the way to the reference point.
+    pub reference: bool,
+    /// The block has G53: its axis words are machine coordinates.
+    pub machine: bool,
+}
+
+impl<'a> Block<'a> {
+    /// The words that say where an axis goes, with its number: 0 and 1 across, 2 the depth.
+    pub fn axis_words(&self, view: &View) -> Vec<(&'a Word, usize)> {
+        let words = self.line.words.iter();
+        words.filter_map(|word| Some((word, word.letter().and_then(|letter| view.axis(letter))?))).collect()
+    }
+
+    /// The axis words of this block name a place of the part, not one of the machine.
+    pub fn in_part(&self) -> bool {
+        !self.reference && !self.machine
+    }
+
+    /// Lifts the tool out of the part: to the reference point, in machine coordinates, to a plane above it, or to a
+    /// depth that is typed.
+    pub fn retracts(&self, view: &View) -> bool {
+        self.axis_words(view).iter().any(|(word, axis)| {
+            let typed = matches!(word.kind, WordKind::Literal(..));
+            *axis == 2 && (typed || !self.in_part() || word.var() == Some(VarId::Rplane))
+        })
+    }
+}
+
+/// The blocks of a body.
+pub fn read<'a>(view: &View<'a>, body: Body<'a>) -> Vec<Block<'a>> {
+    let settings = view.settings;
+    let mut motion = Motion::Unknown;
+    let mut incremental = settings.incremental;
+    let mut blocks = Vec::with_capacity(body.lines.len());
+    for line in body.lines {
+        let (mut reference, mut machine) = (false, false);
+        for word in &line.words {
+            match word.kind {
+                WordKind::Literal(b'G', _, code) => match code {
+                    0.0 => motion = Motion::Rapid,
+                    1.0 => motion = Motion::Line,
+                    2.0 | 3.0 => motion = Motion::Arc,
+                    28.0 | 30.0 => reference = true,
+                    53.0 => machine = true,
+                    _ if code == settings.inc_abs[0] => incremental = true,
+                    _ if code == settings.inc_abs[1] => incremental = false,
+                    80.0 => motion = Motion::Unknown,
+                    _ if is_cycle_code(code) => motion = Motion::Cycle,
+                    _ => {}
+                },
+                WordKind::Var(b'G', VarId::Incmode) => incremental = settings.incremental,
+                _ => {}
+            }
+        }
+        blocks.push(Block { line, motion, incremental, reference, machine });
+    }
+    blocks
+}

@@ -1,0 +1,97 @@
+//! How bad each finding counts, where a shop wants it otherwise than the table.
+
+use crate::diag::{CODES, Code, Diag, Severity};
+
+/// What a rule's findings count as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// They are not shown.
+    Off,
+    /// They count as this.
+    As(Severity),
+}
+
+impl Level {
+    /// `off`, `note`, `warning` or `error`.
+    pub fn parse(name: &str) -> Option<Level> {
+        Some(match name {
+            "off" => Level::Off,
+            "note" => Level::As(Severity::Note),
+            "warning" => Level::As(Severity::Warning),
+            "error" => Level::As(Severity::Error),
+            _ => return None,
+        })
+    }
+}
+
+/// Levels that differ from the table; later ones win.
+#[derive(Clone, Debug, Default)]
+pub struct Levels(Vec<(Code, Level)>);
+
+/// Why a level can't be set, in words that follow the name.
+pub type UnknownCode = &'static str;
+
+impl Levels {
+    /// Sets the level of a code, as `PF303`, or of the codes of a family, as `PF3`.
+    ///
+    /// # Errors
+    /// There is no such code, or it is an error without which nothing can be printed.
+    pub fn set(&mut self, name: &str, level: Level) -> Result<(), UnknownCode> {
+        let upper = name.to_ascii_uppercase();
+        let is_code = |row: &&crate::diag::CodeRow| row.name.starts_with("PF") && upper.len() > 2;
+        if let Some(row) = CODES.iter().filter(is_code).find(|row| row.name == upper) {
+            if row.severity == Severity::Error {
+                return Err("is an error of the form: it can't be printed until that is mended");
+            }
+            self.0.push((row.code, level));
+            return Ok(());
+        }
+        let family = CODES.iter().filter(is_code).filter(|row| upper.len() == 3 && row.name.starts_with(&upper));
+        let codes: Vec<Code> = family.filter(|row| row.severity != Severity::Error).map(|row| row.code).collect();
+        if codes.is_empty() {
+            return Err("is no code of a form's findings, as PF303, and no family, as PF3");
+        }
+        self.0.extend(codes.into_iter().map(|code| (code, level)));
+        Ok(())
+    }
+
+    /// Is a code shown at all?
+    pub(super) fn shows(&self, code: Code) -> bool {
+        self.level(code) != Some(Level::Off)
+    }
+
+    fn level(&self, code: Code) -> Option<Level> {
+        self.0.iter().rev().find(|(c, _)| *c == code).map(|(_, level)| *level)
+    }
+
+    /// Gives a finding its level; `false`: it is off.
+    pub(super) fn apply(&self, diag: &mut Diag) -> bool {
+        match self.level(diag.code) {
+            Some(Level::Off) => false,
+            Some(Level::As(severity)) => {
+                diag.severity = severity;
+                true
+            }
+            None => true,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_and_families_are_set_and_the_later_wins() {
+        let mut levels = Levels::default();
+        levels.set("pf3", Level::Off).unwrap();
+        levels.set("PF303", Level::As(Severity::Error)).unwrap();
+        assert!(!levels.shows(Code::PF306) && levels.shows(Code::PF303));
+        let mut diag = Diag::new(Code::PF303, "");
+        assert!(levels.apply(&mut diag) && diag.is_error());
+        assert!(levels.set("PF001", Level::Off).unwrap_err().contains("error"));
+        for name in ["PF", "P", "", "PF9", "PR001", "PF3x"] {
+            assert!(levels.set(name, Level::Off).is_err(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Fixes applied: which of them go together, and the text after them.
+
+use crate::diag::Diag;
+use crate::span::Span;
+
+/// Replacements of text, not overlapping, in the order of their places.
+pub type Edits<'a> = Vec<(Span, &'a str)>;
+
+/// The fixes that can be made at once; `unsafe_too`: those as well that change what is printed. Where two touch the same
+/// place the earlier one is made: the other is found again in the text after it.
+pub fn fixes_of(diags: &[Diag], unsafe_too: bool) -> Vec<&Diag> {
+    let mut taken: Vec<Span> = Vec::new();
+    let mut chosen = Vec::new();
+    for diag in diags {
+        let Some(fix) = diag.fix.as_ref().filter(|fix| fix.safe || unsafe_too) else { continue };
+        let touches =
+            |span: &Span| taken.iter().any(|t| t.file == span.file && span.start <= t.end && t.start <= span.end);
+        if fix.edits.iter().any(|(span, _)| touches(span)) {
+            continue;
+        }
+        taken.extend(fix.edits.iter().map(|(span, _)| *span));
+        chosen.push(diag);
+    }
+    chosen
+}
+
+/// What the fixes of these findings replace in file number `file`.
+pub fn edits_of<'a>(diags: &[&'a Diag], file: u32) -> Edits<'a> {
+    let fixes = diags.iter().filter_map(|diag| diag.fix.as_ref());
+    let edits = fixes.flat_map(|fix| &fix.edits).filter(|(span, _)| span.file == file);
+    let mut edits: Edits = edits.map(|(span, text)| (*span, text.as_str())).collect();
+    edits.sort_by_key(|(span, _)| span.start);
+    edits
+}
+
+/// Text after replacements. A line that becomes empty goes with its end.
+pub fn edited(text: &str, edits: &Edits) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut at = 0;
+    for (span, new) in edits {
+        let (start, mut end) = (span.start as usize, span.end as usize);
+        let (Some(kept), true) = (text.get(at..start), text.is_char_boundary(end)) else { continue };
+        out.push_str(kept);
+        out.push_str(new);
+        let whole_line = start < end && (out.is_empty() || out.ends_with('\n'));
+        if whole_line && new.is_empty() {
+            let rest = &text[end..];
+            end += rest.len() - rest.strip_prefix("\r\n").or(rest.strip_prefix('\n')).unwrap_or(rest).len();
+        }
+        at = end;
+    }
+    out.push_str(&text[at..]);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edits_are_made_in_order_and_empty_lines_go() {
+        let edits = vec![(Span::new(0, 1, 2), "XX"), (Span::new(0, 4, 6), ""), (Span::new(0, 7, 7), "!")];
+        assert_eq!(edited("abc\nde\nf", &edits), "aXXc\n!f");
+        assert_eq!(edited("de\r\nf", &vec![(Span::new(0, 0, 2), "")]), "f");
+        assert_eq!(edited("ä", &vec![(Span::new(0, 0, 1), "x")]), "ä");
+    }
+}

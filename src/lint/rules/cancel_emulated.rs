@@ -1,0 +1,23 @@
+//! PF403: `End Cancel` on an emulated cycle prints no Cancel: there is no cycle in force to cancel.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::span::Span;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for sequence in view.form.sequences.values() {
+        let Some(cancel) = sequence.cancel else { continue };
+        let emulated = sequence.lines.len() > 1 && sequence.count.is_none();
+        if emulated || sequence.is_none {
+            let gap = Span { start: cancel.start - 1, ..cancel };
+            diags.push(
+                Diag::new(Code::PF403, format!("{} is emulated, so Cancel is never printed", sequence.id.name()))
+                    .at(cancel, "this has no effect")
+                    .help(
+                        "write `End` alone; or give the cycle a count, if its first lines start a cycle of the control",
+                    )
+                    .fix("take Cancel out", true, vec![(gap, String::new())]),
+            );
+        }
+    }
+}

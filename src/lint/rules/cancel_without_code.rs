@@ -1,0 +1,17 @@
+//! PF410: a Cancel without G80 ends no cycle.
+
+use crate::diag::{Code, Diag};
+use crate::lang::SequenceId;
+use crate::lint::view::View;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    let Some(cancel) = view.body(SequenceId::Cancel) else { return };
+    // on most controls a motion code ends a cycle, too
+    if cancel.code(b'G', &[80.0, 0.0, 1.0]).is_none() {
+        diags.push(
+            Diag::new(Code::PF410, "Cancel does not cancel")
+                .at(cancel.span, "no G80")
+                .help("print `G80` in it"),
+        );
+    }
+}

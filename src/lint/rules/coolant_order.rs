@@ -1,0 +1,24 @@
+//! PF428: coolant that runs while the tool changes, or before the spindle turns.
+
+use crate::diag::{Code, Diag};
+use crate::lang::VarId;
+use crate::lint::view::View;
+use crate::sema::Word;
+
+use super::spindle_before_change::{changes, starts_spindle};
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for (body, change) in changes(view) {
+        let spindle = body.lines.iter().position(|line| line.words.iter().any(starts_spindle));
+        let ready = spindle.map_or(change, |spindle| spindle.max(change));
+        let on = |word: &&Word| word.is_code(b'M', &[7.0, 8.0]) || word.printed_var() == Some(VarId::Cool);
+        let mut lines = body.lines[..ready].iter().flat_map(|line| &line.words);
+        if let Some(word) = lines.find(on) {
+            diags.push(
+                Diag::new(Code::PF428, format!("{} turns the coolant on too early", body.name()))
+                    .at(word.span, "the tool is not in, or does not turn yet")
+                    .help("print `M[cool]` last"),
+            );
+        }
+    }
+}

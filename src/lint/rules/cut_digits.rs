@@ -1,0 +1,50 @@
+//! PF306: a format that rounds away what the machine can do.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{Machine, Unit, VarId};
+use crate::lint::view::View;
+use crate::sema::Word;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for (&letter, (format, span)) in &view.form.formats {
+        let printed = view.words().filter(|word| word.letter() == Some(letter)).filter_map(Word::printed_var);
+        let wanted = printed.map(|var| (needed(view, var), var)).max_by_key(|(decimals, _)| *decimals);
+        let (wanted, what) = match wanted {
+            Some((decimals, var)) => (decimals, format!("[{}]", var.name())),
+            None => (0, String::new()),
+        };
+        let axis = view.settings.axes.contains(&letter) && view.settings.machine != Machine::Edm;
+        let (wanted, what) = match axis && wanted < length(view) {
+            true => (length(view), "a position".to_owned()),
+            false => (wanted, what),
+        };
+        if format.dec.count >= wanted {
+            continue;
+        }
+        let name = char::from(letter);
+        let decimals = format.dec.count;
+        diags.push(
+            Diag::new(Code::PF306, format!("{name} has {decimals} decimals, {what} needs {wanted}"))
+                .at(*span, "the others are rounded away")
+                .help(format!("give the format {wanted} decimals, as `{name}->4.>{wanted}`")),
+        );
+    }
+}
+
+/// A tenth of a thousandth of an inch, a thousandth of a millimetre.
+fn length(view: &View) -> u8 {
+    if view.is_metric() { 3 } else { 4 }
+}
+
+/// Decimals that a value should keep.
+fn needed(view: &View, var: VarId) -> u8 {
+    match var.row().unit {
+        Unit::Length => length(view),
+        Unit::Angle => 2,
+        // a feed per revolution is a chip: as fine as a length
+        Unit::Feed if view.settings.machine == Machine::Lathe => length(view),
+        Unit::Feed if !view.is_metric() => 1,
+        Unit::Time if !view.settings.dwell.milliseconds => 2,
+        _ => 0,
+    }
+}

@@ -1,0 +1,25 @@
+//! PF409: a cycle of the control stays in force until it is cancelled: the next move would be a hole.
+
+use crate::diag::{Code, Diag};
+use crate::lang::SequenceId;
+use crate::lint::view::{View, cycle_word};
+use crate::span::Span;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for (sequence, body) in view.hole_cycles() {
+        let Some((word, code)) = cycle_word(&body) else { continue };
+        let uncounted = sequence.count.is_none() && sequence.lines.len() > 1; // another rule's
+        if sequence.cancel.is_some() || uncounted || body.code(b'G', &[80.0]).is_some() {
+            continue;
+        }
+        let mut diag = Diag::new(Code::PF409, format!("{} leaves G{code} in force", body.name()))
+            .at(word.span, "the next position would be a hole, too")
+            .help("end it with `End Cancel`, and print G80 in a sequence `Cancel`");
+        let end = view.node(sequence.span).and_then(|node| node.end.as_ref());
+        if let Some(end) = end.filter(|_| view.body(SequenceId::Cancel).is_some()) {
+            let at = Span { start: end.line.span.start + 3, end: end.line.span.start + 3, ..end.line.span };
+            diag = diag.fix("cancel the cycle", false, vec![(at, " Cancel".into())]);
+        }
+        diags.push(diag);
+    }
+}

@@ -1,0 +1,20 @@
+//! PF407: a cycle that does not print the depth drills to wherever the last one drilled.
+
+use crate::diag::{Code, Diag};
+use crate::lang::VarId;
+use crate::lint::view::View;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    if !view.is_mill() {
+        return;
+    }
+    for (sequence, body) in view.hole_cycles() {
+        if !body.prints_any(&[VarId::D, VarId::Depth, VarId::Inidep, VarId::Ddist]) {
+            diags.push(
+                Diag::new(Code::PF407, format!("{} does not print the depth", body.name()))
+                    .at(sequence.span, "the control would take the depth of the cycle before")
+                    .help("print the bottom of the hole, as `Z[d]`"),
+            );
+        }
+    }
+}

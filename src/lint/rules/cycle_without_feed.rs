@@ -1,0 +1,21 @@
+//! PF412: without its feed a cycle drills at whatever feed was last.
+
+use crate::diag::{Code, Diag};
+use crate::lang::VarId;
+use crate::lint::view::{View, cycle_word};
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    if !view.is_mill() {
+        return;
+    }
+    for (_, body) in view.hole_cycles() {
+        let Some((word, code)) = cycle_word(&body) else { continue };
+        if !body.prints_any(&[VarId::Frate, VarId::Plunge, VarId::Pitch]) {
+            diags.push(
+                Diag::new(Code::PF412, format!("G{code} has no feed"))
+                    .at(word.span, "the control would drill at the feed of the move before")
+                    .help("print the feed of the cycle, as `F[frate]`"),
+            );
+        }
+    }
+}

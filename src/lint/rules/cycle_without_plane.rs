@@ -1,0 +1,21 @@
+//! PF411: without its R plane a cycle rapids to that of the cycle before.
+
+use crate::diag::{Code, Diag};
+use crate::lang::VarId;
+use crate::lint::view::{View, cycle_word};
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    if !view.is_mill() {
+        return;
+    }
+    for (_, body) in view.hole_cycles() {
+        let Some((word, code)) = cycle_word(&body) else { continue };
+        if !body.prints_any(&[VarId::Vclear, VarId::Rplane]) {
+            diags.push(
+                Diag::new(Code::PF411, format!("G{code} has no R plane"))
+                    .at(word.span, "the control would take that of the cycle before")
+                    .help("print the clearance plane, as `R[vclear]`"),
+            );
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! PF416: the tool goes down where it stands, and then across.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{SequenceId, VarId};
+use crate::lint::blocks::Block;
+use crate::lint::view::{Body, Purpose, View, cycle_word};
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    use SequenceId as S;
+    if !view.is_mill() {
+        return;
+    }
+    for body in &view.bodies {
+        let moves = match body.purpose {
+            Purpose::Sequence(id) => {
+                matches!(id, S::FirstToolChange | S::ToolChange | S::Index | S::SubCall) || is_emulated(body, id)
+            }
+            Purpose::Upon(..) => true,
+        };
+        if !moves {
+            continue;
+        }
+        let blocks = view.blocks(*body);
+        let across = |block: &Block| {
+            let words = block.axis_words(view);
+            block.in_part() && words.iter().any(|(word, axis)| *axis < 2 && word.printed_var().is_some())
+        };
+        let down = blocks.iter().find_map(|block| {
+            let words = block.axis_words(view);
+            let low = words.into_iter().find(|(word, axis)| {
+                *axis == 2 && matches!(word.printed_var(), Some(VarId::D | VarId::Vclear | VarId::Lastd))
+            });
+            low.filter(|_| block.in_part()).map(|(word, _)| word)
+        });
+        let first_down = blocks.iter().position(|block| block.line.words.iter().any(|w| Some(w.span) == down.map(|d| d.span)));
+        let first_across = blocks.iter().position(across);
+        if let (Some(word), Some(down), Some(over)) = (down, first_down, first_across)
+            && down < over
+        {
+            let there = blocks[over].line.span;
+            diags.push(
+                Diag::new(Code::PF416, format!("{} goes down before it is over the place", body.name()))
+                    .at(word.span, "down here")
+                    .at(there, "across here")
+                    .help("print `X[h] Y[v]` first, the depth after it"),
+            );
+        }
+    }
+}
+
+/// A canned cycle that moves by itself, without a cycle of the control.
+fn is_emulated(body: &Body, id: SequenceId) -> bool {
+    id.row().is_cycle && cycle_word(body).is_none()
+}

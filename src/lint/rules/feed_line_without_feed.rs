@@ -1,0 +1,38 @@
+//! PF418: a feed move that does not say its feed goes at whatever feed was last.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{SequenceId, VarId};
+use crate::lint::blocks::Motion;
+use crate::lint::view::{View, cycle_word};
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    use SequenceId as S;
+    let feed = view.settings.feed_code;
+    for body in &view.bodies {
+        let Some(sequence) = body.sequence else { continue };
+        let feeds = matches!(sequence.id, S::LineCode | S::CwCode | S::CcwCode);
+        let moves = feeds || matches!(sequence.id, S::InFeed | S::OutFeed | S::Unwind) || sequence.id.row().is_cycle;
+        let threads = matches!(sequence.id, S::AutoThread | S::CanThread | S::Cancel);
+        if !moves || threads || cycle_word(body).is_some() {
+            continue;
+        }
+        let mut said = false;
+        for block in view.blocks(*body) {
+            said |= block.line.words.iter().any(|word| {
+                let own = word.letter() == Some(feed);
+                own || matches!(word.printed_var(), Some(VarId::Frate | VarId::Plunge | VarId::Pitch | VarId::Invtime))
+            });
+            let cuts = matches!(block.motion, Motion::Line | Motion::Arc) || (feeds && block.motion == Motion::Unknown);
+            let words = block.axis_words(view);
+            if let (false, true, Some((word, _))) = (said, cuts, words.first()) {
+                let letter = char::from(feed);
+                diags.push(
+                    Diag::new(Code::PF418, format!("{} feeds without saying the feed", body.name()))
+                        .at(word.span, "at the feed of the move before")
+                        .help(format!("print the feed, as `{letter}[frate]`")),
+                );
+                break;
+            }
+        }
+    }
+}

@@ -1,0 +1,23 @@
+//! PF420: a part that turns under a tool which is still down.
+
+use crate::diag::{Code, Diag};
+use crate::lang::SequenceId;
+use crate::lint::view::View;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for body in view.these(&[SequenceId::Index, SequenceId::Unwind]) {
+        let mut up = false;
+        for block in view.blocks(body) {
+            let turn = block.line.words.iter().find(|word| word.letter().is_some_and(|letter| view.is_rotary(letter)));
+            if let (false, Some(turn)) = (up, turn) {
+                diags.push(
+                    Diag::new(Code::PF420, format!("{} turns the part before the tool is up", body.name()))
+                        .at(turn.span, "turns here")
+                        .help("lift the tool first, as `G0 G53 Z0` or `G91 G28 Z0`"),
+                );
+                break;
+            }
+            up |= block.retracts(view);
+        }
+    }
+}

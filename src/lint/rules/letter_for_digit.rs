@@ -1,0 +1,36 @@
+//! PF206: `GO` and `M3O`: the letter O, or a small l, where a digit belongs.
+
+use crate::diag::{Code, Diag};
+use crate::lint::tokens::looks_like_a_code;
+use crate::lint::view::View;
+use crate::syntax::{Piece, PieceKind};
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for word in view.checked.trees.iter().flat_map(|tree| tree.words()) {
+        let [Piece { kind: PieceKind::Stray(text), span }] = word.pieces.as_slice() else { continue };
+        let Some(meant) = meant(text) else { continue };
+        diags.push(
+            Diag::new(Code::PF206, format!("`{text}` has a letter where a digit belongs"))
+                .at(*span, "printed as it stands")
+                .help(format!("write `{meant}`"))
+                .fix("write the digit", false, vec![(*span, meant)]),
+        );
+    }
+}
+
+/// The code that was meant, if only the letters O, o, l and I are in its way.
+fn meant(text: &str) -> Option<String> {
+    let first = text.chars().next().filter(char::is_ascii_uppercase)?;
+    let rest = &text[1..];
+    let is_code = matches!(first, 'G' | 'M') || rest.bytes().any(|b| b.is_ascii_digit());
+    let better: String = rest
+        .chars()
+        .map(|c| match c {
+            'O' | 'o' => '0',
+            'l' | 'I' => '1',
+            c => c,
+        })
+        .collect();
+    let better = format!("{first}{better}");
+    (is_code && better != text && looks_like_a_code(&better)).then_some(better)
+}

@@ -1,0 +1,32 @@
+//! PF303: a letter that prints values and has no format takes a built-in one. Said once for each letter.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::sema::WordKind;
+
+/// Codes and counts look alike on all controls; only letters of measured values are worth a note.
+const PLAIN: &[u8] = b"GMTNOHDLSP:%";
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    let form = &view.form;
+    let mut seen = Vec::new();
+    let sequences = form.sequences.values().flat_map(|s| &s.lines);
+    let upons = form.upons.iter().flat_map(|u| &u.lines);
+    for word in sequences.chain(upons).flat_map(|line| &line.words) {
+        let WordKind::Var(letter, _) = word.kind else { continue };
+        let capital = letter.to_ascii_uppercase();
+        let has = |l: u8| form.formats.contains_key(&l) || form.packed.contains_key(&l);
+        if has(letter) || has(capital) || PLAIN.contains(&capital) || seen.contains(&letter) {
+            continue;
+        }
+        seen.push(letter);
+        let table = crate::compile::LetterTable::new(form, form.settings.units == crate::sema::UnitChoice::Mm);
+        let letter_name = char::from(letter);
+        let format = table[letter].format;
+        diags.push(
+            Diag::new(Code::PF303, format!("{letter_name} has no format and prints as `{letter_name}{format}`"))
+                .at(word.span, "first printed here")
+                .help(format!("add the line `{letter_name}{format}` to say that it is meant so")),
+        );
+    }
+}

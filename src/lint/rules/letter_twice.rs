@@ -1,0 +1,25 @@
+//! PF506: a block with one letter twice: most controls alarm, the others take one of them.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::sema::Word;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for line in view.bodies.iter().flat_map(|body| body.lines) {
+        let printed = |word: &Word| {
+            let letter = word.letter().map(|letter| view.letters[letter])?;
+            (!letter.dummy && letter.printed.is_ascii_alphabetic() && !b"GgMm".contains(&letter.printed))
+                .then_some(letter.printed)
+        };
+        for (i, word) in line.words.iter().enumerate() {
+            let Some(letter) = printed(word) else { continue };
+            let Some(first) = line.words[..i].iter().find(|other| printed(other) == Some(letter)) else { continue };
+            diags.push(
+                Diag::new(Code::PF506, format!("{} is there twice in one block", char::from(letter)))
+                    .at(word.span, "again here")
+                    .at(first.span, "first here")
+                    .help("keep one of them, or print two blocks"),
+            );
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! PF102: `Z[d]F[plunge]` prints two words, but nobody should have to know.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::span::Span;
+use crate::syntax::PieceKind;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for word in view.checked.trees.iter().flat_map(|tree| tree.words()) {
+        for pair in word.pieces.windows(2) {
+            let is_word = |kind: &PieceKind| matches!(kind, PieceKind::Variable { .. } | PieceKind::Literal { .. });
+            let begins = is_word(&pair[1].kind) || matches!(pair[1].kind, PieceKind::Note { .. });
+            if !is_word(&pair[0].kind) || !begins {
+                continue;
+            }
+            let at = pair[1].span;
+            diags.push(
+                Diag::new(Code::PF102, "a blank is missing between two words")
+                    .at(at, "a new word begins here")
+                    .help("put one blank before it; the output stays the same")
+                    .fix("put a blank between the words", true, vec![(Span { end: at.start, ..at }, " ".into())]),
+            );
+        }
+    }
+}

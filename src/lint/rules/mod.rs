@@ -1,0 +1,115 @@
+//! The rules: one a file, one row here.
+
+use super::view::View;
+use crate::diag::{Code, Diag};
+
+/// A rule: what its findings are called, and how they are found.
+#[derive(Debug)]
+pub struct Rule {
+    /// The code of its findings.
+    pub code: Code,
+    /// Its file.
+    pub file: &'static str,
+    pub(super) check: fn(&View, &mut Vec<Diag>),
+}
+
+macro_rules! rules {
+    ($($code:ident $file:ident)*) => {
+        $(mod $file;)*
+
+        /// All rules.
+        pub const RULES: &[Rule] =
+            &[$(Rule { code: Code::$code, file: stringify!($file), check: $file::check }),*];
+    };
+}
+
+rules! {
+    // structure
+    PF010 unused_sequence
+    PF011 unused_command
+    PF012 empty_sequence
+    PF013 start_moves
+    PF014 no_program_end
+    PF015 words_after_end
+    PF016 tape_mark
+    PF017 sub_without_return
+    PF018 sub_without_number
+    // blanks and comments
+    PF101 lost_words
+    PF102 missing_blank
+    PF103 tab
+    PF104 swallowed_words
+    PF105 open_comment
+    PF106 hash_in_word
+    PF107 near_remark
+    PF110 foreign_comment_mark
+    PF111 nested_comment
+    // names
+    PF203 without_effect
+    PF204 old_spelling
+    PF205 unbracketed_variable
+    PF206 letter_for_digit
+    PF207 custom_kind
+    PF208 custom_twice
+    PF209 unused_prompt
+    PF210 upon_unused
+    // numbers and letter formats
+    PF303 letter_formats
+    PF304 small_letter
+    PF305 unsigned_position
+    PF306 cut_digits
+    PF307 implied_point
+    PF308 coarse_centre
+    PF309 typed_without_point
+    PF310 code_format
+    PF311 dwell_unit
+    PF312 replace_number
+    PF313 wrong_quantity
+    PF314 other_axis
+    PF315 unit_code
+    PF316 units_unprinted
+    // sequences and cycles
+    PF403 cancel_emulated
+    PF404 machine_code_without_count
+    PF406 cycle_without_position
+    PF407 cycle_without_depth
+    PF408 count_swallows_position
+    PF409 cycle_without_cancel
+    PF410 cancel_without_code
+    PF411 cycle_without_plane
+    PF412 cycle_without_feed
+    PF413 peck_without_step
+    PF414 other_cycle
+    PF415 rapid_to_bottom
+    PF416 depth_before_position
+    PF417 ends_in_hole
+    PF418 feed_line_without_feed
+    PF419 tap_without_reverse
+    PF420 index_without_retract
+    PF421 unwind_down_first
+    PF422 return_without_g91
+    PF423 position_in_increments
+    PF424 increments_left_on
+    PF425 length_code_without_h
+    PF426 h_without_length_code
+    PF427 spindle_before_change
+    PF428 coolant_order
+    PF429 change_without_tool
+    PF430 typed_work
+    PF431 arc_without_centre
+    PF432 arc_other_way
+    PF433 motion_without_axis
+    PF434 compensation_words
+    PF435 rapid_that_feeds
+    // modality
+    PF501 modal_letters
+    PF502 modal_codes
+    PF503 hidden_depth
+    PF504 increments_mixed
+    PF505 one_group_twice
+    PF506 letter_twice
+    // limits and machine type
+    PF605 near_word_limit
+    PF606 near_line_limit
+    PF607 control_without_code
+}

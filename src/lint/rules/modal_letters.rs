@@ -1,0 +1,19 @@
+//! PF501: I, J, K, L and P mean something in their own block only; no control keeps them.
+
+use crate::diag::{Code, Diag};
+use crate::lang::CommandId;
+use crate::lint::view::View;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    let Some(statement) = view.command(CommandId::ModalLetters) else { return };
+    for arg in &statement.args {
+        let wrong: String = arg.text.chars().filter(|c| "IJKLP".contains(*c)).collect();
+        if !wrong.is_empty() && arg.text.bytes().all(|b| b.is_ascii_alphabetic()) {
+            diags.push(
+                Diag::new(Code::PF501, format!("no control keeps {wrong}"))
+                    .at(arg.span, "dropped, it would be gone")
+                    .help("name axes, F and S only"),
+            );
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! PF433: a motion sequence that leaves out an axis can't print a move along it.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{SequenceId, VarId};
+use crate::lint::view::{Purpose, View};
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    use SequenceId as S;
+    use VarId as V;
+    for body in view.these(&[S::RapidCode, S::LineCode, S::CwCode, S::CcwCode]) {
+        let arc = body.purpose == Purpose::Sequence(S::CwCode) || body.purpose == Purpose::Sequence(S::CcwCode);
+        let axes: &[[V; 2]] = match (view.is_mill() && !arc, body.lines.is_empty()) {
+            (_, true) => continue,
+            (true, _) => &[[V::H, V::Hdist], [V::V, V::Vdist], [V::D, V::Ddist]],
+            (false, _) => &[[V::H, V::Hdist], [V::V, V::Vdist]],
+        };
+        let missing: Vec<String> =
+            axes.iter().filter(|vars| !body.prints_any(*vars)).map(|vars| format!("[{}]", vars[0].name())).collect();
+        if !missing.is_empty() {
+            diags.push(
+                Diag::new(Code::PF433, format!("{} does not print {}", body.name(), missing.join(" and ")))
+                    .at(body.span, "a move along that axis is an error")
+                    .help("print all axes; what does not change is dropped anyway"),
+            );
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! PF606: a form with more than 135 lines, of 150 that it may have.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::sema::MOST_LINES;
+use crate::span::Span;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    let bodies = view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
+    let lines: Vec<Span> = bodies.filter(|body| !body.words.is_empty()).map(|body| body.line.span).collect();
+    if (MOST_LINES * 9 / 10 + 1..=MOST_LINES).contains(&lines.len()) {
+        diags.push(
+            Diag::new(Code::PF606, format!("{} sequence lines, a form may have {MOST_LINES}", lines.len()))
+                .at(lines[lines.len() - 1], "the last one")
+                .help("take out sequences that are not used"),
+        );
+    }
+}

@@ -1,0 +1,26 @@
+//! PF107: a remark stands at least three blanks after the name of its sequence.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::span::Span;
+use crate::syntax::Tail;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for (tree, source) in view.checked.trees.iter().zip(&view.checked.files) {
+        for node in tree.sequences() {
+            let Tail::Lost(remark) = &node.name.line.tail else { continue };
+            let before = &source.text[node.name.line.span.start as usize..remark.span.start as usize];
+            let gap = before.len() - before.trim_end().len();
+            if gap >= 3 || before.contains('\t') {
+                continue;
+            }
+            let at = Span { start: remark.span.start, end: remark.span.start, ..remark.span };
+            diags.push(
+                Diag::new(Code::PF107, "the remark is too near to the name")
+                    .at(remark.span, "at least three blanks belong before it")
+                    .help("write three blanks: two look like a slip")
+                    .fix("put another blank before the remark", true, vec![(at, " ".repeat(3 - gap))]),
+            );
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! PF605: a line with 14 or 15 words, of 15 that a line may have.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::sema::MOST_WORDS;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for body in view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body) {
+        let count: usize = body.words.iter().map(|word| word.pieces.len()).sum();
+        if (MOST_WORDS - 1..=MOST_WORDS).contains(&count) {
+            diags.push(
+                Diag::new(Code::PF605, format!("{count} words, a line may have {MOST_WORDS}"))
+                    .at(body.line.span, "almost full")
+                    .help("break the line in two before it is"),
+            );
+        }
+    }
+}

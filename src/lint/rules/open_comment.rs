@@ -1,0 +1,27 @@
+//! PF105: a comment without its closing mark. postform closes it; the next reader of the form should see where.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::span::Span;
+use crate::syntax::PieceKind;
+
+use super::swallowed_words::swallowed;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    if view.settings.comment[1] != ")" {
+        return; // the control wants none, or another one
+    }
+    for piece in view.checked.trees.iter().flat_map(|tree| tree.words()).flat_map(|word| &word.pieces) {
+        let PieceKind::Note { parts, closed: false } = &piece.kind else { continue };
+        if swallowed(parts).is_some() {
+            continue;
+        }
+        let end = Span { start: piece.span.end, ..piece.span };
+        diags.push(
+            Diag::new(Code::PF105, "the comment is not closed")
+                .at(piece.span, "it ends with the line")
+                .help("write `)` at its end; the output stays the same")
+                .fix("close the comment", true, vec![(end, ")".into())]),
+        );
+    }
+}

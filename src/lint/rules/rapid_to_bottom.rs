@@ -1,0 +1,25 @@
+//! PF415: `G0 Z[d]` in a cycle rapids to the bottom of a hole that is not there yet.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{SequenceId, VarId};
+use crate::lint::blocks::Motion;
+use crate::lint::view::{View, cycle_word};
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for (sequence, body) in view.hole_cycles() {
+        if sequence.id == SequenceId::Back || cycle_word(&body).is_some() || !view.is_mill() {
+            continue; // a back bore goes down through the hole
+        }
+        for block in view.blocks(body) {
+            let words = block.axis_words(view);
+            let down = words.iter().find(|(word, axis)| *axis == 2 && word.printed_var() == Some(VarId::D));
+            if let (Motion::Rapid, true, Some((word, _))) = (block.motion, block.in_part(), down) {
+                diags.push(
+                    Diag::new(Code::PF415, format!("{} rapids to the bottom of the hole", body.name()))
+                        .at(word.span, "G0 holds here")
+                        .help("go to `Z[vclear]` at rapid, then feed: `G1 Z[d] F[frate]`"),
+                );
+            }
+        }
+    }
+}

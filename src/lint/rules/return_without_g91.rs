@@ -1,0 +1,18 @@
+//! PF422: the words of G28 are a point on the way. `G28 Z0` under G90 goes to the part's Z0 first.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for body in &view.bodies {
+        for block in view.blocks(*body) {
+            let words = block.axis_words(view);
+            let Some((word, _)) = words.first().filter(|_| block.reference && !block.incremental) else { continue };
+            diags.push(
+                Diag::new(Code::PF422, format!("{} goes home by way of a point of the part", body.name()))
+                    .at(word.span, "an absolute position, which the tool passes")
+                    .help("write `G91 G28 Z0` and `G90` after it; or go in machine coordinates, `G0 G53 Z0`"),
+            );
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! PF304: a small letter stays small in the program, unless `Rename` says otherwise.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::span::Span;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    if !view.is_for(&["fanuc", "haas", "fadal"]) {
+        return; // the others take both
+    }
+    for word in view.words() {
+        let Some(letter) = word.letter().filter(u8::is_ascii_lowercase) else { continue };
+        if view.letters[letter].printed != letter || view.letters[letter].dummy {
+            continue;
+        }
+        let (small, capital) = (char::from(letter), char::from(letter.to_ascii_uppercase()));
+        let first = Span { end: word.span.start + 1, ..word.span };
+        diags.push(
+            Diag::new(Code::PF304, format!("`{small}` is printed as a small letter"))
+                .at(word.span, "the control may refuse it")
+                .help(format!("write `{capital}`, or add `Rename {small} {capital}` if it has a format of its own"))
+                .fix("write the capital", false, vec![(first, capital.to_string())]),
+        );
+    }
+}

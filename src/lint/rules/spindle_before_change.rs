@@ -1,0 +1,36 @@
+//! PF427: a spindle that is started before the tool changes.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{SequenceId, VarId};
+use crate::lint::view::{Body, View};
+use crate::sema::Word;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for (body, change) in changes(view) {
+        let mut lines = body.lines[..change].iter().flat_map(|line| &line.words);
+        if let Some(word) = lines.find(|word| starts_spindle(word)) {
+            diags.push(
+                Diag::new(Code::PF427, format!("{} starts the spindle before it changes the tool", body.name()))
+                    .at(word.span, "the old tool turns")
+                    .help("print the spindle after the tool change"),
+            );
+        }
+    }
+}
+
+/// Does a word start the spindle?
+pub(super) fn starts_spindle(word: &Word) -> bool {
+    word.is_code(b'M', &[3.0, 4.0]) || word.printed_var() == Some(VarId::Direct)
+}
+
+/// The tool changes with the line in which the tool changes.
+pub(super) fn changes<'a>(view: &View<'a>) -> Vec<(Body<'a>, usize)> {
+    let line = |body: &Body, is: &dyn Fn(&Word) -> bool| body.lines.iter().position(|line| line.words.iter().any(is));
+    let bodies = view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]);
+    bodies
+        .filter_map(|body| {
+            let change = line(&body, &|word| word.is_code(b'M', &[6.0]));
+            Some((body, change.or_else(|| line(&body, &|word| word.printed_var() == Some(VarId::Tool)))?))
+        })
+        .collect()
+}

@@ -1,0 +1,17 @@
+//! PF018: a call that does not say which subprogram calls any.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{SequenceId, VarId};
+use crate::lint::view::View;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for body in view.these(&[SequenceId::SubStart, SequenceId::SubCall]) {
+        if !body.prints_any(&[VarId::Sub, VarId::Subline]) {
+            diags.push(
+                Diag::new(Code::PF018, format!("{} does not say which subprogram", body.name()))
+                    .at(body.span, "[sub] is not printed")
+                    .help("print `O[sub]` in SubStart and `P[sub]` in SubCall"),
+            );
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! PF017: a subprogram that does not return runs into the next program.
+
+use crate::diag::{Code, Diag};
+use crate::lang::SequenceId;
+use crate::lint::view::View;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    let Some(end) = view.body(SequenceId::SubEnd) else { return };
+    if end.code(b'M', &[99.0, 17.0, 2.0, 30.0]).is_none() {
+        diags.push(
+            Diag::new(Code::PF017, "SubEnd does not return")
+                .at(end.span, "no M99")
+                .help("print `M99`, or the word by which your control returns"),
+        );
+    }
+}

@@ -1,0 +1,32 @@
+//! PF103: a tab looks like a blank and works like two: what follows is a comment.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::span::Span;
+use crate::syntax::Tail;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for (tree, source) in view.checked.trees.iter().zip(&view.checked.files) {
+        if !source.text.contains('\t') {
+            continue;
+        }
+        let args: Vec<Span> = tree.statements().flat_map(|s| &s.args).map(|arg| arg.span).collect();
+        for line in tree.lines() {
+            let end = if let Tail::Comment(comment) = line.tail { comment.start } else { line.span.end };
+            let words = &source.text[line.span.start as usize..end as usize];
+            for (at, _) in words.match_indices('\t') {
+                let at = line.span.start as usize + at;
+                let span = Span::new(line.span.file, at, at + 1);
+                if args.iter().any(|arg| arg.start <= span.start && span.end <= arg.end) {
+                    continue; // text in quotes
+                }
+                diags.push(
+                    Diag::new(Code::PF103, "a tab ends the words of its line")
+                        .at(span, "here")
+                        .help("write blanks: one between words, three before a remark")
+                        .fix("write three blanks for the tab", true, vec![(span, "   ".into())]),
+                );
+            }
+        }
+    }
+}

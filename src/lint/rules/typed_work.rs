@@ -1,0 +1,18 @@
+//! PF430: a work offset as typed is that of every job.
+
+use crate::diag::{Code, Diag};
+use crate::lang::VarId;
+use crate::lint::view::View;
+use crate::sema::Word;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for body in &view.bodies {
+        let is_work = |word: &&Word| word.typed(b'G').is_some_and(|code| (54.0..60.0).contains(&code));
+        let (Some(word), false) = (body.words().find(is_work), body.prints(VarId::Work)) else { continue };
+        diags.push(
+            Diag::new(Code::PF430, format!("{} goes by one work offset, whatever the job says", body.name()))
+                .at(word.span, "as typed")
+                .help("write `G[work]`: the job names its fixture"),
+        );
+    }
+}

@@ -1,0 +1,29 @@
+//! PF315: a unit code as typed, in a form for other units.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::sema::UnitChoice;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    let [inch, mm] = view.settings.inch_mm;
+    for word in view.words() {
+        let Some(code) = word.typed(b'G').filter(|&code| code == inch || code == mm) else { continue };
+        let wrong = match view.settings.units {
+            UnitChoice::Inch => code == mm,
+            UnitChoice::Mm => code == inch,
+            UnitChoice::Both => true,
+        };
+        if wrong {
+            let units = match view.settings.units {
+                UnitChoice::Inch => "inches",
+                UnitChoice::Mm => "millimetres",
+                UnitChoice::Both => "both units",
+            };
+            diags.push(
+                Diag::new(Code::PF315, format!("G{code} in a form for {units}"))
+                    .at(word.span, "the machine would move 25.4 times as far, or as little")
+                    .help("write `G[unitmode]`, or say with `Units` what the form is for"),
+            );
+        }
+    }
+}

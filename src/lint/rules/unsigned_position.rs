@@ -1,0 +1,31 @@
+//! PF305: a position may be negative, and a format without a sign refuses that.
+
+use crate::diag::{Code, Diag};
+use crate::lang::VarId;
+use crate::lint::view::View;
+use crate::number::Sign;
+use crate::sema::Word;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    use VarId as V;
+    let signed = [
+        V::H, V::V, V::D, V::H2, V::V2, V::Hdist, V::Vdist, V::Ddist, V::Lasth, V::Lastv, V::Lastd, V::Ival, V::Jval,
+        V::Kval, V::Rplane, V::Vclear, V::Rotangle, V::Lastrotangle,
+    ];
+    let turns = view.printed().has(V::Rotangle);
+    for (&letter, (format, span)) in &view.form.formats {
+        let generated = view.settings.axes.contains(&letter) || (turns && view.is_rotary(letter));
+        let prints = |word: &Word| word.letter() == Some(letter) && word.printed_var().is_some_and(|var| signed.contains(&var));
+        if format.sign != Sign::Unsigned || !(generated || view.words().any(prints)) {
+            continue;
+        }
+        let name = char::from(letter);
+        let better = format!("{name}-{}", format.to_string().trim_start());
+        diags.push(
+            Diag::new(Code::PF305, format!("{name} prints positions and has no sign"))
+                .at(*span, "a negative one would be an error")
+                .help(format!("write `{better}`"))
+                .fix("let it print a minus", false, vec![(*span, better)]),
+        );
+    }
+}

@@ -1,0 +1,28 @@
+//! PF010: a sequence that no job can reach.
+
+use crate::diag::{Code, Diag};
+use crate::lang::SequenceId;
+use crate::lint::view::View;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    use SequenceId as S;
+    let has = |id: SequenceId| view.form.sequences.contains_key(&id);
+    let cancels = view.form.sequences.values().any(|sequence| sequence.cancel.is_some());
+    let turns = view.settings.limits.iter().any(|limit| b"ABC".contains(&limit.letter));
+    let table = [
+        (S::Cancel, !cancels, "no cycle ends with `End Cancel`", "end the cycles of the control with `End Cancel`"),
+        (S::Between, !view.settings.subs_first, "it is printed under `Subs1st? Y` only", "add `Subs1st? Y`"),
+        (S::SubStart, !has(S::SubCall), "the form has no SubCall", "add the sequence `SubCall`"),
+        (S::SubEnd, !has(S::SubCall), "the form has no SubCall", "add the sequence `SubCall`"),
+        (S::CanThread, has(S::AutoThread), "AutoThread serves all threads", "keep one of the two"),
+        (S::Unwind, !turns, "no rotary axis has an end", "say where it is, as `Limits A -360 360`"),
+    ];
+    for (id, unused, why, help) in table {
+        let Some(body) = view.body(id).filter(|_| unused) else { continue };
+        diags.push(
+            Diag::new(Code::PF010, format!("{} is never printed", id.name()))
+                .at(body.span, why)
+                .help(format!("{help}, or take the sequence out")),
+        );
+    }
+}

@@ -1,0 +1,286 @@
+//! docs/rules: each page is a test of its rule. The example is found, the better form is clean, and the fix does what the
+//! page says of it. Fixes and suppressions over all forms that ship.
+#![allow(missing_docs)]
+
+mod support;
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use postform::diag::{CODES, Code, CodeRow, Severity};
+use postform::lint::{Level, Levels, RULES, lint};
+use postform::render::Options;
+use proptest::prelude::*;
+use support::pages::{Page, checked, codes, found, mended};
+use support::{mill, root, sample_form, samples};
+
+fn forms() -> impl Iterator<Item = &'static CodeRow> {
+    CODES.iter().filter(|row| row.name.starts_with("PF"))
+}
+
+fn files(folder: &str, extension: &str) -> BTreeSet<String> {
+    let names = fs::read_dir(root().join(folder)).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
+    names.filter_map(|name| Some(name.strip_suffix(extension)?.to_owned())).collect()
+}
+
+#[test]
+fn codes_pages_and_files_are_one_to_one() {
+    let pages = forms().map(|row| row.name.to_owned()).chain(["README".to_owned()]).collect();
+    assert_eq!(files("docs/rules", ".md"), pages);
+    let own = RULES.iter().map(|rule| rule.file.to_owned()).chain(["mod".to_owned()]).collect();
+    assert_eq!(files("src/lint/rules", ".rs"), own);
+    let numbered: BTreeSet<Code> = RULES.iter().map(|rule| rule.code).collect();
+    assert_eq!(numbered.len(), RULES.len(), "a code with two rules");
+    assert!(RULES.len() >= 45);
+    assert!(RULES.windows(2).all(|pair| pair[0].code < pair[1].code), "in the order of the codes");
+}
+
+#[test]
+fn pages_have_their_headings_and_titles() {
+    for row in forms() {
+        let page = Page::read(row.name);
+        assert_eq!(page.title, format!("# {}: {}", row.name, row.title));
+        let headings: Vec<&str> = page.sections.iter().map(|(heading, _)| heading.as_str()).collect();
+        assert_eq!(
+            headings,
+            ["What it finds", "Why it matters at the machine", "Example", "Better", "Fix"],
+            "{}",
+            row.name
+        );
+    }
+}
+
+#[test]
+fn examples_are_found_and_better_forms_are_clean() {
+    let mut wrong = Vec::new();
+    for row in forms() {
+        let page = Page::read(row.name);
+        let example = found(&page.fence("Example").checked()).diags;
+        if codes(&example) != [row.name] {
+            wrong.push(format!("{} example: {:?}", row.name, codes(&example)));
+        }
+        let better = found(&page.fence("Better").checked());
+        if !better.diags.is_empty() {
+            wrong.push(format!("{} better: {:?}", row.name, codes(&better.diags)));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn fixes_do_what_their_pages_say() {
+    for row in forms() {
+        let page = Page::read(row.name);
+        let form = page.fence("Example").checked();
+        let kinds: Vec<&str> = found(&form)
+            .diags
+            .iter()
+            .filter(|diag| diag.code == row.code)
+            .map(|diag| match &diag.fix {
+                None => "None:",
+                Some(fix) if fix.safe => "Safe:",
+                Some(_) => "Unsafe:",
+            })
+            .collect();
+        let said = page.section("Fix").split(' ').next().unwrap();
+        assert!(kinds.iter().all(|kind| *kind == said), "{}: the page says {said}, the rule {kinds:?}", row.name);
+        if said != "None:" {
+            let after = mended(&form, true).unwrap();
+            assert_eq!(codes(&found(&after).diags), Vec::<&str>::new(), "{}\n{}", row.name, after.files[0].text);
+        }
+    }
+}
+
+/// The program of a sample by a form, or why there is none.
+fn program(folder: &std::path::Path, form: &postform::sema::Checked) -> Result<String, String> {
+    let options = Options { program: Some(1), ..Options::default() };
+    match support::render_checked_sample(folder, form, options) {
+        Ok(rendered) => Ok(rendered.text),
+        Err(diag) => Err(format!("{} {}", diag.code.name(), diag.message)),
+    }
+}
+
+/// Every form that ships or stands on a page.
+fn all_forms() -> Vec<(String, Vec<u8>)> {
+    let mut forms: Vec<(String, Vec<u8>)> = Vec::new();
+    let posts = fs::read_dir(root().join("postforms")).unwrap().map(|e| e.unwrap().path());
+    for path in posts.chain(samples().iter().filter_map(|folder| sample_form(folder))) {
+        forms.push((path.display().to_string(), fs::read(&path).unwrap()));
+    }
+    for row in self::forms() {
+        let page = Page::read(row.name);
+        forms.extend(["Example", "Better"].map(|part| (format!("{} {part}", row.name), page.fence(part).form())));
+    }
+    forms
+}
+
+#[test]
+fn safe_fixes_remove_their_findings_and_change_no_byte_of_any_sample() {
+    let mut fixed = 0;
+    for (name, bytes) in all_forms() {
+        let form = checked(&bytes);
+        let Some(after) = mended(&form, false) else { continue };
+        fixed += 1;
+        assert!(found(&after).diags.iter().all(|diag| diag.fix.as_ref().is_none_or(|fix| !fix.safe)), "{name}");
+        for folder in samples() {
+            let (before, now) = (program(&folder, &form), program(&folder, &after));
+            // places in messages move with the text, codes and programs don't
+            assert_eq!(before, now, "{name} with {}", folder.display());
+        }
+    }
+    assert!(fixed >= 10, "only {fixed} forms had something to fix");
+}
+
+#[test]
+fn unsafe_fixes_remove_their_findings() {
+    let mut fixed = 0;
+    for (name, bytes) in all_forms() {
+        let form = checked(&bytes);
+        let Some(after) = mended(&form, true) else { continue };
+        fixed += 1;
+        assert!(found(&after).diags.iter().all(|diag| diag.fix.is_none()), "{name}");
+    }
+    assert!(fixed >= 15, "only {fixed} forms had something to fix");
+}
+
+/// What the manual misprints in form text, and its five examples that are dangerous as they stand.
+#[test]
+fn misprints_and_dangerous_examples_of_the_manual_have_their_rules() {
+    let table = [
+        ("Z[d]F[plunge] without a blank", "Bore\nG0 X[h] Y[v] Z[rplane]\nG1 Z[d]F[plunge]\nZ[rplane]\nEnd", "PF102"),
+        ("Y[v]. with a stray point", "LineCode\nG1 X[h] Y[v]. Z[d] F[frate]\nEnd", "PF001"),
+        ("F[speed] in LTap", "LTap\nG84 X[h] Y[v] Z[d] R[vclear] F[speed]\nEnd Cancel", "PF313"),
+        ("CwCode with G3", "CwCode\nG3 X[h] Y[v] I[ival] J[jval] F[frate]\nEnd", "PF432"),
+        ("CwCode with four blanks", "CwCode\nG2 X[h] Y[v]    I[ival] J[jval] F[frate]\nEnd", "PF101"),
+        (
+            "Bore's example headed Back 4",
+            "Back 4\nF[frate]\nG306 Z0\nG308 Z[d]\nG323 P.5\nG85 X[h] Y[v]\nEnd Cancel",
+            "PF414",
+        ),
+        (
+            "both under one name",
+            "Back 3\nF[frate]\nG306 Z0\nG308 Z[d]\nG85 X[h] Y[v]\nEnd Cancel\nBack 4\nF[frate]\nG306 Z0\nG308 Z[d]\nG323 P.5\nG85 X[h] Y[v]\nEnd Cancel",
+            "PF004",
+        ),
+        (
+            "Custom1's example without its count",
+            "Custom1\nG83 G99 R[vclear] Z[d] X[h] Y[v] F[frate]\nZ[d] R[vclear] X[h] Y[v]\nEnd Cancel",
+            "PF404",
+        ),
+        (
+            "Back emulated with End Cancel",
+            "Back\nG0 X[h] Y[v]\nZ[rplane]\nG1 Z[d] F[plunge]\nG0 Z[rplane]\nEnd Cancel",
+            "PF403",
+        ),
+        (
+            "Bore emulated with End Cancel",
+            "Bore\nG0 X[h] Y[v]\nZ[rplane]\nG1 Z[d] F[plunge]\nZ[rplane]\nEnd Cancel",
+            "PF403",
+        ),
+        // the dangerous ones
+        (
+            "Upon [work] prints X Y Z while G91 is on",
+            "Upon [work]\nG91 G28 Z0\nG[work]\nX[h] Y[v] Z[d]\nG90\nEnd",
+            "PF423",
+        ),
+        (
+            "Index: G28 without G91",
+            "Index\nG0 G28 G49 Z0\nG[work] X[h] Y[v] A[rotangle]\nG43 H[lcomp] Z[d]\nEnd",
+            "PF422",
+        ),
+        (
+            "Unwind: G28 without G91",
+            "Unwind\nG0 G28 G49 Z0\nG0 G90 A0\nG43 H[lcomp] Z[d]\nG0 X[lasth] Y[lastv] A[lastrotangle]\nG1 Z[lastd]\nEnd",
+            "PF422",
+        ),
+        (
+            "Unwind goes down before it positions",
+            "Unwind\nG0 G28 G49 Z0\nG0 G90 A0\nG43 H[lcomp] Z[d]\nG0 X[lasth] Y[lastv] A[lastrotangle]\nG1 Z[lastd]\nEnd",
+            "PF421",
+        ),
+        (
+            "emulated LTap feeds out without reversing the spindle",
+            "LTap\nG0 X[h] Y[v] Z[rplane]\nG1 Z[d] F[frate]\nZ[rplane]\nEnd",
+            "PF419",
+        ),
+    ];
+    for (what, sequences, code) in table {
+        let diags = found(&checked(mill("", sequences).as_bytes())).diags;
+        assert!(codes(&diags).contains(&code), "{what}: {:?}", codes(&diags));
+    }
+    // the fifth: a tool change that prints H without G43
+    let text = mill("", "").replace("X[h] Y[v] Z[d]", "X[h] Y[v]\nZ[d] H[Lcomp]");
+    assert!(codes(&found(&checked(text.as_bytes())).diags).contains(&"PF426"));
+}
+
+#[test]
+fn comments_allow_findings_where_they_stand() {
+    let allowed = |text: &str| {
+        let findings = found(&checked(mill("", text).as_bytes()));
+        let own = |code: &&str| ["PF108", "PF109", "PF418", "PF001"].contains(code);
+        (codes(&findings.diags).into_iter().filter(own).collect::<Vec<_>>(), findings.suppressed)
+    };
+    let line = "G1 X[h] Y[v] Z[d]";
+    assert_eq!(allowed(&format!("LineCode\n{line}\nEnd")), (vec!["PF418"], 0));
+    assert_eq!(allowed(&format!("LineCode\n{line} # postform: allow PF418\nEnd")), (vec![], 1));
+    assert_eq!(allowed(&format!("LineCode\n# postform: allow PF418\n\n{line}\nEnd")), (vec![], 1));
+    assert_eq!(allowed(&format!("# POSTFORM: Allow pf303, PF418\nLineCode\n{line} B[rotangle]\nEnd")), (vec![], 2));
+    assert_eq!(
+        allowed(&format!("# postform: allow PF418\n\nRapidCode\nG0 X[h] Y[v] Z[d]\nEnd\nLineCode\n{line}\nEnd")).0,
+        ["PF108", "PF418"]
+    );
+    assert_eq!(allowed(&format!("# postform: allow PF41\nLineCode\n{line}\nEnd")).0, ["PF109", "PF418"]);
+    assert_eq!(allowed("LineCode\nG1 X[h] Y[v]. Z[d] F[frate] # postform: allow PF001\nEnd").0, ["PF001", "PF108"]);
+}
+
+#[test]
+fn levels_change_what_findings_count_as() {
+    let form = Page::read("PF418").fence("Example").checked();
+    let with = |rule: &str, level: &str| {
+        let mut levels = Levels::default();
+        levels.set(rule, Level::parse(level).unwrap()).unwrap();
+        let found = lint(&form, &levels);
+        found.diags.iter().map(|diag| diag.severity).collect::<Vec<_>>()
+    };
+    assert_eq!(with("PF418", "off"), []);
+    assert_eq!(with("PF4", "error"), [Severity::Error]);
+    assert_eq!(with("PF418", "note"), [Severity::Note]);
+}
+
+static FORMS: std::sync::LazyLock<Vec<(String, Vec<u8>)>> = std::sync::LazyLock::new(all_forms);
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+    /// Whatever becomes of a form that ships: lint, its fixes and the layout end, and none panics. The fuzz target does
+    /// this by the million.
+    #[test]
+    fn mutated_forms_are_looked_at_to_their_end(
+        which in any::<prop::sample::Index>(),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), 0..6u8, any::<char>(), any::<prop::sample::Index>()), 1..8),
+    ) {
+        let (_, bytes) = which.get(FORMS.as_slice());
+        let mut text: Vec<char> = String::from_utf8_lossy(bytes).chars().collect();
+        for (at, kind, c, other) in changes {
+            if text.is_empty() { break }
+            let (at, other) = (at.index(text.len()), other.index(text.len()));
+            match kind {
+                0 => _ = text.remove(at),
+                1 => text.insert(at, c),
+                2 => text.insert(at, [' ', '\t', '\n', '[', ']', '(', ')', '#', '<', '%'][other % 10]),
+                3 => text.swap(at, other),
+                4 => text.truncate(at),
+                _ => { let piece: Vec<char> = text[at..text.len().min(at + 30)].to_vec(); text.splice(other..other, piece); }
+            }
+        }
+        let text: String = text.into_iter().collect();
+        let form = checked(text.as_bytes());
+        for diag in found(&form).diags {
+            for label in &diag.labels {
+                let source = &form.files[label.span.file as usize];
+                prop_assert!(source.text.get(label.span.range()).is_some(), "{:?}", diag);
+            }
+        }
+        mended(&form, true);
+        postform::fmt::format(&form.files[0]);
+    }
+}

@@ -85,9 +85,7 @@ fn comments(items: &[Head]) -> Vec<(Span, Span)> {
             Head::Statement(statement) => visit(&statement.line, Some(statement.line.span), &mut found),
             Head::Sequence(node) => {
                 let line = &node.name.line;
-                let last = node.end.as_ref().map(|end| end.line.span);
-                let last = last.or(node.body.last().map(|body| body.line.span)).unwrap_or(line.span);
-                visit(line, Some(line.span.to(last)), &mut found);
+                visit(line, Some(node.span()), &mut found);
                 for body in &node.body {
                     let whole = (!body.words.is_empty()).then_some(body.line.span);
                     visit(&body.line, whole, &mut found);

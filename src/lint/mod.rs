@@ -12,9 +12,10 @@ pub use levels::{Level, Levels, UnknownCode};
 pub use mend::{Edits, edited, edits_of, fixes_of};
 pub use rules::{RULES, Rule};
 
-use crate::diag::{Code, Diag};
+use crate::diag::{Code, Diag, Severity};
 use crate::sema::Checked;
 use crate::span::Span;
+use crate::syntax::SequenceNode;
 use view::View;
 
 /// What was found in a form.
@@ -30,43 +31,36 @@ pub struct Findings {
 pub fn lint(checked: &Checked, levels: &Levels) -> Findings {
     let view = View::new(checked);
     let mut diags = checked.diags.clone();
-    let broken = broken(checked);
     for rule in RULES {
         let from = diags.len();
         (rule.check)(&view, &mut diags);
         debug_assert!(diags[from..].iter().all(|diag| diag.code == rule.code), "{:?}", rule.code);
     }
-    // what a broken sequence leaves out, nobody knows: its other findings would only follow from the error
-    let follows = |diag: &Diag| {
-        let at = diag.labels.first().map_or(0, |label| label.span.start);
-        let file = diag.labels.first().map_or(0, |label| label.span.file);
-        diag.code >= Code::PF401 && broken.iter().any(|b| b.file == file && (b.start..=b.end).contains(&at))
-    };
-    diags.retain_mut(|diag| (diag.is_error() || !follows(diag)) && levels.apply(diag));
+    diags.retain_mut(|diag| levels.apply(diag));
     let suppressed = allow::take_allowed(checked, levels, &mut diags);
+    leave_causes(checked, &mut diags);
     sort(&mut diags);
     Findings { diags, suppressed }
 }
 
-/// The sequences with an error in them.
-fn broken(checked: &Checked) -> Vec<Span> {
-    let errors: Vec<Span> = checked
-        .diags
-        .iter()
-        .filter(|diag| diag.is_error())
-        .filter_map(|diag| Some(diag.labels.first()?.span))
-        .collect();
-    if errors.is_empty() {
-        return Vec::new();
+/// Where words of a sequence were not understood, what it lacks only follows from that: the cause is shown alone.
+fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
+    let lost = [Code::PF101, Code::PF104, Code::PF205, Code::PF206];
+    let is_cause = |diag: &&Diag| diag.code.row().severity == Severity::Error || lost.contains(&diag.code);
+    let place = |diag: &Diag| diag.labels.first().map(|label| label.span);
+    let causes: Vec<Span> = diags.iter().filter(is_cause).filter_map(place).collect();
+    if causes.is_empty() {
+        return;
     }
-    let nodes = checked.trees.iter().flat_map(|tree| tree.sequences());
-    let whole = nodes.map(|node| {
-        let name = node.name.line.span;
-        node.end
-            .as_ref()
-            .map_or(node.body.last().map_or(name, |body| name.to(body.line.span)), |end| name.to(end.line.span))
+    let within = |whole: &Span, at: &Span| whole.file == at.file && (whole.start..=whole.end).contains(&at.start);
+    let nodes = checked.trees.iter().flat_map(|tree| tree.sequences()).map(SequenceNode::span);
+    let unclear: Vec<Span> = nodes.filter(|whole| causes.iter().any(|at| within(whole, at))).collect();
+    // what a sequence lacks is said by the families of sequences and of modality
+    let may_follow = |diag: &Diag| diag.code >= Code::PF401 && !is_cause(&diag);
+    diags.retain(|diag| {
+        let follows = |at: Span| unclear.iter().any(|whole| within(whole, &at));
+        !(may_follow(diag) && place(diag).is_some_and(follows))
     });
-    whole.filter(|w| errors.iter().any(|e| e.file == w.file && (w.start..=w.end).contains(&e.start))).collect()
 }
 
 /// In the order of file and place; the worst first where they share one.

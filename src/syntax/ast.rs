@@ -116,6 +116,15 @@ pub struct SequenceNode {
     pub end: Option<End>,
 }
 
+impl SequenceNode {
+    /// From the name line to the end, or to the last line where the end is missing.
+    pub fn span(&self) -> Span {
+        let end = self.end.as_ref().map(|end| end.line.span);
+        let last = end.or(self.body.last().map(|body| body.line.span));
+        self.name.line.span.to(last.unwrap_or(self.name.line.span))
+    }
+}
+
 /// A line inside a sequence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Body {

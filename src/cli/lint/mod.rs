@@ -156,7 +156,7 @@ fn summary(linted: &[Linted], counts: Counts, args: &LintArgs) -> String {
     if safe > 0 && !args.fix {
         text += &format!("--fix can mend {safe} of them and changes no program\n");
     }
-    if others > 0 && !(args.fix && args.unsafe_fixes) {
+    if others > 0 && !args.unsafe_fixes {
         text += &format!("--unsafe-fixes shows what mending {others} of them would change in a program\n");
     }
     text

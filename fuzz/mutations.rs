@@ -5,15 +5,15 @@
 use std::fs;
 use std::time::Instant;
 
-use postform::fmt::format;
-use postform::lint::{Levels, edited, edits_of, fixes_of, lint};
-use postform::sema::{Checked, Limits, analyse};
-use postform::source::Source;
+#[path = "look.rs"]
+mod look;
+
+use look::look;
 
 /// Pieces of forms that mean something in the wrong place.
 const PIECES: &[&str] = &[
     "End", "End Cancel", "Cancel", "Drill", "Upon [work]", "None", "\n", "\r\n", "  ", "\t", " ", "#", "# postform: allow PF101",
-    "(", ")", "[", "]", "<h>", "X[h]", "G0", "G91", "G28", "G81", "%0", "X->3.>4", "P->34", "Call x.pf", ";", "é", "\u{0}", "\u{feff}",
+    "(", ")", "[", "]", "<h>", "X[h]", "G0", "G91", "G28", "G81", "%0", "X->3.>4", "P->34", "Call x.pf", ";", ";\"a\"", "Comment; # #", "Custom1   Face\tmill", "é", "\u{0}", "\u{feff}",
 ];
 
 struct Random(u64);
@@ -31,10 +31,6 @@ impl Random {
     fn below(&mut self, n: usize) -> usize {
         (self.next() % n.max(1) as u64) as usize
     }
-}
-
-fn checked(bytes: &[u8]) -> Checked {
-    analyse(Source::from_bytes("form.pf", bytes), Limits::Classic, &mut |_| Err("can't be found".into()))
 }
 
 fn mutated(forms: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
@@ -57,24 +53,6 @@ fn mutated(forms: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
         }
     }
     form
-}
-
-fn look(bytes: &[u8], thoroughly: bool) {
-    let form = checked(bytes);
-    let text = &form.files[0].text;
-    let findings = lint(&form, &Levels::default());
-    for label in findings.diags.iter().flat_map(|diag| &diag.labels) {
-        assert!(text.get(label.span.range()).is_some(), "a place outside the text");
-    }
-    if !thoroughly {
-        return;
-    }
-    let fixes = fixes_of(&findings.diags, true);
-    if !fixes.is_empty() {
-        lint(&checked(edited(text, &edits_of(&fixes, 0)).as_bytes()), &Levels::default());
-    }
-    let once = format(&form.files[0]);
-    assert_eq!(format(&Source::from_text("form.pf", once.as_str())), once, "the layout is not stable");
 }
 
 fn main() {

@@ -2,6 +2,7 @@
 
 use crate::lang::{CommandId, SequenceName, VarId};
 use crate::source::Source;
+use crate::span::Span;
 use crate::syntax::{self, Body, End, Head, Line, Piece, PieceKind, SequenceNode, Spanned, Statement, Tail};
 
 /// A form in the canonical layout. Lines that make no sense stay as they are.
@@ -20,7 +21,7 @@ pub fn format(source: &Source) -> String {
             Head::Blank(line) => page.remark(line),
             Head::Format { line, letter, spec } => page.push(format_of(letter, spec), line),
             Head::Statement(statement) => page.push(page.statement(statement), &statement.line),
-            Head::StrayEnd(line) => page.push("End".into(), line),
+            Head::StrayEnd(line) => page.push(page.as_written(line), line),
             Head::Sequence(node) => page.sequence(node),
         }
         after_sequence = is_sequence;
@@ -85,13 +86,26 @@ impl Page<'_> {
     fn statement(&self, statement: &Statement) -> String {
         let args = statement.args.iter().map(|arg| self.source.slice(arg.span));
         match CommandId::parse(&statement.name.text) {
-            Some(id) => [id.name()].into_iter().chain(args).collect::<Vec<_>>().join(" "),
+            Some(id) if !self.is_glued(statement) => [id.name()].into_iter().chain(args).collect::<Vec<_>>().join(" "),
             // no command: what was meant is in how it is written
-            None => {
-                let end = statement.args.last().map_or(statement.name.span, |arg| arg.span);
-                self.source.slice(statement.name.span.to(end)).to_owned()
-            }
+            _ => self.as_written(&statement.line),
         }
+    }
+
+    /// `Rapid;G0`: an argument that begins directly behind the semicolon may begin with anything, as no other can.
+    fn is_glued(&self, statement: &Statement) -> bool {
+        let mut behind = self.source.text[statement.name.span.end as usize..].chars();
+        behind.next() == Some(';') && behind.next().is_some_and(|c| !c.is_whitespace())
+    }
+
+    /// The words of a line as they stand.
+    fn as_written(&self, line: &Line) -> String {
+        let end = match &line.tail {
+            Tail::None => line.span.end,
+            Tail::Comment(comment) => comment.start,
+            Tail::Lost(lost) => lost.span.start,
+        };
+        self.source.slice(Span { end, ..line.span }).trim_matches([' ', '\t', '\r']).to_owned()
     }
 
     fn name_line(&self, statement: &Statement) -> String {
@@ -111,10 +125,11 @@ impl Page<'_> {
             Some(SequenceName::UponEvery(var)) if !var.is_empty() => Some((format!("Upon Every {}", named(var)), 3)),
             _ => None,
         };
+        let quoted = statement.args.iter().any(|arg| self.source.slice(arg.span) != arg.text);
         match used {
-            Some((name, used)) if used >= words.len() => name,
+            Some((name, used)) if used >= words.len() && !quoted && !self.is_glued(statement) => name,
             // more words than a name has: an error, left as it is
-            _ => self.statement(statement),
+            _ => self.as_written(&statement.line),
         }
     }
 
@@ -155,7 +170,7 @@ impl Page<'_> {
                 text.push(' ');
             }
             for (j, piece) in word.pieces.iter().enumerate() {
-                if j > 0 && missing_blank(&word.pieces[j - 1], piece) {
+                if j > 0 && piece.lacks_blank_after(&word.pieces[j - 1]) {
                     text.push(' ');
                 }
                 self.piece(piece, &mut text);
@@ -195,12 +210,6 @@ fn spelt(name: &str) -> &str {
         Some(var) => var.name(),
         None => name,
     }
-}
-
-/// Two words without a blank between them: the output has one all the same.
-fn missing_blank(before: &Piece, piece: &Piece) -> bool {
-    let is_word = |piece: &Piece| matches!(piece.kind, PieceKind::Variable { .. } | PieceKind::Literal { .. });
-    is_word(before) && (is_word(piece) || matches!(piece.kind, PieceKind::Note { .. }))
 }
 
 /// `X->3.>4`, `F >3.>6`, `A010360`: the sign has its column, and is a blank where there is none.

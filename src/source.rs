@@ -48,8 +48,9 @@ impl Source {
                 return None; // what follows the last line end is no line
             }
             let line = line.strip_suffix('\n').unwrap_or(line);
-            // more than one where a file went through a transfer that added its own
-            Some((start, line.trim_end_matches('\r')))
+            // more than one, or blanks behind it, where a file went through a transfer that added its own
+            let words = line.trim_end_matches([' ', '\t', '\r']);
+            Some((start, if line[words.len()..].contains('\r') { words } else { line }))
         })
     }
 
@@ -73,11 +74,11 @@ impl Source {
     }
 }
 
-/// The character of one Windows-1252 byte; the five unassigned ones become the replacement character.
+/// The character of one Windows-1252 byte. The five that have none keep their number, so that nothing is lost.
 fn windows_1252(byte: u8) -> char {
     const HIGH: [char; 32] = [
-        '€', '\u{fffd}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{fffd}', 'Ž', '\u{fffd}',
-        '\u{fffd}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{fffd}', 'ž', 'Ÿ',
+        '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}', '‘',
+        '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
     ];
     match byte {
         0x80..=0x9f => HIGH[usize::from(byte - 0x80)],

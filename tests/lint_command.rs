@@ -90,11 +90,9 @@ fn reports_are_valid_and_ordered() {
         .map(|finding| (finding["at"]["file"].as_str().unwrap().to_owned(), finding["at"]["start"].as_u64().unwrap()))
         .collect();
     let files: Vec<&str> = places.iter().map(|(file, _)| file.as_str()).collect();
-    assert!(
-        files.is_sorted_by_key(|file| ["./a/x.pf", "./a/ä.pf", "./b.pf", "common, 1%.inc"]
-            .iter()
-            .position(|f| f == file))
-    );
+    assert!(files.is_sorted_by_key(|file| {
+        ["./a/x.pf", "./a/ä.pf", "./b.pf", "./common, 1%.inc"].iter().position(|f| f == file)
+    }));
     assert!(places.windows(2).all(|pair| pair[0].0 != pair[1].0 || pair[0].1 <= pair[1].1), "{places:?}");
 
     let sarif: Value = serde_json::from_str(&out(&folder.run(&["lint", ".", "--format", "sarif"]))).unwrap();
@@ -106,13 +104,13 @@ fn reports_are_valid_and_ordered() {
         assert_eq!(sarif["runs"][0]["tool"]["driver"]["rules"][rule]["id"], result["ruleId"]);
     }
     assert!(results.iter().any(|result| {
-        result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "common%2C%201%25.inc"
+        result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "./common%2C%201%25.inc"
     }));
 
     let github = out(&folder.run(&["lint", ".", "--format", "github"]));
     assert_eq!(github.lines().count(), places.len());
     assert!(
-        github.contains("::warning file=common%2C 1%25.inc,line=2,endLine=2,col=1,endColumn=4,title=PF424::"),
+        github.contains("::warning file=./common%2C 1%25.inc,line=2,endLine=2,col=1,endColumn=4,title=PF424::"),
         "{github}"
     );
     assert!(
@@ -240,19 +238,42 @@ fn unsafe_fixes_show_the_program_before_and_after() {
 
 #[cfg(unix)]
 #[test]
-fn a_fix_that_cant_be_written_leaves_the_form() {
-    if !Path::new("/dev/full").exists() {
-        return;
-    }
-    let folder = Folder::new("unwritable");
+fn a_protected_form_stays_and_others_keep_their_mode() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = Folder::new("modes");
     let text = mill("", SEQUENCES);
-    // a form that is a device: what it holds is read, nothing can be written
-    folder.write("real.pf", &text);
-    let output = folder.run(&["lint", "--fix", "/dev/full"]);
-    assert_ne!(output.status.code(), Some(0));
-    let output = folder.run(&["fmt", "missing/form.pf"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert_eq!(folder.read("real.pf"), text);
+    folder.write("form.pf", &text);
+    let path = folder.0.join("form.pf");
+    let set = |mode: u32| fs::set_permissions(&path, fs::Permissions::from_mode(mode)).unwrap();
+    set(0o444);
+    for command in [["lint", "--fix"], ["fmt", "form.pf"]] {
+        let output = folder.run(&[command[0], command[1], "form.pf"]);
+        assert_eq!(
+            (output.status.code(), err(&output).contains("form.pf: it is read-only")),
+            (Some(2), true),
+            "{command:?}"
+        );
+        assert_eq!(folder.read("form.pf"), text);
+    }
+    set(0o755);
+    folder.run(&["lint", "--fix", "form.pf"]);
+    assert_ne!(folder.read("form.pf"), text);
+    assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o755);
+    assert_eq!(folder.run(&["fmt", "missing/form.pf"]).status.code(), Some(2));
+}
+
+#[test]
+fn called_files_are_named_by_their_paths() {
+    let folder = Folder::new("called");
+    folder.write("posts/form.pf", mill("Call part.inc", ""));
+    folder.write("posts/part.inc", "Upon [work]\nG91\nEnd\n");
+    let github = out(&folder.run(&["lint", "posts/form.pf", "--format", "github"]));
+    assert!(github.contains("file=posts/part.inc,line=2"), "{github}");
+    // a form that calls itself is one finding
+    folder.write("posts/form.pf", mill("Call form.pf", ""));
+    let output = folder.run(&["lint", "posts/form.pf", "--format", "github"]);
+    assert!(out(&output).contains("title=PF009::`form.pf` is this form itself"), "{}", out(&output));
+    assert!(!out(&output).contains("PF004"), "{}", out(&output));
 }
 
 #[test]

@@ -7,8 +7,8 @@ use postform::fmt::format;
 use postform::source::Source;
 
 use super::args::FmtArgs;
-use super::files::{self, io_message};
-use super::output::{self, Target};
+use super::files;
+use super::output;
 use super::report::count;
 use super::{Ending, forms, parallel};
 
@@ -67,10 +67,7 @@ fn one(path: &Path, check: bool) -> Result<bool, String> {
         return Ok(false);
     }
     if !check {
-        let fail = |error| io_message("write", path, &error);
-        let mut target = Target::open(path, false)?;
-        target.write(text.as_bytes()).map_err(fail)?;
-        target.complete().map_err(fail)?;
+        output::write_whole(path, text.as_bytes())?;
     }
     Ok(true)
 }

@@ -30,19 +30,23 @@ pub fn with_changes(path: &Path, bytes: &[u8], limits: LimitsArg, changed: &Chan
         LimitsArg::Classic => Limits::Classic,
         LimitsArg::Extended => Limits::Extended,
     };
-    analyse(source, limits, &mut |name| match changed.get(name) {
-        Some(text) => Ok(Source::from_text(name, text)),
-        None => called(&folder, name),
+    analyse(source, limits, &mut |name| {
+        let source = called(path, &folder, name)?;
+        Ok(match changed.get(&source.name) {
+            Some(text) => Source::from_text(source.name, text),
+            None => source,
+        })
     })
 }
 
 /// Where a file of a form is: the form itself, or one that it calls.
 pub fn place(form: &Path, file: usize, source: &Source) -> PathBuf {
-    if file == 0 { form.to_path_buf() } else { form.parent().unwrap_or(Path::new("")).join(&source.name) }
+    if file == 0 { form.to_path_buf() } else { PathBuf::from(&source.name) }
 }
 
-/// A form that another one calls: in its folder or below, also when links are followed.
-fn called(folder: &Path, name: &str) -> Result<Source, String> {
+/// A form that another one calls: in its folder or below, also when links are followed. Its name is its path, so that
+/// whoever reads a message finds it.
+fn called(form: &Path, folder: &Path, name: &str) -> Result<Source, String> {
     let base = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let path = base.join(name);
     let (Ok(real), Ok(root)) = (path.canonicalize(), base.canonicalize()) else {
@@ -51,8 +55,11 @@ fn called(folder: &Path, name: &str) -> Result<Source, String> {
     if !real.starts_with(root) {
         return Err("is outside the form's folder".into());
     }
+    if form.canonicalize().is_ok_and(|form| form == real) {
+        return Err("is this form itself".into());
+    }
     let bytes = files::read_form(&real).map_err(|_| "can't be read".to_owned())?;
-    Ok(Source::from_bytes(name, &bytes))
+    Ok(Source::from_bytes(files::name(&folder.join(name)), &bytes))
 }
 
 /// The forms that arguments name: a folder is all `.pf` files in it and below, in the order of their names.

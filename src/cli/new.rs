@@ -4,7 +4,6 @@ use std::io::Write as _;
 
 use super::args::{NewArgs, NewControl};
 use super::files::name;
-use super::output::Target;
 use super::{Ending, output};
 
 /// The form to start from: one that ships, lint-clean and rendered in tests.
@@ -26,16 +25,12 @@ pub fn run(args: &NewArgs) -> Ending {
     if args.output.as_os_str() == "-" {
         return output::shown(|out| out.write_all(text.as_bytes()));
     }
-    if args.output.exists() {
+    // a link that leads nowhere is there, too
+    if args.output.symlink_metadata().is_ok() {
         eprintln!("error: {} is there already\n  help: take another name, or remove it first", name(&args.output));
         return Ending::Failed;
     }
-    let written = Target::open(&args.output, false).and_then(|mut target| {
-        let fail = |error| super::files::io_message("write", &args.output, &error);
-        target.write(text.as_bytes()).map_err(fail)?;
-        target.complete().map_err(fail)
-    });
-    match written {
+    match output::write_whole(&args.output, text.as_bytes()) {
         Ok(()) => {
             eprintln!("{} is written: change it, then `postform lint {0}`", name(&args.output));
             Ending::Clean

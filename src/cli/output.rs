@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
+use postform::diag::escaped;
+
 use super::Ending;
 use super::files::io_message;
 
@@ -37,7 +39,11 @@ impl Target {
         match fs::metadata(&path) {
             Ok(meta) if meta.is_dir() => Err(fail(io::Error::from(io::ErrorKind::IsADirectory))),
             Ok(meta) if !meta.is_file() => Ok(Target::Spooled(tempfile::tempfile().map_err(fail)?, Some(path))),
-            _ => {
+            meta => {
+                let mode = meta.ok().map(|meta| meta.permissions());
+                if mode.as_ref().is_some_and(fs::Permissions::readonly) {
+                    return Err(format!("error: can't write {}: it is read-only", escaped(&path.to_string_lossy())));
+                }
                 let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
                 let mut builder = tempfile::Builder::new();
                 builder.prefix(".postform-");
@@ -48,6 +54,10 @@ impl Target {
                     builder.permissions(fs::Permissions::from_mode(0o666));
                 }
                 let file = builder.tempfile_in(folder).map_err(fail)?;
+                if let Some(mode) = mode {
+                    // a file that is replaced keeps who may read and run it
+                    file.as_file().set_permissions(mode).map_err(fail)?;
+                }
                 Ok(Target::Beside(file, path))
             }
         }
@@ -109,6 +119,17 @@ impl Target {
             Target::Stream => io::stdout().flush(),
         }
     }
+}
+
+/// Writes a file, whole or not at all.
+///
+/// # Errors
+/// A message; what was there is there still.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    let fail = |error| io_message("write", path, &error);
+    let mut target = Target::open(path, false)?;
+    target.write(bytes).map_err(fail)?;
+    target.complete().map_err(fail)
 }
 
 /// Writes to standard output; a closed pipe is no error.

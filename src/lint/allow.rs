@@ -1,6 +1,6 @@
 //! Suppression in the form: `# postform: allow PF103`, at the end of a line, above a line, or above a sequence.
 
-use crate::diag::{CODES, Code, Diag};
+use crate::diag::{CODES, Code, Diag, Severity};
 use crate::lang::did_you_mean;
 use crate::sema::Checked;
 use crate::source::Source;
@@ -30,7 +30,7 @@ pub fn take_allowed(checked: &Checked, levels: &Levels, diags: &mut Vec<Diag>) -
     diags.retain(|diag| {
         let Some(at) = diag.labels.first().map(|label| label.span) else { return true };
         // what can't be printed can't be allowed, whatever a comment says
-        if diag.code.row().severity == crate::diag::Severity::Error {
+        if is_error(diag.code) && diag.is_error() {
             return true;
         }
         let mut allowed = false;
@@ -44,9 +44,10 @@ pub fn take_allowed(checked: &Checked, levels: &Levels, diags: &mut Vec<Diag>) -
     });
     let taken = before - diags.len();
     if levels.shows(Code::PF108) {
-        let unused = allows.iter().flat_map(|allow| &allow.codes).filter(|(.., used)| !used);
+        let unused =
+            allows.iter().flat_map(|allow| &allow.codes).filter(|(code, _, used)| !used && levels.shows(*code));
         wrong.extend(unused.map(|(code, span, _)| {
-            let help = if code.row().severity == crate::diag::Severity::Error {
+            let help = if is_error(*code) {
                 "an error can't be allowed: mend it"
             } else {
                 "take it out, so that it does not hide the next one"
@@ -59,6 +60,11 @@ pub fn take_allowed(checked: &Checked, levels: &Levels, diags: &mut Vec<Diag>) -
     wrong.retain_mut(|diag| levels.apply(diag));
     diags.extend(wrong);
     taken
+}
+
+/// Does the form not print while this is found?
+fn is_error(code: Code) -> bool {
+    code.row().severity == Severity::Error
 }
 
 /// All comments that begin with `#`, each with the place that it speaks of: its own line, else what comes after it.
@@ -78,16 +84,18 @@ fn comments(items: &[Head]) -> Vec<(Span, Span)> {
             }
         }
     };
+    // an indented line is a comment that may look like words, and have a finding
+    let own = |line: &Line| matches!(line.tail, Tail::Lost(_)).then_some(line.span);
     for item in items {
         match item {
-            Head::Blank(line) => visit(line, None, &mut found),
+            Head::Blank(line) => visit(line, own(line), &mut found),
             Head::Format { line, .. } | Head::StrayEnd(line) => visit(line, Some(line.span), &mut found),
             Head::Statement(statement) => visit(&statement.line, Some(statement.line.span), &mut found),
             Head::Sequence(node) => {
                 let line = &node.name.line;
                 visit(line, Some(node.span()), &mut found);
                 for body in &node.body {
-                    let whole = (!body.words.is_empty()).then_some(body.line.span);
+                    let whole = if body.words.is_empty() { own(&body.line) } else { Some(body.line.span) };
                     visit(&body.line, whole, &mut found);
                 }
                 if let Some(end) = &node.end {

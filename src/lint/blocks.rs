@@ -50,8 +50,9 @@ impl<'a> Block<'a> {
     /// depth that is typed.
     pub fn retracts(&self, view: &View) -> bool {
         self.axis_words(view).iter().any(|(word, axis)| {
-            let typed = matches!(word.kind, WordKind::Literal(..));
-            *axis == 2 && (typed || !self.in_part() || word.var() == Some(VarId::Rplane))
+            let up = |value: f64| if self.incremental { value > 0.0 } else { value >= 0.0 };
+            let typed = matches!(word.kind, WordKind::Literal(_, _, value) if up(value));
+            *axis == 2 && (typed || !self.in_part() || word.printed_var() == Some(VarId::Rplane))
         })
     }
 }

@@ -1,5 +1,7 @@
 //! Fixes applied: which of them go together, and the text after them.
 
+use std::collections::BTreeMap;
+
 use crate::diag::Diag;
 use crate::span::Span;
 
@@ -9,16 +11,19 @@ pub type Edits<'a> = Vec<(Span, &'a str)>;
 /// The fixes that can be made at once; `unsafe_too`: those as well that change what is printed. Where two touch the same
 /// place the earlier one is made: the other is found again in the text after it.
 pub fn fixes_of(diags: &[Diag], unsafe_too: bool) -> Vec<&Diag> {
-    let mut taken: Vec<Span> = Vec::new();
+    // start to end, by file; what is taken never overlaps, so the last that begins before is the nearest
+    let mut taken: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     let mut chosen = Vec::new();
     for diag in diags {
         let Some(fix) = diag.fix.as_ref().filter(|fix| fix.safe || unsafe_too) else { continue };
-        let touches =
-            |span: &Span| taken.iter().any(|t| t.file == span.file && span.start <= t.end && t.start <= span.end);
+        let touches = |span: &Span| {
+            let before = taken.range((span.file, 0)..=(span.file, span.end)).next_back();
+            before.is_some_and(|(_, &end)| span.start <= end)
+        };
         if fix.edits.iter().any(|(span, _)| touches(span)) {
             continue;
         }
-        taken.extend(fix.edits.iter().map(|(span, _)| *span));
+        taken.extend(fix.edits.iter().map(|(span, _)| ((span.file, span.start), span.end)));
         chosen.push(diag);
     }
     chosen

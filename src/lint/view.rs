@@ -4,7 +4,7 @@ use crate::compile::LetterTable;
 use crate::lang::{CommandId, Machine, SequenceId, VarId, VarSet};
 use crate::sema::{Checked, Form, Line, Sequence, Settings, UnitChoice, Word};
 use crate::span::Span;
-use crate::syntax::{SequenceNode, Statement};
+use crate::syntax::{Piece, SequenceNode, Statement};
 
 use super::blocks::{self, Block};
 
@@ -124,6 +124,11 @@ impl<'a> View<'a> {
     /// The sequence as it is written.
     pub fn node(&self, span: Span) -> Option<&'a SequenceNode> {
         self.checked.trees.iter().flat_map(|tree| tree.sequences()).find(|node| node.name.line.span == span)
+    }
+
+    /// The pieces of words as they are written.
+    pub fn pieces(&self) -> impl Iterator<Item = &'a Piece> + '_ {
+        self.checked.trees.iter().flat_map(|tree| tree.words()).flat_map(|word| &word.pieces)
     }
 
     /// The words of all bodies.

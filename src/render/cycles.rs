@@ -7,6 +7,7 @@ use crate::compile::{Block, CycleStyle};
 use crate::cycle::{Plan, check};
 use crate::diag::Code;
 use crate::lang::{Group, Machine, SequenceId, VarId};
+use crate::sema::kind_of_remark;
 use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole, Peck, Place};
 
 /// A cycle between its begin and its end.
@@ -248,9 +249,7 @@ impl Renderer<'_> {
         let custom = || {
             let labels = program.custom.iter().zip([S::Custom1, S::Custom2, S::Custom3]);
             let name = spec.kind.name();
-            let is_kind = |label: &String| {
-                label.split([' ', ',', '(']).next().is_some_and(|word| word.eq_ignore_ascii_case(name))
-            };
+            let is_kind = |label: &String| kind_of_remark(label).is_some_and(|kind| kind.eq_ignore_ascii_case(name));
             labels.filter(|(label, _)| label.as_ref().is_some_and(is_kind)).map(|(_, id)| id).next()
         };
         let own = match spec.kind {

@@ -68,6 +68,8 @@ pub fn analyse(main: Source, limits: Limits, load: &mut dyn FnMut(&str) -> Resul
 struct Analysis {
     limits: Limits,
     files: Vec<Source>,
+    /// The forms that were called, by the names they were called by.
+    called: Vec<String>,
     trees: Vec<syntax::Form>,
     items: Vec<Head>,
     form: Form,
@@ -123,13 +125,14 @@ impl Analysis {
             return; // reported as a missing argument
         } else if outside {
             Some("is outside the form's folder".to_owned())
-        } else if open.contains(&name) || self.files.iter().any(|f| f.name == name) {
+        } else if open.contains(&name) || self.called.contains(&name) {
             Some("was called before: each form once, and no circles".to_owned())
         } else if open.len() >= MOST_CALLS {
             Some(format!("is called {MOST_CALLS} deep"))
         } else {
             match load(&name) {
                 Ok(source) => {
+                    self.called.push(name.clone());
                     open.push(name.clone());
                     self.add_file(source, open, load);
                     open.pop();
@@ -391,14 +394,16 @@ impl Analysis {
 
     /// `End Cancel` of a canned cycle.
     fn end_cancel(&mut self, end: Option<&End>) -> Option<Span> {
-        let word = end?.args.first()?;
-        if word.text.eq_ignore_ascii_case("Cancel") {
-            return Some(word.span);
+        let args = &end?.args;
+        let cancel = args.first().filter(|word| word.text.eq_ignore_ascii_case("Cancel"));
+        if let Some(word) = args.get(usize::from(cancel.is_some())) {
+            self.report(
+                Diag::new(Code::PF001, format!("`{}` after End", word.text))
+                    .at(word.span, "unknown")
+                    .help("only `Cancel` may follow End, once"),
+            );
         }
-        let mut diag = Diag::new(Code::PF001, format!("`{}` after End", word.text)).at(word.span, "unknown");
-        diag.help = Some("only `Cancel` may follow End".into());
-        self.report(diag);
-        None
+        cancel.map(|word| word.span)
     }
 
     /// `End` of a sequence that is no canned cycle.

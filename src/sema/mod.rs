@@ -8,5 +8,5 @@ mod settings;
 mod words;
 
 pub use check::{Checked, Limits, MOST_LINES, MOST_WORDS, analyse};
-pub use model::{Form, Line, Sequence, Upon, Word, WordKind};
+pub use model::{Form, Line, Sequence, Upon, Word, WordKind, kind_of_remark};
 pub use settings::{ArcCentre, Code, DwellWord, Prompt, SequenceNumbers, Settings, TravelLimit, UnitChoice};

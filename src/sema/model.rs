@@ -41,6 +41,11 @@ pub struct Sequence {
     pub lines: Vec<Line>,
 }
 
+/// The first word of a Custom cycle's remark: the kind of cycle that it serves.
+pub fn kind_of_remark(remark: &str) -> Option<&str> {
+    remark.split([' ', '\t', ',', '(']).next().filter(|word| !word.is_empty())
+}
+
 /// A sequence printed when a variable changes, or whenever it is used.
 #[derive(Clone, Debug)]
 pub struct Upon {

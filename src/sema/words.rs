@@ -47,10 +47,8 @@ pub fn variable(name: &Spanned, machine: Machine, diags: &mut Vec<Diag>) -> Opti
 }
 
 fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut Vec<Word>, diags: &mut Vec<Diag>) {
-    let is_word = |p: &Piece| matches!(p.kind, PieceKind::Variable { .. } | PieceKind::Literal { .. });
     // only between two words is a blank missing; texts stick to their variables
-    let glued =
-        previous.is_some_and(|p| !(is_word(p) && (is_word(piece) || matches!(piece.kind, PieceKind::Note { .. }))));
+    let glued = previous.is_some_and(|before| !piece.lacks_blank_after(before));
     let kind = match &piece.kind {
         PieceKind::Variable { letter, name } => {
             let Some(var) = variable(name, context.machine, diags) else { return };
@@ -62,7 +60,7 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
             Err(_) => return,
         },
         PieceKind::Stray(text) => {
-            check_text(text, piece.span, previous.is_some_and(is_word), diags);
+            check_text(text, piece.span, previous.is_some_and(Piece::is_word), diags);
             WordKind::Text(text.clone())
         }
         PieceKind::Note { parts, closed } => {

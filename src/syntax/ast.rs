@@ -139,6 +139,8 @@ pub struct Body {
 pub struct End {
     /// The line.
     pub line: Line,
+    /// The word itself.
+    pub word: Span,
     /// The words after `End`.
     pub args: Vec<Spanned>,
 }
@@ -187,4 +189,16 @@ pub enum PieceKind {
         /// The closing mark is there.
         closed: bool,
     },
+}
+
+impl Piece {
+    /// Is it a word of its own, with a letter and a value?
+    pub fn is_word(&self) -> bool {
+        matches!(self.kind, PieceKind::Variable { .. } | PieceKind::Literal { .. })
+    }
+
+    /// Is a blank missing between the piece before and this one? Both are printed as words all the same.
+    pub fn lacks_blank_after(&self, before: &Piece) -> bool {
+        before.is_word() && (self.is_word() || matches!(self.kind, PieceKind::Note { .. }))
+    }
 }

@@ -192,7 +192,9 @@ fn body_line(at: At, text: &str) -> Result<Body, End> {
     for pair in pairs(Rule::body_line, text) {
         match pair.as_rule() {
             Rule::end => {
-                let mut end = End { line: body.line, args: Vec::new() };
+                let from = at.span(&pair).start;
+                let word = Span { start: from, end: from + 3, ..body.line.span };
+                let mut end = End { line: body.line, word, args: Vec::new() };
                 for part in pair.into_inner() {
                     match part.as_rule() {
                         Rule::bare => end.args.push(at.spanned(&part)),

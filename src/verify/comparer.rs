@@ -2,16 +2,14 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{
-    ACROSS, ALL, Cut, DEPTH, Place, Rapid, State, What, lies_between, number, over, same, shown, turn_as_far,
-};
+use super::cut::{ACROSS, ALL, Cut, Place, Rapid, State, What, number, over, same, same_dwell, shown};
 use super::finding::{Equivalences, Finding, Verdict};
 use super::intended::{Expectation, Expected, Job};
 use super::program::Program;
-use super::way::{Compared, Way, compare, leaves_hole, leaves_low};
+use super::way::Way;
 use crate::diag::{Code, Diag};
 use crate::nc::{RunError, Settings};
-use crate::toolpath::{self, Event, FeedMode, Sink, StopKind, Units};
+use crate::toolpath::{self, Event, Sink, StopKind, Units};
 
 /// What the job's side tells of.
 pub(super) trait Intent {
@@ -46,15 +44,15 @@ pub struct Comparer<R> {
 pub(super) struct Sides<R> {
     pub program: Program<R>,
     /// The job's way, and where it begins if that is known.
-    way: Vec<Rapid>,
-    start: Option<Rapid>,
+    pub way: Vec<Rapid>,
+    pub start: Option<Rapid>,
     /// The job's rapids before a change of tool or work offset.
-    left: Vec<Rapid>,
-    left_start: Option<Rapid>,
-    lost: bool,
+    pub left: Vec<Rapid>,
+    pub left_start: Option<Rapid>,
+    pub lost: bool,
     pub stops: Vec<StopKind>,
     /// Both ways as corners; kept so that a cut allocates nothing.
-    ways: [Way; 2],
+    pub ways: [Way; 2],
     /// The job's cuts in a hole of pecks.
     pub pecks: Vec<Cut>,
     pub tolerance: f64,
@@ -63,11 +61,11 @@ pub(super) struct Sides<R> {
     findings: Vec<Finding>,
     place: toolpath::Place,
     /// The last hole.
-    last_hole: Option<Expected>,
+    pub last_hole: Option<Expected>,
     /// Over which hole the job is, and whether its way there leaves the axis of the hole: it must then be that way.
     over: Option<Place>,
-    aside: bool,
-    left_aside: bool,
+    pub aside: bool,
+    pub left_aside: bool,
     /// What was in force at the program's last cut.
     pub before: State,
     /// The tool was changed since the last cut.
@@ -205,264 +203,6 @@ impl<R: BufRead + Seek> Sides<R> {
         self.aside = false;
         self.start = Some(Rapid { to: cut.what.end(&cut.from), unknown: 0, rotation: None });
     }
-
-    /// The program's next cut, whose way, beginning and state are as they must be.
-    pub fn meet(&mut self, cut: &Cut, hole: Option<&Expected>) -> Result<Cut, Box<Diag>> {
-        while self.next()?.is_some_and(|found| self.enters_again(cut, &found)) {
-            self.equivalences.entries += 1;
-            self.program.take();
-        }
-        let Some(found) = self.next()? else {
-            return match hole {
-                Some(hole) => {
-                    let message = format!("the hole at {} is not drilled: the program is over", over(&hole.at));
-                    self.differs(Code::PV002, 0, message, "look at the cycle, and at what ends it")
-                }
-                None => {
-                    let end = cut.what.end(&cut.from);
-                    let to = shown(&end, 0b111);
-                    let tolerance = self.tolerance;
-                    let by_rapid = |rapid: &Rapid| rapid.unknown == 0 && same(&rapid.to, &end, ALL, tolerance);
-                    if cut.what.feeds() && self.program.way.iter().any(by_rapid) {
-                        let message = format!("a rapid goes to {to}, where the job cuts");
-                        return self.differs(Code::PV007, 0, message, "print the feed code (G1) for this move");
-                    }
-                    let message = format!("the program is over, and the cut to {to} is missing");
-                    self.differs(Code::PV017, 0, message, "look at what the form prints for this move")
-                }
-            };
-        };
-        self.kinds(cut, &found)?;
-        self.begins(cut, &found, hole)?;
-        self.compare_ways(found.line)?;
-        self.states(cut, &found, hole.is_some_and(|hole| hole.is_tap))?;
-        Ok(found)
-    }
-
-    /// After the tool was taken out, as to unwind an axis: straight down again to where the cut goes on.
-    fn enters_again(&mut self, cut: &Cut, found: &Cut) -> bool {
-        let What::Line { to } = found.what else { return false };
-        let here = self.start.is_some_and(|start| same(&start.to, &cut.from, ALL, self.tolerance))
-            || self.program.way.iter().any(|rapid| rapid.unknown & 1 << DEPTH != 0);
-        let height_known = found.unknown & 1 << DEPTH == 0;
-        if !here || found.unknown & ACROSS != 0 || !same(&cut.from, &to, ALL, self.tolerance) {
-            return false;
-        }
-        let [_, program] = &mut self.ways;
-        program.set(Some(self.program.start()), &self.program.way, self.tolerance);
-        let above = !height_known || found.from[DEPTH] > to[DEPTH];
-        same(&found.from, &to, ACROSS, self.tolerance) && above && program.stays_above(to[DEPTH])
-    }
-
-    fn kinds(&mut self, cut: &Cut, found: &Cut) -> Result<(), Box<Diag>> {
-        let help = "look at the dwell of the cycle or block";
-        match (cut.what, found.what) {
-            (What::Dwell(seconds), What::Line { .. } | What::Arc(_)) => {
-                let message = format!("the dwell of {} s is missing", number(seconds));
-                self.differs(Code::PV010, found.line, message, help)
-            }
-            (What::Line { .. } | What::Arc(_), What::Dwell(seconds)) => {
-                let message = format!("a dwell of {} s that the job does not have", number(seconds));
-                self.differs(Code::PV010, found.line, message, help)
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Both cuts begin at one place.
-    fn begins(&mut self, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Result<(), Box<Diag>> {
-        let tolerance = self.tolerance;
-        let unknown = found.unknown & !cut.unknown & ALL;
-        if unknown == 0 && same(&cut.from, &found.from, ALL, tolerance) {
-            return Ok(());
-        }
-        let end = cut.what.end(&cut.from);
-        let angles = (3..6).filter(|&axis| cut.from[axis] != found.from[axis]).map(|axis| 1 << axis).sum::<u8>();
-        let (wanted, is) = (shown(&cut.from, 0b111 | angles), shown(&found.from, 0b111 | angles));
-        let line = found.line;
-        // the rapid went where the cut goes
-        let cuts_by_rapid = |rapid: &Rapid| rapid.unknown == 0 && same(&rapid.to, &end, ALL, tolerance);
-        if cut.what.feeds() && self.program.way.iter().any(cuts_by_rapid) && !same(&end, &cut.from, ALL, tolerance) {
-            let message = format!("a rapid goes to {}, where the job cuts", shown(&end, 0b111));
-            return self.differs(Code::PV007, line, message, "print the feed code (G1) for this move");
-        }
-        let found_end = found.what.end(&found.from);
-        if self.way.iter().any(|rapid| same(&rapid.to, &found_end, ALL, tolerance)) && found.what.feeds() {
-            let message = format!("a feed move goes to {}, where the job has a rapid", shown(&found_end, 0b111));
-            return self.differs(Code::PV008, line, message, "print the rapid code (G0) for this move");
-        }
-        if found.by_cycle && hole.is_none() {
-            let place = over(&found.from);
-            let message =
-                format!("the canned cycle is still in force: it drills at {place}, where the job has no hole");
-            return self.differs(Code::PV013, line, message, "end the cycle: print G80 in Cancel, and `End Cancel`");
-        }
-        let Some(hole) = hole else {
-            let message = format!("a cut begins at {is}, the job's at {wanted}");
-            return self.differs(Code::PV001, line, message, "look at what the form prints for the moves before it");
-        };
-        if !same(&hole.at, &found.from, ACROSS, tolerance) {
-            let at = over(&hole.at);
-            if self.last_hole.is_some_and(|last| same(&last.at, &found.from, ACROSS, tolerance)) {
-                let message = format!("the hole at {} is drilled twice", over(&found.from));
-                return self.differs(Code::PV003, line, message, "look for a second position line in the cycle");
-            }
-            let message = format!("the hole at {at} is not drilled: the next cut begins at {is}");
-            return self.differs(Code::PV002, line, message, "print [h] and [v] in the cycle's position line");
-        }
-        if unknown & 1 << DEPTH != 0 {
-            let message =
-                format!("the hole at {} is drilled from a height that only the machine knows", over(&hole.at));
-            return self.differs(Code::PV005, line, message, "print [d] before the cycle");
-        }
-        let message = format!(
-            "the feed begins at Z{}, the job's clearance plane is Z{}",
-            number(found.from[DEPTH]),
-            number(cut.from[DEPTH])
-        );
-        self.differs(Code::PV005, line, message, "print R[vclear] in the cycle, at every hole where it changes")
-    }
-
-    /// The ways to a cut.
-    fn compare_ways(&mut self, line: u64) -> Result<(), Box<Diag>> {
-        let tolerance = self.tolerance;
-        let split = self.program.before.filter(|_| self.lost).unwrap_or(0);
-        if self.lost {
-            self.compare_leaving(split, line)?;
-        }
-        let [job, program] = &mut self.ways;
-        let rest = &self.program.way[split..];
-        // after a change the way begins anywhere
-        let begin = if self.lost && self.program.before.is_some() { None } else { Some(self.program.start()) };
-        job.set(self.start, &self.way, tolerance);
-        program.set(begin, rest, tolerance);
-        let known = !self.lost && self.program.start().unknown == 0;
-        match compare(job, program, known, tolerance) {
-            Compared::Same => Ok(()),
-            Compared::AsGood { step_by_step } if step_by_step || !self.aside => {
-                self.equivalences.ways += u64::from(known);
-                Ok(())
-            }
-            Compared::AsGood { .. } => self.stays_at_wall(line),
-            Compared::Turning => self.turns_otherwise(line),
-            Compared::Lower(to, limit) => {
-                let message = format!(
-                    "a rapid goes to {}, lower than the job's ways here, Z{}",
-                    shown(&to, 0b111),
-                    number(limit)
-                );
-                self.differs(Code::PV009, line, message, "print the height before the position, or return to [rplane]")
-            }
-            Compared::Elsewhere(to) => {
-                let message = format!("a rapid goes to {}, where the job does not go", shown(&to, 0b111));
-                self.differs(Code::PV001, line, message, "look at what the form prints for this move")
-            }
-        }
-    }
-
-    fn stays_at_wall(&mut self, line: u64) -> Result<(), Box<Diag>> {
-        let message = "the tool does not leave the wall of the hole as the job says".to_owned();
-        self.differs(Code::PV001, line, message, "print the cycle's orientation and shift, as G76 Q[sleave]")
-    }
-
-    fn turns_otherwise(&mut self, line: u64) -> Result<(), Box<Diag>> {
-        let message = "the spindle does not turn as the job says while the tool leaves".to_owned();
-        self.differs(Code::PV011, line, message, "look at the spindle codes of the cycle")
-    }
-
-    /// The way away from the last cut of a tool or work offset, or of the program.
-    fn compare_leaving(&mut self, until: usize, line: u64) -> Result<(), Box<Diag>> {
-        let tolerance = self.tolerance;
-        let [job, program] = &mut self.ways;
-        if self.left_start.is_none() {
-            return Ok(()); // nothing was cut before
-        }
-        job.set(self.left_start, &self.left, tolerance);
-        program.set(Some(self.program.start()), &self.program.way[..until], tolerance);
-        match leaves_hole(job, program, tolerance) {
-            Some(Compared::Turning) => return self.turns_otherwise(line),
-            Some(_) if self.left_aside => return self.stays_at_wall(line),
-            _ => {}
-        }
-        let [job, program] = &mut self.ways;
-        let Some((to, limit)) = leaves_low(job, program, tolerance) else { return Ok(()) };
-        let message = format!("after the last cut a rapid goes to {}, below Z{}", shown(&to, 0b111), number(limit));
-        self.differs(Code::PV009, line, message, "go up first, as high as the job does")
-    }
-
-    /// A straight cut, as one or in parts that lie on it.
-    fn line(&mut self, cut: &Cut, first: &Cut, hole: Option<&Expected>) -> Result<(), Box<Diag>> {
-        let end = cut.what.end(&cut.from);
-        let mut found = *first;
-        let mut parts = 1;
-        loop {
-            let to = found.what.end(&found.from);
-            let is_part = !same(&to, &end, ALL, self.tolerance) && lies_between(&cut.from, &to, &end, self.tolerance);
-            if !is_part {
-                break;
-            }
-            self.feeds(&in_parts(cut, &found), &found, hole.is_some_and(|hole| hole.is_tap))?;
-            self.program.take();
-            let next = self.next()?.filter(|next| {
-                matches!(next.what, What::Line { .. })
-                    && self.program.way.is_empty()
-                    && self.program.stops.is_empty()
-                    && lies_between(&to, &next.what.end(&next.from), &end, self.tolerance)
-            });
-            let Some(next) = next else {
-                return self.ends(&cut.from, end, &found, hole);
-            };
-            found = next;
-            parts += 1;
-        }
-        self.ends(&cut.from, end, &found, hole)?;
-        self.feeds(&in_parts(cut, &found), &found, hole.is_some_and(|hole| hole.is_tap))?;
-        self.equivalences.parts += u64::from(parts > 1);
-        self.program.take();
-        Ok(())
-    }
-
-    /// Both straight cuts end at one place.
-    fn ends(&mut self, from: &Place, end: Place, found: &Cut, hole: Option<&Expected>) -> Result<(), Box<Diag>> {
-        let is = found.what.end(&found.from);
-        let line = found.line;
-        if same(&end, &is, ALL, self.tolerance) {
-            if turn_as_far([from, &end], [&found.from, &is]) {
-                return Ok(());
-            }
-            let message = format!("the part turns the other way, or more often, on the way to {}", shown(&end, ALL));
-            return self.differs(Code::PV001, line, message, "look at the travel of the rotary axis (`Limits`)");
-        }
-        if hole.is_some() && same(&end, &is, ACROSS, self.tolerance) {
-            // out of the hole at feed, and farther than the job
-            if is[DEPTH] > end[DEPTH] && end[DEPTH] > from[DEPTH] {
-                self.equivalences.outs += 1;
-                return Ok(());
-            }
-            let message = format!(
-                "the hole at {} is cut to Z{}, the job's to Z{}",
-                over(&end),
-                number(is[DEPTH]),
-                number(end[DEPTH])
-            );
-            return self.differs(Code::PV004, line, message, "print Z[d] at every hole where it changes");
-        }
-        let message = format!("a cut goes to {}, the job's to {}", shown(&is, 0b111), shown(&end, 0b111));
-        self.differs(Code::PV001, line, message, "look at what the form prints for this move")
-    }
-}
-
-/// The cut as one of its parts must be: in inverse time a part has a part of the time.
-fn in_parts(cut: &Cut, part: &Cut) -> Cut {
-    let length = |cut: &Cut| {
-        let end = cut.what.end(&cut.from);
-        (0..6).map(|axis| (end[axis] - cut.from[axis]).powi(2)).sum::<f64>().sqrt()
-    };
-    let share = length(part) / length(cut);
-    match cut.mode {
-        FeedMode::InverseTime => Cut { feed: cut.feed.map(|feed| feed / share), ..*cut },
-        _ => *cut,
-    }
 }
 
 impl<R: BufRead + Seek> Intent for Sides<R> {
@@ -497,7 +237,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         match (cut.what, found.what) {
             (What::Arc(turn), _) => self.arc(cut, &turn)?,
             (What::Dwell(wanted), What::Dwell(is)) => {
-                if (wanted - is).abs() > (0.01 * wanted).max(0.001) {
+                if !same_dwell(wanted, is) {
                     let message = format!("the dwell is {} s, the job's {} s", number(is), number(wanted));
                     return self.differs(Code::PV010, found.line, message, "look at the unit of the dwell (`Dwell`)");
                 }

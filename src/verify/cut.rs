@@ -129,3 +129,8 @@ pub(super) fn number(value: f64) -> f64 {
     let rounded = (value * 1e5).round() / 1e5;
     if rounded == 0.0 { 0.0 } else { rounded }
 }
+
+/// Two dwells in seconds are one: revolutions as a time are not whole milliseconds.
+pub(super) fn same_dwell(wanted: f64, is: f64) -> bool {
+    (wanted - is).abs() <= (0.01 * wanted).max(0.001)
+}

@@ -3,7 +3,7 @@
 use std::io::{BufRead, Seek};
 
 use super::comparer::Sides;
-use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell};
 use super::intended::Expected;
 use crate::diag::{Code, Diag};
 
@@ -78,7 +78,7 @@ impl<R: BufRead + Seek> Sides<R> {
             return self.differs(Code::PV004, line, message, "print Z[d] at every hole where it changes");
         }
         let wanted = hole.dwell.unwrap_or(0.0);
-        if (wanted - dwell).abs() > (0.01 * wanted).max(0.001) {
+        if !same_dwell(wanted, dwell) {
             let message = format!("the dwell at the bottom is {} s, the job's {} s", number(dwell), number(wanted));
             return self.differs(Code::PV010, line, message, "print P[dwell] in the cycle");
         }

@@ -4,15 +4,18 @@
 //! gives its cuts and ways. They are compared one by one, so that memory does not grow with either.
 
 mod arcs;
+mod begin;
 mod comparer;
 mod cut;
 mod finding;
 mod holes;
 mod intended;
+mod lines;
 mod program;
 mod programs;
 mod state;
 mod way;
+mod ways;
 
 pub use comparer::{Comparer, Counts};
 pub use finding::{Equivalences, Finding, Verdict};

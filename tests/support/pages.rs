@@ -140,9 +140,7 @@ fn extent(item: &Head) -> (usize, usize) {
     let span = match item {
         Head::Blank(line) | Head::Format { line, .. } | Head::StrayEnd(line) => line.span,
         Head::Statement(statement) => statement.line.span,
-        Head::Sequence(node) => {
-            node.name.line.span.to(node.end.as_ref().map_or(node.name.line.span, |end| end.line.span))
-        }
+        Head::Sequence(node) => node.span(),
     };
     (span.start as usize, span.end as usize)
 }

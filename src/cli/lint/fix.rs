@@ -1,6 +1,6 @@
 //! `--fix` and `--unsafe-fixes`: forms mended in place.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use postform::diag::Diag;
 use postform::lint::{Findings, edited, edits_of, fixes_of, lint};
@@ -9,9 +9,9 @@ use similar::TextDiff;
 
 use super::super::args::{LimitsArg, LintArgs};
 use super::super::config::Config;
-use super::super::files::{self, io_message};
+use super::super::files;
 use super::super::forms::{self, Changed};
-use super::super::output::Target;
+use super::super::output;
 use super::{Linted, sample};
 
 /// Most rounds: a fix may make place for another one, but never for ever.
@@ -36,52 +36,59 @@ pub fn mend(form: Form, args: &LintArgs, original: Checked, found: Findings) -> 
     if form.path == Path::new("-") {
         return Err("error: fixes change files, and standard input is none".into());
     }
-    let mut work = Work { form, changed: Changed::new(), mended: 0 };
-    let as_it_was = Findings { diags: found.diags.clone(), suppressed: found.suppressed };
-    let (mut checked, mut found) = work.run(false, original, found);
+    let mut work = Work { form, changed: Changed::new(), made: Vec::new() };
+    let (mut checked, mut after) = work.run(false, &original, &found.diags);
     let mut told = String::new();
     if args.unsafe_fixes {
-        let asked: Vec<String> = fixes_of(&found.diags, true).into_iter().map(|diag| line_of(diag, &checked)).collect();
-        if !asked.is_empty() {
-            let old = sample::printed(&checked, args.job.as_deref());
-            (checked, found) = work.run(true, checked, found);
-            told = story(form.path, &asked, old, sample::printed(&checked, args.job.as_deref()), args);
+        let before = checked.as_ref().unwrap_or(&original);
+        let old = sample::printed(before, args.job.as_deref());
+        let safe = work.made.len();
+        let diags = after.as_ref().map_or(&found.diags, |found| &found.diags).clone();
+        let (mended, left) = work.run(true, before, &diags);
+        if let Some(mended) = mended {
+            let new = sample::printed(&mended, args.job.as_deref());
+            told = story(form.path, &work.made[safe..], old, new, args);
+            (checked, after) = (Some(mended), left);
         }
     }
     if !args.fix {
-        let original = forms::with_changes(form.path, form.bytes, form.limits, &Changed::new());
-        return Ok(Linted { story: told, ..Linted::new(original, as_it_was) });
+        return Ok(Linted { story: told, ..Linted::new(original, found) });
     }
+    let (checked, found) = (checked.unwrap_or(original), after.unwrap_or(found));
     write(form.path, &checked, &work.changed)?;
-    Ok(Linted { story: told, mended: work.mended, ..Linted::new(checked, found) })
+    Ok(Linted { story: told, mended: work.made.len(), ..Linted::new(checked, found) })
 }
 
 /// A form while it is mended, in memory.
 struct Work<'a> {
     form: Form<'a>,
     changed: Changed,
-    mended: usize,
+    /// The fixes so far, in words.
+    made: Vec<String>,
 }
 
 impl Work<'_> {
-    /// Makes fixes until none is left. Returns the form after them, and what is found in it.
-    fn run(&mut self, unsafe_too: bool, mut checked: Checked, mut found: Findings) -> (Checked, Findings) {
+    /// Makes fixes until none is left. Returns the form after them and what is found in it, if any was made.
+    fn run(&mut self, unsafe_too: bool, form: &Checked, found: &[Diag]) -> (Option<Checked>, Option<Findings>) {
+        let (mut checked, mut after): (Option<Checked>, Option<Findings>) = (None, None);
         for _ in 0..MOST_ROUNDS {
-            let fixes = fixes_of(&found.diags, unsafe_too);
+            let current = checked.as_ref().unwrap_or(form);
+            let fixes = fixes_of(after.as_ref().map_or(found, |found| &found.diags), unsafe_too);
             if fixes.is_empty() {
                 break;
             }
-            self.mended += fixes.len();
-            for (file, source) in checked.files.iter().enumerate() {
+            self.made.extend(fixes.iter().map(|diag| line_of(diag, current)));
+            for (file, source) in current.files.iter().enumerate() {
                 let edits = edits_of(&fixes, file as u32);
                 if !edits.is_empty() {
                     self.changed.insert(source.name.clone(), edited(&source.text, &edits));
                 }
             }
-            checked = forms::with_changes(self.form.path, self.form.bytes, self.form.limits, &self.changed);
-            found = lint(&checked, &self.form.config.levels);
+            let next = forms::with_changes(self.form.path, self.form.bytes, self.form.limits, &self.changed);
+            after = Some(lint(&next, &self.form.config.levels));
+            checked = Some(next);
         }
-        (checked, found)
+        (checked, after)
     }
 }
 
@@ -128,11 +135,7 @@ fn story(
 fn write(form: &Path, checked: &Checked, changed: &Changed) -> Result<(), String> {
     for (file, source) in checked.files.iter().enumerate() {
         let Some(text) = changed.get(&source.name) else { continue };
-        let path: PathBuf = forms::place(form, file, source);
-        let fail = |error| io_message("write", &path, &error);
-        let mut target = Target::open(&path, false)?;
-        target.write(text.as_bytes()).map_err(fail)?;
-        target.complete().map_err(fail)?;
+        output::write_whole(&forms::place(form, file, source), text.as_bytes())?;
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, did_you_mean};
 use crate::lint::view::View;
-use crate::sema::Sequence;
+use crate::sema::{Sequence, kind_of_remark};
 use crate::toolpath::CycleKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
@@ -26,6 +26,5 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 pub(super) fn customs<'a>(view: &View<'a>) -> Vec<(&'a Sequence, &'a str)> {
     let ids = [SequenceId::Custom1, SequenceId::Custom2, SequenceId::Custom3];
     let sequences = view.form.sequences.values().filter(|sequence| ids.contains(&sequence.id));
-    let kind = |remark: &'a str| remark.split([' ', ',', '(']).next().filter(|word| !word.is_empty());
-    sequences.filter_map(|sequence| Some((sequence, kind(sequence.remark.as_deref()?)?))).collect()
+    sequences.filter_map(|sequence| Some((sequence, kind_of_remark(sequence.remark.as_deref()?)?))).collect()
 }

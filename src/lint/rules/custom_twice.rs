@@ -17,11 +17,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         ("ream", SequenceId::Ream),
         ("deep", SequenceId::Peck),
         ("chipbreak", SequenceId::Chipbreak),
+        ("custom1", SequenceId::Custom1),
+        ("custom2", SequenceId::Custom2),
+        ("custom3", SequenceId::Custom3),
     ];
     for (sequence, kind) in &customs {
         // Custom1 is asked before Custom2, wherever they stand
         let earlier = customs.iter().find(|(other, same)| other.id < sequence.id && same.eq_ignore_ascii_case(kind));
         let named = own.iter().find(|(name, _)| name.eq_ignore_ascii_case(kind)).and_then(|(_, id)| view.body(*id));
+        let named = named.filter(|body| body.span != sequence.span);
         let server = named.map(|body| body.span).or(earlier.map(|(other, _)| other.span));
         if let Some(server) = server {
             diags.push(

@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             .help("end it with `End Cancel`, and print G80 in a sequence `Cancel`");
         let end = view.node(sequence.span).and_then(|node| node.end.as_ref());
         if let Some(end) = end.filter(|_| view.body(SequenceId::Cancel).is_some()) {
-            let at = Span { start: end.line.span.start + 3, end: end.line.span.start + 3, ..end.line.span };
+            let at = Span { start: end.word.end, ..end.word };
             diag = diag.fix("cancel the cycle", false, vec![(at, " Cancel".into())]);
         }
         diags.push(diag);

@@ -25,16 +25,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let words = block.axis_words(view);
             block.in_part() && words.iter().any(|(word, axis)| *axis < 2 && word.printed_var().is_some())
         };
-        let down = blocks.iter().find_map(|block| {
+        let down = blocks.iter().enumerate().filter(|(_, block)| block.in_part()).find_map(|(i, block)| {
+            let is_low = |var| matches!(var, Some(VarId::D | VarId::Vclear | VarId::Lastd));
             let words = block.axis_words(view);
-            let low = words.into_iter().find(|(word, axis)| {
-                *axis == 2 && matches!(word.printed_var(), Some(VarId::D | VarId::Vclear | VarId::Lastd))
-            });
-            low.filter(|_| block.in_part()).map(|(word, _)| word)
+            words.into_iter().find(|(word, axis)| *axis == 2 && is_low(word.printed_var())).map(|(word, _)| (i, word))
         });
-        let first_down = blocks.iter().position(|block| block.line.words.iter().any(|w| Some(w.span) == down.map(|d| d.span)));
         let first_across = blocks.iter().position(across);
-        if let (Some(word), Some(down), Some(over)) = (down, first_down, first_across)
+        if let (Some((down, word)), Some(over)) = (down, first_across)
             && down < over
         {
             let there = blocks[over].line.span;

@@ -9,7 +9,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if open == "(" {
         return;
     }
-    for piece in view.checked.trees.iter().flat_map(|tree| tree.words()).flat_map(|word| &word.pieces) {
+    for piece in view.pieces() {
         if matches!(piece.kind, PieceKind::Note { .. }) {
             diags.push(
                 Diag::new(Code::PF110, format!("comments of this form begin with `{open}`"))

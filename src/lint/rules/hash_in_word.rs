@@ -7,7 +7,7 @@ use crate::span::Span;
 use crate::syntax::PieceKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for piece in view.checked.trees.iter().flat_map(|tree| tree.words()).flat_map(|word| &word.pieces) {
+    for piece in view.pieces() {
         let PieceKind::Stray(text) = &piece.kind else { continue };
         let Some(at) = text.find('#').filter(|&at| looks_like_a_code(&text[..at])) else { continue };
         let start = piece.span.start + at as u32;

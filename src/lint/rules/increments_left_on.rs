@@ -3,13 +3,14 @@
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
 use crate::lint::view::View;
+use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let [incremental, absolute] = view.settings.inc_abs;
     for body in view.bodies.iter().filter(|_| !view.settings.incremental) {
-        let last = body.words().filter(|word| word.is_code(b'G', &[incremental, absolute])).last();
-        let back = body.words().any(|word| word.printed_var() == Some(VarId::Incmode));
-        if let Some(word) = last.filter(|word| word.is_code(b'G', &[incremental]) && !back) {
+        let mode = |word: &&Word| word.is_code(b'G', &[incremental, absolute]) || word.printed_var() == Some(VarId::Incmode);
+        let last = body.words().filter(mode).last();
+        if let Some(word) = last.filter(|word| word.is_code(b'G', &[incremental])) {
             diags.push(
                 Diag::new(Code::PF424, format!("{} leaves G{incremental} on", body.name()))
                     .at(word.span, "every position after this is taken as an increment")

@@ -8,11 +8,9 @@ use crate::sema::WordKind;
 const PLAIN: &[u8] = b"GMTNOHDLSP:%";
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    let form = &view.form;
+    let form = view.form;
     let mut seen = Vec::new();
-    let sequences = form.sequences.values().flat_map(|s| &s.lines);
-    let upons = form.upons.iter().flat_map(|u| &u.lines);
-    for word in sequences.chain(upons).flat_map(|line| &line.words) {
+    for word in view.words() {
         let WordKind::Var(letter, _) = word.kind else { continue };
         let capital = letter.to_ascii_uppercase();
         let has = |l: u8| form.formats.contains_key(&l) || form.packed.contains_key(&l);
@@ -20,9 +18,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             continue;
         }
         seen.push(letter);
-        let table = crate::compile::LetterTable::new(form, form.settings.units == crate::sema::UnitChoice::Mm);
         let letter_name = char::from(letter);
-        let format = table[letter].format;
+        let format = view.letters[letter].format;
         diags.push(
             Diag::new(Code::PF303, format!("{letter_name} has no format and prints as `{letter_name}{format}`"))
                 .at(word.span, "first printed here")

@@ -1,5 +1,7 @@
 //! PF101: words behind two blanks or a tab are a comment, which looks like output and prints nothing.
 
+use std::collections::HashSet;
+
 use crate::diag::{Code, Diag};
 use crate::lint::tokens::looks_like_a_word;
 use crate::lint::view::View;
@@ -8,7 +10,7 @@ use crate::syntax::{Line, Tail};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (tree, source) in view.checked.trees.iter().zip(&view.checked.files) {
-        let remarks: Vec<Span> = tree.sequences().map(|node| node.name.line.span).collect();
+        let remarks: HashSet<Span> = tree.sequences().map(|node| node.name.line.span).collect();
         for line in tree.lines() {
             if !remarks.contains(&line.span) {
                 look(line, &source.text, diags);

@@ -3,14 +3,11 @@
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 use crate::span::Span;
-use crate::syntax::PieceKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for word in view.checked.trees.iter().flat_map(|tree| tree.words()) {
         for pair in word.pieces.windows(2) {
-            let is_word = |kind: &PieceKind| matches!(kind, PieceKind::Variable { .. } | PieceKind::Literal { .. });
-            let begins = is_word(&pair[1].kind) || matches!(pair[1].kind, PieceKind::Note { .. });
-            if !is_word(&pair[0].kind) || !begins {
+            if !pair[1].lacks_blank_after(&pair[0]) {
                 continue;
             }
             let at = pair[1].span;

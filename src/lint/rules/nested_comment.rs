@@ -5,7 +5,7 @@ use crate::lint::view::View;
 use crate::syntax::PieceKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for piece in view.checked.trees.iter().flat_map(|tree| tree.words()).flat_map(|word| &word.pieces) {
+    for piece in view.pieces() {
         let PieceKind::Note { parts, .. } = &piece.kind else { continue };
         let inner = parts.iter().find(|part| matches!(&part.kind, PieceKind::Stray(text) if text.contains('(')));
         if let Some(inner) = inner {

@@ -1,6 +1,7 @@
 //! PF204: `<h>` and `Rapid; G0` are how the first forms were written.
 
 use crate::diag::{Code, Diag};
+use crate::lang::{CommandId, SequenceId};
 use crate::lint::view::View;
 use crate::span::Span;
 use crate::syntax::{Piece, PieceKind};
@@ -20,14 +21,18 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             }
         }
         for statement in tree.statements().chain(tree.sequences().map(|node| &node.name)) {
-            let at = statement.name.span.end;
-            if statement.name.text.starts_with(';') || text.get(at as usize) != Some(&b';') {
-                continue;
+            let name = &statement.name;
+            let known = CommandId::parse(&name.text).is_some() || SequenceId::parse(&name.text).is_some();
+            let at = name.span.end as usize;
+            // an argument directly behind it may begin with anything, as no other can: it keeps its semicolon
+            let apart = text.get(at + 1).is_none_or(|b| b" \t\r\n".contains(b));
+            if known && apart && text.get(at) == Some(&b';') {
+                let span = Span { start: name.span.end, end: name.span.end + 1, ..name.span };
+                diags.push(
+                    older(span, "write no `;` after the name".into())
+                        .fix("take the semicolon out", true, vec![(span, String::new())]),
+                );
             }
-            let span = Span { start: at, end: at + 1, ..statement.name.span };
-            let glued = text.get(at as usize + 1).is_some_and(|b| !b" \t\r\n".contains(b));
-            diags.push(older(span, "write no `;` after the name".into())
-                .fix("take the semicolon out", true, vec![(span, if glued { " " } else { "" }.into())]));
         }
     }
 }

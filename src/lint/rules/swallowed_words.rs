@@ -7,7 +7,7 @@ use crate::span::Span;
 use crate::syntax::{Piece, PieceKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for piece in view.checked.trees.iter().flat_map(|tree| tree.words()).flat_map(|word| &word.pieces) {
+    for piece in view.pieces() {
         let PieceKind::Note { parts, closed: false } = &piece.kind else { continue };
         if let Some(at) = swallowed(parts) {
             diags.push(

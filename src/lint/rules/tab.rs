@@ -12,12 +12,17 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         let args: Vec<Span> = tree.statements().flat_map(|s| &s.args).map(|arg| arg.span).collect();
         for line in tree.lines() {
-            let end = if let Tail::Comment(comment) = line.tail { comment.start } else { line.span.end };
+            let end = match &line.tail {
+                Tail::None => line.span.end,
+                Tail::Comment(comment) => comment.start,
+                Tail::Lost(lost) => lost.span.start,
+            };
             let words = &source.text[line.span.start as usize..end as usize];
             for (at, _) in words.match_indices('\t') {
                 let at = line.span.start as usize + at;
                 let span = Span::new(line.span.file, at, at + 1);
-                if args.iter().any(|arg| arg.start <= span.start && span.end <= arg.end) {
+                let arg = args.partition_point(|arg| arg.end <= span.start);
+                if args.get(arg).is_some_and(|arg| arg.start <= span.start) {
                     continue; // text in quotes
                 }
                 diags.push(

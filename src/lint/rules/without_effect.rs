@@ -3,17 +3,21 @@
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;
 use crate::lint::view::View;
+use crate::span::Span;
+use crate::syntax::Tail;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (id, statement) in view.commands() {
         if !matches!(id, CommandId::Tools | CommandId::Drive | CommandId::WindowSize) {
             continue;
         }
+        let line = &statement.line;
+        let end = if let Tail::Comment(comment) = line.tail { comment.start } else { line.span.end };
         diags.push(
             Diag::new(Code::PF203, format!("{} has no effect", id.name()))
                 .at(statement.line.span, "of the original desktop product")
                 .help("it may stay or go")
-                .fix("take the line out", true, vec![(statement.line.span, String::new())]),
+                .fix("take the line out", true, vec![(Span { end, ..line.span }, String::new())]),
         );
     }
 }

@@ -1,8 +1,10 @@
 //! An NC program as a job: its motions, with its cycles kept as cycles, for another form to print.
 
 mod cycles;
+mod operations;
 mod reader;
 mod survey;
+mod switches;
 
 use std::io::{BufRead, Seek};
 

@@ -2,53 +2,41 @@
 
 use super::cycles::{hole_of, is_same, spec_of};
 use super::survey::Survey;
+use super::switches::Switches;
 use super::{JobOptions, unsaid, warning};
 use crate::diag::{Code, Diag};
 use crate::lang::Machine;
-use crate::nc::action::{Action, Cooling, Drilling, Item, Position, Rotation, Turn};
-use crate::toolpath::{
-    Arc, Axes, Coolant, CycleSpec, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Spindle, SpindleTurn,
-    Start, Tool, ToolChange,
-};
-
-/// What is switched on a machine, for comparison: what was said, and what is wanted now.
-#[derive(Clone, Copy, PartialEq, Default)]
-struct Switches {
-    rotation: Option<Rotation>,
-    speed: Option<f64>,
-    css: Option<bool>,
-    coolant: Option<Coolant>,
-    work: Option<f64>,
-}
+use crate::nc::action::{Action, Drilling, Item, Position, Rotation, Turn};
+use crate::toolpath::{Arc, Axes, CycleSpec, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Start};
 
 /// Actions to events.
 pub(super) struct Reader<'a> {
-    survey: &'a Survey,
-    options: &'a JobOptions,
-    warnings: &'a mut Vec<Diag>,
+    pub(super) survey: &'a Survey,
+    pub(super) options: &'a JobOptions,
+    pub(super) warnings: &'a mut Vec<Diag>,
     sink: &'a mut dyn Sink,
-    place: Place,
+    pub(super) place: Place,
     started: bool,
     /// Tool changes so far.
-    changes: usize,
-    tool: Option<f64>,
+    pub(super) changes: usize,
+    pub(super) tool: Option<f64>,
     /// An operation that begins with the next move.
-    operation: bool,
-    wanted: Switches,
-    said: Switches,
-    mode: FeedMode,
+    pub(super) operation: bool,
+    pub(super) wanted: Switches,
+    pub(super) said: Switches,
+    pub(super) mode: FeedMode,
     plane: Plane,
     at: Position,
     /// Axes whose place a job knows.
     known: u8,
     /// The tool went to its reference point, at this line.
-    home: Option<u64>,
+    pub(super) home: Option<u64>,
     cycle: Option<(CycleSpec, Drilling)>,
-    side: Option<Side>,
-    turning: Option<Option<Side>>,
+    pub(super) side: Option<Side>,
+    pub(super) turning: Option<Option<Side>>,
     rigid: bool,
     framed: bool,
-    comments: Vec<String>,
+    pub(super) comments: Vec<String>,
 }
 
 impl<'a> Reader<'a> {
@@ -109,15 +97,7 @@ impl<'a> Reader<'a> {
                 let axes = self.axes(to);
                 self.at = *to;
                 self.known |= 0b111;
-                let feed = Some(*feed);
-                match self.turning.take() {
-                    Some(Some(side)) => {
-                        let infeed = Infeed { to: axes, side, rapid: false };
-                        self.push(Event::Infeed { infeed: &infeed, feed })
-                    }
-                    Some(None) => self.push(Event::Outfeed { to: axes, feed, rapid: false }),
-                    None => self.push(Event::Line { to: axes, feed }),
-                }
+                self.moves(axes, Some(*feed))
             }
             Action::Arc(turn) => self.arc(turn),
             Action::Hole(hole) => self.hole(hole),
@@ -135,20 +115,7 @@ impl<'a> Reader<'a> {
                 Ok(())
             }
             Action::Coolant(cooling) => {
-                let both = [Some(Coolant::On), Some(Coolant::Mist)];
-                let wanted = if *cooling == Cooling::Flood { Coolant::On } else { Coolant::Mist };
-                if *cooling != Cooling::Off
-                    && both.contains(&self.wanted.coolant)
-                    && self.wanted.coolant != Some(wanted)
-                {
-                    let message = "flood and mist at once: a job has one of them, the later";
-                    self.warnings.push(warning(item.line, message, "print the other by the form"));
-                }
-                self.wanted.coolant = Some(match cooling {
-                    Cooling::Flood => Coolant::On,
-                    Cooling::Mist => Coolant::Mist,
-                    Cooling::Off => Coolant::Off,
-                });
+                self.coolant(*cooling);
                 Ok(())
             }
             Action::Work(code) if *code > 1540.0 => {
@@ -211,7 +178,7 @@ impl<'a> Reader<'a> {
         self.push(Event::Finish)
     }
 
-    fn push(&mut self, event: Event<'_>) -> Result<(), Box<Diag>> {
+    pub(super) fn push(&mut self, event: Event<'_>) -> Result<(), Box<Diag>> {
         self.sink.event(event, self.place)
     }
 
@@ -251,80 +218,6 @@ impl<'a> Reader<'a> {
         self.switch()
     }
 
-    fn begin_operation(&mut self, first: First) -> Result<(), Box<Diag>> {
-        let Some(number) = self.tool.or(self.options.tool) else {
-            return unsaid(
-                self.place.line,
-                "the program moves before it loads a tool",
-                "say which with `--assume-tool NUMBER`",
-            );
-        };
-        let registers = self.survey.registers.get(self.changes).copied().unwrap_or_default();
-        let wanted = self.wanted;
-        self.place.operation += 1;
-        self.place.item = 0;
-        let change = ToolChange {
-            name: None,
-            tool: Some(Tool {
-                number,
-                length_offset: registers.length,
-                diameter_offset: registers.diameter,
-                ..Tool::default()
-            }),
-            spindle: Some(self.spindle()),
-            coolant: Some(wanted.coolant.unwrap_or(Coolant::Off)),
-            work: wanted.work,
-            feed: None,
-            plunge: None,
-            feed_mode: Some(self.mode),
-            comment: None,
-            first,
-        };
-        self.said = wanted;
-        self.push(Event::ToolChange(&change))?;
-        for text in std::mem::take(&mut self.comments) {
-            self.push(Event::Comment(&text))?;
-        }
-        Ok(())
-    }
-
-    fn spindle(&self) -> Spindle {
-        Spindle {
-            // a standing spindle's zero is no speed
-            speed: self.wanted.speed.filter(|&speed| speed > 0.0 || self.turns()),
-            turn: Some(match self.wanted.rotation {
-                Some(Rotation::Cw) => SpindleTurn::Cw,
-                Some(Rotation::Ccw) => SpindleTurn::Ccw,
-                Some(Rotation::Stop) | None => SpindleTurn::Off,
-            }),
-            css: self.wanted.css,
-            max: None,
-        }
-    }
-
-    fn turns(&self) -> bool {
-        matches!(self.wanted.rotation, Some(Rotation::Cw | Rotation::Ccw))
-    }
-
-    /// What was switched since the last move.
-    fn switch(&mut self) -> Result<(), Box<Diag>> {
-        if self.said == self.wanted {
-            return Ok(());
-        }
-        let (said, wanted) = (self.said, self.wanted);
-        self.said = wanted;
-        if (said.rotation, said.speed, said.css) != (wanted.rotation, wanted.speed, wanted.css) {
-            self.push(Event::Spindle(self.spindle()))?;
-        }
-        if let Some(coolant) = wanted.coolant.filter(|_| said.coolant != wanted.coolant) {
-            self.push(Event::Coolant(coolant))?;
-        }
-        match wanted.work.filter(|_| said.work != wanted.work) {
-            Some(work) => self.push(Event::Work(work)),
-            None => Ok(()),
-        }
-    }
-
     fn rapid(&mut self, to: &Position, machine: u8) -> Result<(), Box<Diag>> {
         self.end_cycle()?;
         let machine = machine & 0b111;
@@ -348,13 +241,17 @@ impl<'a> Reader<'a> {
         }
         self.move_begins(First::Rapid(axes))?;
         self.step();
-        match self.turning.take() {
-            Some(Some(side)) => {
-                let infeed = Infeed { to: axes, side, rapid: true };
-                self.push(Event::Infeed { infeed: &infeed, feed: None })
-            }
-            Some(None) => self.push(Event::Outfeed { to: axes, feed: None, rapid: true }),
-            None => self.push(Event::Rapid(axes)),
+        self.moves(axes, None)
+    }
+
+    /// A straight move, a rapid without a feed; the first after G41, G42 or G40 turns compensation on or off.
+    fn moves(&mut self, to: Axes, feed: Option<f64>) -> Result<(), Box<Diag>> {
+        let rapid = feed.is_none();
+        match (self.turning.take(), feed) {
+            (Some(Some(side)), feed) => self.push(Event::Infeed { infeed: &Infeed { to, side, rapid }, feed }),
+            (Some(None), feed) => self.push(Event::Outfeed { to, feed, rapid }),
+            (None, Some(_)) => self.push(Event::Line { to, feed }),
+            (None, None) => self.push(Event::Rapid(to)),
         }
     }
 
@@ -370,11 +267,6 @@ impl<'a> Reader<'a> {
         self.move_begins(First::Rapid(above))?;
         self.step();
         self.push(Event::Rapid(above))
-    }
-
-    /// Does the operation that begins load another tool?
-    fn tool_is_new(&self) -> bool {
-        self.place.operation == 0 || self.changes > 0 && self.said == Switches::default()
     }
 
     fn step(&mut self) {
@@ -426,7 +318,9 @@ impl<'a> Reader<'a> {
             Some((_, first)) if is_same(first, hole) && self.said == self.wanted => *first,
             _ => {
                 self.end_cycle()?;
-                if let Some(line) = self.home.take().filter(|_| !self.operation) {
+                // a new tool has been brought back by its change
+                let new_tool = self.operation && self.tool_is_new();
+                if let Some(line) = self.home.take().filter(|_| !new_tool) {
                     return unsaid(line, "a cycle begins at the reference point", "write a rapid with Z before it");
                 }
                 let spec = spec_of(hole, self.rigid, self.place.line)?;
@@ -445,7 +339,7 @@ impl<'a> Reader<'a> {
         self.push(Event::Hole(point))
     }
 
-    fn end_cycle(&mut self) -> Result<(), Box<Diag>> {
+    pub(super) fn end_cycle(&mut self) -> Result<(), Box<Diag>> {
         if self.cycle.take().is_none() {
             return Ok(());
         }
@@ -469,28 +363,6 @@ impl<'a> Reader<'a> {
         self.move_begins(First::Nothing)?;
         self.step();
         self.push(event)
-    }
-
-    fn tool_change(&mut self, number: f64) -> Result<(), Box<Diag>> {
-        self.end_cycle()?;
-        if self.side.is_some() || self.turning.is_some() {
-            return unsaid(
-                self.place.line,
-                "the tool changes under cutter compensation",
-                "end it with G40 and a move before",
-            );
-        }
-        self.changes += 1;
-        self.operation = true;
-        self.wanted.rotation = Some(Rotation::Stop);
-        self.said = Switches::default();
-        if self.tool.replace(number) == Some(number) && self.place.operation > 0 {
-            // no form prints a change to the tool that is there
-            self.said.rotation = Some(Rotation::Stop);
-        } else {
-            self.home = None;
-        }
-        Ok(())
     }
 
     fn compensation(&mut self, side: Option<Side>) -> Result<(), Box<Diag>> {

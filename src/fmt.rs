@@ -105,7 +105,7 @@ impl Page<'_> {
             Tail::Comment(comment) => comment.start,
             Tail::Lost(lost) => lost.span.start,
         };
-        self.source.slice(Span { end, ..line.span }).trim_matches([' ', '\t', '\r']).to_owned()
+        self.source.slice(Span { end, ..line.span }).trim_matches([' ', '\t']).to_owned()
     }
 
     fn name_line(&self, statement: &Statement) -> String {

@@ -129,6 +129,15 @@ fn a_file_that_cant_be_read_hides_no_other() {
     let output = folder.run(&["lint", "missing.pf", "form.pf"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("missing.pf") && out(&output).contains("PF206"), "{}", err(&output));
+    assert!(out(&output).contains("; 1 form not read"), "{}", out(&output));
+    let json: Value = serde_json::from_str(&out(&folder.run(&["lint", "missing.pf", "--format", "json"]))).unwrap();
+    assert_eq!(json["summary"]["unread"], 1);
+    let sarif: Value = serde_json::from_str(&out(&folder.run(&["lint", "missing.pf", "--format", "sarif"]))).unwrap();
+    valid(&schema("tests/data/sarif-2.1.0.json"), &sarif);
+    assert_eq!(sarif["runs"][0]["invocations"][0]["executionSuccessful"], false);
+    folder.write("wide.pf", b"\xff\xfeN\0a\0");
+    let output = folder.run(&["fmt", "wide.pf"]);
+    assert_eq!((output.status.code(), err(&output).contains("is UTF-16")), (Some(2), true));
     folder.write("empty/readme.txt", "");
     let output = folder.run(&["lint", "empty"]);
     assert_eq!((output.status.code(), err(&output).contains("no form (.pf) in empty")), (Some(2), true));
@@ -269,6 +278,13 @@ fn called_files_are_named_by_their_paths() {
     folder.write("posts/part.inc", "Upon [work]\nG91\nEnd\n");
     let github = out(&folder.run(&["lint", "posts/form.pf", "--format", "github"]));
     assert!(github.contains("file=posts/part.inc,line=2"), "{github}");
+    // in a folder a part is looked at as a part, even if it is called .pf; by its own name it is looked at alone
+    folder.write("posts/form.pf", mill("Call part.pf", ""));
+    folder.write("posts/part.pf", "Leading0s? Y\n");
+    let github = out(&folder.run(&["lint", "posts", "--format", "github"]));
+    assert!(!github.contains("file=posts/part.pf") && github.contains("file=posts/form.pf"), "{github}");
+    let github = out(&folder.run(&["lint", "posts", "posts/part.pf", "--format", "github"]));
+    assert!(github.contains("file=posts/part.pf") && github.contains("PF005"), "{github}");
     // a form that calls itself is one finding
     folder.write("posts/form.pf", mill("Call form.pf", ""));
     let output = folder.run(&["lint", "posts/form.pf", "--format", "github"]);

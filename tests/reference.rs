@@ -54,7 +54,10 @@ fn everything_is_explained() {
     for (name, _) in postform::toolpath::CycleKind::NAMES {
         assert!(explain(name).unwrap().contains("cycle of a job"), "{name}");
     }
-    assert!(explain("Upon").unwrap().contains("changes"));
+    for upon in ["Upon", "upon every", "Upon [work]"] {
+        assert!(explain(upon).unwrap().contains("when a variable changes"), "{upon}");
+    }
+    assert_eq!(explain("X[h]"), explain("[h]"));
 }
 
 #[test]

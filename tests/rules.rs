@@ -11,7 +11,7 @@ use postform::diag::{CODES, Code, CodeRow, Severity};
 use postform::lint::{Level, Levels, RULES, lint};
 use postform::render::Options;
 use proptest::prelude::*;
-use support::pages::{Page, checked, codes, found, mended};
+use support::pages::{Fence, Page, checked, codes, found, mended};
 use support::{mill, root, sample_form, samples};
 
 fn forms() -> impl Iterator<Item = &'static CodeRow> {
@@ -230,6 +230,8 @@ fn comments_allow_findings_where_they_stand() {
         ["PF108", "PF418"]
     );
     assert_eq!(allowed(&format!("# postform: allow PF41\nLineCode\n{line}\nEnd")).0, ["PF109", "PF418"]);
+    assert_eq!(allowed(&format!("LineCode\n{line} # postform: allow PF418 one feed for all\nEnd")), (vec![], 1));
+    assert_eq!(allowed(&format!("LineCode\n{line} # postform allow PF418\nEnd")).0, ["PF109", "PF418"]);
     assert_eq!(allowed("LineCode\nG1 X[h] Y[v]. Z[d] F[frate] # postform: allow PF001\nEnd").0, ["PF001", "PF108"]);
 }
 
@@ -282,5 +284,77 @@ proptest! {
         }
         mended(&form, true);
         postform::fmt::format(&form.files[0]);
+    }
+}
+
+/// What is unusual and right: post authors must be able to trust a warning.
+#[test]
+fn right_forms_are_left_alone() {
+    let cycle = "G[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]";
+    let table = [
+        ("lathe", "Peck\nG83 Z[d] R[vclear] Q[vbite] F[frate]\nEnd Cancel\nCancel\nG80\nEnd".to_owned()),
+        ("", "EndCode\nM9\nM5\nG91 G28 Z0.\nG28 X0. Y0.\nM30\n%0\nEnd".into()),
+        ("", "EndCode\nM9\nG91 G28 Z0 M5\nG90\nM30\n(END)\n%0\nEnd".into()),
+        ("", "1stToolChange\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43.4 H[lcomp] Z[d] M[cool]\nEnd".into()),
+        ("", "1stToolChange\nT[tool] T[nexttool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd".into()),
+        ("", "StartCode\n%0\nO[program#]\nG[unitmode] G0 G17 G40 G49 G54 G80 G90\nG10 L2 P1 X0 Y0 Z0\nEnd".into()),
+        ("", format!("Drill\n{cycle}\nG80\nEnd")),
+        ("", "Tap\nG0 X[h] Y[v]\nZ[vclear]\nG33.1 Z[d] K[pitch]\nEnd".into()),
+        ("", "Tap 1\nG[retplane] G84.2 X[h] Y[v] Z[d] R[vclear] F[frate]\nX[h] Y[v] Z[d]\nEnd Cancel".into()),
+        ("", "SubStart\nO[sub]\nEnd\nSubCall\nM98 P[sub]\nEnd\nSubEnd\nO[sub] endsub\nEnd".into()),
+        ("", "InFeed\nG1 G[side] D[tool] X[h] Y[v] F[frate]\nEnd".into()),
+        ("", "Drill 1\nG66 P9010 Z[d] R[vclear] F[frate]\nX[h] Y[v]\nEnd Cancel\nCancel\nG67\nEnd".into()),
+        ("", "Ask val1 \"Height over the part\" 2\n\nIndex\nG0 Z[val1]\nA[rotangle]\nX[h] Y[v]\nZ[d]\nEnd".into()),
+        ("", "StartCode\n%0\nO[program#]\nG[unitmode] G17 G40 G49 G80 G90\n; G28 Z0 first\nEnd\n\nComment ;".into()),
+        ("grbl", "ToolChange\nM9\nM5\nG0 G53 Z0\nT[tool]\nM0\nG[work]\nS[speed] M[direct]\nM[cool]\nG0 X[h] Y[v]\nZ[d]\nEnd".into()),
+        ("", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd".into()),
+    ];
+    for (kind, text) in table {
+        // a command stands before the sequences
+        let text = match text.split_once("\n\nComment ;") {
+            Some((rest, _)) => format!("Comment ;\n\n{rest}"),
+            None => text,
+        };
+        let fence = Fence { kind: kind.to_owned(), text };
+        let found = found(&fence.checked()).diags;
+        assert!(
+            found.is_empty(),
+            "{}\n{:?}",
+            fence.text,
+            found.iter().map(|d| (d.code, &d.message)).collect::<Vec<_>>()
+        );
+    }
+}
+
+/// The same mistakes in other words.
+#[test]
+fn mistakes_are_found_in_other_words_too() {
+    let table = [
+        ("PF415", "Drill\nX[h] Y[v]\nZ[d] F[frate]\nG0 Z[rplane]\nEnd"),
+        ("PF407", "Drill 1\nG[retplane] G81 X[h] Y[v] R[vclear] F[frate]\nX[h] Y[v] Z[d]\nEnd Cancel"),
+        ("PF411", "Drill 1\nG[retplane] G81 X[h] Y[v] Z[d] F[frate]\nX[h] Y[v] R[vclear]\nEnd Cancel"),
+        ("PF416", "Drill\nG0 X[h] Z[vclear]\nY[v]\nG1 F[frate] Z[d]\nG0 Z[rplane]\nEnd"),
+        ("PF420", "Index\nG1 Z-5. F[frate]\nG0 A[rotangle]\nX[h] Y[v]\nZ[d]\nEnd"),
+        ("PF423", "Index\nG91 G28 Z0\nA[rotangle]\nG90\nX[h] Y[v]\nZ[d]\nEnd"),
+        (
+            "PF425",
+            "1stToolChange\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 Z[d]\nH[lcomp] M[cool]\nEnd",
+        ),
+        ("PF427", "1stToolChange\nS[speed] M13\nT[tool] M06\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd"),
+        ("PF429", "1stToolChange\nT1 M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd"),
+        ("PF431", "CwCode\nG2 X[h] Y[v] I[ival] F[frate]\nEnd"),
+        ("PF436", "CcwCode\nG1 X[h] Y[v] I[ival] J[jval] F[frate]\nEnd"),
+        ("PF505", "BeginRow\nM8 M9\nEnd"),
+        ("PF313", "BeginRow\nS[tool]\nEnd"),
+        ("PF406", "Drill 1\n(AT [h] [v])\nG81 Z[d] R[vclear] F[frate]\nEnd Cancel"),
+        (
+            "PF208",
+            "Custom1   Custom2\nG[retplane] G82 X[h] Y[v] Z[d] R[vclear] P[dwell] F[frate]\nEnd Cancel\nCustom2\nG[retplane] G82 X[h] Y[v] Z[d] R[vclear] P[dwell] F[frate]\nEnd Cancel",
+        ),
+    ];
+    for (code, text) in table {
+        let fence = Fence { kind: String::new(), text: text.to_owned() };
+        let found = found(&fence.checked()).diags;
+        assert!(codes(&found).contains(&code), "{code}: {:?}\n{text}", codes(&found));
     }
 }

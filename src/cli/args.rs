@@ -439,7 +439,7 @@ pub struct ExplainArgs {
     #[arg(required_unless_present = "list")]
     pub what: Vec<String>,
     /// Name everything that can be asked for
-    #[arg(long)]
+    #[arg(long, conflicts_with = "what")]
     pub list: bool,
 }
 
@@ -447,7 +447,7 @@ pub struct ExplainArgs {
 #[derive(Debug, Args)]
 pub struct NewArgs {
     /// For which control or machine
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", ignore_case = true)]
     pub control: NewControl,
     /// Where the form goes, or - for standard output; a file that is there stays
     #[arg(short, long, value_name = "FORM", default_value = "-")]

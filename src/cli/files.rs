@@ -96,6 +96,10 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
         Ok(_) if bytes.len() as u64 > LARGEST_FORM => {
             Err(format!("error: {} is larger than 16 MB: it is no form", name(path)))
         }
+        // what comes of it would be written back by a fix
+        Ok(_) if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") => {
+            Err(format!("error: {} is UTF-16\n  help: save it as UTF-8: forms are plain text", name(path)))
+        }
         Ok(_) => Ok(bytes),
         Err(error) => Err(io_message("read", path, &error)),
     }

@@ -124,6 +124,7 @@ codes! {
     PF433 Warning "a motion sequence that leaves out an axis"
     PF434 Warning "cutter compensation without its words"
     PF435 Warning "a rapid sequence that feeds"
+    PF436 Warning "a cut with another motion code"
     // PF5: modality
     PF501 Warning "a letter that no control keeps, named as modal"
     PF502 Warning "a code that acts once, named as modal"

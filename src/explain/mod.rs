@@ -16,7 +16,10 @@ use crate::lang::{COMMANDS, CommandId, SEQUENCES, SequenceId, VARIABLES, VarId, 
 /// There is no such thing; the text says what may have been meant.
 pub fn explain(what: &str) -> Result<String, String> {
     let asked = what.trim();
-    let bare = asked.trim_matches(['[', ']', '<', '>']);
+    let upon = asked.get(..5).is_some_and(|head| head.eq_ignore_ascii_case("Upon "));
+    // `X[h]` asks for the variable
+    let inner = asked.split_once(['[', '<']).filter(|(letter, _)| letter.len() <= 1).map(|(_, name)| name);
+    let bare = inner.unwrap_or(asked).trim_matches(['[', ']', '<', '>']);
     let mut texts = Vec::new();
     if let Some(row) = CODES.iter().find(|row| names_of(row).any(|name| name.eq_ignore_ascii_case(asked))) {
         texts.push(code(row));
@@ -25,9 +28,9 @@ pub fn explain(what: &str) -> Result<String, String> {
     if asked == bare {
         texts.extend(SequenceId::parse(asked).map(words::sequence));
         texts.extend(CommandId::parse(asked).map(words::command));
-        if asked.eq_ignore_ascii_case("Upon") || asked.eq_ignore_ascii_case("Upon Every") {
-            texts.push(words::upon());
-        }
+    }
+    if upon || asked.eq_ignore_ascii_case("Upon") {
+        texts.push(words::upon());
     }
     texts.extend(VarId::parse(bare).map(words::variable));
     if asked == bare {
@@ -48,7 +51,7 @@ pub fn list() -> String {
     let mut text = String::from("Codes\n");
     for row in CODES {
         let title = row.title.split_once(": ").map_or(row.title, |(_, title)| title);
-        text += &format!("  {:<28} {:<7} {title}\n", row.code.title(), row.severity.name());
+        text += &format!("  {:<36} {:<7} {title}\n", row.code.title(), row.severity.name());
     }
     text += "\nCommands\n";
     COMMANDS.iter().for_each(|row| text += &format!("  {:<20} {}\n", row.name, row.meaning));

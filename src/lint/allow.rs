@@ -112,8 +112,12 @@ fn comments(items: &[Head]) -> Vec<(Span, Span)> {
 fn read(source: &Source, comment: Span, range: Span, allows: &mut Vec<Allow>, wrong: &mut Vec<Diag>) {
     let text = source.slice(comment);
     let body = text.trim_start_matches('#').trim_start();
-    let is_ours = body.get(..9).is_some_and(|head| head.eq_ignore_ascii_case("postform:"));
-    if !is_ours {
+    let starts = |head: &str| body.get(..head.len()).is_some_and(|start| start.eq_ignore_ascii_case(head));
+    if !starts("postform:") {
+        if starts("postform allow") {
+            let help = "write `# postform: allow PF303`, with a colon";
+            wrong.push(Diag::new(Code::PF109, "a colon is missing").at(comment, "allows nothing").help(help));
+        }
         return;
     }
     let mut at = comment.start as usize + text.len() - body.len() + 9;
@@ -131,7 +135,10 @@ fn read(source: &Source, comment: Span, range: Span, allows: &mut Vec<Allow>, wr
     }
     match words.split_first() {
         Some(((verb, _), rest)) if verb.eq_ignore_ascii_case("allow") && !rest.is_empty() => {
-            for (word, span) in rest {
+            // behind the codes a reason may stand
+            let is_code = |word: &str| word.get(..2).is_some_and(|head| head.eq_ignore_ascii_case("PF"));
+            let told = rest.iter().position(|(word, _)| !is_code(word)).unwrap_or(rest.len()).max(1);
+            for (word, span) in &rest[..told] {
                 let forms = || CODES.iter().filter(|row| row.name.starts_with("PF"));
                 match forms().find(|row| row.name.eq_ignore_ascii_case(word)) {
                     Some(row) => codes.push((row.code, *span, false)),

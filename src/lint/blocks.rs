@@ -1,6 +1,6 @@
 //! The blocks of a body as a control would read them: which modes hold where each word stands.
 
-use crate::lang::VarId;
+use crate::lang::{Origin, VarId};
 use crate::sema::{Line, Word, WordKind};
 
 use super::view::{Body, View, is_cycle_code};
@@ -16,7 +16,7 @@ pub enum Motion {
     Line,
     /// G2, G3.
     Arc,
-    /// A cycle of the control.
+    /// A cycle of the control, a thread or a macro: it moves by itself.
     Cycle,
 }
 
@@ -37,7 +37,7 @@ pub struct Block<'a> {
 impl<'a> Block<'a> {
     /// The words that say where an axis goes, with its number: 0 and 1 across, 2 the depth.
     pub fn axis_words(&self, view: &View) -> Vec<(&'a Word, usize)> {
-        let words = self.line.words.iter();
+        let words = self.line.words.iter().take_while(|word| !is_remark(view, word));
         words.filter_map(|word| Some((word, word.letter().and_then(|letter| view.axis(letter))?))).collect()
     }
 
@@ -52,9 +52,17 @@ impl<'a> Block<'a> {
         self.axis_words(view).iter().any(|(word, axis)| {
             let up = |value: f64| if self.incremental { value > 0.0 } else { value >= 0.0 };
             let typed = matches!(word.kind, WordKind::Literal(_, _, value) if up(value));
-            *axis == 2 && (typed || !self.in_part() || word.printed_var() == Some(VarId::Rplane))
+            // a height that is asked for is one that somebody chose
+            let chosen = word.printed_var().is_some_and(|var| var == VarId::Rplane || var.row().origin == Origin::Job);
+            *axis == 2 && (typed || !self.in_part() || chosen)
         })
     }
+}
+
+/// Does a comment to the end of the block begin here?
+fn is_remark(view: &View, word: &Word) -> bool {
+    let [open, close] = &view.settings.comment;
+    close.is_empty() && matches!(&word.kind, WordKind::Text(text) if text.starts_with(open.as_str()))
 }
 
 /// The blocks of a body.
@@ -66,6 +74,9 @@ pub fn read<'a>(view: &View<'a>, body: Body<'a>) -> Vec<Block<'a>> {
     for line in body.lines {
         let (mut reference, mut machine) = (false, false);
         for word in &line.words {
+            if is_remark(view, word) {
+                break; // a comment of the program
+            }
             match word.kind {
                 WordKind::Literal(b'G', _, code) => match code {
                     0.0 => motion = Motion::Rapid,
@@ -76,6 +87,8 @@ pub fn read<'a>(view: &View<'a>, body: Body<'a>) -> Vec<Block<'a>> {
                     _ if code == settings.inc_abs[0] => incremental = true,
                     _ if code == settings.inc_abs[1] => incremental = false,
                     80.0 => motion = Motion::Unknown,
+                    // threads feed by their pitch, macros as they like
+                    32.0 | 33.0 | 33.1 | 63.0 | 65.0 | 66.0 => motion = Motion::Cycle,
                     _ if is_cycle_code(code) => motion = Motion::Cycle,
                     _ => {}
                 },

@@ -189,6 +189,19 @@ pub fn is_cycle_code(code: f64) -> bool {
     [73.0, 74.0, 76.0].contains(&code) || (81.0..90.0).contains(&code)
 }
 
+/// The words that a cycle of the control begins with: those up to the end of its block, or all where there is none.
+pub fn first_block<'a>(body: &Body<'a>) -> impl Iterator<Item = &'a Word> + use<'a> {
+    let cycle =
+        body.lines.iter().position(|line| line.words.iter().any(|word| word.typed(b'G').is_some_and(is_cycle_code)));
+    let lines = &body.lines[..cycle.map_or(body.lines.len(), |at| at + 1)];
+    lines.iter().flat_map(|line| &line.words)
+}
+
+/// Does one of these words print one of these variables?
+pub fn says<'a>(mut words: impl Iterator<Item = &'a Word>, vars: &[VarId]) -> bool {
+    words.any(|word| word.printed_var().is_some_and(|var| vars.contains(&var)))
+}
+
 /// The word that starts a cycle of the control, if the body has one.
 pub fn cycle_word<'a>(body: &Body<'a>) -> Option<(&'a Word, f64)> {
     body.words().find_map(|word| word.typed(b'G').filter(|&code| is_cycle_code(code)).map(|code| (word, code)))

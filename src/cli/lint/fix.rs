@@ -52,11 +52,11 @@ pub fn mend(form: Form, args: &LintArgs, original: Checked, found: Findings) -> 
         }
     }
     if !args.fix {
-        return Ok(Linted { story: told, ..Linted::new(original, found) });
+        return Ok(Linted { story: told, ..Linted::new(form.path, original, found) });
     }
     let (checked, found) = (checked.unwrap_or(original), after.unwrap_or(found));
     write(form.path, &checked, &work.changed)?;
-    Ok(Linted { story: told, mended: work.made.len(), ..Linted::new(checked, found) })
+    Ok(Linted { story: told, mended: work.made.len(), ..Linted::new(form.path, checked, found) })
 }
 
 /// A form while it is mended, in memory.

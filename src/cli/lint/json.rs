@@ -19,6 +19,7 @@ pub fn report(linted: &[Linted], counts: Counts) -> Value {
             "warnings": counts.warnings,
             "notes": counts.notes,
             "suppressed": counts.suppressed,
+            "unread": counts.unread,
         },
     })
 }

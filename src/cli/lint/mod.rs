@@ -6,8 +6,9 @@ pub mod json;
 mod sample;
 mod sarif;
 
+use std::collections::HashSet;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use postform::diag::{Diag, Severity};
 use postform::lint::{Findings, lint};
@@ -22,6 +23,10 @@ use super::{Ending, files, forms, output, parallel};
 
 /// What was found in a form.
 pub struct Linted {
+    /// Where the form is.
+    path: PathBuf,
+    /// The files that it calls.
+    calls: Vec<PathBuf>,
     /// The form, and those that it calls; none where nothing was found.
     pub files: Vec<Source>,
     /// What was found.
@@ -45,6 +50,8 @@ pub struct Counts {
     pub notes: usize,
     /// Findings that comments of the forms allow.
     pub suppressed: usize,
+    /// Forms that could not be read.
+    pub unread: usize,
 }
 
 /// Every finding of every form.
@@ -65,18 +72,19 @@ fn try_run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
         true => paths.iter().map(|path| one(path, args)).collect(),
         false => parallel::map(&paths, |path| one(path, args)),
     };
-    let mut failed = false;
+    let mut unread = 0;
     let mut linted = Vec::with_capacity(results.len());
     for result in results {
         match result {
             Ok(result) => linted.push(result),
             Err(message) => {
                 eprintln!("{message}");
-                failed = true;
+                unread += 1;
             }
         }
     }
-    let counts = counts(&linted);
+    leave_parts(&mut linted, &args.forms);
+    let counts = Counts { unread, ..counts(&linted) };
     let mut text = String::new();
     for form in &linted {
         match args.format {
@@ -93,14 +101,25 @@ fn try_run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
         }
         Format::Json => text = format!("{:#}\n", json::report(&linted, counts)),
         Format::Github => linted.iter().for_each(|form| text += &github::annotations(form)),
-        Format::Sarif => text = format!("{:#}\n", sarif::log(&linted)),
+        Format::Sarif => text = format!("{:#}\n", sarif::log(&linted, unread == 0)),
     }
     output::standard_output(|out| out.write_all(text.as_bytes()))?;
-    Ok(match (failed, counts.errors + counts.warnings) {
-        (true, _) => Ending::Failed,
-        (_, 0) => Ending::Clean,
-        _ => Ending::Findings,
+    Ok(match (unread, counts.errors + counts.warnings) {
+        (0, 0) => Ending::Clean,
+        (0, _) => Ending::Findings,
+        _ => Ending::Failed,
     })
+}
+
+/// A file that a form of a folder calls is a part of that form, and is not looked at alone unless it is named.
+fn leave_parts(linted: &mut Vec<Linted>, named: &[PathBuf]) {
+    let parts: HashSet<PathBuf> = linted.iter().flat_map(|form| form.calls.iter().cloned()).collect();
+    if !parts.is_empty() {
+        linted.retain(|form| {
+            let is_part = form.path.canonicalize().is_ok_and(|path| parts.contains(&path));
+            named.contains(&form.path) || !is_part
+        });
+    }
 }
 
 /// One form: read, mended if that is asked for, and looked at.
@@ -113,13 +132,23 @@ fn one(path: &Path, args: &LintArgs) -> Result<Linted, String> {
     if args.fix || args.unsafe_fixes {
         return fix::mend(fix::Form { path, bytes: &bytes, config: &config, limits }, args, checked, found);
     }
-    Ok(Linted::new(checked, found))
+    Ok(Linted::new(path, checked, found))
 }
 
 impl Linted {
-    fn new(checked: Checked, found: Findings) -> Linted {
+    fn new(path: &Path, checked: Checked, found: Findings) -> Linted {
+        let called = checked.files.iter().skip(1);
+        let calls = called.filter_map(|source| Path::new(&source.name).canonicalize().ok()).collect();
         let files = if found.diags.is_empty() { Vec::new() } else { checked.files };
-        Linted { files, diags: found.diags, suppressed: found.suppressed, story: String::new(), mended: 0 }
+        Linted {
+            path: path.to_path_buf(),
+            calls,
+            files,
+            diags: found.diags,
+            suppressed: found.suppressed,
+            story: String::new(),
+            mended: 0,
+        }
     }
 }
 
@@ -140,8 +169,14 @@ fn counts(linted: &[Linted]) -> Counts {
 
 /// The last lines for people.
 fn summary(linted: &[Linted], counts: Counts, args: &LintArgs) -> String {
+    if linted.is_empty() {
+        return String::new(); // nothing was read, which was said
+    }
     let (errors, warnings) = (count(counts.errors, "error"), count(counts.warnings, "warning"));
     let mut text = format!("{errors}, {warnings}, {}", count(counts.notes, "note"));
+    if counts.unread > 0 {
+        text += &format!("; {} not read", count(counts.unread, "form"));
+    }
     if counts.suppressed > 0 {
         text += &format!("; {} more allowed by comments", counts.suppressed);
     }

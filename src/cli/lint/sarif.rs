@@ -8,8 +8,8 @@ use postform::span::Span;
 
 use super::Linted;
 
-/// The whole log.
-pub fn log(linted: &[Linted]) -> Value {
+/// The whole log; `all_read`: no form was left out.
+pub fn log(linted: &[Linted], all_read: bool) -> Value {
     let rules: Vec<&CodeRow> = CODES.iter().filter(|row| row.name.starts_with("PF")).collect();
     let described: Vec<Value> = rules
         .iter()
@@ -30,6 +30,7 @@ pub fn log(linted: &[Linted]) -> Value {
         "runs": [{
             "tool": { "driver": { "name": "postform", "version": env!("CARGO_PKG_VERSION"), "rules": described } },
             "columnKind": "unicodeCodePoints",
+            "invocations": [{ "executionSuccessful": all_read }],
             "results": results,
         }],
     })

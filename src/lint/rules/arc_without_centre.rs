@@ -7,11 +7,13 @@ use crate::lint::view::View;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use VarId as V;
     for body in view.these(&[SequenceId::CwCode, SequenceId::CcwCode]) {
-        if body.lines.is_empty() || body.prints_any(&[V::Ival, V::Jval, V::Kval, V::Arcrad, V::Hctr, V::Vctr]) {
+        let relative = [V::Ival, V::Jval, V::Kval].into_iter().filter(|&var| body.prints(var)).count();
+        let absolute = [V::Hctr, V::Vctr].into_iter().filter(|&var| body.prints(var)).count();
+        if body.lines.is_empty() || relative.max(absolute) >= 2 || body.prints(V::Arcrad) {
             continue;
         }
         diags.push(
-            Diag::new(Code::PF431, format!("{} prints no centre", body.name()))
+            Diag::new(Code::PF431, format!("{} does not print the whole centre", body.name()))
                 .at(body.span, "the control can't know the arc")
                 .help("print `I[ival] J[jval]`, or `R[arcrad]`"),
         );

@@ -7,7 +7,7 @@ use crate::lint::view::View;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(cancel) = view.body(SequenceId::Cancel) else { return };
     // on most controls a motion code ends a cycle, too
-    if cancel.code(b'G', &[80.0, 0.0, 1.0]).is_none() {
+    if cancel.code(b'G', &[80.0, 0.0, 1.0, 67.0]).is_none() {
         diags.push(
             Diag::new(Code::PF410, "Cancel does not cancel")
                 .at(cancel.span, "no G80")

@@ -3,23 +3,24 @@
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::view::View;
-use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
-        let says = |word: &Word| word.var() == Some(VarId::Tool) || word.letter() == Some(b'T');
-        let Some(word) = body.words().find(|word| says(word)) else {
-            if !body.lines.is_empty() {
+        let printed = body.words().find(|word| word.printed_var() == Some(VarId::Tool));
+        let Some(word) = printed else {
+            // where a person changes the tool, a comment says which
+            let told = body.words().any(|word| word.var() == Some(VarId::Tool));
+            if !body.lines.is_empty() && !told {
+                let typed = body.words().find(|word| word.letter() == Some(b'T'));
                 diags.push(
                     Diag::new(Code::PF429, format!("{} does not say which tool", body.name()))
-                        .at(body.span, "no T")
+                        .at(typed.map_or(body.span, |word| word.span), "the same for every tool of a job")
                         .help("print `T[tool] M6`; where a person changes it, say which in a comment: `(TOOL [tool])`"),
                 );
             }
             continue;
         };
-        // a control that changes by itself wants M6; where a person does, the tool stands in a comment
-        let selects = word.letter() == Some(b'T') && view.is_mill();
+        let selects = word.letter() == Some(b'T') && view.is_mill() && !view.is_for(&["grbl"]);
         if selects && body.code(b'M', &[6.0]).is_none() {
             diags.push(
                 Diag::new(Code::PF429, format!("{} selects a tool and does not change it", body.name()))

@@ -2,7 +2,7 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
-use crate::lint::view::{View, cycle_word};
+use crate::lint::view::{View, cycle_word, first_block, says};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_mill() {
@@ -10,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
     for (_, body) in view.hole_cycles() {
         let Some((word, code)) = cycle_word(&body) else { continue };
-        if !body.prints_any(&[VarId::Vclear, VarId::Rplane]) {
+        if !says(first_block(&body), &[VarId::Vclear, VarId::Rplane]) {
             diags.push(
                 Diag::new(Code::PF411, format!("G{code} has no R plane"))
                     .at(word.span, "the control would take that of the cycle before")

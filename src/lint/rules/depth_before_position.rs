@@ -21,20 +21,21 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             continue;
         }
         let blocks = view.blocks(*body);
-        let across = |block: &Block| {
-            let words = block.axis_words(view);
-            block.in_part() && words.iter().any(|(word, axis)| *axis < 2 && word.printed_var().is_some())
-        };
         let down = blocks.iter().enumerate().filter(|(_, block)| block.in_part()).find_map(|(i, block)| {
             let is_low = |var| matches!(var, Some(VarId::D | VarId::Vclear | VarId::Lastd));
             let words = block.axis_words(view);
             words.into_iter().find(|(word, axis)| *axis == 2 && is_low(word.printed_var())).map(|(word, _)| (i, word))
         });
-        let first_across = blocks.iter().position(across);
-        if let (Some((down, word)), Some(over)) = (down, first_across)
-            && down < over
-        {
-            let there = blocks[over].line.span;
+        let Some((down, word)) = down else { continue };
+        // the axes across that a block says, as a set
+        let across = |block: &Block| {
+            let words = block.axis_words(view);
+            let words = words.iter().filter(|(word, axis)| *axis < 2 && word.printed_var().is_some() && block.in_part());
+            words.fold(0, |set, (_, axis)| set | 1 << axis)
+        };
+        let before = blocks[..=down].iter().fold(0, |set, block| set | across(block));
+        if let Some(late) = blocks[down + 1..].iter().find(|block| across(block) & !before != 0) {
+            let there = late.line.span;
             diags.push(
                 Diag::new(Code::PF416, format!("{} goes down before it is over the place", body.name()))
                     .at(word.span, "down here")
@@ -47,5 +48,5 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 
 /// A canned cycle that moves by itself, without a cycle of the control.
 fn is_emulated(body: &Body, id: SequenceId) -> bool {
-    id.row().is_cycle && cycle_word(body).is_none()
+    id.row().is_cycle && cycle_word(body).is_none() && body.code(b'G', &[65.0, 66.0]).is_none()
 }

@@ -3,6 +3,7 @@
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;
 use crate::lint::view::View;
+use crate::number::Point;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let settings = view.settings;
@@ -11,7 +12,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let wanted = match settings.control.as_str() {
         "fanuc" | "fadal" => true,
         "linuxcnc" | "emc2" | "grbl" => false,
-        _ => return, // Haas takes both: with a point seconds, without one milliseconds
+        // with a point seconds, without one milliseconds
+        "haas" => {
+            let format = view.letters[b'P'].format;
+            format.dec.count == 0 || format.point == Point::Implied
+        }
+        _ => return,
     };
     if settings.dwell.milliseconds == wanted {
         return;

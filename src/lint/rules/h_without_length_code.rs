@@ -10,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
     for body in &view.bodies {
         let register = body.words().find(|word| word.printed_var() == Some(VarId::Lcomp));
-        if let (Some(word), None) = (register, body.code(b'G', &[43.0, 44.0, 43.1, 43.2])) {
+        if let (Some(word), None) = (register, body.code(b'G', &[43.0, 44.0, 43.1, 43.2, 43.4, 43.5])) {
             diags.push(
                 Diag::new(Code::PF426, format!("{} prints a length register without G43", body.name()))
                     .at(word.span, "the offset stays as it was")

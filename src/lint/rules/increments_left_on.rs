@@ -1,14 +1,21 @@
 //! PF424: every move after a G91 that was not taken back is an increment.
 
 use crate::diag::{Code, Diag};
-use crate::lang::VarId;
-use crate::lint::view::View;
+use crate::lang::{SequenceId, VarId};
+use crate::lint::view::{Purpose, View};
 use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let [incremental, absolute] = view.settings.inc_abs;
+    let mode = |word: &&Word| {
+        word.is_code(b'G', &[incremental, absolute]) || word.printed_var() == Some(VarId::Incmode)
+    };
+    // what the next program begins with, its StartCode says
+    let begins = view.body(SequenceId::StartCode).is_some_and(|start| start.words().any(|word| mode(&word)));
     for body in view.bodies.iter().filter(|_| !view.settings.incremental) {
-        let mode = |word: &&Word| word.is_code(b'G', &[incremental, absolute]) || word.printed_var() == Some(VarId::Incmode);
+        if begins && body.purpose == Purpose::Sequence(SequenceId::EndCode) {
+            continue;
+        }
         let last = body.words().filter(mode).last();
         if let Some(word) = last.filter(|word| word.is_code(b'G', &[incremental])) {
             diags.push(

@@ -7,9 +7,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.is_for(&["linuxcnc", "emc2", "grbl"]) {
         return; // G43 alone is the tool in the spindle; grbl has none of it
     }
-    for body in &view.bodies {
-        let Some(word) = body.code(b'G', &[43.0, 44.0]) else { continue };
-        if !body.words().any(|word| word.letter().is_some_and(|letter| view.letters[letter].printed == b'H')) {
+    let lines = view.bodies.iter().flat_map(|body| body.lines.iter().map(move |line| (body, line)));
+    for (body, line) in lines {
+        let Some(word) = line.words.iter().find(|word| word.is_code(b'G', &[43.0, 44.0])) else { continue };
+        if !line.words.iter().any(|word| word.letter().is_some_and(|letter| view.letters[letter].printed == b'H')) {
             diags.push(
                 Diag::new(Code::PF425, format!("{} turns the length offset on and does not say which", body.name()))
                     .at(word.span, "no H")

@@ -1,4 +1,5 @@
-//! PF506: a block with one letter twice: most controls alarm, the others take one of them.
+//! PF506: a block with one letter twice: most controls alarm, the others take one of them. T may be there twice: the
+//! tool, and the one to get ready.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -8,7 +9,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for line in view.bodies.iter().flat_map(|body| body.lines) {
         let printed = |word: &Word| {
             let letter = word.letter().map(|letter| view.letters[letter])?;
-            (!letter.dummy && letter.printed.is_ascii_alphabetic() && !b"GgMm".contains(&letter.printed))
+            (!letter.dummy && letter.printed.is_ascii_alphabetic() && !b"GgMmT".contains(&letter.printed))
                 .then_some(letter.printed)
         };
         for (i, word) in line.words.iter().enumerate() {

@@ -6,7 +6,7 @@ use crate::lint::view::{View, cycle_word};
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some((word, code)) = cycle_word(&body) else { continue };
-        if sequence.count.is_some() || sequence.lines.len() < 2 {
+        if sequence.count.is_some() || sequence.lines.len() < 2 || body.code(b'G', &[80.0]).is_some() {
             continue;
         }
         diags.push(

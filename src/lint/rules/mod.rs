@@ -101,6 +101,7 @@ rules! {
     PF433 motion_without_axis
     PF434 compensation_words
     PF435 rapid_that_feeds
+    PF436 cut_at_rapid
     // modality
     PF501 modal_letters
     PF502 modal_codes

@@ -3,13 +3,13 @@
 use crate::diag::{Code, Diag};
 use crate::lang::group_of;
 use crate::lint::view::View;
-use crate::sema::WordKind;
+use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for line in view.bodies.iter().flat_map(|body| body.lines) {
         let codes = line.words.iter().filter_map(|word| match word.kind {
-            // G80 with a motion code is common, and mist with flood is meant
-            WordKind::Literal(b'G', _, 80.0) | WordKind::Literal(b'M', _, 7.0 | 8.0) => None,
+            // G80 with a motion code is common
+            WordKind::Literal(b'G', _, 80.0) => None,
             WordKind::Literal(letter @ (b'G' | b'M'), _, value) => {
                 Some((word, group_of(letter, (value * 10.0).round() as i64)?))
             }
@@ -18,6 +18,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let codes: Vec<_> = codes.collect();
         for (i, (word, group)) in codes.iter().enumerate() {
             let Some((first, _)) = codes[..i].iter().find(|(_, other)| other == group) else { continue };
+            let is_coolant = |word: &Word| word.is_code(b'M', &[7.0, 8.0]);
+            if is_coolant(word) && is_coolant(first) {
+                continue; // mist with flood is meant
+            }
             diags.push(
                 Diag::new(Code::PF505, "two codes of one group in a block")
                     .at(word.span, "excludes the other")

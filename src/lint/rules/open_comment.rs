@@ -3,7 +3,7 @@
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 use crate::span::Span;
-use crate::syntax::PieceKind;
+use crate::syntax::{PieceKind, Tail};
 
 use super::swallowed_words::swallowed;
 
@@ -11,7 +11,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.settings.comment[1] != ")" {
         return; // the control wants none, or another one
     }
-    for piece in view.pieces() {
+    let bodies = view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
+    // where words are lost, the closing mark may be among them
+    let whole = bodies.filter(|body| !matches!(body.line.tail, Tail::Lost(_)));
+    for piece in whole.flat_map(|body| &body.words).flat_map(|word| &word.pieces) {
         let PieceKind::Note { parts, closed: false } = &piece.kind else { continue };
         if swallowed(parts).is_some() {
             continue;

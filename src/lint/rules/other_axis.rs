@@ -15,7 +15,8 @@ const OF_AXIS: [[VarId; 3]; 3] = [
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for word in view.words() {
         let WordKind::Var(letter, var) = word.kind else { continue };
-        let own = OF_AXIS.iter().position(|vars| vars.contains(&var));
+        // the depth of a hole on a lathe is along its first axis, by a variable of its own
+        let own = OF_AXIS.iter().position(|vars| vars.contains(&var)).filter(|&own| own < 2 || view.is_mill());
         let (Some(axis), Some(own)) = (view.axis(letter), own) else { continue };
         if axis != own {
             let letters = view.settings.axes;

@@ -10,12 +10,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.settings.incremental {
         return;
     }
-    let absolute = [V::H, V::V, V::D, V::Lasth, V::Lastv, V::Lastd, V::Rplane, V::Vclear];
+    let absolute = [V::H, V::V, V::D, V::Lasth, V::Lastv, V::Lastd, V::Rplane, V::Vclear, V::Rotangle];
     for body in &view.bodies {
         let blocks = view.blocks(*body);
-        let found = blocks.iter().filter(|block| block.incremental && block.in_part() && block.motion != Motion::Cycle).find_map(|block| {
-            let words = block.axis_words(view).into_iter().map(|(word, _)| word);
-            words.into_iter().find(|word| word.printed_var().is_some_and(|var| absolute.contains(&var)))
+        let held = blocks.iter().filter(|block| block.incremental && block.in_part() && block.motion != Motion::Cycle);
+        let found = held.flat_map(|block| &block.line.words).find(|word| {
+            let moves = word.letter().is_some_and(|letter| view.axis(letter).is_some() || view.is_rotary(letter));
+            moves && word.printed_var().is_some_and(|var| absolute.contains(&var))
         });
         if let Some(word) = found {
             diags.push(

@@ -13,10 +13,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         for block in view.blocks(body) {
             let words = block.axis_words(view);
             let down = words.iter().find(|(word, axis)| *axis == 2 && word.printed_var() == Some(VarId::D));
-            if let (Motion::Rapid, true, Some((word, _))) = (block.motion, block.in_part(), down) {
+            // what holds where the cycle begins is what its last line left: most often the way out, a rapid
+            let rapid = matches!(block.motion, Motion::Rapid | Motion::Unknown);
+            if let (true, true, Some((word, _))) = (rapid, block.in_part(), down) {
                 diags.push(
                     Diag::new(Code::PF415, format!("{} rapids to the bottom of the hole", body.name()))
-                        .at(word.span, "G0 holds here")
+                        .at(word.span, "no feed code holds here")
                         .help("go to `Z[vclear]` at rapid, then feed: `G1 Z[d] F[frate]`"),
                 );
             }

@@ -20,7 +20,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 
 /// Does a word start the spindle?
 pub(super) fn starts_spindle(word: &Word) -> bool {
-    word.is_code(b'M', &[3.0, 4.0]) || word.printed_var() == Some(VarId::Direct)
+    word.is_code(b'M', &[3.0, 4.0, 13.0, 14.0]) || word.printed_var() == Some(VarId::Direct)
 }
 
 /// The tool changes with the line in which the tool changes.

@@ -3,10 +3,13 @@
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::View;
+use crate::sema::WordKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(end) = view.body(SequenceId::SubEnd) else { return };
-    if end.code(b'M', &[99.0, 17.0, 2.0, 30.0]).is_none() {
+    // words that are no codes are the control's own, as `RET` or `endsub`
+    let own = end.words().any(|word| matches!(&word.kind, WordKind::Text(text) if !text.starts_with('(')));
+    if end.code(b'M', &[99.0, 17.0]).is_none() && !own {
         diags.push(
             Diag::new(Code::PF017, "SubEnd does not return")
                 .at(end.span, "no M99")

@@ -1,12 +1,14 @@
 //! PF430: a work offset as typed is that of every job.
 
 use crate::diag::{Code, Diag};
-use crate::lang::VarId;
-use crate::lint::view::View;
+use crate::lang::{SequenceId, VarId};
+use crate::lint::view::{Purpose, View};
 use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for body in &view.bodies {
+    // a safety line in StartCode is overridden before the first move
+    let bodies = view.bodies.iter().filter(|body| body.purpose != Purpose::Sequence(SequenceId::StartCode));
+    for body in bodies {
         let is_work = |word: &&Word| word.typed(b'G').is_some_and(|code| (54.0..60.0).contains(&code));
         let (Some(word), false) = (body.words().find(is_work), body.prints(VarId::Work)) else { continue };
         diags.push(

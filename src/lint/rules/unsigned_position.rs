@@ -4,7 +4,7 @@ use crate::diag::{Code, Diag};
 use crate::lang::VarId;
 use crate::lint::view::View;
 use crate::number::Sign;
-use crate::sema::Word;
+use crate::sema::{ArcCentre, Word};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use VarId as V;
@@ -14,7 +14,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     ];
     let turns = view.printed().has(V::Rotangle);
     for (&letter, (format, span)) in &view.form.formats {
-        let generated = view.settings.axes.contains(&letter) || (turns && view.is_rotary(letter));
+        let centre = matches!(&view.settings.centre, ArcCentre::Letters(letters) if letters.contains(&letter));
+        let generated = view.settings.axes.contains(&letter) || centre || (turns && view.is_rotary(letter));
         let prints = |word: &Word| word.letter() == Some(letter) && word.printed_var().is_some_and(|var| signed.contains(&var));
         if format.sign != Sign::Unsigned || !(generated || view.words().any(prints)) {
             continue;

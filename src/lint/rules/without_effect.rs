@@ -8,7 +8,9 @@ use crate::syntax::Tail;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (id, statement) in view.commands() {
-        if !matches!(id, CommandId::Tools | CommandId::Drive | CommandId::WindowSize) {
+        // without its argument it is an error, which nothing should hide
+        let lacks = statement.args.is_empty();
+        if lacks || !matches!(id, CommandId::Tools | CommandId::Drive | CommandId::WindowSize) {
             continue;
         }
         let line = &statement.line;

@@ -15,7 +15,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 let pitch = matches!(var, VarId::Pitch | VarId::Wirefeed);
                 !pitch && matches!(unit, Unit::Speed | Unit::Count | Unit::Code | Unit::Time | Unit::Angle | Unit::Length)
             }
-            _ if letter == settings.speed_code => matches!(unit, Unit::Feed | Unit::Length | Unit::Angle | Unit::Time),
+            _ if letter == settings.speed_code => matches!(unit, Unit::Feed | Unit::Length | Unit::Angle | Unit::Time | Unit::Count),
             _ => false,
         };
         if wrong {

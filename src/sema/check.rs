@@ -24,9 +24,9 @@ pub enum Limits {
     Extended,
 }
 
-/// Most words on a sequence line [doc].
+/// Most words on a sequence line, as the manual says.
 pub const MOST_WORDS: usize = 15;
-/// Most sequence lines in a form [doc].
+/// Most sequence lines in a form, as the manual says.
 pub const MOST_LINES: usize = 150;
 /// Deepest nesting of `Call`.
 const MOST_CALLS: usize = 8;

@@ -41,10 +41,23 @@ fn everything_is_explained() {
     for row in COMMANDS {
         let text = explain(&row.name.to_uppercase()).unwrap();
         assert!(text.contains(row.meaning) && text.contains("standing"), "{}", row.name);
+        // the example is one: a form with it has no error of its own
+        let example = text.split("Example, ").nth(1).unwrap_or_else(|| panic!("{} has no example", row.name));
+        let lines: String = example
+            .lines()
+            .skip(1)
+            .take_while(|line| line.starts_with("  "))
+            .map(|line| format!("{}\n", line.trim()))
+            .collect();
+        assert!(!lines.is_empty(), "{example}");
+        let form = support::check(&format!("{lines}{}", support::mill("", "")));
+        let errors: Vec<_> = form.diags.iter().filter(|diag| diag.is_error()).map(|diag| diag.code.name()).collect();
+        let elsewhere = ["PF005", "PF009", "PF603", "PF604"]; // a file that is not there, another machine
+        assert!(errors.iter().all(|code| elsewhere.contains(code)), "{}: {errors:?}\n{example}", row.name);
     }
     for row in VARIABLES {
         let text = explain(&format!("[{}]", row.name)).unwrap();
-        assert!(text.contains(row.meaning), "{}", row.name);
+        assert!(text.contains(row.meaning) && text.contains("Example"), "{}", row.name);
         assert!(explain(row.name).unwrap().contains(row.meaning));
     }
     for row in SEQUENCES {

@@ -20,7 +20,7 @@ pub fn man() -> Ending {
         let mut command = Arguments::command();
         command.build(); // names of the commands in full
         clap_mangen::Man::new(command.clone()).render(out)?;
-        for sub in command.get_subcommands().filter(|sub| !sub.is_hide_set()) {
+        for sub in command.get_subcommands().filter(|sub| sub.get_name() != "help") {
             writeln!(out, ".SH \"postform {}\"", sub.get_name())?;
             let page = clap_mangen::Man::new(sub.clone());
             page.render_synopsis_section(out)?;

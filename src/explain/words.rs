@@ -1,7 +1,7 @@
 //! Commands, variables, sequences and kinds of cycles in words.
 
 use super::examples::{self, Example};
-use crate::lang::{Args, CommandId, Machines, Origin, SequenceId, Standing, Unit, VarId};
+use crate::lang::{Args, Command, CommandId, Machines, Origin, SequenceId, Standing, Unit, VarId};
 
 /// A kind of cycle that jobs ask for.
 pub struct CycleRow {
@@ -113,7 +113,41 @@ pub fn command(id: CommandId) -> String {
         ("stands", format!("before the first sequence, {times}")),
         ("standing", standing(row.standing).to_owned()),
     ];
-    page(&format!("{} (command)", row.name), &lines, examples::command(row.name))
+    page(&format!("{} (command)", row.name), &lines, examples::command(row.name).or_else(|| as_it_would_be(row)))
+}
+
+/// What commands could say that no form gives and that have no default to show.
+const SAID: &[(&str, &str)] = &[
+    ("Force", "X Y Z"),
+    ("Spaces", "8"),
+    ("Replace", "\"M8 \" \"M88 \""),
+    ("Dummy", "Q"),
+    ("Each", "val1 \"Height of the vise\" 2.5"),
+    ("Ask", "val1 \"Height of the vise\" 2.5"),
+    ("VRapid", "G0"),
+    ("CycleStep", "0.1"),
+    ("CycleBack", "deep 0.05"),
+    ("CycleDwellAt", "steps"),
+    ("RevSigns", "Z"),
+    ("CircDir", "DR- DR+"),
+    ("CycleSinkClear", "0.1"),
+    ("Thread", "G33"),
+    ("Call", "common.inc"),
+    ("CallMe", "common.inc"),
+];
+
+/// A command that no form gives, with what it could say.
+fn as_it_would_be(row: &Command) -> Option<Example> {
+    let default = row.default.split(';').next().filter(|default| !default.is_empty());
+    let said = SAID.iter().find(|(name, _)| *name == row.name).map(|(_, value)| *value);
+    let value = said.or(match row.args {
+        Args::Switch => Some(if default == Some("Y") { "N" } else { "Y" }),
+        Args::Text => Some("text"),
+        Args::Choice(words) => words.last().copied(),
+        Args::Words(what) => what.rsplit('`').nth(1),
+        Args::Codes(..) | Args::Letters(..) | Args::Numbers(..) => default,
+    })?;
+    Some(Example { text: format!("{} {value}", row.name), form: "as a form would say it" })
 }
 
 /// A variable.
@@ -126,7 +160,13 @@ pub fn variable(id: VarId) -> String {
         ("group", row.group.to_owned()),
         ("on", row.machines.to_string()),
     ];
-    page(&format!("[{}] (variable)", row.name), &lines, examples::variable(id))
+    page(&format!("[{}] (variable)", row.name), &lines, examples::variable(id).or_else(|| in_a_comment(id)))
+}
+
+/// A variable that no form prints, where any may be printed.
+fn in_a_comment(id: VarId) -> Option<Example> {
+    let text = format!("({} [{}])", id.name().to_uppercase(), id.name());
+    Some(Example { text, form: "in a comment of the program" })
 }
 
 /// A sequence.

@@ -86,7 +86,7 @@ fn pairs_and_their_verdicts() {
             BASE.lines()
                 .map(|l| l.split_once(' ').filter(|_| l.starts_with('N')).map_or(l, |(_, r)| r).to_owned() + "\n")
                 .collect(),
-            "numbers,spaces",
+            "numbers",
             true,
         ),
         ("lines ended by CR and LF", BASE.replace('\n', "\r\n"), "spaces", true),
@@ -96,8 +96,8 @@ fn pairs_and_their_verdicts() {
         ("lower case", BASE.replace("(BRACKET)", "").to_lowercase(), "case,comments,spaces", true),
         ("lower case with its comment", BASE.to_lowercase().replace("(bracket)", "(BRACKET)"), "case", true),
         ("another comment", edit("(BRACKET)", "(BRACKET REV B)"), "comments", true),
-        ("a comment more, on its own line", edit("N50", "(DOWN)\nN50"), "comments,spaces", true),
-        ("a comment behind a block", edit("N60 G1 Z-1. F100.", "N60 G1 Z-1. F100. (DOWN)"), "comments,spaces", true),
+        ("a comment more, on its own line", edit("N50", "(DOWN)\nN50"), "comments", true),
+        ("a comment behind a block", edit("N60 G1 Z-1. F100.", "N60 G1 Z-1. F100. (DOWN)"), "comments", true),
         ("trailing zeros", edit("X30.", "X30.000"), "format", true),
         ("leading zeros", edit("G1 Z-1.", "G01 Z-01."), "format", true),
         ("a plus sign", edit("X30.", "X+30."), "format", true),

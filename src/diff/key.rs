@@ -11,13 +11,21 @@ use crate::nc::{Kind, Token, tokens};
 pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
     let mut whole = DefaultHasher::new();
     let mut sum = 0u64;
-    let mut counts = false;
+    let (mut counts, mut has_blanks, mut leaves_out) = (false, false, false);
     let mut parts = tokens(line).peekable();
     while let Some(token) = parts.next() {
         if !is_seen(&token, ignore) {
+            leaves_out |= !is_blank(&token);
+            // the blanks behind a number go with it
+            while matches!(token.kind, Kind::Word(..)) && parts.next_if(|next| next.kind == Kind::Blank).is_some() {}
             continue;
         }
-        counts = true;
+        // and those before a comment with that
+        if token.kind == Kind::Blank && parts.peek().is_some_and(|next| !is_seen(next, ignore)) {
+            continue;
+        }
+        counts |= !is_blank(&token);
+        has_blanks |= is_blank(&token);
         let mut one = DefaultHasher::new();
         hash_token(&token, line, ignore, &mut one);
         // what belongs to a letter stays with it
@@ -31,7 +39,8 @@ pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
         let one = one.finish();
         if ignore.order { sum = sum.wrapping_add(one) } else { one.hash(&mut whole) }
     }
-    counts.then(|| if ignore.order { sum } else { whole.finish() })
+    // the line of a comment goes with it, though blanks count; an empty line stays
+    (counts || has_blanks && !leaves_out).then(|| if ignore.order { sum } else { whole.finish() })
 }
 
 /// Does a token count?
@@ -42,6 +51,10 @@ pub(super) fn is_seen(token: &Token, ignore: &Ignore) -> bool {
         Kind::Word(b'N', _) => !ignore.numbers,
         _ => true,
     }
+}
+
+fn is_blank(token: &Token) -> bool {
+    matches!(token.kind, Kind::Blank | Kind::LineEnd)
 }
 
 /// Part of an expression behind a letter.

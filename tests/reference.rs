@@ -67,6 +67,9 @@ fn everything_is_explained() {
     for (name, _) in postform::toolpath::CycleKind::NAMES {
         assert!(explain(name).unwrap().contains("cycle of a job"), "{name}");
     }
+    for line in ["Back 3", "Force X Z", "Drill 7"] {
+        assert_eq!(explain(line), explain(line.split(' ').next().unwrap()));
+    }
     for upon in ["Upon", "upon every", "Upon [work]"] {
         assert!(explain(upon).unwrap().contains("when a variable changes"), "{upon}");
     }

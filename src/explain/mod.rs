@@ -36,6 +36,10 @@ pub fn explain(what: &str) -> Result<String, String> {
     if asked == bare {
         texts.extend(words::cycle(asked));
     }
+    // a line of a form asks for what it begins with: `Back 3`, `Force X Z`
+    if let Some((head, _)) = asked.rsplit_once(' ').filter(|_| texts.is_empty()) {
+        texts.extend(explain(head));
+    }
     match texts.is_empty() {
         false => Ok(texts.join("\n")),
         true => Err(did_you_mean(bare, all_names()).unwrap_or_else(|| {

@@ -8,10 +8,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(cancel) = view.body(SequenceId::Cancel) else { return };
     // on most controls a motion code ends a cycle, too
     if cancel.code(b'G', &[80.0, 0.0, 1.0, 67.0]).is_none() {
-        diags.push(
-            Diag::new(Code::PF410, "Cancel does not cancel")
-                .at(cancel.span, "no G80")
-                .help("print `G80` in it"),
-        );
+        diags
+            .push(Diag::new(Code::PF410, "Cancel does not cancel").at(cancel.span, "no G80").help("print `G80` in it"));
     }
 }

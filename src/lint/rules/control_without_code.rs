@@ -6,7 +6,8 @@ use crate::lint::view::View;
 use crate::sema::WordKind;
 
 /// G codes of mills that Grbl refuses.
-const NOT_GRBL: &[(f64, f64)] = &[(41.0, 42.0), (43.0, 43.0), (44.0, 44.0), (50.0, 52.0), (68.0, 69.0), (73.0, 76.0), (81.0, 89.0), (95.0, 99.0)];
+const NOT_GRBL: &[(f64, f64)] =
+    &[(41.0, 42.0), (43.0, 43.0), (44.0, 44.0), (50.0, 52.0), (68.0, 69.0), (73.0, 76.0), (81.0, 89.0), (95.0, 99.0)];
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_for(&["grbl"]) {

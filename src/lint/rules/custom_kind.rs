@@ -12,8 +12,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if kinds().any(|name| name.eq_ignore_ascii_case(kind)) {
             continue;
         }
-        let help = did_you_mean(kind, kinds())
-            .unwrap_or_else(|| format!("take one of {}; or let a comment begin with `#`", kinds().collect::<Vec<_>>().join(", ")));
+        let help = did_you_mean(kind, kinds()).unwrap_or_else(|| {
+            format!("take one of {}; or let a comment begin with `#`", kinds().collect::<Vec<_>>().join(", "))
+        });
         diags.push(
             Diag::new(Code::PF207, format!("`{kind}` is no kind of cycle"))
                 .at(sequence.span, format!("only `{}` of a job is printed by this", sequence.id.name().to_lowercase()))

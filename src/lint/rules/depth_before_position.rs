@@ -30,7 +30,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         // the axes across that a block says, as a set
         let across = |block: &Block| {
             let words = block.axis_words(view);
-            let words = words.iter().filter(|(word, axis)| *axis < 2 && word.printed_var().is_some() && block.in_part());
+            let words =
+                words.iter().filter(|(word, axis)| *axis < 2 && word.printed_var().is_some() && block.in_part());
             words.fold(0, |set, (_, axis)| set | 1 << axis)
         };
         let before = blocks[..=down].iter().fold(0, |set, block| set | across(block));

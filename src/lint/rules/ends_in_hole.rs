@@ -14,7 +14,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let last = words.find(|(_, axis)| *axis == 2);
         if let Some((word, _)) = last.filter(|(word, _)| word.printed_var() == Some(VarId::D)) {
             // codes of a control that nobody knows here may lift the tool
-            let own_codes = body.words().any(|word| word.typed(b'G').is_some_and(|code| code >= 100.0 || [33.1, 65.0, 66.0].contains(&code)));
+            let own_codes = body
+                .words()
+                .any(|word| word.typed(b'G').is_some_and(|code| code >= 100.0 || [33.1, 65.0, 66.0].contains(&code)));
             if !own_codes {
                 diags.push(
                     Diag::new(Code::PF417, format!("{} ends at the bottom of the hole", body.name()))

@@ -15,7 +15,11 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             Diag::new(Code::PF106, format!("`{text}` is printed as it stands"))
                 .at(Span { start, ..piece.span }, "no comment: no blank is before it")
                 .help("put a blank before the `#`")
-                .fix("put a blank before the comment", false, vec![(Span { start, end: start, ..piece.span }, " ".into())]),
+                .fix(
+                    "put a blank before the comment",
+                    false,
+                    vec![(Span { start, end: start, ..piece.span }, " ".into())],
+                ),
         );
     }
 }

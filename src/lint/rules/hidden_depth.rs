@@ -14,9 +14,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         for block in view.blocks(body) {
             let words = block.axis_words(view);
-            let depth = words.iter().find(|(word, axis)| {
-                *axis == 2 && matches!(word.printed_var(), Some(VarId::Depth | VarId::Inidep))
-            });
+            let depth = words
+                .iter()
+                .find(|(word, axis)| *axis == 2 && matches!(word.printed_var(), Some(VarId::Depth | VarId::Inidep)));
             if let (Some((word, _)), false) = (depth, block.incremental) {
                 diags.push(
                     Diag::new(Code::PF503, format!("{} prints how deep, the control wants where", body.name()))

@@ -7,9 +7,8 @@ use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let [incremental, absolute] = view.settings.inc_abs;
-    let mode = |word: &&Word| {
-        word.is_code(b'G', &[incremental, absolute]) || word.printed_var() == Some(VarId::Incmode)
-    };
+    let mode =
+        |word: &&Word| word.is_code(b'G', &[incremental, absolute]) || word.printed_var() == Some(VarId::Incmode);
     // what the next program begins with, its StartCode says
     let begins = view.body(SequenceId::StartCode).is_some_and(|start| start.words().any(|word| mode(&word)));
     for body in view.bodies.iter().filter(|_| !view.settings.incremental) {

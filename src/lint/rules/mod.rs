@@ -1,5 +1,88 @@
 //! The rules: one a file, one row here.
 
+mod arc_other_way;
+mod arc_without_centre;
+mod cancel_emulated;
+mod cancel_without_code;
+mod change_without_tool;
+mod coarse_centre;
+mod code_format;
+mod compensation_words;
+mod control_without_code;
+mod coolant_order;
+mod count_swallows_position;
+mod custom_kind;
+mod custom_twice;
+mod cut_at_rapid;
+mod cut_digits;
+mod cycle_without_cancel;
+mod cycle_without_depth;
+mod cycle_without_feed;
+mod cycle_without_plane;
+mod cycle_without_position;
+mod depth_before_position;
+mod dwell_unit;
+mod empty_sequence;
+mod ends_in_hole;
+mod feed_line_without_feed;
+mod foreign_comment_mark;
+mod h_without_length_code;
+mod hash_in_word;
+mod hidden_depth;
+mod implied_point;
+mod increments_left_on;
+mod increments_mixed;
+mod index_without_retract;
+mod length_code_without_h;
+mod letter_for_digit;
+mod letter_formats;
+mod letter_twice;
+mod lost_words;
+mod machine_code_without_count;
+mod missing_blank;
+mod modal_codes;
+mod modal_letters;
+mod motion_without_axis;
+mod near_line_limit;
+mod near_remark;
+mod near_word_limit;
+mod nested_comment;
+mod no_program_end;
+mod old_spelling;
+mod one_group_twice;
+mod open_comment;
+mod other_axis;
+mod other_cycle;
+mod peck_without_step;
+mod position_in_increments;
+mod rapid_that_feeds;
+mod rapid_to_bottom;
+mod replace_number;
+mod return_without_g91;
+mod small_letter;
+mod spindle_before_change;
+mod start_moves;
+mod sub_without_number;
+mod sub_without_return;
+mod swallowed_words;
+mod tab;
+mod tap_without_reverse;
+mod tape_mark;
+mod typed_without_point;
+mod typed_work;
+mod unbracketed_variable;
+mod unit_code;
+mod units_unprinted;
+mod unsigned_position;
+mod unused_command;
+mod unused_prompt;
+mod unused_sequence;
+mod unwind_down_first;
+mod upon_unused;
+mod without_effect;
+mod words_after_end;
+mod wrong_quantity;
+
 use super::view::View;
 use crate::diag::{Code, Diag};
 
@@ -15,8 +98,6 @@ pub struct Rule {
 
 macro_rules! rules {
     ($($code:ident $file:ident)*) => {
-        $(mod $file;)*
-
         /// All rules.
         pub const RULES: &[Rule] =
             &[$(Rule { code: Code::$code, file: stringify!($file), check: $file::check }),*];

@@ -14,9 +14,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 let PieceKind::Variable { name, .. } = &piece.kind else { continue };
                 let (open, close) = (name.span.start.saturating_sub(1), name.span.end);
                 if text.get(open as usize) == Some(&b'<') {
-                    let edit = |at: u32, bracket: &str| (Span { start: at, end: at + 1, ..name.span }, bracket.to_owned());
-                    diags.push(older(Span { start: open, end: close + 1, ..name.span }, format!("write `[{}]`", name.text))
-                        .fix("write square brackets", true, vec![edit(open, "["), edit(close, "]")]));
+                    let edit =
+                        |at: u32, bracket: &str| (Span { start: at, end: at + 1, ..name.span }, bracket.to_owned());
+                    diags.push(
+                        older(Span { start: open, end: close + 1, ..name.span }, format!("write `[{}]`", name.text))
+                            .fix("write square brackets", true, vec![edit(open, "["), edit(close, "]")]),
+                    );
                 }
             }
         }
@@ -28,10 +31,11 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let apart = text.get(at + 1).is_none_or(|b| b" \t\r\n".contains(b));
             if known && apart && text.get(at) == Some(&b';') {
                 let span = Span { start: name.span.end, end: name.span.end + 1, ..name.span };
-                diags.push(
-                    older(span, "write no `;` after the name".into())
-                        .fix("take the semicolon out", true, vec![(span, String::new())]),
-                );
+                diags.push(older(span, "write no `;` after the name".into()).fix(
+                    "take the semicolon out",
+                    true,
+                    vec![(span, String::new())],
+                ));
             }
         }
     }

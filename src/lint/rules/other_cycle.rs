@@ -22,7 +22,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
     for (sequence, body) in view.hole_cycles() {
         let Some((_, own)) = OWN.iter().find(|(id, _)| *id == sequence.id) else { continue };
-        let Some((word, code)) = cycle_word(&body).filter(|(_, code)| !own.contains(code) && code.fract() == 0.0) else { continue };
+        let Some((word, code)) = cycle_word(&body).filter(|(_, code)| !own.contains(code) && code.fract() == 0.0)
+        else {
+            continue;
+        };
         let known = own.iter().map(|code| format!("G{code}")).collect::<Vec<_>>().join(" or ");
         diags.push(
             Diag::new(Code::PF414, format!("G{code} is not the cycle of {}", body.name()))

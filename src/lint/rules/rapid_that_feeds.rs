@@ -11,9 +11,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let feeds = |word: &&Word| word.is_code(b'G', &[1.0, 2.0, 3.0]) || word.letter() == Some(feed);
     if let Some(word) = body.words().find(feeds) {
         diags.push(
-            Diag::new(Code::PF435, "RapidCode feeds")
-                .at(word.span, "no rapid")
-                .help("print `G0 X[h] Y[v] Z[d]`"),
+            Diag::new(Code::PF435, "RapidCode feeds").at(word.span, "no rapid").help("print `G0 X[h] Y[v] Z[d]`"),
         );
     }
 }

@@ -17,7 +17,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF312, format!("`{}` may be part of a longer word", old.text))
                 .at(statement.line.span, format!("`{example}` would be changed, too"))
-                .help(format!("name the blank behind it, as `Replace \"{} \" ..`; or print the right word where it comes from", old.text)),
+                .help(format!(
+                    "name the blank behind it, as `Replace \"{} \" ..`; or print the right word where it comes from",
+                    old.text
+                )),
         );
     }
 }

@@ -15,7 +15,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF013, "StartCode moves an axis")
                 .at(word.span, "no tool is loaded, and no offset is in force")
-                .help("move in 1stToolChange, after the tool and its offsets; or to the reference point, with G28 or G53"),
+                .help(
+                    "move in 1stToolChange, after the tool and its offsets; or to the reference point, with G28 or G53",
+                ),
         );
     }
 }

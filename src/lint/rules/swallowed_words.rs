@@ -29,7 +29,8 @@ pub(super) fn swallowed(parts: &[Piece]) -> Option<Span> {
             for token in text.split(' ') {
                 // a letter directly before a variable
                 let last = at + token.len() == part.span.end as usize;
-                let before = last && parts.get(i + 1).is_some_and(|next| matches!(next.kind, PieceKind::Variable { .. }));
+                let before =
+                    last && parts.get(i + 1).is_some_and(|next| matches!(next.kind, PieceKind::Variable { .. }));
                 let is_letter = token.len() == 1 && b"XYZABCIJKRFSHDGM".contains(&token.as_bytes()[0]);
                 if looks_like_a_code(token) || (before && is_letter) {
                     found.get_or_insert(Span::new(part.span.file, at, at + token.len()));

@@ -6,7 +6,9 @@ use crate::lint::view::View;
 use crate::sema::UnitChoice;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    let Some(units) = view.command(CommandId::Units).filter(|_| view.settings.units == UnitChoice::Both) else { return };
+    let Some(units) = view.command(CommandId::Units).filter(|_| view.settings.units == UnitChoice::Both) else {
+        return;
+    };
     if !view.printed().has(VarId::Unitmode) {
         diags.push(
             Diag::new(Code::PF316, "the program never says its units")

@@ -9,14 +9,31 @@ use crate::sema::{ArcCentre, Word};
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use VarId as V;
     let signed = [
-        V::H, V::V, V::D, V::H2, V::V2, V::Hdist, V::Vdist, V::Ddist, V::Lasth, V::Lastv, V::Lastd, V::Ival, V::Jval,
-        V::Kval, V::Rplane, V::Vclear, V::Rotangle, V::Lastrotangle,
+        V::H,
+        V::V,
+        V::D,
+        V::H2,
+        V::V2,
+        V::Hdist,
+        V::Vdist,
+        V::Ddist,
+        V::Lasth,
+        V::Lastv,
+        V::Lastd,
+        V::Ival,
+        V::Jval,
+        V::Kval,
+        V::Rplane,
+        V::Vclear,
+        V::Rotangle,
+        V::Lastrotangle,
     ];
     let turns = view.printed().has(V::Rotangle);
     for (&letter, (format, span)) in &view.form.formats {
         let centre = matches!(&view.settings.centre, ArcCentre::Letters(letters) if letters.contains(&letter));
         let generated = view.settings.axes.contains(&letter) || centre || (turns && view.is_rotary(letter));
-        let prints = |word: &Word| word.letter() == Some(letter) && word.printed_var().is_some_and(|var| signed.contains(&var));
+        let prints =
+            |word: &Word| word.letter() == Some(letter) && word.printed_var().is_some_and(|var| signed.contains(&var));
         if format.sign != Sign::Unsigned || !(generated || view.words().any(prints)) {
             continue;
         }

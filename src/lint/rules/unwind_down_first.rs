@@ -11,7 +11,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for block in view.blocks(body).iter().filter(|block| block.in_part()) {
         let words = block.axis_words(view);
         let across = words.iter().find(|(word, axis)| *axis < 2 && word.printed_var().is_some());
-        let depth = words.iter().find(|(word, axis)| *axis == 2 && matches!(word.printed_var(), Some(VarId::D | VarId::Lastd)));
+        let depth =
+            words.iter().find(|(word, axis)| *axis == 2 && matches!(word.printed_var(), Some(VarId::D | VarId::Lastd)));
         if let (Some((over, _)), Some(down)) = (across, down) {
             diags.push(
                 Diag::new(Code::PF421, "Unwind goes down before it is over the place where it stopped")

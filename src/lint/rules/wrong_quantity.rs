@@ -13,9 +13,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let wrong = match letter {
             _ if letter == settings.feed_code => {
                 let pitch = matches!(var, VarId::Pitch | VarId::Wirefeed);
-                !pitch && matches!(unit, Unit::Speed | Unit::Count | Unit::Code | Unit::Time | Unit::Angle | Unit::Length)
+                !pitch
+                    && matches!(unit, Unit::Speed | Unit::Count | Unit::Code | Unit::Time | Unit::Angle | Unit::Length)
             }
-            _ if letter == settings.speed_code => matches!(unit, Unit::Feed | Unit::Length | Unit::Angle | Unit::Time | Unit::Count),
+            _ if letter == settings.speed_code => {
+                matches!(unit, Unit::Feed | Unit::Length | Unit::Angle | Unit::Time | Unit::Count)
+            }
             _ => false,
         };
         if wrong {

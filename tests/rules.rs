@@ -305,16 +305,17 @@ fn right_forms_are_left_alone() {
         ("", "InFeed\nG1 G[side] D[tool] X[h] Y[v] F[frate]\nEnd".into()),
         ("", "Drill 1\nG66 P9010 Z[d] R[vclear] F[frate]\nX[h] Y[v]\nEnd Cancel\nCancel\nG67\nEnd".into()),
         ("", "Ask val1 \"Height over the part\" 2\n\nIndex\nG0 Z[val1]\nA[rotangle]\nX[h] Y[v]\nZ[d]\nEnd".into()),
-        ("", "StartCode\n%0\nO[program#]\nG[unitmode] G17 G40 G49 G80 G90\n; G28 Z0 first\nEnd\n\nComment ;".into()),
+        ("", "Comment ;\n\nStartCode\n%0\nO[program#]\nG[unitmode] G17 G40 G49 G80 G90\n; G28 Z0 first\nEnd".into()),
+        ("", "Comment ;\n\nBeginRow\nM8 ; not M9, X1 X2 G54 G55 GO M3O Z[d]F[frate]\nEnd\nEndCode\nM9\nM30\n; END OF [program#]\n%0\nEnd".into()),
+        ("", "StartCode\n%0\nO[program#]\nG[unitmode] G17 G40 G49 G80 G90\nG4 X1.\nEnd".into()),
+        ("", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 G53 Z0\nEnd".into()),
+        ("", "Drill\nG0 X[h] Y[v]\nG308 Z[d] F[frate]\nG0 Z[rplane]\nEnd".into()),
+        ("", "Rename d D\nd >3\n\nInFeed\nG1 G[side] d[dcomp] X[h] Y[v] F[frate]\nEnd".into()),
+        ("grbl", "EndCode\nM9\nM5\nG28.1\nM2\nEnd".into()),
         ("grbl", "ToolChange\nM9\nM5\nG0 G53 Z0\nT[tool]\nM0\nG[work]\nS[speed] M[direct]\nM[cool]\nG0 X[h] Y[v]\nZ[d]\nEnd".into()),
         ("", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd".into()),
     ];
     for (kind, text) in table {
-        // a command stands before the sequences
-        let text = match text.split_once("\n\nComment ;") {
-            Some((rest, _)) => format!("Comment ;\n\n{rest}"),
-            None => text,
-        };
         let fence = Fence { kind: kind.to_owned(), text };
         let found = found(&fence.checked()).diags;
         assert!(
@@ -346,6 +347,20 @@ fn mistakes_are_found_in_other_words_too() {
         ("PF436", "CcwCode\nG1 X[h] Y[v] I[ival] J[jval] F[frate]\nEnd"),
         ("PF505", "BeginRow\nM8 M9\nEnd"),
         ("PF313", "BeginRow\nS[tool]\nEnd"),
+        ("PF408", "Drill 1\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nX[h]\nEnd Cancel"),
+        ("PF012", "Upon [cool]\nEnd"),
+        ("PF413", "Custom1   Deep\nG[retplane] G83 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel"),
+        ("PF414", "Custom1   Deep\nG[retplane] G84 X[h] Y[v] Z[d] R[vclear] Q[vbite] F[frate]\nEnd Cancel"),
+        ("PF418", "Index\nG0 G53 Z0\nA[rotangle]\nX[h] Y[v]\nG1 Z[d]\nEnd"),
+        // words behind a mark that comments out the rest of the block do nothing
+        ("PF014", "Comment ;\n\nEndCode\nM9\n; no M30 here\nEnd"),
+        ("PF017", "Comment ;\n\nSubStart\nO[sub]\nEnd\nSubCall\nM98 P[sub]\nEnd\nSubEnd\n; end of sub\nEnd"),
+        (
+            "PF429",
+            "Comment ;\n\n1stToolChange\nT[tool] ; M6 by hand\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d]\nEnd",
+        ),
+        ("PF410", "Comment ;\n\nCancel\nM9 ; no G80\nEnd"),
+        ("PF407", "Comment ;\n\nDrill\nG[retplane] G81 X[h] Y[v] R[vclear] F[frate] ; to Z[d]\nEnd Cancel"),
         ("PF406", "Drill 1\n(AT [h] [v])\nG81 Z[d] R[vclear] F[frate]\nEnd Cancel"),
         (
             "PF208",

@@ -238,6 +238,15 @@ fn comments_keep_their_marks() {
     assert_eq!(path_lines("Comment ;", "", "{\"comment\":\"a (b)\"}"), [";A (B)"]);
 }
 
+/// Words behind a mark that comments out the rest of the block are for people: they set nothing, and hide nothing.
+#[test]
+fn values_in_a_comment_to_the_end_of_the_block_are_not_positions() {
+    let drill = "Drill\n; HOLE AT X[h] Y[v]\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate] ; to Z[d]\nG0 Z[rplane]\nEnd";
+    let path = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,2,0]]}}";
+    let lines = path_lines("Comment ;", drill, path);
+    assert_eq!(lines, ["; HOLE AT X1 Y2", "G0 X1. Y2.", "Z.1", "G1 Z-1. F5. ; to Z-1", "G0 Z.1"]);
+}
+
 /// Travel limits of the form are checked.
 #[test]
 fn travel_limits_are_kept() {

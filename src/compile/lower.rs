@@ -87,7 +87,9 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Block {
                     let literal = Literal { letter: *letter, text: text.clone(), value: *value };
                     Op::Literal { index: push(&mut program.literals, literal), glued }
                 }
-                WordKind::Text(text) => Op::Text { index: push(&mut program.texts, text.clone()), glued },
+                WordKind::Text(text) | WordKind::Note(text) => {
+                    Op::Text { index: push(&mut program.texts, text.clone()), glued }
+                }
             };
             program.ops.push(op);
             program.spans.push(word.span);
@@ -118,7 +120,7 @@ fn is_motion_or_no_code(word: &WordKind) -> bool {
     match word {
         WordKind::Literal(b'G' | b'g', _, value) => [0.0, 1.0, 2.0, 3.0].contains(value),
         WordKind::Literal(letter, ..) | WordKind::Var(letter, _) => !b"GgMm".contains(letter),
-        WordKind::Value(_) | WordKind::Remark(_) | WordKind::Text(_) => true,
+        WordKind::Value(_) | WordKind::Remark(_) | WordKind::Text(_) | WordKind::Note(_) => true,
     }
 }
 

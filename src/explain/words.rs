@@ -2,41 +2,40 @@
 
 use super::examples::{self, Example};
 use crate::lang::{Args, Command, CommandId, Machines, Origin, SequenceId, Standing, Unit, VarId};
+use crate::toolpath::CycleKind;
 
 /// A kind of cycle that jobs ask for.
 pub struct CycleRow {
     /// As jobs name it.
     pub name: &'static str,
-    /// The sequence that serves it.
-    pub served_by: &'static str,
     /// What the tool does.
     pub meaning: &'static str,
 }
 
 macro_rules! cycles {
-    ($($name:literal $served_by:literal $meaning:literal)*) => {
+    ($($name:literal $meaning:literal)*) => {
         /// All kinds.
-        pub const CYCLES: &[CycleRow] = &[$(CycleRow { name: $name, served_by: $served_by, meaning: $meaning }),*];
+        pub const CYCLES: &[CycleRow] = &[$(CycleRow { name: $name, meaning: $meaning }),*];
     };
 }
 
 #[rustfmt::skip]
 cycles! {
-    "drill"     "Drill" "feed to the bottom, rapid out"
-    "face"      "a Custom labelled Face, else Drill where that prints [dwell]" "feed to the bottom, dwell, rapid out"
-    "tap"       "Tap" "feed to the bottom, reverse the spindle, feed out"
-    "ltap"      "LTap" "as tap, with a left-hand thread"
-    "bore"      "Bore" "feed to the bottom, stop the spindle, rapid out"
-    "back"      "Back" "down beside the hole with the spindle oriented, across, feed up"
-    "ream"      "Ream" "feed in, feed out"
-    "deep"      "Peck" "pecks with a full retract after each"
-    "chipbreak" "Chipbreak" "pecks with a short retract after each"
-    "thru"      "a Custom labelled Thru, else moves" "feed through one web after the other"
-    "csink"     "a Custom labelled Csink, else moves" "to the depth that a diameter and an angle ask for"
-    "manual"    "a Custom labelled Manual, else moves" "stop over the point; a person does the rest"
-    "custom1"   "Custom1" "what the form's Custom1 does"
-    "custom2"   "Custom2" "what the form's Custom2 does"
-    "custom3"   "Custom3" "what the form's Custom3 does"
+    "drill"     "feed to the bottom, rapid out"
+    "face"      "feed to the bottom, dwell, rapid out"
+    "tap"       "feed to the bottom, reverse the spindle, feed out"
+    "ltap"      "as tap, with a left-hand thread"
+    "bore"      "feed to the bottom, stop the spindle, rapid out"
+    "back"      "down beside the hole with the spindle oriented, across, feed up"
+    "ream"      "feed in, feed out"
+    "deep"      "pecks with a full retract after each"
+    "chipbreak" "pecks with a short retract after each"
+    "thru"      "feed through one web after the other"
+    "csink"     "to the depth that a diameter and an angle ask for"
+    "manual"    "stop over the point; a person does the rest"
+    "custom1"   "what the form's Custom1 does"
+    "custom2"   "what the form's Custom2 does"
+    "custom3"   "what the form's Custom3 does"
 }
 
 /// Where a meaning comes from.
@@ -201,9 +200,15 @@ pub fn upon() -> String {
 /// A kind of cycle; sequences have their own page.
 pub fn cycle(name: &str) -> Option<String> {
     let row = CYCLES.iter().find(|row| row.name.eq_ignore_ascii_case(name))?;
+    let kind = CycleKind::parse(name)?;
+    let served_by = match kind.sequence() {
+        Some(id) => format!("{}, or a Custom labelled {}", id.name(), row.name),
+        None if kind == CycleKind::Face => "a Custom labelled face, or Drill where that prints [dwell]".to_owned(),
+        None => format!("a Custom labelled {}", row.name),
+    };
     let lines = [
         ("is", row.meaning.to_owned()),
-        ("served by", row.served_by.to_owned()),
+        ("served by", served_by),
         ("else", "moves that postform makes; a rigid tap is an error then".to_owned()),
         ("in a job", format!("{{\"cycle\": {{\"kind\": \"{}\", ..}}}} (docs/cycles.md)", row.name)),
     ];

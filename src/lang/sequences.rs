@@ -114,6 +114,11 @@ impl SequenceId {
         self.row().name
     }
 
+    /// Is it a canned cycle for holes, which neither ends one nor threads?
+    pub fn makes_holes(self) -> bool {
+        self.row().is_cycle && !matches!(self, SequenceId::Cancel | SequenceId::AutoThread | SequenceId::CanThread)
+    }
+
     /// Finds a name in any case; `Chip Break` is Chipbreak.
     pub fn parse(name: &str) -> Option<SequenceId> {
         if name.eq_ignore_ascii_case("Chip Break") {

@@ -7,7 +7,7 @@ use crate::source::Source;
 use crate::span::Span;
 use crate::syntax::{Head, Line, Tail};
 
-use super::Levels;
+use super::{Levels, stops_printing};
 
 /// A comment that allows findings.
 struct Allow {
@@ -30,7 +30,7 @@ pub fn take_allowed(checked: &Checked, levels: &Levels, diags: &mut Vec<Diag>) -
     diags.retain(|diag| {
         let Some(at) = diag.labels.first().map(|label| label.span) else { return true };
         // what can't be printed can't be allowed, whatever a comment says
-        if is_error(diag.code) && diag.is_error() {
+        if stops_printing(diag) {
             return true;
         }
         let mut allowed = false;

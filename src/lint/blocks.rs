@@ -3,7 +3,7 @@
 use crate::lang::{Origin, VarId};
 use crate::sema::{Line, Word, WordKind};
 
-use super::view::{Body, View, is_cycle_code};
+use super::view::{Body, View};
 
 /// How the tool moves in a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub enum Motion {
     Line,
     /// G2, G3.
     Arc,
-    /// A cycle of the control, a thread or a macro: it moves by itself.
+    /// The control moves by itself: [`moves_by_itself`].
     Cycle,
 }
 
@@ -32,12 +32,14 @@ pub struct Block<'a> {
     pub reference: bool,
     /// The block has G53: its axis words are machine coordinates.
     pub machine: bool,
+    /// The block has G4, G10, G52 or G92: its axis words are a time or a setting, and nothing moves.
+    pub sets: bool,
 }
 
 impl<'a> Block<'a> {
     /// The words that say where an axis goes, with its number: 0 and 1 across, 2 the depth.
     pub fn axis_words(&self, view: &View) -> Vec<(&'a Word, usize)> {
-        let words = self.line.words.iter().take_while(|word| !is_remark(view, word));
+        let words = self.line.words.iter().filter(|_| !self.sets);
         words.filter_map(|word| Some((word, word.letter().and_then(|letter| view.axis(letter))?))).collect()
     }
 
@@ -59,10 +61,15 @@ impl<'a> Block<'a> {
     }
 }
 
-/// Does a comment to the end of the block begin here?
-fn is_remark(view: &View, word: &Word) -> bool {
-    let [open, close] = &view.settings.comment;
-    close.is_empty() && matches!(&word.kind, WordKind::Text(text) if text.starts_with(open.as_str()))
+/// The machine-cycle codes of controls: G73, G74, G76 and G81 to G89.
+pub fn is_cycle_code(code: f64) -> bool {
+    [73.0, 74.0, 76.0].contains(&code) || (81.0..90.0).contains(&code)
+}
+
+/// Does the control move by itself after this G code: a cycle, a thread (it feeds by its pitch), a macro, or a code
+/// above G100, which is the machine builder's own?
+pub fn moves_by_itself(code: f64) -> bool {
+    is_cycle_code(code) || [32.0, 33.0, 33.1, 63.0, 65.0, 66.0].contains(&code) || code >= 100.0
 }
 
 /// The blocks of a body.
@@ -72,11 +79,8 @@ pub fn read<'a>(view: &View<'a>, body: Body<'a>) -> Vec<Block<'a>> {
     let mut incremental = settings.incremental;
     let mut blocks = Vec::with_capacity(body.lines.len());
     for line in body.lines {
-        let (mut reference, mut machine) = (false, false);
+        let (mut reference, mut machine, mut sets) = (false, false, false);
         for word in &line.words {
-            if is_remark(view, word) {
-                break; // a comment of the program
-            }
             match word.kind {
                 WordKind::Literal(b'G', _, code) => match code {
                     0.0 => motion = Motion::Rapid,
@@ -87,16 +91,15 @@ pub fn read<'a>(view: &View<'a>, body: Body<'a>) -> Vec<Block<'a>> {
                     _ if code == settings.inc_abs[0] => incremental = true,
                     _ if code == settings.inc_abs[1] => incremental = false,
                     80.0 => motion = Motion::Unknown,
-                    // threads feed by their pitch, macros as they like
-                    32.0 | 33.0 | 33.1 | 63.0 | 65.0 | 66.0 => motion = Motion::Cycle,
-                    _ if is_cycle_code(code) => motion = Motion::Cycle,
+                    4.0 | 10.0 | 52.0 | 92.0 => sets = true,
+                    _ if moves_by_itself(code) => motion = Motion::Cycle,
                     _ => {}
                 },
                 WordKind::Var(b'G', VarId::Incmode) => incremental = settings.incremental,
                 _ => {}
             }
         }
-        blocks.push(Block { line, motion, incremental, reference, machine });
+        blocks.push(Block { line, motion, incremental, reference, machine, sets });
     }
     blocks
 }

@@ -46,7 +46,7 @@ pub fn lint(checked: &Checked, levels: &Levels) -> Findings {
 /// Where words of a sequence were not understood, what it lacks only follows from that: the cause is shown alone.
 fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     let lost = [Code::PF101, Code::PF104, Code::PF205, Code::PF206];
-    let is_cause = |diag: &&Diag| diag.code.row().severity == Severity::Error || lost.contains(&diag.code);
+    let is_cause = |diag: &&Diag| stops_printing(diag) || lost.contains(&diag.code);
     let place = |diag: &Diag| diag.labels.first().map(|label| label.span);
     let causes: Vec<Span> = diags.iter().filter(is_cause).filter_map(place).collect();
     if causes.is_empty() {
@@ -61,6 +61,11 @@ fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
         let follows = |at: Span| unclear.iter().any(|whole| within(whole, &at));
         !(may_follow(diag) && place(diag).is_some_and(follows))
     });
+}
+
+/// Is this an error of the form itself, whatever a rule's findings count as? Nothing is printed until it is mended.
+fn stops_printing(diag: &Diag) -> bool {
+    diag.is_error() && diag.code.row().severity == Severity::Error
 }
 
 /// In the order of file and place; the worst first where they share one.

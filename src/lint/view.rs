@@ -2,11 +2,12 @@
 
 use crate::compile::LetterTable;
 use crate::lang::{CommandId, Machine, SequenceId, VarId, VarSet};
-use crate::sema::{Checked, Form, Line, Sequence, Settings, UnitChoice, Word};
+use crate::sema::{Checked, Form, Line, Sequence, Settings, UnitChoice, Word, before_remark};
 use crate::span::Span;
-use crate::syntax::{Piece, SequenceNode, Statement};
+use crate::syntax::{self, Piece, SequenceNode, Statement};
+use crate::toolpath::CycleKind;
 
-use super::blocks::{self, Block};
+use super::blocks::{self, Block, is_cycle_code, moves_by_itself};
 
 /// A form with what many rules ask of it.
 pub struct View<'a> {
@@ -82,10 +83,14 @@ impl<'a> View<'a> {
     /// The canned cycles that make holes, with their own lines.
     pub fn hole_cycles(&self) -> impl Iterator<Item = (&'a Sequence, Body<'a>)> + '_ {
         self.bodies.iter().filter_map(|body| {
-            let sequence = body.sequence.filter(|s| s.id.row().is_cycle && !s.is_none)?;
-            let threads = matches!(sequence.id, SequenceId::AutoThread | SequenceId::CanThread | SequenceId::Cancel);
-            (!threads).then_some((sequence, *body))
+            let sequence = body.sequence.filter(|sequence| sequence.id.makes_holes() && !sequence.is_none)?;
+            Some((sequence, *body))
         })
+    }
+
+    /// The canned cycles that serve one of these, a Custom by the kind in its remark.
+    pub fn cycles_for<'s>(&'s self, ids: &'s [SequenceId]) -> impl Iterator<Item = Body<'a>> + 's {
+        self.hole_cycles().filter(|(sequence, _)| ids.contains(&serves(sequence))).map(|(_, body)| body)
     }
 
     /// Is the form for a mill?
@@ -126,9 +131,15 @@ impl<'a> View<'a> {
         self.checked.trees.iter().flat_map(|tree| tree.sequences()).find(|node| node.name.line.span == span)
     }
 
+    /// Words as they are written, but for those of comments to the end of the block.
+    pub fn written(&self) -> impl Iterator<Item = &'a syntax::Word> + '_ {
+        let bodies = self.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
+        bodies.flat_map(|body| &body.words[..before_remark(&body.words, &self.settings.comment)])
+    }
+
     /// The pieces of words as they are written.
     pub fn pieces(&self) -> impl Iterator<Item = &'a Piece> + '_ {
-        self.checked.trees.iter().flat_map(|tree| tree.words()).flat_map(|word| &word.pieces)
+        self.written().flat_map(|word| &word.pieces)
     }
 
     /// The words of all bodies.
@@ -139,6 +150,18 @@ impl<'a> View<'a> {
     /// The blocks of a body with the modes that hold in each.
     pub fn blocks(&self, body: Body<'a>) -> Vec<Block<'a>> {
         blocks::read(self, body)
+    }
+
+    /// The letter that the word has in the program, which `Rename` may change.
+    pub fn printed_letter(&self, word: &Word) -> Option<u8> {
+        word.letter().map(|letter| self.letters[letter].printed)
+    }
+
+    /// The letter whose format prints the word: a small letter without one takes its capital's.
+    pub fn format_letter(&self, word: &Word) -> Option<u8> {
+        let letter = word.letter()?;
+        let own = self.form.formats.contains_key(&letter) || self.form.packed.contains_key(&letter);
+        Some(if own { letter } else { letter.to_ascii_uppercase() })
     }
 
     /// The axis that a word of this letter moves: 0 and 1 across, 2 the depth; `None` for others.
@@ -182,27 +205,29 @@ impl<'a> Body<'a> {
     pub fn code(&self, letter: u8, codes: &[f64]) -> Option<&'a Word> {
         self.words().find(|word| word.is_code(letter, codes))
     }
+
+    /// The word that starts a cycle of the control, if it has one, with the code.
+    pub fn cycle_word(&self) -> Option<(&'a Word, f64)> {
+        self.words().find_map(|word| word.typed(b'G').filter(|&code| is_cycle_code(code)).map(|code| (word, code)))
+    }
+
+    /// Does the control move by itself somewhere in it, as in its cycles?
+    pub fn moves_by_itself(&self) -> bool {
+        self.words().any(|word| word.typed(b'G').is_some_and(moves_by_itself))
+    }
+
+    /// Does a cycle of the control print one of these when it begins? All lines count up to the end of its block, or all
+    /// where there is none.
+    pub fn begins_with(&self, vars: &[VarId]) -> bool {
+        let starts = |word: &Word| word.typed(b'G').is_some_and(is_cycle_code);
+        let cycle = self.lines.iter().position(|line| line.words.iter().any(starts));
+        let mut words = self.lines[..cycle.map_or(self.lines.len(), |at| at + 1)].iter().flat_map(|line| &line.words);
+        words.any(|word| word.printed_var().is_some_and(|var| vars.contains(&var)))
+    }
 }
 
-/// The machine-cycle codes of controls: G73, G74, G76 and G81 to G89.
-pub fn is_cycle_code(code: f64) -> bool {
-    [73.0, 74.0, 76.0].contains(&code) || (81.0..90.0).contains(&code)
-}
-
-/// The words that a cycle of the control begins with: those up to the end of its block, or all where there is none.
-pub fn first_block<'a>(body: &Body<'a>) -> impl Iterator<Item = &'a Word> + use<'a> {
-    let cycle =
-        body.lines.iter().position(|line| line.words.iter().any(|word| word.typed(b'G').is_some_and(is_cycle_code)));
-    let lines = &body.lines[..cycle.map_or(body.lines.len(), |at| at + 1)];
-    lines.iter().flat_map(|line| &line.words)
-}
-
-/// Does one of these words print one of these variables?
-pub fn says<'a>(mut words: impl Iterator<Item = &'a Word>, vars: &[VarId]) -> bool {
-    words.any(|word| word.printed_var().is_some_and(|var| vars.contains(&var)))
-}
-
-/// The word that starts a cycle of the control, if the body has one.
-pub fn cycle_word<'a>(body: &Body<'a>) -> Option<(&'a Word, f64)> {
-    body.words().find_map(|word| word.typed(b'G').filter(|&code| is_cycle_code(code)).map(|code| (word, code)))
+/// What a canned cycle serves: itself, or for a Custom what has the kind that its remark names.
+pub fn serves(sequence: &Sequence) -> SequenceId {
+    let kind = sequence.custom_kind().and_then(CycleKind::parse);
+    kind.and_then(CycleKind::sequence).unwrap_or(sequence.id)
 }

@@ -243,7 +243,6 @@ impl Renderer<'_> {
 
     /// Which sequence serves which kind (render.md section 3).
     fn candidate(&self, spec: &CycleSpec) -> Option<SequenceId> {
-        use CycleKind as K;
         use SequenceId as S;
         let program = self.program;
         let custom = || {
@@ -252,25 +251,14 @@ impl Renderer<'_> {
             let is_kind = |label: &String| kind_of_remark(label).is_some_and(|kind| kind.eq_ignore_ascii_case(name));
             labels.filter(|(label, _)| label.as_ref().is_some_and(is_kind)).map(|(_, id)| id).next()
         };
-        let own = match spec.kind {
-            K::Drill => S::Drill,
-            K::Face => {
-                let prints_dwell = |block: &Block| block.vars.has(VarId::Dwell);
-                return custom().or_else(|| program.block(S::Drill).filter(|b| prints_dwell(b)).map(|_| S::Drill));
-            }
-            K::Tap => S::Tap,
-            K::LTap => S::LTap,
-            K::Bore => S::Bore,
-            K::Back => S::Back,
-            K::Ream => S::Ream,
-            K::Deep => S::Peck,
-            K::Chipbreak => S::Chipbreak,
-            K::Custom1 => S::Custom1,
-            K::Custom2 => S::Custom2,
-            K::Custom3 => S::Custom3,
-            K::Thru | K::Csink | K::Manual => return custom(),
-        };
-        if program.block(own).is_some() { Some(own) } else { custom() }
+        match spec.kind.sequence() {
+            Some(own) if program.block(own).is_some() => Some(own),
+            None if spec.kind == CycleKind::Face => custom().or_else(|| {
+                let prints_dwell = |block: &&Block| block.vars.has(VarId::Dwell);
+                program.block(S::Drill).filter(prints_dwell).map(|_| S::Drill)
+            }),
+            _ => custom(),
+        }
     }
 
     /// What a cycle asks for that its sequence does not print.

@@ -299,8 +299,8 @@ impl Analysis {
         let mut words = vec![node.name.name.text.as_str()];
         words.extend(node.name.args.iter().map(|arg| arg.text.as_str()));
         let machine = self.form.settings.machine;
-        let close_mark = self.form.settings.comment[1].clone();
-        let context = Context { machine, close_mark: &close_mark };
+        let comment = self.form.settings.comment.clone();
+        let context = Context { machine, comment: &comment };
         let mut lines = Vec::new();
         for body in &node.body {
             if body.words.is_empty() {

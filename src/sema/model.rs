@@ -41,6 +41,14 @@ pub struct Sequence {
     pub lines: Vec<Line>,
 }
 
+impl Sequence {
+    /// The kind of cycle that a Custom serves, by the first word of its remark.
+    pub fn custom_kind(&self) -> Option<&str> {
+        let is_custom = matches!(self.id, SequenceId::Custom1 | SequenceId::Custom2 | SequenceId::Custom3);
+        self.remark.as_deref().filter(|_| is_custom).and_then(kind_of_remark)
+    }
+}
+
 /// The first word of a Custom cycle's remark: the kind of cycle that it serves.
 pub fn kind_of_remark(remark: &str) -> Option<&str> {
     remark.split([' ', '\t', ',', '(']).next().filter(|word| !word.is_empty())
@@ -92,6 +100,8 @@ pub enum WordKind {
     Literal(u8, String, f64),
     /// Text as typed.
     Text(String),
+    /// Text of a comment of the program.
+    Note(String),
 }
 
 impl Word {

@@ -4,26 +4,45 @@ use super::model::{Line, Word, WordKind};
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, VARIABLES, VarId, did_you_mean};
 use crate::span::Span;
-use crate::syntax::{Body, Piece, PieceKind, Spanned};
+use crate::syntax::{self, Body, Piece, PieceKind, Spanned};
 
 /// What the words of a form have in common.
 pub struct Context<'a> {
     /// The form's machine.
     pub machine: Machine,
-    /// The mark that closes comments.
-    pub close_mark: &'a str,
+    /// The marks around comments; the second is empty where they run to the end of the block.
+    pub comment: &'a [String; 2],
 }
 
 /// The words of one body line.
 pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
+    let (codes, remark) = body.words.split_at(before_remark(&body.words, context.comment));
     let mut words = Vec::new();
-    for word in &body.words {
+    for word in codes {
         for (i, piece) in word.pieces.iter().enumerate() {
             let previous = i.checked_sub(1).map(|before| &word.pieces[before]);
             push(piece, previous, context, &mut words, diags);
         }
     }
+    if let [first, .., last] | [first @ last] = remark {
+        let span = Span { end: last.span.end, ..first.span };
+        let mut note = Note { span, glued: false, text: String::new(), words: &mut words };
+        for (i, word) in remark.iter().enumerate() {
+            note.text.push_str(if i > 0 { " " } else { "" });
+            note.pieces(&word.pieces, context, diags);
+        }
+        note.end();
+    }
     Line { span: body.line.span, words }
+}
+
+/// How many words stand before a comment that runs to the end of the block. Like the words in round brackets, those
+/// behind its mark are for people: they set nothing, and are printed whenever the block is.
+pub fn before_remark(words: &[syntax::Word], comment: &[String; 2]) -> usize {
+    let [open, close] = comment;
+    let opens = |word: &syntax::Word| matches!(word.pieces.first(), Some(Piece { kind: PieceKind::Stray(text), .. }) if text.starts_with(open.as_str()));
+    let at = if close.is_empty() { words.iter().position(opens) } else { None };
+    at.unwrap_or(words.len())
 }
 
 /// Reads the name of a variable; reports it when there is none, or none on this machine.
@@ -64,7 +83,9 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
             WordKind::Text(text.clone())
         }
         PieceKind::Note { parts, closed } => {
-            push_note(parts, *closed, piece.span, glued, context, words, diags);
+            let mut note = Note { span: piece.span, glued, text: String::new(), words };
+            note.brackets(parts, *closed, context, diags);
+            note.end();
             return;
         }
     };
@@ -81,41 +102,58 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
     words.push(Word { span: piece.span, glued, kind });
 }
 
-/// A comment of the program: text and values, closed with the form's mark when it is open.
-fn push_note(
-    parts: &[Piece],
-    closed: bool,
+/// A comment of the program while it is read: text and values.
+struct Note<'a> {
     span: Span,
     glued: bool,
-    context: &Context,
-    words: &mut Vec<Word>,
-    diags: &mut Vec<Diag>,
-) {
-    let mut text = String::from("(");
-    let mut glued = glued;
-    for part in parts {
-        match &part.kind {
-            PieceKind::Variable { name, .. } => {
-                if !text.is_empty() {
-                    words.push(Word { span, glued, kind: WordKind::Text(std::mem::take(&mut text)) });
-                    glued = true;
-                }
-                if let Some(var) = variable(name, context.machine, diags) {
-                    words.push(Word { span: part.span, glued: true, kind: WordKind::Remark(var) });
-                }
+    text: String,
+    words: &'a mut Vec<Word>,
+}
+
+impl Note<'_> {
+    fn pieces(&mut self, pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
+        for (i, piece) in pieces.iter().enumerate() {
+            if i > 0 && piece.lacks_blank_after(&pieces[i - 1]) {
+                self.text.push(' ');
             }
-            PieceKind::Stray(part) => {
-                if let Some(c) = part.chars().find(|c| c.is_control()) {
-                    diags.push(control_character(c, span));
+            match &piece.kind {
+                PieceKind::Variable { letter, name } => {
+                    self.text.extend(letter.map(char::from));
+                    self.end();
+                    if let Some(var) = variable(name, context.machine, diags) {
+                        self.words.push(Word { span: piece.span, glued: self.glued, kind: WordKind::Remark(var) });
+                        self.glued = true;
+                    }
                 }
-                text.push_str(part);
+                PieceKind::Stray(text) => {
+                    if let Some(c) = text.chars().find(|c| c.is_control()) {
+                        diags.push(control_character(c, self.span));
+                    }
+                    self.text.push_str(text);
+                }
+                PieceKind::Literal { letter, number } => {
+                    self.text.push(char::from(*letter));
+                    self.text.push_str(&number.text);
+                }
+                PieceKind::Note { parts, closed } => self.brackets(parts, *closed, context, diags),
             }
-            _ => {}
         }
     }
-    text.push_str(if closed { ")" } else { context.close_mark });
-    if !text.is_empty() {
-        words.push(Word { span, glued, kind: WordKind::Text(text) });
+
+    /// A comment in round brackets, closed with the form's mark when it is open.
+    fn brackets(&mut self, parts: &[Piece], closed: bool, context: &Context, diags: &mut Vec<Diag>) {
+        self.text.push('(');
+        self.pieces(parts, context, diags);
+        self.text.push_str(if closed { ")" } else { &context.comment[1] });
+    }
+
+    /// The text so far becomes a word.
+    fn end(&mut self) {
+        if !self.text.is_empty() {
+            let text = WordKind::Note(std::mem::take(&mut self.text));
+            self.words.push(Word { span: self.span, glued: self.glued, kind: text });
+            self.glued = true;
+        }
     }
 }
 

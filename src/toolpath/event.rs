@@ -1,5 +1,7 @@
 //! The events of a toolpath (render.md section 1).
 
+use super::kind::CycleKind;
+
 /// Coordinates h v d and rotary a b c; those not given keep the tool's last position.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Axes {
@@ -234,58 +236,6 @@ pub enum Section {
 pub enum StopKind {
     Program,
     Optional,
-}
-
-/// Kinds of canned cycles (cycles.md section 1.5).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum CycleKind {
-    Drill,
-    Face,
-    Tap,
-    LTap,
-    Bore,
-    Back,
-    Ream,
-    Deep,
-    Chipbreak,
-    Thru,
-    Csink,
-    Manual,
-    Custom1,
-    Custom2,
-    Custom3,
-}
-
-impl CycleKind {
-    /// All of them with the names that jobs use.
-    pub const NAMES: [(&'static str, CycleKind); 15] = [
-        ("drill", CycleKind::Drill),
-        ("face", CycleKind::Face),
-        ("tap", CycleKind::Tap),
-        ("ltap", CycleKind::LTap),
-        ("bore", CycleKind::Bore),
-        ("back", CycleKind::Back),
-        ("ream", CycleKind::Ream),
-        ("deep", CycleKind::Deep),
-        ("chipbreak", CycleKind::Chipbreak),
-        ("thru", CycleKind::Thru),
-        ("csink", CycleKind::Csink),
-        ("manual", CycleKind::Manual),
-        ("custom1", CycleKind::Custom1),
-        ("custom2", CycleKind::Custom2),
-        ("custom3", CycleKind::Custom3),
-    ];
-
-    /// The name that jobs use.
-    pub fn name(self) -> &'static str {
-        Self::NAMES.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
-    }
-
-    /// Is it a tap?
-    pub fn is_tap(self) -> bool {
-        matches!(self, CycleKind::Tap | CycleKind::LTap)
-    }
 }
 
 /// One absolute step of a peck cycle.

@@ -2,6 +2,7 @@
 
 mod event;
 mod hold;
+mod kind;
 mod place;
 mod read;
 mod summary;
@@ -9,10 +10,11 @@ mod summary;
 pub mod json;
 
 pub use event::{
-    Arc, Axes, Call, Coolant, CycleKind, CycleSpec, Direction, EdmAction, Event, FeedMode, First, Hole, Infeed, Peck,
-    Plane, Section, Side, Spindle, SpindleTurn, Start, StopKind, Thread, Tool, ToolChange, Units,
+    Arc, Axes, Call, Coolant, CycleSpec, Direction, EdmAction, Event, FeedMode, First, Hole, Infeed, Peck, Plane,
+    Section, Side, Spindle, SpindleTurn, Start, StopKind, Thread, Tool, ToolChange, Units,
 };
 pub use hold::Hold;
+pub use kind::CycleKind;
 pub use place::Place;
 pub use read::ReadError;
 pub use summary::Summary;

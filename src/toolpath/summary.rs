@@ -1,6 +1,7 @@
 //! What is in a job: tools, moves, holes, extents.
 
-use super::event::{Axes, CycleKind, Event, Start, Units};
+use super::CycleKind;
+use super::event::{Axes, Event, Start, Units};
 use super::{Place, Sink};
 use crate::diag::Diag;
 

@@ -11,7 +11,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             // where a person changes the tool, a comment says which
             let told = body.words().any(|word| word.var() == Some(VarId::Tool));
             if !body.lines.is_empty() && !told {
-                let typed = body.words().find(|word| word.letter() == Some(b'T'));
+                let typed = body.words().find(|word| view.printed_letter(word) == Some(b'T'));
                 diags.push(
                     Diag::new(Code::PF429, format!("{} does not say which tool", body.name()))
                         .at(typed.map_or(body.span, |word| word.span), "the same for every tool of a job")
@@ -20,7 +20,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             }
             continue;
         };
-        let selects = word.letter() == Some(b'T') && view.is_mill() && !view.is_for(&["grbl"]);
+        let selects = view.printed_letter(word) == Some(b'T') && view.is_mill() && !view.is_for(&["grbl"]);
         if selects && body.code(b'M', &[6.0]).is_none() {
             diags.push(
                 Diag::new(Code::PF429, format!("{} selects a tool and does not change it", body.name()))

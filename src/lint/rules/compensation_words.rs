@@ -11,7 +11,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(Diag::new(Code::PF434, format!("{} {message}", body.name())).at(body.span, label).help(help));
     };
     if let Some(body) = view.body(SequenceId::InFeed).filter(|body| !body.lines.is_empty()) {
-        let register = body.words().any(|word| word.letter().is_some_and(|letter| b"DH".contains(&letter)))
+        let register = body.words().any(|word| view.printed_letter(word).is_some_and(|letter| b"DH".contains(&letter)))
             || body.prints_any(&[VarId::Dcomp, VarId::Comp]);
         if !side(&body, &[left, right]) {
             say(&body, "does not turn compensation on", "no G41, no G42", "print `G[side]`".into());

@@ -5,9 +5,14 @@ use crate::lang::VarId;
 use crate::lint::view::View;
 use crate::sema::WordKind;
 
-/// G codes of mills that Grbl refuses.
-const NOT_GRBL: &[(f64, f64)] =
-    &[(41.0, 42.0), (43.0, 43.0), (44.0, 44.0), (50.0, 52.0), (68.0, 69.0), (73.0, 76.0), (81.0, 89.0), (95.0, 99.0)];
+/// The G codes of Grbl 1.1, by its own list of supported codes.
+const G: &[f64] = &[
+    0.0, 1.0, 2.0, 3.0, 4.0, 10.0, 17.0, 18.0, 19.0, 20.0, 21.0, 28.0, 28.1, 30.0, 30.1, 38.2, 38.3, 38.4, 38.5, 40.0,
+    43.1, 49.0, 53.0, 54.0, 55.0, 56.0, 57.0, 58.0, 59.0, 61.0, 80.0, 90.0, 91.0, 91.1, 92.0, 92.1, 93.0, 94.0,
+];
+
+/// Its M codes.
+const M: &[f64] = &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 8.0, 9.0, 30.0, 56.0];
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_for(&["grbl"]) {
@@ -15,8 +20,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
     for word in view.words() {
         let refused = match word.kind {
-            WordKind::Literal(b'G', _, code) => NOT_GRBL.iter().any(|(from, to)| (*from..=*to).contains(&code)),
-            WordKind::Literal(b'M', _, code) => [6.0, 19.0, 29.0, 98.0, 99.0].contains(&code),
+            WordKind::Literal(b'G', _, code) => !G.contains(&code),
+            WordKind::Literal(b'M', _, code) => !M.contains(&code),
             WordKind::Var(b'G', var) => matches!(var, VarId::Retplane | VarId::Side | VarId::Speedtype),
             _ => false,
         };
@@ -24,7 +29,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF607, "grbl does not have this code")
                     .at(word.span, "refused")
-                    .help("take it out: without a sequence postform prints the moves of a cycle itself"),
+                    .help("take it out; a cycle without its sequence is printed as moves"),
             );
         }
     }

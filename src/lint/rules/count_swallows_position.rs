@@ -3,16 +3,18 @@
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
 use crate::lint::view::View;
-use crate::sema::Word;
+use crate::sema::Line;
 
-pub fn check(view: &View, diags: &mut Vec<Diag>) {
+pub fn check<'a>(view: &View<'a>, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some(count) = sequence.count else { continue };
-        let position = |word: &&Word| matches!(word.printed_var(), Some(VarId::H | VarId::V));
         let (once, every) = sequence.lines.split_at(count.min(sequence.lines.len()));
-        let first = once.iter().flat_map(|line| &line.words).find(position);
-        let again = every.iter().flat_map(|line| &line.words).any(|word| position(&word));
-        if let (Some(first), false) = (first, again) {
+        let find = |lines: &'a [Line], var| {
+            lines.iter().flat_map(|line| &line.words).find(|word| word.printed_var() == Some(var))
+        };
+        let swallowed =
+            [VarId::H, VarId::V].into_iter().find_map(|var| find(once, var).filter(|_| find(every, var).is_none()));
+        if let Some(first) = swallowed {
             diags.push(
                 Diag::new(Code::PF408, format!("{} prints the position at the first hole only", body.name()))
                     .at(first.span, "printed once")

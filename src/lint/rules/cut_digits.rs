@@ -7,7 +7,8 @@ use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (&letter, (format, span)) in &view.form.formats {
-        let printed = view.words().filter(|word| word.letter() == Some(letter)).filter_map(Word::printed_var);
+        let printed =
+            view.words().filter(|word| view.format_letter(word) == Some(letter)).filter_map(Word::printed_var);
         let wanted = printed.map(|var| (needed(view, var), var)).max_by_key(|(decimals, _)| *decimals);
         let (wanted, what) = match wanted {
             Some((decimals, var)) => (decimals, format!("[{}]", var.name())),

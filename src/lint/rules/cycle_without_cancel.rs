@@ -2,12 +2,12 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
-use crate::lint::view::{View, cycle_word};
+use crate::lint::view::View;
 use crate::span::Span;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
-        let Some((word, code)) = cycle_word(&body) else { continue };
+        let Some((word, code)) = body.cycle_word() else { continue };
         let uncounted = sequence.count.is_none() && sequence.lines.len() > 1; // another rule's
         if sequence.cancel.is_some() || uncounted || body.code(b'G', &[80.0]).is_some() {
             continue;

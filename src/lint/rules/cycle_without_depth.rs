@@ -2,14 +2,14 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
-use crate::lint::view::{View, first_block, says};
+use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_mill() {
         return;
     }
     for (sequence, body) in view.hole_cycles() {
-        if !says(first_block(&body), &[VarId::D, VarId::Depth, VarId::Inidep, VarId::Ddist]) {
+        if !body.begins_with(&[VarId::D, VarId::Depth, VarId::Inidep, VarId::Ddist]) {
             diags.push(
                 Diag::new(Code::PF407, format!("{} does not print the depth", body.name()))
                     .at(sequence.span, "the control would take the depth of the cycle before")

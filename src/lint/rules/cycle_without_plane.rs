@@ -2,15 +2,15 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
-use crate::lint::view::{View, cycle_word, first_block, says};
+use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_mill() {
         return;
     }
     for (_, body) in view.hole_cycles() {
-        let Some((word, code)) = cycle_word(&body) else { continue };
-        if !says(first_block(&body), &[VarId::Vclear, VarId::Rplane]) {
+        let Some((word, code)) = body.cycle_word() else { continue };
+        if !body.begins_with(&[VarId::Vclear, VarId::Rplane]) {
             diags.push(
                 Diag::new(Code::PF411, format!("G{code} has no R plane"))
                     .at(word.span, "the control would take that of the cycle before")

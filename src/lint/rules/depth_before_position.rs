@@ -3,7 +3,7 @@
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::blocks::Block;
-use crate::lint::view::{Body, Purpose, View, cycle_word};
+use crate::lint::view::{Body, Purpose, View};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
@@ -49,5 +49,5 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 
 /// A canned cycle that moves by itself, without a cycle of the control.
 fn is_emulated(body: &Body, id: SequenceId) -> bool {
-    id.row().is_cycle && cycle_word(body).is_none() && body.code(b'G', &[65.0, 66.0]).is_none()
+    id.row().is_cycle && !body.moves_by_itself()
 }

@@ -5,10 +5,12 @@ use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in &view.bodies {
-        let Some(sequence) = body.sequence.filter(|s| s.lines.is_empty() && !s.is_none) else { continue };
+        if !body.lines.is_empty() || body.sequence.is_some_and(|sequence| sequence.is_none) {
+            continue;
+        }
         diags.push(
             Diag::new(Code::PF012, format!("{} has no lines", body.name()))
-                .at(sequence.span, "nothing is printed where it is due")
+                .at(body.span, "nothing is printed where it is due")
                 .help("write its lines, or take it out, so that postform prints what is needed; `None` says that nothing is wanted"),
         );
     }

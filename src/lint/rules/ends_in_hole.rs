@@ -2,28 +2,24 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
-use crate::lint::view::{View, cycle_word};
+use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
-        if cycle_word(&body).is_some() || !view.is_mill() || sequence.lines.len() < 2 {
+        // codes of a control that nobody knows here may lift the tool
+        if body.moves_by_itself() || !view.is_mill() || sequence.lines.len() < 2 {
             continue;
         }
-        let blocks = view.blocks(body);
-        let mut words = blocks.iter().rev().filter(|block| block.in_part()).flat_map(|block| block.axis_words(view));
-        let last = words.find(|(_, axis)| *axis == 2);
-        if let Some((word, _)) = last.filter(|(word, _)| word.printed_var() == Some(VarId::D)) {
-            // codes of a control that nobody knows here may lift the tool
-            let own_codes = body
-                .words()
-                .any(|word| word.typed(b'G').is_some_and(|code| code >= 100.0 || [33.1, 65.0, 66.0].contains(&code)));
-            if !own_codes {
-                diags.push(
-                    Diag::new(Code::PF417, format!("{} ends at the bottom of the hole", body.name()))
-                        .at(word.span, "the last depth that is printed")
-                        .help("lift the tool in the last line: `G0 Z[rplane]`"),
-                );
-            }
+        let last = view.blocks(body).into_iter().rev().find_map(|block| {
+            let (word, _) = block.axis_words(view).into_iter().rev().find(|(_, axis)| *axis == 2)?;
+            Some((word, block.in_part()))
+        });
+        if let Some((word, true)) = last.filter(|(word, _)| word.printed_var() == Some(VarId::D)) {
+            diags.push(
+                Diag::new(Code::PF417, format!("{} ends at the bottom of the hole", body.name()))
+                    .at(word.span, "the last depth that is printed")
+                    .help("lift the tool in the last line: `G0 Z[rplane]`"),
+            );
         }
     }
 }

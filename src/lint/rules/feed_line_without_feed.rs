@@ -3,19 +3,18 @@
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::blocks::Motion;
-use crate::lint::view::{View, cycle_word};
+use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
     let feed = view.settings.feed_code;
     for body in &view.bodies {
-        let Some(sequence) = body.sequence else { continue };
-        let feeds = matches!(sequence.id, S::LineCode | S::CwCode | S::CcwCode);
-        let moves = feeds || matches!(sequence.id, S::InFeed | S::OutFeed | S::Unwind) || sequence.id.row().is_cycle;
-        let threads = matches!(sequence.id, S::AutoThread | S::CanThread | S::Cancel);
-        if !moves || threads || cycle_word(body).is_some() {
+        let id = body.sequence.map(|sequence| sequence.id);
+        // a thread feeds by its pitch, a cycle of the control has its own rule
+        if matches!(id, Some(S::AutoThread | S::CanThread)) || body.cycle_word().is_some() {
             continue;
         }
+        let feeds = matches!(id, Some(S::LineCode | S::CwCode | S::CcwCode));
         let mut said = false;
         for block in view.blocks(*body) {
             said |= block.line.words.iter().any(|word| {

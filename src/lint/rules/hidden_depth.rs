@@ -2,14 +2,14 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
-use crate::lint::view::{View, cycle_word};
+use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_mill() || view.settings.incremental {
         return;
     }
     for (_, body) in view.hole_cycles() {
-        if cycle_word(&body).is_none() {
+        if body.cycle_word().is_none() {
             continue;
         }
         for block in view.blocks(body) {

@@ -10,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if !format.is_implied() {
             continue;
         }
-        let own = |word: &&Word| word.letter() == Some(letter);
+        let own = |word: &&Word| view.format_letter(word) == Some(letter);
         let is_count = |word: &&Word| {
             word.printed_var().is_some_and(|var| matches!(var.row().unit, Unit::Count | Unit::Code | Unit::Time))
         };

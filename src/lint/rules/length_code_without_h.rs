@@ -10,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let lines = view.bodies.iter().flat_map(|body| body.lines.iter().map(move |line| (body, line)));
     for (body, line) in lines {
         let Some(word) = line.words.iter().find(|word| word.is_code(b'G', &[43.0, 44.0])) else { continue };
-        if !line.words.iter().any(|word| word.letter().is_some_and(|letter| view.letters[letter].printed == b'H')) {
+        if !line.words.iter().any(|word| view.printed_letter(word) == Some(b'H')) {
             diags.push(
                 Diag::new(Code::PF425, format!("{} turns the length offset on and does not say which", body.name()))
                     .at(word.span, "no H")

@@ -6,7 +6,7 @@ use crate::lint::view::View;
 use crate::syntax::{Piece, PieceKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for word in view.checked.trees.iter().flat_map(|tree| tree.words()) {
+    for word in view.written() {
         let [Piece { kind: PieceKind::Stray(text), span }] = word.pieces.as_slice() else { continue };
         let Some(meant) = meant(text) else { continue };
         diags.push(

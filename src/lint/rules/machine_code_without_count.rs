@@ -1,11 +1,11 @@
 //! PF404: a cycle of the control in a sequence of several lines would drill each hole again with every line.
 
 use crate::diag::{Code, Diag};
-use crate::lint::view::{View, cycle_word};
+use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
-        let Some((word, code)) = cycle_word(&body) else { continue };
+        let Some((word, code)) = body.cycle_word() else { continue };
         if sequence.count.is_some() || sequence.lines.len() < 2 || body.code(b'G', &[80.0]).is_some() {
             continue;
         }

@@ -5,7 +5,7 @@ use crate::lint::view::View;
 use crate::span::Span;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for word in view.checked.trees.iter().flat_map(|tree| tree.words()) {
+    for word in view.written() {
         for pair in word.pieces.windows(2) {
             if !pair[1].lacks_blank_after(&pair[0]) {
                 continue;

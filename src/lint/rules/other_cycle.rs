@@ -2,7 +2,7 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
-use crate::lint::view::{View, cycle_word};
+use crate::lint::view::{View, serves};
 
 /// The codes that mills have for each cycle.
 const OWN: &[(SequenceId, &[f64])] = &[
@@ -21,8 +21,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         return;
     }
     for (sequence, body) in view.hole_cycles() {
-        let Some((_, own)) = OWN.iter().find(|(id, _)| *id == sequence.id) else { continue };
-        let Some((word, code)) = cycle_word(&body).filter(|(_, code)| !own.contains(code) && code.fract() == 0.0)
+        let Some((_, own)) = OWN.iter().find(|(id, _)| *id == serves(sequence)) else { continue };
+        let Some((word, code)) = body.cycle_word().filter(|(_, code)| !own.contains(code) && code.fract() == 0.0)
         else {
             continue;
         };

@@ -2,11 +2,11 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
-use crate::lint::view::{View, cycle_word};
+use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for body in view.these(&[SequenceId::Peck, SequenceId::Chipbreak]) {
-        let Some((word, code)) = cycle_word(&body) else { continue };
+    for body in view.cycles_for(&[SequenceId::Peck, SequenceId::Chipbreak]) {
+        let Some((word, code)) = body.cycle_word() else { continue };
         if !body.prints_any(&[VarId::Vbite, VarId::Peck1, VarId::Inidep, VarId::Sbite]) {
             diags.push(
                 Diag::new(Code::PF413, format!("G{code} has no peck"))

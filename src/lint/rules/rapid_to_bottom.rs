@@ -3,11 +3,11 @@
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::blocks::Motion;
-use crate::lint::view::{View, cycle_word};
+use crate::lint::view::{View, serves};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
-        if sequence.id == SequenceId::Back || cycle_word(&body).is_some() || !view.is_mill() {
+        if serves(sequence) == SequenceId::Back || body.cycle_word().is_some() || !view.is_mill() {
             continue; // a back bore goes down through the hole
         }
         for block in view.blocks(body) {

@@ -7,10 +7,6 @@ use crate::lint::view::View;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(start) = view.body(SequenceId::StartCode).filter(|_| view.is_mill()) else { return };
     for block in view.blocks(start) {
-        // G10, G52 and G92 set values and move nothing
-        if block.line.words.iter().any(|word| word.is_code(b'G', &[10.0, 52.0, 92.0])) {
-            continue;
-        }
         let Some((word, _)) = block.axis_words(view).first().copied().filter(|_| block.in_part()) else { continue };
         diags.push(
             Diag::new(Code::PF013, "StartCode moves an axis")

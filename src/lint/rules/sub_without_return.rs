@@ -8,7 +8,7 @@ use crate::sema::WordKind;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(end) = view.body(SequenceId::SubEnd) else { return };
     // words that are no codes are the control's own, as `RET` or `endsub`
-    let own = end.words().any(|word| matches!(&word.kind, WordKind::Text(text) if !text.starts_with('(')));
+    let own = end.words().any(|word| matches!(word.kind, WordKind::Text(_)));
     if end.code(b'M', &[99.0, 17.0]).is_none() && !own {
         diags.push(
             Diag::new(Code::PF017, "SubEnd does not return")

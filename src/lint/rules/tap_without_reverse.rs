@@ -3,22 +3,19 @@
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::blocks::Motion;
-use crate::lint::view::{View, cycle_word};
+use crate::lint::view::View;
+
+use super::spindle_before_change::starts_spindle;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for body in view.these(&[SequenceId::Tap, SequenceId::LTap]) {
-        let own_codes =
-            body.words().any(|word| word.typed(b'G').is_some_and(|code| code >= 100.0 || code == 33.0 || code == 33.1));
-        if cycle_word(&body).is_some() || own_codes {
+    for body in view.cycles_for(&[SequenceId::Tap, SequenceId::LTap]) {
+        if body.moves_by_itself() {
             continue;
         }
         let mut cut = false;
         let mut reversed = false;
         for block in view.blocks(body) {
-            reversed |= cut
-                && block.line.words.iter().any(|word| {
-                    word.is_code(b'M', &[3.0, 4.0, 13.0, 14.0]) || word.printed_var() == Some(VarId::Direct)
-                });
+            reversed |= cut && block.line.words.iter().any(starts_spindle);
             let words = block.axis_words(view);
             let Some((word, _)) = words.iter().find(|(_, axis)| *axis == 2) else { continue };
             match (block.motion, word.printed_var()) {

@@ -32,8 +32,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (&letter, (format, span)) in &view.form.formats {
         let centre = matches!(&view.settings.centre, ArcCentre::Letters(letters) if letters.contains(&letter));
         let generated = view.settings.axes.contains(&letter) || centre || (turns && view.is_rotary(letter));
-        let prints =
-            |word: &Word| word.letter() == Some(letter) && word.printed_var().is_some_and(|var| signed.contains(&var));
+        let prints = |word: &Word| {
+            view.format_letter(word) == Some(letter) && word.printed_var().is_some_and(|var| signed.contains(&var))
+        };
         if format.sign != Sign::Unsigned || !(generated || view.words().any(prints)) {
             continue;
         }

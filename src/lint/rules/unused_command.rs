@@ -2,7 +2,7 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, SequenceId, VarId};
-use crate::lint::view::{View, cycle_word};
+use crate::lint::view::View;
 use crate::sema::ArcCentre;
 use crate::syntax::Statement;
 
@@ -31,7 +31,7 @@ fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<&'static 
         C::LComp => (!prints(VarId::Lcomp), "nothing prints [lcomp]"),
         C::InchMm => (!prints(VarId::Unitmode), "nothing prints [unitmode]"),
         C::ReturnPlane => {
-            let cycles = view.bodies.iter().any(|body| cycle_word(body).is_some());
+            let cycles = view.bodies.iter().any(|body| body.cycle_word().is_some());
             (!prints(VarId::Retplane) && !cycles, "nothing prints [retplane], and no cycle asks for it")
         }
         C::RigidTap => (!has(S::Tap) && !has(S::LTap), "the form has no Tap and no LTap"),

@@ -9,11 +9,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(end) = view.body(SequenceId::EndCode) else { return };
     let is_end = |word: &Word| word.is_code(b'M', &[2.0, 30.0, 99.0]);
     let Some(last) = end.lines.iter().position(|line| line.words.iter().any(is_end)) else { return };
-    let behind = end.lines[last + 1..].iter().flat_map(|line| &line.words);
-    let lost = behind
-        .filter(|word| !matches!(&word.kind, WordKind::Text(text) if text == "%" || text.starts_with('(')))
-        .take(1);
-    for word in lost {
+    let is_word = |word: &&Word| match &word.kind {
+        WordKind::Text(text) => text != "%",
+        WordKind::Note(_) | WordKind::Remark(_) => false,
+        _ => true,
+    };
+    if let Some(word) = end.lines[last + 1..].iter().flat_map(|line| &line.words).find(is_word) {
         diags.push(
             Diag::new(Code::PF015, "a word behind the end of the program")
                 .at(word.span, "never done")

@@ -3,6 +3,7 @@
 use super::objects::{ArcObject, CallObject, CycleObject, SpindleObject, ThreadObject, ToolObject};
 use super::values::{Number, PeckMode, SpeedMode, StepFrom};
 use crate::diag::{Code, Diag};
+use crate::toolpath::CycleKind;
 use crate::toolpath::event::*;
 
 /// A fault in the job; the reader adds the place.

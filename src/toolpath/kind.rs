@@ -1,0 +1,79 @@
+//! Kinds of canned cycles, and which sequence serves each.
+
+use crate::lang::SequenceId;
+
+/// Kinds of canned cycles (cycles.md section 1.5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum CycleKind {
+    Drill,
+    Face,
+    Tap,
+    LTap,
+    Bore,
+    Back,
+    Ream,
+    Deep,
+    Chipbreak,
+    Thru,
+    Csink,
+    Manual,
+    Custom1,
+    Custom2,
+    Custom3,
+}
+
+impl CycleKind {
+    /// All of them with the names that jobs use.
+    pub const NAMES: [(&'static str, CycleKind); 15] = [
+        ("drill", CycleKind::Drill),
+        ("face", CycleKind::Face),
+        ("tap", CycleKind::Tap),
+        ("ltap", CycleKind::LTap),
+        ("bore", CycleKind::Bore),
+        ("back", CycleKind::Back),
+        ("ream", CycleKind::Ream),
+        ("deep", CycleKind::Deep),
+        ("chipbreak", CycleKind::Chipbreak),
+        ("thru", CycleKind::Thru),
+        ("csink", CycleKind::Csink),
+        ("manual", CycleKind::Manual),
+        ("custom1", CycleKind::Custom1),
+        ("custom2", CycleKind::Custom2),
+        ("custom3", CycleKind::Custom3),
+    ];
+
+    /// The name that jobs use.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
+    }
+
+    /// Finds a name in any case.
+    pub fn parse(name: &str) -> Option<CycleKind> {
+        Self::NAMES.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, kind)| *kind)
+    }
+
+    /// The sequence that serves it by its name (render.md section 3); the other kinds are served by a Custom that is
+    /// labelled with them, if at all.
+    pub fn sequence(self) -> Option<SequenceId> {
+        Some(match self {
+            CycleKind::Drill => SequenceId::Drill,
+            CycleKind::Tap => SequenceId::Tap,
+            CycleKind::LTap => SequenceId::LTap,
+            CycleKind::Bore => SequenceId::Bore,
+            CycleKind::Back => SequenceId::Back,
+            CycleKind::Ream => SequenceId::Ream,
+            CycleKind::Deep => SequenceId::Peck,
+            CycleKind::Chipbreak => SequenceId::Chipbreak,
+            CycleKind::Custom1 => SequenceId::Custom1,
+            CycleKind::Custom2 => SequenceId::Custom2,
+            CycleKind::Custom3 => SequenceId::Custom3,
+            CycleKind::Face | CycleKind::Thru | CycleKind::Csink | CycleKind::Manual => return None,
+        })
+    }
+
+    /// Is it a tap?
+    pub fn is_tap(self) -> bool {
+        matches!(self, CycleKind::Tap | CycleKind::LTap)
+    }
+}

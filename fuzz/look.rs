@@ -2,7 +2,7 @@
 
 use postform::compile::compile;
 use postform::fmt::format;
-use postform::lint::{Findings, Levels, edited, edits_of, fixes_of, lint};
+use postform::lint::{Changed, Findings, Levels, lint, mend};
 use postform::render::{Options, Renderer};
 use postform::sema::{Checked, Limits, analyse};
 use postform::source::Source;
@@ -30,20 +30,14 @@ fn program(form: &Checked) -> Option<String> {
     String::from_utf8(std::mem::take(renderer.text())).ok()
 }
 
-/// Fixes made until there are none.
+/// Fixes made until there are none; `None`: there were none.
 fn mended(form: &Checked, unsafe_too: bool) -> Option<Checked> {
-    let mut current: Option<Checked> = None;
-    for _ in 0..100 {
-        let form = current.as_ref().unwrap_or(form);
-        let findings = found(form);
-        let fixes = fixes_of(&findings.diags, unsafe_too);
-        if fixes.is_empty() {
-            return current;
-        }
-        let text = edited(&form.files[0].text, &edits_of(&fixes, 0));
-        current = Some(checked(text.as_bytes()));
-    }
-    panic!("fixes without an end");
+    let text = &form.files[0].text;
+    let mut read = |changed: &Changed| checked(changed.get("form.pf").unwrap_or(text).as_bytes());
+    let mended = mend(&Levels::default(), unsafe_too, &mut read);
+    let left = mended.findings.diags.iter().filter_map(|diag| diag.fix.as_ref()).any(|fix| fix.safe || unsafe_too);
+    assert!(!left, "fixes without an end");
+    (!mended.made.is_empty()).then_some(mended.checked)
 }
 
 /// Reads a form and looks at it; thoroughly: mends it and lays it out, too.

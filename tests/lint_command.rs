@@ -245,6 +245,47 @@ fn unsafe_fixes_show_the_program_before_and_after() {
     serde_json::from_str::<Value>(&out(&json)).unwrap();
 }
 
+/// A safe fix is one for the form that calls the file: its marks, its control.
+#[test]
+fn parts_are_mended_where_they_are_called() {
+    let folder = Folder::new("parts");
+    let part = "BeginRow\n(PASS\nM8\nGO\nEnd\n";
+    let form = mill("Comment ( ]\nControl linuxcnc\nCall part.pf", "");
+    folder.write("posts/form.pf", &form);
+    folder.write("posts/part.pf", part);
+    for args in [&["lint", "--fix", "posts"][..], &["lint", "--fix", "posts/part.pf", "posts/form.pf"]] {
+        folder.run(args);
+        assert_eq!((folder.read("posts/form.pf"), folder.read("posts/part.pf")), (form.clone(), part.into()));
+    }
+    folder.run(&["lint", "--fix", "--unsafe-fixes", "posts"]);
+    assert_eq!(folder.read("posts/part.pf"), part.replace("GO", "G0"));
+    // two that call each other: one finding, and no form that nobody looked at
+    folder.write("ring/a.pf", mill("Call b.pf", ""));
+    folder.write("ring/b.pf", "Call a.pf\n");
+    let output = folder.run(&["lint", "ring", "--format", "github"]);
+    assert_eq!((output.status.code(), out(&output).matches("PF009").count()), (Some(1), 1), "{}", out(&output));
+}
+
+/// What an unsafe fix changes must be seen before it is made.
+#[test]
+fn unsafe_fixes_that_nobody_can_see_are_not_made() {
+    let folder = Folder::new("unseen");
+    let text = mill("WindowSize 80", "LineCode\nGl X[h] Y[v] Z[d]F[frate]\nEnd");
+    folder.write("form.pf", &text);
+    folder.write("broken.json", "{");
+    let missing = folder.run(&["lint", "--fix", "--unsafe-fixes", "form.pf", "--job", "missing.json"]);
+    assert_eq!((missing.status.code(), folder.read("form.pf")), (Some(2), text.clone()));
+    // places are those of the file, and safe fixes are not told as others
+    let shown = out(&folder.run(&["lint", "--unsafe-fixes", "form.pf"]));
+    assert!(shown.starts_with("form.pf: 1 unsafe fix that --fix --unsafe-fixes would make:\n"), "{shown}");
+    let line = text.lines().position(|line| line.starts_with("Gl")).unwrap() + 1;
+    assert!(shown.contains(&format!("  form.pf:{line}: write the digit (PF206)\n")), "{shown}");
+    let broken = folder.run(&["lint", "--fix", "--unsafe-fixes", "form.pf", "--job", "broken.json"]);
+    assert!(out(&broken).contains("1 unsafe fix not made") && out(&broken).contains("broken.json is not printed"));
+    assert_eq!(broken.status.code(), Some(1));
+    assert_eq!(folder.read("form.pf"), text.replace("]F[", "] F[").replace("WindowSize 80\n", ""), "the safe ones");
+}
+
 #[cfg(unix)]
 #[test]
 fn a_protected_form_stays_and_others_keep_their_mode() {
@@ -278,12 +319,15 @@ fn called_files_are_named_by_their_paths() {
     folder.write("posts/part.inc", "Upon [work]\nG91\nEnd\n");
     let github = out(&folder.run(&["lint", "posts/form.pf", "--format", "github"]));
     assert!(github.contains("file=posts/part.inc,line=2"), "{github}");
-    // in a folder a part is looked at as a part, even if it is called .pf; by its own name it is looked at alone
+    // a part is looked at where it is called, even if it is called .pf and a shell names it; alone where nothing calls it
     folder.write("posts/form.pf", mill("Call part.pf", ""));
     folder.write("posts/part.pf", "Leading0s? Y\n");
     let github = out(&folder.run(&["lint", "posts", "--format", "github"]));
     assert!(!github.contains("file=posts/part.pf") && github.contains("file=posts/form.pf"), "{github}");
-    let github = out(&folder.run(&["lint", "posts", "posts/part.pf", "--format", "github"]));
+    let named =
+        out(&folder.run(&["lint", "posts/part.pf", "posts/form.pf", "posts/../posts/form.pf", "--format", "github"]));
+    assert_eq!(named, github);
+    let github = out(&folder.run(&["lint", "posts/part.pf", "--format", "github"]));
     assert!(github.contains("file=posts/part.pf") && github.contains("PF005"), "{github}");
     // a form that calls itself is one finding
     folder.write("posts/form.pf", mill("Call form.pf", ""));

@@ -14,17 +14,7 @@ use super::report::Reporter;
 use super::{Ending, output};
 
 /// Reads a job and prints what is in it.
-pub fn run(args: &CheckArgs, colour: bool) -> Ending {
-    match try_run(args, colour) {
-        Ok(ending) => ending,
-        Err(message) => {
-            eprintln!("{message}");
-            Ending::Failed
-        }
-    }
-}
-
-fn try_run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
+pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     let Some(path) = args.job.as_ref().filter(|_| !args.schema) else {
         let text = format!("{:#}\n", schema());
         output::standard_output(|out| out.write_all(text.as_bytes()))?;

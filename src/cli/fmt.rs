@@ -5,25 +5,16 @@ use std::path::Path;
 
 use postform::fmt::format;
 use postform::source::Source;
+use rayon::prelude::*;
 
 use super::args::FmtArgs;
 use super::files;
 use super::output;
 use super::report::count;
-use super::{Ending, forms, parallel};
+use super::{Ending, forms};
 
 /// Lays out forms in place; `-` is a filter.
-pub fn run(args: &FmtArgs) -> Ending {
-    match try_run(args) {
-        Ok(ending) => ending,
-        Err(message) => {
-            eprintln!("{message}");
-            Ending::Failed
-        }
-    }
-}
-
-fn try_run(args: &FmtArgs) -> Result<Ending, String> {
+pub fn run(args: &FmtArgs) -> Result<Ending, String> {
     let paths = forms::named(&args.forms)?;
     if let [path] = paths.as_slice()
         && path == Path::new("-")
@@ -33,7 +24,7 @@ fn try_run(args: &FmtArgs) -> Result<Ending, String> {
     if paths.iter().any(|path| path == Path::new("-")) {
         return Err("error: standard input is laid out alone: postform fmt -".into());
     }
-    let results = parallel::map(&paths, |path| one(path, args.check));
+    let results: Vec<_> = paths.par_iter().map(|path| one(path, args.check)).collect();
     let (mut changed, mut failed) = (0, false);
     for (path, result) in paths.iter().zip(results) {
         match result {
@@ -61,23 +52,26 @@ fn try_run(args: &FmtArgs) -> Result<Ending, String> {
 
 /// Lays out one file. `true`: it was laid out otherwise.
 fn one(path: &Path, check: bool) -> Result<bool, String> {
-    let bytes = files::read_form(path)?;
-    let text = format(&Source::from_bytes(files::name(path), &bytes));
-    if text.as_bytes() == bytes {
-        return Ok(false);
+    let (before, after) = laid_out(path)?;
+    let changes = before != after.as_bytes();
+    if changes && !check {
+        output::write_whole(path, after.as_bytes())?;
     }
-    if !check {
-        output::write_whole(path, text.as_bytes())?;
-    }
-    Ok(true)
+    Ok(changes)
 }
 
 fn filter(path: &Path, check: bool) -> Result<Ending, String> {
+    let (before, after) = laid_out(path)?;
+    match check {
+        true if before == after.as_bytes() => Ok(Ending::Clean),
+        true => Ok(Ending::Findings),
+        false => output::shown(|out| out.write_all(after.as_bytes())),
+    }
+}
+
+/// A form before and after.
+fn laid_out(path: &Path) -> Result<(Vec<u8>, String), String> {
     let bytes = files::read_form(path)?;
     let text = format(&Source::from_bytes(files::name(path), &bytes));
-    if check {
-        return Ok(if text.as_bytes() == bytes { Ending::Clean } else { Ending::Findings });
-    }
-    output::standard_output(|out| out.write_all(text.as_bytes()))?;
-    Ok(Ending::Clean)
+    Ok((bytes, text))
 }

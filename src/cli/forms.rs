@@ -1,52 +1,76 @@
 //! Forms from files, with those that they call.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use postform::lint::Changed;
 use postform::sema::{Checked, Limits, analyse};
 use postform::source::Source;
 
 use super::args::LimitsArg;
 use super::files::{self, io_message};
 
-/// Text that stands for that of a file: by the file's name in messages.
-pub type Changed = HashMap<String, String>;
-
-/// Reads and analyses a form. `Err` is a message: the file can't be read.
-pub fn load(path: &Path, limits: LimitsArg) -> Result<Checked, String> {
-    Ok(with_changes(path, &files::read_form(path)?, limits, &Changed::new()))
+/// A form's file, with those that it calls.
+pub struct FormFile {
+    /// Where it is.
+    pub path: PathBuf,
+    bytes: Vec<u8>,
+    limits: Limits,
+    /// Where the files are that it calls, by their names in messages.
+    called: HashMap<String, PathBuf>,
 }
 
-/// Analyses a form of these bytes, with other text for the files that were changed.
-pub fn with_changes(path: &Path, bytes: &[u8], limits: LimitsArg, changed: &Changed) -> Checked {
-    let name = files::name(path);
-    let source = match changed.get(&name) {
-        Some(text) => Source::from_text(name, text),
-        None => Source::from_bytes(name, bytes),
-    };
-    let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-    let limits = match limits {
-        LimitsArg::Classic => Limits::Classic,
-        LimitsArg::Extended => Limits::Extended,
-    };
-    analyse(source, limits, &mut |name| {
-        let source = called(path, &folder, name)?;
-        Ok(match changed.get(&source.name) {
-            Some(text) => Source::from_text(source.name, text),
-            None => source,
+impl FormFile {
+    /// Reads a form. `Err` is a message: the file can't be read.
+    pub fn read(path: &Path, limits: LimitsArg) -> Result<FormFile, String> {
+        let limits = match limits {
+            LimitsArg::Classic => Limits::Classic,
+            LimitsArg::Extended => Limits::Extended,
+        };
+        Ok(FormFile { path: path.to_path_buf(), bytes: files::read_form(path)?, limits, called: HashMap::new() })
+    }
+
+    /// Analyses the form, with other text for the files that were changed.
+    pub fn analyse(&mut self, changed: &Changed) -> Checked {
+        let name = files::name(&self.path);
+        let source = match changed.get(&name) {
+            Some(text) => Source::from_text(name, text),
+            None => Source::from_bytes(name, &self.bytes),
+        };
+        let (path, places) = (&self.path, &mut self.called);
+        analyse(source, self.limits, &mut |name| {
+            let (place, bytes) = called(path, name)?;
+            let name = files::name(&place);
+            places.insert(name.clone(), place);
+            Ok(match changed.get(&name) {
+                Some(text) => Source::from_text(name, text),
+                None => Source::from_bytes(name, &bytes),
+            })
         })
-    })
-}
+    }
 
-/// Where a file of a form is: the form itself, or one that it calls.
-pub fn place(form: &Path, file: usize, source: &Source) -> PathBuf {
-    if file == 0 { form.to_path_buf() } else { PathBuf::from(&source.name) }
+    /// Where a file of the form is, by its name in messages.
+    pub fn place(&self, name: &str) -> &Path {
+        self.called.get(name).unwrap_or(&self.path)
+    }
+
+    /// The files that it calls, as far as they were read, whatever links lead to them.
+    fn calls(&mut self) -> Vec<PathBuf> {
+        // most forms call none, and need not be read twice for that
+        let calls =
+            |line: &[u8]| line.trim_ascii_start().get(..4).is_some_and(|word| word.eq_ignore_ascii_case(b"Call"));
+        if self.bytes.split(|&byte| byte == b'\n').any(calls) {
+            self.analyse(&Changed::new());
+        }
+        self.called.values().filter_map(|place| place.canonicalize().ok()).collect()
+    }
 }
 
 /// A form that another one calls: in its folder or below, also when links are followed. Its name is its path, so that
 /// whoever reads a message finds it.
-fn called(form: &Path, folder: &Path, name: &str) -> Result<Source, String> {
+fn called(form: &Path, name: &str) -> Result<(PathBuf, Vec<u8>), String> {
+    let folder = form.parent().unwrap_or(Path::new(""));
     let base = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let path = base.join(name);
     let (Ok(real), Ok(root)) = (path.canonicalize(), base.canonicalize()) else {
@@ -59,7 +83,23 @@ fn called(form: &Path, folder: &Path, name: &str) -> Result<Source, String> {
         return Err("is this form itself".into());
     }
     let bytes = files::read_form(&real).map_err(|_| "can't be read".to_owned())?;
-    Ok(Source::from_bytes(files::name(&folder.join(name)), &bytes))
+    Ok((folder.join(name), bytes))
+}
+
+/// Forms without those that another of them calls: a part is looked at where it is called, by the settings that hold
+/// there. Where two call each other the first stays. A form that is named twice is looked at once.
+pub fn wholes(mut files: Vec<FormFile>) -> Vec<FormFile> {
+    let real = |file: &FormFile| file.path.canonicalize().unwrap_or_else(|_| file.path.clone());
+    let mut seen = HashSet::new();
+    files.retain(|file| seen.insert(real(file)));
+    let calls: Vec<(PathBuf, Vec<PathBuf>)> = files.iter_mut().map(|file| (real(file), file.calls())).collect();
+    let is_part = |i: usize| {
+        let (own, called) = &calls[i];
+        let mut callers = calls.iter().enumerate().filter(|(other, (_, parts))| *other != i && parts.contains(own));
+        callers.any(|(other, (caller, _))| other < i || !called.contains(caller))
+    };
+    let parts: Vec<bool> = (0..files.len()).map(is_part).collect();
+    files.into_iter().zip(parts).filter(|(_, is_part)| !is_part).map(|(file, _)| file).collect()
 }
 
 /// The forms that arguments name: a folder is all `.pf` files in it and below, in the order of their names.

@@ -12,7 +12,6 @@ mod forms;
 mod lint;
 mod new;
 mod output;
-mod parallel;
 mod prepare;
 mod progress;
 mod prompt;
@@ -73,5 +72,9 @@ pub fn run() -> ExitCode {
         Command::Completions(args) => shells::completions(&args),
         Command::Man => shells::man(),
     };
+    let ending = ending.unwrap_or_else(|message| {
+        eprintln!("{message}");
+        Ending::Failed
+    });
     ending.into()
 }

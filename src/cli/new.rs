@@ -20,24 +20,17 @@ fn form(control: NewControl) -> &'static str {
 }
 
 /// Writes the form; a file that is there is somebody's work and stays.
-pub fn run(args: &NewArgs) -> Ending {
+pub fn run(args: &NewArgs) -> Result<Ending, String> {
     let text = form(args.control);
     if args.output.as_os_str() == "-" {
         return output::shown(|out| out.write_all(text.as_bytes()));
     }
     // a link that leads nowhere is there, too
     if args.output.symlink_metadata().is_ok() {
-        eprintln!("error: {} is there already\n  help: take another name, or remove it first", name(&args.output));
-        return Ending::Failed;
+        let name = name(&args.output);
+        return Err(format!("error: {name} is there already\n  help: take another name, or remove it first"));
     }
-    match output::write_whole(&args.output, text.as_bytes()) {
-        Ok(()) => {
-            eprintln!("{} is written: change it, then `postform lint {0}`", name(&args.output));
-            Ending::Clean
-        }
-        Err(message) => {
-            eprintln!("{message}");
-            Ending::Failed
-        }
-    }
+    output::write_whole(&args.output, text.as_bytes())?;
+    eprintln!("{} is written: change it, then `postform lint {0}`", name(&args.output));
+    Ok(Ending::Clean)
 }

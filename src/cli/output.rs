@@ -144,12 +144,6 @@ pub fn standard_output(write: impl FnOnce(&mut io::StdoutLock) -> io::Result<()>
 }
 
 /// Writes to standard output and ends the command with it.
-pub fn shown(write: impl FnOnce(&mut io::StdoutLock) -> io::Result<()>) -> Ending {
-    match standard_output(write) {
-        Ok(()) => Ending::Clean,
-        Err(message) => {
-            eprintln!("{message}");
-            Ending::Failed
-        }
-    }
+pub fn shown(write: impl FnOnce(&mut io::StdoutLock) -> io::Result<()>) -> Result<Ending, String> {
+    standard_output(write).map(|()| Ending::Clean)
 }

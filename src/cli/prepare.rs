@@ -4,15 +4,16 @@ use std::path::Path;
 
 use postform::compile::{Program, compile};
 use postform::diag::Severity;
-use postform::lint::sort;
+use postform::lint::{Changed, sort};
 use postform::render::{Cycles, Options};
 use postform::source::Source;
 
 use super::args::{CyclesArg, RenderOptions, SinkArg};
 use super::config::Config;
 use super::files::{self, io_message};
+use super::forms::FormFile;
 use super::report::Reporter;
-use super::{forms, prompt, report};
+use super::{prompt, report};
 
 /// A form, checked and compiled, with the answers to its prompts.
 pub struct Prepared {
@@ -32,9 +33,9 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         return Err("error: form and job can't both be standard input".into());
     }
     let limits = args.limits.or(Config::near(form)?.limits).unwrap_or_default();
-    let mut checked = forms::load(form, limits)?;
+    let mut checked = FormFile::read(form, limits)?.analyse(&Changed::new());
     sort(&mut checked.diags);
-    let (shown, _): (Vec<_>, Vec<_>) = checked.diags.iter().cloned().partition(|d| d.severity > Severity::Note);
+    let shown: Vec<_> = checked.diags.iter().filter(|diag| diag.severity > Severity::Note).cloned().collect();
     eprint!("{}", reporter.text(&shown, &checked.files));
     if checked.has_errors() {
         let count = checked.diags.iter().filter(|d| d.is_error()).count();

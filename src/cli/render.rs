@@ -22,17 +22,7 @@ use super::verify::{Job, Proof};
 const CHUNK: usize = 64 * 1024;
 
 /// Renders a job to its output.
-pub fn run(args: &RenderArgs, colour: bool) -> Ending {
-    match try_run(args, colour) {
-        Ok(ending) => ending,
-        Err(message) => {
-            eprintln!("{message}");
-            Ending::Failed
-        }
-    }
-}
-
-fn try_run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
+pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
     let from = files::job_format(&args.job, &args.read)?;
     let form = args.form.clone().or(Config::near(&args.job)?.form);

@@ -8,14 +8,14 @@ use super::args::{Arguments, CompletionsArgs};
 use super::{Ending, output};
 
 /// Prints the completions of a shell.
-pub fn completions(args: &CompletionsArgs) -> Ending {
+pub fn completions(args: &CompletionsArgs) -> Result<Ending, String> {
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut Arguments::command(), "postform", &mut text);
     output::shown(|out| out.write_all(&text))
 }
 
 /// Prints the man page: postform itself, then each command.
-pub fn man() -> Ending {
+pub fn man() -> Result<Ending, String> {
     output::shown(|out| {
         let mut command = Arguments::command();
         command.build(); // names of the commands in full

@@ -21,17 +21,8 @@ use super::{Ending, output, render};
 const CHUNK: usize = 64 * 1024;
 
 /// Compares a program with its job.
-pub fn run(args: &VerifyArgs, colour: bool) -> Ending {
-    match try_run(args, &Reporter::new(colour)) {
-        Ok(ending) => ending,
-        Err(message) => {
-            eprintln!("{message}");
-            Ending::Failed
-        }
-    }
-}
-
-fn try_run(args: &VerifyArgs, reporter: &Reporter) -> Result<Ending, String> {
+pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
+    let reporter = &Reporter::new(colour);
     let from = files::job_format(&args.job, &args.read)?;
     if args.job == Path::new("-") && args.nc.as_deref() == Some(Path::new("-")) {
         return Err("error: job and program can't both be standard input".into());

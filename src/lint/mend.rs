@@ -1,16 +1,63 @@
-//! Fixes applied: which of them go together, and the text after them.
+//! Fixes made: which of them go together, and the text after them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
+use super::{Findings, Levels, lint};
 use crate::diag::Diag;
+use crate::sema::Checked;
 use crate::span::Span;
 
+/// Text that stands for that of a file: by the file's name in messages.
+pub type Changed = HashMap<String, String>;
+
+/// A form after its fixes.
+#[derive(Debug)]
+pub struct Mended {
+    /// The form.
+    pub checked: Checked,
+    /// What is found in it now.
+    pub findings: Findings,
+    /// The files that fixes changed.
+    pub changed: Changed,
+    /// What was mended. A finding that came up on the way has no place: nobody has seen that text.
+    pub made: Vec<Diag>,
+}
+
+/// Most rounds: a fix may make place for another one, but never for ever.
+const MOST_ROUNDS: usize = 50;
+
+/// Makes fixes until none is left; `unsafe_too`: those as well that change what is printed. `read` analyses the form,
+/// with other text for what was changed.
+pub fn mend(levels: &Levels, unsafe_too: bool, read: &mut dyn FnMut(&Changed) -> Checked) -> Mended {
+    let mut changed = Changed::new();
+    let mut made: Vec<Diag> = Vec::new();
+    let mut checked = read(&changed);
+    let mut findings = lint(&checked, levels);
+    for round in 0..MOST_ROUNDS {
+        let fixes = fixes_of(&findings.diags, unsafe_too);
+        if fixes.is_empty() {
+            break;
+        }
+        for (file, source) in checked.files.iter().enumerate() {
+            let edits = edits_of(&fixes, file as u32);
+            if !edits.is_empty() {
+                changed.insert(source.name.clone(), edited(&source.text, &edits));
+            }
+        }
+        let places = |diag: &Diag| if round == 0 { diag.labels.clone() } else { Vec::new() };
+        made.extend(fixes.into_iter().map(|diag| Diag { labels: places(diag), ..diag.clone() }));
+        checked = read(&changed);
+        findings = lint(&checked, levels);
+    }
+    Mended { checked, findings, changed, made }
+}
+
 /// Replacements of text, not overlapping, in the order of their places.
-pub type Edits<'a> = Vec<(Span, &'a str)>;
+type Edits<'a> = Vec<(Span, &'a str)>;
 
 /// The fixes that can be made at once; `unsafe_too`: those as well that change what is printed. Where two touch the same
 /// place the earlier one is made: the other is found again in the text after it.
-pub fn fixes_of(diags: &[Diag], unsafe_too: bool) -> Vec<&Diag> {
+fn fixes_of(diags: &[Diag], unsafe_too: bool) -> Vec<&Diag> {
     // start to end, by file; what is taken never overlaps, so the last that begins before is the nearest
     let mut taken: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     let mut chosen = Vec::new();
@@ -30,7 +77,7 @@ pub fn fixes_of(diags: &[Diag], unsafe_too: bool) -> Vec<&Diag> {
 }
 
 /// What the fixes of these findings replace in file number `file`.
-pub fn edits_of<'a>(diags: &[&'a Diag], file: u32) -> Edits<'a> {
+fn edits_of<'a>(diags: &[&'a Diag], file: u32) -> Edits<'a> {
     let fixes = diags.iter().filter_map(|diag| diag.fix.as_ref());
     let edits = fixes.flat_map(|fix| &fix.edits).filter(|(span, _)| span.file == file);
     let mut edits: Edits = edits.map(|(span, text)| (*span, text.as_str())).collect();
@@ -39,7 +86,7 @@ pub fn edits_of<'a>(diags: &[&'a Diag], file: u32) -> Edits<'a> {
 }
 
 /// Text after replacements. A line that becomes empty goes with its end.
-pub fn edited(text: &str, edits: &Edits) -> String {
+fn edited(text: &str, edits: &Edits) -> String {
     let mut out = String::with_capacity(text.len());
     let mut at = 0;
     for (span, new) in edits {

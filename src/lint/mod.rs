@@ -9,7 +9,7 @@ mod tokens;
 mod view;
 
 pub use levels::{Level, Levels, UnknownCode};
-pub use mend::{Edits, edited, edits_of, fixes_of};
+pub use mend::{Changed, Mended, mend};
 pub use rules::{RULES, Rule};
 
 use crate::diag::{Code, Diag, Severity};

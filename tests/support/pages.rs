@@ -5,7 +5,7 @@ use std::fs;
 
 use postform::diag::Diag;
 use postform::lang::{CommandId, SequenceId};
-use postform::lint::{Findings, Levels, edited, edits_of, fixes_of, lint};
+use postform::lint::{Changed, Findings, Levels, lint, mend};
 use postform::sema::{Checked, Limits, analyse};
 use postform::source::Source;
 use postform::syntax::{Form, Head, parse};
@@ -164,16 +164,10 @@ pub fn codes(diags: &[Diag]) -> Vec<&'static str> {
 
 /// A form with fixes made until there are none; `None`: there were none.
 pub fn mended(form: &Checked, unsafe_too: bool) -> Option<Checked> {
-    let mut current: Option<Checked> = None;
-    for _ in 0..50 {
-        let form = current.as_ref().unwrap_or(form);
-        let findings = found(form);
-        let fixes = fixes_of(&findings.diags, unsafe_too);
-        if fixes.is_empty() {
-            return current;
-        }
-        let text = edited(&form.files[0].text, &edits_of(&fixes, 0));
-        current = Some(checked(text.as_bytes()));
-    }
-    panic!("fixes without an end: {:?}", current.map(|form| form.files[0].text.clone()))
+    let text = &form.files[0].text;
+    let mut read = |changed: &Changed| checked(changed.get("form.pf").unwrap_or(text).as_bytes());
+    let mended = mend(&Levels::default(), unsafe_too, &mut read);
+    let left = mended.findings.diags.iter().filter_map(|diag| diag.fix.as_ref()).any(|fix| fix.safe || unsafe_too);
+    assert!(!left, "fixes without an end: {:?}", mended.changed);
+    (!mended.made.is_empty()).then_some(mended.checked)
 }

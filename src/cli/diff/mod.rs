@@ -19,17 +19,7 @@ use super::{Ending, output, simulate};
 use sides::{Side, sides};
 
 /// Compares two programs.
-pub fn run(args: &DiffArgs, colour: Colour) -> Ending {
-    match try_run(args, colour) {
-        Ok(ending) => ending,
-        Err(message) => {
-            eprintln!("{message}");
-            Ending::Failed
-        }
-    }
-}
-
-fn try_run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
+pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
     let options = Options { ignore: ignored(&args.ignore)?, tolerance: args.tolerance, ..Options::default() };
     if args.motion && args.format == DiffFormat::Html {
         return Err("error: --motion has one difference, which --format text or json shows".into());

@@ -6,27 +6,24 @@ pub mod json;
 mod sample;
 mod sarif;
 
-use std::collections::HashSet;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use postform::diag::{Diag, Severity};
-use postform::lint::{Findings, lint};
+use postform::lint::{Changed, Findings, lint};
 use postform::sema::Checked;
 use postform::source::Source;
+use rayon::prelude::*;
 
 use super::args::{Format, LintArgs};
 use super::colour::Colour;
 use super::config::Config;
+use super::forms::{self, FormFile};
 use super::report::{Reporter, count};
-use super::{Ending, files, forms, output, parallel};
+use super::{Ending, output};
 
 /// What was found in a form.
 pub struct Linted {
-    /// Where the form is.
-    path: PathBuf,
-    /// The files that it calls.
-    calls: Vec<PathBuf>,
     /// The form, and those that it calls; none where nothing was found.
     pub files: Vec<Source>,
     /// What was found.
@@ -55,35 +52,20 @@ pub struct Counts {
 }
 
 /// Every finding of every form.
-pub fn run(args: &LintArgs, colour: Colour) -> Ending {
-    match try_run(args, colour) {
-        Ok(ending) => ending,
-        Err(message) => {
-            eprintln!("{message}");
-            Ending::Failed
-        }
-    }
-}
-
-fn try_run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
-    let paths = forms::named(&args.forms)?;
+pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
+    let mut unread = 0;
+    let mut said = |message: String| {
+        eprintln!("{message}");
+        unread += 1;
+    };
+    let files: Vec<_> = forms::named(&args.forms)?.par_iter().map(|path| read(path, args)).collect();
+    let files = forms::wholes(files.into_iter().filter_map(|file| file.map_err(&mut said).ok()).collect());
     // forms may share a file that they call: fixes are made one after the other
     let results: Vec<Result<Linted, String>> = match args.fix || args.unsafe_fixes {
-        true => paths.iter().map(|path| one(path, args)).collect(),
-        false => parallel::map(&paths, |path| one(path, args)),
+        true => files.into_iter().map(|file| one(file, args)).collect(),
+        false => files.into_par_iter().map(|file| one(file, args)).collect(),
     };
-    let mut unread = 0;
-    let mut linted = Vec::with_capacity(results.len());
-    for result in results {
-        match result {
-            Ok(result) => linted.push(result),
-            Err(message) => {
-                eprintln!("{message}");
-                unread += 1;
-            }
-        }
-    }
-    leave_parts(&mut linted, &args.forms);
+    let linted: Vec<Linted> = results.into_iter().filter_map(|result| result.map_err(&mut said).ok()).collect();
     let counts = Counts { unread, ..counts(&linted) };
     let mut text = String::new();
     for form in &linted {
@@ -95,8 +77,8 @@ fn try_run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     match args.format {
         Format::Pretty => {
             let reporter = Reporter::new(colour.on_stdout());
-            let shown = parallel::map(&linted, |form| reporter.text(&form.diags, &form.files));
-            text.extend(shown);
+            let shown = linted.par_iter().map(|form| reporter.text(&form.diags, &form.files));
+            text.extend(shown.collect::<Vec<_>>());
             text += &summary(&linted, counts, args);
         }
         Format::Json => text = format!("{:#}\n", json::report(&linted, counts)),
@@ -111,44 +93,26 @@ fn try_run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     })
 }
 
-/// A file that a form of a folder calls is a part of that form, and is not looked at alone unless it is named.
-fn leave_parts(linted: &mut Vec<Linted>, named: &[PathBuf]) {
-    let parts: HashSet<PathBuf> = linted.iter().flat_map(|form| form.calls.iter().cloned()).collect();
-    if !parts.is_empty() {
-        linted.retain(|form| {
-            let is_part = form.path.canonicalize().is_ok_and(|path| parts.contains(&path));
-            named.contains(&form.path) || !is_part
-        });
-    }
+/// The text of a form, with the limits that hold for it.
+fn read(path: &Path, args: &LintArgs) -> Result<FormFile, String> {
+    FormFile::read(path, args.limits.or(Config::near(path)?.limits).unwrap_or_default())
 }
 
-/// One form: read, mended if that is asked for, and looked at.
-fn one(path: &Path, args: &LintArgs) -> Result<Linted, String> {
-    let config = Config::near(path)?;
-    let limits = args.limits.or(config.limits).unwrap_or_default();
-    let bytes = files::read_form(path)?;
-    let checked = forms::with_changes(path, &bytes, limits, &forms::Changed::new());
-    let found = lint(&checked, &config.levels);
+/// One form: mended if that is asked for, and looked at.
+fn one(mut file: FormFile, args: &LintArgs) -> Result<Linted, String> {
+    let levels = Config::near(&file.path)?.levels;
     if args.fix || args.unsafe_fixes {
-        return fix::mend(fix::Form { path, bytes: &bytes, config: &config, limits }, args, checked, found);
+        return fix::run(&mut file, &levels, args);
     }
-    Ok(Linted::new(path, checked, found))
+    let checked = file.analyse(&Changed::new());
+    let found = lint(&checked, &levels);
+    Ok(Linted::new(checked, found))
 }
 
 impl Linted {
-    fn new(path: &Path, checked: Checked, found: Findings) -> Linted {
-        let called = checked.files.iter().skip(1);
-        let calls = called.filter_map(|source| Path::new(&source.name).canonicalize().ok()).collect();
+    fn new(checked: Checked, found: Findings) -> Linted {
         let files = if found.diags.is_empty() { Vec::new() } else { checked.files };
-        Linted {
-            path: path.to_path_buf(),
-            calls,
-            files,
-            diags: found.diags,
-            suppressed: found.suppressed,
-            story: String::new(),
-            mended: 0,
-        }
+        Linted { files, diags: found.diags, suppressed: found.suppressed, story: String::new(), mended: 0 }
     }
 }
 

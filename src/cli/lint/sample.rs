@@ -20,12 +20,18 @@ fn built_in(machine: Machine) -> &'static str {
     }
 }
 
-/// What a form prints for a job, the built-in one where none is given; `Err`: why it prints nothing.
-pub fn printed(checked: &Checked, job: Option<&Path>) -> Result<String, String> {
+/// What a form prints for a job, the built-in one where none is given; the inner `Err`: why it prints nothing. Blocks have no
+/// numbers, so that one block more is not another number in all that follow.
+///
+/// # Errors
+/// A message: the job can't be read.
+pub fn printed(checked: &Checked, job: Option<&Path>) -> Result<Result<String, String>, String> {
     if let Some(error) = checked.diags.iter().find(|diag| diag.is_error()) {
-        return Err(format!("{}: {}", error.code.name(), error.message));
+        return Ok(Err(format!("{}: {}", error.code.name(), error.message)));
     }
-    let program = compile(&checked.form);
+    let mut form = checked.form.clone();
+    form.settings.numbers.letter = None;
+    let program = compile(&form);
     // questions are answered, so that something is printed
     let set = program.settings.prompts.iter().map(|prompt| (prompt.var, prompt.default.unwrap_or(1.0))).collect();
     let options = Options { program: Some(1), set, ..Options::default() };
@@ -39,8 +45,8 @@ pub fn printed(checked: &Checked, job: Option<&Path>) -> Result<String, String> 
         }
     };
     match read {
-        Ok(()) => Ok(String::from_utf8_lossy(renderer.text()).into_owned()),
-        Err(ReadError::Job(diag)) => Err(format!("{}: {}", diag.code.name(), diag.message)),
+        Ok(()) => Ok(Ok(String::from_utf8_lossy(renderer.text()).into_owned())),
+        Err(ReadError::Job(diag)) => Ok(Err(format!("{}: {}", diag.code.name(), diag.message))),
         Err(ReadError::Io(error)) => Err(error.to_string()),
     }
 }

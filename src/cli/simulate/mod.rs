@@ -22,17 +22,7 @@ const CHUNK: usize = 64 * 1024;
 const MOST_WARNINGS: usize = 20;
 
 /// Runs a program and prints what the machine does.
-pub fn run(args: &SimulateArgs, colour: bool) -> Ending {
-    match try_run(args, colour) {
-        Ok(ending) => ending,
-        Err(message) => {
-            eprintln!("{message}");
-            Ending::Failed
-        }
-    }
-}
-
-fn try_run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
+pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     let config = super::config::Config::near(&args.program)?;
     let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };
     let settings = control.settings(None, args.units.units());

@@ -20,6 +20,8 @@ impl Source {
     /// Decodes a file: UTF-8 with or without byte order mark, else Windows-1252 (these files are old).
     pub fn from_bytes(name: impl Into<String>, bytes: &[u8]) -> Self {
         let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        // the end mark of files from DOS
+        let body = body.strip_suffix(b"\x1a").unwrap_or(body);
         let (text, was_windows_1252) = match std::str::from_utf8(body) {
             Ok(text) => (Cow::Borrowed(text), false),
             Err(_) => (Cow::Owned(body.iter().map(|&b| windows_1252(b)).collect()), true),

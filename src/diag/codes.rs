@@ -60,6 +60,7 @@ codes! {
     PF109 Warning "an allowance that can't be read"
     PF110 Warning "a comment in marks that the control does not have"
     PF111 Warning "a comment inside a comment"
+    PF112 Warning "a word that is not whole"
     // PF2: names
     PF201 Error "an unknown command or sequence"
     PF202 Error "an unknown variable"
@@ -71,6 +72,7 @@ codes! {
     PF208 Warning "a Custom cycle for a kind that has its sequence"
     PF209 Warning "an answer that nothing prints"
     PF210 Warning "an Upon for a variable that nothing uses"
+    PF211 Warning "codes of a command in another order"
     // PF3: numbers and letter formats
     PF301 Error "a bad letter format"
     PF302 Error "a bad command argument"
@@ -88,6 +90,7 @@ codes! {
     PF314 Warning "a position under another axis's letter"
     PF315 Warning "a unit code that contradicts the form"
     PF316 Warning "units that the program never says"
+    PF317 Warning "an implied point that metric jobs read otherwise"
     // PF4: sequences and cycles
     PF401 Error "a cycle count larger than the body"
     PF402 Error "End Cancel without a Cancel sequence"
@@ -124,7 +127,11 @@ codes! {
     PF433 Warning "a motion sequence that leaves out an axis"
     PF434 Warning "cutter compensation without its words"
     PF435 Warning "a rapid sequence that feeds"
-    PF436 Warning "a cut with another motion code"
+    PF436 Warning "a cut without its motion code"
+    PF437 Warning "a tool without its length"
+    PF438 Warning "a position without a motion code"
+    PF439 Warning "a distance among positions"
+    PF440 Warning "a retract to the zero of the part"
     // PF5: modality
     PF501 Warning "a letter that no control keeps, named as modal"
     PF502 Warning "a code that acts once, named as modal"

@@ -53,7 +53,7 @@ macro_rules! sequences {
 #[rustfmt::skip]
 sequences! {
     StartCode         "StartCode"         plain "MLE" "MLE" Doc "the beginning of the program" "`start`" "start-code"
-    EndCode           "EndCode"           plain "MLE" "MLE" Doc "the end of the program (on EDM by our decision)" "end of the job" "end-code"
+    EndCode           "EndCode"           plain "MLE" "MLE" Doc "the end of the program" "end of the job" "end-code"
     FirstToolChange   "1stToolChange"     plain "ML"  "ML"  Doc "the program's first tool change" "first operation" "first-tool-change"
     ToolChange        "ToolChange"        plain "ML"  "ML"  Doc "every later tool change" "operation with another `tool`" "tool-change-mill"
     RapidCode         "RapidCode"         plain "MLE" ""    Doc "a rapid move, instead of the generated block" "`rapid`" "rapid-code"

@@ -134,7 +134,12 @@ impl<'a> View<'a> {
     /// Words as they are written, but for those of comments to the end of the block.
     pub fn written(&self) -> impl Iterator<Item = &'a syntax::Word> + '_ {
         let bodies = self.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
-        bodies.flat_map(|body| &body.words[..before_remark(&body.words, &self.settings.comment)])
+        bodies.flat_map(|body| self.codes(&body.words))
+    }
+
+    /// The words of a line up to a comment that runs to its end.
+    pub fn codes<'s>(&self, words: &'s [syntax::Word]) -> &'s [syntax::Word] {
+        &words[..before_remark(words, &self.settings.comment)]
     }
 
     /// The pieces of words as they are written.

@@ -3,7 +3,7 @@
 use indexmap::map::Entry;
 
 use super::args::choice_of;
-use super::messages::{bad_format, duplicate_format, duplicate_sequence, unknown_name};
+use super::messages::{bad_format, duplicate_format, duplicate_sequence, is_word, no_name_line, unknown_name};
 use super::model::{Form, Sequence, Upon};
 use super::settings::{Settings, UnitChoice};
 use super::words::{Context, resolve, variable};
@@ -12,7 +12,7 @@ use crate::lang::{CommandId, Machine, Machines, SEQUENCES, SequenceId, SequenceN
 use crate::number::LetterFormat;
 use crate::source::Source;
 use crate::span::Span;
-use crate::syntax::{self, Body, End, Head, SequenceNode, Spanned, Statement, Tail};
+use crate::syntax::{self, Body, End, Head, Piece, PieceKind, SequenceNode, Spanned, Statement, Tail};
 
 /// How strictly the classic limits hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -177,11 +177,20 @@ impl Analysis {
                 self.format(letter, spec);
             }
             Head::Statement(statement) => self.statement(statement),
-            Head::StrayEnd(line) => self.report(
-                Diag::new(Code::PF007, "End stands outside a sequence")
-                    .at(line.span, "no sequence is open here")
-                    .help("take it out, or give the lines above it a sequence name"),
-            ),
+            Head::StrayEnd(line) => {
+                // `End Code` was meant to be one word
+                let text = self.files[line.span.file as usize].slice(line.span);
+                let joined: String = text.split_whitespace().take(2).collect();
+                let help = match SequenceId::parse(&joined) {
+                    Some(id) => format!("write `{}`", id.name()),
+                    None => "take it out, or give the lines above it a sequence name".into(),
+                };
+                self.report(
+                    Diag::new(Code::PF007, "End stands outside a sequence")
+                        .at(line.span, "no sequence is open here")
+                        .help(help),
+                );
+            }
             Head::Sequence(node) => {
                 let span = node.name.line.span;
                 if self.first_sequence.is_none_or(|first| first.file != span.file) {
@@ -240,7 +249,9 @@ impl Analysis {
             }
             let mut chars = name.bytes();
             let first_is_letter = chars.next().is_some_and(|b| b.is_ascii_alphabetic());
-            if first_is_letter && chars.next().is_none_or(|b| b"->+.~ ".contains(&b) || b.is_ascii_digit()) {
+            if self.first_sequence.is_some() && is_word(name) {
+                self.report(no_name_line(whole));
+            } else if first_is_letter && chars.next().is_none_or(|b| b"->+.~ ".contains(&b) || b.is_ascii_digit()) {
                 self.report(bad_format(whole, "can't be read"));
             } else {
                 self.report(unknown_name(name, span));
@@ -311,9 +322,11 @@ impl Analysis {
                 self.over_lines = Some(body.line.span);
             }
             self.words_limit(body);
+            self.glued_end(body);
             lines.push(resolve(body, &context, &mut self.diags));
         }
         match SequenceName::parse(&words) {
+            None if is_word(&node.name.name.text) => self.report(no_name_line(span)),
             None => self.report(unknown_name(&node.name.name.text, node.name.name.span)),
             Some(SequenceName::Plain(id, count)) => {
                 self.on_this_machine(id.name(), id.row().machines, span);
@@ -425,6 +438,17 @@ impl Analysis {
                     .at(span, format!("not on a {}", machine.name()))
                     .help("take it out, or say with `Machine` what the form is for"),
             );
+        }
+    }
+
+    /// `EndCancel` is a word like any other, and would be printed.
+    fn glued_end(&mut self, body: &Body) {
+        let [word] = body.words.as_slice() else { return };
+        if let [Piece { kind: PieceKind::Stray(text), span }] = word.pieces.as_slice()
+            && text.eq_ignore_ascii_case("EndCancel")
+        {
+            let diag = Diag::new(Code::PF002, format!("`{text}` is no End")).at(*span, "a word of the output");
+            self.report(diag.help("write `End Cancel`"));
         }
     }
 

@@ -36,3 +36,16 @@ pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
         .or_else(|| Some("a comment begins with `#`".into()));
     diag
 }
+
+/// A letter with a number, as no name is: `G80`.
+pub fn is_word(name: &str) -> bool {
+    let number = name.strip_prefix(|c: char| c.is_ascii_alphabetic());
+    number.is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
+}
+
+/// Words of a sequence whose name line is not there.
+pub fn no_name_line(span: Span) -> Diag {
+    Diag::new(Code::PF001, "words that print stand outside a sequence")
+        .at(span, "this line belongs to no sequence")
+        .help("look for the name line above it: it is missing, or misspelt")
+}

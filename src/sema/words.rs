@@ -99,6 +99,13 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
                 .help("take the sign out; `RevSigns` reverses the sign of a letter"),
         );
     }
+    if matches!(piece.kind, PieceKind::Variable { letter: None, .. }) && previous.is_some_and(Piece::is_word) {
+        diags.push(
+            Diag::new(Code::PF001, "a value stands directly behind a word")
+                .at(piece.span, "this would be printed as a word of its own")
+                .help("keep one of them; digits in front of a value come from its format, as `T 2` for T01"),
+        );
+    }
     words.push(Word { span: piece.span, glued, kind });
 }
 
@@ -126,8 +133,8 @@ impl Note<'_> {
                     }
                 }
                 PieceKind::Stray(text) => {
-                    if let Some(c) = text.chars().find(|c| c.is_control()) {
-                        diags.push(control_character(c, self.span));
+                    if let Some(c) = text.chars().find(|&c| is_invisible(c)) {
+                        diags.push(invisible(c, self.span));
                     }
                     self.text.push_str(text);
                 }
@@ -165,8 +172,8 @@ fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
                 .at(span, "a bracket without its partner")
                 .help("variables are written `X[h]`"),
         );
-    } else if let Some(c) = text.chars().find(|c| c.is_control()) {
-        diags.push(control_character(c, span));
+    } else if let Some(c) = text.chars().find(|&c| is_invisible(c)) {
+        diags.push(invisible(c, span));
     } else if after_word {
         diags.push(
             Diag::new(Code::PF001, format!("`{}` stands directly behind a word", text))
@@ -176,8 +183,18 @@ fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
     }
 }
 
-fn control_character(c: char, span: Span) -> Diag {
-    Diag::new(Code::PF001, format!("the line holds the control character U+{:04X}", u32::from(c)))
+/// A character that nobody sees, or takes for a blank.
+fn is_invisible(c: char) -> bool {
+    c.is_control() || (c.is_whitespace() && c != ' ') || ('\u{200b}'..='\u{200f}').contains(&c) || c == '\u{feff}'
+}
+
+fn invisible(c: char, span: Span) -> Diag {
+    let what = match c {
+        '\u{a0}' => "a no-break space, which looks like a blank".to_owned(),
+        c if c.is_control() => format!("the control character U+{:04X}", u32::from(c)),
+        c => format!("the character U+{:04X}, which nobody sees", u32::from(c)),
+    };
+    Diag::new(Code::PF001, format!("the line holds {what}"))
         .at(span, "in this word")
-        .help("take it out")
+        .help("take it out; where a blank belongs, type one")
 }

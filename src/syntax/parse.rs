@@ -25,7 +25,7 @@ pub fn parse(source: &Source, file: u32) -> Form {
         let at = At { file, start };
         if let Some(sequence) = &mut open {
             match body_line(at, text) {
-                Ok(body) if !begins_sequence(&body, text) => sequence.body.push(body),
+                Ok(body) if !begins_sequence(&body, text, start) => sequence.body.push(body),
                 Ok(_) => {
                     // a sequence name on a line of its own: the End before it is missing
                     form.items.extend(open.take().map(Head::Sequence));
@@ -80,6 +80,12 @@ fn head(at: At, text: &str, following: &[(usize, &str)], form: &mut Form) -> Opt
                 let mut parts = pair.into_inner();
                 let (Some(letter), Some(spec)) = (parts.next(), parts.next()) else { continue };
                 line.tail = parts.next().map_or(Tail::None, |pair| tail(at, &pair));
+                // behind a sequence `G80` is a word whose name line is missing, and no format
+                if spec.as_str().bytes().all(|b| b.is_ascii_digit()) && form.sequences().next().is_some() {
+                    let span = at.span(&letter).to(at.span(&spec));
+                    let name = Spanned { text: format!("{}{}", letter.as_str(), spec.as_str()), span };
+                    return opened(Statement { line, name, args: Vec::new() }, following, form);
+                }
                 form.items.push(Head::Format { line, letter: at.spanned(&letter), spec: at.spanned(&spec) });
                 return None;
             }
@@ -89,11 +95,7 @@ fn head(at: At, text: &str, following: &[(usize, &str)], form: &mut Form) -> Opt
                     form.items.push(Head::StrayEnd(statement.line));
                     return None;
                 }
-                if opens_sequence(&statement, following) {
-                    return Some(SequenceNode { name: statement, body: Vec::new(), end: None });
-                }
-                form.items.push(Head::Statement(statement));
-                return None;
+                return opened(statement, following, form);
             }
             Rule::remark => line.tail = remark(at, &pair),
             _ => {}
@@ -102,6 +104,15 @@ fn head(at: At, text: &str, following: &[(usize, &str)], form: &mut Form) -> Opt
         return None;
     }
     form.items.push(Head::Blank(at.line(text)));
+    None
+}
+
+/// The sequence that a statement opens; any other statement is one of the form.
+fn opened(statement: Statement, following: &[(usize, &str)], form: &mut Form) -> Option<SequenceNode> {
+    if opens_sequence(&statement, following) {
+        return Some(SequenceNode { name: statement, body: Vec::new(), end: None });
+    }
+    form.items.push(Head::Statement(statement));
     None
 }
 
@@ -173,11 +184,9 @@ fn names_sequence(statement: &Statement) -> bool {
 }
 
 /// Inside a sequence: is this the name line of the next one? Only a line whose words are a name and at most a count.
-fn begins_sequence(body: &Body, text: &str) -> bool {
-    if body.words.is_empty() {
-        return false;
-    }
-    let words: Vec<&str> = text.split_whitespace().collect();
+fn begins_sequence(body: &Body, text: &str, start: usize) -> bool {
+    let Some(last) = body.words.last() else { return false };
+    let words: Vec<&str> = text[..last.span.end as usize - start].split_whitespace().collect();
     match SequenceName::parse(&words) {
         Some(SequenceName::Plain(SequenceId::Stop, _)) => false, // a word of conversational controls
         Some(SequenceName::Plain(_, count)) => count.is_none_or(|c| c.bytes().all(|b| b.is_ascii_digit())),

@@ -8,7 +8,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for sequence in view.form.sequences.values() {
         let Some(cancel) = sequence.cancel else { continue };
         let emulated = sequence.lines.len() > 1 && sequence.count.is_none();
-        if emulated || sequence.is_none {
+        // with a cycle of the control in it the count is what is missing, which another rule says
+        let starts_cycle = view.body(sequence.id).is_some_and(|body| body.cycle_word().is_some());
+        if (emulated && !starts_cycle) || sequence.is_none {
             let gap = Span { start: cancel.start - 1, ..cancel };
             diags.push(
                 Diag::new(Code::PF403, format!("{} is emulated, so Cancel is never printed", sequence.id.name()))

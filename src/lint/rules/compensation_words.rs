@@ -3,25 +3,35 @@
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::view::{Body, View};
+use crate::sema::Word;
+use crate::span::Span;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let [left, right, off] = view.settings.cdc;
     let side = |body: &Body, codes: &[f64]| body.prints(VarId::Side) || body.code(b'G', codes).is_some();
-    let mut say = |body: &Body, message: &str, label: &str, help: String| {
-        diags.push(Diag::new(Code::PF434, format!("{} {message}", body.name())).at(body.span, label).help(help));
+    let mut say = |at: Span, message: String, label: &str, help: String| {
+        diags.push(Diag::new(Code::PF434, message).at(at, label).help(help));
     };
     if let Some(body) = view.body(SequenceId::InFeed).filter(|body| !body.lines.is_empty()) {
-        let register = body.words().any(|word| view.printed_letter(word).is_some_and(|letter| b"DH".contains(&letter)))
-            || body.prints_any(&[VarId::Dcomp, VarId::Comp]);
+        let name = body.name();
+        let in_letter =
+            |word: &Word, letters: &[u8]| view.printed_letter(word).is_some_and(|own| letters.contains(&own));
+        let register = body.words().any(|word| in_letter(word, b"DH")) || body.prints_any(&[VarId::Dcomp, VarId::Comp]);
+        let length = |word: &&Word| word.printed_var() == Some(VarId::Lcomp) && in_letter(word, b"D");
         if !side(&body, &[left, right]) {
-            say(&body, "does not turn compensation on", "no G41, no G42", "print `G[side]`".into());
+            let message = format!("{name} does not turn compensation on");
+            say(body.span, message, "no G41, no G42", "print `G[side]`".into());
         } else if !register && view.is_mill() {
-            say(&body, "does not say which diameter", "no D", "print `D[dcomp]`".into());
+            say(body.span, format!("{name} does not say which diameter"), "no D", "print `D[dcomp]`".into());
+        } else if let Some(word) = body.words().find(length) {
+            let message = format!("{name} takes the length of the tool for its diameter");
+            say(word.span, message, "the register of the length", "write `D[dcomp]`".into());
         }
     }
     if let Some(body) = view.body(SequenceId::OutFeed).filter(|body| !body.lines.is_empty())
         && !side(&body, &[off])
     {
-        say(&body, "does not turn compensation off", "no G40", format!("print `G{off}`"));
+        let message = format!("{} does not turn compensation off", body.name());
+        say(body.span, message, "no G40", format!("print `G{off}`"));
     }
 }

@@ -3,6 +3,7 @@
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, Unit, VarId};
 use crate::lint::view::View;
+use crate::number::{Digits, LetterFormat, Point};
 use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
@@ -24,10 +25,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         let name = char::from(letter);
         let decimals = format.dec.count;
+        // without decimals it had no point to print
+        let point = if decimals == 0 { Point::Always } else { format.point };
         diags.push(
             Diag::new(Code::PF306, format!("{name} has {decimals} decimals, {what} needs {wanted}"))
                 .at(*span, "the others are rounded away")
-                .help(format!("give the format {wanted} decimals, as `{name}->4.>{wanted}`")),
+                .help(format!(
+                    "write `{name}{}`",
+                    LetterFormat { dec: Digits { count: wanted, ..format.dec }, point, ..*format }
+                )),
         );
     }
 }

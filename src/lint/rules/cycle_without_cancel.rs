@@ -4,6 +4,7 @@ use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::View;
 use crate::span::Span;
+use crate::syntax::Tail;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
@@ -16,7 +17,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             .at(word.span, "the next position would be a hole, too")
             .help("end it with `End Cancel`, and print G80 in a sequence `Cancel`");
         let end = view.node(sequence.span).and_then(|node| node.end.as_ref());
-        if let Some(end) = end.filter(|_| view.body(SequenceId::Cancel).is_some()) {
+        if let Some(end) =
+            end.filter(|end| view.body(SequenceId::Cancel).is_some() && !matches!(end.line.tail, Tail::Lost(_)))
+        {
             let at = Span { start: end.word.end, ..end.word };
             diag = diag.fix("cancel the cycle", false, vec![(at, " Cancel".into())]);
         }

@@ -2,7 +2,9 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
+use crate::lint::blocks::is_cycle_code;
 use crate::lint::view::View;
+use crate::sema::{Line, Word};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_mill() {
@@ -12,6 +14,24 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let missing = [VarId::H, VarId::V].into_iter().filter(|&var| !body.prints(var));
         let names = missing.map(|var| format!("[{}]", var.name())).collect::<Vec<_>>().join(" and ");
         if names.is_empty() {
+            // K0 and L0 keep the cycle from drilling where it begins, and a code alone only names the cycle
+            let waits = |word: &Word| word.is_code(b'K', &[0.0]) || word.is_code(b'L', &[0.0]);
+            let drills = |line: &&Line| {
+                let words = &line.words;
+                let depth = words.iter().any(|word| word.letter().and_then(|letter| view.axis(letter)) == Some(2));
+                words.iter().any(|word| word.typed(b'G').is_some_and(is_cycle_code))
+                    && depth
+                    && !words.iter().any(waits)
+            };
+            let cycle = body.cycle_word().filter(|_| body.lines.iter().any(|line| drills(&line)));
+            let placed = body.begins_with(&[VarId::H]) && body.begins_with(&[VarId::V]);
+            if let (Some((word, code)), false) = (cycle, placed) {
+                diags.push(
+                    Diag::new(Code::PF406, format!("{} starts G{code} without the position", body.name()))
+                        .at(word.span, "a hole where the tool is, and the first one again")
+                        .help("print `X[h] Y[v]` in the block of the cycle"),
+                );
+            }
             continue;
         }
         diags.push(

@@ -35,6 +35,16 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             words.fold(0, |set, (_, axis)| set | 1 << axis)
         };
         let before = blocks[..=down].iter().fold(0, |set, block| set | across(block));
+        // a tool change comes from anywhere
+        let changes = [S::FirstToolChange, S::ToolChange].map(Purpose::Sequence).contains(&body.purpose);
+        if changes && before != 0b11 && blocks[down + 1..].iter().all(|block| across(block) == 0) {
+            diags.push(
+                Diag::new(Code::PF416, format!("{} goes down and does not say where", body.name()))
+                    .at(word.span, "down where the tool was changed")
+                    .help("print `G0 X[h] Y[v]` before it"),
+            );
+            continue;
+        }
         if let Some(late) = blocks[down + 1..].iter().find(|block| across(block) & !before != 0) {
             let there = late.line.span;
             diags.push(

@@ -1,14 +1,18 @@
 //! PF311: P counts milliseconds on some controls and seconds on others.
 
 use crate::diag::{Code, Diag};
-use crate::lang::CommandId;
+use crate::lang::{CommandId, VarId};
 use crate::lint::view::View;
 use crate::number::Point;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let settings = view.settings;
-    let command = view.command(CommandId::Dwell).or(view.command(CommandId::Control));
-    let Some(command) = command.filter(|_| settings.dwell.letter == b'P') else { return };
+    // P of a dwell, or of a cycle that dwells
+    let cycle =
+        view.words().find(|word| word.printed_var() == Some(VarId::Dwell) && view.printed_letter(word) == Some(b'P'));
+    let command = view.command(CommandId::Dwell).or(view.command(CommandId::Control)).map(|command| command.line.span);
+    let place = if settings.dwell.letter == b'P' { command } else { cycle.map(|word| word.span) };
+    let Some(place) = place else { return };
     let wanted = match settings.control.as_str() {
         "fanuc" | "fadal" => true,
         "linuxcnc" | "emc2" | "grbl" => false,
@@ -25,7 +29,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let (unit, times) = if wanted { ("ms", "a thousandth of") } else { ("s", "a thousand times") };
     diags.push(
         Diag::new(Code::PF311, format!("P of a dwell is in {unit} on {}", settings.control))
-            .at(command.line.span, format!("this would dwell {times} the time"))
+            .at(place, format!("this would dwell {times} the time"))
             .help(format!("write `Dwell G4 P {unit}`")),
     );
 }

@@ -1,27 +1,72 @@
 //! PF101: words behind two blanks or a tab are a comment, which looks like output and prints nothing.
 
-use std::collections::HashSet;
-
 use crate::diag::{Code, Diag};
+use crate::lang::SequenceId;
 use crate::lint::tokens::looks_like_a_word;
 use crate::lint::view::View;
 use crate::span::Span;
-use crate::syntax::{Line, Tail};
+use crate::syntax::{Head, Line, PieceKind, SequenceNode, Tail};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (tree, source) in view.checked.trees.iter().zip(&view.checked.files) {
-        let remarks: HashSet<Span> = tree.sequences().map(|node| node.name.line.span).collect();
-        for line in tree.lines() {
-            if !remarks.contains(&line.span) {
-                look(line, &source.text, diags);
+        let text = &source.text;
+        for item in &tree.items {
+            match item {
+                Head::Sequence(node) => sequence(node, text, diags),
+                // a letter or number more is an argument
+                Head::Statement(statement) => {
+                    let is_argument = |token: &str| token.parse::<f64>().is_ok() || is_letter(token);
+                    lost(&statement.line, text, &|token| is_argument(token) || looks_like_a_word(token), diags);
+                }
+                Head::Blank(line) | Head::Format { line, .. } | Head::StrayEnd(line) => {
+                    lost(line, text, &looks_like_a_word, diags);
+                }
             }
         }
     }
 }
 
-fn look(line: &Line, text: &str, diags: &mut Vec<Diag>) {
+fn sequence(node: &SequenceNode, text: &str, diags: &mut Vec<Diag>) {
+    // behind a name stands a remark; a number alone is a count
+    let is_cycle = SequenceId::parse(&node.name.name.text).is_some_and(SequenceId::makes_holes);
+    if is_cycle && node.name.args.is_empty() {
+        lost(&node.name.line, text, &|token| token.bytes().all(|b| b.is_ascii_digit()), diags);
+    }
+    for body in &node.body {
+        let last = body.words.last().and_then(|word| word.pieces.last());
+        match (&body.line.tail, last.map(|piece| &piece.kind)) {
+            // what is lost of a comment may be anything
+            (_, Some(PieceKind::Note { closed: false, .. })) => lost(&body.line, text, &|_| true, diags),
+            (Tail::Comment(comment), _) if body.words.is_empty() => macro_line(*comment, text, diags),
+            _ => lost(&body.line, text, &looks_like_a_word, diags),
+        }
+    }
+    if let Some(end) = &node.end {
+        lost(&end.line, text, &|token| token.eq_ignore_ascii_case("Cancel"), diags);
+    }
+}
+
+fn is_letter(token: &str) -> bool {
+    token.len() == 1 && token.bytes().all(|b| b.is_ascii_uppercase())
+}
+
+/// `#101=5` is a comment like any other.
+fn macro_line(comment: Span, text: &str, diags: &mut Vec<Diag>) {
+    let words = &text[comment.range()];
+    let number = words.trim_start_matches('#').split('=').next().unwrap_or("").trim_end();
+    if words.contains('=') && !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()) {
+        diags.push(
+            Diag::new(Code::PF101, format!("`{words}` is lost: the line prints nothing"))
+                .at(comment, "a `#` begins a comment")
+                .help("forms can't set macro variables: let the job say it, as `text`"),
+        );
+    }
+}
+
+fn lost(line: &Line, text: &str, is_word: &dyn Fn(&str) -> bool, diags: &mut Vec<Diag>) {
     let Tail::Lost(lost) = &line.tail else { return };
-    if !lost.text.split([' ', '\t']).any(looks_like_a_word) {
+    let mut tokens = lost.text.split([' ', '\t']).filter(|token| !token.is_empty());
+    if !tokens.clone().any(is_word) {
         return;
     }
     let before = text[line.span.start as usize..lost.span.start as usize].trim_end();
@@ -29,14 +74,16 @@ fn look(line: &Line, text: &str, diags: &mut Vec<Diag>) {
     let words = lost.text.trim_end();
     let prints = match before.trim() {
         "" => "the line prints nothing".to_owned(),
-        words => format!("only `{words}` is output"),
+        words => format!("only `{words}` is left"),
     };
-    let joined = format!("{} {}", before.trim(), words);
+    let joined = [before, words].join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
+    let diag = Diag::new(Code::PF101, format!("`{words}` is lost: {prints}"))
+        .at(lost.span, "two blanks or a tab before this make it a comment")
+        .help(format!("write `{joined}`, or begin the comment with `#`"));
+    // a sentence is a comment, whatever words are in it
     let fix = if before.trim().is_empty() { "" } else { " " };
-    diags.push(
-        Diag::new(Code::PF101, format!("`{words}` is lost: {prints}"))
-            .at(lost.span, "two blanks or a tab before this make it a comment")
-            .help(format!("write `{}`, or begin the comment with `#`", joined.trim()))
-            .fix("join the words by one blank", false, vec![(gap, fix.to_owned())]),
-    );
+    diags.push(match tokens.all(is_word) {
+        true => diag.fix("join the words by one blank", false, vec![(gap, fix.to_owned())]),
+        false => diag,
+    });
 }

@@ -7,6 +7,7 @@ mod cancel_without_code;
 mod change_without_tool;
 mod coarse_centre;
 mod code_format;
+mod codes_swapped;
 mod compensation_words;
 mod control_without_code;
 mod coolant_order;
@@ -29,11 +30,14 @@ mod foreign_comment_mark;
 mod h_without_length_code;
 mod hash_in_word;
 mod hidden_depth;
+mod implied_metric;
 mod implied_point;
+mod increment_as_position;
 mod increments_left_on;
 mod increments_mixed;
 mod index_without_retract;
 mod length_code_without_h;
+mod length_register;
 mod letter_for_digit;
 mod letter_formats;
 mod letter_twice;
@@ -47,12 +51,14 @@ mod near_line_limit;
 mod near_remark;
 mod near_word_limit;
 mod nested_comment;
+mod no_motion_code;
 mod no_program_end;
 mod old_spelling;
 mod one_group_twice;
 mod open_comment;
 mod other_axis;
 mod other_cycle;
+mod part_zero;
 mod peck_without_step;
 mod position_in_increments;
 mod rapid_that_feeds;
@@ -61,6 +67,7 @@ mod replace_number;
 mod return_without_g91;
 mod small_letter;
 mod spindle_before_change;
+mod split_word;
 mod start_moves;
 mod sub_without_number;
 mod sub_without_return;
@@ -125,6 +132,7 @@ rules! {
     PF107 near_remark
     PF110 foreign_comment_mark
     PF111 nested_comment
+    PF112 split_word
     // names
     PF203 without_effect
     PF204 old_spelling
@@ -134,6 +142,7 @@ rules! {
     PF208 custom_twice
     PF209 unused_prompt
     PF210 upon_unused
+    PF211 codes_swapped
     // numbers and letter formats
     PF303 letter_formats
     PF304 small_letter
@@ -149,6 +158,7 @@ rules! {
     PF314 other_axis
     PF315 unit_code
     PF316 units_unprinted
+    PF317 implied_metric
     // sequences and cycles
     PF403 cancel_emulated
     PF404 machine_code_without_count
@@ -183,6 +193,10 @@ rules! {
     PF434 compensation_words
     PF435 rapid_that_feeds
     PF436 cut_at_rapid
+    PF437 length_register
+    PF438 no_motion_code
+    PF439 increment_as_position
+    PF440 part_zero
     // modality
     PF501 modal_letters
     PF502 modal_codes

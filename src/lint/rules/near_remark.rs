@@ -11,7 +11,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let Tail::Lost(remark) = &node.name.line.tail else { continue };
             let before = &source.text[node.name.line.span.start as usize..remark.span.start as usize];
             let gap = before.len() - before.trim_end().len();
-            if gap >= 3 || before.contains('\t') {
+            let is_count = remark.text.trim_end().bytes().all(|b| b.is_ascii_digit()); // another rule's
+            if gap >= 3 || before.contains('\t') || is_count {
                 continue;
             }
             let at = Span { start: remark.span.start, end: remark.span.start, ..remark.span };

@@ -2,14 +2,15 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::group_of;
+use crate::lint::blocks::is_cycle_code;
 use crate::lint::view::View;
-use crate::sema::{Word, WordKind};
+use crate::sema::{Line, Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for line in view.bodies.iter().flat_map(|body| body.lines) {
         let codes = line.words.iter().filter_map(|word| match word.kind {
-            // G80 with a motion code is common
-            WordKind::Literal(b'G', _, 80.0) => None,
+            // G80 with a motion code is common; with a cycle it ends that one
+            WordKind::Literal(b'G', _, 80.0) if !starts_cycle(line) => None,
             WordKind::Literal(letter @ (b'G' | b'M'), _, value) => {
                 Some((word, group_of(letter, (value * 10.0).round() as i64)?))
             }
@@ -30,4 +31,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             );
         }
     }
+}
+
+fn starts_cycle(line: &Line) -> bool {
+    line.words.iter().any(|word| word.typed(b'G').is_some_and(is_cycle_code))
 }

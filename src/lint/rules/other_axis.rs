@@ -2,8 +2,9 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
+use crate::lint::blocks::is_cycle_code;
 use crate::lint::view::View;
-use crate::sema::WordKind;
+use crate::sema::{Word, WordKind};
 
 /// The variables of each axis.
 const OF_AXIS: [[VarId; 3]; 3] = [
@@ -27,4 +28,24 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             );
         }
     }
+    // R is the plane, the depth axis the bottom of a cycle of the control
+    for line in view.bodies.iter().flat_map(|body| body.lines).filter(|line| line.words.iter().any(starts_cycle)) {
+        for word in &line.words {
+            let WordKind::Var(letter, var) = word.kind else { continue };
+            let better = match (view.axis(letter), letter, var) {
+                (Some(2), _, VarId::Vclear | VarId::Rplane) => "[d]",
+                (None, b'R', VarId::D | VarId::Depth) => "[vclear]",
+                _ => continue,
+            };
+            diags.push(
+                Diag::new(Code::PF314, format!("[{}] under {}", var.name(), char::from(letter)))
+                    .at(word.span, "the plane and the bottom are in each other's place")
+                    .help(format!("write `{}{better}`", char::from(letter))),
+            );
+        }
+    }
+}
+
+fn starts_cycle(word: &Word) -> bool {
+    word.typed(b'G').is_some_and(is_cycle_code)
 }

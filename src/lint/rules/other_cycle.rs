@@ -22,6 +22,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
     for (sequence, body) in view.hole_cycles() {
         let Some((_, own)) = OWN.iter().find(|(id, _)| *id == serves(sequence)) else { continue };
+        // these have G74 for it, and G84 would turn the tap the wrong way
+        let own = if serves(sequence) == SequenceId::LTap && view.is_for(&["fanuc", "haas"]) { &own[..1] } else { own };
         let Some((word, code)) = body.cycle_word().filter(|(_, code)| !own.contains(code) && code.fract() == 0.0)
         else {
             continue;

@@ -3,15 +3,17 @@
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::View;
-use crate::sema::Word;
+use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(body) = view.body(SequenceId::RapidCode) else { return };
     let feed = view.settings.feed_code;
     let feeds = |word: &&Word| word.is_code(b'G', &[1.0, 2.0, 3.0]) || word.letter() == Some(feed);
-    if let Some(word) = body.words().find(feeds) {
-        diags.push(
-            Diag::new(Code::PF435, "RapidCode feeds").at(word.span, "no rapid").help("print `G0 X[h] Y[v] Z[d]`"),
-        );
-    }
+    let says = |word: &Word| word.is_code(b'G', &[0.0]) || matches!(word.kind, WordKind::Text(_));
+    let (span, label) = match (body.words().find(feeds), body.lines.first()) {
+        (Some(word), _) => (word.span, "no rapid"),
+        (None, Some(line)) if !body.words().any(says) => (line.span, "no G0: after a cut this is a cut"),
+        _ => return,
+    };
+    diags.push(Diag::new(Code::PF435, "RapidCode feeds").at(span, label).help("print `G0 X[h] Y[v] Z[d]`"));
 }

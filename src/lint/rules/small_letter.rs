@@ -15,11 +15,16 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         let (small, capital) = (char::from(letter), char::from(letter.to_ascii_uppercase()));
         let first = Span { end: word.span.start + 1, ..word.span };
-        diags.push(
-            Diag::new(Code::PF304, format!("`{small}` is printed as a small letter"))
-                .at(word.span, "the control may refuse it")
-                .help(format!("write `{capital}`, or add `Rename {small} {capital}` if it has a format of its own"))
-                .fix("write the capital", false, vec![(first, capital.to_string())]),
-        );
+        let diag = Diag::new(Code::PF304, format!("`{small}` is printed as a small letter"))
+            .at(word.span, "the control may refuse it");
+        diags.push(match view.format_letter(word) == Some(letter) {
+            // it has a format of its own, which the capital would not print by
+            true => diag.help(format!("add `Rename {small} {capital}`")),
+            false => diag.help(format!("write `{capital}`")).fix(
+                "write the capital",
+                false,
+                vec![(first, capital.to_string())],
+            ),
+        });
     }
 }

@@ -3,33 +3,42 @@
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::blocks::Motion;
-use crate::lint::view::View;
+use crate::lint::view::{Body, View};
 
 use super::spindle_before_change::starts_spindle;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for body in view.cycles_for(&[SequenceId::Tap, SequenceId::LTap]) {
-        if body.moves_by_itself() {
-            continue;
-        }
-        let mut cut = false;
-        let mut reversed = false;
-        for block in view.blocks(body) {
-            reversed |= cut && block.line.words.iter().any(starts_spindle);
-            let words = block.axis_words(view);
-            let Some((word, _)) = words.iter().find(|(_, axis)| *axis == 2) else { continue };
-            match (block.motion, word.printed_var()) {
-                (Motion::Line, Some(VarId::D)) => cut = true,
-                (Motion::Line | Motion::Rapid, _) if cut && !reversed => {
-                    diags.push(
-                        Diag::new(Code::PF419, format!("{} comes out with the spindle turning as it cut", body.name()))
-                            .at(word.span, "out of the hole")
-                            .help("reverse the spindle at the bottom, as `M3` for a left-hand tap; or use the control's cycle"),
-                    );
-                    break;
-                }
-                _ => {}
-            }
+    for (id, back) in [(SequenceId::Tap, [4.0, 14.0]), (SequenceId::LTap, [3.0, 13.0])] {
+        for body in view.cycles_for(&[id]).filter(|body| !body.moves_by_itself()) {
+            diags.extend(tears(view, &body, back));
         }
     }
+}
+
+/// The move that tears the thread, if there is one: out at rapid, or before a code of `back` has turned the spindle.
+fn tears(view: &View, body: &Body, back: [f64; 2]) -> Option<Diag> {
+    let (mut cut, mut reversed) = (false, false);
+    for block in view.blocks(*body) {
+        if cut && let Some(word) = block.line.words.iter().find(|word| starts_spindle(word)) {
+            reversed = word.typed(b'M').is_none_or(|code| back.contains(&code));
+        }
+        let words = block.axis_words(view);
+        let Some((word, _)) = words.iter().find(|(_, axis)| *axis == 2) else { continue };
+        let (how, help) = match (block.motion, word.printed_var()) {
+            (Motion::Line, Some(VarId::D)) => {
+                cut = true;
+                continue;
+            }
+            (Motion::Line | Motion::Rapid, _) if cut && !reversed => {
+                ("with the spindle turning as it cut", format!("reverse the spindle at the bottom with M{}", back[0]))
+            }
+            (Motion::Rapid, _) if cut => ("at rapid", "feed out: `G1 Z[vclear]`".to_owned()),
+            // out of the thread
+            _ if cut => return None,
+            _ => continue,
+        };
+        let diag = Diag::new(Code::PF419, format!("{} comes out {how}", body.name())).at(word.span, "out of the hole");
+        return Some(diag.help(format!("{help}; or use the control's cycle")));
+    }
+    None
 }

@@ -1,15 +1,21 @@
 //! PF309: on Fanuc and Haas `X1` is a ten-thousandth of an inch, or a micron.
 
 use crate::diag::{Code, Diag};
+use crate::lint::blocks::is_cycle_code;
 use crate::lint::view::View;
-use crate::sema::WordKind;
+use crate::sema::{Line, Word, WordKind};
 use crate::span::Span;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_for(&["fanuc", "haas"]) {
         return;
     }
-    for word in view.words() {
+    // in the block of a cycle K counts how often
+    let repeats = |line: &Line, word: &Word| {
+        word.letter() == Some(b'K') && line.words.iter().any(|word| word.typed(b'G').is_some_and(is_cycle_code))
+    };
+    let lines = view.bodies.iter().flat_map(|body| body.lines);
+    for word in lines.flat_map(|line| line.words.iter().filter(|word| !repeats(line, word))) {
         let WordKind::Literal(letter, text, value) = &word.kind else { continue };
         let printed = view.letters[*letter].printed;
         let is_length = view.axis(*letter).is_some() || view.is_rotary(*letter) || b"UVWIJKR".contains(&printed);

@@ -7,7 +7,10 @@ use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(end) = view.body(SequenceId::EndCode) else { return };
-    let is_end = |word: &Word| word.is_code(b'M', &[2.0, 30.0, 99.0]);
+    // the reader stops at a `%`, the control at M30
+    let is_end = |word: &Word| {
+        word.is_code(b'M', &[2.0, 30.0, 99.0]) || matches!(&word.kind, WordKind::Text(text) if text == "%")
+    };
     let Some(last) = end.lines.iter().position(|line| line.words.iter().any(is_end)) else { return };
     let is_word = |word: &&Word| match &word.kind {
         WordKind::Text(text) => text != "%",
@@ -18,7 +21,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF015, "a word behind the end of the program")
                 .at(word.span, "never done")
-                .help("put it before the M30"),
+                .help("print M30 last, and behind it only the `%`"),
         );
     }
 }

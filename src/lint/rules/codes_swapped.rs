@@ -1,0 +1,44 @@
+//! PF316 and its like say what a command lacks; PF211 says when its codes are those of every control, in another order.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{Args, CommandId};
+use crate::lint::view::View;
+
+/// Motion words: each of these is one of the others' in another command.
+const MOTION: [CommandId; 4] = [CommandId::Rapid, CommandId::Feed, CommandId::CW, CommandId::CCW];
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for (id, statement) in view.commands() {
+        let row = id.row();
+        // which plane is whose depends on the machine
+        if !matches!(row.args, Args::Codes(..)) || id == CommandId::ArcPlane {
+            continue;
+        }
+        let usual = codes(row.default.split(';').next().unwrap_or("").split(' '));
+        let said = codes(statement.args.iter().map(|arg| arg.text.as_str()));
+        let swapped = match MOTION.contains(&id) {
+            true => said != usual && said.iter().all(|code| (0.0..4.0).contains(code)),
+            false => said != usual && sorted(&said) == sorted(&usual),
+        };
+        if swapped {
+            let what = row.meaning.rsplit_once(": ").map_or("", |(_, order)| order);
+            let order = if what.is_empty() { String::new() } else { format!(" ({what})") };
+            diags.push(
+                Diag::new(Code::PF211, format!("{} has its codes in another order than any control", row.name))
+                    .at(statement.line.span, "each would do the work of another")
+                    .help(format!("write `{} {}`{order}", row.name, row.default.split(';').next().unwrap_or(""))),
+            );
+        }
+    }
+}
+
+/// The numbers of codes, with or without their letters.
+fn codes<'a>(words: impl Iterator<Item = &'a str>) -> Vec<f64> {
+    words.filter_map(|word| word.trim_start_matches(|c: char| c.is_ascii_alphabetic()).parse().ok()).collect()
+}
+
+fn sorted(codes: &[f64]) -> Vec<f64> {
+    let mut codes = codes.to_vec();
+    codes.sort_by(f64::total_cmp);
+    codes
+}

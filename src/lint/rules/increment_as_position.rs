@@ -1,0 +1,25 @@
+//! PF439: under G90 a control takes a distance for a position.
+
+use crate::diag::{Code, Diag};
+use crate::lang::VarId;
+use crate::lint::blocks::Motion;
+use crate::lint::view::View;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    if view.settings.incremental {
+        return;
+    }
+    for body in &view.bodies {
+        let held = view.blocks(*body).into_iter();
+        let held = held.filter(|block| !block.incremental && block.in_part() && block.motion != Motion::Cycle);
+        let distance = |var| matches!(var, Some(VarId::Hdist | VarId::Vdist | VarId::Ddist));
+        let word = held.flat_map(|block| block.axis_words(view)).find(|(word, _)| distance(word.printed_var()));
+        if let Some((word, _)) = word {
+            diags.push(
+                Diag::new(Code::PF439, format!("{} prints a distance while G90 is on", body.name()))
+                    .at(word.span, "the control takes it for a position")
+                    .help("print the position, as `X[h]`; or `G91` before it and `G90` after it"),
+            );
+        }
+    }
+}

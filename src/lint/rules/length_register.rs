@@ -1,0 +1,44 @@
+//! PF437: the length of a tool is not told to the control, or that of another one.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{SequenceId, VarId};
+use crate::lint::view::{Purpose, View};
+use crate::sema::{Word, WordKind};
+
+/// Codes that turn a length offset on.
+const ON: &[f64] = &[43.0, 43.1, 43.2, 43.3, 43.4, 43.5, 44.0];
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    if !view.is_mill() || view.is_for(&["grbl"]) {
+        return; // Grbl has no registers: its zero is that of the tool
+    }
+    let is_register = |word: &&Word| view.printed_letter(word) == Some(b'H');
+    let first = view.body(SequenceId::FirstToolChange).filter(|body| !body.lines.is_empty());
+    // words of a conversational control have the length in their tool call
+    let first = first.filter(|body| !body.words().any(|word| matches!(word.kind, WordKind::Text(_))));
+    // what turns the part comes later, and only sometimes
+    let later = [SequenceId::Index, SequenceId::Unwind].map(Purpose::Sequence);
+    let mut words = view.bodies.iter().filter(|body| !later.contains(&body.purpose)).flat_map(|body| body.words());
+    let says = words.any(|word| word.is_code(b'G', ON) || is_register(&word));
+    if let (Some(body), false) = (first, says) {
+        let better = if view.is_for(&["fadal"]) { "H[lcomp]" } else { "G43 H[lcomp]" };
+        diags.push(
+            Diag::new(Code::PF437, "the program never says the length of a tool")
+                .at(body.span, "every tool goes as deep as the spindle nose would")
+                .help(format!("print `{better}` with the first depth of a tool")),
+        );
+    }
+    for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
+        let own =
+            |word: &Word| matches!(word.printed_var(), Some(VarId::Lcomp | VarId::Comp | VarId::Tool | VarId::Tool1));
+        // H0 takes the offset off
+        let other = |word: &&Word| is_register(word) && !own(word) && word.typed(b'H') != Some(0.0);
+        if let Some(word) = body.words().find(other) {
+            diags.push(
+                Diag::new(Code::PF437, format!("{} takes the length of another tool", body.name()))
+                    .at(word.span, "not the length register of the tool")
+                    .help("write `H[lcomp]`"),
+            );
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! PF438: a position without a motion code is gone to as the last one was: at rapid, or at the feed of the last cut.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{SequenceId, VarId};
+use crate::lint::blocks::Motion;
+use crate::lint::view::{Purpose, View};
+use crate::sema::WordKind;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    use SequenceId as S;
+    let changes = [S::FirstToolChange, S::ToolChange, S::Index].map(Purpose::Sequence);
+    for body in view.bodies.iter().filter(|body| view.is_mill() && changes.contains(&body.purpose)) {
+        // words of a conversational control say how it moves
+        if body.words().any(|word| matches!(word.kind, WordKind::Text(_))) {
+            continue;
+        }
+        let moves = view.blocks(*body).into_iter().filter(|block| block.motion == Motion::Unknown && block.in_part());
+        let place = |var| matches!(var, Some(VarId::H | VarId::V | VarId::D));
+        let word = moves.flat_map(|block| block.axis_words(view)).find(|(word, _)| place(word.printed_var()));
+        if let Some((word, _)) = word {
+            diags.push(
+                Diag::new(Code::PF438, format!("{} goes to a position and does not say how", body.name()))
+                    .at(word.span, "as the move before it: a rapid, or a cut at its feed")
+                    .help("print `G0` with it"),
+            );
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! PF112: `R [vclear]` prints a letter and a number apart, `FF[frate]` a letter too many, `[frate]` a number without one.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::span::Span;
+use crate::syntax::{Piece, PieceKind, Word};
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    let bodies = view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
+    for words in bodies.map(|body| view.codes(&body.words)) {
+        for (i, word) in words.iter().enumerate() {
+            let before = i.checked_sub(1).map(|before| &words[before]);
+            let Some((span, label, help, edit)) = split(before, word, words) else { continue };
+            let diag = Diag::new(Code::PF112, "a word that is not whole").at(span, label).help(help);
+            diags.push(match edit {
+                Some((title, span, text)) => diag.fix(title, false, vec![(span, text)]),
+                None => diag,
+            });
+        }
+    }
+}
+
+type Found = (Span, &'static str, String, Option<(&'static str, Span, String)>);
+
+/// What is wrong with a word: the place, what is said of it, what to type, and the edit.
+fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
+    let letter = before.and_then(letter_alone);
+    match (word.pieces.as_slice(), letter, before) {
+        // R [vclear], G 1
+        ([piece], Some(letter), Some(before)) if value(piece).is_some() => {
+            let better = format!("{letter}{}", value(piece)?);
+            let gap = Span { start: before.span.end, end: word.span.start, ..word.span };
+            let label = "printed apart from its letter";
+            Some((
+                before.span.to(word.span),
+                label,
+                format!("write `{better}`"),
+                Some(("join the word", gap, String::new())),
+            ))
+        }
+        // FF[frate]; 0[program#]
+        (
+            [
+                Piece { kind: PieceKind::Stray(text), span },
+                Piece { kind: PieceKind::Variable { letter, name }, span: end },
+            ],
+            ..,
+        ) => {
+            let doubled = letter.is_some_and(|letter| text.as_bytes() == [letter]);
+            let zero = letter.is_none() && text == "0";
+            let better = match letter {
+                Some(letter) if doubled => format!("{}[{}]", char::from(*letter), name.text),
+                None if zero => format!("O[{}]", name.text),
+                _ => return None,
+            };
+            let (label, text) = if zero { ("a zero for the letter O", "O") } else { ("the letter is there twice", "") };
+            Some((span.to(*end), label, format!("write `{better}`"), Some(("write the word", *span, text.to_owned()))))
+        }
+        // [frate] among words with letters, and behind no text
+        ([Piece { kind: PieceKind::Variable { letter: None, name }, span }], None, Some(before)) => {
+            let is_code = |word: &Word| word.pieces.iter().all(Piece::is_word);
+            let among = line.iter().filter(|other| !std::ptr::eq(*other, word)).all(is_code);
+            (among && is_code(before)).then(|| {
+                (
+                    *span,
+                    "a number without its letter",
+                    format!("write the letter before it, as `F[{}]`", name.text),
+                    None,
+                )
+            })
+        }
+        _ => None,
+    }
+}
+
+/// A capital letter that stands alone.
+fn letter_alone(word: &Word) -> Option<char> {
+    match word.pieces.as_slice() {
+        [Piece { kind: PieceKind::Stray(text), .. }] if text.len() == 1 => {
+            text.chars().next().filter(char::is_ascii_uppercase)
+        }
+        _ => None,
+    }
+}
+
+/// A variable or number without a letter.
+fn value(piece: &Piece) -> Option<String> {
+    match &piece.kind {
+        PieceKind::Variable { letter: None, name } => Some(format!("[{}]", name.text)),
+        PieceKind::Stray(text) if text.parse::<f64>().is_ok() => Some(text.clone()),
+        _ => None,
+    }
+}

@@ -197,8 +197,14 @@ impl Piece {
         matches!(self.kind, PieceKind::Variable { .. } | PieceKind::Literal { .. })
     }
 
-    /// Is a blank missing between the piece before and this one? Both are printed as words all the same.
+    /// Is a blank missing between the piece before and this one? Both are printed as words all the same. A value without
+    /// a letter could belong to either, which nobody guesses.
     pub fn lacks_blank_after(&self, before: &Piece) -> bool {
-        before.is_word() && (self.is_word() || matches!(self.kind, PieceKind::Note { .. }))
+        let begins = match self.kind {
+            PieceKind::Variable { letter, .. } => letter.is_some(),
+            PieceKind::Literal { .. } | PieceKind::Note { .. } => true,
+            PieceKind::Stray(_) => false,
+        };
+        before.is_word() && begins
     }
 }

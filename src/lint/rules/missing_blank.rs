@@ -3,13 +3,11 @@
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 use crate::span::Span;
-use crate::syntax::PieceKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for word in view.written() {
         for pair in word.pieces.windows(2) {
-            let is_value = matches!(pair[1].kind, PieceKind::Variable { letter: None, .. }); // an error of the form
-            if !pair[1].lacks_blank_after(&pair[0]) || is_value {
+            if !pair[1].lacks_blank_after(&pair[0]) {
                 continue;
             }
             let at = pair[1].span;

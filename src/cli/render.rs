@@ -27,7 +27,8 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let from = files::job_format(&args.job, &args.read)?;
     let form = args.form.clone().or(Config::near(&args.job)?.form);
     let Some(form) = form else {
-        return Err("error: which form? Give --form, or name one in postform.toml: form = \"fanuc.pf\"".into());
+        let help = "give --form, or name one in a postform.toml in the folder of the job or above: form = \"fanuc.pf\"";
+        return Err(format!("error: which form?\n  help: {help}"));
     };
     let Some(prepared) = prepare(&form, &args.options, &args.job, &reporter)? else {
         return Ok(Ending::Findings);

@@ -241,6 +241,7 @@ codes! {
     PR021 Note "a value that the control takes from its own settings"
     PR022 Note "a rapid printed by a sequence that may feed"
     PR023 Warning "cutter compensation at the end"
+    PR024 Note "an arc printed as lines"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

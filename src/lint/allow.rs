@@ -143,7 +143,12 @@ fn read(source: &Source, comment: Span, range: Span, allows: &mut Vec<Allow>, wr
                 match forms().find(|row| row.name.eq_ignore_ascii_case(word)) {
                     Some(row) => codes.push((row.code, *span, false)),
                     None => {
-                        let help = did_you_mean(word, forms().map(|row| row.name));
+                        // a family can be turned off in postform.toml only
+                        let family = word.len() < 5
+                            && word.get(2..).is_some_and(|rest| rest.bytes().all(|b| b.is_ascii_digit()));
+                        let full = || Some("name each code in full, as PF414".to_owned());
+                        let near = || did_you_mean(word, forms().map(|row| row.name));
+                        let help = if family { full() } else { near() };
                         bad(*span, format!("`{word}` is no code of a form's findings"), help);
                     }
                 }

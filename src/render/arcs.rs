@@ -87,9 +87,13 @@ impl Renderer<'_> {
             && (3..6).all(|axis| !self.differs_by(&target, axis));
         let shrinks = self.ends_meet(&target, axes) && shape.sweep.abs() < PI;
         match plane {
-            Some(plane) if printable && !shrinks && self.has_centre_words(axes, ccw) => {
-                self.pieces(&Piece { axes, plane, arc: shape, target }, across)
-            }
+            Some(plane) if printable && !shrinks => match self.has_centre_words(axes, ccw) {
+                true => self.pieces(&Piece { axes, plane, arc: shape, target }, across),
+                false => {
+                    self.note_lines(axes, ccw);
+                    self.chords(&shape, axes, &target)
+                }
+            },
             _ => self.chords(&shape, axes, &target),
         }
     }
@@ -186,6 +190,16 @@ impl Renderer<'_> {
         match &self.program.settings.centre {
             ArcCentre::Radius(_) => true,
             ArcCentre::Letters(letters) => axes.iter().all(|&axis| self.centre_letter(letters, axis).is_some()),
+        }
+    }
+
+    /// Says once that a sequence can't print an arc which it is there for.
+    fn note_lines(&mut self, axes: [usize; 2], ccw: bool) {
+        let id = if ccw { SequenceId::CcwCode } else { SequenceId::CwCode };
+        if self.program.block(id).is_some() && !self.notes().iter().any(|note| note.code == Code::PR024) {
+            let [first, second] = axes.map(|axis| ["[ival]", "[jval]", "[kval]"][axis]);
+            let message = format!("the arc is printed as lines: {} does not print {first} and {second}", id.name());
+            self.note(Code::PR024, message, "print both, or the radius as [arcrad]");
         }
     }
 

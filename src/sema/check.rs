@@ -240,10 +240,15 @@ impl Analysis {
             let is_variable = |text: &String| text.contains('[') || (text.contains('<') && text.ends_with('>'));
             let whole = statement.args.iter().fold(statement.name.span, |all, arg| all.to(arg.span));
             if is_variable(name) || statement.args.iter().any(|arg| is_variable(&arg.text)) {
+                let upon = name.get(..4).is_some_and(|head| head.eq_ignore_ascii_case("Upon"));
+                let help = match upon {
+                    true => format!("write `Upon {}`, with a blank", &name[4..]),
+                    false => "put it between a sequence name and its End".into(),
+                };
                 self.report(
                     Diag::new(Code::PF001, "words that print stand outside a sequence")
                         .at(whole, "this line belongs to no sequence")
-                        .help("put it between a sequence name and its End"),
+                        .help(help),
                 );
                 return;
             }

@@ -1,4 +1,4 @@
-//! PF431: an arc sequence that prints neither centre nor radius.
+//! PF431: an arc sequence that prints neither the whole centre nor the radius is not used: arcs become lines.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -7,15 +7,22 @@ use crate::lint::view::View;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use VarId as V;
     for body in view.these(&[SequenceId::CwCode, SequenceId::CcwCode]) {
-        let relative = [V::Ival, V::Jval, V::Kval].into_iter().filter(|&var| body.prints(var)).count();
-        let absolute = [V::Hctr, V::Vctr].into_iter().filter(|&var| body.prints(var)).count();
-        if body.lines.is_empty() || relative.max(absolute) >= 2 || body.prints(V::Arcrad) {
+        // the centre along both axes of the plane in which most arcs are
+        let centre = [[V::Ival, V::Hctr], [V::Jval, V::Vctr]].iter().all(|vars| body.prints_any(vars));
+        if body.lines.is_empty() || centre || body.prints(V::Arcrad) {
             continue;
         }
+        // on a lathe the first axis is Z, and its centre K
+        let letter = |axis: usize| match view.settings.axes[axis] {
+            b'X' => 'I',
+            b'Z' => 'K',
+            _ => 'J',
+        };
+        let better = format!("{}[ival] {}[jval]", letter(0), letter(1));
         diags.push(
             Diag::new(Code::PF431, format!("{} does not print the whole centre", body.name()))
-                .at(body.span, "the control can't know the arc")
-                .help("print `I[ival] J[jval]`, or `R[arcrad]`"),
+                .at(body.span, "so postform prints lines instead of arcs")
+                .help(format!("print `{better}`, or `R[arcrad]`")),
         );
     }
 }

@@ -485,6 +485,9 @@ fn an_arc_sequence_without_its_centre_word_gives_lines() {
     };
     assert!(path_lines("", sequence, &arc("xz"))[0].starts_with("G1 X"));
     assert_eq!(path_lines("", sequence, &arc("xy")), ["G2 X2. I1. J0 F10."]);
+    let notes = |plane: &str| support::render(&mill("", sequence), &job(&arc(plane))).unwrap().notes;
+    assert!(notes("xz").iter().any(|note| note.code.name() == "PR024" && note.message.contains("[kval]")));
+    assert_eq!(notes("xy"), []);
 }
 
 /// A fixture number whose code is no work offset is refused.

@@ -1,9 +1,7 @@
 //! The blocks of a body as a control would read them: which modes hold where each word stands.
 
 use crate::lang::{Origin, VarId};
-use crate::sema::{Line, Word, WordKind};
-
-use super::view::{Body, View};
+use crate::sema::{Line, Settings, Word, WordKind};
 
 /// How the tool moves in a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +22,9 @@ pub enum Motion {
 pub struct Block<'a> {
     /// The line.
     pub line: &'a Line,
+    /// The words that say where an axis goes, with its number: 0 and 1 across, 2 the depth. Those of G4, G10, G52 and G92 are
+    /// a time or a setting, and nothing moves.
+    pub axis_words: Vec<(&'a Word, usize)>,
     /// How it moves.
     pub motion: Motion,
     /// G91 holds.
@@ -32,17 +33,9 @@ pub struct Block<'a> {
     pub reference: bool,
     /// The block has G53: its axis words are machine coordinates.
     pub machine: bool,
-    /// The block has G4, G10, G52 or G92: its axis words are a time or a setting, and nothing moves.
-    pub sets: bool,
 }
 
 impl<'a> Block<'a> {
-    /// The words that say where an axis goes, with its number: 0 and 1 across, 2 the depth.
-    pub fn axis_words(&self, view: &View) -> Vec<(&'a Word, usize)> {
-        let words = self.line.words.iter().filter(|_| !self.sets);
-        words.filter_map(|word| Some((word, word.letter().and_then(|letter| view.axis(letter))?))).collect()
-    }
-
     /// The axis words of this block name a place of the part, not one of the machine.
     pub fn in_part(&self) -> bool {
         !self.reference && !self.machine
@@ -50,8 +43,8 @@ impl<'a> Block<'a> {
 
     /// Lifts the tool out of the part: to the reference point, in machine coordinates, to a plane above it, or to a
     /// depth that is typed.
-    pub fn retracts(&self, view: &View) -> bool {
-        self.axis_words(view).iter().any(|(word, axis)| {
+    pub fn retracts(&self) -> bool {
+        self.axis_words.iter().any(|(word, axis)| {
             let up = |value: f64| if self.incremental { value > 0.0 } else { value >= 0.0 };
             let typed = matches!(word.kind, WordKind::Literal(_, _, value) if up(value));
             // a height that is asked for is one that somebody chose
@@ -72,13 +65,12 @@ pub fn moves_by_itself(code: f64) -> bool {
     is_cycle_code(code) || [32.0, 33.0, 33.1, 63.0, 65.0, 66.0].contains(&code) || code >= 100.0
 }
 
-/// The blocks of a body.
-pub fn read<'a>(view: &View<'a>, body: Body<'a>) -> Vec<Block<'a>> {
-    let settings = view.settings;
+/// The blocks of a body; `axis`: which axis a word moves.
+pub fn read<'a>(settings: &Settings, axis: impl Fn(&Word) -> Option<usize>, lines: &'a [Line]) -> Vec<Block<'a>> {
     let mut motion = Motion::Unknown;
     let mut incremental = settings.incremental;
-    let mut blocks = Vec::with_capacity(body.lines.len());
-    for line in body.lines {
+    let mut blocks = Vec::with_capacity(lines.len());
+    for line in lines {
         let (mut reference, mut machine, mut sets) = (false, false, false);
         for word in &line.words {
             match word.kind {
@@ -99,7 +91,9 @@ pub fn read<'a>(view: &View<'a>, body: Body<'a>) -> Vec<Block<'a>> {
                 _ => {}
             }
         }
-        blocks.push(Block { line, motion, incremental, reference, machine, sets });
+        let words = line.words.iter().filter(|_| !sets);
+        let axis_words = words.filter_map(|word| Some((word, axis(word)?))).collect();
+        blocks.push(Block { line, axis_words, motion, incremental, reference, machine });
     }
     blocks
 }

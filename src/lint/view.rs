@@ -21,6 +21,10 @@ pub struct View<'a> {
     pub letters: LetterTable,
     /// Sequences and Upons in the order of the form.
     pub bodies: Vec<Body<'a>>,
+    /// The blocks of each.
+    blocks: Vec<Vec<Block<'a>>>,
+    /// Letters that have a format of their own.
+    has_format: [bool; 256],
 }
 
 /// What a body is for.
@@ -37,6 +41,8 @@ pub enum Purpose {
 pub struct Body<'a> {
     /// What for.
     pub purpose: Purpose,
+    /// Its place among the bodies.
+    index: usize,
     /// The name line.
     pub span: Span,
     /// The lines that print.
@@ -51,23 +57,33 @@ impl<'a> View<'a> {
         let form = &checked.form;
         let sequences = form.sequences.values().map(|sequence| Body {
             purpose: Purpose::Sequence(sequence.id),
+            index: 0,
             span: sequence.span,
             lines: &sequence.lines,
             sequence: Some(sequence),
         });
         let upons = form.upons.iter().map(|upon| Body {
             purpose: Purpose::Upon(upon.var, upon.every),
+            index: 0,
             span: upon.span,
             lines: &upon.lines,
             sequence: None,
         });
-        View {
+        let bodies = sequences.chain(upons).enumerate().map(|(index, body)| Body { index, ..body }).collect();
+        let mut has_format = [false; 256];
+        form.formats.keys().chain(form.packed.keys()).for_each(|&letter| has_format[usize::from(letter)] = true);
+        let mut view = View {
             checked,
             form,
             settings: &form.settings,
             letters: LetterTable::new(form, form.settings.units == UnitChoice::Mm),
-            bodies: sequences.chain(upons).collect(),
-        }
+            bodies,
+            blocks: Vec::new(),
+            has_format,
+        };
+        let axis = |word: &Word| word.letter().and_then(|letter| view.axis(letter));
+        view.blocks = view.bodies.iter().map(|body| blocks::read(view.settings, axis, body.lines)).collect();
+        view
     }
 
     /// A sequence's body.
@@ -153,8 +169,8 @@ impl<'a> View<'a> {
     }
 
     /// The blocks of a body with the modes that hold in each.
-    pub fn blocks(&self, body: Body<'a>) -> Vec<Block<'a>> {
-        blocks::read(self, body)
+    pub fn blocks(&self, body: Body<'a>) -> &[Block<'a>] {
+        &self.blocks[body.index]
     }
 
     /// The letter that the word has in the program, which `Rename` may change.
@@ -165,8 +181,7 @@ impl<'a> View<'a> {
     /// The letter whose format prints the word: a small letter without one takes its capital's.
     pub fn format_letter(&self, word: &Word) -> Option<u8> {
         let letter = word.letter()?;
-        let own = self.form.formats.contains_key(&letter) || self.form.packed.contains_key(&letter);
-        Some(if own { letter } else { letter.to_ascii_uppercase() })
+        Some(if self.has_format[usize::from(letter)] { letter } else { letter.to_ascii_uppercase() })
     }
 
     /// The axis that a word of this letter moves: 0 and 1 across, 2 the depth; `None` for others.

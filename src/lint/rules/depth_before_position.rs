@@ -23,13 +23,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let blocks = view.blocks(*body);
         let down = blocks.iter().enumerate().filter(|(_, block)| block.in_part()).find_map(|(i, block)| {
             let is_low = |var| matches!(var, Some(VarId::D | VarId::Vclear | VarId::Lastd));
-            let words = block.axis_words(view);
+            let words = &block.axis_words;
             words.into_iter().find(|(word, axis)| *axis == 2 && is_low(word.printed_var())).map(|(word, _)| (i, word))
         });
         let Some((down, word)) = down else { continue };
         // the axes across that a block says, as a set
         let across = |block: &Block| {
-            let words = block.axis_words(view);
+            let words = &block.axis_words;
             let words =
                 words.iter().filter(|(word, axis)| *axis < 2 && word.printed_var().is_some() && block.in_part());
             words.fold(0, |set, (_, axis)| set | 1 << axis)

@@ -10,8 +10,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if body.moves_by_itself() || !view.is_mill() || sequence.lines.len() < 2 {
             continue;
         }
-        let last = view.blocks(body).into_iter().rev().find_map(|block| {
-            let (word, _) = block.axis_words(view).into_iter().rev().find(|(_, axis)| *axis == 2)?;
+        let last = view.blocks(body).iter().rev().find_map(|block| {
+            let (word, _) = block.axis_words.iter().rev().find(|(_, axis)| *axis == 2)?;
             Some((word, block.in_part()))
         });
         if let Some((word, true)) = last.filter(|(word, _)| word.printed_var() == Some(VarId::D)) {

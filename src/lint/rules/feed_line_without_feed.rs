@@ -22,7 +22,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 own || matches!(word.printed_var(), Some(VarId::Frate | VarId::Plunge | VarId::Pitch | VarId::Invtime))
             });
             let cuts = matches!(block.motion, Motion::Line | Motion::Arc) || (feeds && block.motion == Motion::Unknown);
-            let words = block.axis_words(view);
+            let words = &block.axis_words;
             if let (false, true, Some((word, _))) = (said, cuts, words.first()) {
                 let letter = char::from(feed);
                 diags.push(

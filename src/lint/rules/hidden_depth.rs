@@ -15,7 +15,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             continue;
         }
         for block in view.blocks(body) {
-            let words = block.axis_words(view);
+            let words = &block.axis_words;
             let depth = words
                 .iter()
                 .find(|(word, axis)| *axis == 2 && matches!(word.printed_var(), Some(VarId::Depth | VarId::Inidep)));

@@ -10,10 +10,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         return;
     }
     for body in &view.bodies {
-        let held = view.blocks(*body).into_iter();
+        let held = view.blocks(*body).iter();
         let held = held.filter(|block| !block.incremental && block.in_part() && block.motion != Motion::Cycle);
         let distance = |var| matches!(var, Some(VarId::Hdist | VarId::Vdist | VarId::Ddist));
-        let word = held.flat_map(|block| block.axis_words(view)).find(|(word, _)| distance(word.printed_var()));
+        let word = held.flat_map(|block| &block.axis_words).find(|(word, _)| distance(word.printed_var()));
         if let Some((word, _)) = word {
             diags.push(
                 Diag::new(Code::PF439, format!("{} prints a distance while G90 is on", body.name()))

@@ -12,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in view.these(&[S::RapidCode, S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed]) {
         let blocks = view.blocks(body);
         let absolute = blocks.iter().filter(|block| block.incremental && block.in_part()).find_map(|block| {
-            let mut words = block.axis_words(view).into_iter().map(|(word, _)| word);
+            let mut words = block.axis_words.iter().map(|(word, _)| word);
             words.find(|word| matches!(word.printed_var(), Some(VarId::H | VarId::V | VarId::D)))
         });
         if let Some(word) = absolute {

@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 );
                 break;
             }
-            up |= block.retracts(view);
+            up |= block.retracts();
         }
     }
 }

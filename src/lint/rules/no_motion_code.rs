@@ -14,9 +14,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if body.words().any(|word| matches!(word.kind, WordKind::Text(_))) {
             continue;
         }
-        let moves = view.blocks(*body).into_iter().filter(|block| block.motion == Motion::Unknown && block.in_part());
+        let moves = view.blocks(*body).iter().filter(|block| block.motion == Motion::Unknown && block.in_part());
         let place = |var| matches!(var, Some(VarId::H | VarId::V | VarId::D));
-        let word = moves.flat_map(|block| block.axis_words(view)).find(|(word, _)| place(word.printed_var()));
+        let word = moves.flat_map(|block| &block.axis_words).find(|(word, _)| place(word.printed_var()));
         if let Some((word, _)) = word {
             diags.push(
                 Diag::new(Code::PF438, format!("{} goes to a position and does not say how", body.name()))

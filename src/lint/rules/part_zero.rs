@@ -14,12 +14,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in view.these(&[S::ToolChange, S::EndCode, S::Index, S::Unwind]) {
         let rapid = |motion| matches!(motion, Motion::Rapid | Motion::Unknown);
         let offset_off = |word: &Word| word.is_code(b'G', &[49.0]);
-        let blocks = view.blocks(body).into_iter();
+        let blocks = view.blocks(body).iter();
         // with G49 it is the zero of the machine, or near it
         let blocks = blocks.filter(|block| block.in_part() && !block.incremental && rapid(block.motion));
         let blocks = blocks.filter(|block| !block.line.words.iter().any(offset_off));
         let zero = |word: &Word, axis| axis == 2 && word.letter().is_some_and(|letter| word.typed(letter) == Some(0.0));
-        let word = blocks.flat_map(|block| block.axis_words(view)).find(|(word, axis)| zero(word, *axis));
+        let word = blocks.flat_map(|block| &block.axis_words).find(|(word, axis)| zero(word, *axis));
         if let Some((word, _)) = word {
             diags.push(
                 Diag::new(Code::PF440, format!("{} goes to the zero of the part", body.name()))

@@ -11,7 +11,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             continue; // a back bore goes down through the hole
         }
         for block in view.blocks(body) {
-            let words = block.axis_words(view);
+            let words = &block.axis_words;
             let down = words.iter().find(|(word, axis)| *axis == 2 && word.printed_var() == Some(VarId::D));
             // what holds where the cycle begins is what its last line left: most often the way out, a rapid
             let rapid = matches!(block.motion, Motion::Rapid | Motion::Unknown);

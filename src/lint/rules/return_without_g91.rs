@@ -6,7 +6,7 @@ use crate::lint::view::View;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in &view.bodies {
         for block in view.blocks(*body) {
-            let words = block.axis_words(view);
+            let words = &block.axis_words;
             let Some((word, _)) = words.first().filter(|_| block.reference && !block.incremental) else { continue };
             diags.push(
                 Diag::new(Code::PF422, format!("{} goes home by way of a point of the part", body.name()))

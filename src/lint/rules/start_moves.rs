@@ -7,7 +7,7 @@ use crate::lint::view::View;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(start) = view.body(SequenceId::StartCode).filter(|_| view.is_mill()) else { return };
     for block in view.blocks(start) {
-        let Some((word, _)) = block.axis_words(view).first().copied().filter(|_| block.in_part()) else { continue };
+        let Some((word, _)) = block.axis_words.first().copied().filter(|_| block.in_part()) else { continue };
         diags.push(
             Diag::new(Code::PF013, "StartCode moves an axis")
                 .at(word.span, "no tool is loaded, and no offset is in force")

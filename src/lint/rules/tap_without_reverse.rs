@@ -22,7 +22,7 @@ fn tears(view: &View, body: &Body, back: [f64; 2]) -> Option<Diag> {
         if cut && let Some(word) = block.line.words.iter().find(|word| starts_spindle(word)) {
             reversed = word.typed(b'M').is_none_or(|code| back.contains(&code));
         }
-        let words = block.axis_words(view);
+        let words = &block.axis_words;
         let Some((word, _)) = words.iter().find(|(_, axis)| *axis == 2) else { continue };
         let (how, help) = match (block.motion, word.printed_var()) {
             (Motion::Line, Some(VarId::D)) => {

@@ -9,7 +9,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(body) = view.body(SequenceId::Unwind) else { return };
     let mut down: Option<&Word> = None;
     for block in view.blocks(body).iter().filter(|block| block.in_part()) {
-        let words = block.axis_words(view);
+        let words = &block.axis_words;
         let across = words.iter().find(|(word, axis)| *axis < 2 && word.printed_var().is_some());
         let depth =
             words.iter().find(|(word, axis)| *axis == 2 && matches!(word.printed_var(), Some(VarId::D | VarId::Lastd)));

@@ -24,7 +24,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let down = blocks.iter().enumerate().filter(|(_, block)| block.in_part()).find_map(|(i, block)| {
             let is_low = |var| matches!(var, Some(VarId::D | VarId::Vclear | VarId::Lastd));
             let words = &block.axis_words;
-            words.into_iter().find(|(word, axis)| *axis == 2 && is_low(word.printed_var())).map(|(word, _)| (i, word))
+            words.iter().find(|(word, axis)| *axis == 2 && is_low(word.printed_var())).map(|(word, _)| (i, word))
         });
         let Some((down, word)) = down else { continue };
         // the axes across that a block says, as a set

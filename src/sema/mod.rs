@@ -1,13 +1,18 @@
 //! From the tree to a checked form: names, arguments, formats, limits.
 
 mod args;
+mod called;
 mod check;
+mod limits;
 mod messages;
 mod model;
+mod sequences;
 mod settings;
+mod statements;
 mod words;
 
-pub use check::{Checked, Limits, MOST_LINES, MOST_WORDS, analyse};
+pub use check::{Checked, analyse};
+pub use limits::{Limits, MOST_LINES, MOST_WORDS};
 pub use model::{Form, Line, Sequence, Upon, Word, WordKind, kind_of_remark};
 pub use settings::{ArcCentre, Code, DwellWord, Prompt, SequenceNumbers, Settings, TravelLimit, UnitChoice};
 pub use words::before_remark;

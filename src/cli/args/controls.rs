@@ -1,0 +1,87 @@
+//! How a program is run.
+
+use clap::{Args, ValueEnum};
+
+use postform::nc::{Control, Settings, Unpointed};
+use postform::toolpath::Units;
+
+/// How a program is run.
+#[derive(Clone, Debug, Args)]
+pub struct ControlArgs {
+    /// By whose rules [default: the form's Control, else fanuc]
+    #[arg(long, value_name = "CONTROL")]
+    pub control: Option<ControlArg>,
+    /// Leave out blocks with a slash
+    #[arg(long)]
+    pub block_delete: bool,
+    /// How far G73 backs off, and how near the last depth G83 goes back [default: as the control]
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub back_off: Option<f64>,
+    /// What a length without a point means on a Fanuc [default: it is an error]
+    #[arg(long, value_name = "MEANING")]
+    pub no_point: Option<NoPoint>,
+}
+
+/// A length of an option.
+pub fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(length) if length.is_finite() && length >= 0.0 => Ok(length),
+        _ => Err("a length is a number from 0 on".into()),
+    }
+}
+
+/// Controls whose reading is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ControlArg {
+    /// LinuxCNC 2.9
+    Linuxcnc,
+    /// EMC as its old manual describes it
+    Emc2,
+    /// Fanuc and Haas mills
+    Fanuc,
+}
+
+/// Lengths without a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum NoPoint {
+    /// Whole inches or millimetres
+    Whole,
+    /// Least increments: 0.0001 inch, 0.001 mm
+    Increments,
+}
+
+impl ControlArg {
+    /// As the library has it.
+    pub fn control(self) -> Control {
+        match self {
+            ControlArg::Linuxcnc => Control::Linuxcnc,
+            ControlArg::Emc2 => Control::Emc2,
+            ControlArg::Fanuc => Control::Fanuc,
+        }
+    }
+}
+
+impl NoPoint {
+    /// As the library has it.
+    pub fn unpointed(self) -> Unpointed {
+        match self {
+            NoPoint::Whole => Unpointed::Whole,
+            NoPoint::Increments => Unpointed::Increments,
+        }
+    }
+}
+
+impl ControlArgs {
+    /// As the library has it; `form` is the form's own control.
+    pub fn settings(&self, form: Option<&str>, units: Units) -> Settings {
+        let control = self.control.map_or_else(|| form.map_or(Control::Fanuc, Control::of_form), ControlArg::control);
+        let unpointed = self.no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
+        Settings {
+            units,
+            block_delete: self.block_delete,
+            back_off: self.back_off,
+            unpointed,
+            ..Settings::new(control)
+        }
+    }
+}

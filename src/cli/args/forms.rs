@@ -1,0 +1,103 @@
+//! What is done with forms: look at them, lay them out, explain them, begin one.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+/// Classic or extended limits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum LimitsArg {
+    #[default]
+    /// 15 words a line, 150 lines a form
+    Classic,
+    /// The same as warnings
+    Extended,
+}
+
+/// How findings are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// With the lines they are about
+    Pretty,
+    /// One JSON document, version 1
+    Json,
+    /// Annotations of GitHub's workflows
+    Github,
+    /// A SARIF 2.1.0 log
+    Sarif,
+}
+
+/// `postform lint`.
+#[derive(Debug, Args)]
+pub struct LintArgs {
+    /// Forms, folders of forms, or - for standard input
+    #[arg(required = true, value_name = "FORM")]
+    pub forms: Vec<PathBuf>,
+    /// Mend what can be mended without changing any program
+    #[arg(long)]
+    pub fix: bool,
+    /// Show what the other fixes change in a program; with --fix, make them
+    #[arg(long)]
+    pub unsafe_fixes: bool,
+    /// The job on which --unsafe-fixes shows it [default: a sample for the form's machine]
+    #[arg(long, value_name = "JOB", requires = "unsafe_fixes")]
+    pub job: Option<PathBuf>,
+    /// How findings are shown
+    #[arg(long, value_name = "FORMAT", default_value = "pretty")]
+    pub format: Format,
+    /// Limits of the form [default: of postform.toml, else classic]
+    #[arg(long, value_name = "LIMITS")]
+    pub limits: Option<LimitsArg>,
+}
+
+/// `postform fmt`.
+#[derive(Debug, Args)]
+pub struct FmtArgs {
+    /// Forms, folders of forms, or - to filter standard input
+    #[arg(required = true, value_name = "FORM")]
+    pub forms: Vec<PathBuf>,
+    /// Write nothing, name the forms that are laid out otherwise
+    #[arg(long)]
+    pub check: bool,
+}
+
+/// `postform explain`.
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    /// As PC003, cycle.depth.missing, Rapid, [vclear], Drill or deep
+    #[arg(required_unless_present = "list")]
+    pub what: Vec<String>,
+    /// Name everything that can be asked for
+    #[arg(long, conflicts_with = "what")]
+    pub list: bool,
+}
+
+/// `postform new`.
+#[derive(Debug, Args)]
+pub struct NewArgs {
+    /// For which control or machine
+    #[arg(long, value_name = "NAME", ignore_case = true)]
+    pub control: NewControl,
+    /// Where the form goes, or - for standard output; a file that is there stays
+    #[arg(short, long, value_name = "FORM", default_value = "-")]
+    pub output: PathBuf,
+}
+
+/// What `postform new` has forms for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum NewControl {
+    /// Fanuc 0i-M, vertical mill
+    Fanuc,
+    /// Haas VF
+    Haas,
+    /// Fadal, format 1
+    Fadal,
+    /// LinuxCNC, mill
+    Linuxcnc,
+    /// Grbl
+    Grbl,
+    /// Fanuc 0i-T, lathe
+    Lathe,
+    /// Wire EDM with four axes
+    Edm,
+}

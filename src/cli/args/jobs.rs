@@ -1,0 +1,151 @@
+//! What is done with jobs: read them, print their programs.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use postform::cl::Dialect;
+use postform::toolpath::Units;
+
+use super::{ControlArg, ControlArgs, LimitsArg, NoPoint};
+
+/// A file by its format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum From {
+    /// One JSON document
+    Json,
+    /// JSON Lines
+    Jsonl,
+    /// An APT CL file
+    Cl,
+    /// An NC program
+    Nc,
+}
+
+/// How a job is read.
+#[derive(Debug, Default, Args)]
+pub struct ReadArgs {
+    /// The job's format [default: by its extension]
+    #[arg(long, value_name = "FORMAT")]
+    pub from: Option<From>,
+    /// Who wrote a CL file: gener, catia, creo, nx, solidworks, makino, ncl [default: by its first lines]
+    #[arg(long, value_name = "SYSTEM", value_parser = Dialect::parse)]
+    pub dialect: Option<Dialect>,
+    /// Units of a CL file or program that does not say them
+    #[arg(long, value_name = "UNITS")]
+    pub assume_units: Option<UnitsArg>,
+    /// Tool number of a CL file or program that loads none
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(..=99_999_999))]
+    pub assume_tool: Option<u32>,
+    /// Whose rules a job that is an NC program follows [default: fanuc]
+    #[arg(long, value_name = "CONTROL")]
+    pub job_control: Option<ControlArg>,
+    /// What a length without a point means in a job that is an NC program [default: it is an error]
+    #[arg(long, value_name = "MEANING")]
+    pub job_no_point: Option<NoPoint>,
+}
+
+/// Where cycles come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CyclesArg {
+    /// The form's sequences
+    Form,
+    /// Single moves
+    Emulated,
+}
+
+/// How deep a countersink of a diameter and an angle is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SinkArg {
+    /// Half the diameter over the tangent of half the angle
+    Geometry,
+    /// Half the diameter times that tangent, as GENER's manual prints it: the same at 90 degrees only
+    Printed,
+}
+
+/// Units of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum UnitsArg {
+    /// Inches
+    Inch,
+    /// Millimetres
+    Mm,
+}
+
+impl UnitsArg {
+    /// As the library has it.
+    pub fn units(self) -> Units {
+        match self {
+            UnitsArg::Inch => Units::Inch,
+            UnitsArg::Mm => Units::Mm,
+        }
+    }
+}
+
+/// How a job is rendered with a form.
+#[derive(Debug, Args)]
+pub struct RenderOptions {
+    /// The program's number [default: the job's]
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(..=99_999_999))]
+    pub program: Option<u32>,
+    /// A value for a variable or prompt of the form
+    #[arg(long, value_name = "VAR=VALUE")]
+    pub set: Vec<String>,
+    /// Where canned cycles come from
+    #[arg(long, value_name = "WHERE", default_value = "form")]
+    pub cycles: CyclesArg,
+    /// How deep countersinks are
+    #[arg(long, value_name = "FORMULA", default_value = "geometry")]
+    pub csink_depth: SinkArg,
+    /// Units of the program [default: those of the job]
+    #[arg(long, value_name = "UNITS")]
+    pub units: Option<UnitsArg>,
+    /// Limits of the form [default: of postform.toml, else classic]
+    #[arg(long, value_name = "LIMITS")]
+    pub limits: Option<LimitsArg>,
+}
+
+/// `postform render`.
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// The job: job.json, .jsonl, a CL file or an NC program, or - for standard input
+    pub job: PathBuf,
+    /// The form of the machine [default: that of postform.toml]
+    #[arg(long, value_name = "FORM")]
+    pub form: Option<PathBuf>,
+    /// Where the program goes, or - for standard output; it appears there when it is complete
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: PathBuf,
+    /// How it is rendered
+    #[command(flatten)]
+    pub options: RenderOptions,
+    /// How the job is read
+    #[command(flatten)]
+    pub read: ReadArgs,
+    /// Write the source map here: for each program line its form line and job item, as JSON Lines
+    #[arg(long, value_name = "FILE")]
+    pub trace: Option<PathBuf>,
+    /// Print to standard output as it comes, even if an error cuts the program short
+    #[arg(long)]
+    pub stream: bool,
+    /// Run the program, and print it only if it makes the job's motions
+    #[arg(long, conflicts_with = "stream")]
+    pub verify: bool,
+    /// How `--verify` runs it
+    #[command(flatten)]
+    pub control: ControlArgs,
+}
+
+/// `postform check`.
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// The job, or - for standard input
+    #[arg(required_unless_present = "schema")]
+    pub job: Option<PathBuf>,
+    /// How the job is read
+    #[command(flatten)]
+    pub read: ReadArgs,
+    /// Print the JSON Schema of job files instead
+    #[arg(long)]
+    pub schema: bool,
+}

@@ -1,0 +1,60 @@
+//! What can be typed.
+
+mod controls;
+mod forms;
+mod jobs;
+mod programs;
+
+use clap::{Args, Parser, Subcommand};
+
+use super::colour::Colour;
+pub use controls::{ControlArg, ControlArgs, NoPoint};
+pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, NewControl};
+pub use jobs::{CheckArgs, CyclesArg, From, ReadArgs, RenderArgs, RenderOptions, SinkArg, UnitsArg};
+pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, VerifyArgs};
+
+/// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.
+#[derive(Debug, Parser)]
+#[command(name = "postform", version, max_term_width = 100)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// When to use colour
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    pub color: Colour,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Print the NC program of a job
+    Render(RenderArgs),
+    /// Report every finding of every form
+    Lint(LintArgs),
+    /// Read a job, report what is wrong, and print what is in it
+    Check(CheckArgs),
+    /// Prove that a program makes the motions of its job
+    Verify(VerifyArgs),
+    /// Show what changed between two NC programs
+    Diff(DiffArgs),
+    /// Run an NC program and print what the machine does
+    Simulate(SimulateArgs),
+    /// Write forms in the canonical layout
+    Fmt(FmtArgs),
+    /// Say what a code, command, variable, sequence or cycle means
+    Explain(ExplainArgs),
+    /// Write a commented form to start from
+    New(NewArgs),
+    /// Print the completions of a shell
+    Completions(CompletionsArgs),
+    /// Print the man page
+    Man,
+}
+
+/// `postform completions`.
+#[derive(Debug, Args)]
+pub struct CompletionsArgs {
+    /// Which shell
+    pub shell: clap_complete::Shell,
+}

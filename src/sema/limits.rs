@@ -1,0 +1,59 @@
+//! The limits that the manual sets: words on a line, lines of sequences in a form.
+
+use super::check::Analysis;
+use crate::diag::{Code, Diag, Severity};
+use crate::syntax::Body;
+
+/// How strictly the classic limits hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Limits {
+    /// 15 words a line, 150 lines: over it is an error.
+    #[default]
+    Classic,
+    /// The same as warnings.
+    Extended,
+}
+
+/// Most words on a sequence line, as the manual says.
+pub const MOST_WORDS: usize = 15;
+/// Most sequence lines in a form, as the manual says.
+pub const MOST_LINES: usize = 150;
+
+impl Analysis {
+    /// Counts the line of a sequence, and its words.
+    pub(super) fn limits_of(&mut self, body: &Body) {
+        self.line_count += 1;
+        if self.line_count == MOST_LINES + 1 {
+            self.over_lines = Some(body.line.span);
+        }
+        let count: usize = body.words.iter().map(|w| w.pieces.len()).sum();
+        if count <= MOST_WORDS {
+            return;
+        }
+        let mut pieces = body.words.iter().flat_map(|word| &word.pieces);
+        let at = pieces.nth(MOST_WORDS).map_or(body.line.span, |piece| piece.span);
+        let mut diag = Diag::new(Code::PF601, format!("{count} words on a line, the limit is {MOST_WORDS}"))
+            .at(at, format!("word {}", MOST_WORDS + 1))
+            .help("break the line in two; `--limits extended` makes this a warning");
+        self.soften(&mut diag);
+        self.report(diag);
+    }
+
+    /// The lines of all sequences together.
+    pub(super) fn line_limit(&mut self) {
+        if let Some(at) = self.over_lines {
+            let text = format!("{} sequence lines, the limit is {MOST_LINES}", self.line_count);
+            let mut diag = Diag::new(Code::PF602, text)
+                .at(at, format!("line {}", MOST_LINES + 1))
+                .help("take out sequences that are not used; `--limits extended` makes this a warning");
+            self.soften(&mut diag);
+            self.report(diag);
+        }
+    }
+
+    fn soften(&self, diag: &mut Diag) {
+        if self.limits == Limits::Extended {
+            diag.severity = Severity::Warning;
+        }
+    }
+}

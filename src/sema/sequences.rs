@@ -1,0 +1,170 @@
+//! Sequences: their names, counts, ends and bodies.
+
+use indexmap::map::Entry;
+
+use super::check::Analysis;
+use super::messages::{duplicate_sequence, is_word, no_name_line, unknown_name};
+use super::model::{Line, Sequence, Upon};
+use super::words::{Context, resolve, variable};
+use crate::diag::{Code, Diag};
+use crate::lang::{Machines, SequenceId, SequenceName};
+use crate::span::Span;
+use crate::syntax::{Body, End, Piece, PieceKind, SequenceNode, Spanned, Tail};
+
+impl Analysis {
+    pub(super) fn sequence(&mut self, node: &SequenceNode) {
+        let span = node.name.line.span;
+        if node.end.is_none() {
+            self.report(
+                Diag::new(Code::PF002, format!("{} has no End", node.name.name.text))
+                    .at(span, "this sequence")
+                    .help("write `End` on a line of its own after its last line"),
+            );
+        }
+        let mut words = vec![node.name.name.text.as_str()];
+        words.extend(node.name.args.iter().map(|arg| arg.text.as_str()));
+        let machine = self.form.settings.machine;
+        let comment = self.form.settings.comment.clone();
+        let context = Context { machine, comment: &comment };
+        let mut lines = Vec::new();
+        for body in &node.body {
+            if body.words.is_empty() {
+                continue;
+            }
+            self.limits_of(body);
+            self.glued_end(body);
+            lines.push(resolve(body, &context, &mut self.diags));
+        }
+        match SequenceName::parse(&words) {
+            None if is_word(&node.name.name.text) => self.report(no_name_line(span)),
+            None => self.report(unknown_name(&node.name.name.text, node.name.name.span)),
+            Some(SequenceName::Plain(id, count)) => {
+                self.on_this_machine(id.name(), id.row().machines, span);
+                self.plain_sequence(node, id, count, lines);
+            }
+            Some(name @ (SequenceName::Upon(var) | SequenceName::UponEvery(var))) => {
+                self.on_this_machine("Upon", Machines::of("M"), span);
+                self.plain_end(node.end.as_ref());
+                let at = node.name.args.last().map_or(span, |arg| arg.span);
+                let spanned = Spanned { text: var.trim_matches(['[', ']', '<', '>']).to_owned(), span: at };
+                if let Some(var) = variable(&spanned, machine, &mut self.diags) {
+                    let every = matches!(name, SequenceName::UponEvery(_));
+                    if let Some(first) = self.form.upons.iter().find(|u| u.var == var) {
+                        let diag = duplicate_sequence(&format!("Upon [{}]", var.name()), span, first.span);
+                        self.report(diag);
+                        return;
+                    }
+                    self.form.upons.push(Upon { var, every, span, lines });
+                }
+            }
+        }
+    }
+
+    fn plain_sequence(&mut self, node: &SequenceNode, id: SequenceId, count: Option<&str>, lines: Vec<Line>) {
+        let span = node.name.line.span;
+        let cancel = if id.row().is_cycle && id != SequenceId::Cancel {
+            self.end_cancel(node.end.as_ref())
+        } else {
+            self.plain_end(node.end.as_ref());
+            None
+        };
+        let is_none = lines.len() == 1 && is_none(&node.body);
+        let count = count.and_then(|text| self.count(node, id, text, lines.len()));
+        let remark = match &node.name.line.tail {
+            Tail::Lost(lost) => Some(lost.text.trim().to_owned()),
+            _ => None,
+        };
+        let lines = if is_none { Vec::new() } else { lines };
+        let sequence = Sequence { id, span, count, remark, is_none, cancel, lines };
+        match self.form.sequences.entry(id) {
+            Entry::Occupied(first) => {
+                let diag = duplicate_sequence(id.name(), span, first.get().span);
+                self.report(diag);
+            }
+            Entry::Vacant(entry) => _ = entry.insert(sequence),
+        }
+    }
+
+    /// The count of an advanced cycle.
+    fn count(&mut self, node: &SequenceNode, id: SequenceId, text: &str, lines: usize) -> Option<usize> {
+        let at = node.name.args.last().map_or(node.name.line.span, |arg| arg.span);
+        if !id.row().is_cycle {
+            self.report(
+                Diag::new(Code::PF405, format!("{} is no canned cycle", id.name()))
+                    .at(at, "only a canned cycle has a count")
+                    .help("a remark stands at least three blanks after the name"),
+            );
+            return None;
+        }
+        let Ok(count) = text.parse::<usize>() else {
+            self.report(
+                Diag::new(Code::PF405, format!("`{text}` is no count of lines"))
+                    .at(at, "here")
+                    .help("a count is a whole number; a remark stands at least three blanks after the name"),
+            );
+            return None;
+        };
+        if count == 0 || count > lines {
+            self.report(
+                Diag::new(Code::PF401, format!("{} counts {count} lines, its body has {lines}", id.name()))
+                    .at(at, format!("from 1 to {lines}"))
+                    .help("the count says how many of the first lines are printed at the first hole only"),
+            );
+            return None;
+        }
+        Some(count)
+    }
+
+    /// `End Cancel` of a canned cycle.
+    fn end_cancel(&mut self, end: Option<&End>) -> Option<Span> {
+        let args = &end?.args;
+        let cancel = args.first().filter(|word| word.text.eq_ignore_ascii_case("Cancel"));
+        if let Some(word) = args.get(usize::from(cancel.is_some())) {
+            self.report(
+                Diag::new(Code::PF001, format!("`{}` after End", word.text))
+                    .at(word.span, "unknown")
+                    .help("only `Cancel` may follow End, once"),
+            );
+        }
+        cancel.map(|word| word.span)
+    }
+
+    /// `End` of a sequence that is no canned cycle.
+    fn plain_end(&mut self, end: Option<&End>) {
+        if let Some(word) = end.and_then(|end| end.args.first()) {
+            self.report(
+                Diag::new(Code::PF405, format!("`{}` after the End of a sequence that is no canned cycle", word.text))
+                    .at(word.span, "take this out")
+                    .help("only a canned cycle is cancelled"),
+            );
+        }
+    }
+
+    fn on_this_machine(&mut self, name: &str, machines: Machines, span: Span) {
+        let machine = self.form.settings.machine;
+        if !machines.has(machine) {
+            self.report(
+                Diag::new(Code::PF603, format!("{name} is for {machines}, this form is for {}", machine.name()))
+                    .at(span, format!("not on a {}", machine.name()))
+                    .help("take it out, or say with `Machine` what the form is for"),
+            );
+        }
+    }
+
+    /// `EndCancel` is a word like any other, and would be printed.
+    fn glued_end(&mut self, body: &Body) {
+        let [word] = body.words.as_slice() else { return };
+        if let [Piece { kind: PieceKind::Stray(text), span }] = word.pieces.as_slice()
+            && text.eq_ignore_ascii_case("EndCancel")
+        {
+            let diag = Diag::new(Code::PF002, format!("`{text}` is no End")).at(*span, "a word of the output");
+            self.report(diag.help("write `End Cancel`"));
+        }
+    }
+}
+
+fn is_none(body: &[Body]) -> bool {
+    body.iter().flat_map(|b| &b.words).all(|word| {
+        matches!(word.pieces.as_slice(), [Piece { kind: PieceKind::Stray(text), .. }] if text.eq_ignore_ascii_case("None"))
+    })
+}

@@ -1,5 +1,6 @@
 //! From the tree to a checked form: names, arguments, formats, limits.
 
+mod apply;
 mod args;
 mod called;
 mod check;

@@ -74,6 +74,8 @@ fn everything_is_explained() {
         assert!(explain(upon).unwrap().contains("when a variable changes"), "{upon}");
     }
     assert_eq!(explain("X[h]"), explain("[h]"));
+    assert!(explain("End Cancel").unwrap().contains("End (of a sequence)"));
+    assert!(explain("None").unwrap().contains("prints no block"));
 }
 
 #[test]

@@ -45,6 +45,12 @@ impl Target {
                     return Err(format!("error: can't write {}: it is read-only", escaped(&path.to_string_lossy())));
                 }
                 let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+                if !folder.is_dir() {
+                    let (path, folder) = (escaped(&path.to_string_lossy()), escaped(&folder.to_string_lossy()));
+                    return Err(format!(
+                        "error: can't write {path}: there is no folder {folder}\n  help: make it first"
+                    ));
+                }
                 let mut builder = tempfile::Builder::new();
                 builder.prefix(".postform-");
                 #[cfg(unix)]
@@ -53,7 +59,9 @@ impl Target {
                     // what any new file gets; the umask still applies
                     builder.permissions(fs::Permissions::from_mode(0o666));
                 }
-                let file = builder.tempfile_in(folder).map_err(fail)?;
+                // the kind alone: the whole error names the file beside the target
+                let named = |error: io::Error| fail(error.kind().into());
+                let file = builder.tempfile_in(folder).map_err(named)?;
                 if let Some(mode) = mode {
                     // a file that is replaced keeps who may read and run it
                     file.as_file().set_permissions(mode).map_err(fail)?;

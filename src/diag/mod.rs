@@ -53,7 +53,7 @@ pub struct Fix {
 pub struct Diag {
     /// Its row in the table of codes.
     pub code: Code,
-    /// As the table says, unless limits were relaxed.
+    /// As the table says, unless limits were relaxed or a shop's levels say otherwise.
     pub severity: Severity,
     /// What is wrong, one sentence.
     pub message: String,

@@ -1,8 +1,8 @@
 //! Examples out of the forms that ship: what `explain` shows is what renders.
 
 use crate::lang::{SequenceId, VarId};
-use crate::sema::{Limits, analyse};
 use crate::source::Source;
+use crate::syntax::parse;
 
 /// The posts, the commonest first.
 const POSTS: &[(&str, &str)] = &[
@@ -45,10 +45,8 @@ fn forms() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
 
 /// A sequence from its name to its End.
 pub fn sequence(id: SequenceId) -> Option<Example> {
-    let sample = format!("samples/{}/form.pf", id.row().sample);
-    let own = SAMPLES.iter().filter(|(name, _)| *name == sample);
-    forms().chain(own).find_map(|(form, text)| {
-        let tree = crate::syntax::parse(&Source::from_text(*form, *text), 0);
+    forms().find_map(|(form, text)| {
+        let tree = parse(&Source::from_text(*form, *text), 0);
         let node = tree.sequences().find(|node| SequenceId::parse(&node.name.name.text) == Some(id))?;
         let end = node.end.as_ref()?.line.span.end as usize;
         Some(Example { text: text.get(node.name.line.span.start as usize..end)?.to_owned(), form })
@@ -67,10 +65,7 @@ pub fn variable(var: VarId) -> Option<Example> {
 /// A command as forms give it.
 pub fn command(name: &str) -> Option<Example> {
     forms().find_map(|(form, text)| {
-        // commands stand before the first sequence
-        let source = Source::from_text(*form, *text);
-        let checked = analyse(source, Limits::Classic, &mut |_| Err(String::new()));
-        let tree = checked.trees.first()?;
+        let tree = parse(&Source::from_text(*form, *text), 0);
         let statement = tree.statements().find(|statement| statement.name.text.eq_ignore_ascii_case(name))?;
         Some(Example { text: text.get(statement.line.span.range())?.to_owned(), form })
     })

@@ -24,13 +24,18 @@ pub fn explain(what: &str) -> Result<String, String> {
     if let Some(row) = CODES.iter().find(|row| names_of(row).any(|name| name.eq_ignore_ascii_case(asked))) {
         texts.push(code(row));
     }
-    // some names are both, as Thread and [thread] could be: whoever asks with brackets wants the variable
+    // whoever asks with brackets wants the variable of that name alone
     if asked == bare {
         texts.extend(SequenceId::parse(asked).map(words::sequence));
         texts.extend(CommandId::parse(asked).map(words::command));
     }
     if upon || asked.eq_ignore_ascii_case("Upon") {
         texts.push(words::upon());
+    }
+    match asked.to_ascii_lowercase().as_str() {
+        "end" => texts.push(words::end()),
+        "none" => texts.push(words::none()),
+        _ => {}
     }
     texts.extend(VarId::parse(bare).map(words::variable));
     if asked == bare {
@@ -60,7 +65,12 @@ pub fn list() -> String {
     text += "\nCommands\n";
     COMMANDS.iter().for_each(|row| text += &format!("  {:<20} {}\n", row.name, row.meaning));
     text += "\nSequences\n";
-    let upons = [("Upon [var]", "when a variable changes"), ("Upon Every [var]", "whenever a variable is used")];
+    let upons = [
+        ("Upon [var]", "when a variable changes"),
+        ("Upon Every [var]", "whenever a variable is used"),
+        ("End", "ends a sequence; End Cancel ends a canned cycle with Cancel"),
+        ("None", "a body that says nothing"),
+    ];
     let rows = SEQUENCES.iter().map(|row| (row.name, row.meaning)).chain(upons);
     rows.for_each(|(name, meaning)| text += &format!("  {name:<20} {meaning}\n"));
     text += "\nCycles of a job\n";

@@ -197,6 +197,28 @@ pub fn upon() -> String {
     page("Upon [var] (sequence)", &lines, Some(Example { text, form: "postforms/fanuc.pf" }))
 }
 
+/// `End`, which closes a sequence.
+pub fn end() -> String {
+    let lines = [
+        ("is", "the end of a sequence, on a line of its own".to_owned()),
+        ("Cancel", "End Cancel, of a canned cycle alone, prints the sequence Cancel behind its last hole".to_owned()),
+        ("standing", standing(Standing::Doc).to_owned()),
+        ("sample", "samples/cancel-with".to_owned()),
+    ];
+    page("End (of a sequence)", &lines, examples::sequence(SequenceId::Drill))
+}
+
+/// `None`, in place of a body.
+pub fn none() -> String {
+    let lines = [
+        ("is", "the whole body of a sequence that says nothing: its event prints no block".to_owned()),
+        ("in cycles", "a canned cycle with the body None is printed as single moves".to_owned()),
+        ("standing", standing(Standing::Doc).to_owned()),
+    ];
+    let text = "Coolant\nNone\nEnd".to_owned();
+    page("None (body of a sequence)", &lines, Some(Example { text, form: "as a form would say it" }))
+}
+
 /// A kind of cycle; sequences have their own page.
 pub fn cycle(name: &str) -> Option<String> {
     let row = CYCLES.iter().find(|row| row.name.eq_ignore_ascii_case(name))?;

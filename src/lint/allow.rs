@@ -1,5 +1,7 @@
 //! Suppression in the form: `# postform: allow PF103`, at the end of a line, above a line, or above a sequence.
 
+use std::collections::BTreeMap;
+
 use crate::diag::{CODES, Code, Diag, Severity};
 use crate::lang::did_you_mean;
 use crate::sema::Checked;
@@ -7,13 +9,15 @@ use crate::source::Source;
 use crate::span::Span;
 use crate::syntax::{Head, Line, Tail};
 
+use super::places::{Cover, Places};
 use super::{Levels, stops_printing};
 
-/// A comment that allows findings.
+/// A code that a comment allows.
 struct Allow {
-    /// Each code with its place.
-    codes: Vec<(Code, Span, bool)>,
-    /// Where findings are allowed.
+    code: Code,
+    /// The code in the comment.
+    word: Span,
+    /// Where its findings are allowed.
     range: Span,
 }
 
@@ -27,44 +31,39 @@ pub fn take_allowed(checked: &Checked, levels: &Levels, diags: &mut Vec<Diag>) -
         }
     }
     let before = diags.len();
-    diags.retain(|diag| {
-        let Some(at) = diag.labels.first().map(|label| label.span) else { return true };
+    for (code, allows) in by_code(&allows) {
         // what can't be printed can't be allowed, whatever a comment says
-        if stops_printing(diag) {
-            return true;
+        let place = |diag: &Diag| {
+            diag.labels.first().map(|label| label.span).filter(|_| diag.code == code && !stops_printing(diag))
+        };
+        let found: Places = diags.iter().filter_map(place).collect();
+        let allowed: Cover = allows.iter().map(|allow| allow.range).collect();
+        diags.retain(|diag| !place(diag).is_some_and(|at| allowed.holds(at)));
+        if levels.shows(Code::PF108) && levels.shows(code) {
+            wrong.extend(allows.iter().filter(|allow| !found.any_in(allow.range)).map(|allow| unused(allow)));
         }
-        let mut allowed = false;
-        for allow in &mut allows {
-            let here = allow.range.file == at.file && (allow.range.start..=allow.range.end).contains(&at.start);
-            for (_, _, used) in allow.codes.iter_mut().filter(|(code, ..)| here && *code == diag.code) {
-                (*used, allowed) = (true, true);
-            }
-        }
-        !allowed
-    });
-    let taken = before - diags.len();
-    if levels.shows(Code::PF108) {
-        let unused =
-            allows.iter().flat_map(|allow| &allow.codes).filter(|(code, _, used)| !used && levels.shows(*code));
-        wrong.extend(unused.map(|(code, span, _)| {
-            let help = if is_error(*code) {
-                "an error can't be allowed: mend it"
-            } else {
-                "take it out, so that it does not hide the next one"
-            };
-            Diag::new(Code::PF108, format!("nothing here is allowed by `{}`", code.name()))
-                .at(*span, "no such finding")
-                .help(help)
-        }));
     }
+    let taken = before - diags.len();
     wrong.retain_mut(|diag| levels.apply(diag));
     diags.extend(wrong);
     taken
 }
 
-/// Does the form not print while this is found?
-fn is_error(code: Code) -> bool {
-    code.row().severity == Severity::Error
+fn by_code(allows: &[Allow]) -> BTreeMap<Code, Vec<&Allow>> {
+    let mut by_code = BTreeMap::<Code, Vec<&Allow>>::new();
+    allows.iter().for_each(|allow| by_code.entry(allow.code).or_default().push(allow));
+    by_code
+}
+
+fn unused(allow: &Allow) -> Diag {
+    // the form does not print while an error is found
+    let help = match allow.code.row().severity {
+        Severity::Error => "an error can't be allowed: mend it",
+        _ => "take it out, so that it does not hide the next one",
+    };
+    Diag::new(Code::PF108, format!("nothing here is allowed by `{}`", allow.code.name()))
+        .at(allow.word, "no such finding")
+        .help(help)
 }
 
 /// All comments that begin with `#`, each with the place that it speaks of: its own line, else what comes after it.
@@ -121,7 +120,6 @@ fn read(source: &Source, comment: Span, range: Span, allows: &mut Vec<Allow>, wr
         return;
     }
     let mut at = comment.start as usize + text.len() - body.len() + 9;
-    let mut codes = Vec::new();
     let mut bad = |span: Span, message: String, help: Option<String>| {
         let help = help.unwrap_or_else(|| "write `# postform: allow PF303`".into());
         wrong.push(Diag::new(Code::PF109, message).at(span, "not understood").help(help));
@@ -141,7 +139,7 @@ fn read(source: &Source, comment: Span, range: Span, allows: &mut Vec<Allow>, wr
             for (word, span) in &rest[..told] {
                 let forms = || CODES.iter().filter(|row| row.name.starts_with("PF"));
                 match forms().find(|row| row.name.eq_ignore_ascii_case(word)) {
-                    Some(row) => codes.push((row.code, *span, false)),
+                    Some(row) => allows.push(Allow { code: row.code, word: *span, range }),
                     None => {
                         // a family can be turned off in postform.toml only
                         let family = word.len() < 5
@@ -159,5 +157,4 @@ fn read(source: &Source, comment: Span, range: Span, allows: &mut Vec<Allow>, wr
         }
         _ => bad(comment, "the comment does not say what it allows".into(), None),
     }
-    allows.push(Allow { codes, range });
 }

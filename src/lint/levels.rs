@@ -28,15 +28,12 @@ impl Level {
 #[derive(Clone, Debug, Default)]
 pub struct Levels(Vec<(Code, Level)>);
 
-/// Why a level can't be set, in words that follow the name.
-pub type UnknownCode = &'static str;
-
 impl Levels {
     /// Sets the level of a code, as `PF303`, or of the codes of a family, as `PF3`.
     ///
     /// # Errors
-    /// There is no such code, or it is an error without which nothing can be printed.
-    pub fn set(&mut self, name: &str, level: Level) -> Result<(), UnknownCode> {
+    /// There is no such code, or it is an error, with which nothing can be printed: words that follow the name.
+    pub fn set(&mut self, name: &str, level: Level) -> Result<(), &'static str> {
         let upper = name.to_ascii_uppercase();
         let is_code = |row: &&crate::diag::CodeRow| row.name.starts_with("PF") && upper.len() > 2;
         if let Some(row) = CODES.iter().filter(is_code).find(|row| row.name == upper) {

@@ -4,18 +4,19 @@ mod allow;
 mod blocks;
 mod levels;
 mod mend;
+mod places;
 mod rules;
 mod tokens;
 mod view;
 
-pub use levels::{Level, Levels, UnknownCode};
+pub use levels::{Level, Levels};
 pub use mend::{Changed, Mended, mend};
 pub use rules::{RULES, Rule};
 
 use crate::diag::{Code, Diag, Severity};
 use crate::sema::Checked;
-use crate::span::Span;
 use crate::syntax::SequenceNode;
+use places::{Cover, Places};
 use view::View;
 
 /// What was found in a form.
@@ -48,19 +49,12 @@ fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     let lost = [Code::PF101, Code::PF104, Code::PF205, Code::PF206];
     let is_cause = |diag: &&Diag| stops_printing(diag) || lost.contains(&diag.code);
     let place = |diag: &Diag| diag.labels.first().map(|label| label.span);
-    let causes: Vec<Span> = diags.iter().filter(is_cause).filter_map(place).collect();
-    if causes.is_empty() {
-        return;
-    }
-    let within = |whole: &Span, at: &Span| whole.file == at.file && (whole.start..=whole.end).contains(&at.start);
+    let causes: Places = diags.iter().filter(is_cause).filter_map(place).collect();
     let nodes = checked.trees.iter().flat_map(|tree| tree.sequences()).map(SequenceNode::span);
-    let unclear: Vec<Span> = nodes.filter(|whole| causes.iter().any(|at| within(whole, at))).collect();
+    let unclear: Cover = nodes.filter(|whole| causes.any_in(*whole)).collect();
     // what a sequence lacks is said by the families of sequences and of modality
     let may_follow = |diag: &Diag| diag.code >= Code::PF401 && !is_cause(&diag);
-    diags.retain(|diag| {
-        let follows = |at: Span| unclear.iter().any(|whole| within(whole, &at));
-        !(may_follow(diag) && place(diag).is_some_and(follows))
-    });
+    diags.retain(|diag| !(may_follow(diag) && place(diag).is_some_and(|at| unclear.holds(at))));
 }
 
 /// Is this an error of the form itself, whatever a rule's findings count as? Nothing is printed until it is mended.

@@ -54,17 +54,19 @@ fn result(diag: &Diag, files: &[Source], rules: &[&CodeRow]) -> Value {
         result["relatedLocations"] = related.into();
     }
     if let Some(fix) = &diag.fix {
-        let change = |(span, text): &(Span, String)| {
-            let source = files.get(span.file as usize)?;
-            Some(json!({
-                "artifactLocation": { "uri": uri(&source.name) },
-                "replacements": [{ "deletedRegion": region(*span, source), "insertedContent": { "text": text } }],
-            }))
-        };
-        let changes: Vec<Value> = fix.edits.iter().filter_map(change).collect();
+        let changes: Vec<Value> =
+            fix.edits.chunk_by(|(a, _), (b, _)| a.file == b.file).filter_map(|edits| change(edits, files)).collect();
         result["fixes"] = json!([{ "description": { "text": fix.title }, "artifactChanges": changes }]);
     }
     result
+}
+
+/// The edits of one file.
+fn change(edits: &[(Span, String)], files: &[Source]) -> Option<Value> {
+    let source = files.get(edits.first()?.0.file as usize)?;
+    let replace = |(span, text): &(Span, String)| json!({ "deletedRegion": region(*span, source), "insertedContent": { "text": text } });
+    let replacements: Vec<Value> = edits.iter().map(replace).collect();
+    Some(json!({ "artifactLocation": { "uri": uri(&source.name) }, "replacements": replacements }))
 }
 
 fn level(severity: Severity) -> &'static str {

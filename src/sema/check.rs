@@ -130,15 +130,16 @@ impl Analysis {
                 );
             }
         }
-        let cancels: Vec<_> = self.form.sequences.values().filter_map(|s| s.cancel.map(|span| (s.id, span))).collect();
-        if !self.form.sequences.contains_key(&SequenceId::Cancel) {
-            for (id, span) in cancels {
-                self.report(
-                    Diag::new(Code::PF402, format!("{} ends with Cancel, but the form has no Cancel", id.name()))
-                        .at(span, "nothing would be printed here")
-                        .help("add a sequence `Cancel` with G80"),
-                );
-            }
+        let cancelled = || self.form.sequences.values().filter_map(|s| s.cancel.map(|span| (s.id.name(), span)));
+        if let Some((_, first)) = cancelled().next().filter(|_| !self.form.sequences.contains_key(&SequenceId::Cancel))
+        {
+            let names: Vec<_> = cancelled().map(|(name, _)| name).collect();
+            let verb = if names.len() == 1 { "ends" } else { "end" };
+            self.report(
+                Diag::new(Code::PF402, format!("{} {verb} with Cancel, but the form has no Cancel", names.join(", ")))
+                    .at(first, "nothing would be printed here")
+                    .help("add a sequence `Cancel` with G80"),
+            );
         }
     }
 }

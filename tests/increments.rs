@@ -44,3 +44,24 @@ fn a_control_left_in_the_other_distance_mode_is_an_error() {
     let mends = leaves.replace("Z0\n", "Z0\nG90\n");
     assert_eq!(path_lines("", &mends, path), ["G55 G91 G28 Z0", "G90", "G0 X1. Y0 Z1."]);
 }
+
+#[test]
+fn compensation_keeps_the_height_that_increments_led_to() {
+    let own = "RapidCode\nG0 X[hdist] Y[vdist] Z[ddist]\nEnd\nInFeed\nG1 G[side] D[dcomp] X[hdist] Y[vdist] F[frate]\nEnd\n\
+               OutFeed\nG1 G40 X[hdist] Y[vdist] F[frate]\nEnd";
+    let path = r#"{"rapid":[0,0,-0.1]},{"infeed":[0,1],"side":"left"},{"outfeed":[1,1]}"#;
+    assert_eq!(increments(own, path), ["G0 Z-1.1", "G1 G41 D21 X0 Y1. F10.", "G1 G40 X1. Y0 F10."]);
+    let down = increments(own, r#"{"infeed":[0,1,0],"side":"left"}"#);
+    assert!(down[0].starts_with("PR017"), "{down:?}");
+}
+
+#[test]
+fn a_cycle_may_say_g90_for_its_positions() {
+    let drill = "Drill\nG90 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let form = format!("Cancel\nG80 G91\nEnd\n{drill}");
+    let form = mill("Incremental? Y", "").replace("Cancel\nG80\nEnd", &form);
+    let path = r#"{"cycle":{"kind":"drill","depth":1,"clear":0.1,"feed":5,"points":[[1,1,0],[2,1,0]]}},{"rapid":[0,0,1]}"#;
+    let lines = program(&form, &job(path));
+    let at = lines.iter().position(|line| line.starts_with("G90")).unwrap();
+    assert_eq!(lines[at..at + 3], ["G90 G81 X1. Y1. Z-1. R.1 F5.", "X2.", "G80 G91"], "{lines:?}");
+}

@@ -631,3 +631,21 @@ fn a_feed_that_prints_as_nothing_is_an_error() {
     let lines = path_lines("F >4.>2", tap, path);
     assert!(lines.len() == 1 && lines[0].starts_with("PR002"), "{lines:?}");
 }
+
+/// What a cycle switches for itself waits for its end: a block between its holes would be taken for a hole.
+#[test]
+fn nothing_stands_between_the_holes_of_a_cycle() {
+    let tap = "Tap\nG95 G84 X[h] Y[v] Z[d] R[vclear] F[pitch]\nEnd Cancel";
+    let path = r#"{"cycle":{"kind":"tap","rigid":false,"depth":0.5,"clear":0.1,"feed":50,"points":[[1,1,0],[2,1,0]]}},{"line":[3,1,0]}"#;
+    let lines = path_lines("", tap, path);
+    let at = lines.iter().position(|line| line.starts_with("G95")).unwrap();
+    assert_eq!(lines[at..], ["G95 G84 X1. Y1. Z-.5 R.1 F.05", "X2.", "G80", "G94", "G1 X3. Z0 F10."]);
+}
+
+/// A fixture that is the parameter of a code is never said without it; codes of the same number are something else then.
+#[test]
+fn a_work_offset_is_said_with_its_code() {
+    let form = mill("Work 1\nWorkDefault 1", "").replace("G0 G[work] X[h] Y[v] Z[d]", "G15 H[work] G56\nG0 X[h] Y[v] Z[d]");
+    let lines = program(&form, &job(r#"{"work":2},{"rapid":[1,0,1]}"#).replace("\"work\":54", "\"work\":1"));
+    assert_eq!(lines[3..], ["G15 H1 G56", "G0 X0 Y0 Z1.", "G15 H2", "G0 X1. Y0 Z1.", "M30"]);
+}

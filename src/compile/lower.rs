@@ -1,9 +1,9 @@
 //! Lowering: lines of words become operations.
 
 use super::letters::LetterTable;
-use super::program::{Block, CycleStyle, Literal, Op, Program, UponBlock};
-use crate::lang::{SequenceId, VarId, VarSet};
-use crate::sema::{Form, Line, Sequence, WordKind};
+use super::program::{Block, CycleStyle, Literal, Op, Program, UponBlock, WorkWord};
+use crate::lang::{Group, SequenceId, VarId, VarSet, group_of};
+use crate::sema::{Form, Line, Sequence, Word, WordKind};
 use crate::span::Span;
 
 /// Compiles a form that was checked without errors.
@@ -18,7 +18,7 @@ pub fn compile(form: &Form) -> Program {
         upons: Vec::new(),
         upon_vars: VarSet::default(),
         printed: VarSet::default(),
-        work_letter: None,
+        work_word: None,
         letters: [LetterTable::new(form, false), LetterTable::new(form, true)],
         custom: [None, None, None],
     };
@@ -68,12 +68,13 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Block {
     for line in lines {
         program.ops.push(Op::Line { droppable: line.words.iter().all(|w| is_motion_or_no_code(&w.kind)) });
         program.spans.push(line.span);
-        for word in &line.words {
+        for (i, word) in line.words.iter().enumerate() {
             let glued = word.glued;
             let op = match &word.kind {
                 WordKind::Var(letter, var) => {
-                    if *var == VarId::Work {
-                        program.work_letter.get_or_insert(*letter);
+                    if *var == VarId::Work && *letter != b'G' {
+                        let code = i.checked_sub(1).and_then(|before| offset_code(&line.words[before]));
+                        program.work_word.get_or_insert(WorkWord { code, letter: *letter });
                     }
                     Op::Var { letter: *letter, var: *var, glued }
                 }
@@ -107,6 +108,12 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Block {
         span,
         ops,
     }
+}
+
+/// A G code that an offset can be the parameter of: of work offsets, or of no group that holds something else.
+fn offset_code(word: &Word) -> Option<f64> {
+    let code = word.typed(b'G')?;
+    matches!(group_of(b'G', (code * 10.0).round() as i64), None | Some(Group::Work)).then_some(code)
 }
 
 /// Adds a row to a table and returns its index.

@@ -6,4 +6,4 @@ mod program;
 
 pub use letters::{Letter, LetterKind, LetterTable};
 pub use lower::compile;
-pub use program::{Block, CycleStyle, Literal, Op, Program, UponBlock};
+pub use program::{Block, CycleStyle, Literal, Op, Program, UponBlock, WorkWord};

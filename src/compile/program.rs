@@ -133,12 +133,21 @@ pub struct Program {
     pub upon_vars: VarSet,
     /// The variables that the form prints anywhere.
     pub printed: VarSet,
-    /// The letter that the form prints `[work]` with.
-    pub work_letter: Option<u8>,
+    /// How the form prints `[work]`, where it is no G code.
+    pub work_word: Option<WorkWord>,
     /// What the form says of each letter, for programs in inches and in millimetres.
     pub letters: [LetterTable; 2],
     /// Remarks of the Custom cycles: the kind that each serves.
     pub custom: [Option<String>; 3],
+}
+
+/// A work offset that is the parameter of a code, or a word of its own: `G154 P[work]`, `G15 H[work]`, `E[work]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorkWord {
+    /// The G code directly before it.
+    pub code: Option<f64>,
+    /// Its letter.
+    pub letter: u8,
 }
 
 impl Program {

@@ -3,6 +3,7 @@
 use super::fault::{Done, fault};
 use super::renderer::Renderer;
 use super::words::tenths;
+use crate::compile::WorkWord;
 use crate::diag::Code;
 use crate::lang::{Group, Machine, Origin, Unit, VARIABLES, VarId, VarSet, did_you_mean};
 use crate::sema;
@@ -76,7 +77,8 @@ impl Renderer<'_> {
     pub(super) fn served_code(&mut self, group: Group, value: f64) {
         self.switched |= !matches!(group, Group::Motion | Group::ReturnPlane);
         match group {
-            Group::Work => self.served.work = Some(value),
+            // G56 of an Okuma is a length, where H is the work offset
+            Group::Work if self.program.work_word.is_none() => self.served.work = Some(value),
             Group::Spindle => self.served.direct = Some(value),
             Group::Coolant => self.served.cool = Some(value),
             Group::FeedMode => self.served.feed_type = Some(value),
@@ -201,18 +203,21 @@ impl Renderer<'_> {
         Ok(())
     }
 
-    /// The work offset with the letter that the form uses for it.
+    /// The work offset as the form prints it.
     fn work_block(&mut self, work: f64) -> Done {
-        let letter = self.program.work_letter.unwrap_or(b'G');
-        if letter == b'G' && group_is_not_work(work) {
-            let message = format!("the work offset changes to {work}, and the form nowhere prints [work]");
-            return fault(Code::PR017, message, "print `G[work]` in the tool changes, or add `Upon [work]`");
-        }
-        if letter == b'G' {
-            self.code_word(&sema::Code::plain(b'G', work))?;
-        } else {
-            self.letter_word(letter, work)?;
-            self.forget_axes();
+        match self.program.work_word {
+            Some(WorkWord { code, letter }) => {
+                if let Some(code) = code {
+                    self.code_word(&sema::Code::plain(b'G', code))?;
+                }
+                self.letter_word(letter, work)?;
+                self.forget_axes();
+            }
+            None if group_is_not_work(work) => {
+                let message = format!("the work offset changes to {work}, and the form nowhere prints [work]");
+                return fault(Code::PR017, message, "print `G[work]` in the tool changes, or add `Upon [work]`");
+            }
+            None => self.code_word(&sema::Code::plain(b'G', work))?,
         }
         self.end_block();
         self.served.work = Some(work);
@@ -229,8 +234,8 @@ impl Renderer<'_> {
     pub(super) fn set_work(&mut self, work: f64) -> Done {
         let first = self.program.settings.work;
         let code = if (1.0..50.0).contains(&work) { first + work - 1.0 } else { work };
-        let by_letter = self.program.work_letter.is_some_and(|letter| letter != b'G');
-        if !by_letter && group_is_not_work(code) && self.program.settings.machine == Machine::Mill {
+        if self.program.work_word.is_none() && group_is_not_work(code) && self.program.settings.machine == Machine::Mill
+        {
             let message = format!("the work offset {work} would be G{code}, which is none");
             return fault(Code::PR017, message, "give the code itself, as 59.1, or a fixture number from 1 to 6");
         }

@@ -151,9 +151,7 @@ impl Renderer<'_> {
     /// A hole by a sequence of the form.
     fn sequence_hole(&mut self, block: &Block, target: &Axes, planes: &Plan, heights: Heights) -> Done {
         self.set_targets(target)?;
-        if self.attention {
-            self.attend()?; // with [d] at the return plane: an Upon must not go down the hole
-        }
+        self.attend_hole()?; // with [d] at the return plane: an Upon must not go down the hole
         self.hole_variables(planes, heights);
         self.vars.set(VarId::D, heights.return_plane);
         let used = block.vars.without(crate::lang::VarSet::of(&[VarId::D]));
@@ -211,6 +209,18 @@ impl Renderer<'_> {
         let exit = if returns { initial.max(heights.clear) } else { heights.clear };
         let known = block.returns || heights.return_plane <= heights.clear + SAME;
         self.left_hole(target, Some((exit, known)))
+    }
+
+    /// What stands between holes. While the control is in its cycle nothing may come there: it would be taken for a hole, and
+    /// what differs from the job is what the sequence itself switched, as `G95` for a tap. It waits for Cancel.
+    fn attend_hole(&mut self) -> Done {
+        match self.cycle.as_ref().is_some_and(|cycle| cycle.in_force) {
+            // positions in a form of increments are right if the sequence says G90
+            true if self.program.settings.incremental => Ok(()),
+            true => self.check_distance(),
+            false if self.attention => self.attend(),
+            false => Ok(()),
+        }
     }
 
     /// Must the whole cycle be printed at this hole?

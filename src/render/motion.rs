@@ -198,6 +198,11 @@ impl Renderer<'_> {
     pub(super) fn attend(&mut self) -> Done {
         self.attention = false;
         self.pending_changes()?;
+        self.check_distance()
+    }
+
+    /// Positions are not printed where they would be read as increments, nor the other way round.
+    pub(super) fn check_distance(&self) -> Done {
         if self.distance_is_wrong() {
             let [increments, positions] = self.program.settings.inc_abs;
             let (now, needed, read) = match self.program.settings.incremental {

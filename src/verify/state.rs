@@ -125,8 +125,13 @@ impl<R: BufRead + Seek> Sides<R> {
 
     /// The feed, within what its digits are rounded off.
     pub(super) fn feeds(&mut self, cut: &Cut, found: &Cut, tap: bool) -> Result<(), Box<Diag>> {
-        let (Some(wanted), Some(is)) = (cut.feed, found.feed) else { return Ok(()) };
-        if cut.mode != found.mode {
+        let (Some(wanted), Some(mut is)) = (cut.feed, found.feed) else { return Ok(()) };
+        // a tap's feed is its pitch, however it counts
+        if let (true, FeedMode::PerMinute, FeedMode::PerRev, Some(speed)) =
+            (tap, cut.mode, found.mode, found.state.speed.filter(|_| !found.state.css))
+        {
+            is *= speed;
+        } else if cut.mode != found.mode {
             let message = "feeds count otherwise: per minute, per turn or inverse time".to_owned();
             return self.differs(Code::PV006, found.line, message, "print G[feedtype]");
         }

@@ -116,6 +116,11 @@ fn cycles_in_all_forms_are_the_same_holes() {
     for name in ["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"] {
         forms.push((name.into(), post(name)));
     }
+    // a tap that feeds by its pitch
+    let per_turn = post("fanuc.pf").replace("M29 S[speed]", "G95 M29 S[speed]");
+    let taps = |line: &str| line.contains("G84 ") || line.contains("G74 ");
+    let by_pitch = |line: &str| if taps(line) { line.replace("F[frate]", "F[pitch]") } else { line.to_owned() };
+    forms.push(("per turn".into(), per_turn.lines().map(by_pitch).collect::<Vec<_>>().join("\n")));
     for (name, text) in forms {
         let form = check(&text);
         for cycles in [Cycles::Form, Cycles::Emulated] {

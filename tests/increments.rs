@@ -60,7 +60,8 @@ fn a_cycle_may_say_g90_for_its_positions() {
     let drill = "Drill\nG90 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
     let form = format!("Cancel\nG80 G91\nEnd\n{drill}");
     let form = mill("Incremental? Y", "").replace("Cancel\nG80\nEnd", &form);
-    let path = r#"{"cycle":{"kind":"drill","depth":1,"clear":0.1,"feed":5,"points":[[1,1,0],[2,1,0]]}},{"rapid":[0,0,1]}"#;
+    let path =
+        r#"{"cycle":{"kind":"drill","depth":1,"clear":0.1,"feed":5,"points":[[1,1,0],[2,1,0]]}},{"rapid":[0,0,1]}"#;
     let lines = program(&form, &job(path));
     let at = lines.iter().position(|line| line.starts_with("G90")).unwrap();
     assert_eq!(lines[at..at + 3], ["G90 G81 X1. Y1. Z-1. R.1 F5.", "X2.", "G80 G91"], "{lines:?}");

@@ -645,7 +645,8 @@ fn nothing_stands_between_the_holes_of_a_cycle() {
 /// A fixture that is the parameter of a code is never said without it; codes of the same number are something else then.
 #[test]
 fn a_work_offset_is_said_with_its_code() {
-    let form = mill("Work 1\nWorkDefault 1", "").replace("G0 G[work] X[h] Y[v] Z[d]", "G15 H[work] G56\nG0 X[h] Y[v] Z[d]");
+    let form =
+        mill("Work 1\nWorkDefault 1", "").replace("G0 G[work] X[h] Y[v] Z[d]", "G15 H[work] G56\nG0 X[h] Y[v] Z[d]");
     let lines = program(&form, &job(r#"{"work":2},{"rapid":[1,0,1]}"#).replace("\"work\":54", "\"work\":1"));
     assert_eq!(lines[3..], ["G15 H1 G56", "G0 X0 Y0 Z1.", "G15 H2", "G0 X1. Y0 Z1.", "M30"]);
 }

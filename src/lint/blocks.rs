@@ -22,8 +22,8 @@ pub enum Motion {
 pub struct Block<'a> {
     /// The line.
     pub line: &'a Line,
-    /// The words that say where an axis goes, with its number: 0 and 1 across, 2 the depth. Those of G4, G10, G52 and G92 are
-    /// a time or a setting, and nothing moves.
+    /// The words that say where an axis goes, with its number: 0 and 1 across, 2 the depth. Those of a code that only sets
+    /// something, as G4, G10, G52, G68 and G92, and of a macro call, say it of none.
     pub axis_words: Vec<(&'a Word, usize)>,
     /// How it moves.
     pub motion: Motion,
@@ -59,6 +59,9 @@ pub fn is_cycle_code(code: f64) -> bool {
     [73.0, 74.0, 76.0].contains(&code) || (81.0..90.0).contains(&code)
 }
 
+/// Codes whose axis words are a time or a setting: dwell, data, scale, mirror, local zero, rotation.
+const SETS: &[f64] = &[4.0, 10.0, 50.1, 51.0, 51.1, 52.0, 68.0, 68.2, 68.3, 92.0];
+
 /// Does the control move by itself after this G code: a cycle, a thread (it feeds by its pitch), a macro, or a code
 /// above G100, which is the machine builder's own?
 pub fn moves_by_itself(code: f64) -> bool {
@@ -73,8 +76,8 @@ pub fn read<'a>(settings: &Settings, axis: impl Fn(&Word) -> Option<usize>, line
     for line in lines {
         let (mut reference, mut machine, mut sets) = (false, false, false);
         for word in &line.words {
-            match word.kind {
-                WordKind::Literal(b'G', _, code) => match code {
+            match (word.typed(b'G'), &word.kind) {
+                (Some(code), _) => match code {
                     0.0 => motion = Motion::Rapid,
                     1.0 => motion = Motion::Line,
                     2.0 | 3.0 => motion = Motion::Arc,
@@ -83,11 +86,12 @@ pub fn read<'a>(settings: &Settings, axis: impl Fn(&Word) -> Option<usize>, line
                     _ if code == settings.inc_abs[0] => incremental = true,
                     _ if code == settings.inc_abs[1] => incremental = false,
                     80.0 => motion = Motion::Unknown,
-                    4.0 | 10.0 | 52.0 | 92.0 => sets = true,
+                    65.0 | 66.0 => (motion, sets) = (Motion::Cycle, true),
+                    _ if SETS.contains(&code) => sets = true,
                     _ if moves_by_itself(code) => motion = Motion::Cycle,
                     _ => {}
                 },
-                WordKind::Var(b'G', VarId::Incmode) => incremental = settings.incremental,
+                (None, WordKind::Var(b'G', VarId::Incmode)) => incremental = settings.incremental,
                 _ => {}
             }
         }

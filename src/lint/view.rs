@@ -119,6 +119,14 @@ impl<'a> View<'a> {
         controls.contains(&self.settings.control.as_str())
     }
 
+    /// Has the machine no depth: do its own rapids and lines leave it out, and does nothing else say it? A torch, a beam.
+    pub fn is_flat(&self) -> bool {
+        let own = [SequenceId::RapidCode, SequenceId::LineCode];
+        let all = own.iter().all(|&id| self.body(id).is_some_and(|body| !body.lines.is_empty()));
+        let says = |word: &Word| word.letter().is_some_and(|letter| self.axis(letter) == Some(2));
+        self.is_mill() && all && !self.words().any(says)
+    }
+
     /// Do the form's own lengths count millimetres?
     pub fn is_metric(&self) -> bool {
         self.settings.units == UnitChoice::Mm

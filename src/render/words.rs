@@ -265,7 +265,7 @@ impl Renderer<'_> {
             _ if var.row().origin == crate::lang::Origin::Job => {
                 format!("give it with `--set {}=VALUE` or under \"set\" in the job", var.name())
             }
-            _ => format!("it is the {}: let the job say it, or take the word out of the form", var.row().meaning),
+            _ => format!("it stands for: {}; let the job say it, or take the word out of the form", var.row().meaning),
         };
         let message = format!("[{}] has no value here", var.name());
         fault_at(Code::PR001, message, help, self.form_span())

@@ -131,13 +131,14 @@ impl Word {
 
     /// Is it one of these codes, as typed?
     pub fn is_code(&self, letter: u8, codes: &[f64]) -> bool {
-        matches!(self.kind, WordKind::Literal(own, _, value) if own == letter && codes.contains(&value))
+        self.typed(letter).is_some_and(|value| codes.contains(&value))
     }
 
-    /// Its number, if it has this letter and is typed.
+    /// Its number, if it has this letter and is typed; behind the slash of block delete, too.
     pub fn typed(&self, letter: u8) -> Option<f64> {
-        match self.kind {
-            WordKind::Literal(own, _, value) if own == letter => Some(value),
+        match &self.kind {
+            WordKind::Literal(own, _, value) if *own == letter => Some(*value),
+            WordKind::Text(text) => text.strip_prefix('/')?.strip_prefix(char::from(letter))?.parse().ok(),
             _ => None,
         }
     }

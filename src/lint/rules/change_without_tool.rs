@@ -2,9 +2,14 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
+use crate::lint::blocks::moves_by_itself;
 use crate::lint::view::View;
+use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    if view.is_flat() {
+        return; // a torch or a beam
+    }
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
         let printed = body.words().find(|word| word.printed_var() == Some(VarId::Tool));
         let Some(word) = printed else {
@@ -21,7 +26,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             continue;
         };
         let selects = view.printed_letter(word) == Some(b'T') && view.is_mill() && !view.is_for(&["grbl"]);
-        if selects && body.code(b'M', &[6.0]).is_none() {
+        // a macro that changes it, as `G65 P9020 T[tool]`, or a code of the builder, as `G100 T[tool]`
+        let called = |word: &Word| {
+            word.typed(b'G').is_some_and(|code| code >= 65.0 && moves_by_itself(code))
+                || word.is_code(b'M', &[98.0, 198.0])
+        };
+        let line = body.lines.iter().find(|line| line.words.iter().any(|own| std::ptr::eq(own, word)));
+        let by_macro = line.is_some_and(|line| line.words.iter().any(called));
+        if selects && !by_macro && body.code(b'M', &[6.0]).is_none() {
             diags.push(
                 Diag::new(Code::PF429, format!("{} selects a tool and does not change it", body.name()))
                     .at(word.span, "no M6")

@@ -16,6 +16,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         let usual = codes(row.default.split(';').next().unwrap_or("").split(' '));
         let said = codes(statement.args.iter().map(|arg| arg.text.as_str()));
+        if said.len() != statement.args.len() {
+            continue; // what is no code is told as such
+        }
         let swapped = match MOTION.contains(&id) {
             true => said != usual && said.iter().all(|code| (0.0..4.0).contains(code)),
             false => said != usual && sorted(&said) == sorted(&usual),

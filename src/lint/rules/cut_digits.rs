@@ -27,13 +27,24 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let decimals = format.dec.count;
         // without decimals it had no point to print
         let point = if decimals == 0 { Point::Always } else { format.point };
+        let fixed = decimals > 0 && format.dec.fixed;
+        let better = LetterFormat { dec: Digits { count: wanted, fixed }, point, ..*format };
+        // a count or a code would get a point with the others
+        let whole =
+            |word: &&Word| word.printed_var().is_some_and(|var| matches!(var.row().unit, Unit::Count | Unit::Code));
+        let counts = view.words().filter(|word| view.format_letter(word) == Some(letter)).any(|word| whole(&word));
+        let help = match (counts, name.to_ascii_lowercase()) {
+            (true, small) if small != name => {
+                format!(
+                    "print it as `{small}`, with `{small}{better}` and `Rename {small} {name}`: whole numbers stay as they are"
+                )
+            }
+            _ => format!("write `{name}{better}`"),
+        };
         diags.push(
             Diag::new(Code::PF306, format!("{name} has {decimals} decimals, {what} needs {wanted}"))
                 .at(*span, "the others are rounded away")
-                .help(format!(
-                    "write `{name}{}`",
-                    LetterFormat { dec: Digits { count: wanted, ..format.dec }, point, ..*format }
-                )),
+                .help(help),
         );
     }
 }

@@ -25,9 +25,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let words = &block.axis_words;
             if let (false, true, Some((word, _))) = (said, cuts, words.first()) {
                 let letter = char::from(feed);
+                let own = matches!(id, Some(S::LineCode | S::CwCode | S::CcwCode | S::InFeed | S::OutFeed));
+                let what = if own {
+                    "each change of the feed gets a block of its own"
+                } else {
+                    "at the feed of the move before"
+                };
                 diags.push(
                     Diag::new(Code::PF418, format!("{} feeds without saying the feed", body.name()))
-                        .at(word.span, "at the feed of the move before")
+                        .at(word.span, what)
                         .help(format!("print the feed, as `{letter}[frate]`")),
                 );
                 break;

@@ -2,6 +2,7 @@
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
+use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.is_for(&["linuxcnc", "emc2", "grbl"]) {
@@ -10,7 +11,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let lines = view.bodies.iter().flat_map(|body| body.lines.iter().map(move |line| (body, line)));
     for (body, line) in lines {
         let Some(word) = line.words.iter().find(|word| word.is_code(b'G', &[43.0, 44.0])) else { continue };
-        if !line.words.iter().any(|word| view.printed_letter(word) == Some(b'H')) {
+        // `H#518`: a register of a macro
+        let by_macro = |word: &Word| matches!(&word.kind, WordKind::Text(text) if text.starts_with("H#"));
+        if !line.words.iter().any(|word| view.printed_letter(word) == Some(b'H') || by_macro(word)) {
             diags.push(
                 Diag::new(Code::PF425, format!("{} turns the length offset on and does not say which", body.name()))
                     .at(word.span, "no H")

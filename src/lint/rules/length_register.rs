@@ -9,7 +9,7 @@ use crate::sema::{Word, WordKind};
 const ON: &[f64] = &[43.0, 43.1, 43.2, 43.3, 43.4, 43.5, 44.0];
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    if !view.is_mill() || view.is_for(&["grbl"]) {
+    if !view.is_mill() || view.is_for(&["grbl"]) || view.is_flat() {
         return; // Grbl has no registers: its zero is that of the tool
     }
     let is_register = |word: &&Word| view.printed_letter(word) == Some(b'H');
@@ -28,9 +28,17 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 .help(format!("print `{better}` with the first depth of a tool")),
         );
     }
+    for (body, word) in view.bodies.iter().filter_map(|body| Some((body, body.code(b'G', &[44.0])?))) {
+        diags.push(
+            Diag::new(Code::PF437, format!("{} takes the length of a tool off with G44", body.name()))
+                .at(word.span, "lengths count upwards from the nose: the tool would go down by twice its length")
+                .help("write `G43`"),
+        );
+    }
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
-        let own =
-            |word: &Word| matches!(word.printed_var(), Some(VarId::Lcomp | VarId::Comp | VarId::Tool | VarId::Tool1));
+        let own = |word: &Word| {
+            matches!(word.printed_var(), Some(VarId::Lcomp | VarId::Comp | VarId::Tool | VarId::Tool1 | VarId::Work))
+        };
         // H0 takes the offset off
         let other = |word: &&Word| is_register(word) && !own(word) && word.typed(b'H') != Some(0.0);
         if let Some(word) = body.words().find(other) {

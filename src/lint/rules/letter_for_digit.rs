@@ -3,12 +3,22 @@
 use crate::diag::{Code, Diag};
 use crate::lint::tokens::looks_like_a_code;
 use crate::lint::view::View;
-use crate::syntax::{Piece, PieceKind};
+use crate::syntax::{Piece, PieceKind, Word};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for word in view.written() {
-        let [Piece { kind: PieceKind::Stray(text), span }] = word.pieces.as_slice() else { continue };
+    let text_of = |word: &'_ Word| match word.pieces.as_slice() {
+        [Piece { kind: PieceKind::Stray(text), span }] => Some((text.clone(), *span)),
+        _ => None,
+    };
+    let words: Vec<_> = view.written().map(text_of).collect();
+    for (i, word) in words.iter().enumerate() {
+        let Some((text, span)) = word else { continue };
         let Some(meant) = meant(text) else { continue };
+        let beside = |at: Option<usize>, what: &str| matches!(at.and_then(|at| words.get(at)), Some(Some((text, _))) if text.eq_ignore_ascii_case(what));
+        // `IF .. GO TO 5`, and programs that an Okuma calls by name
+        if beside(i.checked_add(1), "TO") || beside(i.checked_sub(1), "CALL") {
+            continue;
+        }
         diags.push(
             Diag::new(Code::PF206, format!("`{text}` has a letter where a digit belongs"))
                 .at(*span, "printed as it stands")

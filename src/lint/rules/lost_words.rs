@@ -29,12 +29,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 fn sequence(node: &SequenceNode, text: &str, diags: &mut Vec<Diag>) {
     // behind a name stands a remark; a number alone is a count
     let is_cycle = SequenceId::parse(&node.name.name.text).is_some_and(SequenceId::makes_holes);
-    if is_cycle && node.name.args.is_empty() {
+    if is_cycle && node.name.args.is_empty() && count_is_lost(&node.name.line, text) {
         lost(&node.name.line, text, &|token| token.bytes().all(|b| b.is_ascii_digit()), diags);
     }
     for body in &node.body {
         let last = body.words.last().and_then(|word| word.pieces.last());
         match (&body.line.tail, last.map(|piece| &piece.kind)) {
+            (Tail::Comment(comment), Some(PieceKind::Note { closed: false, .. })) => bracketed(*comment, text, diags),
             // what is lost of a comment may be anything
             (_, Some(PieceKind::Note { closed: false, .. })) => lost(&body.line, text, &|_| true, diags),
             (Tail::Comment(comment), _) if body.words.is_empty() => macro_line(*comment, text, diags),
@@ -46,8 +47,30 @@ fn sequence(node: &SequenceNode, text: &str, diags: &mut Vec<Diag>) {
     }
 }
 
+/// A number alone; where a remark can't begin, a number in front of one, too.
+fn count_is_lost(line: &Line, text: &str) -> bool {
+    let Tail::Lost(lost) = &line.tail else { return false };
+    let is_number = |token: &str| token.bytes().all(|b| b.is_ascii_digit());
+    let before = &text[line.span.start as usize..lost.span.start as usize];
+    let mut tokens = lost.text.split_whitespace();
+    let near = before.len() - before.trim_end().len() < 3;
+    if near { tokens.next().is_some_and(is_number) } else { tokens.all(is_number) }
+}
+
 fn is_letter(token: &str) -> bool {
     token.len() == 1 && token.bytes().all(|b| b.is_ascii_uppercase())
+}
+
+/// `(P/N #1234)`: the rest of the comment, and its closing mark.
+fn bracketed(comment: Span, text: &str, diags: &mut Vec<Diag>) {
+    let rest = &text[comment.range()];
+    if rest.contains(')') {
+        diags.push(
+            Diag::new(Code::PF101, format!("`{}` is lost of a comment of the program", rest.trim_end()))
+                .at(comment, "a `#` begins a comment of the form, here too")
+                .help("write another mark in its place, as `NO. 1234`"),
+        );
+    }
 }
 
 /// `#101=5` is a comment like any other.

@@ -9,11 +9,32 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if sequence.count.is_some() || sequence.lines.len() < 2 || body.code(b'G', &[80.0]).is_some() {
             continue;
         }
+        // on a lathe these work one place and are over
+        if !view.is_mill() && [74.0, 75.0, 76.0].contains(&code) {
+            continue;
+        }
+        let line = sequence.lines.iter().position(|line| line.words.iter().any(|own| std::ptr::eq(own, word)));
+        let below = &view.blocks(body)[line.map_or(0, |line| line + 1)..];
+        let (what, help) = match (below.iter().any(|block| !block.axis_words.is_empty()), sequence.cancel) {
+            (true, _) => {
+                let help = format!("write `{} 1`, if the first line is for the first hole only", body.name());
+                (format!("G{code} drills again at each position below it"), help)
+            }
+            (false, Some(_)) => {
+                let help = "give the count of the lines that are for the first hole only, and let the last line repeat \
+                            what changes: `X[h] Y[v] Z[d] R[vclear]`; or print G80 in the last line";
+                ("`End Cancel` is not used without a count: the cycle stays in force".to_owned(), help.to_owned())
+            }
+            (false, None) => (
+                "the cycle stays in force: the next position would be a hole, too".to_owned(),
+                "print G80 in the last line".to_owned(),
+            ),
+        };
         diags.push(
             Diag::new(Code::PF404, format!("{} starts a cycle of the control and has no count", body.name()))
-                .at(word.span, format!("G{code} drills again at each of the lines below it"))
+                .at(word.span, what)
                 .at(sequence.span, "all lines are printed at every hole")
-                .help(format!("write `{} 1`, if the first line is for the first hole only", body.name())),
+                .help(help),
         );
     }
 }

@@ -7,6 +7,7 @@ use crate::lint::view::{Purpose, View};
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
     use VarId as V;
+    let flat = view.is_flat();
     for body in view.these(&[S::RapidCode, S::LineCode, S::CwCode, S::CcwCode]) {
         let arc = body.purpose == Purpose::Sequence(S::CwCode) || body.purpose == Purpose::Sequence(S::CcwCode);
         let axes: &[[V; 2]] = match (view.is_mill() && !arc, body.lines.is_empty()) {
@@ -14,6 +15,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             (true, _) => &[[V::H, V::Hdist], [V::V, V::Vdist], [V::D, V::Ddist]],
             (false, _) => &[[V::H, V::Hdist], [V::V, V::Vdist]],
         };
+        // a table without a depth says so nowhere
+        let axes = if flat { &axes[..2] } else { axes };
         let missing: Vec<String> =
             axes.iter().filter(|vars| !body.prints_any(*vars)).map(|vars| format!("[{}]", vars[0].name())).collect();
         if !missing.is_empty() {

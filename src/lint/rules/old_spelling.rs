@@ -1,7 +1,7 @@
 //! PF204: `<h>` and `Rapid; G0` are how the first forms were written.
 
 use crate::diag::{Code, Diag};
-use crate::lang::{CommandId, SequenceId};
+use crate::lang::{CommandId, SequenceId, VarId};
 use crate::lint::view::View;
 use crate::span::Span;
 use crate::syntax::{Piece, PieceKind};
@@ -13,7 +13,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             for piece in word.pieces.iter().flat_map(parts) {
                 let PieceKind::Variable { name, .. } = &piece.kind else { continue };
                 let (open, close) = (name.span.start.saturating_sub(1), name.span.end);
-                if text.get(open as usize) == Some(&b'<') {
+                if text.get(open as usize) == Some(&b'<') && VarId::parse(&name.text).is_some() {
                     let edit =
                         |at: u32, bracket: &str| (Span { start: at, end: at + 1, ..name.span }, bracket.to_owned());
                     diags.push(

@@ -13,7 +13,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
     let bodies = view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
     // where words are lost, the closing mark may be among them
-    let whole = bodies.filter(|body| !matches!(body.line.tail, Tail::Lost(_)));
+    let lost = |tail: &Tail| match tail {
+        Tail::Lost(_) => true,
+        Tail::Comment(comment) => view.checked.files[comment.file as usize].slice(*comment).contains(')'),
+        _ => false,
+    };
+    let whole = bodies.filter(|body| !lost(&body.line.tail));
     for piece in whole.flat_map(|body| &body.words).flat_map(|word| &word.pieces) {
         let PieceKind::Note { parts, closed: false } = &piece.kind else { continue };
         if swallowed(parts).is_some() {

@@ -8,10 +8,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in view.cycles_for(&[SequenceId::Peck, SequenceId::Chipbreak]) {
         let Some((word, code)) = body.cycle_word() else { continue };
         if !body.prints_any(&[VarId::Vbite, VarId::Peck1, VarId::Inidep, VarId::Sbite]) {
+            let typed = body.words().find(|word| word.typed(b'Q').is_some_and(|peck| peck > 0.0));
+            let (at, message, what) = match typed {
+                Some(peck) => (peck, "a typed peck", "jobs have pecks of their own: each is printed as single moves"),
+                None => (word, "no peck", "the control would go down in one, or by the peck of the cycle before"),
+            };
             diags.push(
-                Diag::new(Code::PF413, format!("G{code} has no peck"))
-                    .at(word.span, "the control would go down in one, or by the peck of the cycle before")
-                    .help("print the peck, as `Q[vbite]`"),
+                Diag::new(Code::PF413, format!("G{code} has {message}"))
+                    .at(at.span, what)
+                    .help("print the job's, as `Q[vbite]`"),
             );
         }
     }

@@ -1,7 +1,7 @@
 //! PF415: `G0 Z[d]` in a cycle rapids to the bottom of a hole that is not there yet.
 
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{SequenceId, VarId, group_of};
 use crate::lint::blocks::Motion;
 use crate::lint::view::{View, serves};
 
@@ -15,6 +15,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let down = words.iter().find(|(word, axis)| *axis == 2 && word.printed_var() == Some(VarId::D));
             // what holds where the cycle begins is what its last line left: most often the way out, a rapid
             let rapid = matches!(block.motion, Motion::Rapid | Motion::Unknown);
+            // a code that nobody here knows, with its plane: a cycle of this control
+            let unknown = |code: f64| code >= 70.0 && group_of(b'G', (code * 10.0).round() as i64).is_none();
+            let words_of = &block.line.words;
+            let has_plane = words_of.iter().any(|word| word.printed_var() == Some(VarId::Vclear));
+            if has_plane && words_of.iter().any(|word| word.typed(b'G').is_some_and(unknown)) {
+                break;
+            }
             if let (true, true, Some((word, _))) = (rapid, block.in_part(), down) {
                 diags.push(
                     Diag::new(Code::PF415, format!("{} rapids to the bottom of the hole", body.name()))

@@ -17,10 +17,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF312, format!("`{}` may be part of a longer word", old.text))
                 .at(statement.line.span, format!("`{example}` would be changed, too"))
-                .help(format!(
-                    "name the blank behind it, as `Replace \"{} \" ..`; or print the right word where it comes from",
-                    old.text
-                )),
+                .help(
+                    "print the right word where it comes from: in its sequence, or by the command that says the code",
+                ),
         );
     }
 }

@@ -11,7 +11,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF422, format!("{} goes home by way of a point of the part", body.name()))
                     .at(word.span, "an absolute position, which the tool passes")
-                    .help("write `G91 G28 Z0` and `G90` after it; or go in machine coordinates, `G0 G53 Z0`"),
+                    .help(match view.is_mill() {
+                        true => "write `G91 G28 Z0` and `G90` after it; or go in machine coordinates, `G0 G53 Z0`",
+                        false => "write increments, `G28 U0 W0`",
+                    }),
             );
         }
     }

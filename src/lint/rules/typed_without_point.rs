@@ -10,12 +10,24 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_for(&["fanuc", "haas"]) {
         return;
     }
-    // in the block of a cycle K counts how often
-    let repeats = |line: &Line, word: &Word| {
-        word.letter() == Some(b'K') && line.words.iter().any(|word| word.typed(b'G').is_some_and(is_cycle_code))
+    // in the block of a cycle K counts how often, J of a tap how much faster it comes out; G5.1 has a mode in R
+    let counts = |line: &Line, word: &Word| {
+        let has = |asked: &dyn Fn(f64) -> bool| line.words.iter().any(|word| word.typed(b'G').is_some_and(asked));
+        match word.letter() {
+            Some(b'K') => has(&is_cycle_code),
+            Some(b'J') => has(&|code| code == 74.0 || code.trunc() == 84.0),
+            _ => has(&|code| code == 5.1),
+        }
     };
-    let lines = view.bodies.iter().flat_map(|body| body.lines);
-    for word in lines.flat_map(|line| line.words.iter().filter(|word| !repeats(line, word))) {
+    // `R1 = 5`: a register, not a word
+    let is_register = |line: &Line, at: usize| matches!(line.words.get(at + 1), Some(Word { kind: WordKind::Text(text), .. }) if text.starts_with('='));
+    let words = view.bodies.iter().flat_map(|body| body.lines).flat_map(|line| {
+        let own = line.words.iter().enumerate();
+        own.filter(|(at, word)| !counts(line, word) && !is_register(line, *at))
+            .map(|(_, word)| word)
+            .collect::<Vec<_>>()
+    });
+    for word in words {
         let WordKind::Literal(letter, text, value) = &word.kind else { continue };
         let printed = view.letters[*letter].printed;
         let is_length = view.axis(*letter).is_some() || view.is_rotary(*letter) || b"UVWIJKR".contains(&printed);

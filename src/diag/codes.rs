@@ -91,6 +91,7 @@ codes! {
     PF315 Warning "a unit code that contradicts the form"
     PF316 Warning "units that the program never says"
     PF317 Warning "an implied point that metric jobs read otherwise"
+    PF318 Warning "a whole number with a point"
     // PF4: sequences and cycles
     PF401 Error "a cycle count larger than the body"
     PF402 Error "End Cancel without a Cancel sequence"
@@ -132,6 +133,7 @@ codes! {
     PF438 Warning "a position without a motion code"
     PF439 Warning "a distance among positions"
     PF440 Warning "a retract to the zero of the part"
+    PF441 Warning "a tool that goes across before it is up"
     // PF5: modality
     PF501 Warning "a letter that no control keeps, named as modal"
     PF502 Warning "a code that acts once, named as modal"
@@ -139,6 +141,7 @@ codes! {
     PF504 Warning "absolute positions among increments"
     PF505 Warning "two codes of one group in a block"
     PF506 Warning "a letter twice in a block"
+    PF507 Warning "positions before G90"
     // PF6: limits and machine type
     PF601 Error "too many words on a line"
     PF602 Error "too many sequence lines"

@@ -17,12 +17,16 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let in_letter =
             |word: &Word, letters: &[u8]| view.printed_letter(word).is_some_and(|own| letters.contains(&own));
         let register = body.words().any(|word| in_letter(word, b"DH")) || body.prints_any(&[VarId::Dcomp, VarId::Comp]);
+        let typed = |word: &&Word| word.typed(b'D').is_some_and(|number| number > 0.0);
         let length = |word: &&Word| word.printed_var() == Some(VarId::Lcomp) && in_letter(word, b"D");
         if !side(&body, &[left, right]) {
             let message = format!("{name} does not turn compensation on");
             say(body.span, message, "no G41, no G42", "print `G[side]`".into());
         } else if !register && view.is_mill() {
             say(body.span, format!("{name} does not say which diameter"), "no D", "print `D[dcomp]`".into());
+        } else if let Some(word) = body.words().find(typed) {
+            let message = format!("{name} takes the same diameter for every tool");
+            say(word.span, message, "as typed", "write `D[dcomp]`".into());
         } else if let Some(word) = body.words().find(length) {
             let message = format!("{name} takes the length of the tool for its diameter");
             say(word.span, message, "the register of the length", "write `D[dcomp]`".into());

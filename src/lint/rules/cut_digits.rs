@@ -20,6 +20,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             true => (length(view), "a position".to_owned()),
             false => (wanted, what),
         };
+        // a dwell between moves is printed by the letter of `Dwell`, whatever sequences print
+        let dwells = letter == view.settings.dwell.letter && !view.settings.dwell.milliseconds && wanted < 2;
+        let (wanted, what) = if dwells { (2, "a dwell in seconds".to_owned()) } else { (wanted, what) };
         if format.dec.count >= wanted {
             continue;
         }

@@ -9,6 +9,16 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let mut up = false;
         for block in view.blocks(body) {
             let turn = block.line.words.iter().find(|word| word.letter().is_some_and(|letter| view.is_rotary(letter)));
+            let down = block.axis_words.iter().find(|(word, axis)| *axis == 2 && word.printed_var().is_some());
+            if let (true, Some(turn), Some((down, _))) = (block.in_part(), turn, down) {
+                diags.push(
+                    Diag::new(Code::PF420, format!("{} turns the part while the tool comes down", body.name()))
+                        .at(turn.span, "turns here")
+                        .at(down.span, "in the same block")
+                        .help("turn in a block of its own, before the depth"),
+                );
+                break;
+            }
             if let (false, Some(turn)) = (up, turn) {
                 diags.push(
                     Diag::new(Code::PF420, format!("{} turns the part before the tool is up", body.name()))

@@ -1,5 +1,6 @@
 //! The rules: one a file, one row here.
 
+mod across_before_up;
 mod arc_other_way;
 mod arc_without_centre;
 mod cancel_emulated;
@@ -12,6 +13,7 @@ mod compensation_words;
 mod control_without_code;
 mod coolant_order;
 mod count_swallows_position;
+mod count_with_point;
 mod custom_kind;
 mod custom_twice;
 mod cut_at_rapid;
@@ -46,6 +48,7 @@ mod machine_code_without_count;
 mod missing_blank;
 mod modal_codes;
 mod modal_letters;
+mod mode_unsaid;
 mod motion_without_axis;
 mod near_line_limit;
 mod near_remark;
@@ -159,6 +162,7 @@ rules! {
     PF315 unit_code
     PF316 units_unprinted
     PF317 implied_metric
+    PF318 count_with_point
     // sequences and cycles
     PF403 cancel_emulated
     PF404 machine_code_without_count
@@ -197,6 +201,7 @@ rules! {
     PF438 no_motion_code
     PF439 increment_as_position
     PF440 part_zero
+    PF441 across_before_up
     // modality
     PF501 modal_letters
     PF502 modal_codes
@@ -204,6 +209,7 @@ rules! {
     PF504 increments_mixed
     PF505 one_group_twice
     PF506 letter_twice
+    PF507 mode_unsaid
     // limits and machine type
     PF605 near_word_limit
     PF606 near_line_limit

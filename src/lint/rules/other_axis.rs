@@ -13,6 +13,9 @@ const OF_AXIS: [[VarId; 3]; 3] = [
     [VarId::D, VarId::Ddist, VarId::Lastd],
 ];
 
+/// The distances to the centre of an arc along each axis.
+const CENTRES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
+
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for word in view.words() {
         let WordKind::Var(letter, var) = word.kind else { continue };
@@ -25,6 +28,42 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 Diag::new(Code::PF314, format!("[{}] is a position along {}", var.name(), char::from(letters[own])))
                     .at(word.span, format!("printed under {}", char::from(letter)))
                     .help(format!("write `{}[{}]`", char::from(letters[own]), var.name())),
+            );
+        }
+    }
+    // the centre along an axis has the letter of that axis: I for X, J for Y, K for Z
+    for word in view.words() {
+        let WordKind::Var(letter, var) = word.kind else { continue };
+        let letter = view.letters[letter].printed;
+        let Some(named) = b"IJK".iter().position(|&own| own == letter) else { continue };
+        let letter_of = |axis: usize| match view.settings.axes[axis] {
+            b'X' => Some(b'I'),
+            b'Y' => Some(b'J'),
+            b'Z' => Some(b'K'),
+            _ => None,
+        };
+        let own = CENTRES.iter().position(|&own| own == var).and_then(letter_of).filter(|&own| own != letter);
+        if let Some(own) = own {
+            diags.push(
+                Diag::new(
+                    Code::PF314,
+                    format!("[{}] is the centre along {}", var.name(), char::from(b"XYZ"[usize::from(own - b'I')])),
+                )
+                .at(word.span, format!("printed under {}", char::from(letter)))
+                .help(format!("write `{}[{}]`", char::from(own), var.name())),
+            );
+        }
+        // where centres count from the start of the arc, a position is none
+        let position = matches!(var, VarId::Hctr | VarId::Vctr);
+        if position && view.settings.centre_incremental && view.is_for(&["fanuc", "haas", "linuxcnc", "emc2", "grbl"]) {
+            let better = ["ival", "jval", "kval"][named];
+            diags.push(
+                Diag::new(
+                    Code::PF314,
+                    format!("[{}] is a position, {} counts from the start of the arc", var.name(), char::from(letter)),
+                )
+                .at(word.span, "the arc would have another centre")
+                .help(format!("write `{}[{better}]`", char::from(letter))),
             );
         }
     }

@@ -1,15 +1,21 @@
 //! PF313: a feed letter that prints a speed, a speed letter that prints a feed: `F[speed]`.
 
 use crate::diag::{Code, Diag};
-use crate::lang::{Unit, VarId};
+use crate::lang::{SequenceId, Unit, VarId};
 use crate::lint::view::View;
-use crate::sema::WordKind;
+use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let settings = view.settings;
+    pitch_per_minute(view, diags);
+    plunge_in_cuts(view, diags);
     for word in view.words() {
         let WordKind::Var(letter, var) = word.kind else { continue };
         let unit = var.row().unit;
+        // with its pitch in Q, a Fadal taps at F turns
+        if var == VarId::Speed && view.is_for(&["fadal"]) && taps_by_pitch(view, word) {
+            continue;
+        }
         let wrong = match letter {
             _ if letter == settings.feed_code => {
                 let pitch = matches!(var, VarId::Pitch | VarId::Wirefeed);
@@ -27,6 +33,51 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 Diag::new(Code::PF313, format!("{} is the {what}, [{}] is none", char::from(letter), var.name()))
                     .at(word.span, "another value than the control expects")
                     .help(format!("write `{}{right}`", char::from(letter))),
+            );
+        }
+    }
+}
+
+/// Is it in a block of G84.1, G84.2 or G74.1 with a pitch?
+fn taps_by_pitch(view: &View, word: &Word) -> bool {
+    let lines = view.bodies.iter().flat_map(|body| body.lines);
+    let line = lines.into_iter().find(|line| line.words.iter().any(|own| std::ptr::eq(own, word)));
+    line.is_some_and(|line| {
+        let has = |asked: &dyn Fn(&Word) -> bool| line.words.iter().any(asked);
+        has(&|word| word.is_code(b'G', &[84.1, 84.2, 74.1])) && has(&|word| word.printed_var() == Some(VarId::Pitch))
+    })
+}
+
+/// `F[pitch]` while feeds count per minute: a tap would go in at a hundredth of its feed.
+fn pitch_per_minute(view: &View, diags: &mut Vec<Diag>) {
+    let [_, per_turn, _] = view.settings.feed_type;
+    for body in view.cycles_for(&[SequenceId::Tap, SequenceId::LTap]).filter(|_| view.is_mill()) {
+        let said = body.code(b'G', &[per_turn]).is_some() || body.prints(VarId::Feedtype);
+        let feed = |word: &&Word| matches!(word.kind, WordKind::Var(letter, VarId::Pitch) if letter == view.settings.feed_code);
+        if let (false, Some(word)) = (said, body.words().find(feed)) {
+            let letter = char::from(view.settings.feed_code);
+            diags.push(
+                Diag::new(Code::PF313, format!("{} feeds by the pitch, and feeds count per minute", body.name()))
+                    .at(word.span, "a hundredth of the feed, or less: the tap breaks")
+                    .help(format!(
+                        "write `{letter}[frate]`; or print `G{per_turn}` with it, and G{} in Cancel",
+                        view.settings.feed_type[0]
+                    )),
+            );
+        }
+    }
+}
+
+/// `F[plunge]` is the feed down, and cuts go across.
+fn plunge_in_cuts(view: &View, diags: &mut Vec<Diag>) {
+    use SequenceId as S;
+    for body in view.these(&[S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed]) {
+        let word = body.words().find(|word| word.printed_var() == Some(VarId::Plunge));
+        if let Some(word) = word.filter(|_| !body.prints(VarId::Frate)) {
+            diags.push(
+                Diag::new(Code::PF313, format!("{} feeds at the feed down", body.name()))
+                    .at(word.span, "this move goes across")
+                    .help("write `F[frate]`: it is the job's feed of each move"),
             );
         }
     }

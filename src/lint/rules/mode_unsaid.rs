@@ -1,0 +1,31 @@
+//! PF507: whether positions are absolute is what the control was last told, by another program or by hand.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{SequenceId, VarId};
+use crate::lint::view::View;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    use SequenceId as S;
+    // other controls begin each program in a state of their own
+    if !view.is_mill() || view.settings.incremental || !view.is_for(&["fanuc", "haas", "linuxcnc", "emc2"]) {
+        return;
+    }
+    let [_, positions] = view.settings.inc_abs;
+    for body in view.these(&[S::StartCode, S::FirstToolChange]) {
+        for block in view.blocks(body) {
+            let words = &block.line.words;
+            if words.iter().any(|word| word.is_code(b'G', &[positions]) || word.printed_var() == Some(VarId::Incmode)) {
+                return;
+            }
+            let place = |var| matches!(var, Some(VarId::H | VarId::V | VarId::D));
+            if let Some((word, _)) = block.axis_words.iter().find(|(word, _)| place(word.printed_var())) {
+                diags.push(
+                    Diag::new(Code::PF507, "the program goes to a position and never said G90")
+                        .at(word.span, "an increment, if the program before left G91 on")
+                        .help(format!("print `G{positions}` in StartCode")),
+                );
+                return;
+            }
+        }
+    }
+}

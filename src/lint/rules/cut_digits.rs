@@ -35,7 +35,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         // a count or a code would get a point with the others
         let whole =
             |word: &&Word| word.printed_var().is_some_and(|var| matches!(var.row().unit, Unit::Count | Unit::Code));
-        let counts = view.words().filter(|word| view.format_letter(word) == Some(letter)).any(|word| whole(&word));
+        let counts = letter == view.settings.cdc_code
+            || view.words().filter(|word| view.format_letter(word) == Some(letter)).any(|word| whole(&word));
         let help = match (counts, name.to_ascii_lowercase()) {
             (true, small) if small != name => {
                 format!(
@@ -61,6 +62,8 @@ fn length(view: &View) -> u8 {
 fn needed(view: &View, var: VarId) -> u8 {
     match var.row().unit {
         Unit::Length => length(view),
+        // the angle of a tip is a whole number on all of them
+        Unit::Angle if var == VarId::Tipang => 0,
         Unit::Angle => 2,
         // a feed per revolution is a chip: as fine as a length
         Unit::Feed if view.settings.machine == Machine::Lathe => length(view),

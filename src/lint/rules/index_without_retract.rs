@@ -1,10 +1,12 @@
 //! PF420: a part that turns under a tool which is still down.
 
 use crate::diag::{Code, Diag};
-use crate::lang::SequenceId;
+use crate::lang::{SequenceId, VarId};
 use crate::lint::view::View;
+use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    down_to_a_turning_part(view, diags);
     for body in view.these(&[SequenceId::Index, SequenceId::Unwind]) {
         let mut up = false;
         for block in view.blocks(body) {
@@ -28,6 +30,27 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 break;
             }
             up |= block.retracts();
+        }
+    }
+}
+
+/// A tool change that comes down before the angle is said: the part turns under the tool.
+fn down_to_a_turning_part(view: &View, diags: &mut Vec<Diag>) {
+    let is_rotary = |word: &&Word| word.letter().is_some_and(|letter| view.is_rotary(letter)) && word.var().is_some();
+    let Some(letter) = view.body(SequenceId::Index).and_then(|index| index.words().find(is_rotary)?.letter()) else {
+        return;
+    };
+    for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
+        let mut words = body.words().take_while(|word| !is_rotary(word));
+        let down = |word: &&Word| {
+            word.letter().is_some_and(|letter| view.axis(letter) == Some(2)) && word.printed_var() == Some(VarId::D)
+        };
+        if let Some(word) = words.find(down) {
+            diags.push(
+                Diag::new(Code::PF420, format!("{} brings the tool down before the part has its angle", body.name()))
+                    .at(word.span, "the part turns under it")
+                    .help(format!("print `{}[rotangle]` with the position, before the depth", char::from(letter))),
+            );
         }
     }
 }

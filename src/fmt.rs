@@ -113,7 +113,7 @@ impl Page<'_> {
         words.extend(statement.args.iter().map(|arg| arg.text.as_str()));
         let named = |text: &str| {
             let inner = text.trim_matches(['[', ']', '<', '>']);
-            format!("[{}]", spelt(inner))
+            format!("[{}]", VarId::parse(inner).map_or(inner, |var| var.name()))
         };
         let used = match SequenceName::parse(&words) {
             Some(SequenceName::Plain(id, count)) => {
@@ -181,12 +181,16 @@ impl Page<'_> {
 
     fn piece(&self, piece: &Piece, text: &mut String) {
         match &piece.kind {
-            PieceKind::Variable { letter, name } => {
-                text.extend(letter.map(char::from));
-                text.push('[');
-                text.push_str(spelt(&name.text));
-                text.push(']');
-            }
+            PieceKind::Variable { letter, name } => match VarId::parse(&name.text) {
+                Some(var) => {
+                    text.extend(letter.map(char::from));
+                    text.push('[');
+                    text.push_str(var.name());
+                    text.push(']');
+                }
+                // no variable: what it was to be is for its author
+                None => text.push_str(self.source.slice(piece.span)),
+            },
             PieceKind::Note { parts, closed } => {
                 text.push('(');
                 parts.iter().for_each(|part| self.piece(part, text));
@@ -201,14 +205,6 @@ impl Page<'_> {
             self.lines.pop();
         }
         self.lines.iter().flat_map(|line| [line.as_str(), "\n"]).collect()
-    }
-}
-
-/// A variable's name as the table has it; an unknown one as it is.
-fn spelt(name: &str) -> &str {
-    match VarId::parse(name) {
-        Some(var) => var.name(),
-        None => name,
     }
 }
 

@@ -127,6 +127,11 @@ impl<'a> View<'a> {
         self.is_mill() && all && !self.words().any(says)
     }
 
+    /// Does a cycle of the control work one place and is over, as G74 to G76 of a lathe do?
+    pub fn works_once(&self, code: f64) -> bool {
+        !self.is_mill() && [74.0, 75.0, 76.0].contains(&code)
+    }
+
     /// Do the form's own lengths count millimetres?
     pub fn is_metric(&self) -> bool {
         self.settings.units == UnitChoice::Mm
@@ -217,6 +222,11 @@ impl<'a> Body<'a> {
     /// Its words.
     pub fn words(&self) -> impl Iterator<Item = &'a Word> + use<'a> {
         self.lines.iter().flat_map(|line| &line.words)
+    }
+
+    /// The line of one of its words.
+    pub fn line_of(&self, word: &Word) -> usize {
+        self.lines.iter().position(|line| line.words.iter().any(|own| std::ptr::eq(own, word))).unwrap_or(0)
     }
 
     /// Does it print this variable, for the control to read?

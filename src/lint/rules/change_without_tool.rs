@@ -31,8 +31,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             word.typed(b'G').is_some_and(|code| code >= 65.0 && moves_by_itself(code))
                 || word.is_code(b'M', &[98.0, 198.0])
         };
-        let line = body.lines.iter().find(|line| line.words.iter().any(|own| std::ptr::eq(own, word)));
-        let by_macro = line.is_some_and(|line| line.words.iter().any(called));
+        let by_macro = body.lines[body.line_of(word)].words.iter().any(called);
         if selects && !by_macro && body.code(b'M', &[6.0]).is_none() {
             diags.push(
                 Diag::new(Code::PF429, format!("{} selects a tool and does not change it", body.name()))

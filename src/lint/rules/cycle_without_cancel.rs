@@ -10,9 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some((word, code)) = body.cycle_word() else { continue };
         let uncounted = sequence.count.is_none() && sequence.lines.len() > 1; // another rule's
-        // on a lathe these work one place and are over
-        let once = !view.is_mill() && [74.0, 75.0, 76.0].contains(&code);
-        if once || sequence.cancel.is_some() || uncounted || body.code(b'G', &[80.0]).is_some() {
+        if view.works_once(code) || sequence.cancel.is_some() || uncounted || body.code(b'G', &[80.0]).is_some() {
             continue;
         }
         let mut diag = Diag::new(Code::PF409, format!("{} leaves G{code} in force", body.name()))

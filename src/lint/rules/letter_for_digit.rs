@@ -3,28 +3,36 @@
 use crate::diag::{Code, Diag};
 use crate::lint::tokens::looks_like_a_code;
 use crate::lint::view::View;
+use crate::span::Span;
 use crate::syntax::{Piece, PieceKind, Word};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    let text_of = |word: &'_ Word| match word.pieces.as_slice() {
-        [Piece { kind: PieceKind::Stray(text), span }] => Some((text.clone(), *span)),
-        _ => None,
-    };
-    let words: Vec<_> = view.written().map(text_of).collect();
+    let words: Vec<_> = view.written().map(plain).collect();
     for (i, word) in words.iter().enumerate() {
-        let Some((text, span)) = word else { continue };
+        let Some((text, span)) = *word else { continue };
         let Some(meant) = meant(text) else { continue };
-        let beside = |at: Option<usize>, what: &str| matches!(at.and_then(|at| words.get(at)), Some(Some((text, _))) if text.eq_ignore_ascii_case(what));
+        let is = |at: Option<usize>, what: &str| {
+            let word = at.and_then(|at| *words.get(at)?);
+            word.is_some_and(|(text, _)| text.eq_ignore_ascii_case(what))
+        };
         // `IF .. GO TO 5`, and programs that an Okuma calls by name
-        if beside(i.checked_add(1), "TO") || beside(i.checked_sub(1), "CALL") {
+        if is(i.checked_add(1), "TO") || is(i.checked_sub(1), "CALL") {
             continue;
         }
         diags.push(
             Diag::new(Code::PF206, format!("`{text}` has a letter where a digit belongs"))
-                .at(*span, "printed as it stands")
+                .at(span, "printed as it stands")
                 .help(format!("write `{meant}`"))
-                .fix("write the digit", false, vec![(*span, meant)]),
+                .fix("write the digit", false, vec![(span, meant)]),
         );
+    }
+}
+
+/// The text of a word that is nothing else.
+fn plain(word: &Word) -> Option<(&str, Span)> {
+    match word.pieces.as_slice() {
+        [Piece { kind: PieceKind::Stray(text), span }] => Some((text, *span)),
+        _ => None,
     }
 }
 

@@ -6,15 +6,11 @@ use crate::lint::view::View;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some((word, code)) = body.cycle_word() else { continue };
-        if sequence.count.is_some() || sequence.lines.len() < 2 || body.code(b'G', &[80.0]).is_some() {
+        let ends = view.works_once(code) || body.code(b'G', &[80.0]).is_some();
+        if ends || sequence.count.is_some() || sequence.lines.len() < 2 {
             continue;
         }
-        // on a lathe these work one place and are over
-        if !view.is_mill() && [74.0, 75.0, 76.0].contains(&code) {
-            continue;
-        }
-        let line = sequence.lines.iter().position(|line| line.words.iter().any(|own| std::ptr::eq(own, word)));
-        let below = &view.blocks(body)[line.map_or(0, |line| line + 1)..];
+        let below = &view.blocks(body)[body.line_of(word) + 1..];
         let (what, help) = match (below.iter().any(|block| !block.axis_words.is_empty()), sequence.cancel) {
             (true, _) => {
                 let help = format!("write `{} 1`, if the first line is for the first hole only", body.name());

@@ -20,14 +20,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
     };
     // `R1 = 5`: a register, not a word
-    let is_register = |line: &Line, at: usize| matches!(line.words.get(at + 1), Some(Word { kind: WordKind::Text(text), .. }) if text.starts_with('='));
-    let words = view.bodies.iter().flat_map(|body| body.lines).flat_map(|line| {
-        let own = line.words.iter().enumerate();
-        own.filter(|(at, word)| !counts(line, word) && !is_register(line, *at))
-            .map(|(_, word)| word)
-            .collect::<Vec<_>>()
-    });
-    for word in words {
+    let is_register = |line: &Line, at: usize| {
+        line.words.get(at + 1).is_some_and(|next| matches!(&next.kind, WordKind::Text(text) if text.starts_with('=')))
+    };
+    let lines = view.bodies.iter().flat_map(|body| body.lines);
+    let words = lines.flat_map(|line| line.words.iter().enumerate().map(move |(at, word)| (line, at, word)));
+    for (line, at, word) in words {
+        if counts(line, word) || is_register(line, at) {
+            continue;
+        }
         let WordKind::Literal(letter, text, value) = &word.kind else { continue };
         let printed = view.letters[*letter].printed;
         let is_length = view.axis(*letter).is_some() || view.is_rotary(*letter) || b"UVWIJKR".contains(&printed);

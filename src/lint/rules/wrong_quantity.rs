@@ -2,18 +2,18 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, Unit, VarId};
-use crate::lint::view::View;
+use crate::lint::view::{Body, View};
 use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let settings = view.settings;
     pitch_per_minute(view, diags);
     plunge_in_cuts(view, diags);
-    for word in view.words() {
+    for (body, word) in view.bodies.iter().flat_map(|body| body.words().map(move |word| (body, word))) {
         let WordKind::Var(letter, var) = word.kind else { continue };
         let unit = var.row().unit;
         // with its pitch in Q, a Fadal taps at F turns
-        if var == VarId::Speed && view.is_for(&["fadal"]) && taps_by_pitch(view, word) {
+        if var == VarId::Speed && view.is_for(&["fadal"]) && taps_by_pitch(body, word) {
             continue;
         }
         let wrong = match letter {
@@ -39,13 +39,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 }
 
 /// Is it in a block of G84.1, G84.2 or G74.1 with a pitch?
-fn taps_by_pitch(view: &View, word: &Word) -> bool {
-    let lines = view.bodies.iter().flat_map(|body| body.lines);
-    let line = lines.into_iter().find(|line| line.words.iter().any(|own| std::ptr::eq(own, word)));
-    line.is_some_and(|line| {
-        let has = |asked: &dyn Fn(&Word) -> bool| line.words.iter().any(asked);
-        has(&|word| word.is_code(b'G', &[84.1, 84.2, 74.1])) && has(&|word| word.printed_var() == Some(VarId::Pitch))
-    })
+fn taps_by_pitch(body: &Body, word: &Word) -> bool {
+    let words = &body.lines[body.line_of(word)].words;
+    let taps = words.iter().any(|word| word.is_code(b'G', &[84.1, 84.2, 74.1]));
+    taps && words.iter().any(|word| word.printed_var() == Some(VarId::Pitch))
 }
 
 /// `F[pitch]` while feeds count per minute: a tap would go in at a hundredth of its feed.

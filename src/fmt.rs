@@ -111,9 +111,10 @@ impl Page<'_> {
     fn name_line(&self, statement: &Statement) -> String {
         let mut words = vec![statement.name.text.as_str()];
         words.extend(statement.args.iter().map(|arg| arg.text.as_str()));
+        // what is no variable stays as it is
         let named = |text: &str| {
             let inner = text.trim_matches(['[', ']', '<', '>']);
-            format!("[{}]", VarId::parse(inner).map_or(inner, |var| var.name()))
+            VarId::parse(inner).map_or_else(|| text.to_owned(), |var| format!("[{}]", var.name()))
         };
         let used = match SequenceName::parse(&words) {
             Some(SequenceName::Plain(id, count)) => {
@@ -212,7 +213,9 @@ impl Page<'_> {
 fn format_of(letter: &Spanned, spec: &Spanned) -> String {
     let digits = spec.text.trim();
     let packed = digits.len() >= 3 && digits.bytes().all(|b| b.is_ascii_digit());
-    let blank = if packed || digits.starts_with(['-', '+']) { "" } else { " " };
+    // behind a sequence `O 578` is a late format, `O578` a word: with so many digits the blank stays as it is
+    let glued = if packed { !spec.text.starts_with(' ') } else { digits.starts_with(['-', '+']) };
+    let blank = if glued { "" } else { " " };
     format!("{}{blank}{digits}", letter.text)
 }
 

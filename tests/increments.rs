@@ -66,3 +66,11 @@ fn a_cycle_may_say_g90_for_its_positions() {
     let at = lines.iter().position(|line| line.starts_with("G90")).unwrap();
     assert_eq!(lines[at..at + 3], ["G90 G81 X1. Y1. Z-1. R.1 F5.", "X2.", "G80 G91"], "{lines:?}");
 }
+
+#[test]
+fn a_higher_hole_after_g90_is_not_approached_by_an_increment() {
+    let drill = "Drill\nG90 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let path = r#"{"cycle":{"kind":"drill","depth":1,"clear":0.1,"feed":5,"points":[[1,1,2],[2,1,5]]}}"#;
+    let lines = increments(drill, path);
+    assert!(lines[0].starts_with("PR017"), "{lines:?}");
+}

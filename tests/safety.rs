@@ -650,3 +650,49 @@ fn a_work_offset_is_said_with_its_code() {
     let lines = program(&form, &job(r#"{"work":2},{"rapid":[1,0,1]}"#).replace("\"work\":54", "\"work\":1"));
     assert_eq!(lines[3..], ["G15 H1 G56", "G0 X0 Y0 Z1.", "G15 H2", "G0 X1. Y0 Z1.", "M30"]);
 }
+
+/// What Cancel switches is put back before the control goes into the next cycle.
+#[test]
+fn a_cancel_in_the_middle_of_a_cycle_switches_nothing_for_good() {
+    let form = mill("", RETURNS).replace("Cancel\nG80", "Cancel\nG80 M5");
+    let holes = r#"{"cycle":{"kind":"drill","depth":1,"clear":0.1,"feed":5,"points":[[1,1,0],[2,1,2],[3,1,2]]}}"#;
+    let lines = program(&form, &job(holes));
+    let at = lines.iter().position(|line| line == "G80 M5").unwrap();
+    assert_eq!(lines[at..at + 3], ["G80 M5", "S1000 M3", "G0 Z2.1"], "{lines:?}");
+    let shifted = program(&form.replace("G80 M5", "G80 G91 G28 Z0"), &job(holes));
+    assert!(shifted[0].starts_with("PR017"), "{shifted:?}");
+}
+
+/// Where offsets have a word of their own, another code that selects one makes that word due again.
+#[test]
+fn codes_of_work_offsets_beside_a_word_of_their_own() {
+    let changes = "G0 G[work] X[h] Y[v] Z[d]";
+    let start = |line: &str, sequences: &str| mill("Work 1\nWorkDefault 1", sequences).replace(changes, line);
+    let own = |path: &str| job(path).replace("\"work\":54", "\"work\":3");
+    let row = r#"{"begin":"row"},{"rapid":[1,0,1]},{"end":"row"}"#;
+    let lines = program(&start("G154 P[work]\nG0 X[h] Y[v] Z[d]", "BeginRow\nG54\nEnd"), &own(row));
+    assert_eq!(lines[5..], ["G54", "G154 P3", "G0 X1. Y0 Z1.", "M30"], "{lines:?}");
+    // a number of the text is none of the form's
+    let text = own(r#"{"text":"G54"},{"rapid":[1,0,1]}"#);
+    let lines = program(&start("E[work] X[h] Y[v]\nG0 Z[d]", ""), &text);
+    assert!(!lines.iter().any(|line| line.contains("E54")), "{lines:?}");
+    // the positions behind it count in the new offset
+    let upon = start("G0 X[h] Y[v] Z[d]", "Upon [work]\nG15 H[work]\nEnd");
+    let path = r#"{"work":2},{"rapid":[0,0,1]},{"line":[1,0,-1]}"#;
+    let lines = program(&upon, &own(path));
+    let at = lines.iter().position(|line| line == "G15 H2").unwrap();
+    assert_eq!(lines[at..at + 3], ["G15 H2", "G0 X0 Y0 Z1.", "G1 X1. Z-1. F10."], "{lines:?}");
+    // an argument of a macro is none of them
+    let lines = path_lines("", "BeginRow\nG65 P9810 W[work]\nEnd", r#"{"begin":"row"},{"work":55},{"rapid":[1,0,1]},{"end":"row"}"#);
+    assert_eq!(lines, ["G65 P9810 W54.", "G55", "G0 X1. Y0 Z1."]);
+}
+
+/// Behind the slash of block delete the control reads a word or not: what it says is known of neither.
+#[test]
+fn block_delete_leaves_nothing_known() {
+    let row = r#"{"begin":"row"},{"rapid":[1,0,1]},{"end":"row"}"#;
+    let skipped = |words: &str| path_lines("", &format!("BeginRow\n{words}\nEnd"), row);
+    assert!(skipped("/G91")[0].starts_with("PR017"));
+    assert_eq!(skipped("/G55"), ["/G55", "G54", "G0 X1. Y0 Z1."]);
+    assert_eq!(skipped("/M5"), ["/M5", "S1000 M3", "G0 X1."]);
+}

@@ -1,9 +1,10 @@
 //! Lowering: lines of words become operations.
 
 use super::letters::LetterTable;
-use super::program::{Block, CycleStyle, Literal, Op, Program, UponBlock, WorkWord};
-use crate::lang::{Group, SequenceId, VarId, VarSet, group_of};
-use crate::sema::{Form, Line, Sequence, Word, WordKind};
+use super::program::{Block, CycleStyle, Literal, Op, Program, UponBlock};
+use super::work;
+use crate::lang::{SequenceId, VarId, VarSet};
+use crate::sema::{Form, Line, Sequence, WordKind};
 use crate::span::Span;
 
 /// Compiles a form that was checked without errors.
@@ -18,7 +19,7 @@ pub fn compile(form: &Form) -> Program {
         upons: Vec::new(),
         upon_vars: VarSet::default(),
         printed: VarSet::default(),
-        work_word: None,
+        work_word: work::of(form),
         letters: [LetterTable::new(form, false), LetterTable::new(form, true)],
         custom: [None, None, None],
     };
@@ -68,16 +69,10 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Block {
     for line in lines {
         program.ops.push(Op::Line { droppable: line.words.iter().all(|w| is_motion_or_no_code(&w.kind)) });
         program.spans.push(line.span);
-        for (i, word) in line.words.iter().enumerate() {
+        for word in &line.words {
             let glued = word.glued;
             let op = match &word.kind {
-                WordKind::Var(letter, var) => {
-                    if *var == VarId::Work && *letter != b'G' {
-                        let code = i.checked_sub(1).and_then(|before| offset_code(&line.words[before]));
-                        program.work_word.get_or_insert(WorkWord { code, letter: *letter });
-                    }
-                    Op::Var { letter: *letter, var: *var, glued }
-                }
+                WordKind::Var(letter, var) => Op::Var { letter: *letter, var: *var, glued },
                 WordKind::Value(var) => Op::Value { var: *var, glued },
                 WordKind::Remark(var) => {
                     program.printed.insert(*var);
@@ -108,12 +103,6 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Block {
         span,
         ops,
     }
-}
-
-/// A G code that an offset can be the parameter of: of work offsets, or of no group that holds something else.
-fn offset_code(word: &Word) -> Option<f64> {
-    let code = word.typed(b'G')?;
-    matches!(group_of(b'G', (code * 10.0).round() as i64), None | Some(Group::Work)).then_some(code)
 }
 
 /// Adds a row to a table and returns its index.

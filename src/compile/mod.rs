@@ -3,7 +3,9 @@
 mod letters;
 mod lower;
 mod program;
+mod work;
 
 pub use letters::{Letter, LetterKind, LetterTable};
 pub use lower::compile;
-pub use program::{Block, CycleStyle, Literal, Op, Program, UponBlock, WorkWord};
+pub use program::{Block, CycleStyle, Literal, Op, Program, UponBlock};
+pub use work::WorkWord;

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::letters::LetterTable;
+use super::work::WorkWord;
 use crate::lang::{SEQUENCES, SequenceId, VarId, VarSet};
 use crate::sema::Settings;
 use crate::span::Span;
@@ -139,15 +140,6 @@ pub struct Program {
     pub letters: [LetterTable; 2],
     /// Remarks of the Custom cycles: the kind that each serves.
     pub custom: [Option<String>; 3],
-}
-
-/// A work offset that is the parameter of a code, or a word of its own: `G154 P[work]`, `G15 H[work]`, `E[work]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WorkWord {
-    /// The G code directly before it.
-    pub code: Option<f64>,
-    /// Its letter.
-    pub letter: u8,
 }
 
 impl Program {

@@ -59,7 +59,7 @@ impl Renderer<'_> {
     #[inline]
     pub(super) fn served_by(&mut self, letter: u8, var: VarId, value: f64) {
         let served = match var {
-            VarId::Work => &mut self.served.work,
+            VarId::Work => return self.served_work(letter, value),
             VarId::Speed => &mut self.served.speed,
             VarId::Direct => &mut self.served.direct,
             VarId::Cool => &mut self.served.cool,
@@ -73,12 +73,25 @@ impl Renderer<'_> {
         self.switched = true;
     }
 
+    /// The work offset was printed by the letter that it has, and not as the argument of something else.
+    fn served_work(&mut self, letter: u8, value: f64) {
+        let own = self.program.work_word.map_or(b'G', |word| word.letter);
+        if own == letter || own == self.letters[letter].printed {
+            self.served.work = Some(value);
+            self.switched = true;
+        }
+    }
+
     /// A code of this group was printed.
     pub(super) fn served_code(&mut self, group: Group, value: f64) {
         self.switched |= !matches!(group, Group::Motion | Group::ReturnPlane);
         match group {
-            // G56 of an Okuma is a length, where H is the work offset
-            Group::Work if self.program.work_word.is_none() => self.served.work = Some(value),
+            Group::Work => match self.program.work_word {
+                None => self.served.work = Some(value),
+                Some(word) if word.shares_its_codes() => self.served.work = None,
+                // G56 of an Okuma is a length
+                Some(_) => {}
+            },
             Group::Spindle => self.served.direct = Some(value),
             Group::Coolant => self.served.cool = Some(value),
             Group::FeedMode => self.served.feed_type = Some(value),
@@ -96,6 +109,11 @@ impl Renderer<'_> {
             }
         }
         set
+    }
+
+    /// Was this work offset the last one printed?
+    pub(super) fn has_work(&self, work: f64) -> bool {
+        self.served.work == Some(work)
     }
 
     /// Is something not as the job has it?

@@ -3,6 +3,7 @@
 use super::fault::{Done, fault_at};
 use super::renderer::Renderer;
 use super::words::tenths;
+use crate::compile::WorkWord;
 use crate::diag::Code;
 use crate::lang::{Frame, Group, Machine, VarId, frame_of, group_of};
 
@@ -43,6 +44,28 @@ impl Renderer<'_> {
             None if is_feed_mode => self.registers.forget(self.letters[settings.feed_code].printed),
             None => {}
         }
+    }
+
+    /// A word behind the slash of block delete: the control may read it or not, and nothing is known of what it says.
+    #[cold]
+    pub(super) fn may_be_skipped(&mut self, word: &str) {
+        let mut chars = word.chars();
+        let (Some(letter), Ok(value)) =
+            (chars.next().and_then(|c| u8::try_from(c).ok()), chars.as_str().parse::<f64>())
+        else {
+            return;
+        };
+        if !(0.0..10_000.0).contains(&value.abs()) {
+            return;
+        }
+        if letter == b'G' || letter == b'M' {
+            self.printed_code(letter, value);
+            if let Some(group) = group_of(letter, tenths(value)) {
+                self.registers.forget_group(group);
+            }
+        }
+        self.displaced(self.axis_bit(letter));
+        self.registers.forget(letter);
     }
 
     /// The axis of a letter, in a set of axes.
@@ -130,6 +153,13 @@ impl Renderer<'_> {
         let var = match group_of(letter, tenths(value)) {
             Some(Group::Spindle) => VarId::Direct,
             Some(Group::Coolant) => VarId::Cool,
+            // where offsets have a word of their own, G54 is none of them: nobody knows its number
+            Some(Group::Work) if self.program.work_word.is_some() => {
+                if self.program.work_word.is_some_and(WorkWord::shares_its_codes) {
+                    self.vars.put(VarId::Work, None);
+                }
+                return;
+            }
             Some(Group::Work) => VarId::Work,
             Some(Group::SpeedMode) => VarId::Speedtype,
             _ => return,

@@ -68,13 +68,12 @@ impl Renderer<'_> {
                 return fault_at(Code::PR008, message, "write the sequence on one line", Some(block.span));
             }
             self.sequence_says(block, &target)?;
-            let depth = self.depth_axis;
             // among increments no register holds a height: it is where the moves so far lead
-            let loses_height = match program.settings.incremental {
-                true => !self.says_axis(block, depth) && self.position.get(depth) != target.get(depth),
-                false => !block.vars.has(VarId::D) && self.differs(&target, self.depth_bit()),
-            };
-            if program.settings.machine == Machine::Mill && loses_height {
+            if program.settings.machine == Machine::Mill
+                && !program.settings.incremental
+                && !block.vars.has(VarId::D)
+                && self.differs(&target, self.depth_bit())
+            {
                 let message = format!("nobody knows the height here, and {} does not print it", id.name());
                 let help = "put a rapid before it, or the word of [d] into the sequence";
                 return fault_at(Code::PR017, message, help, Some(block.span));

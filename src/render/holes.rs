@@ -151,15 +151,13 @@ impl Renderer<'_> {
     /// A hole by a sequence of the form.
     fn sequence_hole(&mut self, block: &Block, target: &Axes, planes: &Plan, heights: Heights) -> Done {
         self.set_targets(target)?;
-        self.attend_hole()?; // with [d] at the return plane: an Upon must not go down the hole
+        self.attend_hole(block)?; // with [d] at the return plane: an Upon must not go down the hole
         self.hole_variables(planes, heights);
         self.vars.set(VarId::D, heights.return_plane);
         let used = block.vars.without(crate::lang::VarSet::of(&[VarId::D]));
         if self.upon_is_due(used, false) {
             self.leave_cycle()?; // else the control takes its words for those of a hole
-            self.set_targets(target)?;
-            self.hole_variables(planes, heights);
-            self.vars.set(VarId::D, heights.return_plane);
+            self.attend_between(target, planes, heights)?;
         }
         self.upons(used)?;
         self.plane_block(17.0, block)?; // else the control drills along another axis
@@ -171,12 +169,13 @@ impl Renderer<'_> {
             self.shifted = false;
             self.run(block.ops.clone(), Mode::Hole)?;
             // after a cycle of the control the last height printed is its bottom
-            let cycled = self.says_code(block, |code| (73.0..90.0).contains(&code) && code != 80.0);
+            let cycled = self.says_code(block, is_cycle);
             return self.left_hole(target, cycled.then_some((heights.return_plane, false)));
         }
         let starts = self.starts_cycle(block, heights);
         if starts {
             self.cancel()?;
+            self.attend_between(target, planes, heights)?; // what Cancel switched is put back
             self.approach(target)?;
             self.vars.set(VarId::D, heights.bottom);
             self.warn_of_return(block, heights);
@@ -213,14 +212,28 @@ impl Renderer<'_> {
 
     /// What stands between holes. While the control is in its cycle nothing may come there: it would be taken for a hole, and
     /// what differs from the job is what the sequence itself switched, as `G95` for a tap. It waits for Cancel.
-    fn attend_hole(&mut self) -> Done {
-        match self.cycle.as_ref().is_some_and(|cycle| cycle.in_force) {
+    fn attend_hole(&mut self, block: &Block) -> Done {
+        if !self.attention {
+            return Ok(());
+        }
+        let in_force = self.cycle.as_ref().is_some_and(|cycle| cycle.in_force);
+        match in_force && (block.cancel || self.says_code(block, is_cycle)) {
             // positions in a form of increments are right if the sequence says G90
             true if self.program.settings.incremental => Ok(()),
             true => self.check_distance(),
-            false if self.attention => self.attend(),
-            false => Ok(()),
+            false => self.attend(),
         }
+    }
+
+    /// The control has left its cycle before a hole: what stands between moves, with the hole's own values after it.
+    fn attend_between(&mut self, target: &Axes, planes: &Plan, heights: Heights) -> Done {
+        self.set_targets(target)?;
+        if self.attention {
+            self.attend()?;
+        }
+        self.hole_variables(planes, heights);
+        self.vars.set(VarId::D, heights.return_plane);
+        Ok(())
     }
 
     /// Must the whole cycle be printed at this hole?
@@ -408,4 +421,9 @@ impl Renderer<'_> {
             _ => fault(Code::PR006, "the spindle does not turn", "give the operation a spindle with a direction"),
         }
     }
+}
+
+/// A code that starts a cycle of a control.
+fn is_cycle(code: f64) -> bool {
+    (73.0..90.0).contains(&code) && code != 80.0
 }

@@ -107,6 +107,9 @@ impl Renderer<'_> {
                     if !matches!(mode, Mode::NextHole { .. }) {
                         let text = &program.texts[index as usize];
                         self.out.word(&self.layout, glued).extend_from_slice(text.as_bytes());
+                        if let Some(word) = text.strip_prefix('/') {
+                            self.may_be_skipped(word);
+                        }
                     }
                 }
             }
@@ -146,6 +149,12 @@ impl Renderer<'_> {
         let Some(value) = self.value_of(var, letter)? else { return Ok(()) };
         if info.kind == LetterKind::Axis && self.program.settings.incremental && POSITIONS.has(var) {
             self.check_position_word(letter, var)?;
+        }
+        if var == VarId::Work
+            && self.program.work_word.is_some_and(|word| word.letter == letter)
+            && !self.has_work(value)
+        {
+            self.forget_axes(); // the positions behind it count in the new offset
         }
         let units = self.quantised(info, value)?;
         let decimals = info.format.dec.count;

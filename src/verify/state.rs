@@ -127,13 +127,16 @@ impl<R: BufRead + Seek> Sides<R> {
     pub(super) fn feeds(&mut self, cut: &Cut, found: &Cut, tap: bool) -> Result<(), Box<Diag>> {
         let (Some(wanted), Some(mut is)) = (cut.feed, found.feed) else { return Ok(()) };
         // a tap's feed is its pitch, however it counts
-        if let (true, FeedMode::PerMinute, FeedMode::PerRev, Some(speed)) =
-            (tap, cut.mode, found.mode, found.state.speed.filter(|_| !found.state.css))
-        {
-            is *= speed;
-        } else if cut.mode != found.mode {
-            let message = "feeds count otherwise: per minute, per turn or inverse time".to_owned();
-            return self.differs(Code::PV006, found.line, message, "print G[feedtype]");
+        let speed = found.state.speed.filter(|speed| tap && !found.state.css && *speed > 0.0);
+        if cut.mode != found.mode {
+            match (cut.mode, found.mode, speed) {
+                (FeedMode::PerMinute, FeedMode::PerRev, Some(speed)) => is *= speed,
+                (FeedMode::PerRev, FeedMode::PerMinute, Some(speed)) => is /= speed,
+                _ => {
+                    let message = "feeds count otherwise: per minute, per turn or inverse time".to_owned();
+                    return self.differs(Code::PV006, found.line, message, "print G[feedtype]");
+                }
+            }
         }
         if (wanted - is).abs() <= (if tap { PITCH } else { ROUNDED } * wanted).max(1e-9) {
             return Ok(());

@@ -18,7 +18,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let digits = format.int.count.max(2);
             let others = view.words().filter(|word| view.format_letter(word) == Some(letter));
             let others = others.filter_map(|word| word.printed_var()).any(|var| !count(var));
-            let help = match others && small != name {
+            let dwells = letter == view.settings.dwell.letter && !view.settings.dwell.milliseconds;
+            let help = match (others || dwells) && small != name {
                 true => format!("print it as `{small}`, with `{small} >{digits}` and `Rename {small} {name}`"),
                 false => format!("write `{name} >{digits}`"),
             };

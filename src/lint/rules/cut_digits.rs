@@ -37,7 +37,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             |word: &&Word| word.printed_var().is_some_and(|var| matches!(var.row().unit, Unit::Count | Unit::Code));
         let counts = letter == view.settings.cdc_code
             || view.words().filter(|word| view.format_letter(word) == Some(letter)).any(|word| whole(&word));
+        let digits = format.int.count;
         let help = match (counts, name.to_ascii_lowercase()) {
+            // the letter of dwells is given: the others take another one
+            (true, small) if small != name && dwells => {
+                format!(
+                    "write `{name}{better}`; print whole numbers as `{small}`, with `{small} >{digits}` and `Rename {small} {name}`"
+                )
+            }
             (true, small) if small != name => {
                 format!(
                     "print it as `{small}`, with `{small}{better}` and `Rename {small} {name}`: whole numbers stay as they are"

@@ -11,7 +11,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let mut up = false;
         for block in view.blocks(body) {
             let turn = block.line.words.iter().find(|word| word.letter().is_some_and(|letter| view.is_rotary(letter)));
-            let down = block.axis_words.iter().find(|(word, axis)| *axis == 2 && word.printed_var().is_some());
+            let is_low = |var| matches!(var, Some(VarId::D | VarId::Vclear | VarId::Lastd));
+            let down = block.axis_words.iter().find(|(word, axis)| *axis == 2 && is_low(word.printed_var()));
             if let (true, Some(turn), Some((down, _))) = (block.in_part(), turn, down) {
                 diags.push(
                     Diag::new(Code::PF420, format!("{} turns the part while the tool comes down", body.name()))

@@ -36,11 +36,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         );
     }
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
-        let own = |word: &Word| {
-            matches!(word.printed_var(), Some(VarId::Lcomp | VarId::Comp | VarId::Tool | VarId::Tool1 | VarId::Work))
+        let own =
+            |word: &Word| matches!(word.printed_var(), Some(VarId::Lcomp | VarId::Comp | VarId::Tool | VarId::Tool1));
+        // a fixture's number, unless the block turns a length on
+        let fixture = |word: &Word| {
+            let words = &body.lines[body.line_of(word)].words;
+            word.printed_var() == Some(VarId::Work) && !words.iter().any(|word| word.is_code(b'G', ON))
         };
         // H0 takes the offset off
-        let other = |word: &&Word| is_register(word) && !own(word) && word.typed(b'H') != Some(0.0);
+        let other = |word: &&Word| is_register(word) && !own(word) && !fixture(word) && word.typed(b'H') != Some(0.0);
         if let Some(word) = body.words().find(other) {
             diags.push(
                 Diag::new(Code::PF437, format!("{} takes the length of another tool", body.name()))

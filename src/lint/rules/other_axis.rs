@@ -35,7 +35,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for word in view.words() {
         let WordKind::Var(letter, var) = word.kind else { continue };
         let letter = view.letters[letter].printed;
-        let Some(named) = b"IJK".iter().position(|&own| own == letter) else { continue };
+        if !b"IJK".contains(&letter) {
+            continue;
+        }
         let letter_of = |axis: usize| match view.settings.axes[axis] {
             b'X' => Some(b'I'),
             b'Y' => Some(b'J'),
@@ -54,16 +56,17 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             );
         }
         // where centres count from the start of the arc, a position is none
-        let position = matches!(var, VarId::Hctr | VarId::Vctr);
-        if position && view.settings.centre_incremental && view.is_for(&["fanuc", "haas", "linuxcnc", "emc2", "grbl"]) {
-            let better = ["ival", "jval", "kval"][named];
+        let axis = [VarId::Hctr, VarId::Vctr].iter().position(|&own| own == var);
+        let counts = view.settings.centre_incremental && view.is_for(&["fanuc", "haas", "linuxcnc", "emc2", "grbl"]);
+        if let Some(axis) = axis.filter(|_| counts) {
+            let own = letter_of(axis).unwrap_or(letter);
             diags.push(
                 Diag::new(
                     Code::PF314,
                     format!("[{}] is a position, {} counts from the start of the arc", var.name(), char::from(letter)),
                 )
                 .at(word.span, "the arc would have another centre")
-                .help(format!("write `{}[{better}]`", char::from(letter))),
+                .help(format!("write `{}[{}]`", char::from(own), CENTRES[axis].name())),
             );
         }
     }

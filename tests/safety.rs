@@ -683,7 +683,11 @@ fn codes_of_work_offsets_beside_a_word_of_their_own() {
     let at = lines.iter().position(|line| line == "G15 H2").unwrap();
     assert_eq!(lines[at..at + 3], ["G15 H2", "G0 X0 Y0 Z1.", "G1 X1. Z-1. F10."], "{lines:?}");
     // an argument of a macro is none of them
-    let lines = path_lines("", "BeginRow\nG65 P9810 W[work]\nEnd", r#"{"begin":"row"},{"work":55},{"rapid":[1,0,1]},{"end":"row"}"#);
+    let lines = path_lines(
+        "",
+        "BeginRow\nG65 P9810 W[work]\nEnd",
+        r#"{"begin":"row"},{"work":55},{"rapid":[1,0,1]},{"end":"row"}"#,
+    );
     assert_eq!(lines, ["G65 P9810 W54.", "G55", "G0 X1. Y0 Z1."]);
 }
 

@@ -74,3 +74,18 @@ fn a_higher_hole_after_g90_is_not_approached_by_an_increment() {
     let lines = increments(drill, path);
     assert!(lines[0].starts_with("PR017"), "{lines:?}");
 }
+
+/// An Upon goes to the position that it prints: what is left of the move counts from there.
+#[test]
+fn increments_count_from_what_an_upon_printed() {
+    let rapid = "RapidCode\nG0 X[hdist] Y[vdist] Z[ddist]\nEnd";
+    let upon = |words: &str| format!("Upon [work]\nG91 G28 Z0\nG90 G[work] G0 {words}\nG91\nEnd\n{rapid}");
+    let path = r#"{"rapid":[0,0,2]},{"work":55},{"rapid":[1,2,1]},{"rapid":[2,2,1]}"#;
+    let lines = increments(&upon("X[h] Y[v] Z[d]"), path);
+    assert_eq!(lines, ["G0 Z1.", "G91 G28 Z0", "G90 G55 G0 X1. Y2. Z1.", "G91", "X1."]);
+    let without = increments(&upon("X[h] Y[v]"), path);
+    assert!(without[0].starts_with("PR001 [ddist] has no value here"), "{without:?}");
+    // nobody goes to a position after the offset
+    let bare = increments(rapid, path);
+    assert!(bare[0].starts_with("PR001 [hdist] has no value here"), "{bare:?}");
+}

@@ -1,6 +1,7 @@
 //! What printed codes mean for what is known: modal groups, the frame of axis words, positions and increments.
 
 use super::fault::{Done, fault_at};
+use super::motion::MOVED;
 use super::renderer::Renderer;
 use super::words::tenths;
 use crate::compile::WorkWord;
@@ -78,6 +79,9 @@ impl Renderer<'_> {
         self.placed &= !axes;
         if self.program.settings.incremental {
             self.position.given &= !axes;
+            for (_, moved) in MOVED.into_iter().enumerate().filter(|(axis, _)| axes & 1 << axis != 0) {
+                self.vars.put(moved, None);
+            }
         }
     }
 

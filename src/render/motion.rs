@@ -27,6 +27,10 @@ pub(super) fn tracks(program: &Program) -> bool {
         || program.upon_vars.meets(MOVE_VARS)
 }
 
+/// The variables of where the linear axes go, and of how far that is.
+pub(super) const NOW: [VarId; 3] = [VarId::H, VarId::V, VarId::D];
+pub(super) const MOVED: [VarId; 3] = [VarId::Hdist, VarId::Vdist, VarId::Ddist];
+
 /// Rotary axes in a set of axes, where three axes are linear.
 pub(super) const ROTARY: u8 = 0b111_000;
 
@@ -100,10 +104,8 @@ impl Renderer<'_> {
     /// The variables of a target, and of the position before it.
     #[inline]
     pub(super) fn set_targets(&mut self, target: &Axes) -> Done {
-        const NOW: [VarId; 3] = [VarId::H, VarId::V, VarId::D];
         const UPPER: [VarId; 2] = [VarId::H2, VarId::V2];
         const LAST: [VarId; 3] = [VarId::Lasth, VarId::Lastv, VarId::Lastd];
-        const MOVED: [VarId; 3] = [VarId::Hdist, VarId::Vdist, VarId::Ddist];
         if self.linear == 4 {
             for (axis, var) in (2..4).zip(UPPER) {
                 self.vars.put(var, target.get(axis));
@@ -120,6 +122,8 @@ impl Renderer<'_> {
                 let before = self.position.values[axis] * self.axis_scale[axis];
                 self.vars.set(LAST[axis], before);
                 self.vars.set(MOVED[axis], value - before);
+            } else {
+                self.vars.put(MOVED[axis], None);
             }
         }
         if target.given & ROTARY != 0 {

@@ -1,6 +1,7 @@
 //! Upon sequences: printed when a variable changes, before what uses it.
 
 use super::fault::{Done, fault_at};
+use super::motion::{MOVED, NOW};
 use super::renderer::Renderer;
 use crate::compile::{Block, UponBlock};
 use crate::diag::Code;
@@ -59,13 +60,33 @@ impl Renderer<'_> {
                     let help = "end the compensation with an `outfeed` before the change";
                     return fault_at(Code::PR006, message, help, Some(upon.block.span));
                 }
+                let placed = std::mem::take(&mut self.placed);
                 self.run_block(&upon.block)?;
+                self.stands_where_it_was_put();
+                self.placed |= placed;
                 if self.names_axes(&upon.block, true) {
                     self.moved_by = Some(upon.block.span);
                 }
             }
         }
         Ok(())
+    }
+}
+
+impl Renderer<'_> {
+    /// Increments count from the position that the sequence printed: nothing is left to go along its axes.
+    fn stands_where_it_was_put(&mut self) {
+        if !self.program.settings.incremental {
+            return;
+        }
+        for (axis, (now, moved)) in NOW.into_iter().zip(MOVED).enumerate() {
+            if self.placed & 1 << axis != 0
+                && let Some(value) = self.vars.get(now)
+            {
+                self.position.set(axis, value / self.axis_scale[axis]);
+                self.vars.set(moved, 0.0);
+            }
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::fault::{Done, fault_at};
+use super::motion::MOVED;
 use super::renderer::Renderer;
 use crate::compile::{Block, Letter, LetterKind, Op};
 use crate::diag::Code;
@@ -271,6 +272,10 @@ impl Renderer<'_> {
             VarId::Nexttool => "list the tools ahead under `tool_order`: a stream can't look for them".to_owned(),
             VarId::Program => "give the job a `program`, or say it with `--program NUMBER`".to_owned(),
             VarId::H | VarId::V | VarId::D => "begin the operation with a rapid that gives all coordinates".to_owned(),
+            _ if MOVED.contains(&var) => {
+                "nobody knows where the tool is: print its position in the sequence that moved it, or changed the offset"
+                    .to_owned()
+            }
             _ if var.row().origin == crate::lang::Origin::Job => {
                 format!("give it with `--set {}=VALUE` or under \"set\" in the job", var.name())
             }

@@ -14,8 +14,23 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                     .at(word.span, "the old tool turns")
                     .help("print the spindle after the tool change"),
             );
+        } else if let Some(word) = stopped_again(view, &body) {
+            diags.push(
+                Diag::new(Code::PF427, format!("{} stops the spindle again after it is on", body.name()))
+                    .at(word.span, "the tool stands still in the first cut")
+                    .help("print the spindle behind it: `S[speed] M[direct]`"),
+            );
         }
     }
+}
+
+/// A tool change or a stop of the program after the spindle was started, which nothing starts again. LinuxCNC and Grbl leave
+/// it turning at a stop.
+fn stopped_again<'a>(view: &View<'a>, body: &Body<'a>) -> Option<&'a Word> {
+    let keeps = view.is_for(&["linuxcnc", "emc2", "grbl"]);
+    let stops = |word: &&Word| word.is_code(b'M', &[5.0, 6.0]) || !keeps && word.is_code(b'M', &[0.0, 1.0]);
+    let start = body.lines.iter().rposition(|line| line.words.iter().any(starts_spindle))?;
+    body.lines[start + 1..].iter().flat_map(|line| &line.words).find(stops)
 }
 
 /// Does a word start the spindle?

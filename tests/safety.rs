@@ -699,4 +699,5 @@ fn block_delete_leaves_nothing_known() {
     assert!(skipped("/G91")[0].starts_with("PR017"));
     assert_eq!(skipped("/G55"), ["/G55", "G54", "G0 X1. Y0 Z1."]);
     assert_eq!(skipped("/M5"), ["/M5", "S1000 M3", "G0 X1."]);
+    assert_eq!(skipped("/S500"), ["/S500", "S1000 M3", "G0 X1."]);
 }

@@ -4,7 +4,6 @@ use super::fault::{Done, fault_at};
 use super::motion::MOVED;
 use super::renderer::Renderer;
 use super::words::tenths;
-use crate::compile::WorkWord;
 use crate::diag::Code;
 use crate::lang::{Frame, Group, Machine, VarId, frame_of, group_of};
 
@@ -56,8 +55,12 @@ impl Renderer<'_> {
         else {
             return;
         };
-        if !(0.0..10_000.0).contains(&value.abs()) {
+        if value.is_nan() || value.abs() >= 10_000.0 {
             return;
+        }
+        if letter == self.program.settings.speed_code {
+            self.served.speed = Some(value);
+            self.switched = true;
         }
         if letter == b'G' || letter == b'M' {
             self.printed_code(letter, value);
@@ -79,8 +82,8 @@ impl Renderer<'_> {
         self.placed &= !axes;
         if self.program.settings.incremental {
             self.position.given &= !axes;
-            for (_, moved) in MOVED.into_iter().enumerate().filter(|(axis, _)| axes & 1 << axis != 0) {
-                self.vars.put(moved, None);
+            for axis in (0..MOVED.len()).filter(|axis| axes & 1 << axis != 0) {
+                self.vars.put(MOVED[axis], None);
             }
         }
     }
@@ -157,14 +160,12 @@ impl Renderer<'_> {
         let var = match group_of(letter, tenths(value)) {
             Some(Group::Spindle) => VarId::Direct,
             Some(Group::Coolant) => VarId::Cool,
-            // where offsets have a word of their own, G54 is none of them: nobody knows its number
-            Some(Group::Work) if self.program.work_word.is_some() => {
-                if self.program.work_word.is_some_and(WorkWord::shares_its_codes) {
-                    self.vars.put(VarId::Work, None);
-                }
-                return;
-            }
-            Some(Group::Work) => VarId::Work,
+            Some(Group::Work) => match self.program.work_word {
+                None => VarId::Work,
+                // G54 is none of the offsets that have a word of their own: nobody knows its number
+                Some(word) if word.shares_its_codes() => return self.vars.put(VarId::Work, None),
+                Some(_) => return,
+            },
             Some(Group::SpeedMode) => VarId::Speedtype,
             _ => return,
         };

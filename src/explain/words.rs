@@ -215,7 +215,7 @@ pub fn none() -> String {
         ("in cycles", "a canned cycle with the body None is printed as single moves".to_owned()),
         ("standing", standing(Standing::Doc).to_owned()),
     ];
-    let text = "Coolant\nNone\nEnd".to_owned();
+    let text = "Peck\nNone\nEnd".to_owned();
     page("None (body of a sequence)", &lines, Some(Example { text, form: "as a form would say it" }))
 }
 

@@ -65,7 +65,17 @@ const SETS: &[f64] = &[4.0, 10.0, 50.1, 51.0, 51.1, 52.0, 68.0, 68.2, 68.3, 92.0
 /// Does the control move by itself after this G code: a cycle, a thread (it feeds by its pitch), a macro, or a code
 /// above G100, which is the machine builder's own?
 pub fn moves_by_itself(code: f64) -> bool {
-    is_cycle_code(code) || [32.0, 33.0, 33.1, 63.0, 65.0, 66.0].contains(&code) || code >= 100.0
+    is_cycle_code(code) || [32.0, 33.0, 33.1, 63.0].contains(&code) || is_called(code)
+}
+
+/// The codes of macro calls, and those above G100.
+fn is_called(code: f64) -> bool {
+    [65.0, 66.0].contains(&code) || code >= 100.0
+}
+
+/// Does a word call something that does more than the block says: a macro, a subprogram, a code of the builder?
+pub fn calls(word: &Word) -> bool {
+    word.typed(b'G').is_some_and(is_called) || word.is_code(b'M', &[97.0, 98.0, 198.0])
 }
 
 /// The blocks of a body; `axis`: which axis a word moves.

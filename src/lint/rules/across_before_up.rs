@@ -2,7 +2,7 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
-use crate::lint::blocks::{Block, moves_by_itself};
+use crate::lint::blocks::{Block, calls};
 use crate::lint::view::View;
 use crate::sema::Word;
 
@@ -35,9 +35,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 /// Is it said here where the tool goes? Not from a tool change on, which takes it up; nor in a macro, by a code of the
 /// builder, or with all axes home.
 fn is_said(block: &Block) -> bool {
-    let called = |word: &Word| word.typed(b'G').is_some_and(|code| code >= 65.0 && moves_by_itself(code));
-    let leaves =
-        |word: &Word| called(word) || word.is_code(b'M', &[6.0, 97.0, 98.0]) || word.printed_var() == Some(VarId::Tool);
+    let leaves = |word: &Word| calls(word) || word.is_code(b'M', &[6.0]) || word.printed_var() == Some(VarId::Tool);
     !(block.line.words.iter().any(leaves) || block.reference && block.axis_words.is_empty())
 }
 

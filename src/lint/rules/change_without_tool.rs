@@ -2,9 +2,8 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
-use crate::lint::blocks::moves_by_itself;
+use crate::lint::blocks::calls;
 use crate::lint::view::View;
-use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.is_flat() {
@@ -27,11 +26,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         };
         let selects = view.printed_letter(word) == Some(b'T') && view.is_mill() && !view.is_for(&["grbl"]);
         // a macro that changes it, as `G65 P9020 T[tool]`, or a code of the builder, as `G100 T[tool]`
-        let called = |word: &Word| {
-            word.typed(b'G').is_some_and(|code| code >= 65.0 && moves_by_itself(code))
-                || word.is_code(b'M', &[98.0, 198.0])
-        };
-        let by_macro = body.lines[body.line_of(word)].words.iter().any(called);
+        let by_macro = body.lines[body.line_of(word)].words.iter().any(calls);
         if selects && !by_macro && body.code(b'M', &[6.0]).is_none() {
             diags.push(
                 Diag::new(Code::PF429, format!("{} selects a tool and does not change it", body.name()))

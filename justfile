@@ -4,8 +4,8 @@ ci:
 
 # rewrite expected programs and transcripts; read the difference before committing
 overwrite:
-    SAMPLES=overwrite cargo test --test samples --test reference
-    TRYCMD=overwrite cargo test --test transcripts
+    SAMPLES=overwrite cargo test --test it -- samples:: reference::
+    TRYCMD=overwrite cargo test transcripts::
 
 # figures for docs/performance.md
 bench:

@@ -1,0 +1,401 @@
+//! What each kind of wrong input gets: a code, a place, exit status 1, no panic, and no output file.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::support::{job, mill, root};
+
+struct Folder(std::path::PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Folder {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        Folder(path)
+    }
+
+    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> std::path::PathBuf {
+        let path = self.0.join(name);
+        fs::write(&path, bytes).unwrap();
+        path
+    }
+}
+
+fn render(folder: &Folder, job: &Path, form: &Path) -> Output {
+    let out = folder.0.join("out.nc");
+    let output = Command::new(env!("CARGO_BIN_EXE_postform"))
+        .args(["render", "--form"])
+        .arg(form)
+        .arg(job)
+        .arg("-o")
+        .arg(&out)
+        .output()
+        .unwrap();
+    assert!(!out.exists() || output.status.success(), "an output file beside an error");
+    let others: Vec<_> = fs::read_dir(&folder.0)
+        .unwrap()
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .filter(|n| n.starts_with(".postform"))
+        .collect();
+    assert!(others.is_empty(), "left behind: {others:?}");
+    _ = fs::remove_file(out);
+    output
+}
+
+/// `wanted` must all be in the message, `status` the exit status.
+fn expect(what: &str, output: &Output, status: i32, wanted: &[&str]) {
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(status), "{what}: {message}");
+    assert!(!message.contains("panicked"), "{what}: {message}");
+    for text in wanted {
+        assert!(message.contains(text), "{what}: no `{text}` in\n{message}");
+    }
+    assert!(message.len() < 200_000, "{what}: a message of {} bytes", message.len());
+}
+
+#[test]
+fn forms() {
+    let folder = Folder::new("bad_forms");
+    let good_job = folder.write("job.json", job("{\"line\":[1,1,0]}"));
+    let good = mill("", "");
+    let replaced = |from: &str, to: &str| {
+        assert!(good.contains(from));
+        good.replacen(from, to, 1)
+    };
+    let long_body = format!("Drill\n{}\nEnd", "G1 X[h]\n".repeat(160));
+    let many_lines = format!("{good}{}", "# a comment\n".repeat(100_000));
+    let many_bad = "Wrong thing\n".repeat(2_000);
+    let table: Vec<(&str, Vec<u8>, i32, Vec<&str>)> = vec![
+        ("empty", b"".into(), 1, vec!["PF005", "StartCode"]),
+        ("only blanks", b"\n \n\t\n".into(), 1, vec!["PF005"]),
+        ("binary", (0..=255u8).cycle().take(5000).collect(), 1, vec!["PF"]),
+        (
+            "NUL bytes",
+            replaced("T[tool] M6", "T[tool]\0 M6").into(),
+            1,
+            vec!["PF001", "control character", "form.pf:6"],
+        ),
+        (
+            "cut in the middle",
+            good[..good.find("ToolChange\nT").unwrap() + 5].into(),
+            1,
+            vec!["PF201", "PF005", "EndCode"],
+        ),
+        (
+            "cut inside a word",
+            good[..good.find("[tool]").unwrap() + 3].into(),
+            1,
+            vec!["PF001", "a bracket without its partner"],
+        ),
+        (
+            "no End",
+            replaced("End\n1stToolChange", "1stToolChange").into(),
+            1,
+            vec!["PF002", "StartCode has no End", "form.pf:2"],
+        ),
+        ("End twice", replaced("End\n1stToolChange", "End\nEnd\n1stToolChange").into(), 1, vec!["PF007", "form.pf:5"]),
+        ("no EndCode", replaced("EndCode\nM30\nEnd", "").into(), 1, vec!["PF005", "the form has no EndCode"]),
+        ("unknown sequence", format!("{good}Dril\nG81 X[h]\nEnd\n").into(), 1, vec!["PF201", "did you mean `Drill`?"]),
+        ("unknown command", mill("Rapids G0", "").into(), 1, vec!["PF201", "did you mean `Rapid`?", "form.pf:1:1"]),
+        ("unknown variable", replaced("X[h]", "X[hh]").into(), 1, vec!["PF202", "`hh` is no variable"]),
+        ("misspelt variable", mill("", "Drill\nR[vlcear]\nEnd").into(), 1, vec!["PF202", "did you mean `vclear`?"]),
+        ("variable of a lathe", replaced("X[h]", "X[taper]").into(), 1, vec!["PF604", "`taper` is for lathe"]),
+        (
+            "sequence of a lathe",
+            mill("", "AutoThread\nG76 X[v]\nEnd").into(),
+            1,
+            vec!["PF603", "AutoThread is for lathe"],
+        ),
+        (
+            "sequence twice",
+            mill("", "Drill\nG81\nEnd\ndrill\nG82\nEnd").into(),
+            1,
+            vec!["PF004", "first here", "again here"],
+        ),
+        ("Upon twice", mill("", "Upon [work]\nG4\nEnd\nUpon <work>\nG4\nEnd").into(), 1, vec!["PF004", "Upon [work]"]),
+        ("command twice", mill("Rapid G0\nRapid G00", "").into(), 1, vec!["PF006", "form.pf:2"]),
+        ("letter format twice", mill("X->3.>4\nX->4.>3", "").into(), 1, vec!["PF006", "X has two formats"]),
+        ("bad letter format", mill("X->3..>4", "").into(), 1, vec!["PF301"]),
+        ("format without digits", mill("X->", "").into(), 1, vec!["PF301"]),
+        ("format that loses its point", mill("P >3>4", "").into(), 1, vec!["PF301", "without a point"]),
+        ("bad argument", mill("Helical? maybe", "").into(), 1, vec!["PF302", "Helical? is Y or N"]),
+        ("no argument", mill("Rapid", "").into(), 1, vec!["PF302", "Rapid needs a code"]),
+        ("argument lost", mill("Rapid  G0", "").into(), 1, vec!["PF302", "two blanks"]),
+        ("too many arguments", mill("FeedCode F G H", "").into(), 1, vec!["PF302", "FeedCode takes 1 letter"]),
+        ("Machine of no kind", mill("Machine Router", "").into(), 1, vec!["PF302", "Mill, Lathe, EDM"]),
+        (
+            "count too large",
+            mill("", "Drill 3\nG81 X[h]\nEnd").into(),
+            1,
+            vec!["PF401", "counts 3 lines, its body has 1"],
+        ),
+        ("count of zero", mill("", "Drill 0\nG81 X[h]\nEnd").into(), 1, vec!["PF401"]),
+        ("count on no cycle", mill("", "Index 1\nG0\nEnd").into(), 1, vec!["PF405", "Index is no canned cycle"]),
+        ("no Cancel", replaced("Cancel\nG80\nEnd", "Drill\nG81 X[h]\nEnd Cancel").into(), 1, vec!["PF402"]),
+        ("a word after End", mill("", "Drill\nG81\nEnd Cancle").into(), 1, vec!["PF001", "`Cancle` after End"]),
+        (
+            "16 words",
+            mill("", "Drill\nG1 G2 G3 G4 G5 G6 G7 G8 G9 G10 G11 G12 G13 G14 G15 G16\nEnd").into(),
+            1,
+            vec!["PF601", "16 words on a line"],
+        ),
+        ("too many lines", mill("", &long_body).into(), 1, vec!["PF602", "the limit is 150"]),
+        ("words outside a sequence", format!("{good}G0 X[h]\n").into(), 1, vec!["PF001", "outside a sequence"]),
+        ("stray point", mill("", "Drill\nX[h] Y[v].\nEnd").into(), 1, vec!["PF001", "stands directly behind a word"]),
+        ("sign before a variable", mill("", "Drill\nX-[h]\nEnd").into(), 1, vec!["PF001", "RevSigns"]),
+        ("a call of nothing", mill("Call other.pf", "").into(), 1, vec!["PF009", "can't be found"]),
+        ("a call of itself", mill("Call form.pf", "").into(), 1, vec!["PF"]),
+        ("a call outside", mill("Call ../form.pf", "").into(), 1, vec!["PF009", "outside the form's folder"]),
+        ("megabyte line", format!("Name {}\n{good}X", "A".repeat(1 << 20)).into(), 1, vec!["PF"]),
+        ("megabyte word", mill("", &format!("Drill\n{}\nEnd", "[".repeat(1 << 20))).into(), 1, vec!["PF001"]),
+        ("2000 wrong lines", many_bad.into(), 1, vec!["PF201", "2000"]),
+        ("100,000 lines", many_lines.into(), 0, vec![]),
+        ("CRLF", good.replace('\n', "\r\n").into(), 0, vec![]),
+        ("byte order mark", format!("\u{feff}{good}").into(), 0, vec![]),
+        ("Latin-1", [b"Name Fr\xe4se\n".as_slice(), good.as_bytes()].concat(), 0, vec!["PF008", "Windows-1252"]),
+        ("tabs", replaced("T[tool] M6", "T[tool]\tM6").into(), 0, vec![]),
+        ("older spelling", good.replace('[', "<").replace(']', ">").into(), 0, vec![]),
+    ];
+    assert!(table.len() >= 25);
+    for (what, bytes, status, wanted) in table {
+        let form = folder.write("form.pf", bytes);
+        let output = render(&folder, &good_job, &form);
+        let wanted: Vec<&str> = wanted.into_iter().filter(|w| *w != "2000").collect();
+        if what == "2000 wrong lines" {
+            assert_eq!(String::from_utf8_lossy(&output.stderr).matches("PF201").count(), 2000);
+            continue;
+        }
+        expect(what, &output, status, &wanted);
+    }
+}
+
+#[test]
+fn jobs() {
+    let folder = Folder::new("bad_jobs");
+    let form = folder.write("form.pf", mill("", "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel"));
+    let good = job("{\"line\":[1,1,0]}");
+    let with = |path: &str| job(path).into_bytes();
+    let head = |text: &str| good.replacen("\"postform\":1,", text, 1).into_bytes();
+    let bomb = "[".repeat(100_000);
+    let table: Vec<(&str, Vec<u8>, i32, Vec<&str>)> = vec![
+        ("empty", b"".into(), 1, vec!["PJ007", "the job is empty"]),
+        ("only blanks", b" \n\n".into(), 1, vec!["PJ007"]),
+        ("binary", (0..=255u8).cycle().take(5000).collect(), 1, vec!["PJ001"]),
+        ("a list", b"[1,2]".into(), 1, vec!["PJ003", "expected a job"]),
+        ("cut in the middle", good.as_bytes()[..good.len() / 2].into(), 1, vec!["PJ007"]),
+        ("cut before the last brace", good.as_bytes()[..good.len() - 1].into(), 1, vec!["PJ007"]),
+        ("trailing text", format!("{good} {{}}").into(), 1, vec!["PJ008"]),
+        ("trailing comma", good.replace("]}]}", "],}]}").into(), 1, vec!["PJ001"]),
+        ("unknown key", head("\"postfrom\":1,"), 1, vec!["PJ002", "did you mean `postform`?"]),
+        (
+            "unknown key of an item",
+            with("{\"lin\":[1,2]}"),
+            1,
+            vec!["PJ002", "did you mean `line`?", "operations[0].path[1]"],
+        ),
+        ("another version", head("\"postform\":2,"), 1, vec!["PJ003", "postform"]),
+        ("wrong type", head("\"program\":\"x\","), 1, vec!["PJ003", "expected a number", ", program"]),
+        ("null for a number", head("\"program\":null,"), 1, vec!["PJ003"]),
+        ("NaN", with("{\"line\":[NaN,1]}"), 1, vec!["PJ001"]),
+        ("infinite", with("{\"line\":[1e400,1]}"), 1, vec!["PJ003", "too large"]),
+        ("a number as text", with("{\"line\":[\"1\",1]}"), 1, vec!["PJ003", "operations[0].path[1].line"]),
+        ("seven coordinates", with("{\"line\":[1,2,3,4,5,6,7]}"), 1, vec!["PJ003"]),
+        ("nesting bomb", bomb.clone().into(), 1, vec!["PJ003"]),
+        ("nesting bomb in a position", with(&format!("{{\"line\":{bomb}")), 1, vec!["PJ003"]),
+        ("key twice", head("\"program\":1,\"program\":2,"), 1, vec!["PJ010", "there twice"]),
+        (
+            "two tools with one number",
+            good.replace("{\"number\":2}", "{\"number\":1}").into(),
+            1,
+            vec!["PJ010", "two tools"],
+        ),
+        ("tool without a number", good.replace("{\"number\":2}", "{\"diameter\":1}").into(), 1, vec!["PJ004"]),
+        ("missing tool", good.replace("\"tool\":1", "\"tool\":7").into(), 1, vec!["PJ006", "tool 7"]),
+        ("no tool", good.replace("\"tool\":1,", "").into(), 1, vec!["PJ006", "has no tool"]),
+        ("no operations", b"{\"postform\":1,\"operations\":[]}".into(), 1, vec!["PJ009"]),
+        ("operations not last", b"{\"operations\":[],\"postform\":1}".into(), 1, vec!["PJ005", "last key of a job"]),
+        ("path not last", good.replacen("\"tool\":1,", "\"path\":[],\"tool\":1,", 1).into(), 1, vec!["PJ"]),
+        (
+            "operation without path",
+            b"{\"tools\":[{\"number\":1}],\"operations\":[{\"tool\":1}]}".into(),
+            1,
+            vec!["PJ004"],
+        ),
+        ("empty item", with("{}"), 1, vec!["PJ004", "says nothing"]),
+        ("two things in an item", with("{\"line\":[1,2],\"rapid\":[1,2]}"), 1, vec!["PJ005", "more than one thing"]),
+        (
+            "negative speed",
+            good.replace("\"speed\":1000", "\"speed\":-1").into(),
+            1,
+            vec!["PJ003", "can't be negative"],
+        ),
+        ("zero feed", with("{\"line\":[1,2],\"feed\":0}"), 1, vec!["PJ003", "above zero"]),
+        ("negative dwell", with("{\"dwell\":-1}"), 1, vec!["PJ003"]),
+        ("a word that is none", with("{\"begin\":\"leedin\"}"), 1, vec!["PJ003", "leedin"]),
+        ("section not closed", with("{\"begin\":\"leadin\"}"), 1, vec!["PJ005", "still open"]),
+        ("sections crossed", with("{\"begin\":\"leadin\"},{\"begin\":\"row\"},{\"end\":\"leadin\"}"), 1, vec!["PJ005"]),
+        ("an arc without a centre", with("{\"arc\":{\"to\":[1,1],\"direction\":\"cw\"}}"), 1, vec!["PJ005"]),
+        (
+            "an arc with unequal radii",
+            with("{\"arc\":{\"to\":[1,1],\"center\":[0.2,0],\"direction\":\"cw\"}}"),
+            1,
+            vec!["PR005", "0.2"],
+        ),
+        (
+            "an arc too small for its ends",
+            with("{\"arc\":{\"to\":[9,0],\"radius\":1,\"direction\":\"cw\"}}"),
+            1,
+            vec!["PR005"],
+        ),
+        ("an unknown cycle", with("{\"cycle\":{\"kind\":\"dril\",\"points\":[[1,1,0]]}}"), 1, vec!["PJ003", "dril"]),
+        (
+            "a cycle without depth",
+            with("{\"cycle\":{\"kind\":\"drill\",\"feed\":5,\"points\":[[1,1,0]]}}"),
+            1,
+            vec!["PC002 (cycle.depth.missing)"],
+        ),
+        (
+            "a cycle without points",
+            with("{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"feed\":5}}"),
+            1,
+            vec!["PJ004", "no points"],
+        ),
+        (
+            "a point without height",
+            with("{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"feed\":5,\"points\":[[1,1]]}}"),
+            1,
+            vec!["PR006", "no height"],
+        ),
+        ("a number too long for its letter", with("{\"line\":[12345678,0]}"), 1, vec!["PR002", "X is 12345678"]),
+        ("a variable that can't be set", head("\"set\":{\"h\":1},"), 1, vec!["PR016"]),
+        ("a variable that is none", head("\"set\":{\"vall\":1},"), 1, vec!["PR016", "val1"]),
+        ("metric job, inch form", good.replace("\"inch\"", "\"mm\"").into(), 1, vec!["PR010", "25.4"]),
+        ("job for another machine", head("\"machine\":\"lathe\","), 1, vec!["PR008"]),
+        ("more than one line of text", with("{\"text\":\"M0\\nM1\"}"), 1, vec!["PJ003"]),
+        ("not UTF-8 in a text", [b"{\"name\":\"".as_slice(), b"\xff\"}"].concat(), 1, vec!["PJ001"]),
+        ("byte order mark", format!("\u{feff}{good}").into(), 0, vec![]),
+        ("CRLF", good.replace(',', ",\r\n").into(), 0, vec![]),
+    ];
+    assert!(table.len() >= 25);
+    for (what, bytes, status, wanted) in table {
+        let path = folder.write("job.json", bytes);
+        let output = render(&folder, &path, &form);
+        expect(what, &output, status, &wanted);
+        if status == 1 {
+            let message = String::from_utf8_lossy(&output.stderr);
+            let place = if what.starts_with("empty") && wanted[0] == "PJ007" { "job.json" } else { "job.json:" };
+            assert!(message.contains(place), "{what}: no place in\n{message}");
+        }
+    }
+    _ = root();
+}
+
+#[test]
+fn json_lines() {
+    let folder = Folder::new("bad_lines");
+    let form = folder.write("form.pf", mill("", ""));
+    let start = "{\"start\":{\"postform\":1,\"program\":1,\"tools\":[{\"number\":1}]}}\n";
+    let operation =
+        "{\"operation\":{\"tool\":1,\"work\":54,\"spindle\":{\"speed\":9,\"direction\":\"cw\"},\"feed\":5}}\n";
+    let moves = "{\"rapid\":[0,0,1]}\n{\"line\":[1,2,3]}\n";
+    let end = "{\"end\":true}\n";
+    let table: Vec<(&str, String, i32, Vec<&str>)> = vec![
+        ("good", format!("{start}{operation}{moves}{end}"), 0, vec![]),
+        ("no line end at the end", format!("{start}{operation}{moves}{{\"end\":true}}"), 0, vec![]),
+        ("CRLF and empty lines", format!("{start}\n{operation}{moves}\n{end}\n").replace('\n', "\r\n"), 0, vec![]),
+        ("empty", String::new(), 1, vec!["PJ007", "the job is empty"]),
+        ("without its end", format!("{start}{operation}{moves}"), 1, vec!["PJ007", "stops without its end"]),
+        ("cut inside a line", format!("{start}{operation}{{\"line\":[1,"), 1, vec!["PJ007", "job.jsonl:3:"]),
+        ("without a start", format!("{operation}{moves}{end}"), 1, vec!["PJ005", "job.jsonl:1:"]),
+        ("two starts", format!("{start}{start}"), 1, vec!["PJ005", "starts twice"]),
+        ("something after the end", format!("{start}{operation}{moves}{end}{moves}"), 1, vec!["PJ008"]),
+        ("a move before any operation", format!("{start}{moves}{end}"), 1, vec!["PJ006", "job.jsonl:2:"]),
+        ("a point outside a cycle", format!("{start}{operation}{{\"point\":[1,1,0]}}\n{end}"), 1, vec!["PJ005"]),
+        (
+            "a move inside a cycle",
+            format!("{start}{operation}{{\"cycle\":{{\"kind\":\"drill\",\"depth\":1,\"feed\":5}}}}\n{moves}"),
+            1,
+            vec!["PJ005", "inside a cycle"],
+        ),
+        ("an unknown key", format!("{start}{operation}{{\"lines\":[1]}}\n"), 1, vec!["PJ002", "did you mean `line`?"]),
+        (
+            "two objects on a line",
+            format!("{start}{operation}{{\"rapid\":[0,0,1]}} {{\"rapid\":[0,0,1]}}\n"),
+            1,
+            vec!["PJ008"],
+        ),
+        ("no JSON", format!("{start}G0 X0\n"), 1, vec!["PJ001", "job.jsonl:2:"]),
+        ("a line of 5 MB", format!("{start}{}", " ".repeat(5 << 20)), 1, vec!["PJ001", "4 MB"]),
+    ];
+    for (what, text, status, wanted) in table {
+        let path = folder.write("job.jsonl", text);
+        expect(what, &render(&folder, &path, &form), status, &wanted);
+    }
+}
+
+#[test]
+fn files_that_are_not_there_are_another_status() {
+    let folder = Folder::new("no_files");
+    let form = folder.write("form.pf", mill("", ""));
+    let job = folder.write("job.json", job("{\"line\":[1,1,0]}"));
+    let nothing = folder.0.join("nothing.json");
+    expect("no job", &render(&folder, &nothing, &form), 2, &["can't read", "nothing.json"]);
+    expect("no form", &render(&folder, &job, &nothing), 2, &["can't read"]);
+    expect("a folder as form", &render(&folder, &job, &folder.0), 2, &["can't read"]);
+    let unnamed = folder.write("job.txt", "");
+    expect("a job of unknown kind", &render(&folder, &unnamed, &form), 2, &["--from"]);
+    let to_nowhere = Command::new(env!("CARGO_BIN_EXE_postform"))
+        .arg("render")
+        .arg(&job)
+        .arg("--form")
+        .arg(&form)
+        .args(["-o", "/nowhere/at/all.nc"])
+        .output()
+        .unwrap();
+    expect("an output folder that is not there", &to_nowhere, 2, &["can't write"]);
+    let usage = Command::new(env!("CARGO_BIN_EXE_postform")).args(["rendr"]).output().unwrap();
+    expect("wrong usage", &usage, 2, &["render"]);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn full_disks_and_closed_pipes() {
+    use std::io::Read;
+    use std::process::Stdio;
+    let folder = Folder::new("full");
+    let form = folder.write("form.pf", mill("", ""));
+    let lines: String = (0..20_000).map(|i| format!(",{{\"line\":[{},1]}}", i % 1000)).collect();
+    let job = folder.write("job.json", job(&lines[1..]).replace("\"units\"", "\"name\":\"n\",\"units\""));
+    let run = |out: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_postform"));
+        command.arg("render").arg(&job).arg("--form").arg(&form).args(["-o", out]);
+        command
+    };
+    expect("a full device", &run("/dev/full").output().unwrap(), 2, &["can't write /dev/full", "No space left"]);
+    assert!(fs::metadata("/dev/full").is_ok_and(|m| !m.is_file()), "the device was replaced by a file");
+    let mut child = run("-").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut first = [0; 10];
+    child.stdout.take().unwrap().read_exact(&mut first).unwrap(); // and close the pipe
+    let output = child.wait_with_output().unwrap();
+    expect("a closed pipe", &output, 0, &[]);
+    assert!(output.stderr.is_empty());
+}
+
+#[test]
+fn outputs_do_not_replace_their_inputs() {
+    let folder = Folder::new("same_file");
+    let form = folder.write("form.pf", mill("", ""));
+    let text = job("{\"line\":[1,1,0]}");
+    let job = folder.write("job.json", &text);
+    for input in [&job, &form] {
+        let output = Command::new(env!("CARGO_BIN_EXE_postform"))
+            .arg("render")
+            .args([job.as_path(), Path::new("--form"), &form, Path::new("-o"), input])
+            .output()
+            .unwrap();
+        expect("an output over an input", &output, 2, &["is an input"]);
+    }
+    assert_eq!(fs::read_to_string(&job).unwrap(), text);
+}

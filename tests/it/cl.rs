@@ -1,0 +1,334 @@
+//! APT CL files as their systems write them: what each statement does, and what is refused.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::support;
+use std::fs;
+
+use crate::support::mill;
+use postform::cl::{Dialect, Options, Report, read_cl};
+use postform::compile::compile;
+use postform::render::Renderer;
+use postform::toolpath::{ReadError, Summary, Units};
+
+const DRILL: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+
+/// The blocks of a file between tool change and end, then its warnings; or its error.
+fn read(text: &str, options: Options) -> Vec<String> {
+    let form = mill("Units mm", DRILL).replace("G[work] X[h] Y[v] Z[d]\nEnd", "G[work]\nEnd");
+    let checked = support::check(&form.replace("%0\n", "%0\nG[unitmode]\n"));
+    assert!(!checked.has_errors(), "{:?}", checked.diags);
+    let program = compile(&checked.form);
+    let mut renderer = Renderer::new(&program, postform::render::Options::default());
+    let mut report = Report::default();
+    let read = read_cl(text.as_bytes(), &options, &mut report, &mut renderer);
+    let mut lines: Vec<String> =
+        String::from_utf8(renderer.text().clone()).unwrap().lines().map(str::to_owned).collect();
+    match read {
+        Ok(()) => {
+            lines.pop();
+            let begins = lines.iter().position(|line| line.starts_with("G0 G54")).unwrap_or(0) + 1;
+            lines.drain(..begins);
+            lines.extend(report.warnings.iter().map(|warning| format!("{} {}", warning.code.name(), warning.message)));
+            lines
+        }
+        Err(ReadError::Job(diag)) => {
+            vec![format!("{} {} at {}", diag.code.name(), diag.message, diag.place.unwrap_or_default())]
+        }
+        Err(ReadError::Io(error)) => panic!("{error}"),
+    }
+}
+
+const HEAD: &str = "UNITS/MM\nLOADTL/1\nSPINDL/1000,RPM,CLW\nFEDRAT/100,MMPM\nRAPID\nGOTO/0,0,10\n";
+
+fn body(text: &str) -> Vec<String> {
+    read(&format!("{HEAD}{text}\nFINI\n"), Options::default())[1..].to_vec()
+}
+
+fn error(text: &str) -> String {
+    let lines = read(&format!("{HEAD}{text}\nFINI\n"), Options::default());
+    assert_eq!(lines.len(), 1, "{lines:?}");
+    lines[0].clone()
+}
+
+#[test]
+fn motions_go_where_they_say() {
+    assert_eq!(body("GOTO/1,2,3\nRAPID\nGOTO / .5 , 2., 3\nGOTO/1,2,3"), ["G1 X1. Y2. Z3. F100.", "G0 X.5", "G1 X1."]);
+    assert_eq!(body("GODLTA/1,0,-2\nGODLTA/-3"), ["G1 X1. Z8. F100.", "Z5."]);
+    assert_eq!(body("FEDRAT/MMPM,50\nGOTO/1,0,10\nGOTO/2,0,10,75"), ["G1 X1. F50.", "X2. F75."]);
+    assert_eq!(body("RAPID/GOTO/5,0,10"), ["X5."]);
+    assert_eq!(body("TRANS/1,2,3\nGOTO/0,0,0\nORIGIN/1,0,0\nGOTO/5,0,0"), ["G1 X1. Y2. Z3. F100.", "X5."]);
+}
+
+/// Blanks, case, continuation, comments, record numbers, points without GOTO: as in real files.
+#[test]
+fn statements_are_read_as_they_are_written() {
+    assert_eq!(body("goto/1,$ to the next line\n  2,3 $$ a remark"), ["G1 X1. Y2. Z3. F100."]);
+    assert_eq!(body("N27 , GOTO/1,0,10\n2,0,10\n3,0,10"), ["G1 X1. F100.", "X2.", "X3."]);
+    assert_eq!(body("PPRINT/OPERATION: (face)\r\nGOTO/1,0,10\r"), ["(OPERATION: [FACE])", "G1 X1. F100."]);
+    assert_eq!(body("INSERT/M88\nSYN/'A','$$*B'\nAUXFUN/8\nPREFUN/61"), ["M88", "M8", "G61"]);
+    assert_eq!(
+        body("SPINKL/5\nSPINKL/6\nGOTO/1,0,10")[1],
+        "PL003 `SPINKL` is not known and nothing is done for it, 2 times"
+    );
+}
+
+#[test]
+fn feeds_are_those_of_their_units() {
+    assert_eq!(body("FEDRAT/1,IPM\nGOTO/1,0,10"), ["G1 X1. F25.4"]);
+    assert_eq!(body("FEDRAT/.2,MMPR\nGOTO/1,0,10"), ["G1 X1. F200."]);
+    assert_eq!(body("FEDRAT/PERREV,.1\nSPINDL/500,CLW\nGOTO/1,0,10"), ["S500 M3", "G1 X1. F50."]);
+    assert!(error("SPINDL/OFF\nFEDRAT/.2,MMPR\nGOTO/1,0,10").starts_with("PC009 a feed per revolution"));
+    assert!(error("FEDRAT/10,FURLONGS").starts_with("PL002 a FEDRAT"));
+}
+
+/// A tool change is complete when its spindle is known, which may be after its first rapids.
+#[test]
+fn the_spindle_may_come_after_the_first_rapids() {
+    let text =
+        "UNITS/MM\nLOAD/TOOL,45\nRAPID\nGOTO/0,0,50\nSPINDL/RPM,1310,CCLW\nCOOLNT/ON\nRAPID\nGOTO/1,0,50\nFINI\n";
+    let lines = read(text, Options::default());
+    assert_eq!(lines, ["M8", "G0 X0 Y0 Z50.", "X1."]);
+    assert!(
+        read("UNITS/MM\nRAPID\nGOTO/0,0,1\nFINI", Options::default())[0].starts_with("PJ006 the operation has no tool")
+    );
+    let assumed = Options { tool: Some(3.0), ..Options::default() };
+    assert!(read("UNITS/MM\nSPINDL/9,CLW\nRAPID\nGOTO/0,0,1\nFINI", assumed)[0].starts_with("G0 X0"));
+}
+
+#[test]
+fn arcs_turn_as_their_system_means_them() {
+    let arc = "GOTO/1,0,10\nCIRCLE/1,1,10,0,0,1,1\nGOTO/2,1,10";
+    let by = |dialect| {
+        let options = Options { dialect: Some(dialect), ..Options::default() };
+        read(&format!("{HEAD}{arc}\nFINI\n"), options)[2].clone()
+    };
+    assert_eq!(by(Dialect::SolidWorksCam), "G17 G3 X2. Y1. I0 J1.");
+    assert_eq!(by(Dialect::Makino), "G17 G2 X2. Y1. I0 J1.");
+    // nobody says who wrote it: the arc leaves the line before it along its tangent
+    assert_eq!(body(arc)[1], "G17 G3 X2. Y1. I0 J1.");
+    assert!(error("GOTO/1,0,10\nCIRCLE/2,0,10,0,0,1,1\nGOTO/3,0,10").starts_with("PL006 which way"));
+    assert!(
+        error(&format!("{arc}\nGOTO/2,5,10\nCIRCLE/3,5,10,0,0,1,1\nGOTO/4,5,10")).starts_with("PL006 this arc turns")
+    );
+    assert_eq!(body("GOTO/1,0,10\nMOVARC/1,1,10,0,0,1,1\nGOTO/2,1,10")[1], "G17 G3 X2. Y1. I0 J1.");
+    let tlon = "GOTO/1,0,10\nINDIRV/1,0,0\nTLON,GOFWD/ (CIRCLE/ 1, 1, 10,$\n 1),ON,(LINE/1,1,10,$\n 2,1,10)";
+    assert_eq!(body(tlon)[1], "G17 G3 X2. Y1. I0 J1.");
+    assert!(error("GOTO/1,0,10\nCIRCLE/1,1,10,.6,0,.8,1\nGOTO/2,1,10").starts_with("PL004 an arc in a tilted plane"));
+}
+
+#[test]
+fn compensation_goes_with_the_next_motion() {
+    let lines = body("CUTCOM/LEFT\nGOTO/1,0,10\nGOTO/5,0,10\nCUTCOM/OFF\nRAPID\nGOTO/5,5,10");
+    assert_eq!(lines, ["G1 G41 X1. D1 F100.", "X5.", "G0 G40 Y5."]);
+    assert_eq!(body("CUTCOM/OFF\nGOTO/1,0,10"), ["G1 X1. F100."]);
+    assert!(error("CUTCOM/LEFT\nCYCLE/DRILL,DEPTH,1,MMPM,9\nGOTO/1,1,0").starts_with("PC041"));
+}
+
+/// The words of other systems mean what they mean there.
+#[test]
+fn cycles_of_other_systems_are_read_by_their_dialect() {
+    let by = |dialect, text: &str| {
+        let options = Options { dialect: Some(dialect), ..Options::default() };
+        read(&format!("{HEAD}{text}\nGOTO/1,1,0\nCYCLE/OFF\nFINI\n"), options)
+    };
+    let drilled =
+        |lines: &[String]| lines.iter().find(|line| line.contains("G81")).cloned().unwrap_or(lines[0].clone());
+    let swcam = by(Dialect::SolidWorksCam, "CYCLE/INIT\nCYCLE/DRILL,FEDTO,5,MMPM,90,RAPTO,2,RTRCTO,8,DWELL,0");
+    assert_eq!(drilled(&swcam), "G98 G81 X1. Y1. Z-5. R2. F90.");
+    let ncl = by(Dialect::Ncl, "CYCLE/DRILL,FEDTO,5,MMPM,90,RAPTO,2");
+    assert_eq!(drilled(&ncl), "G99 G81 X1. Y1. Z-5. R2. F90.");
+    let catia = by(Dialect::Catia, "CYCLE/DRILL,5,2,90,MMPM");
+    assert_eq!(drilled(&catia), "G99 G81 X1. Y1. Z-5. R2. F90.");
+    assert!(by(Dialect::Gener, "CYCLE/DRILL,5,2,90,MMPM")[0].starts_with("PC032"));
+    assert!(by(Dialect::Gener, "CYCLE/DRILL,FEDTO,5,MMPM,90")[0].starts_with("PC018 `FEDTO`"));
+    let text = "CYCLE/DRILL,RAPTO,2,FEDTO,-5,RTRCTO,AUTO,MMPM,90\nGOTO/1,1,0\nCYCLE/OFF\nEND-OF-PATH\n";
+    let options = Options { dialect: Some(Dialect::Nx), ..Options::default() };
+    assert_eq!(drilled(&read(&format!("{HEAD}{text}"), options)), "G99 G81 X1. Y1. Z-5. R2. F90.");
+}
+
+#[test]
+fn what_moves_the_part_or_is_cut_off_is_refused() {
+    assert!(error("TRACUT/1").starts_with("PL004 TRACUT"));
+    assert!(error("GOTO/1,2").starts_with("PL001 GOTO with 2 numbers at 7:1"));
+    assert!(error("GOTO/1,2,1e999").starts_with("PL001 `1E999` is no number"));
+    assert!(error("GOTO/1,2,3,.6,0,.8").starts_with("PR008 the tool is tilted"));
+    assert!(error("COOLNT/BEER").starts_with("PL002 COOLNT does not know `BEER`"));
+    assert!(error("MODE/INCR").starts_with("PL004"));
+    assert!(error("CIRCLE/1,1,1,0,0,1").starts_with("PL007"));
+    let whole = |text: &str| read(text, Options::default())[0].clone();
+    assert!(whole(&format!("{HEAD}GOTO/1,2,3\n")).starts_with("PL007 the file ends without FINI"));
+    assert!(whole(&format!("{HEAD}GOTO/1,$\n")).starts_with("PL007 the file ends inside a statement"));
+    assert!(whole(&format!("{HEAD}FINI\nGOTO/1,1,1\n")).starts_with("PL001 a statement after FINI"));
+    assert!(whole("LOADTL/1\nSPINDL/1,CLW\nRAPID\nGOTO/0,0,0\nFINI").starts_with("PL005"));
+    assert!(whole("").starts_with("PL007"));
+    assert!(whole("\0\0\0\nFINI").starts_with("PL001 a byte"));
+    assert!(
+        whole("UNITS/MM\nLOADTL/1\nSPINDL/1,CLW\nGOTO/0,0,0\nFINI").starts_with("PR011 a feed motion before any feed")
+    );
+}
+
+/// Whatever stands in a file: an answer, and no panic.
+#[test]
+fn mutated_files_get_an_answer() {
+    let mut state = 7u64;
+    let mut next = |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as usize % below
+    };
+    let parts = [
+        "GOTO/1,2,3\n",
+        "RAPID\n",
+        "CYCLE/",
+        "DRILL,",
+        "DEEP,",
+        "DEPTH,5,",
+        "STEP,",
+        "CLEAR,2,",
+        "MMPM,90,",
+        "-1,",
+        "$\n",
+        "\n",
+        "CIRCLE/1,1,1,0,0,1\n",
+        "CUTCOM/LEFT\n",
+        "CYCLE/OFF\n",
+        "LOADTL/2\n",
+        ",,",
+        "'",
+        "TLON,GOFWD/(CIRCLE/1,1,1,1),ON,(LINE/",
+        "FEDRAT/1,IPR\n",
+        "SPINDL/OFF\n",
+        "CYCLE/ON\n",
+        "RETURN,",
+        "DECR,1,",
+        "1e300,",
+        "GODLTA/1\n",
+        "INDIRV/1,0,0\n",
+        "FINI\n",
+    ];
+    for _ in 0..20_000 {
+        let mut text = HEAD.to_owned();
+        for _ in 0..next(24) {
+            text += parts[next(parts.len())];
+        }
+        let mut report = Report::default();
+        let mut summary = Summary::default();
+        let _ = read_cl(text.as_bytes(), &Options::default(), &mut report, &mut summary);
+        read(&text, Options::default());
+    }
+}
+
+/// Real files, where they lie beside the checkout: all are read, or refused for what they do not say.
+#[test]
+fn real_files_are_read_or_refused_for_a_reason() {
+    let Ok(folder) = fs::read_dir(support::root().join("../shared/data/cl")) else {
+        eprintln!("skipped: the real files are not beside this checkout");
+        return;
+    };
+    let mut names = 0;
+    for entry in folder {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if name.ends_with(".md") {
+            continue;
+        }
+        names += 1;
+        let text = fs::read_to_string(&path).unwrap();
+        let lines = read(&text, Options::default());
+        let first = lines.iter().find(|line| !line.starts_with('(')).unwrap();
+        let code = first.split(' ').next().unwrap();
+        let expected = match name.as_str() {
+            "ncl_fed_0.as" | "ncl_upside_down.as" => "PL005",
+            "nx_simple_block.cls" => "PJ006",
+            "catia5_multi_axis_0001.aptsource" => "PR008",
+            _ => "G0",
+        };
+        let read_whole = expected == "G0" && !code.starts_with(['P', 'L']);
+        assert!(read_whole || code.starts_with(expected), "{name}: {first}");
+        let all = Options { units: Some(Units::Mm), tool: Some(1.0), ..Options::default() };
+        let all = if expected == "PL005" { all } else { Options { units: None, ..all } };
+        if expected != "G0" {
+            let code = read(&text, all)[0].split(' ').next().unwrap().to_owned();
+            let known = ["G0", "G1", "PR008", "PR001", "PR010"].iter().any(|known| code.starts_with(known));
+            assert!(known, "{name}: {code}");
+        }
+    }
+    assert_eq!(names, 12);
+}
+
+/// What belongs together stays together: feeds and speeds, points and their motions, registers and tools.
+#[test]
+fn nothing_is_lost_between_statements() {
+    let drill = "CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2";
+    // the last spindle direction comes back
+    let lines = body("SPINDL/OFF\nGOTO/1,0,10\nSPINDL/ON\nGOTO/2,0,10");
+    assert_eq!(lines, ["M5", "G1 X1. F100.", "S1000 M3", "X2."]);
+    // a feed per revolution follows the spindle inside a cycle
+    let lines = body("CYCLE/DRILL,DEPTH,1,MMPR,.1,CLEAR,2\nGOTO/1,1,0\nSPINDL/500,CLW\nGOTO/2,2,0\nCYCLE/OFF");
+    assert!(lines.contains(&"G99 G81 X2. Y2. Z-1. R2. F50.".to_owned()), "{lines:?}");
+    // GODLTA counts from the point, not from where the hole was left
+    let lines = body(&format!("{drill}\nGOTO/1,1,0\nGODLTA/10,0,0\nCYCLE/OFF\nGODLTA/0,0,50"));
+    assert_eq!(lines[2..], ["G99 G81 X1. Y1. Z-10. R2. F100.", "X11.", "G80", "G0 Z50."]);
+    // both shifts hold
+    assert_eq!(body("TRANS/10,0,0\nORIGIN/0,0,5\nGOTO/1,2,3"), ["G1 X11. Y2. Z-2. F100."]);
+    // CYCLE/ON replaces what it says
+    let lines = body(&format!("{drill}\nCYCLE/ON,DEPTH,5\nGOTO/1,1,0\nCYCLE/OFF"));
+    assert_eq!(lines[2], "G99 G81 X1. Y1. Z-5. R2. F100.");
+    assert_eq!(body("N29 GOTO/6,0,10\n100 GOTO/5,0,10"), ["G1 X6. F100.", "X5."]);
+    for (text, code) in [
+        ("FEDRAT/60\n4,5,6", "PL001 numbers"),
+        ("L1) GOTO/1,1,1", "PL001 `L1` stands before GOTO"),
+        ("COOLNT/FLOOD,OFF", "PL002 COOLNT"),
+        ("LOADTL/2,FOO,7", "PL002 LOADTL"),
+        ("LOADTL/1,OFSETNO,7\nGOTO/1,1,1", "PR017 tool 1 is in"),
+        ("CUTCOM/LEFT,ZXPLAN", "PL002 CUTCOM"),
+        ("SCALE/2", "PL004 SCALE"),
+        ("MODE/INCREM", "PL004 MODE"),
+        ("END\nGOTO/1,1,1", "PL001 a statement after"),
+        ("GOTO/10,0,10\nINDIRV/1,0,0\nTLON,GOFWD/(CIRCLE/0,0,10,10),ON,(LINE/0,0,10,0,10,10)", "PL004 INDIRV"),
+        ("GOTO/10,0,10\nMOVARC/0,0,10,0,0,1,12\nGOTO/0,10,10", "PR005 the CIRCLE has the radius 12"),
+        ("CUTCOM/LEFT\nGOTO/1,0,10\nLOADTL/2\nSPINDL/1,CLW\nRAPID\nGOTO/1,1,1", "PR006 the tool changes"),
+        ("CYCLE/TAP,RIGID,DEPTH,1,MMPR,1\nGOTO/1,1,0", "PC021"),
+    ] {
+        assert!(error(text).starts_with(code), "{text}: {}", error(text));
+    }
+    assert!(read("PARTNO A\rUNITS/MM\rFINI\r", Options::default())[0].starts_with("PL001 the lines end"));
+}
+
+/// Surface speeds are those of the file's units, and their code stands before them.
+#[test]
+fn surface_speeds_have_units_and_their_code() {
+    let text = "UNITS/MM\nLOADTL/1\nSPINDL/SFM,100,CLW\nRAPID\nGOTO/0,0,10\nFINI\n";
+    let form = mill("Units mm", "").replace("%0\n", "%0\nG[unitmode]\n");
+    let rendered = support::render_kind(
+        &support::check(&form),
+        text.as_bytes(),
+        support::Kind::Cl,
+        postform::render::Options::default(),
+    );
+    assert!(rendered.unwrap().text.contains("G96\nT1 M6\nS30"), "30.48 metres a minute");
+}
+
+/// Coolant stays from tool to tool, and CATIA's TOOLNO only describes the tool that LOADTL loads.
+#[test]
+fn what_is_said_once_holds() {
+    let lines = body("COOLNT/FLOOD\nGOTO/1,0,10\nLOADTL/2\nSPINDL/500,CLW\nFEDRAT/9\nRAPID\nGOTO/1,1,1");
+    assert_eq!(lines.iter().filter(|line| *line == "M8" || *line == "M9").collect::<Vec<_>>(), ["M8"]);
+    let options = Options { dialect: Some(Dialect::Catia), ..Options::default() };
+    let text = format!("UNITS/MM\nTOOLNO/1,MILL,MMPM,10,ON,,NOTE\n{}FINI\n", &HEAD[9..]);
+    assert_eq!(read(&text, options), ["G0 X0 Y0 Z10."]);
+}
+
+/// Units and the system that wrote a file are those of its beginning; nothing later reinterprets what was read.
+#[test]
+fn units_and_dialect_are_known_before_they_are_needed() {
+    let early = "LOADTL/1\nSPINDL/1,CLW\nFEDRAT/5,IPM\nUNITS/MM\nRAPID\nGOTO/0,0,1\nFINI\n";
+    assert!(read(early, Options::default())[0].starts_with("PL005 the file has not said its units yet at 3:1"));
+    // the file's own units go before those that were assumed
+    let own =
+        early.replace("LOADTL", "UNITS/INCHES\nLOADTL").replace("UNITS/MM\n", "").replace("FINI", "GOTO/1,0,1\nFINI");
+    let lines = read(&own, Options { units: Some(Units::Mm), ..Options::default() });
+    assert_eq!(lines, ["G0 X0 Y0 Z1.", "G1 X1. F5."]);
+    // a mark in a later text is no sign of another system, whose circles would turn the other way
+    let arc = "GOTO/1,0,10\nPPRINT/APTCL-SPEC\nCIRCLE/1,1,10,0,0,1,1\nGOTO/2,1,10";
+    assert_eq!(body(arc).last().unwrap(), "G17 G3 X2. Y1. I0 J1.");
+}

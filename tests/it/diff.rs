@@ -1,0 +1,403 @@
+//! What changed between two programs: verdicts on pairs, properties, the command with its formats, git.
+
+use std::fs;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use crate::support::root;
+use postform::diff::{Comparison, Edit, Ignore, Options, Program, compare};
+use postform::nc::{Control, Settings};
+use postform::toolpath::Units;
+use postform::verify::compare_motions;
+use proptest::prelude::*;
+
+const BASE: &str = "%\nO100 (BRACKET)\nN10 G21 G17 G40 G49 G80 G90\nN20 T1 M6\nN30 G54 G0 X10. Y5.5 S1000 M3\nN40 G43 H1 Z50. M8\n\
+N50 Z2.\nN60 G1 Z-1. F100.\nN70 X30. F300.\nN80 Y20.\nN90 G3 X20. Y30. I-10. J0\nN100 G0 Z50.\nN110 G99 G81 X0. Y0. Z-5. R2. F80.\n\
+N120 X10.\nN130 X20.\nN140 G80\nN150 G0 Z50. M9\nN160 G91 G28 Z0 M5\nN170 M30\n%\n";
+
+fn ignoring(names: &str) -> Ignore {
+    let mut ignore = Ignore::default();
+    names.split(',').filter(|name| !name.is_empty()).for_each(|name| assert!(ignore.set(name), "{name}"));
+    ignore
+}
+
+fn program(text: &str) -> Program {
+    Program::new(text.as_bytes().to_vec()).unwrap()
+}
+
+fn compared(old: &str, new: &str, ignore: Ignore, tolerance: f64) -> Comparison {
+    compare(&program(old), &program(new), &Options { ignore, tolerance, ..Options::default() })
+}
+
+/// Do both machines do the same?
+fn same_motion(old: &str, new: &str) -> bool {
+    let settings = Settings::new(Control::Fanuc);
+    compare_motions(Cursor::new(old), Cursor::new(new), [settings; 2], Units::Mm, 1e-6).unwrap().is_none()
+}
+
+/// The program in inches: every length and feed divided.
+fn in_inches(text: &str) -> String {
+    let mut out = String::new();
+    for word in text.replace("G21", "G20").split_inclusive([' ', '\n']) {
+        let (body, end) = word.split_at(word.trim_end().len());
+        match body.split_at_checked(1) {
+            Some((letter, number)) if "XYZIJRF".contains(letter) && number.parse::<f64>().is_ok() => {
+                out += &format!("{letter}{:?}{end}", number.parse::<f64>().unwrap() / 25.4);
+            }
+            _ => out += word,
+        }
+    }
+    out
+}
+
+fn renumbered(text: &str) -> String {
+    let lines = text.lines().enumerate().map(|(i, line)| match line.strip_prefix('N') {
+        Some(rest) => format!("N{} {}\n", 5 * i, rest.split_once(' ').unwrap().1),
+        None => format!("{line}\n"),
+    });
+    lines.collect()
+}
+
+/// The cycle written as moves.
+fn expanded() -> String {
+    let moves = "G0 X0. Y0.\nZ2.\nG1 Z-5. F80.\nG0 Z2.\nX10.\nG1 Z-5.\nG0 Z2.\nX20.\nG1 Z-5.\nG0 Z2.\n";
+    let (head, rest) = BASE.split_once("N110").unwrap();
+    let (_, tail) = rest.split_once("N140").unwrap();
+    format!("{head}{moves}N140{tail}")
+}
+
+#[test]
+fn pairs_and_their_verdicts() {
+    let edit = |from: &str, to: &str| {
+        assert!(BASE.contains(from), "{from}");
+        BASE.replacen(from, to, 1)
+    };
+    // new program, what must be ignored so that it is the same ("-": nothing helps), and whether the machine does the same
+    let pairs: Vec<(&str, String, &str, bool)> = vec![
+        ("itself", BASE.into(), "", true),
+        ("renumbered", renumbered(BASE), "numbers", true),
+        (
+            "without numbers",
+            BASE.lines()
+                .map(|l| l.split_once(' ').filter(|_| l.starts_with('N')).map_or(l, |(_, r)| r).to_owned() + "\n")
+                .collect(),
+            "numbers",
+            true,
+        ),
+        ("lines ended by CR and LF", BASE.replace('\n', "\r\n"), "spaces", true),
+        ("without blanks", BASE.replace(' ', ""), "spaces", true),
+        ("tabs for blanks", BASE.replace(' ', "\t"), "spaces", true),
+        ("empty lines between", BASE.replace('\n', "\n\n"), "spaces", true),
+        ("lower case", BASE.replace("(BRACKET)", "").to_lowercase(), "case,comments,spaces", true),
+        ("lower case with its comment", BASE.to_lowercase().replace("(bracket)", "(BRACKET)"), "case", true),
+        ("another comment", edit("(BRACKET)", "(BRACKET REV B)"), "comments", true),
+        ("a comment more, on its own line", edit("N50", "(DOWN)\nN50"), "comments", true),
+        ("a comment behind a block", edit("N60 G1 Z-1. F100.", "N60 G1 Z-1. F100. (DOWN)"), "comments", true),
+        ("trailing zeros", edit("X30.", "X30.000"), "format", true),
+        ("leading zeros", edit("G1 Z-1.", "G01 Z-01."), "format", true),
+        ("a plus sign", edit("X30.", "X+30."), "format", true),
+        ("minus before zero", edit("X0. Y0.", "X-0. Y0."), "format", true),
+        ("words in another order", edit("G43 H1 Z50. M8", "M8 Z50. H1 G43"), "order,spaces", true),
+        (
+            "order, case and numbers at once",
+            edit("N40 G43 H1 Z50. M8", "n5 m8 z50. h01 g43"),
+            "order,case,numbers,format,spaces",
+            true,
+        ),
+        ("a modal code repeated", edit("N70 X30.", "N70 G1 X30."), "-", true),
+        ("a move in two parts that stand in one", edit("N50 Z2.", "N50 Z20.\nZ2."), "-", true),
+        ("the cycle as moves", expanded(), "-", true),
+        ("inches", in_inches(BASE), "-", true),
+        ("another feed", edit("F300.", "F320."), "-", false),
+        ("another depth", edit("Z-5. R2.", "Z-6. R2."), "-", false),
+        ("another R plane", edit("Z-5. R2.", "Z-5. R3."), "-", false),
+        ("a hole more", edit("N130", "N125 X15.\nN130"), "-", false),
+        ("a hole less", edit("N120 X10.\n", ""), "-", false),
+        ("another tool", edit("T1 M6", "T2 M6"), "-", false),
+        ("another work offset", edit("G54", "G55"), "-", false),
+        ("an arc the other way", edit("G3 X20. Y30. I-10. J0", "G2 X20. Y30. I-10. J0"), "-", false),
+        ("the spindle the other way", edit("M3", "M4"), "-", false),
+        (
+            "a block moved",
+            edit("N60 G1 Z-1. F100.\nN70 X30. F300.\n", "N70 G1 X30. F300.\nN60 Z-1. F100.\n"),
+            "-",
+            false,
+        ),
+        ("blocks swapped in the cycle", edit("N120 X10.\nN130 X20.\n", "N130 X20.\nN120 X10.\n"), "-", false),
+        ("the last retract lost", edit("N150 G0 Z50. M9", "N150 G0 X-50. M9"), "-", false),
+    ];
+    assert!(pairs.len() >= 30);
+    for (what, new, helps, motion) in &pairs {
+        let same = |ignore: Ignore| compared(BASE, new, ignore, 0.0).is_same();
+        let all = ignoring("numbers,comments,spaces,case,format,order");
+        match *helps {
+            "" => assert!(same(Ignore::default()), "{what}"),
+            "-" => assert!(!same(all) && !same(Ignore::default()), "{what}"),
+            names => {
+                assert!(!same(Ignore::default()), "{what} differs when nothing is ignored");
+                assert!(same(ignoring(names)) && same(all), "{what} is the same ignoring {names}");
+                for left_out in names.split(',').filter(|_| names.contains(',')) {
+                    // spaces only go along with what leaves blanks behind
+                    let rest: Vec<&str> = names.split(',').filter(|name| *name != left_out).collect();
+                    assert!(left_out == "spaces" || !same(ignoring(&rest.join(","))), "{what} needs {left_out}");
+                }
+            }
+        }
+        assert_eq!(same_motion(BASE, new), *motion, "{what}: motion");
+        assert_eq!(same_motion(new, BASE), *motion, "{what}: motion the other way round");
+    }
+}
+
+#[test]
+fn tolerance_moves_and_words() {
+    let new = BASE.replace("X30.", "X30.0004").replace("Y5.5", "Y5.4996");
+    assert_eq!(compared(BASE, &new, Ignore::USUAL, 0.0).edits().count(), 2);
+    assert!(compared(BASE, &new, Ignore::USUAL, 0.0005).is_same());
+    assert!(!compared(BASE, &new, Ignore::USUAL, 0.0003).is_same());
+    // one block at another place, once each
+    let moved = BASE.replacen("N80 Y20.\n", "", 1).replacen("N130 X20.\n", "N130 X20.\nN80 Y20.\n", 1);
+    let comparison = compared(BASE, &moved, Ignore::USUAL, 0.0);
+    let edits: Vec<Edit> = comparison.edits().copied().collect();
+    assert_eq!(edits, [Edit::Moved(9, 14), Edit::Moved(9, 14)]);
+    let spans = postform::diff::changed_spans(b"N1 G1 X1. F5.", b"N2 G1 X1. F6. M8", &Ignore::USUAL);
+    let places =
+        |list: &[std::ops::Range<usize>]| -> Vec<(usize, usize)> { list.iter().map(|r| (r.start, r.end)).collect() };
+    assert_eq!(places(&spans[0]), [(10, 13)]);
+    assert_eq!(places(&spans[1]), [(10, 13), (14, 16)]);
+}
+
+/// Two million-line programs that have nothing in common get an answer in bounded time, and it is right.
+#[test]
+fn a_coarse_answer_is_right() {
+    let lines = |seed: u64| -> String { (0..60_000u64).map(|i| format!("G1 X{}\n", i * 7919 + seed)).collect() };
+    let (old, new) = (lines(1), lines(2));
+    let options = Options { patience: std::time::Duration::from_millis(1), ..Options::default() };
+    let (old, new) = (program(&old), program(&new));
+    let comparison = compare(&old, &new, &options);
+    assert_eq!(
+        applied(&old, &new, &comparison),
+        (0..new.len()).map(|line| new.line(line)).collect::<Vec<_>>().concat()
+    );
+}
+
+/// NEW made from OLD by the edits alone.
+fn applied(old: &Program, new: &Program, comparison: &Comparison) -> Vec<u8> {
+    let mut out = Vec::new();
+    let mut at = 0;
+    for hunk in &comparison.hunks {
+        (at..hunk.old.start).for_each(|line| out.extend_from_slice(old.line(line)));
+        let mut lines: Vec<usize> = Vec::new();
+        for edit in &hunk.edits {
+            match *edit {
+                Edit::Added(line) | Edit::Changed(_, line) => lines.push(line),
+                Edit::Moved(_, line) if hunk.new.contains(&line) => lines.push(line),
+                Edit::Removed(_) | Edit::Moved(..) => {}
+            }
+        }
+        lines.sort_unstable();
+        lines.iter().for_each(|&line| out.extend_from_slice(new.line(line)));
+        at = hunk.old.end;
+    }
+    (at..old.len()).for_each(|line| out.extend_from_slice(old.line(line)));
+    out
+}
+
+fn any_program() -> impl Strategy<Value = String> {
+    let block = prop_oneof![
+        Just("G0 X1."),
+        Just("g0 x1."),
+        Just("G00 X1.0"),
+        Just("N5 G0 X1."),
+        Just("X1. G0"),
+        Just("G1 Z-1. F5."),
+        Just("(A)"),
+        Just("(B)"),
+        Just(""),
+        Just("  "),
+        Just("X#1"),
+        Just("M30"),
+        Just("G0X1."),
+        Just("X2."),
+        Just("Y3. (A)"),
+    ];
+    proptest::collection::vec(block, 0..25).prop_map(|lines| lines.iter().map(|line| format!("{line}\n")).collect())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn applying_the_edits_gives_the_new_program(old in any_program(), new in any_program()) {
+        let (old, new) = (program(&old), program(&new));
+        let comparison = compare(&old, &new, &Options { ignore: Ignore::default(), ..Options::default() });
+        let whole: Vec<u8> = (0..new.len()).flat_map(|line| new.line(line).to_vec()).collect();
+        prop_assert_eq!(applied(&old, &new, &comparison), whole);
+    }
+
+    #[test]
+    fn a_program_is_itself(text in any_program()) {
+        prop_assert!(compared(&text, &text, Ignore::default(), 0.0).is_same());
+    }
+
+    #[test]
+    fn ignoring_more_never_finds_more(old in any_program(), new in any_program(), mask in 0u8..64, more in 0u8..64) {
+        let ignore = |bits: u8| {
+            let names: Vec<&str> = (0..6).filter(|i| bits & 1 << i != 0).map(|i| Ignore::NAMES[i]).collect();
+            ignoring(&names.join(","))
+        };
+        // lines that are gone or new: a changed one is one of each
+        let found = |bits: u8| -> usize {
+            let weigh = |edit: &Edit| if matches!(edit, Edit::Changed(..)) { 2 } else { 1 };
+            compared(&old, &new, ignore(bits), 0.0).edits().map(weigh).sum()
+        };
+        prop_assert!(found(mask | more) <= found(mask));
+    }
+}
+
+fn postform(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_postform")).args(arguments).current_dir(root()).output().unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+fn written(name: &str, text: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::write(&path, text).unwrap();
+    path
+}
+
+#[test]
+fn the_command_and_its_formats() {
+    let old = written("diff-old.nc", BASE);
+    let new = written(
+        "diff-new.nc",
+        &BASE.replace("F300.", "F320.").replace("N130 X20.\n", "").replace("(BRACKET)", "(<b>&)"),
+    );
+    let (old, new) = (old.to_str().unwrap(), new.to_str().unwrap());
+    assert_eq!(postform(&["diff", old, old]).status.code(), Some(0));
+    assert!(postform(&["diff", old, old]).stdout.is_empty());
+    let text = postform(&["diff", old, new]);
+    assert_eq!(text.status.code(), Some(1));
+    for part in ["-N70 X30. F300.\n?         ^^^^^", "+N70 X30. F320.", "-N130 X20.", "1 block removed", "F in 1 block"]
+    {
+        assert!(stdout(&text).contains(part), "{part}\n{}", stdout(&text));
+    }
+    assert_eq!(postform(&["diff", old, new, "--color", "always"]).stdout.iter().filter(|b| **b == 0x1b).count() % 2, 0);
+    assert!(stdout(&postform(&["diff", old, new, "--layout", "side"])).contains("F300."));
+    let json: serde_json::Value =
+        serde_json::from_slice(&postform(&["diff", old, new, "--format", "json"]).stdout).unwrap();
+    assert_eq!((&json["postform_diff"], &json["same"]), (&1.into(), &false.into()));
+    assert_eq!(json["summary"]["letters"]["F"], 1);
+    let html = stdout(&postform(&["diff", old, new, "--format", "html"]));
+    assert!(
+        html.contains("<mark>F320.</mark>") && html.contains("(&lt;b&gt;&amp;)") && !html.contains("http"),
+        "{html}"
+    );
+    let motion = postform(&["diff", old, new, "--motion"]);
+    assert_eq!(motion.status.code(), Some(1));
+    assert!(
+        stdout(&motion).contains("the feed is 320, before 300") && stdout(&motion).contains("N70 X30. F300."),
+        "{}",
+        stdout(&motion)
+    );
+    for arguments in [
+        &["diff", old][..],
+        &["diff", old, "no.nc"],
+        &["diff", old, new, "--ignore", "everything"],
+        &["diff", "-", "-"],
+        &["diff", old, new, "--motion", "--format", "html"],
+        &["diff", "--forms", old, new],
+    ] {
+        let output = postform(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(output.stdout.is_empty() && !output.stderr.is_empty(), "{arguments:?}");
+    }
+    let refused = written("diff-refused.nc", "G777\nM30\n");
+    assert_eq!(postform(&["diff", old, refused.to_str().unwrap(), "--motion"]).status.code(), Some(1));
+}
+
+#[test]
+fn forms_and_what_they_change() {
+    let fanuc = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
+    let changed =
+        written("diff-form.pf", &fanuc.replace("G83 X[h] Y[v] Z[d] R[vclear]", "G83 X[h] Y[v] Z[d] R[rplane]"));
+    let changed = changed.to_str().unwrap();
+    let line = fanuc.lines().position(|line| line.contains("G83 X[h]")).unwrap() + 1;
+    let job = "samples/bracket/job.json";
+    let against = postform(&["diff", "--form", changed, "--against", "samples/bracket/expected.fanuc.nc", job]);
+    assert_eq!(against.status.code(), Some(1), "{}", String::from_utf8_lossy(&against.stderr));
+    let origin = format!("printed by {changed}:{line} for operations[3].path[0].cycle.points[0]");
+    assert!(stdout(&against).contains(&origin), "{origin}\n{}", stdout(&against));
+    let both = postform(&["diff", "--forms", "postforms/fanuc.pf", changed, job]);
+    assert!(stdout(&both).contains(&origin) && stdout(&both).contains("R[rplane]"), "{}", stdout(&both));
+    let same =
+        postform(&["diff", "--form", "postforms/fanuc.pf", "--against", "samples/bracket/expected.fanuc.nc", job]);
+    assert_eq!((same.status.code(), stdout(&same).as_str()), (Some(0), ""));
+}
+
+/// As the documentation says, in a repository of its own.
+#[test]
+fn git_shows_programs_by_their_words() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("git-diff");
+    _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let git =
+        |arguments: &[&str]| Command::new("git").args(arguments).current_dir(&folder).env("HOME", &folder).output();
+    if git(&["init", "-q"]).is_err() {
+        eprintln!("skipped: git is not installed");
+        return;
+    }
+    let run = |arguments: &[&str]| {
+        let output = git(arguments).unwrap();
+        assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        stdout(&output)
+    };
+    run(&["config", "user.email", "a@b"]);
+    run(&["config", "user.name", "a"]);
+    fs::write(folder.join("part.nc"), BASE).unwrap();
+    run(&["add", "."]);
+    run(&["commit", "-qm", "one"]);
+    fs::write(folder.join("part.nc"), renumbered(BASE).replace("F300.", "F320.")).unwrap();
+    let tool = format!("'{}' diff \"$LOCAL\" \"$REMOTE\"", env!("CARGO_BIN_EXE_postform"));
+    run(&["config", "difftool.postform.cmd", &tool]);
+    let shown = run(&["difftool", "-y", "--tool=postform", "--no-prompt"]);
+    assert!(shown.contains("F in 1 block") && shown.contains("1 block changed"), "{shown}");
+}
+
+/// The page in a real browser, where one is installed.
+#[test]
+fn the_page_is_shown_by_a_browser() {
+    let old = written("page-old.nc", BASE);
+    let new = written("page-new.nc", &BASE.replace("F300.", "F320.").replace("N130 X20.\n", "N130 X21.\nN135 X25.\n"));
+    let html = stdout(&postform(&["diff", old.to_str().unwrap(), new.to_str().unwrap(), "--format", "html"]));
+    let page = written("page.html", &html);
+    let picture = Path::new(env!("CARGO_TARGET_TMPDIR")).join("page.png");
+    _ = fs::remove_file(&picture);
+    let profile = Path::new(env!("CARGO_TARGET_TMPDIR")).join("browser");
+    let browser = ["chromium", "chromium-headless-shell", "google-chrome"].into_iter().find_map(|name| {
+        let options = [
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-background-networking",
+            "--window-size=1200,700",
+        ];
+        Command::new(name)
+            .args(options)
+            .arg(format!("--user-data-dir={}", profile.display()))
+            .arg(format!("--screenshot={}", picture.display()))
+            .arg(format!("file://{}", page.display()))
+            .output()
+            .ok()
+    });
+    let Some(output) = browser else {
+        eprintln!("skipped: no Chromium is installed");
+        return;
+    };
+    let bytes = fs::read(&picture).unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&output.stderr)));
+    // an empty page makes a far smaller picture
+    assert!(bytes.starts_with(b"\x89PNG") && bytes.len() > 20_000, "{} bytes", bytes.len());
+}

@@ -1,0 +1,155 @@
+//! The canonical layout: idempotent, and what is rendered stays the same, over all forms that ship and many that are made
+//! of them by changing their layout.
+
+use crate::support;
+use std::fs;
+use std::process::{Command, Stdio};
+
+use crate::support::pages::{Page, checked};
+use crate::support::{root, sample_form, samples};
+use postform::fmt::format;
+use postform::lint::Levels;
+use postform::render::Options;
+use postform::sema::Checked;
+use postform::source::Source;
+use proptest::prelude::*;
+
+fn laid_out(text: &str) -> String {
+    format(&Source::from_text("form.pf", text))
+}
+
+/// Posts, sample forms and the fences of the rule pages.
+fn forms() -> Vec<String> {
+    let posts = fs::read_dir(root().join("postforms")).unwrap().map(|e| e.unwrap().path());
+    let own = samples().into_iter().filter_map(|folder| sample_form(&folder));
+    let mut forms: Vec<String> = posts.chain(own).map(|path| fs::read_to_string(path).unwrap()).collect();
+    for row in postform::diag::CODES.iter().filter(|row| row.name.starts_with("PF")) {
+        let page = Page::read(row.name);
+        forms.extend(["Example", "Better"].map(|part| page.fence(part).checked().files[0].text.clone()));
+    }
+    forms
+}
+
+/// The programs of these samples, or why there is none.
+fn programs(form: &Checked, folders: &[std::path::PathBuf]) -> Vec<Result<String, &'static str>> {
+    let one = |folder: &std::path::PathBuf| {
+        let options = Options { program: Some(1), ..Options::default() };
+        let rendered = support::render_checked_sample(folder, form, options);
+        rendered.map(|rendered| rendered.text).map_err(|diag| diag.code.name())
+    };
+    folders.iter().map(one).collect()
+}
+
+#[test]
+fn what_ships_renders_the_same_and_stays_as_it_is() {
+    let folders = samples();
+    for text in forms() {
+        let once = laid_out(&text);
+        assert_eq!(laid_out(&once), once, "not idempotent:\n{text}");
+        let (before, after) = (checked(text.as_bytes()), checked(once.as_bytes()));
+        assert_eq!(programs(&before, &folders), programs(&after, &folders), "{text}\n--- laid out\n{once}");
+        // findings stay, but for those of the layout itself; those of words that are lost stay in any case
+        let layout = ["PF102", "PF103", "PF107", "PF204"];
+        let codes = |form: &Checked| {
+            let found = postform::lint::lint(form, &Levels::default()).diags;
+            found.iter().map(|diag| diag.code.name()).filter(|code| !layout.contains(code)).collect::<Vec<_>>()
+        };
+        assert_eq!(codes(&before), codes(&after), "{text}\n--- laid out\n{once}");
+    }
+}
+
+#[test]
+fn posts_that_ship_are_laid_out() {
+    let output = Command::new(env!("CARGO_BIN_EXE_postform"))
+        .args(["fmt", "--check", "postforms"])
+        .current_dir(root())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn files_are_laid_out_in_place_and_standard_input_is_a_filter() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmt");
+    _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("form.pf");
+    let text = support::mill("RAPID; g0", "LINECODE\r\nG1 x<h>Y[v]  Z[d]\r\nend");
+    fs::write(&path, &text).unwrap();
+    let run = |args: &[&str]| Command::new(env!("CARGO_BIN_EXE_postform")).args(args).arg(&path).output().unwrap();
+    let check = run(&["fmt", "--check"]);
+    assert_eq!(check.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&check.stderr).contains("would be laid out otherwise"));
+    assert_eq!(fs::read_to_string(&path).unwrap(), text, "--check writes nothing");
+    assert_eq!(run(&["fmt"]).status.code(), Some(0));
+    let once = fs::read_to_string(&path).unwrap();
+    assert!(once.contains("Rapid g0\n") && once.contains("\n\nLineCode\nG1 x[h] Y[v]   Z[d]\nEnd\n"), "{once}");
+    assert_eq!(run(&["fmt", "--check"]).status.code(), Some(0));
+
+    let mut filter = Command::new(env!("CARGO_BIN_EXE_postform"));
+    let mut child = filter.args(["fmt", "-"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    std::io::Write::write_all(&mut child.stdin.take().unwrap(), text.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), once);
+}
+
+/// A change of a form's layout: none of them means anything.
+fn change(line: &str, kind: u8) -> String {
+    match kind {
+        0 => format!("{line}  "),
+        1 => format!("{line} # a note"),
+        2 => format!("{line}\t# another"),
+        3 => format!("{line}\r"),
+        4 => format!("\n{line}"),
+        5 => format!("{line}\n\n# on its own"),
+        6 => format!("{line}\n   a remark by indenting"),
+        // sequences, commands and variables, not the letters
+        7 => line.replace("End", "END").replace("StartCode", "STARTCODE").replace("[h]", "[H]"),
+        8 => line.replace('[', "<").replace(']', ">"),
+        9 => line.replace("] F[", "]F[").replace("] Y[", "]Y["),
+        // an argument directly behind the semicolon, and a tab in a remark
+        11 if line.starts_with("Dwell ") => line.replacen(' ', ";", 1),
+        12 if line.starts_with("Custom") => format!("{line}\tfor this mill"),
+        13 if line.starts_with("Comment ") || line.starts_with("Control ") => line.replacen(' ', "; ", 1),
+        10 if !line.starts_with([' ', '#', '\t']) && !line.is_empty() => format!(" {line}"),
+        _ => line.to_owned(),
+    }
+}
+
+static FORMS: std::sync::LazyLock<Vec<String>> = std::sync::LazyLock::new(forms);
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(600))]
+    #[test]
+    fn other_layouts_come_to_the_same(
+        which in any::<prop::sample::Index>(),
+        kinds in prop::collection::vec(0..14u8, 60),
+        crlf: bool,
+    ) {
+        let text = which.get(FORMS.as_slice());
+        let end = if crlf { "\r\n" } else { "\n" };
+        let other: String =
+            text.lines().zip(kinds.iter().cycle()).map(|(line, kind)| change(line, *kind) + end).collect();
+        let once = laid_out(&other);
+        prop_assert_eq!(&laid_out(&once), &once, "not idempotent");
+        let folders = ["bracket", "drill-machine", "wire", "lathe-part"].map(|name| root().join("samples").join(name));
+        let (before, after) = (checked(other.as_bytes()), checked(once.as_bytes()));
+        prop_assert_eq!(programs(&before, &folders), programs(&after, &folders), "{}\n--- laid out\n{}", other, once);
+    }
+
+    /// Whatever the text: the layout ends, is stable, and has the same findings that keep it from being printed.
+    #[test]
+    fn any_text_has_a_layout(text in "(([A-Za-z0-9#;%:()\\[\\]<>.+~ \t\"-]{0,20}|End|Drill|StartCode|X->3.>4|Rapid G0|End Cancel|X\\[h\\] Y\\[v\\])\r?\n){0,30}") {
+        // in the head of a form that is right, so that what is found is about the text
+        let text = format!("{text}\n{}", support::mill("", ""));
+        let once = laid_out(&text);
+        prop_assert_eq!(&laid_out(&once), &once);
+        let (before, after) = (checked(text.as_bytes()), checked(once.as_bytes()));
+        let errors = |form: &Checked| {
+            let errors = form.diags.iter().filter(|diag| diag.is_error());
+            errors.map(|diag| diag.code.name()).collect::<Vec<_>>()
+        };
+        prop_assert_eq!(errors(&before), errors(&after), "{}\n--- laid out\n{}", text, once);
+        prop_assert_eq!(before.form.sequences.len(), after.form.sequences.len());
+    }
+}

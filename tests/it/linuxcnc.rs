@@ -1,0 +1,156 @@
+//! The LinuxCNC post through the interpreter of LinuxCNC itself, run as a separate program where it is installed.
+
+use crate::support;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::sync::Mutex;
+
+use crate::support::nc::{self, difference, simulated};
+use crate::support::{Kind, root, sample_job, samples};
+use postform::nc::{Control, Settings};
+use postform::render::{Cycles, Options};
+use postform::toolpath::Sink;
+use postform::toolpath::json::{read_document, read_lines};
+use postform::verify::{Comparer, Expectation, Verdict};
+
+/// What the interpreter makes of a program: its canonical calls, or its error.
+fn interpreted(program: &Path, tools: &str) -> Option<String> {
+    // the interpreter keeps its tools in one place for all of its processes
+    static ONE: Mutex<()> = Mutex::new(());
+    let _one = ONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tools.tbl");
+    fs::write(&table, tools).unwrap();
+    match Command::new("rs274").arg("-t").arg(&table).arg("-g").arg(program).output() {
+        Ok(output) => {
+            Some(String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr))
+        }
+        Err(_) => {
+            eprintln!("skipped: rs274 is not installed");
+            None
+        }
+    }
+}
+
+#[test]
+fn the_bracket_runs_to_its_end() {
+    let program = root().join("samples/bracket/expected.linuxcnc.nc");
+    let tools: String = [1, 2, 3, 4, 5, 11].map(|n| format!("T{n} P{n} Z0 D0.5\n")).concat();
+    let Some(calls) = interpreted(&program, &tools) else { return };
+    assert!(calls.contains("PROGRAM_END()"), "{}", calls.lines().rev().take(4).collect::<Vec<_>>().join("\n"));
+    // every hole of the job is fed to its bottom
+    let fed = |x: &str, y: &str, z: &str| calls.contains(&format!("STRAIGHT_FEED({x}, {y}, {z}, "));
+    for (x, y) in [("0.3750", "0.3750"), ("0.3750", "2.1250"), ("2.6250", "2.1250"), ("2.6250", "0.3750")] {
+        assert!(fed(x, y, "-0.1000"), "spot at {x} {y}");
+        assert!(fed(x, y, "-0.5000"), "thread at {x} {y}");
+    }
+    assert!(fed("2.6250", "2.1250", "-0.6000"), "the hole with its own depth");
+    assert!(!fed("2.6250", "2.1250", "-0.8000"), "and no deeper");
+}
+
+/// Positions of the motions between the first and the end, by whether they feed; parts of one straight rapid are joined,
+/// so that up-and-across is one place.
+fn places(calls: &str) -> Vec<(bool, [f64; 3])> {
+    let mut list: Vec<(bool, [f64; 3])> = Vec::new();
+    for line in calls.lines() {
+        let Some((feeds, rest)) = line
+            .split_once("STRAIGHT_TRAVERSE(")
+            .map(|(_, rest)| (false, rest))
+            .or_else(|| line.split_once("STRAIGHT_FEED(").map(|(_, rest)| (true, rest)))
+        else {
+            continue;
+        };
+        let numbers: Vec<f64> = rest.split([',', ')']).filter_map(|n| n.trim().parse().ok()).collect();
+        let to = [numbers[0], numbers[1], numbers[2]];
+        if list.last().is_some_and(|(was, at)| *was == feeds && (*at == to || !feeds)) {
+            list.pop();
+        }
+        list.push((feeds, to));
+    }
+    list
+}
+
+/// What the real interpreter makes of its own cycles is what it makes of the moves: same bottoms, same planes.
+#[test]
+fn cycles_of_the_control_go_where_the_moves_go() {
+    for (name, exact) in [("drill", true), ("face", true), ("ream", true), ("deep", false), ("brkchp", false)] {
+        let folder = root().join(format!("samples/cl-{name}"));
+        let form = root().join("postforms/linuxcnc.pf");
+        let both = [Cycles::Form, Cycles::Emulated].map(|cycles| {
+            let options = Options { cycles, ..Options::default() };
+            let rendered = support::render_sample_with(&folder, &form, options).unwrap();
+            let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{cycles:?}.ngc"));
+            fs::write(&program, &rendered.text).unwrap();
+            let calls = interpreted(&program, "T1 P1 Z0 D10\n")?;
+            assert!(calls.contains("PROGRAM_END()"), "{name}: {}\n{calls}", rendered.text);
+            Some((rendered.text, places(&calls)))
+        });
+        let [Some((cycle, by_control)), Some((moves, by_moves))] = both else { return };
+        assert!(cycle.contains("G80") && cycle != moves, "{name} is printed as the control's cycle\n{cycle}");
+        if exact {
+            assert_eq!(by_control, by_moves, "{name}");
+        }
+        let deepest = |list: &[(bool, [f64; 3])]| list.iter().map(|(_, to)| to[2]).fold(f64::MAX, f64::min);
+        assert_eq!(deepest(&by_control), deepest(&by_moves), "{name}");
+    }
+}
+
+/// Every sample that this post can print: the interpreter's motions are those of the simulator, and the simulator's are
+/// those of the job. So the real interpreter does what the job asks for.
+#[test]
+fn samples_run_in_the_interpreter_as_their_jobs_ask() {
+    let form = root().join("postforms/linuxcnc.pf");
+    let checked = support::check_file(&form);
+    let settings = postform::compile::compile(&checked.form).settings;
+    let (mut run, mut compensated) = (0, 0);
+    for folder in samples() {
+        let (job, kind) = sample_job(&folder);
+        let bytes = fs::read(&job).unwrap();
+        let read = |sink: &mut dyn Sink| match kind {
+            Kind::Document => read_document(&bytes[..], sink).is_ok(),
+            Kind::Lines => read_lines(&bytes[..], sink).is_ok(),
+            Kind::Cl => {
+                let mut report = postform::cl::Report::default();
+                postform::cl::read_cl(&bytes[..], &postform::cl::Options::default(), &mut report, sink).is_ok()
+            }
+        };
+        // registers of diameters are tools of the table too
+        let tools: String = (1..40).map(|n| format!("T{n} P{n} Z0 D0.0001\n")).collect();
+        for cycles in [Cycles::Form, Cycles::Emulated] {
+            let options = Options { cycles, program: Some(1), ..Options::default() };
+            // jobs for other machines, and what this post refuses
+            let Ok(rendered) = support::render_sample_with(&folder, &form, options) else { continue };
+            if rendered.notes.iter().any(|note| note.code == postform::diag::Code::PR023) {
+                continue; // ends under compensation, where no control goes home
+            }
+            let name = folder.file_name().unwrap().to_string_lossy().into_owned();
+            let mut comparer = Comparer::new(
+                std::io::Cursor::new(rendered.text.clone()),
+                Settings::new(Control::Linuxcnc),
+                Expectation::of_form(&settings, false),
+                None,
+            );
+            let done = read(&mut comparer);
+            let verdict = comparer.verdict().unwrap();
+            if !done && !matches!(verdict, Verdict::Different(_)) {
+                continue; // nothing that can be proven, as a subprogram
+            }
+            assert!(!matches!(verdict, Verdict::Different(_)), "{name} {cycles:?}: {verdict:?}\n{}", rendered.text);
+            let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("sample-{name}-{cycles:?}.ngc"));
+            fs::write(&program, &rendered.text).unwrap();
+            let Some(calls) = interpreted(&program, &tools) else { return };
+            assert!(calls.contains("PROGRAM_END()"), "{name}: {}\n{calls}", rendered.text);
+            let (ours, ended, _) = simulated(rendered.text.as_bytes(), Settings::new(Control::Linuxcnc));
+            assert_eq!(ended, Ok(()), "{name}");
+            // the interpreter offsets the path under compensation, the simulator only follows it
+            if rendered.text.contains("G41") || rendered.text.contains("G42") {
+                compensated += 1;
+            } else {
+                let difference = difference(&ours, &nc::interpreted(&calls));
+                assert_eq!(difference, None, "{name} {cycles:?}\n{}", rendered.text);
+                run += 1;
+            }
+        }
+    }
+    assert!(run >= 20, "{run} programs compared, {compensated} with compensation");
+}

@@ -1,0 +1,103 @@
+//! Programs and what LinuxCNC's interpreter makes of them: the same motions, the same refusals at the same block.
+
+use std::fs;
+use std::io::Cursor;
+use std::path::PathBuf;
+
+use crate::support::nc::{difference, interpreted, simulated};
+use postform::nc::{Control, Settings, Simulator};
+use serde_json::Value;
+
+fn golden() -> Option<PathBuf> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/golden/nc");
+    if path.is_dir() {
+        return Some(path);
+    }
+    eprintln!("skipped: the recorded programs are not beside this checkout");
+    None
+}
+
+/// What is wrong with one program, if anything.
+fn compare(program: &str, canon: &str) -> Option<String> {
+    let settings = Settings::new(Control::Linuxcnc);
+    let (ours, ended, _) = simulated(program.as_bytes(), settings);
+    let refused = canon.lines().find_map(|line| line.strip_prefix("!error "));
+    match (refused, ended) {
+        (None, Err(line)) => return Some(format!("refused at line {line}")),
+        (Some(error), Ok(())) => return Some(format!("not refused: {error}")),
+        (Some(error), Err(line)) => {
+            let block = canon.lines().find_map(|line| line.strip_prefix("!block ")).unwrap_or("");
+            let found = program.lines().nth(line as usize - 1).unwrap_or("").trim();
+            if found != block.trim() && !block.is_empty() {
+                return Some(format!("refused `{found}` instead of `{block}`: {error}"));
+            }
+        }
+        (None, Ok(())) => {}
+    }
+    difference(&ours, &interpreted(canon))
+}
+
+fn folder(name: &str) {
+    let Some(golden) = golden() else { return };
+    let (mut wrong, mut seen) = (Vec::new(), 0);
+    let mut paths: Vec<PathBuf> = fs::read_dir(golden.join(name)).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    for path in paths.iter().filter(|path| path.extension().is_some_and(|e| e == "ngc")) {
+        let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
+        seen += 1;
+        let program = String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned();
+        let canon = fs::read_to_string(path.with_extension("canon")).unwrap();
+        let problem = compare(&program, &canon);
+        if let Some(problem) = problem {
+            wrong.push(format!("{stem}: {problem}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {seen}\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// The recorded programs of this repository: each pins a rule.
+#[test]
+fn every_rule_has_its_case() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/nc.json");
+    let cases: Vec<Value> = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let mut wrong = Vec::new();
+    for case in &cases {
+        let text = |key: &str| case[key].as_str().unwrap().to_owned();
+        let canon: Vec<&str> = case["calls"].as_array().unwrap().iter().map(|call| call.as_str().unwrap()).collect();
+        let problem = compare(&text("program"), &canon.join("\n"));
+        // the path under compensation is tracked, not offset
+        let offset = text("name").starts_with("comp_");
+        if let Some(problem) = problem.filter(|problem| !(offset && problem.starts_with("call"))) {
+            wrong.push(format!("{} ({}): {problem}", text("name"), text("pins")));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {}\n{}", wrong.len(), cases.len(), wrong.join("\n"));
+    assert!(cases.len() > 140);
+}
+
+/// What a machinist should be told, though the control does it.
+#[test]
+fn surprises_are_warned_of() {
+    let warned = |program: &str| -> Vec<String> {
+        let mut simulator = Simulator::new(Cursor::new(program), Settings::new(Control::Linuxcnc));
+        while let Ok(true) = simulator.step(&mut Vec::new()) {}
+        simulator.take_warnings().iter().map(|diag| diag.code.name().to_owned()).collect()
+    };
+    let start = "G21 G17 G90 M3 F100\nG0 Z10\n";
+    let cases = [
+        ("G81 X1 Z-5 R2\nG91 X1\n", "PN030"),
+        ("G99 G81 X1 Z-5 R2\nG98 X2\n", "PN031"),
+        ("G83 X1 Z-1 R0 Q0.1\n", "PN032"),
+        ("G4 P1 G82 X1 Z-5 R2\n", "PN033"),
+        ("G88 X1 Z-5 R2 P0\n", "PN034"),
+    ];
+    for (blocks, code) in cases {
+        assert!(warned(&format!("{start}{blocks}M2\n")).contains(&code.to_owned()), "{blocks}");
+    }
+    assert_eq!(warned(&format!("{start}G98 G81 X1 Z-5 R2\nX2\nG80\nM2\n")), Vec::<String>::new());
+}
+
+#[test]
+fn random_programs_agree() {
+    folder("fuzz");
+}

@@ -1,0 +1,142 @@
+//! `simulate` and `verify` as commands: exit status, streams, files that are none.
+
+use std::fs;
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
+
+use crate::support::root;
+
+fn postform(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_postform")).args(arguments).current_dir(root()).output().unwrap()
+}
+
+fn fed(arguments: &[&str], input: &[u8]) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_postform"))
+        .args(arguments)
+        .current_dir(root())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(input).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn exit_status_and_streams_of_simulate() {
+    let program = b"%\nG21 G90 G0 X1. Y2.\nM30\n%\n";
+    let clean = fed(&["simulate", "-"], program);
+    assert_eq!(clean.status.code(), Some(0));
+    assert_eq!(text(&clean.stdout), "     2  units   mm\n     2  rapid   X1 Y2 Z0\n     3  end\n");
+    assert!(clean.stderr.is_empty());
+    // what was run before the refusal stands, and the refusal is the last object
+    let refused = fed(&["simulate", "-", "--format", "json"], b"G21\nG0 X1.\nG0 X#7\nM30\n");
+    assert_eq!(refused.status.code(), Some(1));
+    let lines: Vec<serde_json::Value> =
+        text(&refused.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines[1]["rapid"], serde_json::json!([1, 0, 0, 0, 0, 0]));
+    assert_eq!((&lines[2]["line"], &lines[2]["error"]), (&serde_json::json!(3), &serde_json::json!("PN014")));
+    assert!(text(&refused.stderr).contains("standard input:3:"), "{}", text(&refused.stderr));
+    for (arguments, status) in [
+        (&["simulate", "no-such-file.nc"][..], 2),
+        (&["simulate", "samples"], 2),
+        (&["simulate", "samples/bracket/expected.fanuc.nc", "--control", "heidenhain"], 2),
+        (&["simulate", "samples/bracket/expected.fanuc.nc", "--back-off", "-1"], 2),
+        (&["simulate"], 2),
+        (&["verify", "samples/bracket/job.json"], 2),
+        (&["verify", "-", "--nc", "-"], 2),
+        (&["verify", "no.json", "--form", "postforms/haas.pf"], 2),
+        (&["verify", "samples/bracket/job.json", "--nc", "no.nc"], 2),
+        (&["render", "samples/bracket/job.json", "--form", "postforms/haas.pf", "--verify", "--stream"], 2),
+        (&["render", "samples/bracket/job.json", "--form", "postforms/haas.pf", "--job-control", "fanuc"], 2),
+    ] {
+        let output = postform(arguments);
+        assert_eq!(output.status.code(), Some(status), "{arguments:?}: {}", text(&output.stderr));
+        assert!(!output.stderr.is_empty() && output.stdout.is_empty(), "{arguments:?}");
+    }
+    let empty = fed(&["simulate", "-"], b"");
+    assert_eq!(empty.status.code(), Some(1));
+    assert!(text(&empty.stderr).contains("cut off"));
+}
+
+/// Control characters of a program never reach a terminal, and a comment may hold anything.
+#[test]
+fn programs_are_shown_safely() {
+    let output = fed(&["simulate", "-"], b"G21 (\x1b[31mred \xff)\nG0 X1. \x1b[2J\nM30\n");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(!output.stdout.contains(&0x1b) && !output.stderr.contains(&0x1b), "{}", text(&output.stderr));
+}
+
+#[test]
+fn a_closed_pipe_is_no_error_and_a_full_disk_is() {
+    let mut program = String::from("G21\n");
+    for i in 0..50_000 {
+        program += &format!("G0 X{i}.\n");
+    }
+    program += "M30\n";
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("long.nc");
+    fs::write(&path, program).unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_postform"))
+        .arg("simulate")
+        .arg(&path)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
+    if let Ok(full) = fs::OpenOptions::new().write(true).open("/dev/full") {
+        let output =
+            Command::new(env!("CARGO_BIN_EXE_postform")).arg("simulate").arg(&path).stdout(full).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+        assert!(text(&output.stderr).contains("can't write"));
+    }
+}
+
+/// Nothing of a program that differs is left, and one that does not is written whole.
+#[test]
+fn render_verify_leaves_no_program_that_differs() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let (form, out) = (folder.join("wrong.pf"), folder.join("wrong.nc"));
+    let good = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    fs::write(&form, good.replace("R[vclear]", "R[rplane]")).unwrap();
+    fs::write(&out, "the program of last year\n").unwrap();
+    let run = |form: &str| {
+        let out = out.to_str().unwrap();
+        postform(&["render", "samples/bracket/job.json", "--form", form, "--verify", "-o", out])
+    };
+    let output = run(form.to_str().unwrap());
+    assert_eq!(output.status.code(), Some(1));
+    let message = text(&output.stderr);
+    for part in
+        ["PV005", "operations[2].path[0].cycle.points[0]", "R[rplane]", "the program, line", "nothing was printed"]
+    {
+        assert!(message.contains(part), "{part}\n{message}");
+    }
+    assert_eq!(fs::read_to_string(&out).unwrap(), "the program of last year\n");
+    let output = run("postforms/haas.pf");
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(fs::read(&out).unwrap() == fs::read(root().join("samples/bracket/expected.haas.nc")).unwrap());
+}
+
+/// Job and program through pipes.
+#[test]
+fn verify_reads_standard_input() {
+    let job = fs::read(root().join("samples/bracket/job.json")).unwrap();
+    let output = fed(&["verify", "-", "--form", "postforms/grbl.pf"], &job);
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
+    assert!(text(&output.stdout).starts_with("identical: "), "{}", text(&output.stdout));
+    let program = fs::read(root().join("samples/bracket/expected.fanuc.nc")).unwrap();
+    let output = fed(&["verify", "samples/bracket/job.json", "--nc", "-"], &program);
+    assert!(text(&output.stdout).starts_with("equivalent: standard input"), "{}", text(&output.stdout));
+    // half a job is no proof of half a program
+    let output = fed(&["verify", "-", "--form", "postforms/grbl.pf"], &job[..job.len() / 2]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(output.stdout.is_empty() && text(&output.stderr).contains("PJ"), "{}", text(&output.stderr));
+}

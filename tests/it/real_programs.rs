@@ -1,0 +1,94 @@
+//! Programs of several CAM systems, where they lie beside the checkout: they run under `fanuc` or are refused for a
+//! reason that a machinist accepts, and printed by another form they make the same motions.
+
+use crate::support;
+use std::fs;
+use std::io::Cursor;
+
+use crate::support::root;
+use postform::compile::compile;
+use postform::nc::{Control, JobOptions, RunError, Settings, Simulator, Tally, Unpointed, read_program};
+use postform::render::{Options, Renderer};
+use postform::toolpath::{Sink, Units};
+use postform::verify::{Comparer, Expectation, Verdict};
+
+/// Holes and tools, or the code and line of a refusal.
+type Outcome = Result<(u64, u64), (&'static str, u64)>;
+
+/// A program with how it is run and what comes of it.
+type Program = (&'static str, Vec<u8>, Settings, Option<Units>, Outcome);
+
+/// File, what it counts in where it does not say so, holes and tools, or its refusal.
+const PROGRAMS: [(&str, Option<Units>, Outcome); 7] = [
+    ("gct_CGIP09902-2.NC", Some(Units::Inch), Ok((24, 5))),
+    ("gct_CGIP09902.NC", Some(Units::Inch), Ok((633, 4))),
+    ("gct_Fusion_360_Gcode.nc", None, Ok((32, 31))),
+    // a PathPilot program: no Fanuc has G91.1
+    ("lmhd_Titan1M_1001_NoEdit.nc", None, Err(("PN003", 13))),
+    ("nist_827-9999-904_FIXT.NC", None, Ok((18, 7))),
+    ("nist_827-9999-904_OP1.NC", None, Ok((22, 11))),
+    ("rawdog_1401.nc", None, Ok((24, 15))),
+];
+
+/// The programs, or nothing where they are not there.
+fn programs() -> Vec<Program> {
+    let folder = root().join("../shared/data/nc");
+    if !folder.is_dir() {
+        eprintln!("skipped: the programs are not beside this checkout");
+        return Vec::new();
+    }
+    let with = |(name, units, expected): (&'static str, Option<Units>, _)| {
+        // two of them end with a G53 X12, whose units only the shop knows
+        let unpointed = if units.is_some() { Unpointed::Whole } else { Unpointed::Refused };
+        let settings = Settings { units: units.unwrap_or(Units::Mm), unpointed, ..Settings::new(Control::Fanuc) };
+        (name, fs::read(folder.join(name)).unwrap(), settings, units, expected)
+    };
+    PROGRAMS.into_iter().map(with).collect()
+}
+
+#[test]
+fn real_programs_run_or_are_refused_for_a_reason() {
+    for (name, bytes, settings, _, expected) in programs() {
+        let mut simulator = Simulator::new(Cursor::new(bytes), settings);
+        let mut tally = Tally::new(settings.units);
+        let mut items = Vec::new();
+        let found = loop {
+            items.clear();
+            let step = simulator.step(&mut items);
+            items.iter().for_each(|item| tally.add(item));
+            match step {
+                Ok(true) => {}
+                Ok(false) => break Ok((tally.holes, tally.tools)),
+                Err(RunError::Refused(diag, line)) => break Err((diag.code.name(), line)),
+                Err(RunError::Io(error)) => panic!("{error}"),
+            }
+        };
+        assert_eq!(found, expected, "{name}");
+    }
+}
+
+#[test]
+fn real_programs_printed_by_another_form_make_the_same_motions() {
+    let checked = support::check_file(&root().join("postforms/haas.pf"));
+    let form = compile(&checked.form);
+    for (name, bytes, settings, units, expected) in programs() {
+        if expected.is_err() {
+            continue;
+        }
+        let options = JobOptions { settings, units, tool: None };
+        let read = |sink: &mut dyn Sink| read_program(Cursor::new(&bytes), &options, &mut Vec::new(), sink);
+        let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
+        if let Err(error) = read(&mut renderer) {
+            // a rigid tap with a dwell that the Haas form does not print
+            assert!(name == "rawdog_1401.nc" && format!("{error:?}").contains("PC021"), "{name}: {error:?}");
+            continue;
+        }
+        let program = std::mem::take(renderer.text());
+        let text = String::from_utf8_lossy(&program).into_owned();
+        let expectation = Expectation::of_form(&form.settings, false);
+        let mut comparer = Comparer::new(Cursor::new(program), Settings::new(Control::Fanuc), expectation, None);
+        let read = read(&mut comparer);
+        let verdict = comparer.verdict().unwrap();
+        assert!(read.is_ok() && !matches!(verdict, Verdict::Different(_)), "{name}: {verdict:?}\n{text}");
+    }
+}

@@ -1,0 +1,86 @@
+//! Pages that are made from tables are current, and everything that has a name is explained.
+//! `SAMPLES=overwrite cargo test reference::` writes the pages anew.
+
+use crate::support;
+use std::fs;
+
+use crate::support::root;
+use postform::diag::CODES;
+use postform::explain::{explain, list, reference};
+use postform::lang::{COMMANDS, SEQUENCES, VARIABLES};
+
+#[test]
+fn generated_pages_are_current() {
+    let pages = [
+        ("commands.md", reference::commands()),
+        ("variables.md", reference::variables()),
+        ("sequences.md", reference::sequences()),
+        ("rules/README.md", reference::rules()),
+    ];
+    for (name, text) in pages {
+        let path = root().join("docs").join(name);
+        if std::env::var("SAMPLES").is_ok_and(|v| v == "overwrite") {
+            fs::write(&path, &text).unwrap();
+        }
+        let written = fs::read_to_string(&path).unwrap_or_default();
+        assert!(written == text, "docs/{name} is not what the tables say: `just overwrite`");
+    }
+}
+
+#[test]
+fn everything_is_explained() {
+    let all = list();
+    for row in CODES {
+        let text = explain(row.name).unwrap();
+        let says_what_to_do = text.contains("Instead:") || text.contains("Better");
+        assert!(says_what_to_do, "{} says too little: {text}", row.name);
+        assert!(all.contains(row.name));
+    }
+    for row in COMMANDS {
+        let text = explain(&row.name.to_uppercase()).unwrap();
+        assert!(text.contains(row.meaning) && text.contains("standing"), "{}", row.name);
+        // the example is one: a form with it has no error of its own
+        let example = text.split("Example, ").nth(1).unwrap_or_else(|| panic!("{} has no example", row.name));
+        let lines: String = example
+            .lines()
+            .skip(1)
+            .take_while(|line| line.starts_with("  "))
+            .map(|line| format!("{}\n", line.trim()))
+            .collect();
+        assert!(!lines.is_empty(), "{example}");
+        let form = support::check(&format!("{lines}{}", support::mill("", "")));
+        let errors: Vec<_> = form.diags.iter().filter(|diag| diag.is_error()).map(|diag| diag.code.name()).collect();
+        let elsewhere = ["PF005", "PF009", "PF603", "PF604"]; // a file that is not there, another machine
+        assert!(errors.iter().all(|code| elsewhere.contains(code)), "{}: {errors:?}\n{example}", row.name);
+    }
+    for row in VARIABLES {
+        let text = explain(&format!("[{}]", row.name)).unwrap();
+        assert!(text.contains(row.meaning) && text.contains("Example"), "{}", row.name);
+        assert!(explain(row.name).unwrap().contains(row.meaning));
+    }
+    for row in SEQUENCES {
+        let text = explain(row.name).unwrap();
+        assert!(text.contains(row.meaning) && text.contains("Example"), "{}: {text}", row.name);
+    }
+    for (name, _) in postform::toolpath::CycleKind::NAMES {
+        assert!(explain(name).unwrap().contains("cycle of a job"), "{name}");
+    }
+    for line in ["Back 3", "Force X Z", "Drill 7"] {
+        assert_eq!(explain(line), explain(line.split(' ').next().unwrap()));
+    }
+    for upon in ["Upon", "upon every", "Upon [work]"] {
+        assert!(explain(upon).unwrap().contains("when a variable changes"), "{upon}");
+    }
+    assert_eq!(explain("X[h]"), explain("[h]"));
+    assert!(explain("End Cancel").unwrap().contains("End (of a sequence)"));
+    assert!(explain("None").unwrap().contains("prints no block"));
+}
+
+#[test]
+fn near_misses_are_suggested() {
+    assert_eq!(explain("vlcear").unwrap_err(), "did you mean `vclear`?");
+    assert_eq!(explain("Dril").unwrap_err(), "did you mean `Drill`?");
+    assert_eq!(explain("cycle.depth.mising").unwrap_err(), "did you mean `cycle.depth.missing`?");
+    assert!(explain("zzzzzzzzzz").unwrap_err().contains("--list"));
+    assert!(explain("").is_err());
+}

@@ -1,0 +1,95 @@
+//! Rotary axes: the part turns before the tool goes down, and no angle is lost.
+
+use crate::support::{job, mill, path_lines, program};
+
+const DRILL: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+const INDEX: &str = "Index\nG0 Z9.\nA[rotangle]\nX[h] Y[v]\nZ[d]\nEnd";
+
+fn holes(points: &str) -> String {
+    format!("{{\"cycle\":{{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[{points}]}}}}")
+}
+
+#[test]
+fn a_hole_in_another_view_ends_the_cycle_turns_the_part_and_begins_again() {
+    let path = holes("[1,1,0],[2,1,0],[2,1,0,90],[3,1,0,90]");
+    let cycle = ["G81 X1. Y1. Z-1. R.1 F5.", "X2.", "G80"];
+    let again = ["G81 X2. Y1. Z-1. R.1 F5.", "X3.", "G80"];
+    let indexed = path_lines("", &format!("{DRILL}\n{INDEX}"), &path);
+    assert_eq!(indexed[2..5], cycle);
+    assert_eq!(indexed[5..9], ["G0 Z9.", "A90.", "X2. Y1.", "Z.1"]);
+    assert_eq!(indexed[9..], again);
+    let rapid = path_lines("", DRILL, &path);
+    assert_eq!(rapid[5..], [&["G0 A90."][..], &again].concat());
+    // as single moves
+    let moves = path_lines("", INDEX, &holes("[1,1,0],[1,1,0,90]"));
+    assert_eq!(moves[2..], ["G1 Z-1. F5.", "G0 Z.1", "G0 Z9.", "A90.", "X1. Y1.", "Z.1", "G1 Z-1. F5.", "G0 Z.1"]);
+}
+
+#[test]
+fn a_rapid_beyond_the_travel_goes_to_the_same_view_within_it() {
+    let path = format!("{{\"line\":[0,0,1,360]}},{}", holes("[1,1,0,400]"));
+    let lines = path_lines("Limits A -360 360", DRILL, &path);
+    assert_eq!(lines[1..], ["G0 X1. Y1. A40.", "Z.1", "G81 X1. Y1. Z-1. R.1 F5.", "G80"]);
+    // and counts from there: 760 is 400 of the axis, which is 40 again
+    let on = format!("{path},{{\"rapid\":[1,1,1,760]}},{{\"line\":[1,1,1,770]}}");
+    let lines = path_lines("Limits A -360 360", DRILL, &on);
+    assert_eq!(lines[5..], ["G0 Z1. A40.", "G1 A50. F10."]);
+}
+
+/// A form that goes down in its tool change must turn the part before.
+#[test]
+fn a_tool_change_turns_the_part_before_it_goes_down() {
+    let turned = job("{\"line\":[1,0,1]}").replace("[0,0,1]", "[0,0,1,90]");
+    let error = &program(&mill("", INDEX), &turned)[0];
+    assert!(error.starts_with("PR017 the tool begins at A90"), "{error}");
+    let says = mill("", INDEX).replace("X[h] Y[v] Z[d]\nEnd", "X[h] Y[v] A[rotangle]\nZ[d]\nEnd");
+    assert_eq!(program(&says, &turned)[3..5], ["G0 G54 X0 Y0 A90.", "Z1."]);
+    // one that stays up leaves the turning to Index
+    let high = mill("", INDEX).replace(" Z[d]\nEnd", "\nEnd");
+    assert_eq!(program(&high, &turned)[3..8], ["G0 G54 X0 Y0", "G0 Z9.", "A90.", "X0 Y0", "Z1."]);
+}
+
+/// What an Index does not print is moved to after it; an angle that it does not print is an error.
+#[test]
+fn index_loses_no_axis() {
+    let short = "Index\nG0 Z9.\nA[rotangle]\nEnd";
+    let lines = path_lines("", short, "{\"rapid\":[2,1,1,90]}");
+    assert_eq!(lines[2..], ["G0 X2. Y1. Z1."]);
+    let silent = "Index\nG0 Z9.\nX[h] Y[v]\nZ[d]\nEnd";
+    assert!(path_lines("", silent, "{\"rapid\":[2,1,1,90]}")[0].starts_with("PR017 A turns to 90"));
+    let other = "{\"rapid\":[2,1,1,0,90]}";
+    assert!(path_lines("", INDEX, other)[0].starts_with("PR017 B turns to 90"));
+    let both = "Index\nG0 Z9.\nA[rotangle] B[rotangle]\nX[h] Y[v]\nZ[d]\nEnd";
+    assert_eq!(path_lines("", both, "{\"rapid\":[2,1,1,30,90]}")[1], "A30. B90.");
+}
+
+#[test]
+fn a_motion_sequence_prints_the_angle_or_refuses() {
+    let path = "{\"line\":[2,1,1,90]}";
+    let error = &path_lines("", "LineCode\nG1 X[h] Y[v] Z[d] F[frate]\nEnd", path)[0];
+    assert!(error.starts_with("PR017 this move changes A[rotangle]"), "{error}");
+    let says = "LineCode\nG1 X[h] Y[v] Z[d] A[rotangle] F[frate]\nEnd";
+    assert_eq!(path_lines("", says, path), ["G1 X2. Y1. A90. F10."]);
+}
+
+/// The angle stands before the height, and an arc turns the part along its whole way.
+#[test]
+fn the_angle_comes_before_the_height_and_arcs_turn_evenly() {
+    let turned = job("{\"line\":[1,0,1]}").replace("[0,0,1]", "[0,0,1,90]");
+    let late = mill("", "").replace("Z[d]\nEnd", "Z[d]\nA[rotangle]\nEnd");
+    assert!(program(&late, &turned)[0].starts_with("PR017 the tool begins at A90"));
+    let arc = "{\"arc\":{\"to\":[2,0,1,180],\"center\":[1,0,1],\"direction\":\"cw\"}}";
+    let lines = path_lines("Tolerance 0.1", "", arc);
+    let angles: Vec<_> =
+        lines.iter().filter_map(|l| l.split('A').nth(1)?.split('.').next()?.parse::<f64>().ok()).collect();
+    assert!(angles.len() > 2 && angles.windows(2).all(|w| w[0] < w[1]) && angles[0] < 90.0, "{lines:?}");
+}
+
+/// A tool change keeps the angle that a cut left.
+#[test]
+fn the_part_stays_turned_at_a_tool_change() {
+    let second = "{\"tool\":2,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3,1]}]}";
+    let text = job("{\"line\":[1,0,1,20]}").replace("20]}]}]}", &format!("20]}}]}},{second}]}}"));
+    let form = mill("", "").replace("X[h] Y[v] Z[d]\nEnd", "X[h] Y[v] A[rotangle]\nZ[d]\nEnd");
+    assert!(program(&form, &text).contains(&"G0 G54 X3. Y3. A20.".to_owned()), "{:?}", program(&form, &text));
+}

@@ -1,0 +1,428 @@
+//! docs/rules: each page is a test of its rule. The example is found, the better form is clean, and the fix does what the
+//! page says of it. Fixes and suppressions over all forms that ship.
+
+use crate::support;
+use std::collections::BTreeSet;
+use std::fs;
+
+use crate::support::pages::{Fence, Page, checked, codes, found, mended};
+use crate::support::{mill, root, sample_form, samples};
+use postform::diag::{CODES, Code, CodeRow, Severity};
+use postform::lint::{Level, Levels, RULES, lint};
+use postform::render::Options;
+use proptest::prelude::*;
+
+fn forms() -> impl Iterator<Item = &'static CodeRow> {
+    CODES.iter().filter(|row| row.name.starts_with("PF"))
+}
+
+fn files(folder: &str, extension: &str) -> BTreeSet<String> {
+    let names = fs::read_dir(root().join(folder)).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
+    names.filter_map(|name| Some(name.strip_suffix(extension)?.to_owned())).collect()
+}
+
+#[test]
+fn codes_pages_and_files_are_one_to_one() {
+    let pages = forms().map(|row| row.name.to_owned()).chain(["README".to_owned()]).collect();
+    assert_eq!(files("docs/rules", ".md"), pages);
+    let own = RULES.iter().map(|rule| rule.file.to_owned()).chain(["mod".to_owned()]).collect();
+    assert_eq!(files("src/lint/rules", ".rs"), own);
+    let numbered: BTreeSet<Code> = RULES.iter().map(|rule| rule.code).collect();
+    assert_eq!(numbered.len(), RULES.len(), "a code with two rules");
+    assert!(RULES.len() >= 45);
+    assert!(RULES.windows(2).all(|pair| pair[0].code < pair[1].code), "in the order of the codes");
+}
+
+#[test]
+fn pages_have_their_headings_and_titles() {
+    for row in forms() {
+        let page = Page::read(row.name);
+        assert_eq!(page.title, format!("# {}: {}", row.name, row.title));
+        let headings: Vec<&str> = page.sections.iter().map(|(heading, _)| heading.as_str()).collect();
+        assert_eq!(
+            headings,
+            ["What it finds", "Why it matters at the machine", "Example", "Better", "Fix"],
+            "{}",
+            row.name
+        );
+    }
+}
+
+#[test]
+fn examples_are_found_and_better_forms_are_clean() {
+    let mut wrong = Vec::new();
+    for row in forms() {
+        let page = Page::read(row.name);
+        let example = found(&page.fence("Example").checked()).diags;
+        if codes(&example) != [row.name] {
+            wrong.push(format!("{} example: {:?}", row.name, codes(&example)));
+        }
+        let better = found(&page.fence("Better").checked());
+        if !better.diags.is_empty() {
+            wrong.push(format!("{} better: {:?}", row.name, codes(&better.diags)));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn fixes_do_what_their_pages_say() {
+    for row in forms() {
+        let page = Page::read(row.name);
+        let form = page.fence("Example").checked();
+        let kinds: Vec<&str> = found(&form)
+            .diags
+            .iter()
+            .filter(|diag| diag.code == row.code)
+            .map(|diag| match &diag.fix {
+                None => "None:",
+                Some(fix) if fix.safe => "Safe:",
+                Some(_) => "Unsafe:",
+            })
+            .collect();
+        let said = page.section("Fix").split(' ').next().unwrap();
+        assert!(kinds.iter().all(|kind| *kind == said), "{}: the page says {said}, the rule {kinds:?}", row.name);
+        if said != "None:" {
+            let after = mended(&form, true).unwrap();
+            assert_eq!(codes(&found(&after).diags), Vec::<&str>::new(), "{}\n{}", row.name, after.files[0].text);
+        }
+    }
+}
+
+/// The program of a sample by a form, or why there is none.
+fn program(folder: &std::path::Path, form: &postform::sema::Checked) -> Result<String, String> {
+    let options = Options { program: Some(1), ..Options::default() };
+    match support::render_checked_sample(folder, form, options) {
+        Ok(rendered) => Ok(rendered.text),
+        Err(diag) => Err(format!("{} {}", diag.code.name(), diag.message)),
+    }
+}
+
+/// Every form that ships or stands on a page.
+fn all_forms() -> Vec<(String, Vec<u8>)> {
+    let mut forms: Vec<(String, Vec<u8>)> = Vec::new();
+    let posts = fs::read_dir(root().join("postforms")).unwrap().map(|e| e.unwrap().path());
+    for path in posts.chain(samples().iter().filter_map(|folder| sample_form(folder))) {
+        forms.push((path.display().to_string(), fs::read(&path).unwrap()));
+    }
+    for row in self::forms() {
+        let page = Page::read(row.name);
+        forms.extend(["Example", "Better"].map(|part| (format!("{} {part}", row.name), page.fence(part).form())));
+    }
+    forms
+}
+
+#[test]
+fn safe_fixes_remove_their_findings_and_change_no_byte_of_any_sample() {
+    let mut fixed = 0;
+    for (name, bytes) in all_forms() {
+        let form = checked(&bytes);
+        let Some(after) = mended(&form, false) else { continue };
+        fixed += 1;
+        assert!(found(&after).diags.iter().all(|diag| diag.fix.as_ref().is_none_or(|fix| !fix.safe)), "{name}");
+        for folder in samples() {
+            let (before, now) = (program(&folder, &form), program(&folder, &after));
+            // places in messages move with the text, codes and programs don't
+            assert_eq!(before, now, "{name} with {}", folder.display());
+        }
+    }
+    assert!(fixed >= 10, "only {fixed} forms had something to fix");
+}
+
+#[test]
+fn unsafe_fixes_remove_their_findings() {
+    let mut fixed = 0;
+    for (name, bytes) in all_forms() {
+        let form = checked(&bytes);
+        let Some(after) = mended(&form, true) else { continue };
+        fixed += 1;
+        assert!(found(&after).diags.iter().all(|diag| diag.fix.is_none()), "{name}");
+    }
+    assert!(fixed >= 15, "only {fixed} forms had something to fix");
+}
+
+/// What the manual misprints in form text, and its five examples that are dangerous as they stand.
+#[test]
+fn misprints_and_dangerous_examples_of_the_manual_have_their_rules() {
+    let table = [
+        ("Z[d]F[plunge] without a blank", "Bore\nG0 X[h] Y[v] Z[rplane]\nG1 Z[d]F[plunge]\nZ[rplane]\nEnd", "PF102"),
+        ("Y[v]. with a stray point", "LineCode\nG1 X[h] Y[v]. Z[d] F[frate]\nEnd", "PF001"),
+        ("F[speed] in LTap", "LTap\nG84 X[h] Y[v] Z[d] R[vclear] F[speed]\nEnd Cancel", "PF313"),
+        ("CwCode with G3", "CwCode\nG3 X[h] Y[v] I[ival] J[jval] F[frate]\nEnd", "PF432"),
+        ("CwCode with four blanks", "CwCode\nG2 X[h] Y[v]    I[ival] J[jval] F[frate]\nEnd", "PF101"),
+        (
+            "Bore's example headed Back 4",
+            "Back 4\nF[frate]\nG306 Z0\nG308 Z[d]\nG323 P.5\nG85 X[h] Y[v]\nEnd Cancel",
+            "PF414",
+        ),
+        (
+            "both under one name",
+            "Back 3\nF[frate]\nG306 Z0\nG308 Z[d]\nG85 X[h] Y[v]\nEnd Cancel\nBack 4\nF[frate]\nG306 Z0\nG308 Z[d]\nG323 P.5\nG85 X[h] Y[v]\nEnd Cancel",
+            "PF004",
+        ),
+        (
+            "Custom1's example without its count",
+            "Custom1\nG83 G99 R[vclear] Z[d] X[h] Y[v] F[frate]\nZ[d] R[vclear] X[h] Y[v]\nEnd Cancel",
+            "PF404",
+        ),
+        (
+            "Back emulated with End Cancel",
+            "Back\nG0 X[h] Y[v]\nZ[rplane]\nG1 Z[d] F[plunge]\nG0 Z[rplane]\nEnd Cancel",
+            "PF403",
+        ),
+        (
+            "Bore emulated with End Cancel",
+            "Bore\nG0 X[h] Y[v]\nZ[rplane]\nG1 Z[d] F[plunge]\nZ[rplane]\nEnd Cancel",
+            "PF403",
+        ),
+        // the dangerous ones
+        (
+            "Upon [work] prints X Y Z while G91 is on",
+            "Upon [work]\nG91 G28 Z0\nG[work]\nX[h] Y[v] Z[d]\nG90\nEnd",
+            "PF423",
+        ),
+        (
+            "Index: G28 without G91",
+            "Index\nG0 G28 G49 Z0\nG[work] X[h] Y[v] A[rotangle]\nG43 H[lcomp] Z[d]\nEnd",
+            "PF422",
+        ),
+        (
+            "Unwind: G28 without G91",
+            "Unwind\nG0 G28 G49 Z0\nG0 G90 A0\nG43 H[lcomp] Z[d]\nG0 X[lasth] Y[lastv] A[lastrotangle]\nG1 Z[lastd]\nEnd",
+            "PF422",
+        ),
+        (
+            "Unwind goes down before it positions",
+            "Unwind\nG0 G28 G49 Z0\nG0 G90 A0\nG43 H[lcomp] Z[d]\nG0 X[lasth] Y[lastv] A[lastrotangle]\nG1 Z[lastd]\nEnd",
+            "PF421",
+        ),
+        (
+            "emulated LTap feeds out without reversing the spindle",
+            "LTap\nG0 X[h] Y[v] Z[rplane]\nG1 Z[d] F[frate]\nZ[rplane]\nEnd",
+            "PF419",
+        ),
+    ];
+    for (what, sequences, code) in table {
+        let diags = found(&checked(mill("", sequences).as_bytes())).diags;
+        assert!(codes(&diags).contains(&code), "{what}: {:?}", codes(&diags));
+    }
+    // the fifth: a tool change that prints H without G43
+    let text = mill("", "").replace("X[h] Y[v] Z[d]", "X[h] Y[v]\nZ[d] H[Lcomp]");
+    assert!(codes(&found(&checked(text.as_bytes())).diags).contains(&"PF426"));
+}
+
+#[test]
+fn comments_allow_findings_where_they_stand() {
+    let allowed = |text: &str| {
+        let findings = found(&checked(mill("", text).as_bytes()));
+        let own = |code: &&str| ["PF108", "PF109", "PF418", "PF001"].contains(code);
+        (codes(&findings.diags).into_iter().filter(own).collect::<Vec<_>>(), findings.suppressed)
+    };
+    let line = "G1 X[h] Y[v] Z[d]";
+    assert_eq!(allowed(&format!("LineCode\n{line}\nEnd")), (vec!["PF418"], 0));
+    assert_eq!(allowed(&format!("LineCode\n{line} # postform: allow PF418\nEnd")), (vec![], 1));
+    assert_eq!(allowed(&format!("LineCode\n# postform: allow PF418\n\n{line}\nEnd")), (vec![], 1));
+    assert_eq!(allowed(&format!("# POSTFORM: Allow pf303, PF418\nLineCode\n{line} B[rotangle]\nEnd")), (vec![], 2));
+    assert_eq!(
+        allowed(&format!("# postform: allow PF418\n\nRapidCode\nG0 X[h] Y[v] Z[d]\nEnd\nLineCode\n{line}\nEnd")).0,
+        ["PF108", "PF418"]
+    );
+    assert_eq!(allowed(&format!("# postform: allow PF41\nLineCode\n{line}\nEnd")).0, ["PF109", "PF418"]);
+    assert_eq!(allowed(&format!("LineCode\n{line} # postform: allow PF418 one feed for all\nEnd")), (vec![], 1));
+    assert_eq!(allowed(&format!("LineCode\n{line} # postform allow PF418\nEnd")).0, ["PF109", "PF418"]);
+    assert_eq!(allowed("LineCode\nG1 X[h] Y[v]. Z[d] F[frate] # postform: allow PF001\nEnd").0, ["PF001", "PF108"]);
+}
+
+#[test]
+fn levels_change_what_findings_count_as() {
+    let form = Page::read("PF418").fence("Example").checked();
+    let with = |rule: &str, level: &str| {
+        let mut levels = Levels::default();
+        levels.set(rule, Level::parse(level).unwrap()).unwrap();
+        let found = lint(&form, &levels);
+        found.diags.iter().map(|diag| diag.severity).collect::<Vec<_>>()
+    };
+    assert_eq!(with("PF418", "off"), []);
+    assert_eq!(with("PF4", "error"), [Severity::Error]);
+    assert_eq!(with("PF418", "note"), [Severity::Note]);
+}
+
+static FORMS: std::sync::LazyLock<Vec<(String, Vec<u8>)>> = std::sync::LazyLock::new(all_forms);
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+    /// Whatever becomes of a form that ships: lint, its fixes and the layout end, and none panics. The fuzz target does
+    /// this by the million.
+    #[test]
+    fn mutated_forms_are_looked_at_to_their_end(
+        which in any::<prop::sample::Index>(),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), 0..6u8, any::<char>(), any::<prop::sample::Index>()), 1..8),
+    ) {
+        let (_, bytes) = which.get(FORMS.as_slice());
+        let mut text: Vec<char> = String::from_utf8_lossy(bytes).chars().collect();
+        for (at, kind, c, other) in changes {
+            if text.is_empty() { break }
+            let (at, other) = (at.index(text.len()), other.index(text.len()));
+            match kind {
+                0 => _ = text.remove(at),
+                1 => text.insert(at, c),
+                2 => text.insert(at, [' ', '\t', '\n', '[', ']', '(', ')', '#', '<', '%'][other % 10]),
+                3 => text.swap(at, other),
+                4 => text.truncate(at),
+                _ => { let piece: Vec<char> = text[at..text.len().min(at + 30)].to_vec(); text.splice(other..other, piece); }
+            }
+        }
+        let text: String = text.into_iter().collect();
+        let form = checked(text.as_bytes());
+        for diag in found(&form).diags {
+            for label in &diag.labels {
+                let source = &form.files[label.span.file as usize];
+                prop_assert!(source.text.get(label.span.range()).is_some(), "{:?}", diag);
+            }
+        }
+        mended(&form, true);
+        postform::fmt::format(&form.files[0]);
+    }
+}
+
+/// What is unusual and right: post authors must be able to trust a warning.
+#[test]
+fn right_forms_are_left_alone() {
+    let cycle = "G[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]";
+    let table = [
+        ("lathe", "Peck\nG83 Z[d] R[vclear] Q[vbite] F[frate]\nEnd Cancel\nCancel\nG80\nEnd".to_owned()),
+        ("", "EndCode\nM9\nM5\nG91 G28 Z0.\nG28 X0. Y0.\nM30\n%0\nEnd".into()),
+        ("", "EndCode\nM9\nG91 G28 Z0 M5\nG90\nM30\n(END)\n%0\nEnd".into()),
+        ("", "1stToolChange\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43.4 H[lcomp] Z[d] M[cool]\nEnd".into()),
+        ("", "1stToolChange\nT[tool] T[nexttool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd".into()),
+        ("", "StartCode\n%0\nO[program#]\nG[unitmode] G0 G17 G40 G49 G54 G80 G90\nG10 L2 P1 X0 Y0 Z0\nEnd".into()),
+        ("", format!("Drill\n{cycle}\nG80\nEnd")),
+        ("", "Tap\nG0 X[h] Y[v]\nZ[vclear]\nG33.1 Z[d] K[pitch]\nEnd".into()),
+        ("", "Tap 1\nG[retplane] G84.2 X[h] Y[v] Z[d] R[vclear] F[frate]\nX[h] Y[v] Z[d]\nEnd Cancel".into()),
+        ("", "SubStart\nO[sub]\nEnd\nSubCall\nM98 P[sub]\nEnd\nSubEnd\nO[sub] endsub\nEnd".into()),
+        ("", "InFeed\nG1 G[side] D[tool] X[h] Y[v] F[frate]\nEnd".into()),
+        ("", "Drill 1\nG66 P9010 Z[d] R[vclear] F[frate]\nX[h] Y[v]\nEnd Cancel\nCancel\nG67\nEnd".into()),
+        ("", "Ask val1 \"Height over the part\" 2\n\n1stToolChange\nT[tool] M6\nG[work] G0 X[h] Y[v] A[rotangle] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd\nToolChange\nM9\nG91 G28 Z0 M5\nG90\nT[tool] M6\nG[work] G0 X[h] Y[v] A[rotangle] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd\nIndex\nG0 Z[val1]\nA[rotangle]\nX[h] Y[v]\nZ[d]\nEnd".into()),
+        ("", "Comment ;\n\nStartCode\n%0\nO[program#]\nG[unitmode] G17 G40 G49 G80 G90\n; G28 Z0 first\nEnd".into()),
+        ("", "Comment ;\n\nBeginRow\nM8 ; not M9, X1 X2 G54 G55 GO M3O Z[d]F[frate]\nEnd\nEndCode\nM9\nM30\n; END OF [program#]\n%0\nEnd".into()),
+        ("", "StartCode\n%0\nO[program#]\nG[unitmode] G17 G40 G49 G80 G90\nG4 X1.\nEnd".into()),
+        ("", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 G53 Z0\nEnd".into()),
+        ("", "Drill\nG0 X[h] Y[v]\nG308 Z[d] F[frate]\nG0 Z[rplane]\nEnd".into()),
+        ("", "Rename d D\nd >3\n\nInFeed\nG1 G[side] d[dcomp] X[h] Y[v] F[frate]\nEnd".into()),
+        ("grbl", "EndCode\nM9\nM5\nG28.1\nM2\nEnd".into()),
+        ("", "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate] K2\nEnd Cancel".into()),
+        ("", "Drill   straight holes\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel".into()),
+        ("", "BeginRow\nTOOL CALL [tool] Z\nEnd".into()),
+        ("", "Drill 1\nG[retplane] G81 Z[d] R[vclear] F[frate] K0\nX[h] Y[v]\nEnd Cancel".into()),
+        ("", "Tap\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nM4\nZ[vclear]\nM3\nG0 Z[rplane]\nEnd".into()),
+        ("", "EndCode\nM9 M5\nG65 P1000\nG53 G0 X-10. Y0.\nM30\n%0\nEnd".into()),
+        ("", "EndCode\nM9 M5\nG91 G0 Z0.\nG28 Z0\nG28 X0 Y0\nG90\nM30\n%0\nEnd".into()),
+        ("lathe", "CwCode\nG2 X[v] Z[h] I[jval] K[ival] F[frate]\nEnd".into()),
+        ("", "EndCode\nM9\n/G91 G28 Z0 M5\nG90\nM30\n%0\nEnd".into()),
+        ("", "StartCode\n%0\nO[program#]\nG[unitmode] G17 G40 G49 G80 G90\nG65 P9810 Z0.5\nG68 X0 Y0 R0\nG50.1 X0\nG05.1 Q1 R1\nR1 = [toold]\nEnd".into()),
+        ("", "1stToolChange\nG65 P9020 T[tool]\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H#518 Z[d] M[cool]\nEnd".into()),
+        ("", "Tap\nG77 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd".into()),
+        ("", "Tap\nG95 G[retplane] G84 X[h] Y[v] Z[d] R[vclear] F[pitch]\nEnd Cancel\nCancel\nG80 G94\nEnd".into()),
+        ("", "Drill   118 deg\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel".into()),
+        ("", "BeginRow\nIF GO TO 5\nCALL OO88\nEnd".into()),
+        ("lathe", "Peck\nG74 R0.02\nG74 Z[d] Q[vbite] F[frate]\nEnd".into()),
+        ("", "Spindle M3 M4 M5\nRapid G00\n\nBeginRow\nM8\nEnd".into()),
+        ("grbl", "ToolChange\nM9\nM5\nG0 G53 Z0\nT[tool]\nM0\nG[work]\nS[speed] M[direct]\nM[cool]\nG0 X[h] Y[v]\nZ[d]\nEnd".into()),
+        ("", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd".into()),
+    ];
+    for (kind, text) in table {
+        let fence = Fence { kind: kind.to_owned(), text };
+        let found = found(&fence.checked()).diags;
+        assert!(
+            found.is_empty(),
+            "{}\n{:?}",
+            fence.text,
+            found.iter().map(|d| (d.code, &d.message)).collect::<Vec<_>>()
+        );
+    }
+}
+
+/// The same mistakes in other words.
+#[test]
+fn mistakes_are_found_in_other_words_too() {
+    let table = [
+        ("PF415", "Drill\nX[h] Y[v]\nZ[d] F[frate]\nG0 Z[rplane]\nEnd"),
+        ("PF407", "Drill 1\nG[retplane] G81 X[h] Y[v] R[vclear] F[frate]\nX[h] Y[v] Z[d]\nEnd Cancel"),
+        ("PF411", "Drill 1\nG[retplane] G81 X[h] Y[v] Z[d] F[frate]\nX[h] Y[v] R[vclear]\nEnd Cancel"),
+        ("PF416", "Drill\nG0 X[h] Z[vclear]\nY[v]\nG1 F[frate] Z[d]\nG0 Z[rplane]\nEnd"),
+        ("PF420", "Index\nG1 Z-5. F[frate]\nG0 A[rotangle]\nX[h] Y[v]\nZ[d]\nEnd"),
+        ("PF423", "Index\nG91 G28 Z0\nA[rotangle]\nG90\nX[h] Y[v]\nZ[d]\nEnd"),
+        (
+            "PF425",
+            "1stToolChange\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 Z[d]\nH[lcomp] M[cool]\nEnd",
+        ),
+        ("PF427", "1stToolChange\nS[speed] M13\nT[tool] M06\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd"),
+        ("PF429", "1stToolChange\nT1 M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd"),
+        ("PF431", "CwCode\nG2 X[h] Y[v] I[ival] F[frate]\nEnd"),
+        ("PF436", "CcwCode\nG1 X[h] Y[v] I[ival] J[jval] F[frate]\nEnd"),
+        ("PF505", "BeginRow\nM8 M9\nEnd"),
+        ("PF313", "BeginRow\nS[tool]\nEnd"),
+        ("PF408", "Drill 1\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nX[h]\nEnd Cancel"),
+        ("PF012", "Upon [cool]\nEnd"),
+        ("PF413", "Custom1   Deep\nG[retplane] G83 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel"),
+        ("PF414", "Custom1   Deep\nG[retplane] G84 X[h] Y[v] Z[d] R[vclear] Q[vbite] F[frate]\nEnd Cancel"),
+        ("PF418", "Index\nG0 G53 Z0\nA[rotangle]\nX[h] Y[v]\nG1 Z[d]\nEnd"),
+        ("PF112", "BeginRow\nFF[frate]\nEnd"),
+        ("PF112", "StartCode\n%0\n0[program#]\nG[unitmode] G17 G40 G49 G80 G90\nEnd"),
+        ("PF112", "Drill\nG81 X[h] Y[v] Z[d] R[vclear] [frate]\nEnd Cancel"),
+        ("PF112", "LineCode\nG 1 X[h] Y[v] Z[d] F[frate]\nEnd"),
+        ("PF001", "1stToolChange\nT0[tool] M6\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd"),
+        ("PF001", "1stToolChange\nT[tool]\u{a0}M6\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd"),
+        ("PF002", "BeginRow\nM8\nEndCancel\nEndRow\nM9\nEnd"),
+        ("PF002", "BeginRow\nM8\nEndRow   the end of it\nM9\nEnd"),
+        ("PF002", "BeginRow\nM8\nEndRow # the end of it\nM9\nEnd"),
+        ("PF007", "BeginRow\nM8\nEnd\nEnd Row\nM9\nEnd"),
+        ("PF101", "BeginRow\n(  ROW [times]  )\nEnd"),
+        ("PF101", "BeginRow\n#101=5\nEnd"),
+        ("PF101", "CtrCode I J  K\n\nBeginRow\nM8\nEnd"),
+        ("PF101", "Tap  2\nM29 S[speed]\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nX[h] Y[v]\nEnd Cancel"),
+        ("PF101", "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd  Cancel"),
+        ("PF304", "p >4\n\nBeginRow\np[times]\nEnd"),
+        ("PF211", "Rapid G1\n\nBeginRow\nM8\nEnd"),
+        ("PF211", "ReturnPlane 98 99\n\nBeginRow\nM8\nEnd"),
+        ("PF311", "Dwell G4 X s\nP >4.>4\n\nBeginRow\nM8\nEnd"),
+        ("PF314", "Drill\nG[retplane] G81 X[h] Y[v] Z[vclear] R[d] F[frate]\nEnd Cancel"),
+        ("PF406", "Drill 1\nG[retplane] G81 Z[d] R[vclear] F[frate]\nX[h] Y[v]\nEnd Cancel"),
+        ("PF414", "LTap\nG[retplane] G84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel"),
+        ("PF415", "Custom1   Deep\nG0 X[h] Y[v]\nZ[d]\nG1 Z[vclear] F[frate]\nEnd"),
+        ("PF416", "1stToolChange\nT[tool] M6\nG[work] G0 S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd"),
+        ("PF419", "Tap\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nM3\nZ[vclear]\nG0 Z[rplane]\nEnd"),
+        ("PF419", "Tap\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nM4\nG0 Z[vclear]\nM3\nEnd"),
+        ("PF434", "InFeed\nG1 G[side] D[lcomp] X[h] Y[v] F[frate]\nEnd"),
+        ("PF435", "RapidCode\nX[h] Y[v] Z[d]\nEnd"),
+        ("PF436", "LineCode\nX[h] Y[v] Z[d] F[frate]\nEnd"),
+        ("PF436", "InFeed\nG[side] D[dcomp] X[h] Y[v] F[frate]\nEnd"),
+        ("PF437", "1stToolChange\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[dcomp] Z[d] M[cool]\nEnd"),
+        (
+            "PF437",
+            "1stToolChange\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nZ[d] M[cool]\nEnd\nToolChange\nM9\nG91 G28 Z0 M5\nG90\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nZ[d] M[cool]\nEnd",
+        ),
+        ("PF503", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[depth] F[frate]\nG0 Z[rplane]\nEnd"),
+        ("PF505", "Drill\nG[retplane] G80 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel"),
+        ("PF015", "EndCode\nM9\n%0\nM30\nEnd"),
+        // words behind a mark that comments out the rest of the block do nothing
+        ("PF014", "Comment ;\n\nEndCode\nM9\n; no M30 here\nEnd"),
+        ("PF017", "Comment ;\n\nSubStart\nO[sub]\nEnd\nSubCall\nM98 P[sub]\nEnd\nSubEnd\n; end of sub\nEnd"),
+        (
+            "PF429",
+            "Comment ;\n\n1stToolChange\nT[tool] ; M6 by hand\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d]\nEnd",
+        ),
+        ("PF410", "Comment ;\n\nCancel\nM9 ; no G80\nEnd"),
+        ("PF407", "Comment ;\n\nDrill\nG[retplane] G81 X[h] Y[v] R[vclear] F[frate] ; to Z[d]\nEnd Cancel"),
+        ("PF406", "Drill 1\n(AT [h] [v])\nG81 Z[d] R[vclear] F[frate]\nEnd Cancel"),
+        (
+            "PF208",
+            "Custom1   Custom2\nG[retplane] G82 X[h] Y[v] Z[d] R[vclear] P[dwell] F[frate]\nEnd Cancel\nCustom2\nG[retplane] G82 X[h] Y[v] Z[d] R[vclear] P[dwell] F[frate]\nEnd Cancel",
+        ),
+    ];
+    for (code, text) in table {
+        let fence = Fence { kind: String::new(), text: text.to_owned() };
+        let found = found(&fence.checked()).diags;
+        assert!(codes(&found).contains(&code), "{code}: {:?}\n{text}", codes(&found));
+    }
+}

@@ -1,0 +1,701 @@
+//! The safety rules of rendering, each with the part that it saves. Every test prints a short program and reads it
+//! as a machine would.
+
+use crate::support;
+use crate::support::{job, mill, path_lines, program};
+use postform::render::Options;
+use postform::toolpath::Units;
+
+const DRILL: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+const RETURNS: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+
+/// After a tool change the first position is not repeated, the motion code is: the tool change may have left another.
+#[test]
+fn motion_code_is_unknown_after_a_tool_change() {
+    assert_eq!(path_lines("", "", "{\"rapid\":[0,0,0.5]}"), ["G0 Z.5"]);
+}
+
+/// A position printed as a literal, or after G91 or G28, may stand in another frame: the next move says it again.
+#[test]
+fn positions_in_another_frame_are_unknown() {
+    let form = mill("", "").replacen("G0 G[work] X[h] Y[v] Z[d]", "G91 G28 Z0\nG90\nG0 G[work] X[h] Y[v] Z[d]", 1);
+    let lines = program(&form, &job("{\"line\":[1,0,1]}"));
+    assert_eq!(lines[5..7], ["G0 G54 X0 Y0 Z1.", "G0 X0 Y0 Z1."]);
+}
+
+/// A new work offset makes every position another place.
+#[test]
+fn a_work_offset_makes_positions_unknown() {
+    let path = "{\"line\":[1,1,0]},{\"work\":55},{\"rapid\":[1,1,0]},{\"work\":55},{\"rapid\":[1,1,1]}";
+    assert_eq!(path_lines("", "", path), ["G1 X1. Y1. Z0 F10.", "G55", "G0 X1. Y1. Z0", "Z1."]);
+}
+
+/// Text as it stands may have done anything.
+#[test]
+fn nothing_is_known_after_verbatim_text() {
+    let path = "{\"line\":[1,1,0]},{\"text\":\"G65 P9001\"},{\"line\":[1,2,0]}";
+    assert_eq!(path_lines("", "", path), ["G1 X1. Y1. Z0 F10.", "G65 P9001", "G1 X1. Y2. Z0 F10."]);
+}
+
+/// A feed-mode code makes the feed mean something else.
+#[test]
+fn a_feed_mode_makes_the_feed_unknown() {
+    let form = mill("", "BeginRow\nG94\nEnd");
+    let lines = program(&form, &job("{\"line\":[1,0,0]},{\"begin\":\"row\"},{\"line\":[2,0,0]},{\"end\":\"row\"}"));
+    assert_eq!(lines[4..7], ["G1 X1. Z0 F10.", "G94", "X2. F10."]);
+}
+
+/// An operation that begins with a cut must not rapid to the end of that cut.
+#[test]
+fn a_tool_change_does_not_rapid_to_the_end_of_a_cut() {
+    let text = job("{\"line\":[1,1,-1]}").replace("{\"rapid\":[0,0,1]},", "");
+    assert!(program(&mill("", ""), &text)[0].starts_with("PR012"), "{:?}", program(&mill("", ""), &text));
+}
+
+/// Changes that no Upon serves are printed before the next move, not lost.
+#[test]
+fn changes_that_no_upon_serves_are_printed() {
+    let path = "{\"line\":[1,0,0]},{\"spindle\":{\"speed\":2000}},{\"coolant\":\"mist\"},{\"work\":56},{\"line\":[2,0,0]},\
+                {\"spindle\":{\"direction\":\"off\"}},{\"coolant\":\"off\"},{\"rapid\":[2,0,1]}";
+    let expected = ["G1 X1. Z0 F10.", "G56", "S2000 M3", "M7", "X2. Y0 Z0", "M5", "M9", "G0 Z1."];
+    assert_eq!(path_lines("", "", path), expected);
+}
+
+/// With an Upon the change is the Upon's alone, and it comes before the move.
+#[test]
+fn changes_that_an_upon_serves_are_printed_by_it() {
+    let upon = "Upon [speed]\nG4 P1\nS[speed]\nEnd";
+    let path = "{\"line\":[1,0,0]},{\"spindle\":{\"speed\":2000}},{\"line\":[2,0,0]}";
+    assert_eq!(path_lines("", upon, path), ["G1 X1. Z0 F10.", "G4 P1", "S2000", "X2."]);
+}
+
+/// A work offset that the form has no word for is an error, never G1 for fixture 1.
+#[test]
+fn a_work_offset_without_a_word_is_an_error() {
+    let form = mill("Work 1\nWorkDefault 1", "").replace(" G[work]", "");
+    let lines = program(&form, &job("{\"work\":2},{\"line\":[1,1,1]}"));
+    assert!(lines[0].starts_with("PR017"), "{lines:?}");
+}
+
+/// A second operation with the same tool prints no tool change, but what it changes.
+#[test]
+fn the_same_tool_again_prints_only_changes() {
+    let text = job("{\"line\":[1,0,0]}").replace(
+        "[1,0,0]}]}",
+        "[1,0,0]}]},{\"tool\":1,\"spindle\":{\"speed\":1500},\"feed\":7,\"path\":[{\"line\":[2,0,0]}]}",
+    );
+    assert_eq!(program(&mill("", ""), &text)[4..7], ["G1 X1. Z0 F10.", "S1500 M3", "X2. F7."]);
+}
+
+/// A cycle of the control begins with the tool at the return plane: up alone first, or across first and down last.
+#[test]
+fn a_cycle_begins_at_its_return_plane() {
+    let cycle =
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"return\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}";
+    let down = ["G0 X1. Y1.", "Z.5", "G98 G81 X1. Y1. Z-1. R.1 F5.", "G80"];
+    assert_eq!(path_lines("", RETURNS, cycle), down);
+    let up = ["G1 Z0 F10.", "G0 Z.5", "G98 G81 X1. Y1. Z-1. R.1 F5.", "G80"];
+    assert_eq!(path_lines("", RETURNS, &format!("{{\"line\":[0,0,0]}},{cycle}")), up);
+}
+
+/// A control would rapid to a higher hole through the material: the cycle is closed, raised and started again.
+#[test]
+fn a_cycle_is_raised_to_a_higher_hole() {
+    let cycle =
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,1,3],[3,1,0]]}}";
+    let expected = [
+        "G0 X1. Y1.",
+        "Z.1",
+        "G81 X1. Y1. Z-1. R.1 F5.",
+        "G80",
+        "G0 Z3.1",
+        "G81 X2. Y1. Z2. R3.1 F5.",
+        "X3. Z-1. R.1",
+        "G80",
+    ];
+    assert_eq!(path_lines("", DRILL, cycle), expected);
+}
+
+/// The last level is what counts: after the higher hole the tool is above the next one already.
+#[test]
+fn generated_holes_go_up_first_and_down_last() {
+    let cycle =
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,1,3],[3,1,0]]}}";
+    let expected = [
+        "G0 X1. Y1.",
+        "Z.1",
+        "G1 Z-1. F5.",
+        "G0 Z.1", // the first hole
+        "Z3.1",
+        "X2.",
+        "G1 Z2. F5.",
+        "G0 Z3.1", // up before it goes across
+        "X3.",
+        "Z.1",
+        "G1 Z-1. F5.",
+        "G0 Z.1", // across before it goes down
+    ];
+    assert_eq!(path_lines("", "", cycle), expected);
+}
+
+/// Holes with a depth of their own print it; the others print theirs again.
+#[test]
+fn a_changed_depth_is_printed_at_each_hole_that_changes_it() {
+    let points = "[[1,1,0],{\"at\":[2,1,0],\"depth\":0.5},[3,1,0],[3,1,0]]";
+    let cycle = format!("{{\"cycle\":{{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":{points}}}}}");
+    let expected = ["G81 X1. Y1. Z-1. R1. F5.", "X2. Z-.5", "X3. Z-1.", "X3. Y1.", "G80"];
+    assert_eq!(path_lines("", DRILL, &cycle), expected);
+}
+
+/// Two cycles of one kind in a row: the first is cancelled, the second starts with its whole line.
+#[test]
+fn a_new_cycle_starts_with_its_whole_line() {
+    let cycle = |depth: &str| {
+        format!("{{\"cycle\":{{\"kind\":\"drill\",\"depth\":{depth},\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}}}")
+    };
+    let expected = ["G81 X1. Y1. Z-1. R1. F5.", "G80", "G81 X1. Y1. Z-2. R1. F5.", "G80", "G0 X0"];
+    assert_eq!(path_lines("", DRILL, &format!("{},{},{{\"rapid\":[0]}}", cycle("1"), cycle("2"))), expected);
+}
+
+/// After a cycle only the last hole's position is known: the feed prints again.
+#[test]
+fn the_feed_is_unknown_after_a_cycle() {
+    let path = "{\"line\":[1,1,1]},{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":10,\"points\":[[1,1,0]]}},\
+                {\"line\":[1,2,1]}";
+    let expected = ["G1 X1. Y1. F10.", "G81 X1. Y1. Z-1. R1. F10.", "G80", "G1 Y2. F10."];
+    assert_eq!(path_lines("", DRILL, path), expected);
+}
+
+/// A return plane that the control is not told of is a warning: clamps stand between holes.
+#[test]
+fn a_return_plane_that_is_not_reached_is_a_warning() {
+    let cycle =
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"return\":2,\"feed\":5,\"points\":[[1,1,0]]}}";
+    let notes = |form: &str| support::render(form, &job(cycle)).map(|r| r.notes).unwrap_or_default();
+    assert!(notes(&mill("", DRILL)).iter().any(|n| n.code.name() == "PR013"));
+    assert!(notes(&mill("", RETURNS)).is_empty());
+}
+
+/// What a cycle's sequence can't say is printed as moves, never left out: here the dwell at the bottom.
+#[test]
+fn a_dwell_that_the_form_does_not_print_becomes_moves() {
+    let cycle =
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"dwell\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}";
+    let expected = ["G0 X1. Y1.", "G1 Z-1. F5.", "G4 P.5", "G0 Z1."];
+    assert_eq!(path_lines("", DRILL, cycle), expected);
+    let dwells = DRILL.replace("F[frate]", "P[dwell] F[frate]");
+    assert_eq!(path_lines("", &dwells, cycle), ["G81 X1. Y1. Z-1. R1. P.5 F5.", "G80"]);
+}
+
+/// A rigid tap keeps step with the spindle: single moves can't, and never try.
+#[test]
+fn a_rigid_tap_is_never_made_of_moves() {
+    let tap = "{\"cycle\":{\"kind\":\"tap\",\"depth\":1,\"clear\":1,\"feed\":50,\"rigid\":true,\"points\":[[1,1,0]]}}";
+    assert!(path_lines("", "", tap)[0].starts_with("PC021"));
+    let floating = tap.replace(",\"rigid\":true", "");
+    assert_eq!(path_lines("", "", &floating), ["G0 X1. Y1.", "G1 Z-1. F50.", "M4", "Z1.", "M3"]);
+}
+
+/// Arc words are never dropped, although they did not change: no control keeps them.
+#[test]
+fn centre_words_are_always_printed() {
+    let path = "{\"line\":[0,0,0]},{\"arc\":{\"to\":[2,0],\"center\":[1,0],\"direction\":\"cw\"}},\
+                {\"arc\":{\"to\":[4,0],\"center\":[3,0],\"direction\":\"cw\"}}";
+    assert_eq!(path_lines("", "", path), ["G1 Z0 F10.", "G17 G2 X2. I1. J0", "X4. I1. J0"]);
+}
+
+/// An arc so short that its ends print alike would be a full circle at the machine.
+#[test]
+fn a_tiny_arc_does_not_become_a_full_circle() {
+    let path = "{\"line\":[1,0,0]},{\"arc\":{\"to\":[0.9999999,0.00001],\"center\":[0,0],\"direction\":\"ccw\"}},{\"line\":[0,0,0]}";
+    assert_eq!(path_lines("", "", path), ["G1 X1. Z0 F10.", "X0"]);
+}
+
+/// A number that does not fit its letter is an error: a control would alarm or, worse, misread it.
+#[test]
+fn a_number_that_does_not_fit_is_an_error() {
+    assert!(path_lines("X->2.>4", "", "{\"line\":[100,0,0]}")[0].starts_with("PR002"));
+    assert!(path_lines("X >2.>4", "", "{\"line\":[-1,0,0]}")[0].starts_with("PR003"));
+    assert!(path_lines("F >3", "", "{\"line\":[1,0,0],\"feed\":0.4}")[0].starts_with("PR002"));
+    assert!(path_lines("G 2", "", "{\"work\":59.1},{\"line\":[1,0,0]}")[0].starts_with("PR002"));
+}
+
+/// Metric lengths in an inch program move 25.4 times as far.
+#[test]
+fn other_units_need_a_printed_unit_code() {
+    let metric = job("{\"line\":[25.4,0,0]}").replace("inch", "mm");
+    assert!(program(&mill("", ""), &metric)[0].starts_with("PR010"));
+    let form = mill("Units both", "").replacen("%0", "G[unitmode]", 1);
+    assert_eq!(program(&form, &metric)[..5], ["G21", "T1 M6", "S1000 M3", "G0 G54 X0 Y0 Z1.", "G1 X25.4 Z0 F10."]);
+}
+
+/// A comment can't end early and let its rest move the machine.
+#[test]
+fn comments_keep_their_marks() {
+    assert_eq!(path_lines("", "", "{\"comment\":\"a) G0 Z-9 (b\\u0007é%\"}"), ["(A] G0 Z-9 [B??_)"]);
+    assert_eq!(path_lines("Comment ;", "", "{\"comment\":\"a (b)\"}"), [";A (B)"]);
+}
+
+/// Words behind a mark that comments out the rest of the block are for people: they set nothing, and hide nothing.
+#[test]
+fn values_in_a_comment_to_the_end_of_the_block_are_not_positions() {
+    let drill = "Drill\n; HOLE AT X[h] Y[v]\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate] ; to Z[d]\nG0 Z[rplane]\nEnd";
+    let path = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,2,0]]}}";
+    let lines = path_lines("Comment ;", drill, path);
+    assert_eq!(lines, ["; HOLE AT X1 Y2", "G0 X1. Y2.", "Z.1", "G1 Z-1. F5. ; to Z-1", "G0 Z.1"]);
+}
+
+/// Travel limits of the form are checked.
+#[test]
+fn travel_limits_are_kept() {
+    assert!(path_lines("Limits Z -5 5", "", "{\"line\":[1,0,-5.001]}")[0].starts_with("PR007"));
+    assert_eq!(path_lines("Limits Z -5 5", "", "{\"line\":[0,0,-5]}"), ["G1 Z-5. F10."]);
+}
+
+/// A feed move without a feed is an error, not the last tool's feed.
+#[test]
+fn a_move_needs_a_feed() {
+    let text = job("{\"line\":[1,0,0]}").replace("\"feed\":10,", "");
+    assert!(program(&mill("", ""), &text)[0].starts_with("PR011"));
+}
+
+/// Cutter compensation without an offset register is an error.
+#[test]
+fn compensation_needs_its_offset() {
+    let path = "{\"infeed\":[1,0],\"side\":\"left\"},{\"line\":[2,0]},{\"outfeed\":[3,0]}";
+    assert_eq!(path_lines("", "", path), ["G1 G41 X1. D21 F10.", "X2.", "G40 X3."]);
+}
+
+/// The letter of a dwell may be that of an axis: the axis is then unknown, and the move after it is not lost.
+#[test]
+fn a_dwell_does_not_count_as_a_position() {
+    let path = "{\"line\":[0,0,0]},{\"dwell\":2},{\"line\":[2,0]},{\"line\":[3,0]}";
+    assert_eq!(path_lines("Dwell G4 X s", "", path), ["G1 Z0 F10.", "G4 X2.", "X2.", "X3."]);
+    let feed = "{\"line\":[0,0,0]},{\"dwell\":10},{\"line\":[2,0]}";
+    assert_eq!(path_lines("Dwell G4 F s", "", feed), ["G1 Z0 F10.", "G4 F10.", "X2. F10."]);
+}
+
+/// A sequence that prints an arc's radius alone says at most half a turn: longer arcs are split.
+#[test]
+fn a_radius_sequence_prints_long_arcs_in_parts() {
+    let sequence = "CcwCode\nG3 X[h] Y[v] R[arcrad]\nEnd";
+    let path = "{\"line\":[1,0,1]},{\"arc\":{\"to\":[0,-1],\"center\":[0,0],\"direction\":\"ccw\"}}";
+    assert_eq!(path_lines("", sequence, path)[1..], ["G3 X-.7071 Y.7071 R1.", "X0 Y-1. R1."]);
+}
+
+/// An arc sequence that prints no plane gets the plane's code before it, and so does what follows in another plane.
+#[test]
+fn planes_are_said_where_a_sequence_does_not() {
+    let sequence = "CwCode\nG2 X[h] Y[v] Z[d] R[arcrad]\nEnd";
+    let xz = "{\"line\":[0,0,1]},{\"arc\":{\"to\":[1,0,1],\"center\":[0.5,0,1],\"direction\":\"cw\",\"plane\":\"xz\"}}";
+    let hole = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,0,0]]}}";
+    let lines = path_lines("", &format!("{sequence}\n{DRILL}"), &format!("{xz},{hole}"));
+    assert_eq!(lines, ["G18", "F10.", "G2 X1. R.5", "G17", "G81 X1. Y0 Z-1. R1. F5.", "G80"]);
+}
+
+/// A cycle that prints no position would drill one hole and skip the others: it is printed as moves.
+#[test]
+fn a_cycle_without_a_position_becomes_moves() {
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0],[2,1,0]]}}";
+    let sequence = "Drill\nG81 Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let expected = ["G0 X1. Y1.", "G1 Z-1. F5.", "G0 Z1.", "X2.", "G1 Z-1. F5.", "G0 Z1."];
+    assert_eq!(path_lines("", sequence, cycle), expected);
+}
+
+/// A motion sequence that leaves out an axis that moves would lose the move.
+#[test]
+fn a_motion_sequence_must_print_what_moves() {
+    let sequence = "RapidCode\nG0 X[h] Y[v]\nEnd";
+    assert!(path_lines("", sequence, "{\"rapid\":[0,0,2]}")[0].starts_with("PR017"));
+    assert_eq!(path_lines("", sequence, "{\"rapid\":[1,0]}"), ["G0 X1."]);
+    // a sequence without a feed gets it before
+    let line = "LineCode\nG1 X[h] Y[v] Z[d]\nEnd";
+    assert_eq!(path_lines("", line, "{\"line\":[1,0,1]},{\"line\":[2,0,1]}"), ["F10.", "G1 X1.", "X2."]);
+}
+
+/// Limits hold where an arc reaches farthest and at the bottom of a hole.
+#[test]
+fn travel_limits_hold_along_arcs_and_in_holes() {
+    let arc = "{\"line\":[0,0,1]},{\"arc\":{\"to\":[0,1],\"center\":[0.8,0.5],\"direction\":\"ccw\"}}";
+    assert!(path_lines("Limits X -1 1", "", arc)[0].starts_with("PR007"));
+    let hole = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}";
+    assert!(path_lines("Limits Z -0.5 5", DRILL, hole)[0].starts_with("PR007"));
+}
+
+/// No control drills with cutter compensation on.
+#[test]
+fn a_cycle_under_cutter_compensation_is_an_error() {
+    let path = "{\"infeed\":[1,0],\"side\":\"left\"},{\"rapid\":[2,2,2]},\
+                {\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}";
+    assert!(path_lines("", DRILL, path)[0].starts_with("PC041"));
+}
+
+/// Another tool has no last position: its first rapid must say how high it goes.
+#[test]
+fn a_new_tool_does_not_keep_the_last_ones_depth() {
+    let second = "{\"tool\":2,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3]}]}";
+    let text = job("{\"line\":[1,0,-1]}").replace("-1]}]}]}", &format!("-1]}}]}},{second}]}}"));
+    assert!(program(&mill("", ""), &text)[0].starts_with("PR001 [d]"), "{:?}", program(&mill("", ""), &text));
+}
+
+/// What is left out or contradicts itself without being wrong is a warning.
+#[test]
+fn odd_cycles_are_warned_of() {
+    let warned = |cycle: &str, code: &str| {
+        let rendered = support::render(&mill("", ""), &job(cycle)).unwrap();
+        assert!(rendered.notes.iter().any(|n| n.code.name() == code), "{code}: {:?}", rendered.notes);
+    };
+    warned("{\"cycle\":{\"kind\":\"deep\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0]]}}", "PC060");
+    warned(
+        "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"return\":0.5,\"feed\":5,\"points\":[[1,1,0]]}}",
+        "PC053",
+    );
+}
+
+/// A surface speed without its code would be revolutions.
+#[test]
+fn a_surface_speed_prints_its_code() {
+    let css = "{\"spindle\":{\"speed\":100,\"mode\":\"css\"}},{\"line\":[1,0,1]}";
+    assert_eq!(path_lines("", "", css), ["G96 S100 M3", "G1 X1. F10."]);
+    let limited = "{\"spindle\":{\"speed\":100,\"mode\":\"css\",\"max\":3000}},{\"line\":[1,0,1]}";
+    assert!(path_lines("", "", limited)[0].starts_with("PR017"));
+}
+
+/// An Upon Every prints where its variable is used, and nowhere else.
+#[test]
+fn upon_every_prints_at_uses_alone() {
+    let form = mill("", "Upon Every [work]\n(UPON)\nEnd");
+    let lines = program(&form, &job("{\"line\":[1,0,1]}"));
+    assert_eq!(lines.iter().filter(|l| *l == "(UPON)").count(), 1, "{lines:?}");
+    let feeds = path_lines("", "Upon Every [frate]\n(FEED)\nEnd", "{\"rapid\":[1,0,1]},{\"line\":[2,0,1]}");
+    assert_eq!(feeds, ["G0 X1.", "(FEED)", "G1 X2. F10."]);
+}
+
+/// Under VRapid the depth part has its own code even where the form has a RapidCode.
+#[test]
+fn vrapid_splits_before_a_rapid_sequence() {
+    let sequence = "RapidCode\nG0 X[h] Y[v] Z[d]\nEnd";
+    let lines = path_lines("VRapid G0", sequence, "{\"rapid\":[2,2,0.5]}");
+    assert_eq!(lines, ["G0 X2. Y2.", "Z.5"]);
+}
+
+/// Text without anything in it prints no block.
+#[test]
+fn empty_text_prints_nothing() {
+    assert_eq!(path_lines("Sequence#s N 1 1", "", "{\"text\":\" \"},{\"line\":[1,0,1]}").len(), 1);
+}
+
+/// A work offset that comes before the first rapid is the one in which the tool change goes there.
+#[test]
+fn the_first_position_is_in_its_own_work_offset() {
+    let text = job("{\"line\":[1,0,1]}").replace("[{\"rapid\"", "[{\"work\":56},{\"rapid\"");
+    assert_eq!(program(&mill("", ""), &text)[3..5], ["G0 G56 X0 Y0 Z1.", "G1 X1. F10."]);
+}
+
+/// Feet a minute are metres a minute in a metric program.
+#[test]
+fn a_surface_speed_follows_the_units() {
+    let text = job("{\"spindle\":{\"speed\":100,\"mode\":\"css\"}},{\"line\":[1,0,1]}");
+    let form = mill("S >5.>1", "").replace("%0\n", "%0\nG[unitmode]\n");
+    let options = Options { units: Some(Units::Mm), ..Options::default() };
+    let rendered = support::render_checked(&support::check(&form), text.as_bytes(), false, options).unwrap();
+    assert!(rendered.text.contains("\nG96 S30.5 M3\n"), "{}", rendered.text);
+}
+
+/// A tool change that prints no work offset gets it before: its position counts from there.
+#[test]
+fn a_tool_change_goes_to_its_own_work_offset() {
+    let form = mill("", "").replace("G0 G[work] X[h]", "G0 X[h]");
+    let second =
+        "{\"tool\":2,\"work\":55,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3,1]}]}";
+    let text = job("{\"rapid\":[1,0,1]}").replace("1]}]}]}", &format!("1]}}]}},{second}]}}"));
+    assert_eq!(program(&form, &text)[5..9], ["G55", "T2 M6", "S1 M3", "G0 X3. Y3. Z1."]);
+}
+
+/// A variable inside a comment is for people: what it stands for is printed all the same.
+#[test]
+fn a_comment_prints_no_word() {
+    let lines = path_lines("", "LineCode\nG1 X[h] Y[v] Z[d] (FEED [frate])\nEnd", "{\"line\":[1,0,1]}");
+    assert_eq!(lines, ["F10.", "G1 X1. (FEED 10)"]);
+    let begin = "BeginRow\n(AT [work])\nEnd";
+    let path = "{\"work\":55},{\"begin\":\"row\"},{\"end\":\"row\"},{\"rapid\":[1,0,1]}";
+    assert_eq!(path_lines("", begin, path)[..2], ["(AT 55)", "G55"]);
+}
+
+/// Work offset, spindle and coolant stand before text, and codes in text count as printed and as wanted.
+#[test]
+fn text_comes_after_what_goes_before_it() {
+    let path = "{\"spindle\":{\"direction\":\"off\"}},{\"coolant\":\"on\"},{\"text\":\"M0 (M9)\"},{\"line\":[1,0,1]}";
+    assert_eq!(path_lines("", "", path)[..3], ["M5", "M8", "M0 (M9)"]);
+    let stopped = "{\"text\":\"M5\"},{\"spindle\":{\"direction\":\"cw\"}},{\"line\":[1,0,1]}";
+    assert_eq!(path_lines("", "", stopped)[..2], ["M5", "S1000 M3"]);
+    let coolant = "{\"text\":\"M8\"},{\"line\":[1,0,1]},{\"work\":55},{\"rapid\":[1,0,2]}";
+    assert_eq!(path_lines("", "", coolant), ["M8", "G1 X1. Y0 Z1. F10.", "G55", "G0 X1. Y0 Z2."]);
+    // what would be read otherwise is put back, or refused
+    assert_eq!(path_lines("", "", "{\"text\":\"G95\"},{\"line\":[1,0,1]}")[1], "G94");
+    assert!(path_lines("", "", "{\"text\":\"G91\"},{\"line\":[1,0,1]}")[0].starts_with("PR017 the control is in G91"));
+    assert!(path_lines("", "", "{\"text\":\"G22 G21\"}")[0].starts_with("PR017 the text changes the units"));
+}
+
+/// An Upon body that does not print its change does not hide it.
+#[test]
+fn an_upon_that_says_nothing_serves_nothing() {
+    let lines = path_lines("", "Upon [work]\nG0 G53 Z0\nEnd", "{\"work\":55},{\"rapid\":[1,0,1]}");
+    assert_eq!(lines, ["G0 G53 Z0", "G55", "X1. Y0 Z1."]);
+}
+
+/// An Upon that moves the tool would leave out a part of the cut that follows.
+#[test]
+fn a_cut_does_not_begin_with_an_upon_that_moves() {
+    let upon = "Upon [work]\nG0 G53 Z0\nG[work] X[h] Y[v]\nEnd";
+    for cut in ["{\"line\":[1,1]}", "{\"infeed\":[1,1],\"side\":\"left\"}"] {
+        assert!(path_lines("", upon, &format!("{{\"work\":55}},{cut}"))[0].starts_with("PR012 this sequence"), "{cut}");
+    }
+    // at a stop it goes nowhere
+    let lines = path_lines("", upon, "{\"line\":[4,4]},{\"work\":55},{\"stop\":\"program\"}");
+    assert_eq!(lines[1..], ["G0 G53 Z0", "G55 X4. Y4.", "M0"]);
+}
+
+/// An increment is dropped when it is zero, not when the position was printed before.
+#[test]
+fn increments_of_a_sequence_are_no_positions() {
+    let sequence = "LineCode\nG91 G1 X[hdist] Y[vdist] F[frate]\nG90\nEnd";
+    let lines = path_lines("", sequence, "{\"rapid\":[1,2,1]},{\"line\":[2,4,1]},{\"line\":[3,4,1]}");
+    assert_eq!(lines[1..], ["G91 G1 X1. Y2. F10.", "G90", "G91 X1.", "G90"]);
+}
+
+/// InFeed and OutFeed print every axis that moves, and the feed.
+#[test]
+fn compensation_sequences_lose_nothing() {
+    let infeed = "InFeed\nG1 G[side] D[dcomp] X[h] Y[v]\nEnd";
+    let error = &path_lines("", infeed, "{\"infeed\":[1,0,0.5],\"side\":\"left\"}")[0];
+    assert!(error.starts_with("PR017 this move changes [d]"), "{error}");
+    let lines = path_lines("", infeed, "{\"infeed\":[1,0],\"side\":\"left\",\"feed\":3}");
+    assert_eq!(lines, ["F3.", "G1 G41 D21 X1. Y0"]);
+}
+
+/// An arc sequence that has no word for the centre in this plane is not used for it.
+#[test]
+fn an_arc_sequence_without_its_centre_word_gives_lines() {
+    let sequence = "CwCode\nG2 X[h] Y[v] Z[d] I[ival] J[jval] F[frate]\nEnd";
+    let arc = |plane: &str| {
+        format!("{{\"arc\":{{\"to\":[2,0,1],\"center\":[1,0,1],\"direction\":\"cw\",\"plane\":\"{plane}\"}}}}")
+    };
+    assert!(path_lines("", sequence, &arc("xz"))[0].starts_with("G1 X"));
+    assert_eq!(path_lines("", sequence, &arc("xy")), ["G2 X2. I1. J0 F10."]);
+    let notes = |plane: &str| support::render(&mill("", sequence), &job(&arc(plane))).unwrap().notes;
+    assert!(notes("xz").iter().any(|note| note.code.name() == "PR024" && note.message.contains("[kval]")));
+    assert_eq!(notes("xy"), []);
+}
+
+/// A fixture number whose code is no work offset is refused.
+#[test]
+fn fixture_numbers_end_where_work_offsets_do() {
+    assert!(
+        path_lines("", "", "{\"work\":7},{\"rapid\":[1,0,1]}")[0].starts_with("PR017 the work offset 7 would be G60")
+    );
+    assert_eq!(path_lines("", "", "{\"work\":59.1},{\"rapid\":[1,0,1]}")[0], "G59.1");
+}
+
+/// A left-hand tap goes in turning counter-clockwise.
+#[test]
+fn a_left_tap_of_moves_needs_its_direction() {
+    let tap = "{\"cycle\":{\"kind\":\"ltap\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0]]}}";
+    assert!(path_lines("", "", tap)[0].starts_with("PR006 a left-hand tap"));
+    let turned = format!("{{\"spindle\":{{\"direction\":\"ccw\"}}}},{tap}");
+    assert_eq!(path_lines("", "", &turned)[3..], ["G1 Z-1. F5.", "M3", "Z.1", "M4"]);
+}
+
+/// What a sequence switches off is on again before the next move.
+#[test]
+fn what_a_sequence_switches_is_put_back() {
+    let lines = path_lines("", "EndRow\nM5 M9\nM0\nEnd", "{\"begin\":\"row\"},{\"end\":\"row\"},{\"line\":[1,0,1]}");
+    assert_eq!(lines, ["M5 M9", "M0", "S1000 M3", "G1 X1. F10."]);
+}
+
+/// Parts of an arc share its time; a cycle has no inverse time.
+#[test]
+fn inverse_time_is_that_of_the_whole_arc() {
+    let inverse = |path: &str| job(path).replace("\"feed\":10", "\"feed\":10,\"feed_mode\":\"inverse_time\"");
+    let arc = "{\"arc\":{\"to\":[2,0],\"center\":[1,0],\"direction\":\"cw\"},\"feed\":4}";
+    let lines = program(&mill("ByQuadrants? Y", ""), &inverse(arc));
+    assert_eq!(lines[5..7], ["G17 G2 X1. Y1. I1. J0 F8.", "X2. Y0 I0 J-1. F8."]);
+    let hole = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0]]}}";
+    assert!(program(&mill("", ""), &inverse(hole))[0].starts_with("PR006 a canned cycle"));
+}
+
+/// After text nobody knows the height: the tool goes up before it goes across.
+#[test]
+fn the_tool_goes_up_first_also_after_text() {
+    let path = "{\"line\":[0,0,-1]},{\"text\":\"M1\"},\
+                {\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[5,5,0]]}}";
+    assert_eq!(path_lines("", DRILL, path)[1..4], ["M1", "G0 Z.1", "G81 X5. Y5. Z-1. R.1 F5."]);
+}
+
+/// A sequence that took the tool away is no place to cut from, whatever stands between.
+#[test]
+fn a_cut_begins_where_the_path_says() {
+    let upon = "Upon [work]\nG0 G53 Z0\nG[work] X[h] Y[v]\nEnd";
+    for between in ["{\"dwell\":1}", "{\"stop\":\"program\"}", "{\"text\":\"M1\"}", "{\"comment\":\"now\"}"] {
+        let path = format!("{{\"work\":55}},{between},{{\"line\":[1,1]}}");
+        assert!(path_lines("", upon, &path)[0].starts_with("PR012"), "{between}");
+    }
+    let lifts = "EndRow\nG0 Z9\nEnd";
+    let row = "{\"begin\":\"row\"},{\"end\":\"row\"}";
+    assert!(path_lines("", lifts, &format!("{row},{{\"line\":[1,1]}}"))[0].starts_with("PR012"));
+    assert_eq!(path_lines("", lifts, &format!("{row},{{\"rapid\":[1,1,1]}}")), ["G0 Z9", "X1. Y1. Z1."]);
+}
+
+/// What an Upon does for the next tool is not done with the one before.
+#[test]
+fn a_tool_change_needs_no_upon_that_moves() {
+    let upon = "Upon [work]\nG[work] X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd";
+    let second =
+        "{\"tool\":2,\"work\":55,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3,1]}]}";
+    let text = job("{\"rapid\":[1,0,1]}").replace("1]}]}]}", &format!("1]}}]}},{second}]}}"));
+    assert_eq!(program(&mill("", upon), &text)[5..8], ["T2 M6", "S1 M3", "G0 G55 X3. Y3. Z1."]);
+}
+
+/// Inside a control's cycle every axis word is a hole: an Upon ends the cycle first.
+#[test]
+fn an_upon_stands_outside_the_cycle() {
+    let upon = format!("{DRILL}\nUpon [vclear]\nM8 X[h] Y[v]\nEnd");
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,2,-0.3]]}}";
+    let lines = path_lines("", &upon, cycle);
+    let (cancel, upon) = (lines.iter().position(|l| l == "G80"), lines.iter().position(|l| l.starts_with("M8")));
+    assert!(cancel.is_some() && cancel < upon, "{lines:?}");
+}
+
+/// Compensation ends before the tool changes, and begins at a known height.
+#[test]
+fn compensation_has_its_tool_and_height() {
+    let second = "{\"tool\":2,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3,1]}]}";
+    let text = job("{\"infeed\":[1,0],\"side\":\"left\"}").replace("left\"}]}]}", &format!("left\"}}]}},{second}]}}"));
+    assert!(program(&mill("", ""), &text)[0].starts_with("PR006 the tool changes"));
+    let infeed = "InFeed\nG1 G[side] D[dcomp] X[h] Y[v] F[frate]\nEnd";
+    let path = "{\"text\":\"G0 Z5\"},{\"infeed\":[1,0],\"side\":\"left\"}";
+    assert!(path_lines("", infeed, path)[0].starts_with("PR017 nobody knows the height"));
+}
+
+/// Inverse time stands in the block of its move.
+#[test]
+fn inverse_time_needs_its_word_in_the_block() {
+    let text = job("{\"line\":[1,0,1]}").replace("\"feed\":10", "\"feed\":10,\"feed_mode\":\"inverse_time\"");
+    let form = mill("", "LineCode\nG1 X[h] Y[v] Z[d]\nEnd");
+    assert!(program(&form, &text)[0].starts_with("PR017 in inverse time"));
+}
+
+/// Many controls stop spindle and coolant with the program; the cut after it must find them on.
+#[test]
+fn spindle_and_coolant_are_said_again_after_a_stop() {
+    let path = "{\"coolant\":\"on\"},{\"line\":[1,0,1]},{\"stop\":\"program\"},{\"line\":[2,0,1]}";
+    assert_eq!(path_lines("", "", path), ["M8", "G1 X1. F10.", "M0", "S1000 M3", "M8", "X2."]);
+}
+
+/// Turns of a helix end where they begin, to the last digit; else a turn would be printed as an arc of no length.
+#[test]
+fn whole_turns_end_where_they_begin() {
+    let path = r#"{"rapid":[3.25,3.78125,0.1]},{"arc":{"to":[3.25,3.78125,-0.6],"center":[3.75,3.78125],"direction":"cw","turns":5}}"#;
+    let lines = path_lines("X->4.>4\nY->4.>4\nZ->4.>4\nI->4.>4\nJ->4.>4", "", path);
+    let arcs: Vec<&String> = lines.iter().filter(|line| line.contains(" J")).collect();
+    assert_eq!(arcs.len(), 6, "{lines:?}");
+    assert!(arcs.iter().all(|line| !line.contains('X') && !line.contains('Y')), "{lines:?}");
+}
+
+/// Two whole circles after each other: controls want the code of a block without axis words.
+#[test]
+fn a_whole_circle_says_its_code() {
+    let circles = r#"{"rapid":[2,0,1]},{"arc":{"to":[2,0],"center":[1,0],"direction":"ccw"}},{"arc":{"to":[2,0],"center":[1.5,0],"direction":"ccw"}}"#;
+    let lines = path_lines("", "", circles);
+    assert_eq!(lines[1..], ["G17 G3 I-1. J0 F10.", "G3 I-.5 J0"]);
+}
+
+/// After G99 the tool stands at R: a higher hole needs the cycle ended, and the tool raised.
+#[test]
+fn a_higher_hole_after_a_lower_one_is_approached_from_above() {
+    let drill = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let holes = r#"{"rapid":[0,0,2]},{"cycle":{"kind":"drill","depth":0.5,"clear":0.1,"feed":5,"points":[[1,1,0],[2,1,0.5],[3,1,0],[4,1,0.2]]}}"#;
+    let lines = path_lines("", drill, holes);
+    let at = lines.iter().position(|line| line.contains("X4.")).unwrap();
+    let before = &lines[at - 2..at];
+    assert_eq!(before, ["G80", "G0 Z.3"], "{lines:?}");
+}
+
+/// A feed that its format rounds to nothing is an error in a cycle as it is in a move.
+#[test]
+fn a_feed_that_prints_as_nothing_is_an_error() {
+    let tap = "Tap\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let path = r#"{"cycle":{"kind":"tap","rigid":false,"depth":0.5,"clear":0.1,"feed":0.0034,"points":[[1,1,0]]}}"#;
+    let lines = path_lines("F >4.>2", tap, path);
+    assert!(lines.len() == 1 && lines[0].starts_with("PR002"), "{lines:?}");
+}
+
+/// What a cycle switches for itself waits for its end: a block between its holes would be taken for a hole.
+#[test]
+fn nothing_stands_between_the_holes_of_a_cycle() {
+    let tap = "Tap\nG95 G84 X[h] Y[v] Z[d] R[vclear] F[pitch]\nEnd Cancel";
+    let path = r#"{"cycle":{"kind":"tap","rigid":false,"depth":0.5,"clear":0.1,"feed":50,"points":[[1,1,0],[2,1,0]]}},{"line":[3,1,0]}"#;
+    let lines = path_lines("", tap, path);
+    let at = lines.iter().position(|line| line.starts_with("G95")).unwrap();
+    assert_eq!(lines[at..], ["G95 G84 X1. Y1. Z-.5 R.1 F.05", "X2.", "G80", "G94", "G1 X3. Z0 F10."]);
+}
+
+/// A fixture that is the parameter of a code is never said without it; codes of the same number are something else then.
+#[test]
+fn a_work_offset_is_said_with_its_code() {
+    let form =
+        mill("Work 1\nWorkDefault 1", "").replace("G0 G[work] X[h] Y[v] Z[d]", "G15 H[work] G56\nG0 X[h] Y[v] Z[d]");
+    let lines = program(&form, &job(r#"{"work":2},{"rapid":[1,0,1]}"#).replace("\"work\":54", "\"work\":1"));
+    assert_eq!(lines[3..], ["G15 H1 G56", "G0 X0 Y0 Z1.", "G15 H2", "G0 X1. Y0 Z1.", "M30"]);
+}
+
+/// What Cancel switches is put back before the control goes into the next cycle.
+#[test]
+fn a_cancel_in_the_middle_of_a_cycle_switches_nothing_for_good() {
+    let form = mill("", RETURNS).replace("Cancel\nG80", "Cancel\nG80 M5");
+    let holes = r#"{"cycle":{"kind":"drill","depth":1,"clear":0.1,"feed":5,"points":[[1,1,0],[2,1,2],[3,1,2]]}}"#;
+    let lines = program(&form, &job(holes));
+    let at = lines.iter().position(|line| line == "G80 M5").unwrap();
+    assert_eq!(lines[at..at + 3], ["G80 M5", "S1000 M3", "G0 Z2.1"], "{lines:?}");
+    let shifted = program(&form.replace("G80 M5", "G80 G91 G28 Z0"), &job(holes));
+    assert!(shifted[0].starts_with("PR017"), "{shifted:?}");
+}
+
+/// Where offsets have a word of their own, another code that selects one makes that word due again.
+#[test]
+fn codes_of_work_offsets_beside_a_word_of_their_own() {
+    let changes = "G0 G[work] X[h] Y[v] Z[d]";
+    let start = |line: &str, sequences: &str| mill("Work 1\nWorkDefault 1", sequences).replace(changes, line);
+    let own = |path: &str| job(path).replace("\"work\":54", "\"work\":3");
+    let row = r#"{"begin":"row"},{"rapid":[1,0,1]},{"end":"row"}"#;
+    let lines = program(&start("G154 P[work]\nG0 X[h] Y[v] Z[d]", "BeginRow\nG54\nEnd"), &own(row));
+    assert_eq!(lines[5..], ["G54", "G154 P3", "G0 X1. Y0 Z1.", "M30"], "{lines:?}");
+    // a number of the text is none of the form's
+    let text = own(r#"{"text":"G54"},{"rapid":[1,0,1]}"#);
+    let lines = program(&start("E[work] X[h] Y[v]\nG0 Z[d]", ""), &text);
+    assert!(!lines.iter().any(|line| line.contains("E54")), "{lines:?}");
+    // the positions behind it count in the new offset
+    let upon = start("G0 X[h] Y[v] Z[d]", "Upon [work]\nG15 H[work]\nEnd");
+    let path = r#"{"work":2},{"rapid":[0,0,1]},{"line":[1,0,-1]}"#;
+    let lines = program(&upon, &own(path));
+    let at = lines.iter().position(|line| line == "G15 H2").unwrap();
+    assert_eq!(lines[at..at + 3], ["G15 H2", "G0 X0 Y0 Z1.", "G1 X1. Z-1. F10."], "{lines:?}");
+    // an argument of a macro is none of them
+    let lines = path_lines(
+        "",
+        "BeginRow\nG65 P9810 W[work]\nEnd",
+        r#"{"begin":"row"},{"work":55},{"rapid":[1,0,1]},{"end":"row"}"#,
+    );
+    assert_eq!(lines, ["G65 P9810 W54.", "G55", "G0 X1. Y0 Z1."]);
+}
+
+/// Behind the slash of block delete the control reads a word or not: what it says is known of neither.
+#[test]
+fn block_delete_leaves_nothing_known() {
+    let row = r#"{"begin":"row"},{"rapid":[1,0,1]},{"end":"row"}"#;
+    let skipped = |words: &str| path_lines("", &format!("BeginRow\n{words}\nEnd"), row);
+    assert!(skipped("/G91")[0].starts_with("PR017"));
+    assert_eq!(skipped("/G55"), ["/G55", "G54", "G0 X1. Y0 Z1."]);
+    assert_eq!(skipped("/M5"), ["/M5", "S1000 M3", "G0 X1."]);
+    assert_eq!(skipped("/S500"), ["/S500", "S1000 M3", "G0 X1."]);
+}

@@ -1,0 +1,83 @@
+//! Every folder of samples/ is a test: its job rendered by its form is its expected program, byte for byte.
+//! `SAMPLES=overwrite cargo test samples::` writes what is printed now; look at the difference before committing.
+
+use crate::support;
+use std::fs;
+use std::path::Path;
+
+use crate::support::{assert_same, render_sample, render_sample_with, root, sample_form, samples};
+use postform::render::{Cycles, Options};
+
+fn compare(folder: &Path, form: &Path, expected: &Path, cycles: Cycles) {
+    let name = format!("{} by {}, cycles {cycles:?}", folder.display(), form.display());
+    // a CL file has no program number
+    let program = folder.join("job.cl").exists().then_some(1);
+    let options = Options { cycles, program, ..Options::default() };
+    let rendered = render_sample_with(folder, form, options).unwrap_or_else(|diag| panic!("{name}: {diag:?}"));
+    if std::env::var("SAMPLES").is_ok_and(|v| v == "overwrite") {
+        fs::write(expected, &rendered.text).unwrap();
+    }
+    let expected = fs::read_to_string(expected).unwrap_or_else(|e| panic!("{name}: {}: {e}", expected.display()));
+    assert_same(&name, &expected, &rendered.text);
+}
+
+#[test]
+fn samples_print_what_they_say() {
+    for folder in samples() {
+        assert!(folder.join("README.md").exists(), "{} has no README.md", folder.display());
+        if let Some(form) = sample_form(&folder) {
+            compare(&folder, &form, &folder.join("expected.nc"), Cycles::Form);
+            continue;
+        }
+        let posts = expected_posts(&folder);
+        assert!(!posts.is_empty(), "{} has neither a form nor expected.NAME.nc", folder.display());
+        for post in posts {
+            // expected.NAME.moves.nc is what the post prints with every cycle as single moves
+            let (name, cycles) = match post.strip_suffix(".moves") {
+                Some(name) => (name, Cycles::Emulated),
+                None => (post.as_str(), Cycles::Form),
+            };
+            let form = root().join(format!("postforms/{name}.pf"));
+            compare(&folder, &form, &folder.join(format!("expected.{post}.nc")), cycles);
+        }
+    }
+}
+
+/// The posts that a sample is printed by: from `expected.NAME.nc`.
+fn expected_posts(folder: &Path) -> Vec<String> {
+    let names = fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
+    let posts = names.filter_map(|n| Some(n.strip_prefix("expected.")?.strip_suffix(".nc")?.to_owned()));
+    let mut posts: Vec<String> = posts.collect();
+    posts.sort();
+    posts
+}
+
+#[test]
+fn every_post_that_ships_is_clean_and_prints_the_bracket() {
+    let mut posts = 0;
+    for entry in fs::read_dir(root().join("postforms")).unwrap() {
+        let path = entry.unwrap().path();
+        let checked = support::check_file(&path);
+        let found = postform::lint::lint(&checked, &Default::default()).diags;
+        assert!(found.is_empty(), "{}: {found:?}", path.display());
+        posts += 1;
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        if checked.form.settings.machine == postform::lang::Machine::Mill {
+            let expected = root().join(format!("samples/bracket/expected.{name}.nc"));
+            assert!(expected.exists(), "the bracket is not printed by {name}");
+        }
+    }
+    assert!(posts >= 5);
+}
+
+#[test]
+fn every_program_line_has_its_place_in_the_job_and_traces_lose_nothing() {
+    for folder in samples() {
+        let Some(form) = sample_form(&folder) else { continue };
+        let rendered = render_sample(&folder, &form).unwrap();
+        assert_eq!(rendered.trace.len(), rendered.text.lines().count(), "{}", folder.display());
+        for (i, line) in rendered.trace.iter().enumerate() {
+            assert_eq!(line.line, i as u64 + 1);
+        }
+    }
+}

@@ -1,0 +1,340 @@
+//! What controls make of programs: canned cycles of Fanuc mills and of EMC2's manual, subprograms, refusals.
+//!
+//! LinuxCNC's own rules are held by recorded programs (`nc_golden.rs`) and by its interpreter (`linuxcnc_random.rs`).
+
+use std::io::Cursor;
+
+use crate::support::nc::{Call, simulated};
+use postform::nc::{Control, RunError, Settings, Simulator, Unpointed};
+
+/// Motions as text: `T` rapid, `F` feed.
+fn motions(control: Control, program: &str) -> Vec<String> {
+    let (calls, ended, _) = simulated(program.as_bytes(), Settings::new(control));
+    assert_eq!(ended, Ok(()), "{program}");
+    calls.iter().map(shown).collect()
+}
+
+fn shown(call: &Call) -> String {
+    let at = |to: &[f64; 6]| {
+        let round = |v: f64| (v * 1e4).round() / 1e4 + 0.0;
+        let angles: String = to[3..].iter().filter(|a| **a != 0.0).map(|a| format!(" a{a}")).collect();
+        format!("{} {} {}{angles}", round(to[0]), round(to[1]), round(to[2]))
+    };
+    match call {
+        Call::Rapid(to) => format!("T {}", at(to)),
+        Call::Feed(to) => format!("F {}", at(to)),
+        Call::Arc(to, center, turns) => format!("ARC {} about {center:?} {turns}", at(to)),
+        Call::Dwell(seconds) => format!("dwell {seconds}"),
+        Call::Spindle(rotation) => rotation.name().into(),
+        Call::Orient => "orient".into(),
+        Call::Stop => "stop here".into(),
+        Call::OptionalStop => "optional stop".into(),
+    }
+}
+
+/// The code and line of a refusal.
+fn refused(control: Control, program: &str) -> (String, u64) {
+    refused_with(Settings::new(control), program)
+}
+
+fn refused_with(settings: Settings, program: &str) -> (String, u64) {
+    let mut simulator = Simulator::new(Cursor::new(program), settings);
+    loop {
+        match simulator.step(&mut Vec::new()) {
+            Ok(true) => {}
+            Ok(false) => panic!("not refused: {program}"),
+            Err(RunError::Refused(diag, line)) => {
+                assert!(diag.help.is_some_and(|help| !help.is_empty()), "{}", diag.message);
+                return (diag.code.name().into(), line);
+            }
+            Err(RunError::Io(error)) => panic!("{error}"),
+        }
+    }
+}
+
+const START: &str = "G21 G17 G90 G94\nS500 M3\nG0 X0. Y0. Z10.\n";
+
+fn fanuc(blocks: &str) -> Vec<String> {
+    let lines = motions(Control::Fanuc, &format!("{START}{blocks}\nM30\n"));
+    lines[2..].to_vec() // the spindle and the first rapid
+}
+
+#[test]
+fn cycles_of_a_fanuc() {
+    let drill = |blocks| fanuc(blocks);
+    // G98 is the default: back to where the tool was at the series' first block
+    assert_eq!(
+        drill("G81 X1. Y1. Z-5. R2. F100.\nX2.\nG80"),
+        ["T 1 1 10", "T 1 1 2", "F 1 1 -5", "T 1 1 10", "T 2 1 10", "T 2 1 2", "F 2 1 -5", "T 2 1 10"]
+    );
+    assert_eq!(
+        drill("G99 G82 X1. Z-5. R2. P500 F100.\nX2. P1.5\nG80"),
+        ["T 1 0 10", "T 1 0 2", "F 1 0 -5", "dwell 0.5", "T 1 0 2", "T 2 0 2", "F 2 0 -5", "dwell 1.5", "T 2 0 2"]
+    );
+    // words are kept over a change of the cycle
+    assert_eq!(
+        drill("G99 G81 X1. Z-5. R2. F100.\nG85 X2.\nG80"),
+        ["T 1 0 10", "T 1 0 2", "F 1 0 -5", "T 1 0 2", "T 2 0 2", "F 2 0 -5", "F 2 0 2", "T 2 0 2"]
+    );
+    // half a millimetre is the usual back-off
+    assert_eq!(
+        drill("G99 G83 X1. Z-3. R0. Q2. F100.\nG80"),
+        ["T 1 0 10", "T 1 0 0", "F 1 0 -2", "T 1 0 0", "T 1 0 -1.5", "F 1 0 -3", "T 1 0 0"]
+    );
+    assert_eq!(
+        drill("G99 G73 X1. Z-3. R0. Q2. F100.\nG80"),
+        ["T 1 0 10", "T 1 0 0", "F 1 0 -2", "T 1 0 -1.5", "F 1 0 -3", "T 1 0 0"]
+    );
+    assert_eq!(
+        drill("G98 G84 X1. Z-3. R2. F500.\nG80"),
+        ["T 1 0 10", "T 1 0 2", "F 1 0 -3", "ccw", "F 1 0 2", "cw", "T 1 0 10"]
+    );
+    assert_eq!(
+        drill("G99 G76 X1. Z-3. R2. Q0.2 F50.\nG80")[2..],
+        ["F 1 0 -3", "stop", "orient", "T 1.2 0 -3", "T 1.2 0 2", "T 1 0 2", "cw"]
+    );
+    assert_eq!(
+        drill("G98 G87 X1. Z-3. R-8. Q0.2 F50.\nG80"),
+        [
+            "T 1 0 10",
+            "stop",
+            "orient",
+            "T 1.2 0 10",
+            "T 1.2 0 -8",
+            "T 1 0 -8",
+            "cw",
+            "F 1 0 -3",
+            "stop",
+            "orient",
+            "T 1.2 0 -3",
+            "T 1.2 0 10",
+            "T 1 0 10",
+            "cw"
+        ]
+    );
+    assert_eq!(drill("G99 G86 X1. Z-3. R2. F50.\nG80")[2..], ["F 1 0 -3", "dwell 0", "stop", "T 1 0 2", "cw"]);
+    // K holes one after another; K0 only keeps the words
+    assert_eq!(
+        drill("G91 G99 G81 X1. Z-4. R-8. K2 F100.\nG80 G90"),
+        ["T 1 0 10", "T 1 0 2", "F 1 0 -2", "T 1 0 2", "T 2 0 2", "F 2 0 -2", "T 2 0 2"]
+    );
+    assert_eq!(drill("G99 G81 X1. Z-5. R2. K0 F100.\nX2.\nG80").len(), 4);
+    // G80 brings the motion of before back
+    assert_eq!(drill("G1 X3. F100.\nG99 G81 X1. Z-5. R2.\nG80\nX9.").last().unwrap(), "F 9 0 2");
+    // a block without X, Y, Z or R drills nothing
+    assert_eq!(drill("G99 G81 X1. Z-5. R2. F100.\nM8\nF50.\nG4 P100\nG80").len(), 5);
+    // in G18 holes go along Y
+    assert_eq!(drill("G18\nG99 G81 X1. Y-5. Z0. R-2. F100.\nG80")[1..3], ["T 1 -2 0", "F 1 -5 0"]);
+}
+
+#[test]
+fn programs_of_a_fanuc_and_their_subprograms() {
+    let program = "%\nO1\nG21 G90 G0 X0. Y0. Z1.\nM98 P100 L2\nM98 P20200\nM30\nO100\nG91 X1.\nG90 M99\nO200\nG91 Y1.\nG90 M99\n%\n";
+    assert_eq!(motions(Control::Fanuc, program), ["T 0 0 1", "T 1 0 1", "T 2 0 1", "T 2 1 1", "T 2 2 1"]);
+    assert_eq!(refused(Control::Fanuc, "G21\nM98 P7\nM30\n"), ("PN015".into(), 2));
+    // the home of the axes that are named, by way of a place
+    let home = motions(Control::Fanuc, "G21 G90 G0 X1. Y2. Z3.\nG91 G28 Z0\nG90\nM30\n");
+    assert_eq!(home, ["T 1 2 3", "T 1 2 3", "T 1 2 0"]);
+    assert_eq!(motions(Control::Fanuc, "G90 G10 L2 P1 X5.\n#1=2.5\nG0 X#1 Y[#1*2]\nM30\n"), ["T 2.5 5 0"]);
+}
+
+#[test]
+fn lengths_without_a_point() {
+    let program = "G21\nG0 X1000 Z0\nM30\n";
+    assert_eq!(refused(Control::Fanuc, program), ("PN017".into(), 2));
+    for (unpointed, x) in [(Unpointed::Whole, 1000.0), (Unpointed::Increments, 1.0)] {
+        let (calls, ended, _) = simulated(program.as_bytes(), Settings { unpointed, ..Settings::new(Control::Fanuc) });
+        assert_eq!((calls, ended), (vec![Call::Rapid([x, 0.0, 0.0, 0.0, 0.0, 0.0])], Ok(())));
+    }
+    assert_eq!(motions(Control::Linuxcnc, program), ["T 1000 0 0"]);
+}
+
+/// Where the old manual differs: the Z before each block counts, and pecks wait and come out all the way.
+#[test]
+fn cycles_of_emc2() {
+    let emc2 = |program: &str| motions(Control::Emc2, program);
+    let holes = |program: &str| -> Vec<String> {
+        emc2(program).into_iter().filter(|line| line.starts_with('F')).map(|line| line[2..].to_owned()).collect()
+    };
+    assert_eq!(
+        emc2("G0 X1 Y2 Z3\nG90 G81 G98 X4 Y5 Z1.5 R2.8 F10\nM2\n")[1..],
+        ["T 4 5 3", "T 4 5 2.8", "F 4 5 1.5", "T 4 5 3"]
+    );
+    let repeated = emc2("G0 X1 Y2 Z3\nG91 G81 G98 X4 Y5 Z-0.6 R1.8 L3 F10\nM2\n");
+    assert_eq!(
+        repeated[1..],
+        [
+            "T 1 2 4.8",
+            "T 5 7 4.8",
+            "F 5 7 4.2",
+            "T 5 7 4.8",
+            "T 9 12 4.8",
+            "F 9 12 4.2",
+            "T 9 12 4.8",
+            "T 13 17 4.8",
+            "F 13 17 4.2",
+            "T 13 17 4.8"
+        ]
+    );
+    let eight = "G90 G0 X0 Y0 Z0\nG1 F10 X0 G4 P0.1\nG81 X1 Y0 Z0 R1\nX2\nX3\nX4\nY1 Z0.5\nX3\nX2\nX1\nG80\nG0 X0\nY0\nZ0\nM2\n";
+    assert_eq!(holes(eight)[1..], ["1 0 0", "2 0 0", "3 0 0", "4 0 0", "4 1 0.5", "3 1 0.5", "2 1 0.5", "1 1 0.5"]);
+    // no straight-up move of no length at each hole, and all twelve holes as deep
+    assert_eq!(emc2(eight).iter().filter(|line| line.starts_with('T')).count(), 1 + 1 + 8 * 2 + 3);
+    let twelve = "G90 G0 X0 Y0 Z0\nG1 F50 X0 G4 P0.1\nG91 G81 X1 Y0 Z-0.5 R1 L4\nX0 Y1 R0 L3\nX-1 Y0 L3\nX0 Y-1 L2\nG80\nG90 G0 X0\nY0\nZ0\nM2\n";
+    let bottoms = holes(twelve)[1..].to_vec();
+    assert_eq!(bottoms.len(), 12);
+    assert!(bottoms.iter().all(|place| place.ends_with(" 0.5")), "{bottoms:?}");
+    let pecks = emc2("G20 F10 G0 X0 Y0 Z0.5\nG98 G83 X0.285 Y0.00 Z0.1 R0.2 Q0.05\nM2\n");
+    assert_eq!(
+        pecks[1..],
+        [
+            "T 0.285 0 0.5",
+            "T 0.285 0 0.2",
+            "F 0.285 0 0.15",
+            "dwell 0.25",
+            "T 0.285 0 0.5",
+            "F 0.285 0 0.1",
+            "dwell 0.25",
+            "T 0.285 0 0.5"
+        ]
+    );
+    assert_eq!(emc2("G0 Z3\nG98 G85 X1 Z1 R2 F10\nM2\n")[1..], ["T 1 0 3", "T 1 0 2", "F 1 0 1", "F 1 0 3"]);
+    assert_eq!(
+        emc2("G0 Z3\nG98 G81 X1 Z1 R2 F10\nG99 X2\nG98 X3\nM2\n").last().unwrap(),
+        "T 3 0 2",
+        "G98 returns to the Z before this block, which G99 left at R"
+    );
+}
+
+#[test]
+fn what_a_control_refuses_is_an_error_with_its_block() {
+    let cases = [
+        ("G21\nG0 X1. X2.\nM30", "PN002", 2),
+        ("G21\nG0 X1.\nG777 Z1.\nM30", "PN003", 3),
+        ("G90 G91\nM30", "PN004", 1),
+        ("G0 X1. I2.\nM30", "PN005", 1),
+        ("X1.\nM30", "PN006", 1),
+        ("G81 X1. Z-1. F10.\nM30", "PN007", 1),
+        ("G1 X1.\nM30", "PN008", 1),
+        ("G2 X1. Y1. I5. F10.\nM30", "PN009", 1),
+        ("G0 X1.\n", "PN010", 1),
+        ("", "PN010", 0),
+        ("G81 X1. R-2. Z-1. F10.\nM30", "PN011", 1),
+        ("M5\nG87 X1. R-2. Z-1. Q.1 F10.\nM30", "PN012", 2),
+        ("G41 D1\nG1 X1. F10.\nG81 X2. Z-1. R1.\nM30", "PN013", 3),
+        ("G0 X#9\nM30", "PN014", 1),
+        ("G0 X[1/0]\nM30", "PN014", 1),
+        ("M98 P1\nM30", "PN015", 1),
+        ("G68 X0 Y0 R45.\nM30", "PN016", 1),
+        ("IF[#1 EQ 1]GOTO 10\nM30", "PN016", 1),
+        ("G0 X5\nM30", "PN017", 1),
+        ("G83 X1. Z-1. R0 Q0. F10.\nM30", "PN018", 1),
+        ("G0 X1. ?\nM30", "PN001", 1),
+        ("G0 X1.2.3\nM30", "PN001", 1),
+        ("(open\nM30", "PN001", 1),
+    ];
+    for (program, code, line) in cases {
+        assert_eq!(refused(Control::Fanuc, program), (code.into(), line), "{program}");
+    }
+    for (program, code, line) in [
+        ("o1 sub\nG0 X1\nM2", "PN015", 3),
+        ("o1 while [1]\nG4 P0\no1 endwhile\nM2", "PN015", 1),
+        ("o1 call\nM2", "PN015", 1),
+        ("o1 sub\no1 call\no1 endsub\no1 call\nM2", "PN015", 2),
+        ("G0 X[[[[1\nM2", "PN014", 1),
+        ("G0 X#1#2\nM2", "PN014", 1),
+        ("G0 X1 (a (b))\nM2", "PN001", 1),
+    ] {
+        let (found, at) = refused(Control::Linuxcnc, program);
+        assert_eq!(found, code, "{program} at {at}");
+        assert!(at >= line, "{program}: {at}");
+    }
+    let deep = format!("G0 X{}1{}\nM2\n", "[".repeat(100), "]".repeat(100));
+    assert_eq!(refused(Control::Linuxcnc, &deep).0, "PN014");
+    let long = format!("G0 X1 ({})\nM2\n", "x".repeat(100_000));
+    assert_eq!(refused(Control::Fanuc, &long), ("PN001".into(), 1));
+}
+
+/// What a trial machinist and the real interpreter found.
+#[test]
+fn rules_that_are_easily_missed() {
+    let both = |program: &str| motions(Control::Linuxcnc, program);
+    assert_eq!(both("G80 G0 X1\nM2\n"), ["T 1 0 0"], "G80 beside a motion counts for nothing");
+    assert_eq!(both("G0 X[1 EQ 1.00005]\nM2\n"), ["T 1 0 0"]);
+    assert_eq!(both("#1=0\no1 do\n#1=[#1+1]\no1 continue\nG0 X1\no1 while [#1 LT 3]\nM2\n"), Vec::<String>::new());
+    assert_eq!(both("\u{feff}G0 X1\nM2\n"), ["T 1 0 0"], "the mark before UTF-8");
+    assert_eq!(refused(Control::Linuxcnc, "G0 X5 o1 if [1]\nM2\n"), ("PN015".into(), 1));
+    assert_eq!(refused(Control::Linuxcnc, "#5161=10\nM2\n"), ("PN014".into(), 1));
+    assert_eq!(refused(Control::Linuxcnc, "F10\nG81 X1 Z-1 R1\nG53 X2\nM2\n"), ("PN006".into(), 3));
+    assert_eq!(
+        refused(Control::Linuxcnc, "M3 S1\nT1 M6\nF10\nG84 X2 Z-1 R1\nM2\n"),
+        ("PN012".into(), 4),
+        "M6 stops the spindle"
+    );
+    assert_eq!(refused(Control::Fanuc, "G81 X1. Z-1. R.1 F5.\nX3. G4 P200\nM30\n"), ("PN004".into(), 2));
+    assert_eq!(refused(Control::Fanuc, "G1 G41 X1. F9.\nM30\n"), ("PN007".into(), 1));
+    // the spindle stops when the motion is done
+    assert_eq!(fanuc("G1 X1. F10. M5")[..], ["F 1 0 10", "stop"]);
+    // a whole circle by its centre alone
+    assert_eq!(fanuc("G2 X0. I1. F10.\nI2.").len(), 2);
+    // blocks and loops whose moves nobody could wait for
+    let many = refused(Control::Linuxcnc, "F10\nG91 G83 X1 Z-10000 R1 Q.011 L9999\nM2\n");
+    assert_eq!(many, ("PN018".into(), 2));
+    let deep = "F10. G91\nG81 X0. Y0. Z-.1 R.1\nM98 P2 L9999\nM30\nO2\nM98 P3 L9999\nM99\nO3\nX.0001 K9999\nM99\n";
+    assert_eq!(refused(Control::Fanuc, deep).0, "PN015");
+}
+
+/// Line ends, characters and case of all kinds are the same program.
+#[test]
+fn the_same_program_however_it_is_written() {
+    let plain = "%\nN10 G21 G90\nN20 G0 X1.5 Y-2.\nG1 Z-1. F100.\nM30\n%\n";
+    let wanted = motions(Control::Fanuc, plain);
+    let variants = [
+        plain.replace('\n', "\r\n"),
+        plain.to_lowercase(),
+        plain.replace(' ', ""),
+        plain.replace(' ', "\t  "),
+        plain.replace("G21", "(caf\u{e9} \u{fffd}) G21"),
+        plain.replace("X1.5", "X 1. 5"),
+        plain.replace("G0 ", "G00 "),
+        plain.replace("N20", "/N20"),
+    ];
+    for text in variants {
+        assert_eq!(motions(Control::Fanuc, &text), wanted, "{text:?}");
+    }
+    let latin1 = [&b"(90\xb0)\n"[..], &plain.as_bytes()[2..]].concat();
+    let (calls, ended, _) = simulated(&latin1, Settings::new(Control::Fanuc));
+    assert_eq!((calls.len(), ended), (2, Ok(())));
+    let skipped = Settings { block_delete: true, ..Settings::new(Control::Fanuc) };
+    let (calls, ..) = simulated(
+        plain.replace("N20", "/N20").replace("G1", "G0 X0 G1").replace("G0 X0 G1", "G1 X0").as_bytes(),
+        skipped,
+    );
+    assert_eq!(calls.len(), 1, "the deleted block is left out");
+}
+
+/// A program cut off anywhere, or with any byte changed, is run or refused, and never stops the simulator.
+#[test]
+fn mutilated_programs_get_an_answer() {
+    let program = "%\nO1\nG21 G17 G90\n#1=[2+3]\nG0 X#1 Y[SIN[30]*2]\nG99 G81 X1. Y1. Z-5. R2. F100.\nX2. K3\nG80\nG2 X5. I2. F10.\no1 if [1]\no1 endif\nM98 P2\nM30\nO2\nM99\n";
+    let mut state = 1u64;
+    let mut random = |limit: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as usize % limit
+    };
+    for round in 0..20_000 {
+        let mut bytes = program.as_bytes().to_vec();
+        if round % 3 == 0 {
+            bytes.truncate(random(bytes.len()));
+        }
+        for _ in 0..random(4) {
+            if !bytes.is_empty() {
+                let at = random(bytes.len());
+                bytes[at] = [b'[', b']', b'#', b'(', b'%', b'-', b'9', b'G', b'o', b'\n', 0, 0xff][random(12)];
+            }
+        }
+        for control in Control::ALL {
+            let _ended = simulated(&bytes, Settings::new(control)).1;
+        }
+    }
+}

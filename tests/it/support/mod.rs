@@ -1,0 +1,164 @@
+//! What the tests share: rendering through the library, without the command line.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+pub mod nc;
+pub mod pages;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use postform::cl::read_cl;
+use postform::compile::compile;
+use postform::diag::Diag;
+use postform::render::{Options, Renderer, TraceLine};
+use postform::sema::{Checked, Limits, analyse};
+use postform::source::Source;
+use postform::toolpath::ReadError;
+use postform::toolpath::json::{read_document, read_lines};
+
+pub fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// A form from text; it calls no other.
+pub fn check(text: &str) -> Checked {
+    analyse(Source::from_text("form.pf", text), Limits::Classic, &mut |_| Err("can't be found".into()))
+}
+
+/// A form from a file; one that it calls stands beside it.
+pub fn check_file(path: &Path) -> Checked {
+    let folder = path.parent().unwrap().to_path_buf();
+    analyse(Source::from_bytes(path.to_string_lossy(), &fs::read(path).unwrap()), Limits::Classic, &mut |name| {
+        fs::read(folder.join(name)).map(|bytes| Source::from_bytes(name, &bytes)).map_err(|e| e.to_string())
+    })
+}
+
+/// What a job prints.
+#[derive(Debug)]
+pub struct Rendered {
+    pub text: String,
+    pub trace: Vec<TraceLine>,
+    pub notes: Vec<Diag>,
+}
+
+pub fn render_checked(checked: &Checked, job: &[u8], lines: bool, options: Options) -> Result<Rendered, Box<Diag>> {
+    render_kind(checked, job, if lines { Kind::Lines } else { Kind::Document }, options)
+}
+
+pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) -> Result<Rendered, Box<Diag>> {
+    if let Some(error) = checked.diags.iter().find(|d| d.is_error()) {
+        return Err(Box::new(error.clone()));
+    }
+    let program = compile(&checked.form);
+    let mut renderer = Renderer::new(&program, Options { trace: true, ..options });
+    let read = match kind {
+        Kind::Lines => read_lines(job, &mut renderer),
+        Kind::Document => read_document(job, &mut renderer),
+        Kind::Cl => {
+            read_cl(job, &postform::cl::Options::default(), &mut postform::cl::Report::default(), &mut renderer)
+        }
+    };
+    match read {
+        Ok(()) => Ok(Rendered {
+            text: String::from_utf8(std::mem::take(renderer.text())).unwrap(),
+            trace: std::mem::take(renderer.trace().unwrap()),
+            notes: renderer.notes().to_vec(),
+        }),
+        Err(ReadError::Job(diag)) => Err(diag),
+        Err(ReadError::Io(error)) => panic!("{error}"),
+    }
+}
+
+pub fn render(form: &str, job: &str) -> Result<Rendered, Box<Diag>> {
+    render_checked(&check(form), job.as_bytes(), false, Options::default())
+}
+
+/// The lines that a job prints, or the code of the error.
+pub fn program(form: &str, job: &str) -> Vec<String> {
+    match render(form, job) {
+        Ok(rendered) => rendered.text.lines().map(str::to_owned).collect(),
+        Err(diag) => vec![format!("{} {}", diag.code.name(), diag.message)],
+    }
+}
+
+/// A complete small mill form with these lines in its head and these sequences at its end.
+pub fn mill(head: &str, sequences: &str) -> String {
+    format!(
+        "{head}\nStartCode\n%0\nEnd\n1stToolChange\nT[tool] M6\nS[speed] M[direct]\nG0 G[work] X[h] Y[v] Z[d]\nEnd\n\
+         ToolChange\nT[tool] M6\nS[speed] M[direct]\nG0 G[work] X[h] Y[v] Z[d]\nEnd\nCancel\nG80\nEnd\nEndCode\nM30\nEnd\n{sequences}\n"
+    )
+}
+
+/// A job with one tool, a first rapid to 0 0 1, and these path items.
+pub fn job(path: &str) -> String {
+    format!(
+        "{{\"postform\":1,\"program\":100,\"units\":\"inch\",\"tools\":[{{\"number\":1,\"diameter_offset\":21}},{{\"number\":2}}],\
+         \"operations\":[{{\"tool\":1,\"work\":54,\"spindle\":{{\"speed\":1000,\"direction\":\"cw\"}},\"feed\":10,\
+         \"path\":[{{\"rapid\":[0,0,1]}},{path}]}}]}}"
+    )
+}
+
+/// The program of `mill` and `job` without what comes before and after the path.
+pub fn path_lines(head: &str, sequences: &str, path: &str) -> Vec<String> {
+    let lines = program(&mill(head, sequences), &job(path));
+    if lines.len() == 1 {
+        return lines;
+    }
+    lines[4..lines.len() - 1].to_vec()
+}
+
+/// All samples: a folder each.
+pub fn samples() -> Vec<PathBuf> {
+    let mut folders: Vec<_> = fs::read_dir(root().join("samples")).unwrap().map(|e| e.unwrap().path()).collect();
+    folders.sort();
+    assert!(folders.len() >= 12, "at least 12 samples");
+    folders
+}
+
+/// The form of a sample: its own, or a post that it names.
+pub fn sample_form(folder: &Path) -> Option<PathBuf> {
+    let own = folder.join("form.pf");
+    if own.exists() {
+        return Some(own);
+    }
+    let pointer = fs::read_to_string(folder.join("form")).ok()?;
+    Some(folder.join(pointer.trim()))
+}
+
+/// The formats of jobs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Document,
+    Lines,
+    Cl,
+}
+
+/// The job of a sample, and its format.
+pub fn sample_job(folder: &Path) -> (PathBuf, Kind) {
+    let kinds = [("job.jsonl", Kind::Lines), ("job.cl", Kind::Cl), ("job.json", Kind::Document)];
+    let found = kinds.map(|(name, kind)| (folder.join(name), kind)).into_iter().find(|(path, _)| path.exists());
+    found.unwrap_or_else(|| panic!("{} has no job", folder.display()))
+}
+
+/// Renders a sample with a form.
+pub fn render_sample(folder: &Path, form: &Path) -> Result<Rendered, Box<Diag>> {
+    render_sample_with(folder, form, Options::default())
+}
+
+pub fn render_sample_with(folder: &Path, form: &Path, options: Options) -> Result<Rendered, Box<Diag>> {
+    render_checked_sample(folder, &check_file(form), options)
+}
+
+/// Renders a sample with a form that was read.
+pub fn render_checked_sample(folder: &Path, form: &Checked, options: Options) -> Result<Rendered, Box<Diag>> {
+    let (job, kind) = sample_job(folder);
+    render_kind(form, &fs::read(job).unwrap(), kind, options)
+}
+
+/// Fails with the lines that differ.
+pub fn assert_same(what: &str, expected: &str, found: &str) {
+    if expected != found {
+        let diff = similar::TextDiff::from_lines(expected, found);
+        panic!("{what} differs:\n{}", diff.unified_diff().header("expected", "found"));
+    }
+}

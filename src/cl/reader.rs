@@ -470,6 +470,7 @@ pub(super) fn no_change(tool: Option<Tool>) -> ToolChange {
         plunge: None,
         feed_mode: None,
         comment: None,
+        set: Vec::new(),
         first: First::Nothing,
     }
 }

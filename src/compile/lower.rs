@@ -3,7 +3,7 @@
 use super::letters::LetterTable;
 use super::program::{Block, CycleStyle, Literal, Op, Program, UponBlock};
 use super::work;
-use crate::lang::{SequenceId, VarId, VarSet};
+use crate::lang::{Group, SequenceId, VarId, VarSet, group_of};
 use crate::sema::{Form, Line, Sequence, WordKind};
 use crate::span::Span;
 
@@ -19,6 +19,8 @@ pub fn compile(form: &Form) -> Program {
         upons: Vec::new(),
         upon_vars: VarSet::default(),
         printed: VarSet::default(),
+        speaks_g: false,
+        switches_spindle: false,
         work_word: work::of(form),
         letters: [LetterTable::new(form, false), LetterTable::new(form, true)],
         custom: [None, None, None],
@@ -41,7 +43,49 @@ pub fn compile(form: &Form) -> Program {
         program.upon_vars.insert(upon.var);
         program.upons.push(UponBlock { var: upon.var, every: upon.every, block });
     }
+    program.speaks_g = speaks_g(&program);
+    program.switches_spindle = switches_spindle(&program);
     program
+}
+
+fn speaks_g(program: &Program) -> bool {
+    let generated = [SequenceId::RapidCode, SequenceId::LineCode].iter().any(|&id| program.block(id).is_none());
+    generated || program.literals.iter().any(|word| word.letter == b'G' && (0.0..4.0).contains(&word.value))
+}
+
+/// Do sequences of parts of the path type both M3 or M4 and M5, or does a sequence of moves print the speed?
+fn switches_spindle(program: &Program) -> bool {
+    use SequenceId as S;
+    const PARTS: [SequenceId; 14] = [
+        S::BeginLeadin,
+        S::EndLeadin,
+        S::BeginLeadout,
+        S::EndLeadout,
+        S::BeginPlunge,
+        S::EndPlunge,
+        S::BeginRetract,
+        S::EndRetract,
+        S::BeginSideStep,
+        S::EndSideStep,
+        S::BeginZLevel,
+        S::EndZLevel,
+        S::BeginRow,
+        S::EndRow,
+    ];
+    const MOVES: [SequenceId; 4] = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode];
+    let blocks = |ids: &'static [SequenceId]| ids.iter().filter_map(|&id| program.block(id));
+    let types = |turns: bool| {
+        let answers = |op: &Op| match op {
+            Op::Literal { index, .. } => {
+                let Literal { letter, value, .. } = program.literals[*index as usize];
+                let spindle = group_of(letter, (value * 10.0).round() as i64) == Some(Group::Spindle);
+                spindle && turns == (value != program.settings.spindle[2])
+            }
+            _ => false,
+        };
+        blocks(&PARTS).any(|block| program.ops[block.ops.clone()].iter().any(answers))
+    };
+    types(true) && types(false) || blocks(&MOVES).any(|block| block.vars.has(VarId::Speed))
 }
 
 fn lower_sequence(program: &mut Program, sequence: &Sequence) -> Block {

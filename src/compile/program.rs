@@ -134,6 +134,10 @@ pub struct Program {
     pub upon_vars: VarSet,
     /// The variables that the form prints anywhere.
     pub printed: VarSet,
+    /// The form says motions by G codes: its sequences type G0 to G3, or blocks of moves are generated.
+    pub speaks_g: bool,
+    /// The form's own sequences switch the spindle along the path (torch, laser): none is generated between them.
+    pub switches_spindle: bool,
     /// How the form prints `[work]`, where it is no G code.
     pub work_word: Option<WorkWord>,
     /// What the form says of each letter, for programs in inches and in millimetres.

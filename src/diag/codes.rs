@@ -19,7 +19,7 @@ macro_rules! codes {
     ($($name:ident $severity:ident $title:literal)*) => {
         /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PC` canned cycle, `PR` rendering, `PN` NC program, `PV` verify.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        #[repr(u8)]
+        #[repr(u16)]
         pub enum Code { $(#[doc = $title] $name),* }
 
         /// All codes in order.
@@ -245,6 +245,7 @@ codes! {
     PR022 Note "a rapid printed by a sequence that may feed"
     PR023 Warning "cutter compensation at the end"
     PR024 Note "an arc printed as lines"
+    PR025 Warning "a feed that its format rounds by more than 1 %"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

@@ -38,6 +38,11 @@ pub const GROUPS: usize = 13;
 /// What a code does to the meaning of axis words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
+    /// Axis words of its block stand in another frame, and the axes go where they say: reference points, machine
+    /// coordinates. Without axis words all axes go.
+    Block,
+    /// Axis words after it are increments, until G90.
+    Increments,
     /// Axis words after it in the same body may stand in another frame.
     Shifts,
     /// From here on axis positions mean another place.
@@ -81,12 +86,38 @@ pub fn group_of(letter: u8, tenths: i64) -> Option<Group> {
         .map(|row| row.3)
 }
 
+/// Does this M code, given in tenths, stop the program (M0) or may it (M1)? On many controls the spindle and the
+/// coolant stop with it.
+pub fn is_stop(tenths: i64) -> bool {
+    matches!(tenths, 0 | 10)
+}
+
+/// Does this M code, given in tenths, change the tool? The changer moves the axes.
+pub fn changes_tool(tenths: i64) -> bool {
+    tenths == 60
+}
+
 /// What a G code, given in tenths, does to axis positions.
 pub fn frame_of(tenths: i64) -> Option<Frame> {
     match tenths {
-        280 | 300 | 530 | 910 | 920..=923 => Some(Frame::Shifts),
+        280 | 300 | 530 => Some(Frame::Block),
+        910 => Some(Frame::Increments),
+        920..=923 => Some(Frame::Shifts),
         100 | 500 | 510 | 520 | 540..=599 | 680 | 690 => Some(Frame::Moves),
         430..=449 | 490 => Some(Frame::MovesDepth),
+        _ => None,
+    }
+}
+
+/// A job's work offset as a form counts it, whose first one is `first`: a number below 50 counts fixtures from 1, from 50
+/// on it is the code itself. A form that counts from a small number (`G15 H1`, `E1`) takes 54 to 59 for its first six;
+/// other codes it does not have.
+pub fn work_code(first: f64, work: f64) -> Option<f64> {
+    const CODES: std::ops::RangeInclusive<f64> = 54.0..=59.0;
+    match work {
+        _ if (1.0..50.0).contains(&work) => Some(first + work - 1.0),
+        _ if first >= 50.0 || work < 1.0 => Some(work),
+        _ if CODES.contains(&work) && work.fract() == 0.0 => Some(first + work - CODES.start()),
         _ => None,
     }
 }

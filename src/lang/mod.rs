@@ -9,7 +9,7 @@ mod sequences;
 mod suggest;
 mod variables;
 
-pub use codes::{Frame, GROUPS, Group, NC_CODES, frame_of, group_of};
+pub use codes::{Frame, GROUPS, Group, NC_CODES, changes_tool, frame_of, group_of, is_stop, work_code};
 pub use commands::{Args, COMMANDS, Command, CommandId};
 pub use machine::{Machine, Machines};
 pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};

@@ -135,7 +135,7 @@ variables! {
     Toolv         "toolv"          "Tools"              Length  Job       "ML"   "tool gauge length along the second axis"
     Lcomp         "lcomp"          "Tools"              Count   Computed  "ML"   "length offset register"
     Dcomp         "dcomp"          "Tools"              Count   Computed  "MLE"  "diameter offset register"
-    Comp          "comp"           "Tools"              Count   Job       "MLE"  "offset register of either kind"
+    Comp          "comp"           "Tools"              Count   Job       "MLE"  "offset register; on lathes the T number: tool x 100 + length register, or a tool number from 100 on as it is"
     Turret        "turret"         "Tools"              Count   Computed  "L"    "turret of the tool"
     Cool          "cool"           "Tools"              Code    Computed  "ML"   "coolant code (Coolant)"
     Coolantoff    "coolantoff"     "Tools"              Code    Computed  "ML"   "code that turns coolant off"

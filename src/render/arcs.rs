@@ -2,15 +2,17 @@
 
 use std::f64::consts::PI;
 
-use super::fault::{Done, fault};
+use super::codes::Shift;
+use super::fault::{Done, fault, fault_at};
 use super::geometry::PlaneArc;
 use super::motion::MOVE_VARS;
 use super::move_words::{AxisUnits, as_number};
 use super::renderer::{LastMove, Renderer};
-use super::words::Mode;
+use super::words::{Mode, tenths};
+use crate::compile::{Block, Op};
 use crate::diag::Code;
-use crate::lang::{Machine, SequenceId, VarId, VarSet};
-use crate::sema::{self, ArcCentre};
+use crate::lang::{Group, Machine, SequenceId, VarId, VarSet, group_of};
+use crate::sema::{self, ArcCentre, Settings};
 use crate::toolpath::{Arc, Axes, Direction, Plane, Units};
 
 /// The axes of a plane in the order that makes counter-clockwise positive, the axis across it, the plane's code.
@@ -31,6 +33,29 @@ struct Piece<'a> {
     plane: &'a sema::Code,
     arc: PlaneArc,
     target: Axes,
+}
+
+impl Piece<'_> {
+    /// The piece from one part of the sweep to another, of an arc that begins at `from`.
+    fn part(&self, from: &Axes, done: f64, part: f64, across: usize) -> Piece<'_> {
+        let arc = &self.arc;
+        let mut target = *from;
+        if part == 1.0 {
+            target = self.target;
+        } else {
+            // after whole turns it is where it began, to the last digit: else a turn would be an arc of no length
+            let turns = arc.sweep * part / (2.0 * PI);
+            if (turns - turns.round()).abs() > 1e-9 {
+                let point = arc.point(part);
+                target.values[self.axes[0]] = point[0];
+                target.values[self.axes[1]] = point[1];
+            }
+            let rise = self.target.values[across] - from.values[across];
+            target.values[across] = from.values[across] + rise * part;
+        }
+        let piece = PlaneArc { start: arc.start + arc.sweep * done, sweep: arc.sweep * (part - done), ..*arc };
+        Piece { axes: self.axes, plane: self.plane, arc: piece, target }
+    }
 }
 
 impl Renderer<'_> {
@@ -230,33 +255,86 @@ impl Renderer<'_> {
             };
             // radius words can't say a full circle, and over 180 degrees only when the form has a way
             arc.equal_parts(most, &mut parts);
+            self.divide_for_radius(whole, across, &mut parts)?;
         }
         parts.push(1.0);
         let (from, mut done) = (self.position, 0.0);
         let whole_feed = self.feed;
         for &part in &parts {
-            let mut target = from;
-            if part == 1.0 {
-                target = whole.target;
-            } else {
-                // after whole turns it is where it began, to the last digit: else a turn would be an arc of no length
-                let turns = arc.sweep * part / turn;
-                if (turns - turns.round()).abs() > 1e-9 {
-                    let point = arc.point(part);
-                    target.values[whole.axes[0]] = point[0];
-                    target.values[whole.axes[1]] = point[1];
-                }
-                let rise = whole.target.values[across] - from.values[across];
-                target.values[across] = from.values[across] + rise * part;
-            }
             self.share_of_time(whole_feed, part - done);
-            let piece = PlaneArc { start: arc.start + arc.sweep * done, sweep: arc.sweep * (part - done), ..*arc };
-            self.piece(&Piece { axes: whole.axes, plane: whole.plane, arc: piece, target })?;
+            self.piece(&whole.part(&from, done, part, across))?;
             done = part;
         }
         self.share_of_time(whole_feed, 1.0);
         self.parts = parts;
         Ok(())
+    }
+
+    /// Divides an arc that radius words say badly. Near half a turn the last digit of the radius moves the centre far:
+    /// more and shorter parts say the same arc to the digits of the form.
+    fn divide_for_radius(&self, whole: &Piece, across: usize, parts: &mut Vec<f64>) -> Done {
+        const MOST_PARTS: usize = 8;
+        let allowed = if self.units == Units::Mm { 0.005 } else { 0.0002 };
+        let from = self.position;
+        while parts.len() + 1 < MOST_PARTS {
+            let (mut here, mut done, mut worst) = (from, 0.0, 0.0f64);
+            for part in parts.iter().copied().chain([1.0]) {
+                let piece = whole.part(&from, done, part, across);
+                worst = worst.max(self.centre_moves(&piece, &here)?);
+                (here, done) = (piece.target, part);
+            }
+            if worst <= allowed {
+                return Ok(());
+            }
+            let count = parts.len() + 2;
+            parts.clear();
+            parts.extend((1..count).map(|i| i as f64 / count as f64));
+        }
+        Ok(())
+    }
+
+    /// How far the control's centre of a piece that begins `here` is from the arc's, where a radius says it.
+    fn centre_moves(&self, piece: &Piece, here: &Axes) -> Done<f64> {
+        let ccw = piece.arc.sweep > 0.0;
+        let Some(letter) = self.radius_letter(piece, ccw) else { return Ok(0.0) };
+        let mut ends = [[0.0; 2]; 2];
+        for (end, position) in ends.iter_mut().zip([here, &piece.target]) {
+            for (value, &axis) in end.iter_mut().zip(&piece.axes) {
+                *value = self.printed(axis, position.values[axis])?;
+            }
+        }
+        let info = &self.letters[letter];
+        let radius = as_number(self.quantised(info, piece.arc.radius)?, info.format.dec.count).abs();
+        let longer = piece.arc.sweep.abs() > PI + 1e-9;
+        let centre = PlaneArc::centre_by_radius(ends[0], ends[1], if longer { -radius } else { radius }, ccw);
+        Ok(centre.map_or(f64::INFINITY, |[a, b]| (a - piece.arc.centre[0]).hypot(b - piece.arc.centre[1])))
+    }
+
+    /// The letter of a piece's radius, where that is what says its centre.
+    fn radius_letter(&self, piece: &Piece, ccw: bool) -> Option<u8> {
+        let program = self.program;
+        match program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
+            Some(block) if block.vars.meets(CENTRES) => None,
+            Some(block) => block.ops.clone().find_map(|i| match program.ops[i] {
+                Op::Var { letter, var: VarId::Arcrad, .. } => Some(letter),
+                _ => None,
+            }),
+            None => match Self::centre_by(&program.settings, piece.arc.sweep.abs()) {
+                ArcCentre::Radius(letter) => Some(*letter),
+                ArcCentre::Letters(_) => None,
+            },
+        }
+    }
+
+    /// How the form says the centre of an arc that turns so far.
+    fn centre_by(settings: &Settings, sweep: f64) -> &ArcCentre {
+        let over = sweep > PI + 1e-9;
+        let full = sweep > 2.0 * PI - 1e-9;
+        match (&settings.centre_full, &settings.centre_over_180) {
+            (Some(words), _) if full => words,
+            (_, Some(words)) if over && !full => words,
+            _ => &settings.centre,
+        }
     }
 
     /// In inverse time a part of a move has a part of its time.
@@ -291,13 +369,14 @@ impl Renderer<'_> {
         if self.last_move == LastMove::Rapid && !settings.force.is_empty() {
             self.force();
         }
-        self.shifted = false;
+        self.shifted = Shift::None;
         if let Some(block) = program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
             self.sequence_says(block, &piece.target)?;
             self.upons(block.vars)?;
             self.plane_block(piece.plane.value, block)?;
-            self.feed_block(block)?;
-            self.shifted = false;
+            self.says_arc(block, code)?;
+            self.feed_block(code, block)?;
+            self.shifted = Shift::None;
             self.run(block.ops.clone(), Mode::ArcMotion)?;
         } else {
             self.arc_block(piece, code, &centre, ccw)?;
@@ -305,6 +384,20 @@ impl Renderer<'_> {
         self.position = piece.target;
         self.last_move = kind;
         Ok(())
+    }
+
+    /// A sequence of arcs must print a code of its own: an arc code in a block before it would have no end.
+    fn says_arc(&self, block: &Block, code: &sema::Code) -> Done {
+        let own = |code: f64| matches!(group_of(b'G', tenths(code)), None | Some(Group::Motion));
+        if !self.program.speaks_g
+            || self.motion_in_force(code)
+            || self.says_motion(block)
+            || self.says_code(block, b'G', own)
+        {
+            return Ok(());
+        }
+        let message = format!("the sequence prints no G{}, and the control is in another motion", code.value);
+        fault_at(Code::PR017, message, format!("begin its block with G{}", code.value), Some(block.span))
     }
 
     /// The generated block: plane, motion code, axes, centre, direction, feed.
@@ -352,18 +445,10 @@ impl Renderer<'_> {
     }
 
     fn centre_words(&mut self, piece: &Piece, centre: &[f64; 2]) -> Done {
-        let settings = &self.program.settings;
         let sweep = piece.arc.sweep.abs();
-        let over = sweep > PI + 1e-9;
-        let full = sweep > 2.0 * PI - 1e-9;
-        let words = match (&settings.centre_full, &settings.centre_over_180) {
-            (Some(words), _) if full => words,
-            (_, Some(words)) if over && !full => words,
-            _ => &settings.centre,
-        };
-        match words {
+        match Self::centre_by(&self.program.settings, sweep) {
             ArcCentre::Radius(letter) => {
-                let radius = if over { -piece.arc.radius } else { piece.arc.radius };
+                let radius = if sweep > PI + 1e-9 { -piece.arc.radius } else { piece.arc.radius };
                 self.arc_word(*letter, radius)
             }
             ArcCentre::Letters(letters) => {

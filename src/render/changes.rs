@@ -5,7 +5,7 @@ use super::renderer::Renderer;
 use super::words::tenths;
 use crate::compile::WorkWord;
 use crate::diag::Code;
-use crate::lang::{Group, Machine, Origin, Unit, VARIABLES, VarId, VarSet, did_you_mean};
+use crate::lang::{Group, Machine, Origin, Unit, VARIABLES, VarId, VarSet, did_you_mean, work_code};
 use crate::sema;
 use crate::toolpath::{Coolant, FeedMode, Spindle, SpindleTurn};
 
@@ -53,6 +53,9 @@ impl Served {
 /// The variables of [`Served`].
 pub(super) const CONDITIONS: [VarId; 7] =
     [VarId::Work, VarId::Speed, VarId::Direct, VarId::Cool, VarId::Feedtype, VarId::Speedtype, VarId::Maxrpm];
+
+/// Those of the spindle.
+const SPINDLE: VarSet = VarSet::of(&[VarId::Speed, VarId::Direct, VarId::Speedtype]);
 
 impl Renderer<'_> {
     /// A word with this variable was printed.
@@ -108,7 +111,7 @@ impl Renderer<'_> {
                 set.insert(var);
             }
         }
-        set
+        if self.program.switches_spindle { set.without(SPINDLE) } else { set }
     }
 
     /// Was this work offset the last one printed?
@@ -129,8 +132,6 @@ impl Renderer<'_> {
     /// Changes that nothing printed yet, each as a block of its own.
     pub(super) fn pending_changes(&mut self) -> Done {
         self.upons(self.pending())?;
-        let settings = &self.program.settings;
-        let [cw, ccw, off] = settings.spindle;
         if let Some(work) = self.vars.get(VarId::Work)
             && self.served.work != Some(work)
         {
@@ -145,6 +146,31 @@ impl Renderer<'_> {
             return fault(Code::PR017, message, help);
         }
         self.check_own_limit()?;
+        self.pending_spindle()?;
+        if let Some(cool) = self.vars.get(VarId::Cool)
+            && self.served.cool != Some(cool)
+        {
+            self.code_word(&sema::Code::plain(b'M', cool))?;
+            self.end_block();
+            self.served.cool = Some(cool);
+        }
+        if let Some(feed_type) = self.vars.get(VarId::Feedtype)
+            && self.served.feed_type != Some(feed_type)
+        {
+            self.code_word(&sema::Code::plain(b'G', feed_type))?;
+            self.end_block();
+            self.served.feed_type = Some(feed_type);
+        }
+        Ok(())
+    }
+
+    /// Speed and direction of the spindle that nothing printed yet, unless the form's own sequences say when it turns.
+    fn pending_spindle(&mut self) -> Done {
+        let settings = &self.program.settings;
+        let [cw, ccw, off] = settings.spindle;
+        if self.program.switches_spindle {
+            return Ok(());
+        }
         let speed = self.vars.get(VarId::Speed);
         let direct = self.vars.get(VarId::Direct);
         let turns = direct.is_some_and(|code| code == cw || code == ccw);
@@ -169,20 +195,6 @@ impl Renderer<'_> {
         } else if direct == Some(off) && self.served.direct != Some(off) {
             self.code_word(&sema::Code::plain(b'M', off))?;
             self.end_block();
-        }
-        if let Some(cool) = self.vars.get(VarId::Cool)
-            && self.served.cool != Some(cool)
-        {
-            self.code_word(&sema::Code::plain(b'M', cool))?;
-            self.end_block();
-            self.served.cool = Some(cool);
-        }
-        if let Some(feed_type) = self.vars.get(VarId::Feedtype)
-            && self.served.feed_type != Some(feed_type)
-        {
-            self.code_word(&sema::Code::plain(b'G', feed_type))?;
-            self.end_block();
-            self.served.feed_type = Some(feed_type);
         }
         Ok(())
     }
@@ -248,10 +260,13 @@ impl Renderer<'_> {
         self.set_work(work)
     }
 
-    /// A fixture number below 50 counts from the first code, from 50 on it is the code.
+    /// A fixture number below 50, or a code: see [`work_code`].
     pub(super) fn set_work(&mut self, work: f64) -> Done {
         let first = self.program.settings.work;
-        let code = if (1.0..50.0).contains(&work) { first + work - 1.0 } else { work };
+        let Some(code) = work_code(first, work) else {
+            let message = format!("the work offset {work} is a code, and this form counts its offsets from {first}");
+            return fault(Code::PR017, message, "give the number of the fixture, from 1, or a code from 54 to 59");
+        };
         if self.program.work_word.is_none() && group_is_not_work(code) && self.program.settings.machine == Machine::Mill
         {
             let message = format!("the work offset {work} would be G{code}, which is none");

@@ -4,19 +4,53 @@ use super::fault::{Done, fault_at};
 use super::motion::MOVED;
 use super::renderer::Renderer;
 use super::words::tenths;
+use crate::compile::Op;
 use crate::diag::Code;
-use crate::lang::{Frame, Group, Machine, VarId, frame_of, group_of};
+use crate::lang::{Frame, Group, Machine, VarId, changes_tool, frame_of, group_of, is_stop};
+
+/// Which axis words of a body stand in another frame than the job's positions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shift {
+    /// None.
+    None,
+    /// Those of the block that is open.
+    Block,
+    /// All from here on.
+    Body,
+}
+
+impl Shift {
+    /// The one that reaches farther.
+    fn max_of(self, other: Shift) -> Shift {
+        if self == Shift::Body { self } else { other }
+    }
+}
 
 impl Renderer<'_> {
     /// What a printed G or M code does to the registers.
     pub(super) fn printed_code(&mut self, letter: u8, value: f64) {
         let tenths = tenths(value);
+        let lathe = self.program.settings.machine == Machine::Lathe;
+        if letter == b'M' {
+            if is_stop(tenths) || self.program.settings.stop_code.contains(&value) {
+                self.stopped();
+            } else if changes_tool(tenths) {
+                self.forget_axes();
+            }
+        }
         if letter == b'G' || letter == b'g' {
             match frame_of(tenths) {
+                Some(Frame::Block) => {
+                    self.shifted = self.shifted.max_of(Shift::Block);
+                    if tenths != 530 && !self.line_prints(|renderer, letter, _| renderer.axis_bit(letter) != 0) {
+                        self.forget_axes();
+                    }
+                }
                 // on a lathe G92 is a threading cycle
-                Some(Frame::Shifts)
-                    if self.program.settings.machine == Machine::Lathe && (920..930).contains(&tenths) => {}
-                Some(Frame::Shifts) => self.shifted = true,
+                Some(Frame::Shifts) if lathe => {}
+                Some(Frame::Shifts) => self.shifted = Shift::Body,
+                // on a lathe increments have letters of their own
+                Some(Frame::Increments) if lathe => self.shifted = Shift::Body,
                 Some(Frame::Moves) if self.registers.group(Group::Work) != Some(tenths) => self.forget_axes(),
                 Some(Frame::MovesDepth) => self.depth_moved = true,
                 _ => {}
@@ -44,6 +78,24 @@ impl Renderer<'_> {
             None if is_feed_mode => self.registers.forget(self.letters[settings.feed_code].printed),
             None => {}
         }
+    }
+
+    /// Do axis words that are printed now stand in another frame than the job's positions?
+    pub(super) fn is_elsewhere(&self) -> bool {
+        self.shifted != Shift::None || !self.program.settings.incremental && self.distance_is_wrong()
+    }
+
+    /// Does the line of the sequence that is being printed have such a word? Asked of its letter, and of its variable
+    /// where it has one. Generated blocks have no line.
+    pub(super) fn line_prints(&self, asked: impl Fn(&Self, u8, Option<VarId>) -> bool) -> bool {
+        let (ops, Some(here)) = (&self.program.ops, self.form) else { return false };
+        let is_line = |op: &Op| matches!(op, Op::Line { .. });
+        let start = ops[..here].iter().rposition(is_line).map_or(0, |at| at + 1);
+        ops[start..].iter().take_while(|op| !is_line(op)).any(|op| match *op {
+            Op::Var { letter, var, .. } => asked(self, letter, Some(var)),
+            Op::Literal { index, .. } => asked(self, self.program.literals[index as usize].letter, None),
+            _ => false,
+        })
     }
 
     /// A word behind the slash of block delete: the control may read it or not, and nothing is known of what it says.

@@ -1,5 +1,6 @@
 //! Moves that turn cutter compensation on and off.
 
+use super::codes::Shift;
 use super::fault::{Done, fault, fault_at};
 use super::move_words::AxisUnits;
 use super::renderer::{LastMove, Renderer};
@@ -80,11 +81,11 @@ impl Renderer<'_> {
             }
             self.plane_block(17.0, block)?;
             self.upons(block.vars)?;
-            self.feed_block(block)?;
+            self.feed_block(&program.settings.feed, block)?;
             self.run_block(block)?;
         } else {
             self.enter_plane(17.0)?;
-            self.shifted = false;
+            self.shifted = Shift::None;
             self.motion_word(if rapid { &program.settings.rapid } else { &program.settings.feed })?;
             self.code_word(&sema::Code::plain(b'G', code))?;
             let mut axes = AxisUnits::default();

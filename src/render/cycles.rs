@@ -274,7 +274,7 @@ impl Renderer<'_> {
         let across = own && program.settings.machine == Machine::Mill; // a lathe drills at its centre
         let absolute = |code| code == program.settings.inc_abs[1];
         let positions = &[VarId::H, VarId::V, VarId::D, VarId::Vclear, VarId::Rplane];
-        let steps = program.settings.incremental && prints(positions) && !self.says_code(block, absolute);
+        let steps = program.settings.incremental && prints(positions) && !self.says_code(block, b'G', absolute);
         let missing = [
             (steps, &[][..], "increments, which the control expects here"),
             (across, &[VarId::H], "the position: [h]"),

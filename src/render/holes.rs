@@ -1,12 +1,13 @@
 //! One hole: by the form's sequence, or as generated moves.
 
+use super::codes::Shift;
 use super::cycles::no_height;
 use super::fault::{Done, fault};
 use super::motion::ROTARY;
 use super::move_words::as_number;
 use super::renderer::Renderer;
 use super::words::Mode;
-use crate::compile::{Block, CycleStyle};
+use crate::compile::{Block, CycleStyle, LetterKind};
 use crate::cycle::{Plan, Step, plan};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
@@ -166,10 +167,10 @@ impl Renderer<'_> {
             self.raise_to(target)?;
             self.vars.set(VarId::D, heights.bottom);
             self.registers.forget_letters();
-            self.shifted = false;
+            self.shifted = Shift::None;
             self.run(block.ops.clone(), Mode::Hole)?;
             // after a cycle of the control the last height printed is its bottom
-            let cycled = self.says_code(block, is_cycle);
+            let cycled = self.says_code(block, b'G', is_cycle);
             return self.left_hole(target, cycled.then_some((heights.return_plane, false)));
         }
         let starts = self.starts_cycle(block, heights);
@@ -186,7 +187,7 @@ impl Renderer<'_> {
                 cycle.in_force = true;
             }
         }
-        self.shifted = false;
+        self.shifted = Shift::None;
         match block.style {
             CycleStyle::Advanced => {
                 self.registers.forget_letters();
@@ -196,7 +197,7 @@ impl Renderer<'_> {
                 self.run(block.repeat..block.ops.end, Mode::Hole)?;
             }
             CycleStyle::Machine if !starts => {
-                let position = !self.changes_something(block)?;
+                let position = !self.changes_position(block)?;
                 self.run(block.ops.clone(), Mode::NextHole { position })?;
             }
             _ => self.run(block.ops.clone(), Mode::All)?,
@@ -217,7 +218,7 @@ impl Renderer<'_> {
             return Ok(());
         }
         let in_force = self.cycle.as_ref().is_some_and(|cycle| cycle.in_force);
-        match in_force && (block.cancel || self.says_code(block, is_cycle)) {
+        match in_force && (block.cancel || self.says_code(block, b'G', is_cycle)) {
             // positions in a form of increments are right if the sequence says G90
             true if self.program.settings.incremental => Ok(()),
             true => self.check_distance(),
@@ -251,15 +252,15 @@ impl Renderer<'_> {
             && block.setup_vars.iter().any(|var| cycle.setup.get(var) != self.vars.get(var))
     }
 
-    /// Does some variable word of a machine cycle change at this hole?
-    fn changes_something(&self, block: &Block) -> Done<bool> {
+    /// Does a word of the position change at this hole? A block without one would drill on no control, or only on some.
+    fn changes_position(&self, block: &Block) -> Done<bool> {
         for i in block.ops.clone() {
             let crate::compile::Op::Var { letter, var, .. } = self.program.ops[i] else { continue };
             let (info, Some(value)) = (&self.letters[letter], self.vars.get(var)) else { continue };
-            let units = self.quantised(info, value)?;
-            if matches!(info.kind, crate::compile::LetterKind::GCode | crate::compile::LetterKind::MCode) {
+            if info.kind != LetterKind::Axis {
                 continue;
             }
+            let units = self.quantised(info, value)?;
             if !self.registers.holds(info.printed, units, info.format.dec.count) {
                 return Ok(true);
             }

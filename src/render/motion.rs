@@ -1,5 +1,6 @@
 //! Rapids and feed moves: the form's sequence, or a generated block of what changed.
 
+use super::codes::Shift;
 use super::fault::{Done, fault, fault_at};
 use super::move_words::AxisUnits;
 use super::renderer::{LastMove, Renderer};
@@ -43,6 +44,9 @@ impl Renderer<'_> {
         }
         let turns = target.given & ROTARY != 0 && self.turns(&target);
         if self.attention {
+            if turns && self.index_serves_work() {
+                self.work_before()?;
+            }
             if turns && self.upon_is_due(self.pending(), true) {
                 let message = "an Upon sequence would move the tool here before the part turns";
                 return fault(Code::PR017, message, "put a rapid that keeps the angle before it");
@@ -288,12 +292,13 @@ impl Renderer<'_> {
                 self.measure(target, false);
                 self.sequence_says(block, target)?;
                 self.upons(block.vars)?;
-                self.shifted = false;
+                self.motion_block(&program.settings.rapid, block)?;
+                self.shifted = Shift::None;
                 self.run(block.ops.clone(), Mode::Motion)?;
             }
             Some(_) => {}
             None => {
-                self.shifted = false;
+                self.shifted = Shift::None;
                 match &code {
                     Some(code) => self.move_block(target, code, false)?,
                     None => self.move_block(target, &program.settings.rapid, false)?,
@@ -329,13 +334,13 @@ impl Renderer<'_> {
             Some(block) if self.differs(target, 0x3f) => {
                 self.sequence_says(block, target)?;
                 self.upons(block.vars)?;
-                self.feed_block(block)?;
-                self.shifted = false;
+                self.feed_block(&program.settings.feed, block)?;
+                self.shifted = Shift::None;
                 self.run(block.ops.clone(), Mode::Motion)?;
             }
             Some(_) => {}
             None => {
-                self.shifted = false;
+                self.shifted = Shift::None;
                 self.move_block(target, &program.settings.feed, true)?;
             }
         }

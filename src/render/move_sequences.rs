@@ -10,7 +10,7 @@ use crate::sema;
 impl Renderer<'_> {
     /// The plane's code as a block of its own, before what prints none and needs it.
     pub(super) fn plane_block(&mut self, plane: f64, block: &Block) -> Done {
-        if self.plane == plane || self.says_code(block, |code| (17.0..20.0).contains(&code)) {
+        if self.plane == plane || self.says_code(block, b'G', |code| (17.0..20.0).contains(&code)) {
             return Ok(());
         }
         self.enter_plane(plane)
@@ -25,16 +25,35 @@ impl Renderer<'_> {
         Ok(())
     }
 
-    /// The feed as a block of its own, before a sequence that prints none.
-    pub(super) fn feed_block(&mut self, block: &Block) -> Done {
+    /// The motion code, before a sequence of moves that prints none where the control is in another motion: a cut would
+    /// be a rapid.
+    pub(super) fn motion_before(&mut self, code: &sema::Code, block: &Block) -> Done {
+        if !self.motion_in_force(code) && self.program.speaks_g && !self.says_motion(block) {
+            self.code_word(code)?;
+        }
+        Ok(())
+    }
+
+    /// The motion code as a block of its own, before a sequence of rapids that prints none.
+    pub(super) fn motion_block(&mut self, code: &sema::Code, block: &Block) -> Done {
+        self.motion_before(code, block)?;
+        self.end_block();
+        Ok(())
+    }
+
+    /// Motion code and feed as a block of their own, before a sequence that lacks one of them; arcs say their code.
+    pub(super) fn feed_block(&mut self, code: &sema::Code, block: &Block) -> Done {
+        if code.value == self.program.settings.feed.value {
+            self.motion_before(code, block)?;
+        }
         if !block.vars.has(VarId::Frate) {
             if self.inverse_time() {
                 let message = "in inverse time each move says its feed, and the sequence does not print [frate]";
                 return fault_at(Code::PR017, message, "add `F[frate]` to the sequence", Some(block.span));
             }
             self.feed_word()?;
-            self.end_block();
         }
+        self.end_block();
         Ok(())
     }
 }

@@ -4,6 +4,7 @@ use super::fault::{Done, fault};
 use super::renderer::Renderer;
 use crate::compile::LetterKind;
 use crate::diag::Code;
+use crate::lang::VarId;
 use crate::number::POWERS;
 use crate::sema;
 use crate::toolpath::Axes;
@@ -159,10 +160,7 @@ impl Renderer<'_> {
         }
         let Some(feed) = self.feed else { return Ok(()) };
         let units = self.quantised(info, feed)?;
-        if units == 0 {
-            let message = format!("the feed {feed} prints as 0 in the format `{}`", info.format);
-            return fault(Code::PR002, message, "give the letter more decimals");
-        }
+        self.check_feed(info, VarId::Frate, feed, units)?;
         self.put_word(info, units, false)?;
         self.registers.set(info.printed, units, info.format.dec.count);
         Ok(())

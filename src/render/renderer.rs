@@ -1,5 +1,6 @@
 //! The renderer: state, and which event does what.
 
+use super::codes::Shift;
 use super::cycles::ActiveCycle;
 use super::fault::Done;
 use super::output::{Layout, Output, TraceLine};
@@ -61,8 +62,8 @@ pub struct Renderer<'p> {
     pub(super) place: Place,
     /// The form line and word being printed.
     pub(super) form: Option<usize>,
-    /// In this body a code was printed after which axis words may stand in another frame.
-    pub(super) shifted: bool,
+    /// In which frame the axis words of this body stand.
+    pub(super) shifted: Shift,
     /// The open block changed the frame of the depth axis.
     pub(super) depth_moved: bool,
     /// Where the tool is, in program units; axes not given are unknown.
@@ -139,7 +140,7 @@ impl<'p> Renderer<'p> {
             vars: Vars::default(),
             place: Place::default(),
             form: None,
-            shifted: false,
+            shifted: Shift::None,
             depth_moved: false,
             position: Axes::default(),
             axes: if edm { [h, v, h2, v2, b'A', b'B'] } else { [h, v, d, b'A', b'B', b'C'] },

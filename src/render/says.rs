@@ -2,21 +2,35 @@
 
 use super::fault::{Done, fault_at};
 use super::renderer::Renderer;
+use super::words::tenths;
 use crate::compile::{Block, LetterKind, Op};
 use crate::diag::Code;
-use crate::lang::VarId;
+use crate::lang::{Group, Origin, VarId, group_of};
 use crate::toolpath::Axes;
 
 impl Renderer<'_> {
-    /// Does a sequence print a G code as typed that answers this?
-    pub(super) fn says_code(&self, block: &Block, asked: impl Fn(f64) -> bool) -> bool {
+    /// Does a sequence print a code of this letter as typed that answers this?
+    pub(super) fn says_code(&self, block: &Block, letter: u8, asked: impl Fn(f64) -> bool) -> bool {
         block.ops.clone().any(|i| match self.program.ops[i] {
             Op::Literal { index, .. } => {
                 let literal = &self.program.literals[index as usize];
-                literal.letter == b'G' && asked(literal.value)
+                self.letters[literal.letter].printed == letter && asked(literal.value)
             }
             _ => false,
         })
+    }
+
+    /// Does a sequence print its motion code: as typed, or by a variable?
+    pub(super) fn says_motion(&self, block: &Block) -> bool {
+        let by_variable = |i: usize| match self.program.ops[i] {
+            Op::Var { letter, var, .. } => {
+                self.letters[letter].kind == LetterKind::GCode
+                    && (var == VarId::Direct || var.row().origin == Origin::Job)
+            }
+            _ => false,
+        };
+        self.says_code(block, b'G', |code| group_of(b'G', tenths(code)) == Some(Group::Motion))
+            || block.ops.clone().any(by_variable)
     }
 
     /// The variables that say where a linear axis goes.

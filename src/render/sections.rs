@@ -2,8 +2,9 @@
 
 use super::fault::{Done, fault};
 use super::renderer::Renderer;
+use super::words::tenths;
 use crate::diag::Code;
-use crate::lang::{Machine, SequenceId, VarId};
+use crate::lang::{Machine, SequenceId, VarId, is_stop};
 use crate::sema;
 use crate::toolpath::{EdmAction, Section, StopKind};
 
@@ -125,18 +126,21 @@ impl Renderer<'_> {
             Some(block) => {
                 self.set_here()?;
                 self.run_with_upons(block)?;
+                if !block.vars.has(VarId::Stop) && !self.says_code(block, b'M', |code| is_stop(tenths(code))) {
+                    self.stopped(); // by words of its own
+                }
             }
             None => {
                 self.code_word(&sema::Code::plain(b'M', code))?;
                 self.end_block();
             }
         }
-        self.stopped();
         Ok(())
     }
 
-    /// Many controls stop spindle and coolant with the program: before the next move they are said again.
-    fn stopped(&mut self) {
+    /// The program stops, or may. Many controls stop spindle and coolant with it: before the next move that cuts or
+    /// crosses they are said again, whoever printed the stop.
+    pub(super) fn stopped(&mut self) {
         for (var, served) in [
             (VarId::Speed, &mut self.served.speed),
             (VarId::Direct, &mut self.served.direct),

@@ -1,6 +1,7 @@
 //! The beginning and the end of a program.
 
 use super::changes::settable;
+use super::codes::Shift;
 use super::fault::{Done, fault};
 use super::output::Layout;
 use super::renderer::Renderer;
@@ -118,7 +119,7 @@ impl Renderer<'_> {
         }
         if let Some(block) = program.block(SequenceId::StartCode) {
             self.upons(block.vars)?;
-            self.shifted = false;
+            self.shifted = Shift::None;
             // with subprograms first only the leading `%` comes now
             let now = if settings.subs_first { self.start_code_rest() } else { block.ops.end };
             self.run(block.ops.start..now, Mode::All)?;
@@ -200,7 +201,7 @@ impl Renderer<'_> {
         // subprograms stand after the main program, before the `%` that ends the tape
         let percent = self.closing_percent(block);
         self.upons(block.vars)?;
-        self.shifted = false;
+        self.shifted = Shift::None;
         self.run(block.ops.start..percent, Mode::All)?;
         self.append_waiting();
         self.run(percent..block.ops.end, Mode::All)

@@ -1,6 +1,7 @@
 //! Subprograms: where they stand in the program, their numbers, and who calls whom.
 
 use super::changes::{CONDITIONS, Served};
+use super::codes::Shift;
 use super::fault::{Done, fault};
 use super::output::TraceLine;
 use super::renderer::{LastMove, Renderer};
@@ -277,6 +278,7 @@ impl Renderer<'_> {
         // all of it: a part alone would go down before it goes across
         if (0..6).any(|axis| at.get(axis).is_some() && !self.says_axis(block, axis)) {
             if block.vars.has(VarId::Work) {
+                self.upons(VarSet::of(&[VarId::Work]))?;
                 self.work_before()?;
             }
             if self.turns(&at) { self.turn_to(&at)? } else { self.rapid_to(&at)? }
@@ -317,7 +319,7 @@ impl Renderer<'_> {
             self.run_with_upons(block)?;
         }
         if let Some(block) = program.block(SequenceId::StartCode) {
-            self.shifted = false;
+            self.shifted = Shift::None;
             self.registers.forget_all();
             let rest = self.start_code_rest();
             self.run(rest..block.ops.end, super::words::Mode::All)?;

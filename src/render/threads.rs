@@ -1,5 +1,6 @@
 //! Threads on a lathe: the control's cycle, a cycle of one pass each, or passes made here.
 
+use super::codes::Shift;
 use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
@@ -212,7 +213,7 @@ impl Renderer<'_> {
         for (i, &depth) in cut.passes.iter().enumerate() {
             self.pass_variables(cut, depth)?;
             self.registers.forget_letters();
-            self.shifted = false;
+            self.shifted = Shift::None;
             if i == 0 {
                 self.run(block.ops.start..block.repeat, Mode::All)?;
             }

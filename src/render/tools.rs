@@ -1,5 +1,6 @@
 //! Operations: tool changes, and what a new operation with the same tool changes.
 
+use super::changes::settable;
 use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
 use crate::diag::Code;
@@ -64,6 +65,13 @@ impl Renderer<'_> {
         }
         if let Some(work) = change.work {
             self.set_work(work)?;
+        }
+        if let (Some(tool), Machine::Lathe) = (&change.tool, self.program.settings.machine) {
+            self.vars.set(VarId::Comp, self.turret_word(tool));
+        }
+        for (name, value) in &change.set {
+            let var = settable(name)?;
+            self.set_variable(var, self.in_program_units(var, *value));
         }
         self.set_feed_mode(change.feed_mode.unwrap_or(FeedMode::PerMinute));
         self.keep_feed(None);
@@ -143,6 +151,16 @@ impl Renderer<'_> {
         }
         self.force();
         Ok(())
+    }
+
+    /// `[comp]`, the T word of a lathe: station and offset register in two digits each. A job's number that holds both
+    /// stays as it is.
+    fn turret_word(&self, tool: &Tool) -> f64 {
+        const STATIONS: f64 = 100.0;
+        if tool.number >= STATIONS {
+            return tool.number;
+        }
+        tool.number * STATIONS + tool.length_offset.unwrap_or(tool.number + self.program.settings.lcomp)
     }
 
     fn tool_variables(&mut self, tool: &Tool) -> Done {

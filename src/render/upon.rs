@@ -3,9 +3,9 @@
 use super::fault::{Done, fault_at};
 use super::motion::{MOVED, NOW};
 use super::renderer::Renderer;
-use crate::compile::{Block, UponBlock};
+use crate::compile::{Block, LetterKind, Op, UponBlock};
 use crate::diag::Code;
-use crate::lang::VarSet;
+use crate::lang::{SequenceId, VarId, VarSet};
 
 impl Renderer<'_> {
     /// Is an Upon sequence due before these variables are used? `moving`: one that prints words of axes.
@@ -15,6 +15,25 @@ impl Renderer<'_> {
                 let Some(value) = self.vars.get(upon.var).filter(|_| used.has(upon.var)) else { return false };
                 is_due(upon, *before, value) && (!moving || self.names_axes(&upon.block, false))
             })
+    }
+
+    /// Another work offset together with another view: Index takes the tool away and goes over the new place, so the
+    /// offset's code is all that is left of an Upon sequence that does the same.
+    pub(super) fn index_serves_work(&self) -> bool {
+        let retracts = self.program.block(SequenceId::Index).is_some_and(|block| self.names_axes(block, true));
+        let only_moves = |upon: &UponBlock| {
+            upon.block.ops.clone().all(|i| match self.program.ops[i] {
+                Op::Line { .. } => true,
+                Op::Var { letter, var, .. } => var == VarId::Work || self.letters[letter].kind == LetterKind::Axis,
+                Op::Literal { index, .. } => {
+                    let kind = self.letters[self.program.literals[index as usize].letter].kind;
+                    matches!(kind, LetterKind::Axis | LetterKind::GCode)
+                }
+                Op::Remark { .. } => true,
+                Op::Value { .. } | Op::Text { .. } => false,
+            })
+        };
+        retracts && self.program.upons.iter().filter(|upon| upon.var == VarId::Work).all(only_moves)
     }
 
     /// A tool change prints what it uses: an Upon that moves would do so with the tool that goes.
@@ -27,7 +46,7 @@ impl Renderer<'_> {
     }
 
     /// A variable's value was printed otherwise: no Upon is due for it.
-    pub(super) fn served_upons(&mut self, var: crate::lang::VarId, value: f64) {
+    pub(super) fn served_upons(&mut self, var: VarId, value: f64) {
         for (upon, used) in self.program.upons.iter().zip(&mut self.upon_used) {
             if upon.var == var && !upon.every {
                 *used = Some(value);

@@ -2,8 +2,10 @@
 
 use std::ops::Range;
 
+use super::codes::Shift;
 use super::fault::{Done, fault_at};
 use super::motion::MOVED;
+use super::move_words::as_number;
 use super::renderer::Renderer;
 use crate::compile::{Block, Letter, LetterKind, Op};
 use crate::diag::Code;
@@ -80,7 +82,7 @@ impl Renderer<'_> {
 
     /// Runs a whole sequence in which every word prints.
     pub(super) fn run_block(&mut self, block: &Block) -> Done {
-        self.shifted = false;
+        self.shifted = Shift::None;
         self.run(block.ops.clone(), Mode::All)
     }
 
@@ -126,6 +128,9 @@ impl Renderer<'_> {
 
     /// Ends a line of a sequence, whose operations begin at `line`.
     fn end_line(&mut self, line: usize) {
+        if self.shifted == Shift::Block {
+            self.shifted = Shift::None;
+        }
         if self.depth_moved {
             self.depth_moved = false;
             self.registers.forget(self.letters[self.axes[self.depth_axis]].printed);
@@ -159,9 +164,8 @@ impl Renderer<'_> {
         }
         let units = self.quantised(info, value)?;
         let decimals = info.format.dec.count;
-        if units == 0 && value != 0.0 && FEEDS.has(var) {
-            let message = format!("[{}] is {value} and prints as 0 in the format `{}`", var.name(), info.format);
-            return fault_at(Code::PR002, message, "give the letter more decimals", self.form_span());
+        if FEEDS.has(var) {
+            self.check_feed(info, var, value, units)?;
         }
         let drop = match mode {
             Mode::All => false,
@@ -193,7 +197,7 @@ impl Renderer<'_> {
                 if is_position {
                     self.placed |= self.axis_bit(letter);
                 }
-                if self.shifted || !is_position {
+                if self.is_elsewhere() || !is_position {
                     self.registers.forget(info.printed);
                 } else {
                     self.registers.set(info.printed, units, decimals);
@@ -201,8 +205,11 @@ impl Renderer<'_> {
             }
             _ => self.registers.set(info.printed, units, decimals),
         }
-        if var == VarId::D {
-            self.depth_moved = false;
+        match var {
+            VarId::D => self.depth_moved = false,
+            // another length register alone moves the depth as G43 does
+            VarId::Lcomp if !self.line_prints(|_, _, var| var == Some(VarId::D)) => self.depth_moved = true,
+            _ => {}
         }
         self.served_by(letter, var, value);
         if Some(info.printed) == self.program.settings.numbers.letter || var == VarId::Block {
@@ -418,6 +425,35 @@ impl Renderer<'_> {
                 form,
             ),
         }
+    }
+
+    /// A feed must not vanish in the digits of its format; where it loses more than a hundredth of itself, that is said.
+    #[inline]
+    pub(super) fn check_feed(&mut self, info: &Letter, var: VarId, value: f64, units: i64) -> Done {
+        const SAID_FROM: f64 = 0.01;
+        let printed = as_number(units, info.format.dec.count);
+        if (printed.abs() - value.abs()).abs() <= value.abs() * SAID_FROM {
+            return Ok(());
+        }
+        self.lost_digits(info, var, value, printed)
+    }
+
+    #[cold]
+    fn lost_digits(&mut self, info: &Letter, var: VarId, value: f64, printed: f64) -> Done {
+        let (name, format) = (var.name(), &info.format);
+        if printed == 0.0 {
+            let message = format!("[{name}] is {value} and prints as 0 in the format `{format}`");
+            return fault_at(Code::PR002, message, "give the letter more decimals", self.form_span());
+        }
+        const MOST: usize = 5; // one letter's format is the cause of all
+        if self.notes().iter().filter(|note| note.code == Code::PR025).count() == MOST {
+            return Ok(());
+        }
+        let percent = (printed.abs() / value.abs() - 1.0) * 100.0;
+        let letter = char::from(info.printed);
+        let message = format!("[{name}] is {value:.5} and prints as {letter}{printed}: {percent:+.1} %");
+        self.note(Code::PR025, message, "give the letter more decimals, or the job a feed that the format can say");
+        Ok(())
     }
 
     /// Prints a word of a letter that is known to fit or is refused.

@@ -157,6 +157,8 @@ pub struct ToolChange {
     pub feed_mode: Option<FeedMode>,
     /// A comment to print.
     pub comment: Option<String>,
+    /// Values for variables, by name: those of the operation, and those set before its first move.
+    pub set: Vec<(String, f64)>,
     /// Its first move.
     pub first: First,
 }

@@ -1,8 +1,9 @@
 //! Holds a tool change until the path's first move is known, because the tool change may print its position.
 
-use super::event::{CycleSpec, Event, First, Spindle, ToolChange};
+use super::event::{Axes, CycleSpec, Event, First, Spindle, ToolChange};
 use super::{Place, Sink};
 use crate::diag::{Code, Diag};
+use crate::lang::Machine;
 
 /// Most items that may stand before an operation's first move.
 const MOST_HELD: usize = 4096;
@@ -12,6 +13,12 @@ pub struct Hold<'s> {
     sink: &'s mut dyn Sink,
     change: Option<(ToolChange, Place)>,
     waiting: Vec<(Waiting, Place)>,
+    /// The axes that a tool change of this machine may print.
+    axes: u8,
+    /// The one along which the tool goes into a hole.
+    depth: u8,
+    /// Where the rapids so far lead, while they do not say all axes: of each the first place.
+    first: Axes,
 }
 
 /// An event that stands before the first move, owned.
@@ -19,14 +26,13 @@ enum Waiting {
     Plain(Event<'static>),
     Comment(String),
     Text(String),
-    Set(String, f64),
     Cycle(Box<CycleSpec>),
 }
 
 impl<'s> Hold<'s> {
     /// In front of `sink`.
     pub fn new(sink: &'s mut dyn Sink) -> Self {
-        Hold { sink, change: None, waiting: Vec::new() }
+        Hold { sink, change: None, waiting: Vec::new(), axes: 0b111, depth: 0b100, first: Axes::default() }
     }
 
     /// Holds a tool change; its `first` is filled in here.
@@ -39,9 +45,11 @@ impl<'s> Hold<'s> {
         Ok(())
     }
 
+    /// The tool changes now. `first` is the first move, where no rapid before it told a place.
     fn release(&mut self, first: First) -> Result<(), Box<Diag>> {
+        let said = std::mem::take(&mut self.first);
         if let Some((mut change, place)) = self.change.take() {
-            change.first = first;
+            change.first = if said.given == 0 { first } else { First::Rapid(said) };
             self.sink.event(Event::ToolChange(&change), place)?;
         }
         for (waiting, place) in self.waiting.drain(..) {
@@ -49,12 +57,19 @@ impl<'s> Hold<'s> {
                 Waiting::Plain(event) => event.clone(),
                 Waiting::Comment(text) => Event::Comment(text),
                 Waiting::Text(text) => Event::Text(text),
-                Waiting::Set(name, value) => Event::Set(name, *value),
                 Waiting::Cycle(spec) => Event::CycleBegin(spec),
             };
             self.sink.event(event, place)?;
         }
         Ok(())
+    }
+
+    /// A rapid goes there: of each axis the first place is kept.
+    fn reaches(&mut self, to: &Axes) {
+        let new = to.given & !self.first.given;
+        for axis in (0..6).filter(|axis| new & 1 << axis != 0) {
+            self.first.set(axis, to.values[axis]);
+        }
     }
 
     #[cold]
@@ -81,14 +96,25 @@ impl<'s> Hold<'s> {
                 return Ok(());
             }
             Event::Rapid(to) => {
-                self.release(First::Rapid(to))?;
-                return self.sink.event(event, place);
+                // CAM systems go to the height first and then across, or the other way: the tool change waits for both
+                self.reaches(&to);
+                if self.axes & !self.first.given == 0 || to.given & !self.axes != 0 {
+                    self.release(First::Nothing)?;
+                    return self.sink.event(event, place);
+                }
+                Waiting::Plain(Event::Rapid(to))
             }
             Event::Hole(hole) => {
                 let spec = self.waiting.iter().find_map(|(w, _)| match w {
                     Waiting::Cycle(spec) => Some(spec.clone()),
                     _ => None,
                 });
+                if self.first.given & self.depth != 0 {
+                    // over the hole, at the height that a rapid told
+                    self.reaches(&Axes { given: hole.at.given & self.axes & !self.depth, ..hole.at });
+                } else {
+                    self.first = Axes::default();
+                }
                 self.release(spec.map_or(First::Cut, |spec| First::Hole(spec, hole)))?;
                 return self.sink.event(event, place);
             }
@@ -98,6 +124,10 @@ impl<'s> Hold<'s> {
             }
             Event::Line { .. } | Event::Arc { .. } | Event::Infeed { .. } | Event::Outfeed { .. } => {
                 self.release(First::Cut)?;
+                return self.sink.event(event, place);
+            }
+            Event::SubCall(_) if self.first.given != 0 => {
+                self.release(First::Nothing)?;
                 return self.sink.event(event, place);
             }
             Event::SubCall(call) => {
@@ -122,7 +152,13 @@ impl<'s> Hold<'s> {
             Event::CycleBegin(spec) => Waiting::Cycle(Box::new(spec.clone())),
             Event::Comment(text) => Waiting::Comment(text.to_owned()),
             Event::Text(text) => Waiting::Text(text.to_owned()),
-            Event::Set(name, value) => Waiting::Set(name.to_owned(), value),
+            // values too are those of the tool change: it may print them
+            Event::Set(name, value) => {
+                if let Some((change, _)) = &mut self.change {
+                    change.set.push((name.to_owned(), value));
+                }
+                return Ok(());
+            }
             Event::Tilt(axis) => Waiting::Plain(Event::Tilt(axis)),
             Event::Begin(section) => Waiting::Plain(Event::Begin(section)),
             Event::End(section) => Waiting::Plain(Event::End(section)),
@@ -148,6 +184,12 @@ impl<'s> Hold<'s> {
 impl Sink for Hold<'_> {
     #[inline]
     fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
-        if self.change.is_some() { self.held(event, place) } else { self.sink.event(event, place) }
+        if self.change.is_some() {
+            return self.held(event, place);
+        }
+        if let Event::Start(start) = event {
+            (self.axes, self.depth) = if start.machine == Machine::Mill { (0b111, 0b100) } else { (0b011, 0b001) };
+        }
+        self.sink.event(event, place)
     }
 }

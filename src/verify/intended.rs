@@ -4,7 +4,7 @@ use super::comparer::Intent;
 use super::cut::{Cut, DEPTH, Place, Rapid, State, What};
 use crate::cycle::{Defaults, Plan, Step, Steps, check, plan};
 use crate::diag::{Code, Diag};
-use crate::lang::Machine;
+use crate::lang::{Machine, work_code};
 use crate::nc::{Rotation, Turn};
 use crate::render::cycle_defaults;
 use crate::sema::{Settings, UnitChoice};
@@ -235,8 +235,7 @@ impl Job {
     }
 
     fn work(&mut self, work: f64) {
-        self.state.work =
-            Some(if (1.0..50.0).contains(&work) { self.expectation.first_work + work - 1.0 } else { work });
+        self.state.work = work_code(self.expectation.first_work, work);
     }
 
     fn spindle(&mut self, spindle: &Spindle) {

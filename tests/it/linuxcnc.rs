@@ -3,8 +3,6 @@
 use crate::support;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
-use std::sync::Mutex;
 
 use crate::support::nc::{self, difference, simulated};
 use crate::support::{Kind, root, sample_job, samples};
@@ -17,19 +15,10 @@ use postform::verify::{Comparer, Expectation, Verdict};
 /// What the interpreter makes of a program: its canonical calls, or its error.
 fn interpreted(program: &Path, tools: &str) -> Option<String> {
     // the interpreter keeps its tools in one place for all of its processes
-    static ONE: Mutex<()> = Mutex::new(());
-    let _one = ONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tools.tbl");
-    fs::write(&table, tools).unwrap();
-    match Command::new("rs274").arg("-t").arg(&table).arg("-g").arg(program).output() {
-        Ok(output) => {
-            Some(String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr))
-        }
-        Err(_) => {
-            eprintln!("skipped: rs274 is not installed");
-            None
-        }
-    }
+    let arguments = ["-t".as_ref(), table.as_os_str(), "-g".as_ref(), program.as_os_str()];
+    let output = nc::rs274(&[(&table, tools)], &arguments)?;
+    Some(String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr))
 }
 
 #[test]

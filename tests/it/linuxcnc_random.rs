@@ -1,11 +1,9 @@
 //! Random programs through the simulator and through LinuxCNC's interpreter, where it is installed: the same motions,
 //! or a refusal at the same block.
 
-use std::fs;
 use std::path::Path;
-use std::process::Command;
 
-use crate::support::nc::{difference, interpreted, simulated};
+use crate::support::nc::{self, difference, interpreted, simulated};
 use postform::nc::{Control, Settings};
 
 /// A generator of its own, so that a failing program can be made again from its number.
@@ -106,14 +104,10 @@ fn random_programs_run_as_in_the_interpreter() {
     for number in 0..count {
         let text = program(number);
         let path = folder.join("random.ngc");
-        fs::write(&path, &text).unwrap();
         // what earlier programs left in its parameters must not matter
         let parameters = folder.join("random.var");
-        fs::write(&parameters, PARAMETERS).unwrap();
-        let Ok(output) = Command::new("rs274").arg("-v").arg(&parameters).arg("-g").arg(&path).output() else {
-            eprintln!("skipped: rs274 is not installed");
-            return;
-        };
+        let arguments = ["-v".as_ref(), parameters.as_os_str(), "-g".as_ref(), path.as_os_str()];
+        let Some(output) = nc::rs274(&[(&path, &text), (&parameters, PARAMETERS)], &arguments) else { return };
         let canon = String::from_utf8_lossy(&output.stdout).into_owned();
         let (calls, ended, _) = simulated(text.as_bytes(), Settings::new(Control::Linuxcnc));
         let theirs = interpreted(&canon);

@@ -28,6 +28,7 @@ mod rules;
 mod safety;
 mod samples;
 mod sequences;
+mod silent;
 mod simulate;
 mod support;
 mod trace;

@@ -15,12 +15,29 @@ fn motion_code_is_unknown_after_a_tool_change() {
     assert_eq!(path_lines("", "", "{\"rapid\":[0,0,0.5]}"), ["G0 Z.5"]);
 }
 
-/// A position printed as a literal, or after G91 or G28, may stand in another frame: the next move says it again.
+/// A position that a tool change prints where its words mean another place, or before the machine is moved, is said again
+/// by the next move. One that nothing disturbs is not.
 #[test]
 fn positions_in_another_frame_are_unknown() {
-    let form = mill("", "").replacen("G0 G[work] X[h] Y[v] Z[d]", "G91 G28 Z0\nG90\nG0 G[work] X[h] Y[v] Z[d]", 1);
-    let lines = program(&form, &job("{\"line\":[1,0,1]}"));
-    assert_eq!(lines[5..7], ["G0 G54 X0 Y0 Z1.", "G0 X0 Y0 Z1."]);
+    const CHANGE: &str = "G0 G[work] X[h] Y[v] Z[d]";
+    let after = |change: &str| {
+        let lines = program(&mill("", "").replacen(CHANGE, change, 1), &job("{\"rapid\":[0,0,1]},{\"line\":[1,0,1]}"));
+        let from = lines.iter().rposition(|line| line.contains("G54")).unwrap() + 1;
+        lines[from..lines.len() - 1].to_vec()
+    };
+    let cut = "G1 X1. F10.";
+    // the reference point comes before, in increments that end
+    assert_eq!(after(&format!("G91 G28 Z0\nG90\n{CHANGE}")), [cut]);
+    assert_eq!(after(&format!("G53 G0 Z0\n{CHANGE}")), [cut]);
+    // still increments, another frame, a place that the machine leaves
+    assert_eq!(after(&format!("G92 X0\n{CHANGE}")), ["G0 X0 Y0 Z1.", cut]);
+    assert_eq!(after(&format!("{CHANGE}\nG28 X0")), ["G28 X0", "G0 X0", cut]);
+    assert_eq!(after(&format!("{CHANGE}\nG28")), ["G28", "G0 X0 Y0 Z1.", cut]);
+    assert_eq!(after(&format!("{CHANGE}\nM6")), ["M6", "G0 X0 Y0 Z1.", cut]);
+    // another length register moves the depth alone
+    assert_eq!(after(&format!("{CHANGE}\nG43 H[lcomp]")), ["G43 H1", "G0 Z1.", cut]);
+    assert_eq!(after(&format!("{CHANGE}\nH[lcomp]")), ["H1", "G0 Z1.", cut]);
+    assert_eq!(after("G0 G[work] X[h] Y[v]\nG43 H[lcomp] Z[d]"), ["G43 H1 Z1.", cut]);
 }
 
 /// A new work offset makes every position another place.
@@ -529,7 +546,7 @@ fn inverse_time_is_that_of_the_whole_arc() {
 fn the_tool_goes_up_first_also_after_text() {
     let path = "{\"line\":[0,0,-1]},{\"text\":\"M1\"},\
                 {\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[5,5,0]]}}";
-    assert_eq!(path_lines("", DRILL, path)[1..4], ["M1", "G0 Z.1", "G81 X5. Y5. Z-1. R.1 F5."]);
+    assert_eq!(path_lines("", DRILL, path)[1..5], ["M1", "S1000 M3", "G0 Z.1", "G81 X5. Y5. Z-1. R.1 F5."]);
 }
 
 /// A sequence that took the tool away is no place to cut from, whatever stands between.

@@ -35,7 +35,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 /// Is it said here where the tool goes? Not from a tool change on, which takes it up; nor in a macro, by a code of the
 /// builder, or with all axes home.
 fn is_said(block: &Block) -> bool {
-    let leaves = |word: &Word| calls(word) || word.is_code(b'M', &[6.0]) || word.printed_var() == Some(VarId::Tool);
+    let leaves = |word: &Word| {
+        calls(word) || word.is_code(b'M', &[6.0]) || matches!(word.printed_var(), Some(VarId::Tool | VarId::Comp))
+    };
     !(block.line.words.iter().any(leaves) || block.reference && block.axis_words.is_empty())
 }
 

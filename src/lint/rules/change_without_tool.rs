@@ -4,13 +4,16 @@ use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::blocks::calls;
 use crate::lint::view::View;
+use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.is_flat() {
         return; // a torch or a beam
     }
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
-        let printed = body.words().find(|word| word.printed_var() == Some(VarId::Tool));
+        // on a lathe [comp] is station and offset register
+        let says = |word: &&Word| matches!(word.printed_var(), Some(VarId::Tool | VarId::Comp));
+        let printed = body.words().find(says);
         let Some(word) = printed else {
             // where a person changes the tool, a comment says which
             let told = body.words().any(|word| word.var() == Some(VarId::Tool));

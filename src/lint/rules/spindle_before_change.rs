@@ -45,7 +45,11 @@ pub(super) fn changes<'a>(view: &View<'a>) -> Vec<(Body<'a>, usize)> {
     bodies
         .filter_map(|body| {
             let change = line(&body, &|word| word.is_code(b'M', &[6.0]));
-            Some((body, change.or_else(|| line(&body, &|word| word.printed_var() == Some(VarId::Tool)))?))
+            Some((
+                body,
+                change
+                    .or_else(|| line(&body, &|word| matches!(word.printed_var(), Some(VarId::Tool | VarId::Comp))))?,
+            ))
         })
         .collect()
 }

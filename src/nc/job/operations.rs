@@ -35,6 +35,7 @@ impl Reader<'_> {
             plunge: None,
             feed_mode: Some(self.mode),
             comment: None,
+            set: Vec::new(),
             first,
         };
         self.said = wanted;

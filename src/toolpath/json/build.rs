@@ -130,6 +130,7 @@ impl<'s> Builder<'s> {
             plunge: head.plunge.map(|f| positive("plunge", f)).transpose()?,
             feed_mode: head.feed_mode.map(|m| m.0),
             comment: head.comment,
+            set: head.set.map_or_else(Vec::new, |set| set.0),
             first: First::Nothing,
         };
         self.hold.tool_change(change, self.place)

@@ -126,6 +126,7 @@ objects! {
         "plunge" plunge Number, "feed of plunges";
         "feed_mode" feed_mode Word<FeedMode>, "what feeds count (per_minute)";
         "comment" comment String, "a comment to print";
+        "set" set Values, "values for variables of the form, from its tool change on";
     }
     /// One item of a path: exactly one of its keys, with those that go with it.
     ItemObject "a path item" {

@@ -5,6 +5,7 @@
 //! The library does no I/O of its own: files, the terminal and the command line are in the binary.
 #![forbid(unsafe_code)]
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::todo, clippy::dbg_macro)]
+#![warn(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod cl;
 pub mod compile;

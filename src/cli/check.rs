@@ -11,6 +11,7 @@ use postform::toolpath::{ReadError, Summary, Units};
 use super::args::CheckArgs;
 use super::files::{self, io_message};
 use super::report::Reporter;
+use super::say::say;
 use super::{Ending, output};
 
 /// Reads a job and prints what is in it.
@@ -29,7 +30,7 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
         diag
     };
     let warnings: Vec<Diag> = report.warnings.iter().cloned().map(placed).collect();
-    eprint!("{}", Reporter::new(colour).text(&warnings, &[]));
+    say(&Reporter::new(colour).text(&warnings, &[]));
     match read {
         Ok(()) => {
             let text = describe(&files::name(path), &summary, &report);
@@ -38,7 +39,7 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
         }
         Err(ReadError::Io(error)) => Err(io_message("read", path, &error)),
         Err(ReadError::Job(diag)) => {
-            eprint!("{}", Reporter::new(colour).text(&[placed(*diag)], &[]));
+            say(&Reporter::new(colour).text(&[placed(*diag)], &[]));
             Ok(Ending::Findings)
         }
     }
@@ -58,7 +59,7 @@ fn describe(name: &str, summary: &Summary, report: &Report) -> String {
     if !report.facts.is_empty() || report.dialect.is_some() || !report.why.is_empty() {
         let system = report.dialect.unwrap_or(Dialect::Gener).title();
         let why = if report.why.is_empty() { "nothing says who wrote it" } else { &report.why };
-        _ = writeln!(text, "  written by  {system}: {why}");
+        _ = writeln!(text, "  written by  {system}: {}", postform::diag::escaped(why));
     }
     _ = writeln!(text, "  units       {unit}");
     let tools: Vec<String> = summary

@@ -12,7 +12,7 @@ use postform::diag::escaped;
 use postform::lint::{Level, Levels};
 
 use super::args::{ControlArg, LimitsArg};
-use super::files::io_message;
+use super::files::{self, io_message};
 
 /// What the file may say.
 #[derive(Debug, Default, Deserialize)]
@@ -28,6 +28,8 @@ struct Written {
 /// What holds for a file.
 #[derive(Clone, Debug, Default)]
 pub struct Config {
+    /// The file itself, where there is one.
+    pub path: Option<PathBuf>,
     /// The form of `render` and `verify`.
     pub form: Option<PathBuf>,
     /// Whose rules programs are run by.
@@ -52,16 +54,20 @@ impl Config {
     /// A message: the file is there and can't be read, or says something that makes no sense.
     pub fn near(path: &Path) -> Result<Config, String> {
         let path = if path == Path::new("-") { Path::new("./-") } else { path };
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let Ok(mut folder) = folder.canonicalize() else { return Ok(Config::default()) };
+        let Ok(mut folder) = files::folder(path).canonicalize() else { return Ok(Config::default()) };
         loop {
             let candidate = folder.join(NAME);
             match fs::metadata(&candidate) {
                 Ok(meta) if meta.is_file() => return Config::read(&candidate, meta.len()),
-                Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                Ok(_) => {
+                    let help = "a configuration is one; take it away, or write the file";
+                    return Err(format!("error: {} is no file\n  help: {help}", files::name(&candidate)));
+                }
+                // a link to nothing is there, and says that somebody wanted a configuration
+                Err(error) if error.kind() != io::ErrorKind::NotFound || candidate.is_symlink() => {
                     return Err(io_message("read", &candidate, &error));
                 }
-                _ => {}
+                Err(_) => {}
             }
             if !folder.pop() {
                 return Ok(Config::default());
@@ -93,7 +99,8 @@ impl Config {
             levels.set(code, parsed).map_err(|why| format!("error: {name}: {} {why}", escaped(code)))?;
         }
         let folder = path.parent().unwrap_or(Path::new(""));
-        Ok(Config { form: written.form.map(|form| shortened(folder.join(form))), control, limits, levels })
+        let form = written.form.map(|form| shortened(folder.join(form)));
+        Ok(Config { path: Some(path.to_path_buf()), form, control, limits, levels })
     }
 }
 

@@ -11,18 +11,30 @@ use postform::toolpath::json::{read_document, read_lines};
 use postform::toolpath::{ReadError, Sink, Units};
 
 use super::args::{ControlArg, From, NoPoint, ReadArgs, UnitsArg};
+use super::spool::Spool;
 
 /// Largest form: a longer file is none.
 const LARGEST_FORM: u64 = 16 << 20;
 
 /// A file that could not be read or written, as a message.
 pub fn io_message(what: &str, path: &Path, error: &io::Error) -> String {
-    format!("error: can't {what} {}: {error}", escaped(&path.to_string_lossy()))
+    let name = if what == "write" { output_name(path) } else { name(path) };
+    format!("error: can't {what} {name}: {error}")
 }
 
-/// The name that messages use.
+/// The name that messages use for an input.
 pub fn name(path: &Path) -> String {
     if path == Path::new("-") { "standard input".into() } else { escaped(&path.to_string_lossy()) }
+}
+
+/// The same for an output.
+pub fn output_name(path: &Path) -> String {
+    if path == Path::new("-") { "standard output".into() } else { escaped(&path.to_string_lossy()) }
+}
+
+/// The folder that a file is in.
+pub fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// Opens a file, or standard input for `-`.
@@ -65,10 +77,9 @@ impl Again {
                 return Ok(Again { file });
             }
         }
-        let mut file = tempfile::tempfile().map_err(fail)?;
-        io::copy(&mut open(path)?, &mut file).map_err(fail)?;
-        file.rewind().map_err(fail)?;
-        Ok(Again { file })
+        let mut spool = Spool::new().map_err(fail)?;
+        io::copy(&mut open(path)?, &mut spool).map_err(fail)?;
+        Ok(Again { file: spool.into_file().map_err(fail)? })
     }
 
     /// The file itself.
@@ -153,9 +164,9 @@ fn read_nc(
     report: &mut Report,
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
-    let mut copy = tempfile::tempfile().map_err(ReadError::Io)?;
-    io::copy(&mut input, &mut copy).map_err(ReadError::Io)?;
-    copy.rewind().map_err(ReadError::Io)?;
+    let mut spool = Spool::new().map_err(ReadError::Io)?;
+    io::copy(&mut input, &mut spool).map_err(ReadError::Io)?;
+    let copy = spool.into_file().map_err(ReadError::Io)?;
     let control = args.job_control.map_or(Control::Fanuc, ControlArg::control);
     let unpointed = args.job_no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
     let units = args.assume_units.map(UnitsArg::units);

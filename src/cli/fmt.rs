@@ -11,6 +11,7 @@ use super::args::FmtArgs;
 use super::files;
 use super::output;
 use super::report::count;
+use super::say::message;
 use super::{Ending, forms};
 
 /// Lays out forms in place; `-` is a filter.
@@ -32,16 +33,17 @@ pub fn run(args: &FmtArgs) -> Result<Ending, String> {
             Ok(true) => {
                 changed += 1;
                 let word = if args.check { "would be laid out otherwise" } else { "laid out" };
-                eprintln!("{}: {word}", files::name(path));
+                message(&format!("{}: {word}", files::name(path)));
             }
-            Err(message) => {
-                eprintln!("{message}");
+            Err(text) => {
+                message(&text);
                 failed = true;
             }
         }
     }
     if args.check && changed > 0 {
-        eprintln!("{} of {}; `postform fmt` without --check lays them out", changed, count(paths.len(), "form"));
+        let all = count(paths.len(), "form");
+        message(&format!("{changed} of {all}; `postform fmt` without --check lays them out"));
     }
     Ok(match (failed, args.check && changed > 0) {
         (true, _) => Ending::Failed,

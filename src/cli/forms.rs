@@ -10,6 +10,7 @@ use postform::source::Source;
 
 use super::args::LimitsArg;
 use super::files::{self, io_message};
+use super::say::message;
 
 /// A form's file, with those that it calls.
 pub struct FormFile {
@@ -55,6 +56,11 @@ impl FormFile {
         self.called.get(name).unwrap_or(&self.path)
     }
 
+    /// The form and the files that it calls, as far as they were read.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        std::iter::once(self.path.as_path()).chain(self.called.values().map(PathBuf::as_path))
+    }
+
     /// The files that it calls, as far as they were read, whatever links lead to them.
     fn calls(&mut self) -> Vec<PathBuf> {
         // most forms call none, and need not be read twice for that
@@ -78,6 +84,9 @@ fn called(form: &Path, name: &str) -> Result<(PathBuf, Vec<u8>), String> {
     };
     if !real.starts_with(root) {
         return Err("is outside the form's folder".into());
+    }
+    if !real.is_file() {
+        return Err("is no file".into());
     }
     if form.canonicalize().is_ok_and(|form| form == real) {
         return Err("is this form itself".into());
@@ -108,7 +117,8 @@ pub fn named(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
     for path in paths {
         if path.is_dir() {
             let before = forms.len();
-            in_folder(path, &mut forms)?;
+            let root = path.canonicalize().map_err(|error| io_message("read", path, &error))?;
+            in_folder(path, &root, &mut forms)?;
             if forms.len() == before {
                 return Err(format!("error: there is no form (.pf) in {}", files::name(path)));
             }
@@ -119,19 +129,36 @@ pub fn named(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
     Ok(forms)
 }
 
-fn in_folder(folder: &Path, forms: &mut Vec<PathBuf>) -> Result<(), String> {
+fn in_folder(folder: &Path, root: &Path, forms: &mut Vec<PathBuf>) -> Result<(), String> {
     let fail = |error| io_message("read", folder, &error);
     let entries = fs::read_dir(folder).map_err(fail)?.collect::<Result<Vec<_>, _>>().map_err(fail)?;
     let mut paths: Vec<PathBuf> = entries.iter().map(fs::DirEntry::path).collect();
     paths.sort();
     for path in paths {
-        // a link to a folder may lead back to where it is
-        let is_folder = path.is_dir() && !path.is_symlink();
-        match path.extension().and_then(|extension| extension.to_str()) {
-            _ if is_folder => in_folder(&path, forms)?,
-            Some(extension) if extension.eq_ignore_ascii_case("pf") => forms.push(path),
-            _ => {}
+        if path.is_dir() {
+            // a link to a folder may lead back to where it is
+            if !path.is_symlink() {
+                in_folder(&path, root, forms)?;
+            }
+        } else if is_form(&path) {
+            match path.canonicalize() {
+                // found by its own name
+                Ok(real) if path.is_symlink() && real.starts_with(root) && is_form(&real) => {}
+                Ok(_) if path.is_symlink() => left_out(&path, "a link to what is no form of this folder"),
+                Ok(real) if !real.is_file() => left_out(&path, "no file"),
+                _ => forms.push(path),
+            }
         }
     }
     Ok(())
+}
+
+/// By its name.
+fn is_form(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pf"))
+}
+
+/// A fix must reach only what the folder holds, and a pipe has no end.
+fn left_out(path: &Path, why: &str) {
+    message(&format!("{}: {why}, left out; name it to have it looked at", files::name(path)));
 }

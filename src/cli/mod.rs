@@ -9,6 +9,7 @@ mod explain;
 mod files;
 mod fmt;
 mod forms;
+mod identity;
 mod lint;
 mod new;
 mod output;
@@ -17,8 +18,11 @@ mod progress;
 mod prompt;
 mod render;
 mod report;
+mod say;
 mod shells;
 mod simulate;
+mod spool;
+mod unnamed;
 mod verify;
 
 use std::process::ExitCode;
@@ -72,8 +76,8 @@ pub fn run() -> ExitCode {
         Command::Completions(args) => shells::completions(&args),
         Command::Man => shells::man(),
     };
-    let ending = ending.unwrap_or_else(|message| {
-        eprintln!("{message}");
+    let ending = ending.unwrap_or_else(|text| {
+        say::message(&text);
         Ending::Failed
     });
     ending.into()

@@ -1,9 +1,10 @@
 //! `postform new`.
 
-use std::io::Write as _;
+use std::io::{self, Write as _};
 
 use super::args::{NewArgs, NewControl};
-use super::files::name;
+use super::files::{io_message, name};
+use super::say::message;
 use super::{Ending, output};
 
 /// The form to start from: one that ships, lint-clean and rendered in tests.
@@ -25,12 +26,13 @@ pub fn run(args: &NewArgs) -> Result<Ending, String> {
     if args.output.as_os_str() == "-" {
         return output::shown(|out| out.write_all(text.as_bytes()));
     }
-    // a link that leads nowhere is there, too
-    if args.output.symlink_metadata().is_ok() {
-        let name = name(&args.output);
-        return Err(format!("error: {name} is there already\n  help: take another name, or remove it first"));
-    }
-    output::write_whole(&args.output, text.as_bytes())?;
-    eprintln!("{} is written: change it, then `postform lint {0}`", name(&args.output));
+    // exclusive: what is there stays, a link that leads nowhere too
+    output::write_new(&args.output, text.as_bytes()).map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists => {
+            format!("error: {} is there already\n  help: take another name, or remove it first", name(&args.output))
+        }
+        _ => io_message("write", &args.output, &error),
+    })?;
+    message(&format!("{0} is written: change it, then `postform lint {0}`", name(&args.output)));
     Ok(Ending::Clean)
 }

@@ -4,19 +4,19 @@ use std::fs::{self, File};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
-
-use postform::diag::escaped;
+use postform::diag::{escaped, steers};
 
 use super::Ending;
-use super::files::io_message;
+use super::files::{folder, io_message};
+use super::spool::Spool;
+use super::unnamed::Unnamed;
 
 /// A file that is being written and not there yet.
 pub enum Target {
-    /// Beside its target, to be renamed.
-    Beside(NamedTempFile, PathBuf),
+    /// In the folder of its target, to appear there.
+    Beside(Unnamed),
     /// A device, a pipe or standard output: spooled, then copied.
-    Spooled(File, Option<PathBuf>),
+    Spooled(Spool, Option<PathBuf>),
     /// Standard output as it comes.
     Stream,
 }
@@ -32,41 +32,19 @@ impl Target {
             if stream {
                 return Ok(Target::Stream);
             }
-            return Ok(Target::Spooled(tempfile::tempfile().map_err(fail)?, None));
+            return Ok(Target::Spooled(Spool::new().map_err(fail)?, None));
         }
         // a link is followed; a device or pipe must never be replaced by a file
-        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+        let path = destination(path).map_err(fail)?;
         match fs::metadata(&path) {
             Ok(meta) if meta.is_dir() => Err(fail(io::Error::from(io::ErrorKind::IsADirectory))),
-            Ok(meta) if !meta.is_file() => Ok(Target::Spooled(tempfile::tempfile().map_err(fail)?, Some(path))),
+            Ok(meta) if !meta.is_file() => Ok(Target::Spooled(Spool::new().map_err(fail)?, Some(path))),
             meta => {
                 let mode = meta.ok().map(|meta| meta.permissions());
                 if mode.as_ref().is_some_and(fs::Permissions::readonly) {
                     return Err(format!("error: can't write {}: it is read-only", escaped(&path.to_string_lossy())));
                 }
-                let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-                if !folder.is_dir() {
-                    let (path, folder) = (escaped(&path.to_string_lossy()), escaped(&folder.to_string_lossy()));
-                    return Err(format!(
-                        "error: can't write {path}: there is no folder {folder}\n  help: make it first"
-                    ));
-                }
-                let mut builder = tempfile::Builder::new();
-                builder.prefix(".postform-");
-                #[cfg(unix)]
-                {
-                    use std::os::unix::fs::PermissionsExt;
-                    // what any new file gets; the umask still applies
-                    builder.permissions(fs::Permissions::from_mode(0o666));
-                }
-                // the kind alone: the whole error names the file beside the target
-                let named = |error: io::Error| fail(error.kind().into());
-                let file = builder.tempfile_in(folder).map_err(named)?;
-                if let Some(mode) = mode {
-                    // a file that is replaced keeps who may read and run it
-                    file.as_file().set_permissions(mode).map_err(fail)?;
-                }
-                Ok(Target::Beside(file, path))
+                Ok(Target::Beside(Unnamed::beside(path, mode).map_err(fail)?))
             }
         }
     }
@@ -77,24 +55,26 @@ impl Target {
     /// As the system says; a closed pipe among them.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         match self {
-            Target::Beside(file, _) => file.write_all(bytes),
-            Target::Spooled(file, _) => file.write_all(bytes),
+            Target::Beside(unnamed) => unnamed.file().write_all(bytes),
+            Target::Spooled(spool, _) => spool.write_all(bytes),
             Target::Stream => io::stdout().write_all(bytes),
         }
     }
 
-    /// What was written so far, to be read from its beginning; `None` where it is gone.
+    /// What was written, to be read from its beginning; `None` where it is gone. Nothing may be written after it.
     ///
     /// # Errors
     /// As the system says.
     pub fn written(&mut self) -> io::Result<Option<File>> {
-        let mut file = match self {
-            Target::Beside(file, _) => file.reopen()?,
-            Target::Spooled(file, _) => file.try_clone()?,
-            Target::Stream => return Ok(None),
-        };
-        file.rewind()?;
-        Ok(Some(file))
+        match self {
+            Target::Beside(unnamed) => {
+                let mut file = unnamed.file().try_clone()?;
+                file.rewind()?;
+                Ok(Some(file))
+            }
+            Target::Spooled(spool, _) => spool.again().map(Some),
+            Target::Stream => Ok(None),
+        }
     }
 
     /// The program is complete: lets it appear.
@@ -103,14 +83,9 @@ impl Target {
     /// As the system says; nothing of the program is then under the target's name.
     pub fn complete(self) -> io::Result<()> {
         match self {
-            Target::Beside(mut file, path) => {
-                file.flush()?;
-                file.as_file().sync_all()?; // the name must not come before the contents
-                file.persist(path).map_err(|error| error.error)?;
-                Ok(())
-            }
-            Target::Spooled(mut file, path) => {
-                file.rewind()?;
+            Target::Beside(unnamed) => unnamed.replace(),
+            Target::Spooled(spool, path) => {
+                let mut file = spool.into_file()?;
                 match path {
                     None => {
                         let mut out = io::stdout().lock();
@@ -129,6 +104,22 @@ impl Target {
     }
 }
 
+/// Where an output goes: links are followed, also one that leads to nothing yet.
+///
+/// # Errors
+/// As the system says; links that lead in a circle among them.
+pub fn destination(path: &Path) -> io::Result<PathBuf> {
+    match fs::metadata(path) {
+        // what the link of a pipe leads to has no name
+        Ok(_) => Ok(fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => match fs::read_link(path) {
+            Ok(next) => destination(&folder(path).join(next)),
+            Err(_) => Ok(path.to_path_buf()),
+        },
+        Err(error) => Err(error),
+    }
+}
+
 /// Writes a file, whole or not at all.
 ///
 /// # Errors
@@ -138,6 +129,31 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), String> {
     let mut target = Target::open(path, false)?;
     target.write(bytes).map_err(fail)?;
     target.complete().map_err(fail)
+}
+
+/// Writes a file that must not be there yet.
+///
+/// # Errors
+/// `AlreadyExists`, or as the system says; nothing is then made.
+pub fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut target = Unnamed::beside(path.to_path_buf(), None)?;
+    target.file().write_all(bytes)?;
+    target.create()
+}
+
+/// A JSON document for people's terminals, too: what would steer one is escaped, and reads back as it was.
+pub fn json(document: &serde_json::Value) -> String {
+    let mut text = String::new();
+    for c in format!("{document:#}").chars() {
+        // line ends are the layout: in strings they are escaped already
+        if c != '\n' && steers(c) {
+            text += &format!("\\u{:04x}", u32::from(c));
+        } else {
+            text.push(c);
+        }
+    }
+    text.push('\n');
+    text
 }
 
 /// Writes to standard output; a closed pipe is no error.

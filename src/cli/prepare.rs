@@ -1,6 +1,6 @@
 //! A form made ready for jobs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use postform::compile::{Program, compile};
 use postform::diag::Severity;
@@ -13,6 +13,7 @@ use super::config::Config;
 use super::files::{self, io_message};
 use super::forms::FormFile;
 use super::report::Reporter;
+use super::say::{message, say};
 use super::{prompt, report};
 
 /// A form, checked and compiled, with the answers to its prompts.
@@ -23,6 +24,8 @@ pub struct Prepared {
     pub files: Vec<Source>,
     /// How jobs are rendered.
     pub options: Options,
+    /// The files that it was made of, the configuration among them.
+    pub inputs: Vec<PathBuf>,
 }
 
 /// Reads a form, shows its findings and asks its prompts. `None`: it has errors, which were shown.
@@ -32,14 +35,15 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
     if form == standard_input && job == standard_input {
         return Err("error: form and job can't both be standard input".into());
     }
-    let limits = args.limits.or(Config::near(form)?.limits).unwrap_or_default();
-    let mut checked = FormFile::read(form, limits)?.analyse(&Changed::new());
+    let config = Config::near(form)?;
+    let mut file = FormFile::read(form, args.limits.or(config.limits).unwrap_or_default())?;
+    let mut checked = file.analyse(&Changed::new());
     sort(&mut checked.diags);
     let shown: Vec<_> = checked.diags.iter().filter(|diag| diag.severity > Severity::Note).cloned().collect();
-    eprint!("{}", reporter.text(&shown, &checked.files));
+    say(&reporter.text(&shown, &checked.files));
     if checked.has_errors() {
         let count = checked.diags.iter().filter(|d| d.is_error()).count();
-        eprintln!("{}: {}, nothing was printed", files::name(form), report::count(count, "error"));
+        message(&format!("{}: {}, nothing was printed", files::name(form), report::count(count, "error")));
         return Ok(None);
     }
     let program = compile(&checked.form);
@@ -56,5 +60,6 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         sink_as_printed: args.csink_depth == SinkArg::Printed,
         trace: false,
     };
-    Ok(Some(Prepared { program, files: checked.files, options }))
+    let inputs = file.paths().map(Path::to_path_buf).chain(config.path).collect();
+    Ok(Some(Prepared { program, files: checked.files, options, inputs }))
 }

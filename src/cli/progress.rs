@@ -1,7 +1,9 @@
 //! Progress of long work, on a terminal only.
 
-use std::io::{IsTerminal, Write, stderr};
+use std::io::{IsTerminal, stderr};
 use std::time::{Duration, Instant};
+
+use super::say::say;
 
 /// Work shorter than this shows nothing.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -26,8 +28,7 @@ impl Progress {
         let now = Instant::now();
         let due = self.shown.map_or(self.started + PATIENCE, |shown| shown + EVERY);
         if self.enabled && now >= due {
-            eprint!("\r{lines} lines");
-            _ = stderr().flush();
+            say(&format!("\r{lines} lines"));
             self.shown = Some(now);
         }
     }
@@ -37,7 +38,7 @@ impl Drop for Progress {
     /// The line is taken away, so that messages begin at their margin.
     fn drop(&mut self) {
         if self.shown.is_some() {
-            eprint!("\r\x1b[K");
+            say("\r\x1b[K");
         }
     }
 }

@@ -1,9 +1,11 @@
 //! Prompted variables: answers from the command line, else asked for on a terminal.
 
-use std::io::{self, BufRead, IsTerminal, Write};
+use std::io::{self, BufRead, IsTerminal};
 
 use postform::compile::Program;
 use postform::lang::{Origin, VARIABLES, VarId, did_you_mean};
+
+use super::say::{message, say};
 
 /// Reads `VAR=VALUE` options.
 pub fn answers(options: &[String]) -> Result<Vec<(VarId, f64)>, String> {
@@ -40,8 +42,7 @@ pub fn ask(program: &Program, answers: &mut Vec<(VarId, f64)>, busy: bool) -> io
         }
         loop {
             let default = prompt.default.map_or(String::new(), |value| format!(" [{value}]"));
-            eprint!("{}{default}: ", postform::diag::escaped(&prompt.text));
-            io::stderr().flush()?;
+            say(&format!("{}{default}: ", postform::diag::escaped(&prompt.text)));
             let mut line = String::new();
             if io::stdin().lock().read_line(&mut line)? == 0 {
                 break;
@@ -52,7 +53,7 @@ pub fn ask(program: &Program, answers: &mut Vec<(VarId, f64)>, busy: bool) -> io
                     answers.push((prompt.var, value));
                     break;
                 }
-                _ => eprintln!("write a number"),
+                _ => message("write a number"),
             }
         }
     }

@@ -12,10 +12,12 @@ use super::Ending;
 use super::args::RenderArgs;
 use super::config::Config;
 use super::files::{self, Again, io_message};
+use super::identity::Identity;
 use super::output::Target;
 use super::prepare::prepare;
 use super::progress::Progress;
 use super::report::Reporter;
+use super::say::{message, say};
 use super::verify::{Job, Proof};
 
 /// How much text waits before it is written.
@@ -25,7 +27,8 @@ const CHUNK: usize = 64 * 1024;
 pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
     let from = files::job_format(&args.job, &args.read)?;
-    let form = args.form.clone().or(Config::near(&args.job)?.form);
+    let config = Config::near(&args.job)?;
+    let form = args.form.clone().or(config.form);
     let Some(form) = form else {
         let help = "give --form, or name one in a postform.toml in the folder of the job or above: form = \"fanuc.pf\"";
         return Err(format!("error: which form?\n  help: {help}"));
@@ -34,7 +37,8 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         return Ok(Ending::Findings);
     };
     let options = Options { trace: args.trace.is_some(), ..prepared.options.clone() };
-    keep_inputs(args, &form)?;
+    let inputs = prepared.inputs.iter().chain(&config.path).chain([&args.job]);
+    keep_inputs(args, &inputs.filter_map(|path| Identity::of_input(path)).collect::<Vec<_>>())?;
     let job = match args.verify {
         true => Some(Job { again: Again::open(&args.job)?, from, read: &args.read, path: &args.job }),
         false => None,
@@ -57,7 +61,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     notes.extend_from_slice(writer.renderer.notes());
     let name = files::name(&args.job);
     notes.iter_mut().for_each(|diag| place_in(&name, diag));
-    eprint!("{}", reporter.text(&notes, &prepared.files));
+    say(&reporter.text(&notes, &prepared.files));
     if let Some((is_trace, error)) = writer.failure.take() {
         let path = if is_trace { args.trace.as_deref() } else { None };
         return output_failed(path.unwrap_or(&args.output), &error);
@@ -67,7 +71,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         Err(ReadError::Io(error)) => return Err(io_message("read", &args.job, &error)),
         Err(ReadError::Job(mut diag)) => {
             place_in(&name, &mut diag);
-            eprint!("{}", reporter.text(&[*diag], &prepared.files));
+            say(&reporter.text(&[*diag], &prepared.files));
             return Ok(Ending::Findings);
         }
     }
@@ -75,7 +79,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     if writer.drain().is_err() {
         return writer.finish(args);
     }
-    let program = writer.target.written().map_err(|error| io_message("read", &args.output, &error))?;
+    let program = writer.target.written().map_err(|error| io_message("write", &args.output, &error))?;
     let Some(program) = program else { return Err("error: a program that is streamed can't be verified".into()) };
     let proof = Proof {
         job: &job,
@@ -86,31 +90,32 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         name: "the program".into(),
     };
     let proven = proof.run(program, &reporter)?;
-    eprint!("{}", proven.text.unwrap_or_default());
+    say(&proven.text.unwrap_or_default());
     match proven.ending {
         Ending::Clean => writer.finish(args),
         ending => {
-            eprintln!("nothing was printed");
+            message("nothing was printed");
             Ok(ending)
         }
     }
 }
 
-/// An output must not replace what it is made of.
-fn keep_inputs(args: &RenderArgs, form: &Path) -> Result<(), String> {
-    let real = |path: &Path| path.canonicalize().ok();
-    let regular = |path: &Path| path.metadata().is_ok_and(|meta| meta.is_file());
-    for output in [Some(args.output.as_path()), args.trace.as_deref()].into_iter().flatten() {
-        if [args.job.as_path(), form].iter().any(|input| regular(output) && real(input) == real(output)) {
-            return Err(format!("error: {} is an input: choose another output", files::name(output)));
+/// An output must not replace what it is made of, nor the other output.
+fn keep_inputs(args: &RenderArgs, inputs: &[Identity]) -> Result<(), String> {
+    let outputs = [Some(&args.output), args.trace.as_ref()].map(|path| Some((path?, Identity::of_output(path?)?)));
+    for (path, identity) in outputs.iter().flatten() {
+        if inputs.contains(identity) {
+            return Err(format!("error: {} is an input: choose another output", files::output_name(path)));
         }
     }
-    match &args.trace {
-        Some(trace) if *trace == args.output && trace != Path::new("-") && !trace.starts_with("/dev") => {
-            Err("error: program and source map can't be one file".into())
-        }
-        _ => Ok(()),
+    if let [Some((program, a)), Some((trace, b))] = &outputs
+        && a == b
+        // both as text to standard output is what was asked for
+        && [program, trace].iter().any(|path| path.as_os_str() != "-")
+    {
+        return Err("error: program and source map can't be one file".into());
     }
+    Ok(())
 }
 
 /// The job's name before a place in it.
@@ -121,12 +126,16 @@ pub fn place_in(job: &str, diag: &mut Diag) {
     });
 }
 
-/// A closed pipe is no error: whoever read it has seen enough.
+/// Who closes standard output has seen enough; what was named must be whole.
 fn output_failed(path: &Path, error: &io::Error) -> Result<Ending, String> {
-    if error.kind() == io::ErrorKind::BrokenPipe {
-        return Ok(Ending::Clean);
+    match error.kind() {
+        io::ErrorKind::BrokenPipe if path == Path::new("-") => Ok(Ending::Clean),
+        io::ErrorKind::BrokenPipe => {
+            message(&format!("error: {} was closed by its reader before all was written", files::output_name(path)));
+            Ok(Ending::Findings)
+        }
+        _ => Err(io_message("write", path, error)),
     }
-    Err(io_message("write", path, error))
 }
 
 /// Between reader and output: renders, and writes as text comes.

@@ -8,14 +8,47 @@ use miette::{
     Severity as Level, SourceCode, SourceSpan, SpanContents,
 };
 
-use postform::diag::{Diag, Severity};
+use postform::diag::{Diag, Severity, steers};
 use postform::source::Source;
 
 /// A form file as miette asks for it: found by our line index, so that thousands of findings cost no more each.
 struct Text<'a> {
     source: &'a Source,
-    /// Its text, safe for a terminal.
-    safe: Cow<'a, str>,
+    /// Its text as a terminal may get it, with the same lines.
+    shown: Cow<'a, Source>,
+    /// Behind which bytes of the file the shown text is longer, and by how many bytes.
+    longer: Vec<(usize, usize)>,
+}
+
+impl<'a> Text<'a> {
+    fn new(source: &'a Source) -> Text<'a> {
+        let escapes = |at: usize, c: char| match c {
+            '\n' | '\t' => false,
+            '\r' => !source.text[at + 1..].starts_with('\n'), // alone it would write over the line
+            c => steers(c),
+        };
+        let mut longer = Vec::new();
+        if !source.text.char_indices().any(|(at, c)| escapes(at, c)) {
+            return Text { source, shown: Cow::Borrowed(source), longer };
+        }
+        let mut text = String::with_capacity(source.text.len());
+        for (at, c) in source.text.char_indices() {
+            if escapes(at, c) {
+                text.extend(c.escape_default());
+                let end = at + c.len_utf8();
+                longer.push((end, text.len() - end));
+            } else {
+                text.push(c);
+            }
+        }
+        Text { source, shown: Cow::Owned(Source::from_text(source.name.clone(), text)), longer }
+    }
+
+    /// Where a byte of the file is in what is shown.
+    fn place(&self, at: usize) -> usize {
+        let before = self.longer.partition_point(|(end, _)| *end <= at);
+        at + before.checked_sub(1).map_or(0, |last| self.longer[last].1)
+    }
 }
 
 impl SourceCode for Text<'_> {
@@ -26,13 +59,13 @@ impl SourceCode for Text<'_> {
         after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         let (start, end) = (span.offset(), span.offset() + span.len());
-        let line = |at: usize| self.source.line_column(at as u32).0 as usize - 1;
+        let line = |at: usize| self.shown.line_column(at as u32).0 as usize - 1;
         let first = line(start).saturating_sub(before);
         let last = line(end) + after;
-        let lines = self.source.line_starts();
+        let lines = self.shown.line_starts();
         let from = lines.get(first).copied().ok_or(MietteError::OutOfBounds)? as usize;
-        let to = lines.get(last + 1).map_or(self.safe.len(), |&next| next as usize);
-        let data = self.safe.as_bytes().get(from..to).ok_or(MietteError::OutOfBounds)?;
+        let to = lines.get(last + 1).map_or(self.shown.text.len(), |&next| next as usize);
+        let data = self.shown.text.as_bytes().get(from..to).ok_or(MietteError::OutOfBounds)?;
         let span = (from, to - from).into();
         let count = last + 1 - first;
         Ok(Box::new(MietteSpanContents::new_named(self.source.name.clone(), data, span, first, 0, count)))
@@ -90,8 +123,10 @@ impl Diagnostic for Shown<'_> {
         let labels = self.diag.labels.iter().filter(|label| label.span.file == self.file);
         Some(Box::new(labels.enumerate().map(|(i, label)| {
             let range = label.span.range();
+            let place = |at: usize| self.source.map_or(at, |text| text.place(at));
+            let (start, end) = (place(range.start), place(range.end));
             let text = Some(label.text.clone());
-            let span = (range.start, range.len());
+            let span = (start, end - start);
             if i == 0 { LabeledSpan::new_primary_with_span(text, span) } else { LabeledSpan::new_with_span(text, span) }
         })))
     }
@@ -111,7 +146,7 @@ impl Reporter {
 
     /// Findings as text; `files` are those of their form.
     pub fn text(&self, diags: &[Diag], files: &[Source]) -> String {
-        let texts: Vec<Text> = files.iter().map(|source| Text { source, safe: safe(&source.text) }).collect();
+        let texts: Vec<Text> = files.iter().map(Text::new).collect();
         let mut all = String::new();
         for diag in diags {
             let file = diag.labels.first().map_or(0, |label| label.span.file);
@@ -145,15 +180,6 @@ fn too_long_to_draw(diag: &Diag, source: &Source, file: u32) -> bool {
         let end = |line: usize| starts.get(line + 1).map_or(source.text.len(), |&next| next as usize);
         (first..last.min(starts.len())).any(|line| end(line) - starts[line] as usize > LONGEST_LINE)
     })
-}
-
-/// Form text safe for a terminal: a control character becomes a blank, so that places stay right.
-fn safe(text: &str) -> Cow<'_, str> {
-    let is_safe = |c: char| !c.is_control() || c == '\n' || c == '\t' || c == '\r' || c.len_utf8() > 1;
-    if text.chars().all(is_safe) {
-        return text.into();
-    }
-    text.chars().map(|c| if is_safe(c) { c } else { ' ' }).collect::<String>().into()
 }
 
 /// `1 error`, `2 errors`.

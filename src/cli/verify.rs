@@ -15,6 +15,8 @@ use super::config::Config;
 use super::files::{self, Again, io_message};
 use super::prepare::{Prepared, prepare};
 use super::report::{self, Reporter};
+use super::say::say;
+use super::spool::Spool;
 use super::{Ending, output, render};
 
 /// Text that waits before it is written.
@@ -126,7 +128,7 @@ impl Proof<'_> {
         let counts = comparer.comparer.counts();
         let mut warnings = comparer.comparer.warnings();
         warnings.iter_mut().for_each(|diag| self.place_in_program(diag));
-        eprint!("{}", reporter.text(&warnings, &[]));
+        say(&reporter.text(&warnings, &[]));
         let verdict = comparer.comparer.verdict().map_err(|error| io_message("read", Path::new(&self.name), &error))?;
         let job = files::name(self.job.path);
         if let Err(error) = read
@@ -137,7 +139,7 @@ impl Proof<'_> {
                 return Err(io_message("read", self.job.path, &error));
             };
             render::place_in(&job, &mut diag);
-            eprint!("{}", reporter.text(&[*diag], &[]));
+            say(&reporter.text(&[*diag], &[]));
             return Ok(Proven { ending: Ending::Findings, text: None });
         }
         let ending = if let Verdict::Different(findings) = &verdict {
@@ -167,14 +169,14 @@ impl Proof<'_> {
                 line => format!("\n{}, line {line}: {}", self.name, finding.block),
             };
             let mut diag = Diag::new(finding.code, &finding.message).help(finding.help);
-            diag.message += &postform::diag::escaped(&block).replace("\\n", "\n");
+            diag.message += &postform::diag::escaped_lines(&block);
             diag.place = Some(place.map(|place| place.to_string()).unwrap_or_default());
             render::place_in(&job, &mut diag);
             if let Some(span) = traced.and_then(|line| line.form) {
                 diag = diag.at(span, "prints this block");
             }
             let files = self.prepared.map_or(&[][..], |prepared| &prepared.files);
-            eprint!("{}", reporter.text(&[diag], files));
+            say(&reporter.text(&[diag], files));
         }
         Ok(())
     }
@@ -247,10 +249,10 @@ fn spooled(
     reporter: &Reporter,
     trace: bool,
 ) -> Result<Option<(File, Vec<TraceLine>)>, String> {
-    let fail = |error: std::io::Error| io_message("write", Path::new("a temporary file"), &error);
-    let mut sink = Spool {
+    let fail = |error: std::io::Error| io_message("write", Path::new("the program"), &error);
+    let mut sink = Printed {
         renderer: Renderer::new(&prepared.program, Options { trace, ..prepared.options.clone() }),
-        file: tempfile::tempfile().map_err(fail)?,
+        file: Spool::new().map_err(fail)?,
         failure: None,
     };
     let read = job.read(&mut sink)?;
@@ -265,22 +267,21 @@ fn spooled(
         Err(ReadError::Io(error)) => return Err(io_message("read", job.path, &error)),
         Err(ReadError::Job(mut diag)) => {
             render::place_in(&files::name(job.path), &mut diag);
-            eprint!("{}", reporter.text(&[*diag], &prepared.files));
+            say(&reporter.text(&[*diag], &prepared.files));
             return Ok(None);
         }
     }
-    sink.file.rewind().map_err(fail)?;
     let lines = sink.renderer.trace().map(std::mem::take).unwrap_or_default();
-    Ok(Some((sink.file, lines)))
+    Ok(Some((sink.file.into_file().map_err(fail)?, lines)))
 }
 
-struct Spool<'p> {
+struct Printed<'p> {
     renderer: Renderer<'p>,
-    file: File,
+    file: Spool,
     failure: Option<std::io::Error>,
 }
 
-impl Spool<'_> {
+impl Printed<'_> {
     fn drain(&mut self) {
         let text = self.renderer.text();
         if let Err(error) = self.file.write_all(text) {
@@ -290,7 +291,7 @@ impl Spool<'_> {
     }
 }
 
-impl Sink for Spool<'_> {
+impl Sink for Printed<'_> {
     fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
         self.renderer.event(event, place)?;
         if self.renderer.text().len() >= CHUNK {

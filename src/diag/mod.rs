@@ -70,7 +70,7 @@ pub struct Diag {
 impl Diag {
     /// A finding with the severity of its code and no place yet.
     ///
-    /// Messages hold text from files: control characters are escaped, and what is too long is cut in the middle.
+    /// Messages hold text from files: what would steer a terminal is escaped, what is too long is cut in the middle.
     pub fn new(code: Code, message: impl Into<String>) -> Self {
         Diag {
             code,
@@ -85,7 +85,7 @@ impl Diag {
 
     /// Adds a place in the form; the first one added is the main one.
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Self {
-        self.labels.push(Label { span, text: text.into() });
+        self.labels.push(Label { span, text: shown(text.into()) });
         self
     }
 
@@ -97,7 +97,7 @@ impl Diag {
 
     /// Adds an edit that mends it.
     pub fn fix(mut self, title: impl Into<String>, safe: bool, edits: Vec<(Span, String)>) -> Self {
-        self.fix = Some(Fix { title: title.into(), safe, edits });
+        self.fix = Some(Fix { title: shown(title.into()), safe, edits });
         self
     }
 
@@ -109,23 +109,46 @@ impl Diag {
 
 /// Longest message or help, in characters.
 const LONGEST: usize = 400;
+/// Longest word in it, a number of 309 digits among them.
+const LONGEST_WORD: usize = 100;
 
 fn shown(text: String) -> String {
-    let text = if text.chars().any(char::is_control) { escaped(&text) } else { text };
-    let count = text.chars().count();
-    if count <= LONGEST {
+    let text = if text.chars().any(steers) { escaped(&text) } else { text };
+    if text.len() <= LONGEST_WORD {
         return text;
     }
-    let head: String = text.chars().take(LONGEST / 2).collect();
-    let tail: String = text.chars().skip(count - LONGEST / 2).collect();
-    format!("{head} … {tail}")
+    let words: Vec<String> = text.split(' ').map(|word| cut(word, LONGEST_WORD, "…")).collect();
+    cut(&words.join(" "), LONGEST, " … ")
 }
 
-/// Text from a file made safe for a terminal: control characters become escapes.
+/// Without its middle where it is longer than `most` characters.
+fn cut(text: &str, most: usize, mark: &str) -> String {
+    let count = text.chars().count();
+    if count <= most {
+        return text.to_owned();
+    }
+    let head: String = text.chars().take(most / 2).collect();
+    let tail: String = text.chars().skip(count - most / 2).collect();
+    format!("{head}{mark}{tail}")
+}
+
+/// Does a character steer a terminal or the order of text, instead of being seen? C0 and C1, the marks of bidirectional
+/// text, and the separators of lines and paragraphs.
+pub fn steers(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// Text from a file made safe for a terminal: what would steer it becomes escapes.
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
-        if c.is_control() { out.extend(c.escape_default()) } else { out.push(c) }
+        if steers(c) { out.extend(c.escape_default()) } else { out.push(c) }
     }
     out
+}
+
+/// The same for text of several lines, which stay lines.
+pub fn escaped_lines(text: &str) -> String {
+    text.split('\n').map(escaped).collect::<Vec<_>>().join("\n")
 }

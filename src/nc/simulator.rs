@@ -176,7 +176,11 @@ impl<R: BufRead + Seek> Simulator<R> {
     pub(super) fn read_line(&mut self) -> Result<bool, RunError> {
         self.line.clear();
         loop {
-            let buffer = self.input.fill_buf()?;
+            let buffer = match self.input.fill_buf() {
+                Ok(buffer) => buffer,
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+                Err(error) => return Err(error.into()),
+            };
             if buffer.is_empty() {
                 break;
             }

@@ -3,7 +3,7 @@
 use super::fault::{Done, fault};
 use super::renderer::Renderer;
 use super::words::tenths;
-use crate::diag::Code;
+use crate::diag::{Code, steers};
 use crate::lang::{Machine, SequenceId, VarId, is_stop};
 use crate::sema;
 use crate::toolpath::{EdmAction, Section, StopKind};
@@ -192,6 +192,14 @@ impl Renderer<'_> {
 
     /// A block as it stands: nobody knows what it did.
     pub(super) fn verbatim(&mut self, text: &str) -> Done {
+        if let Some(c) = text.chars().find(|&c| steers(c) && c != '\t') {
+            let message = format!("the text holds U+{:04X}, which steers instead of being printed", u32::from(c));
+            return fault(Code::PR008, message, "take it out");
+        }
+        if text.trim() == "%" {
+            let message = "the text is a lone `%`, at which a control takes the program to be over";
+            return fault(Code::PR008, message, "take it out: StartCode and EndCode print it");
+        }
         self.close_cycle()?;
         if text.trim().is_empty() {
             return Ok(()); // an empty block is not printed

@@ -4,6 +4,7 @@ use indexmap::map::Entry;
 
 use super::check::Analysis;
 use super::messages::{bad_format, duplicate_format, is_word, no_name_line, unknown_name};
+use super::words::invisible;
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;
 use crate::number::LetterFormat;
@@ -61,6 +62,9 @@ impl Analysis {
             }
             self.commands_seen.push((id, statement.line.span));
         }
+        if let Some((arg, c)) = printed_control(id, &statement.args) {
+            self.report(invisible(c, arg.span));
+        }
         if let Err(bad) = self.form.settings.apply(id, &statement.args, statement.line.span) {
             let at = bad.span.unwrap_or(statement.line.span);
             let mut diag = Diag::new(Code::PF302, bad.message).at(at, "here");
@@ -112,6 +116,15 @@ impl Analysis {
         };
         self.report(diag);
     }
+}
+
+/// A control character in text that goes into programs. Old names may have bytes that count as one, and print nothing.
+fn printed_control(id: CommandId, args: &[Spanned]) -> Option<(&Spanned, char)> {
+    use CommandId::{Comment, Eob, Mod, Replace};
+    if !matches!(id, Comment | Eob | Mod | Replace) {
+        return None;
+    }
+    args.iter().find_map(|arg| Some((arg, arg.text.chars().find(|&c| c.is_control() && c != '\t')?)))
 }
 
 /// A letter, and nothing that a name has behind it.

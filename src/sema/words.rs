@@ -1,7 +1,7 @@
 //! Words of a line: variables found, texts put together, what can't be read reported.
 
 use super::model::{Line, Word, WordKind};
-use crate::diag::{Code, Diag};
+use crate::diag::{Code, Diag, steers};
 use crate::lang::{Machine, VARIABLES, VarId, did_you_mean};
 use crate::span::Span;
 use crate::syntax::{self, Body, Piece, PieceKind, Spanned};
@@ -185,10 +185,11 @@ fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
 
 /// A character that nobody sees, or takes for a blank.
 fn is_invisible(c: char) -> bool {
-    c.is_control() || (c.is_whitespace() && c != ' ') || ('\u{200b}'..='\u{200f}').contains(&c) || c == '\u{feff}'
+    steers(c) || (c.is_whitespace() && c != ' ') || ('\u{200b}'..='\u{200f}').contains(&c) || c == '\u{feff}'
 }
 
-fn invisible(c: char, span: Span) -> Diag {
+/// What is said of one.
+pub(super) fn invisible(c: char, span: Span) -> Diag {
     let what = match c {
         '\u{a0}' => "a no-break space, which looks like a blank".to_owned(),
         c if c.is_control() => format!("the control character U+{:04X}", u32::from(c)),

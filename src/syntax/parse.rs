@@ -16,8 +16,17 @@ mod grammar {
 }
 use grammar::{FormGrammar, Rule};
 
+/// Stack that must be there: with less than 64 KB left pest refuses what it is given.
+const LEAST_STACK: usize = 128 << 10;
+/// Stack that is made where it is not.
+const STACK: usize = 1 << 20;
+
 /// Parses file number `file`. Every byte of the text is in some line of the result.
 pub fn parse(source: &Source, file: u32) -> Form {
+    stacker::maybe_grow(LEAST_STACK, STACK, || lines(source, file))
+}
+
+fn lines(source: &Source, file: u32) -> Form {
     let lines: Vec<(usize, &str)> = source.lines().collect();
     let mut form = Form::default();
     let mut open: Option<SequenceNode> = None;
@@ -329,6 +338,13 @@ mod tests {
             kinds,
             ["X=->3.>4", "P= ->34", "A=010360", "T= 2", "Rapid(G0)", "Replace(a b|)", "Fancy(3)", "Dril:1"]
         );
+    }
+
+    #[test]
+    fn a_small_stack_loses_no_line() {
+        let count = || parsed("StartCode\n%0\nEnd\n").sequences().count();
+        let thread = std::thread::Builder::new().stack_size(80 << 10).spawn(count).unwrap();
+        assert_eq!(thread.join().unwrap(), 1);
     }
 
     #[test]

@@ -156,6 +156,12 @@ fn forms() {
         ("byte order mark", format!("\u{feff}{good}").into(), 0, vec![]),
         ("Latin-1", [b"Name Fr\xe4se\n".as_slice(), good.as_bytes()].concat(), 0, vec!["PF008", "Windows-1252"]),
         ("tabs", replaced("T[tool] M6", "T[tool]\tM6").into(), 0, vec![]),
+        (
+            "control characters in printed text",
+            format!("Mod (A\u{1b})\n{good}").into(),
+            1,
+            vec!["PF001", "U+001B", "form.pf:1"],
+        ),
         ("older spelling", good.replace('[', "<").replace(']', ">").into(), 0, vec![]),
     ];
     assert!(table.len() >= 25);
@@ -274,7 +280,17 @@ fn jobs() {
         ("metric job, inch form", good.replace("\"inch\"", "\"mm\"").into(), 1, vec!["PR010", "25.4"]),
         ("job for another machine", head("\"machine\":\"lathe\","), 1, vec!["PR008"]),
         ("more than one line of text", with("{\"text\":\"M0\\nM1\"}"), 1, vec!["PJ003"]),
-        ("not UTF-8 in a text", [b"{\"name\":\"".as_slice(), b"\xff\"}"].concat(), 1, vec!["PJ001"]),
+        ("text that steers", with("{\"text\":\"A\\u001b\"},{\"line\":[1,1,0]}"), 1, vec!["PR008", "U+001B"]),
+        ("text that ends the program", with("{\"text\":\" % \"},{\"line\":[1,1,0]}"), 1, vec!["PR008", "lone"]),
+        ("a number of 309 digits", with("{\"line\":[1e308,0]}"), 1, vec!["…"]),
+        ("not UTF-8 in a text", [b"{\"name\":\"".as_slice(), b"\xff\"}"].concat(), 1, vec!["PJ001", "not UTF-8"]),
+        ("UTF-16", good.encode_utf16().flat_map(u16::to_le_bytes).collect(), 1, vec!["PJ001", "UTF-16"]),
+        (
+            "UTF-16 with its mark",
+            format!("\u{feff}{good}").encode_utf16().flat_map(u16::to_le_bytes).collect(),
+            1,
+            vec!["PJ001", "UTF-16"],
+        ),
         ("byte order mark", format!("\u{feff}{good}").into(), 0, vec![]),
         ("CRLF", good.replace(',', ",\r\n").into(), 0, vec![]),
     ];
@@ -333,6 +349,9 @@ fn json_lines() {
         let path = folder.write("job.jsonl", text);
         expect(what, &render(&folder, &path, &form), status, &wanted);
     }
+    let wide: Vec<u8> = start.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let path = folder.write("job.jsonl", wide);
+    expect("UTF-16", &render(&folder, &path, &form), 1, &["PJ001", "UTF-16", "job.jsonl:1"]);
 }
 
 #[test]
@@ -344,6 +363,11 @@ fn files_that_are_not_there_are_another_status() {
     expect("no job", &render(&folder, &nothing, &form), 2, &["can't read", "nothing.json"]);
     expect("no form", &render(&folder, &job, &nothing), 2, &["can't read"]);
     expect("a folder as form", &render(&folder, &job, &folder.0), 2, &["can't read"]);
+    for name in ["folder.json", "folder.jsonl", "folder.cl", "folder.nc"] {
+        let odd = folder.0.join(name);
+        fs::create_dir_all(&odd).unwrap();
+        expect("a folder as job", &render(&folder, &odd, &form), 2, &["can't read", name]);
+    }
     let unnamed = folder.write("job.txt", "");
     expect("a job of unknown kind", &render(&folder, &unnamed, &form), 2, &["--from"]);
     let to_nowhere = Command::new(env!("CARGO_BIN_EXE_postform"))
@@ -384,18 +408,48 @@ fn full_disks_and_closed_pipes() {
 }
 
 #[test]
+#[cfg(unix)]
 fn outputs_do_not_replace_their_inputs() {
+    use std::os::unix::fs::symlink;
     let folder = Folder::new("same_file");
-    let form = folder.write("form.pf", mill("", ""));
-    let text = job("{\"line\":[1,1,0]}");
-    let job = folder.write("job.json", &text);
-    for input in [&job, &form] {
-        let output = Command::new(env!("CARGO_BIN_EXE_postform"))
-            .arg("render")
-            .args([job.as_path(), Path::new("--form"), &form, Path::new("-o"), input])
-            .output()
-            .unwrap();
-        expect("an output over an input", &output, 2, &["is an input"]);
+    folder.write("postform.toml", "form = \"form.pf\"\n");
+    folder.write("form.pf", mill("Call common.pf", ""));
+    folder.write("common.pf", "Drill\nG81 X[h] Y[v]\nEnd\n");
+    folder.write("job.json", job("{\"line\":[1,1,0]}"));
+    let inputs = ["job.json", "form.pf", "common.pf", "postform.toml"];
+    let texts = || inputs.map(|name| fs::read_to_string(folder.0.join(name)).unwrap());
+    let before = texts();
+    let run = |arguments: &str, redirect: &str| {
+        let line = format!("exec \"$0\" render {arguments} {redirect}");
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &line, env!("CARGO_BIN_EXE_postform")]).current_dir(&folder.0).output().unwrap()
+    };
+    for input in inputs {
+        symlink(input, folder.0.join("link")).unwrap();
+        fs::hard_link(folder.0.join(input), folder.0.join("hard")).unwrap();
+        for name in [input, "link", "hard"] {
+            expect(input, &run(&format!("job.json -o {name}"), ""), 2, &["is an input"]);
+            expect(input, &run(&format!("job.json -o out.nc --trace ./{name}"), ""), 2, &["is an input"]);
+        }
+        expect(input, &run("job.json", &format!(">> {input}")), 2, &["standard output is an input"]);
+        fs::remove_file(folder.0.join("link")).unwrap();
+        fs::remove_file(folder.0.join("hard")).unwrap();
     }
-    assert_eq!(fs::read_to_string(&job).unwrap(), text);
+    expect("standard input", &run("- --from json -o job.json", "< job.json"), 2, &["is an input"]);
+    // the other output, by another name, through a link to nothing yet, and by the shell
+    symlink("new.nc", folder.0.join("link")).unwrap();
+    for (arguments, redirect) in
+        [("-o new.nc --trace ./new.nc", ""), ("-o link --trace new.nc", ""), ("--trace new.nc", "> new.nc")]
+    {
+        expect(arguments, &run(&format!("job.json {arguments}"), redirect), 2, &["can't be one file"]);
+        _ = fs::remove_file(folder.0.join("new.nc"));
+    }
+    assert_eq!(texts(), before);
+    // a link to nothing yet is followed, one that leads to itself is an error, a file called - is none
+    expect("a link to nothing yet", &run("job.json -o link", ""), 0, &[]);
+    assert!(folder.0.join("link").is_symlink() && folder.0.join("new.nc").is_file());
+    symlink("circle", folder.0.join("circle")).unwrap();
+    expect("a circle of links", &run("job.json -o circle", ""), 2, &["can't write circle"]);
+    folder.write("-", "");
+    expect("a file called -", &run("- --from json", "< job.json"), 0, &[]);
 }

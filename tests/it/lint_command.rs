@@ -202,6 +202,64 @@ fn a_wrong_configuration_is_wrong_usage() {
 }
 
 #[test]
+#[cfg(unix)]
+fn a_configuration_is_a_file() {
+    use std::os::unix::fs::symlink;
+    let folder = Folder::new("config_kinds");
+    for name in ["folder", "nothing", "device"] {
+        folder.write(&format!("{name}/form.pf"), mill("", ""));
+    }
+    fs::create_dir_all(folder.0.join("folder/postform.toml")).unwrap();
+    symlink("nowhere", folder.0.join("nothing/postform.toml")).unwrap();
+    symlink("/dev/null", folder.0.join("device/postform.toml")).unwrap();
+    for (name, message) in [("folder", "is no file"), ("nothing", "can't read"), ("device", "is no file")] {
+        let output = folder.run(&["lint", &format!("{name}/form.pf")]);
+        assert_eq!(output.status.code(), Some(2), "{name}: {}", err(&output));
+        let place = format!("{name}/postform.toml");
+        assert!(err(&output).contains(&place) && err(&output).contains(message), "{name}: {}", err(&output));
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn folders_are_not_left_through_links() {
+    use std::os::unix::fs::symlink;
+    let folder = Folder::new("links");
+    let (text, notes) = (mill("", SEQUENCES), "Name   what the foreman said\n\n\n\nG1\n");
+    folder.write("posts/own.pf", &text);
+    folder.write("outside/other.pf", &text);
+    folder.write("outside/notes.txt", notes);
+    folder.write("posts/notes.txt", notes);
+    for (name, to) in [
+        ("notes.pf", "../outside/notes.txt"),
+        ("other.pf", "../outside/other.pf"),
+        ("inside.pf", "notes.txt"),
+        ("again.pf", "own.pf"),
+    ] {
+        symlink(to, folder.0.join("posts").join(name)).unwrap();
+    }
+    let pipe = |name: &str| assert!(Command::new("mkfifo").arg(folder.0.join(name)).status().unwrap().success());
+    pipe("posts/pipe.pf");
+    for command in [&["lint", "--fix", "posts"][..], &["fmt", "posts"], &["lint", "posts"]] {
+        let output = folder.run(command);
+        for name in ["notes.pf", "other.pf", "inside.pf", "pipe.pf"] {
+            assert!(err(&output).contains(&format!("posts/{name}: ")), "{command:?} {name}: {}", err(&output));
+        }
+        assert!(!err(&output).contains("again.pf"), "{}", err(&output));
+    }
+    assert_ne!(folder.read("posts/own.pf"), text);
+    assert_eq!(folder.read("outside/other.pf"), text);
+    assert_eq!([folder.read("outside/notes.txt"), folder.read("posts/notes.txt")], [notes, notes]);
+    // one that is named is followed
+    folder.run(&["fmt", "posts/other.pf"]);
+    assert_ne!(folder.read("outside/other.pf"), text);
+    // a form that calls a pipe
+    folder.write("calls.pf", mill("Call pipe", ""));
+    pipe("pipe");
+    assert!(out(&folder.run(&["lint", "calls.pf", "--format", "github"])).contains("title=PF009::`pipe` is no file"));
+}
+
+#[test]
 fn safe_fixes_are_made_in_the_files_and_keep_their_line_ends() {
     let folder = Folder::new("fix");
     let text = mill("Call part.pf", SEQUENCES).replace('\n', "\r\n");

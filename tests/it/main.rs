@@ -30,6 +30,7 @@ mod samples;
 mod sequences;
 mod silent;
 mod simulate;
+mod streams;
 mod support;
 mod trace;
 mod transcripts;

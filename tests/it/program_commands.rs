@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
-use crate::support::root;
+use crate::support::{job, mill, root};
 
 fn postform(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_postform")).args(arguments).current_dir(root()).output().unwrap()
@@ -70,6 +70,67 @@ fn programs_are_shown_safely() {
     let output = fed(&["simulate", "-"], b"G21 (\x1b[31mred \xff)\nG0 X1. \x1b[2J\nM30\n");
     assert_eq!(output.status.code(), Some(1));
     assert!(!output.stdout.contains(&0x1b) && !output.stderr.contains(&0x1b), "{}", text(&output.stderr));
+}
+
+/// C0, C1, marks of bidirectional text and line separators are shown as escapes, whatever file they come from.
+#[test]
+#[cfg(target_os = "linux")]
+fn nothing_from_a_file_steers_the_terminal() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("steering");
+    _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(folder.join("toml")).unwrap();
+    let evil = "\u{1b}]0;a\u{7}\u{9b}31m\u{202e}\u{2066}\u{2028}\r\u{7f}";
+    let named = job("{\"line\":[1,1,0]}").replacen("\"program\"", "\"name\":\"A\u{202e}\u{9b}B\",\"program\"", 1);
+    let odd = format!("{evil}.pf");
+    for (name, text) in [
+        ("form.pf", mill("", &format!("Drill\nG81 X[h] {evil}Y[v]\nEnd\n"))),
+        ("job.json", named),
+        (odd.as_str(), mill("Rapdi G0", "")),
+        ("a.nc", format!("G21\nG0 X1. ({evil})\nG1 X5. F100. ({evil})\nM30\n")),
+        ("b.nc", format!("G21\nG0 X2. ({evil})\nG1 X6. F100. ({evil})\nM30\n")),
+        ("toml/postform.toml", "\"a\u{9b}\\u001b\\u202e\" = 1\n".to_owned()),
+        ("toml/form.pf", mill("", "")),
+        ("postform.toml", String::new()),
+    ] {
+        fs::write(folder.join(name), text).unwrap();
+    }
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_postform"));
+        command.args(arguments).current_dir(&folder).output().unwrap()
+    };
+    for arguments in [
+        &["lint", "form.pf"][..],
+        &["lint", "form.pf", "--format", "json"],
+        &["lint", "form.pf", "--format", "sarif"],
+        &["lint", "form.pf", "--format", "github"],
+        &["lint", odd.as_str()],
+        &["lint", "toml/form.pf"],
+        &["check", "job.json"],
+        &["diff", "a.nc", "b.nc"],
+        &["diff", "a.nc", "b.nc", "--layout", "side"],
+        &["diff", "a.nc", "b.nc", "--format", "json"],
+        &["diff", "a.nc", "b.nc", "--format", "html"],
+        &["diff", "a.nc", "b.nc", "--motion"],
+        &["simulate", "a.nc"],
+        &["explain", evil],
+        &["diff", "a.nc", "b.nc", "--ignore", evil],
+        &["render", "job.json", "--form", "toml/form.pf", "--set", evil],
+    ] {
+        let output = run(arguments);
+        for stream in [&output.stdout, &output.stderr] {
+            let shown = String::from_utf8(stream.clone()).unwrap();
+            let steering = shown.chars().find(|&c| c != '\n' && postform::diag::steers(c));
+            assert_eq!(steering, None, "{arguments:?}: {shown:?}");
+        }
+        assert!(!output.stdout.is_empty() || !output.stderr.is_empty(), "{arguments:?}");
+    }
+    // JSON reads back as it was
+    let json = run(&["diff", "a.nc", "b.nc", "--format", "json"]).stdout;
+    let json = serde_json::from_slice::<serde_json::Value>(&json).unwrap().to_string();
+    assert!(json.contains('\u{202e}') && json.contains('\u{9b}'), "{json}");
+    // a line of a form is shown with its escapes
+    let shown = text(&run(&["lint", "form.pf"]).stdout);
+    assert!(shown.contains("\\u{1b}]0;a\\u{7}\\u{9b}31m\\u{202e}"), "{shown}");
 }
 
 #[test]

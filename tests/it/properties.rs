@@ -135,3 +135,16 @@ proptest! {
         }
     }
 }
+
+/// A reader that fails is not a job that ends.
+#[test]
+fn read_errors_are_no_empty_jobs() {
+    struct Failing;
+    impl std::io::Read for Failing {
+        fn read(&mut self, _: &mut [u8]) -> std::io::Result<usize> {
+            Err(std::io::Error::other("the disk"))
+        }
+    }
+    let read = postform::toolpath::json::read_document(Failing, &mut postform::toolpath::Summary::default());
+    assert!(matches!(read, Err(postform::toolpath::ReadError::Io(_))), "{read:?}");
+}

@@ -338,3 +338,27 @@ fn mutilated_programs_get_an_answer() {
         }
     }
 }
+
+/// A call that a signal interrupts is made again.
+#[test]
+fn interrupted_reads_are_made_again() {
+    use std::io::{BufReader, Error, ErrorKind, Read, Result, Seek, SeekFrom};
+    struct Interrupted(Cursor<&'static str>, bool);
+    impl Read for Interrupted {
+        fn read(&mut self, out: &mut [u8]) -> Result<usize> {
+            self.1 = !self.1;
+            if self.1 { Err(Error::from(ErrorKind::Interrupted)) } else { self.0.read(out) }
+        }
+    }
+    impl Seek for Interrupted {
+        fn seek(&mut self, to: SeekFrom) -> Result<u64> {
+            self.0.seek(to)
+        }
+    }
+    let (program, settings) = ("G21\nG0 X1.\nM30\n", Settings::new(Control::Fanuc));
+    let input = BufReader::with_capacity(4, Interrupted(Cursor::new(program), false));
+    let mut simulator = Simulator::new(input, settings);
+    let mut items = Vec::new();
+    while simulator.step(&mut items).unwrap() {}
+    assert_eq!(items, simulated(program.as_bytes(), settings).2);
+}

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use postform::diff::{Comparison, Edit, Options, Summary, changed_spans};
 use postform::verify::MotionDifference;
 
+use super::super::output;
 use super::sides::Side;
 
 /// The whole comparison.
@@ -47,7 +48,7 @@ pub fn document(old: &Side, new: &Side, comparison: &Comparison, summary: &Summa
         },
         "hunks": hunks,
     });
-    format!("{document:#}\n")
+    output::json(&document)
 }
 
 /// The first difference of motions, if there is one.
@@ -58,5 +59,5 @@ pub fn motion(old: &Side, new: &Side, difference: Option<&MotionDifference>) -> 
     });
     let document =
         json!({ "postform_diff": 1, "same": first.is_none(), "old": old.name, "new": new.name, "motion": first });
-    format!("{document:#}\n")
+    output::json(&document)
 }

@@ -15,6 +15,7 @@ use postform::verify::{MotionDifference, NoMotion, compare_motions};
 use super::args::{DiffArgs, DiffFormat, Layout};
 use super::colour::Colour;
 use super::report::Reporter;
+use super::say::say;
 use super::{Ending, output, simulate};
 use sides::{Side, sides};
 
@@ -127,7 +128,7 @@ fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Resu
         Ok(Some(difference)) => Ok(Outcome::Different(difference)),
         Err(NoMotion(which, RunError::Refused(mut diag, _))) => {
             simulate::place(&mut diag, if which == 0 { &old.name } else { &new.name });
-            eprint!("{}", reporter.text(&[*diag], &[]));
+            say(&reporter.text(&[*diag], &[]));
             Ok(Outcome::Refused)
         }
         Err(NoMotion(_, RunError::Io(error))) => Err(format!("error: can't read the program: {error}")),

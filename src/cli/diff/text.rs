@@ -238,7 +238,7 @@ pub fn sentence(summary: &Summary) -> String {
 
 /// The first difference of motions.
 pub fn motion(old: &Side, new: &Side, difference: &MotionDifference) -> String {
-    let mut text = format!("the machine does something else: {}\n", difference.message);
+    let mut text = format!("the machine does something else: {}\n", escaped(&difference.message));
     for (sign, side, (line, block)) in [('-', old, &difference.blocks[0]), ('+', new, &difference.blocks[1])] {
         _ = match line {
             0 => writeln!(text, "{sign} {}: its end", side.name),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use postform::diag::Diag;
+use postform::diag::{Diag, escaped_lines};
 use postform::lint::{Changed, Levels, Mended, lint, mend};
 use postform::sema::Checked;
 use similar::TextDiff;
@@ -60,9 +60,9 @@ fn chosen(original: &Checked, safe: Mended, all: Mended, args: &LintArgs) -> Res
         (Ok(old), Ok(new)) => {
             let diff = TextDiff::from_lines(&old, new);
             let diff = diff.unified_diff().context_radius(2).header("before", "after").to_string();
-            format!("the program of {job}:\n{diff}")
+            format!("the program of {job}:\n{}", escaped_lines(&diff))
         }
-        (Err(why), Ok(new)) => format!("{job} could not be printed ({why}); now it is\n{new}"),
+        (Err(why), Ok(new)) => format!("{job} could not be printed ({why}); now it is\n{}", escaped_lines(new)),
         (_, Err(why)) => format!("nobody can see what they change: {job} is not printed with them ({why})\n"),
     };
     story.push('\n');

@@ -20,6 +20,7 @@ use super::colour::Colour;
 use super::config::Config;
 use super::forms::{self, FormFile};
 use super::report::{Reporter, count};
+use super::say::{message, say};
 use super::{Ending, output};
 
 /// What was found in a form.
@@ -54,8 +55,8 @@ pub struct Counts {
 /// Every finding of every form.
 pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     let mut unread = 0;
-    let mut said = |message: String| {
-        eprintln!("{message}");
+    let mut said = |text: String| {
+        message(&text);
         unread += 1;
     };
     let files: Vec<_> = forms::named(&args.forms)?.par_iter().map(|path| read(path, args)).collect();
@@ -71,7 +72,7 @@ pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     for form in &linted {
         match args.format {
             Format::Pretty => text += &form.story,
-            _ => eprint!("{}", form.story),
+            _ => say(&form.story),
         }
     }
     match args.format {
@@ -81,9 +82,9 @@ pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
             text.extend(shown.collect::<Vec<_>>());
             text += &summary(&linted, counts, args);
         }
-        Format::Json => text = format!("{:#}\n", json::report(&linted, counts)),
+        Format::Json => text = output::json(&json::report(&linted, counts)),
         Format::Github => linted.iter().for_each(|form| text += &github::annotations(form)),
-        Format::Sarif => text = format!("{:#}\n", sarif::log(&linted, unread == 0)),
+        Format::Sarif => text = output::json(&sarif::log(&linted, unread == 0)),
     }
     output::standard_output(|out| out.write_all(text.as_bytes()))?;
     Ok(match (unread, counts.errors + counts.warnings) {

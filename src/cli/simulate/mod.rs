@@ -15,6 +15,7 @@ use super::Ending;
 use super::args::{ControlArgs, MotionFormat, SimulateArgs};
 use super::files::{self, io_message};
 use super::report::Reporter;
+use super::say::{message, say};
 
 /// How much text waits before it is written.
 const CHUNK: usize = 64 * 1024;
@@ -77,13 +78,13 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
     let name = files::name(&args.program);
     warnings.iter_mut().for_each(|diag| place(diag, &name));
-    eprint!("{}", reporter.text(&warnings, &[]));
+    say(&reporter.text(&warnings, &[]));
     if left_out > 0 {
-        eprintln!("and {left_out} more warnings");
+        message(&format!("and {left_out} more warnings"));
     }
     let Some((mut diag, _)) = refused else { return Ok(Ending::Clean) };
     place(&mut diag, &name);
-    eprint!("{}", reporter.text(&[*diag], &[]));
+    say(&reporter.text(&[*diag], &[]));
     Ok(Ending::Findings)
 }
 

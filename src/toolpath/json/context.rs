@@ -78,6 +78,17 @@ impl Context {
     }
 }
 
+/// What is wrong with a text that is no UTF-8, as its first bytes show.
+pub fn not_utf_8(start: &[u8]) -> Option<Diag> {
+    let marked = start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff");
+    // without the mark every other byte is zero
+    let bare = matches!(start, [0, b'{', ..] | [b'{', 0, ..]);
+    (marked || bare).then(|| {
+        Diag::new(Code::PJ001, "the job is UTF-16")
+            .help("save it as UTF-8; in PowerShell with `| Out-File -Encoding utf8 job.json` instead of `>`")
+    })
+}
+
 /// A message of serde in our words.
 fn of_serde(error: &serde_json::Error) -> Diag {
     let text = error.to_string();
@@ -93,6 +104,9 @@ fn of_serde(error: &serde_json::Error) -> Diag {
             Diag::new(Code::PJ003, "the number is too large").help("give a number that a machine can reach")
         }
         _ if text.contains("recursion limit") => Diag::new(Code::PJ001, "nested too deep"),
+        _ if text.contains("invalid unicode code point") => {
+            Diag::new(Code::PJ001, "the job is not UTF-8").help("save it as UTF-8")
+        }
         _ => Diag::new(Code::PJ001, format!("this is not JSON: {text}")),
     }
 }

@@ -7,7 +7,7 @@ use std::io::Read;
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 
 use super::build::Builder;
-use super::context::{Context, Step};
+use super::context::{Context, Step, not_utf_8};
 use super::objects::{CycleObject, ItemObject, JobHead, KeySeed, Object, OperationHead, SubprogramHead, once};
 use super::position::PointSeed;
 use super::values::Point;
@@ -24,7 +24,14 @@ const MOST_WAITING: usize = 4096;
 pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadError> {
     let context = Context::default();
     context.at.set((1, 0));
-    let reader = Counting { input, at: &context.at, buffer: Box::new([0; 64 * 1024]), from: 0, to: 0, begun: false };
+    let mut reader = Counting { input, at: &context.at, buffer: Box::new([0; 64 * 1024]), from: 0, to: 0 };
+    if reader.begin().map_err(ReadError::Io)? == 0 {
+        return Err(ReadError::Job(Box::new(Diag::new(Code::PJ007, "the job is empty").help("write a job file"))));
+    }
+    if let Some(mut diag) = not_utf_8(&reader.buffer[..reader.to]) {
+        diag.place = Some("1:1".into());
+        return Err(ReadError::Job(Box::new(diag)));
+    }
     let job = Job { context: &context, builder: RefCell::new(Builder::new(sink)) };
     let mut deserializer = serde_json::Deserializer::from_reader(reader);
     let read = JobSeed(&job, Part::Job).deserialize(&mut deserializer).and_then(|()| {
@@ -33,9 +40,6 @@ pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadEr
     });
     read.map_err(|error| {
         let (line, column) = context.at.get();
-        if line == 1 && column == 0 {
-            return ReadError::Job(Box::new(Diag::new(Code::PJ007, "the job is empty").help("write a job file")));
-        }
         context.explain(error, line, column.max(1))
     })
 }
@@ -47,24 +51,39 @@ struct Counting<'a, R> {
     buffer: Box<[u8; 64 * 1024]>,
     from: usize,
     to: usize,
-    begun: bool,
+}
+
+impl<R: Read> Counting<'_, R> {
+    /// Reads so far that an encoding shows, and passes over the mark of UTF-8. How many bytes are there then.
+    fn begin(&mut self) -> std::io::Result<usize> {
+        while self.to < 3 && self.fill()? > 0 {}
+        if self.buffer[..self.to].starts_with(b"\xef\xbb\xbf") {
+            self.from = 3;
+        }
+        Ok(self.to - self.from)
+    }
+
+    /// Reads on behind what is there; 0 at the end.
+    fn fill(&mut self) -> std::io::Result<usize> {
+        loop {
+            match self.input.read(&mut self.buffer[self.to..]) {
+                Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+                Ok(count) => {
+                    self.to += count;
+                    return Ok(count);
+                }
+            }
+        }
+    }
 }
 
 impl<R: Read> Read for Counting<'_, R> {
     #[inline]
     fn read(&mut self, out: &mut [u8]) -> std::io::Result<usize> {
         if self.from == self.to {
-            self.from = 0;
-            self.to = loop {
-                match self.input.read(&mut self.buffer[..]) {
-                    Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
-                    other => break other?,
-                }
-            };
-            if !self.begun && self.buffer[..self.to].starts_with(b"\xef\xbb\xbf") {
-                self.from = 3;
-            }
-            self.begun = true;
+            (self.from, self.to) = (0, 0);
+            self.fill()?;
         }
         let (Some(&byte), Some(slot)) = (self.buffer[..self.to].get(self.from), out.first_mut()) else { return Ok(0) };
         *slot = byte;

@@ -6,7 +6,7 @@ use std::io::Read;
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, Visitor};
 
 use super::build::Builder;
-use super::context::{Context, Step};
+use super::context::{Context, Step, not_utf_8};
 use super::fast::{Kind, simple};
 use super::objects::{
     CycleObject, EndWord, ItemObject, JobHead, KeySeed, Object, ObjectSeed, OperationHead, SubprogramHead, Value, once,
@@ -60,6 +60,9 @@ pub fn read_lines(mut input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadE
         let mut line = &buffer[from..end];
         if number == 1 {
             line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
+            if let Some(diag) = not_utf_8(line) {
+                return Err(lines.placed(Box::new(diag)));
+            }
         }
         lines.line(line)?;
         from = next;

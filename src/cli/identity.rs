@@ -1,0 +1,72 @@
+//! Which file a name means: other names, links and folders may lead to the same one.
+
+use std::ffi::{OsStr, OsString};
+use std::io;
+use std::path::Path;
+
+use super::files::folder;
+use super::output::destination;
+
+/// A regular file, or the place of one that is still to be made.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Identity {
+    /// The file; before it is made, its folder.
+    node: Node,
+    /// Before it is made, its name.
+    name: Option<OsString>,
+}
+
+/// Device and number.
+#[cfg(unix)]
+type Node = (u64, u64);
+/// The path without links.
+#[cfg(not(unix))]
+type Node = std::path::PathBuf;
+
+impl Identity {
+    /// That of an input. `None`: it is no regular file, and nothing can replace it.
+    pub fn of_input(path: &Path) -> Option<Identity> {
+        if path == Path::new("-") {
+            return of_stream(&io::stdin());
+        }
+        path.metadata().is_ok_and(|meta| meta.is_file()).then(|| of_path(path, None))?
+    }
+
+    /// That of an output, which may not be there yet.
+    pub fn of_output(path: &Path) -> Option<Identity> {
+        if path == Path::new("-") {
+            return of_stream(&io::stdout());
+        }
+        let path = destination(path).ok()?;
+        match path.metadata() {
+            Ok(_) => Identity::of_input(&path),
+            Err(_) => of_path(folder(&path), path.file_name()),
+        }
+    }
+}
+
+#[cfg(unix)]
+fn of_path(path: &Path, name: Option<&OsStr>) -> Option<Identity> {
+    use std::os::unix::fs::MetadataExt;
+    let meta = path.metadata().ok()?;
+    Some(Identity { node: (meta.dev(), meta.ino()), name: name.map(OsStr::to_owned) })
+}
+
+#[cfg(not(unix))]
+fn of_path(path: &Path, name: Option<&OsStr>) -> Option<Identity> {
+    Some(Identity { node: path.canonicalize().ok()?, name: name.map(OsStr::to_owned) })
+}
+
+/// A file that a shell has put in the place of standard input or output.
+#[cfg(unix)]
+fn of_stream(stream: &impl std::os::fd::AsFd) -> Option<Identity> {
+    use std::os::unix::fs::MetadataExt;
+    let file = std::fs::File::from(stream.as_fd().try_clone_to_owned().ok()?);
+    let meta = file.metadata().ok()?;
+    meta.is_file().then(|| Identity { node: (meta.dev(), meta.ino()), name: None })
+}
+
+#[cfg(not(unix))]
+fn of_stream<T>(_: &T) -> Option<Identity> {
+    None
+}

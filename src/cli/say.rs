@@ -1,0 +1,15 @@
+//! What is said on standard error. Nobody may hear it: a terminal that is full or gone fails no work.
+
+use std::io::{Write, stderr};
+
+use postform::diag::escaped_lines;
+
+/// Says a report as it stands.
+pub fn say(report: &str) {
+    _ = stderr().write_all(report.as_bytes());
+}
+
+/// Says a message on lines of its own. What it quotes from files and arguments can't steer the terminal.
+pub fn message(text: &str) {
+    say(&format!("{}\n", escaped_lines(text)));
+}

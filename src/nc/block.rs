@@ -389,7 +389,7 @@ impl Block {
         let spindle = self.m().iter().any(|m| matches!(m, 3..=5 | 19))
             || [Group::Motion, Group::SpindleMode, Group::FeedMode]
                 .iter()
-                .any(|&group| matches!(self.g(group), Some(330 | 760 | 950 | 960 | 970)));
+                .any(|&group| matches!(self.g(group), Some(330 | 331 | 760 | 950 | 960 | 970)));
         if self.spindle && !spindle {
             return refuse(Code::PN005, "$ is there, and no code that uses it", "take it out");
         }

@@ -125,10 +125,7 @@ impl Machine {
         if hole.peck <= 0.0 {
             return refuse(Code::PN018, format!("a peck of {}", hole.peck), "Q must be greater than zero");
         }
-        let levels = (hole.r - hole.bottom) / hole.peck;
-        if levels > 1e6 {
-            return refuse(Code::PN018, format!("Q{} makes over a million pecks", hole.peck), "write a larger Q");
-        }
+        check_pecks(hole)?;
         if self.control == Control::Emc2 && hole.code == 830 {
             return self.pecks_of_emc2(hole, out);
         }
@@ -189,6 +186,7 @@ impl Machine {
         if !linuxcnc && self.spindle != inwards {
             self.turn(inwards, out);
         }
+        self.tap_pecks(hole, [inwards, outwards], out)?;
         self.feed_over(hole, hole.bottom, out);
         if linuxcnc {
             self.turn(Rotation::Stop, out);
@@ -206,6 +204,24 @@ impl Machine {
         if !linuxcnc {
             self.spindle = inwards;
             self.rapid_over(hole, hole.clear, out);
+        }
+        Ok(())
+    }
+
+    /// Q of a Fanuc's tap: after each peck it turns back a little to break the chip.
+    fn tap_pecks(&mut self, hole: &Drilling, [inwards, outwards]: [Rotation; 2], out: &mut Out<'_>) -> Done {
+        if self.control.is_linuxcnc() || hole.peck <= 0.0 {
+            return Ok(());
+        }
+        check_pecks(hole)?;
+        let back_off = self.back_off();
+        let mut depth = hole.r - hole.peck;
+        while depth > hole.bottom {
+            self.feed_over(hole, depth, out);
+            self.turn(outwards, out);
+            self.feed_over(hole, (depth + back_off).min(hole.r), out);
+            self.turn(inwards, out);
+            depth -= hole.peck;
         }
         Ok(())
     }
@@ -255,6 +271,14 @@ impl Machine {
         wait(hole, out);
         self.leave_aside(hole, turning, out);
     }
+}
+
+/// A control would be busy for days.
+fn check_pecks(hole: &Drilling) -> Done {
+    if (hole.r - hole.bottom) / hole.peck > 1e6 {
+        return refuse(Code::PN018, format!("Q{} makes over a million pecks", hole.peck), "write a larger Q");
+    }
+    Ok(())
 }
 
 /// A dwell of no length is none.

@@ -301,7 +301,7 @@ impl Machine {
                 let help = "write them in two blocks";
                 return refuse(Code::PN004, "two codes that both use the axis words", help);
             }
-            let needs_axes = is_cycle(code) || matches!(code, 330 | 760);
+            let needs_axes = is_cycle(code) || matches!(code, 330 | 331 | 760);
             if needs_axes && !block.has_axes() {
                 return refuse(Code::PN006, "the code needs axis words and has none", "write where, as X and Y");
             }
@@ -330,6 +330,7 @@ impl Machine {
             0 | 10 => self.straight(code, block, out),
             20 | 30 => self.arc(code, block, out),
             330 => self.synchronised(block, out),
+            331 => self.rigid_tap(block, out),
             760 => self.thread(block, out),
             NO_MOTION => Ok(()),
             _ => return self.linuxcnc_cycle(code, block, out),

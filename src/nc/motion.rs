@@ -1,6 +1,6 @@
 //! Straight moves: where words lead, G0, G1, G53, G33.
 
-use super::action::{Action, Position};
+use super::action::{Action, Position, Rotation};
 use super::block::Block;
 use super::codes::{Group, bit};
 use super::fault::{Done, refuse};
@@ -150,12 +150,29 @@ impl Machine {
         Ok(())
     }
 
+    /// G33.1: a tap that follows the spindle in, turns it back and follows it out to where it began.
+    pub(super) fn rigid_tap(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+        let (begin, turning) = (self.position, self.spindle);
+        if turning == Rotation::Stop {
+            return refuse(Code::PN012, "G33.1 with the spindle stopped", "write M3 or M4 before it");
+        }
+        self.synchronised(block, out)?;
+        out.push(Action::Spindle(turning.reversed(), self.speed));
+        self.position = begin;
+        out.push(Action::Feed { to: begin, feed: self.feed, lead: block.get(b'K') });
+        out.push(Action::Spindle(turning, self.speed));
+        Ok(())
+    }
+
     /// G33: a move that follows the spindle.
     pub(super) fn synchronised(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(lead) = block.get(b'K') else {
             return refuse(Code::PN007, "G33 without K", "write K with the distance of one turn");
         };
-        let to = self.target(block)?;
+        let mut to = self.target(block)?;
+        if block.g(Group::Motion) == Some(331) || self.motion == 331 {
+            to[3..].copy_from_slice(&self.position[3..]); // a tap turns no axis
+        }
         self.position = to;
         out.push(Action::Feed { to, feed: self.feed, lead: Some(lead) });
         Ok(())

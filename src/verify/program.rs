@@ -193,13 +193,19 @@ impl<R: BufRead + Seek> Program<R> {
                 self.at = to;
                 self.way.push(Rapid { to, unknown: *machine, rotation: self.state.rotation });
             }
-            Action::Feed { to, feed, .. } => {
+            Action::Feed { to, feed, lead } => {
+                // a feed that follows the spindle
+                let feed = match (lead, self.mode, self.state.speed) {
+                    (Some(lead), FeedMode::PerMinute, Some(speed)) => lead * speed,
+                    (Some(lead), FeedMode::PerRev, _) => *lead,
+                    _ => *feed,
+                };
                 let to = self.scaled(to);
                 if to == self.at && self.unknown == 0 {
                     return; // a move of no length cuts nothing
                 }
                 self.check_length(item.line);
-                self.cut = Some(cut(self, What::Line { to }, feed_of(self, *feed)));
+                self.cut = Some(cut(self, What::Line { to }, feed_of(self, feed)));
             }
             Action::Arc(turn) => {
                 let mut turn = *turn;

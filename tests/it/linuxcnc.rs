@@ -143,3 +143,15 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
     }
     assert!(run >= 20, "{run} programs compared, {compensated} with compensation");
 }
+
+/// Rigid taps by G33.1: the interpreter's one call is the simulator's way in and out.
+#[test]
+fn rigid_taps_run_as_in_the_interpreter() {
+    let text = "G21 G17 G90 G94\nS100 M3\nG0 X1 Y1 Z5\nG33.1 Z-10 K1.5\nG0 X3\nG33.1 X3 Z-5 K1\nG91\nG33.1 Z-2 K1 I2\nM4\nZ-1 K1\nG90\nG0 Z9\nM2\n";
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rigid-tap.ngc");
+    fs::write(&program, text).unwrap();
+    let Some(calls) = interpreted(&program, "T1 P1 Z0 D1\n") else { return };
+    let (ours, ended, _) = simulated(text.as_bytes(), Settings::new(Control::Linuxcnc));
+    assert_eq!(ended, Ok(()));
+    assert_eq!(difference(&ours, &nc::interpreted(&calls)), None, "{calls}");
+}

@@ -362,3 +362,38 @@ fn interrupted_reads_are_made_again() {
     while simulator.step(&mut items).unwrap() {}
     assert_eq!(items, simulated(program.as_bytes(), settings).2);
 }
+
+/// Q of a Fanuc's tap breaks the chip after each peck; without it the tap goes down in one.
+#[test]
+fn a_tap_with_q_turns_back_after_each_peck() {
+    let lines = fanuc("G99 G84 X0. Y0. Z-5. R1. Q2. F500.");
+    let pecks = [
+        "F 0 0 -1",
+        "ccw",
+        "F 0 0 -0.5",
+        "cw",
+        "F 0 0 -3",
+        "ccw",
+        "F 0 0 -2.5",
+        "cw",
+        "F 0 0 -5",
+        "ccw",
+        "F 0 0 1",
+        "cw",
+    ];
+    assert_eq!(lines[2..lines.len() - 1], pecks, "{lines:?}");
+    assert_eq!(fanuc("G99 G84 X0. Y0. Z-5. R1. F500.")[2..6], ["F 0 0 -5", "ccw", "F 0 0 1", "cw"]);
+}
+
+/// G33.1 of LinuxCNC follows the spindle in, turns it and follows it out to where it began.
+#[test]
+fn rigid_taps_of_linuxcnc_come_back() {
+    let program = "G21 G90\nS100 M3\nG0 X1 Y2 Z5\nG33.1 Z-10 K1.5\nG91\nZ-3 K2\nM2\n";
+    let lines = ["cw", "T 1 2 5", "F 1 2 -10", "ccw", "F 1 2 5", "cw", "F 1 2 2", "ccw", "F 1 2 5", "cw"];
+    assert_eq!(motions(Control::Linuxcnc, program), lines);
+    let refused = |block: &str| refused(Control::Linuxcnc, &format!("G21 G90\nG0 Z5\n{block}\nM2\n")).0;
+    assert_eq!(refused("G33.1 Z-10 K1.5"), "PN012");
+    assert_eq!(refused("S100 M3 G33.1 Z-10"), "PN007");
+    assert_eq!(refused("S100 M3 G33.1 K1"), "PN006");
+    assert_eq!(refused_with(Settings::new(Control::Fanuc), "G21\nG33.1 Z-10. K1.\n").0, "PN016");
+}

@@ -424,3 +424,43 @@ fn right_programs_are_not_called_wrong() {
     assert_eq!(parts, Verdict::Equivalent(Equivalences { parts: 1, ..Equivalences::default() }));
     assert!(matches!(verified(&form, &program.replacen("X3.", "X2.5", 1), &job), Verdict::Different(_)));
 }
+
+/// Taps as CAM systems have them: rigid with a dwell on a Fanuc and a Haas, by G33.1 on LinuxCNC.
+#[test]
+fn taps_with_a_dwell_and_by_the_spindle_are_the_jobs() {
+    let job = |words: &str| {
+        format!(
+            r#"{{"postform":1,"program":7,"units":"mm","tools":[{{"number":1,"diameter":6}}],"operations":[
+            {{"tool":1,"work":54,"spindle":{{"speed":500,"direction":"cw"}},"path":[{{"rapid":[0,0,50]}},
+            {{"cycle":{{"kind":"tap","depth":9,"clear":4,"feed":500{words},"points":[[0,0,0],[10,0,0],[10,5,-2]]}}}},{{"rapid":[0,0,50]}}]}}]}}"#
+        )
+    };
+    for name in ["fanuc.pf", "haas.pf", "haas-4axis.pf"] {
+        let (text, form) = (job(r#","dwell":1"#), check(&post(name)));
+        let job = document(&text);
+        let program = rendered(&form, &job, Cycles::Form);
+        assert!(program.contains(if name == "fanuc.pf" { " P1000 " } else { " P1. " }), "{program}");
+        assert!(
+            matches!(verified(&form, &program, &job), Verdict::Identical | Verdict::Equivalent(_)),
+            "{name}\n{program}"
+        );
+    }
+    let rigid = "Tap\nG0 X[h] Y[v]\nZ[vclear]\nG33.1 Z[d] K[pitch]\nG0 Z[rplane]\nEnd\n\nLTap";
+    let text = post("linuxcnc.pf").replacen(
+        "Tap\nG[retplane] G84 X[h] Y[v] Z[d] R[vclear] P0 F[frate]\nEnd Cancel\n\nLTap",
+        rigid,
+        1,
+    );
+    assert!(text.contains("G33.1"));
+    let (form, text) =
+        (check(&text.replace("Control linuxcnc", "Control linuxcnc\nRigidTap? Y")), job(r#","rigid":true"#));
+    let job = document(&text);
+    let program = rendered(&form, &job, Cycles::Form);
+    assert!(
+        matches!(verified(&form, &program, &job), Verdict::Identical | Verdict::Equivalent(_)),
+        "{:?}\n{program}",
+        verified(&form, &program, &job)
+    );
+    let wrong = program.replacen("K1.", "K1.5", 1);
+    assert!(wrong != program && matches!(verified(&form, &wrong, &job), Verdict::Different(_)), "{wrong}");
+}

@@ -41,6 +41,9 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
     spec.return_height = Some(hole.clear - hole.r);
     spec.feed = Some(hole.feed);
     spec.step = Some(hole.peck).filter(|_| matches!(kind, CycleKind::Deep | CycleKind::Chipbreak));
+    if kind.is_tap() && hole.peck > 0.0 {
+        (spec.step, spec.mode) = (Some(hole.peck), Some(CycleKind::Chipbreak));
+    }
     // a dwell of zero seconds is one that the cycle must say
     spec.dwell = Some(hole.dwell).filter(|&seconds| seconds > 0.0 || kind == CycleKind::Face);
     spec.rigid = (kind.is_tap() && rigid).then_some(true);

@@ -106,6 +106,7 @@ pub fn interpreted(canon: &str) -> Vec<Call> {
     let mut calls = Vec::new();
     let mut spindle = Rotation::Stop;
     let mut plane = [0, 1, 2];
+    let mut at = [0.0; 6];
     for line in text.lines() {
         let Some((name, rest)) = line.split_once('(') else { continue };
         let name = name.rsplit(' ').next().unwrap();
@@ -150,7 +151,17 @@ pub fn interpreted(canon: &str) -> Vec<Call> {
             "OPTIONAL_PROGRAM_STOP" => Some(Call::OptionalStop),
             _ => None,
         };
+        if let Some(Call::Rapid(to) | Call::Feed(to) | Call::Arc(to, ..)) = &call {
+            at = *to;
+        }
         calls.extend(call);
+        if name == "RIGID_TAP" {
+            // in, back and out again, in one call
+            let mut to = at;
+            to[..3].copy_from_slice(&numbers[..3]);
+            let turns = [Call::Spindle(spindle.reversed()), Call::Feed(at), Call::Spindle(spindle)];
+            calls.extend([Call::Feed(to)].into_iter().chain(turns));
+        }
     }
     calls
 }

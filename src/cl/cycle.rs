@@ -7,7 +7,7 @@ use super::reader::{Done, Reader, fault};
 use super::words::Word;
 use crate::cycle::check;
 use crate::diag::Code;
-use crate::toolpath::{Axes, CycleSpec, Event, Hole};
+use crate::toolpath::{Axes, CycleSpec, Event, Hole, LastDwell};
 
 /// CYCLE/RETURN: what sets the return plane of the cycles that follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,8 +27,10 @@ pub(super) struct CycleState {
     open: bool,
     last: Option<Coded>,
     pub(super) clear: Option<f64>,
-    pub(super) dwell: Option<(Option<f64>, Option<f64>)>,
+    pub(super) dwell: LastDwell,
     pub(super) emulate: bool,
+    /// The line of the tool change that ended a cycle, until a feed or a cycle says how points are cut.
+    pub(super) cut_off: Option<u64>,
     return_mode: ReturnMode,
     /// RETURN as the statement said it: above the first point; `None` within: as high as the clearance.
     coded_return: Option<Option<f64>>,
@@ -51,6 +53,7 @@ impl Reader<'_> {
         };
         match first {
             "OFF" | "NOMORE" => {
+                self.cycle.cut_off = None;
                 if !self.cycle.is_active() && self.dialect() != Dialect::SolidWorksCam {
                     self.warn(Code::PC051, format!("CYCLE/{first}, and no cycle is active"), "take it out");
                 }
@@ -112,6 +115,7 @@ impl Reader<'_> {
         self.cycle.active = None;
         self.rapid = false; // one that stands before a cycle is dropped
         self.rapid_after_cycle = false;
+        self.cycle.cut_off = None;
         if self.compensated {
             return fault(Code::PC041, "a cycle under cutter compensation", "end it with CUTCOM/OFF before");
         }

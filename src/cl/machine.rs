@@ -5,7 +5,7 @@ use super::motion::numbers;
 use super::reader::{Done, Reader, fault, no_change};
 use super::words::Word;
 use crate::diag::Code;
-use crate::toolpath::{Coolant, Event, Side, Spindle, SpindleTurn, Tool, Units};
+use crate::toolpath::{Coolant, Event, Side, Spindle, SpindleTurn, Tool, ToolChange, Units};
 
 /// Millimetres in an inch.
 const MM: f64 = 25.4;
@@ -105,6 +105,7 @@ impl Reader<'_> {
             return fault(Code::PL001, "a feed that is not above zero", "give the feed");
         }
         self.feed = Some(feed);
+        self.cycle.cut_off = None;
         self.rapid_after_cycle = false;
         Ok(())
     }
@@ -114,6 +115,7 @@ impl Reader<'_> {
         if value <= 0.0 {
             return fault(Code::PL001, "a feed that is not above zero", "give the feed");
         }
+        self.cycle.cut_off = None;
         self.feed = Some(match self.feed {
             Some(Feed::Revolution(_)) => Feed::Revolution(value),
             _ => Feed::Minute(value),
@@ -124,6 +126,12 @@ impl Reader<'_> {
     /// The feed of the next motion, where the sink does not have it yet.
     #[inline]
     pub(super) fn feed_to_say(&mut self) -> Done<Option<f64>> {
+        if let Some(line) = self.cycle.cut_off {
+            let message =
+                format!("the tool change in line {line} ended a cycle, and nothing says how this point is cut");
+            let help = "put CYCLE/OFF before the tool change, and CYCLE or FEDRAT before this point";
+            return fault(Code::PC043, message, help);
+        }
         let Some(feed) = self.feed else {
             return fault(Code::PR011, "a feed motion before any feed", "put FEDRAT before it");
         };
@@ -241,15 +249,22 @@ impl Reader<'_> {
         let Some(number) = words.first().and_then(Word::number).filter(|n| *n >= 0.0 && n.fract() == 0.0) else {
             return fault(Code::PL001, format!("{name} without a tool number"), format!("write {name}/1"));
         };
+        self.greatest_tool = self.greatest_tool.max(number);
+        let register = self.length_register(name, &words[1..])?;
+        self.another_tool(Some(Tool { number, length_offset: register, ..Tool::default() }))
+    }
+
+    /// Another tool: its change is complete with the next feed motion or spindle. `None`: it is only named so far.
+    pub(super) fn another_tool(&mut self, tool: Option<Tool>) -> Done {
+        self.cycle.cut_off = self.cycle.is_active().then_some(self.place.line).or(self.cycle.cut_off);
         self.end_cycle()?;
         self.complete_change()?;
-        let register = self.length_register(name, &words[1..])?;
-        let tool = Tool { number, length_offset: register, ..Tool::default() };
-        let mut change = no_change(Some(tool));
-        change.coolant = self.coolant;
+        let spindle_is_new = self.spindle_is_new;
+        self.spindle_is_new &= tool.is_none();
+        let change = ToolChange { coolant: self.coolant, ..no_change(tool) };
         self.change = Some((change, self.place));
         self.rapid_after_cycle = false; // what the tool before left
-        if !std::mem::take(&mut self.spindle_is_new) {
+        if !spindle_is_new {
             self.spindle = Spindle::default();
         }
         Ok(())

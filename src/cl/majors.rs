@@ -39,6 +39,8 @@ pub(super) enum Major {
     EndOfPath,
     /// Tells something about the file.
     Fact,
+    ToolPath,
+    Msys,
     /// Known, and of no consequence for the motions.
     Ignored,
     /// Known to move or shift the part, and not supported.
@@ -58,7 +60,7 @@ const MAJORS: &[(&str, Major)] = &[
     ("STOP", Major::Stop), ("OPSTOP", Major::Opstop), ("TRANS", Major::Trans), ("ORIGIN", Major::Origin),
     ("TLAXIS", Major::Tlaxis), ("SET", Major::Set), ("AUXFUN", Major::Auxfun), ("PREFUN", Major::Prefun),
     ("$DATA", Major::Data), ("FINI", Major::Fini), ("END", Major::Fini), ("END-OF-PATH", Major::EndOfPath),
-    ("TOOLPATH", Major::Fact), ("MSYS", Major::Fact), ("CSYS", Major::Fact), ("MACHIN", Major::Fact), ("SYN", Major::Ignored),
+    ("TOOLPATH", Major::ToolPath), ("MSYS", Major::Msys), ("CSYS", Major::Fact), ("MACHIN", Major::Fact), ("SYN", Major::Ignored),
     ("MULTAX", Major::Ignored), ("SELECT", Major::Ignored), ("SELCTL", Major::Ignored), ("PAINT", Major::Ignored),
     ("INTOL", Major::Ignored), ("OUTTOL", Major::Ignored), ("TOLER", Major::Ignored), ("AUTOPS", Major::Ignored),
     ("MODE", Major::Set), ("ARCSLP", Major::Ignored), ("CLEARP", Major::Ignored), ("SEQNO", Major::Ignored),
@@ -88,6 +90,11 @@ pub(super) fn major(name: &str) -> Major {
 impl Reader<'_> {
     /// Does what a statement asks for.
     pub(super) fn run(&mut self, major: Major, name: &str, words: &[Word]) -> Done {
+        if major == Major::Cutter {
+            self.insert = None; // the text before it was the tool's
+        } else {
+            self.lone_insert();
+        }
         match major {
             Major::Goto => self.goto_words(words),
             Major::Godlta => self.godlta(words),
@@ -116,9 +123,13 @@ impl Reader<'_> {
             Major::Prefun => self.code('G', name, words),
             Major::Data => self.data(words),
             Major::Fini => self.end(),
-            Major::Fact => {
+            Major::Fact | Major::ToolPath | Major::Msys => {
                 self.fact(shown(name, words));
-                Ok(())
+                match major {
+                    Major::ToolPath => self.tool_path(words),
+                    Major::Msys => self.msys(words),
+                    _ => Ok(()),
+                }
             }
             Major::EndOfPath | Major::Ignored | Major::None => Ok(()),
             Major::Unknown => {
@@ -137,26 +148,6 @@ impl Reader<'_> {
         }
     }
 
-    /// Text statements: the part's name, remarks, and words for the program.
-    pub(super) fn text(&mut self, word: &str, text: String) -> Done {
-        use super::dialect::Dialect;
-        match word {
-            "PARTNO" => self.name = Some(text).filter(|text| !text.is_empty()),
-            "REMARK" | "LETTER" => {}
-            // Makino's PPRINT carries data for its own post processor
-            "PPRINT" if self.dialect() == Dialect::Makino => {}
-            // INSERT goes into the program as it stands, but SolidWorks CAM describes tools with it
-            "INSERT" if self.dialect() != Dialect::SolidWorksCam && !text.starts_with('[') => {
-                if !text.is_empty() {
-                    return self.wait(Waiting::Text(text));
-                }
-            }
-            _ if text.is_empty() => {}
-            _ => return self.wait(Waiting::Comment(text)),
-        }
-        Ok(())
-    }
-
     fn stop(&mut self, kind: StopKind) -> Done {
         self.close_holes()?;
         self.push(Event::Stop(kind))
@@ -166,7 +157,6 @@ impl Reader<'_> {
     fn code(&mut self, letter: char, name: &str, words: &[Word]) -> Done {
         match words {
             [Word::Number(code)] if *code >= 0.0 && code.fract() == 0.0 => {
-                self.close_holes()?;
                 self.wait(Waiting::Text(format!("{letter}{code}")))
             }
             _ => fault(Code::PL001, format!("{name} without the number of a code"), format!("write {name}/8")),

@@ -9,9 +9,12 @@ mod lines;
 mod machine;
 mod majors;
 mod motion;
+mod paths;
 mod reader;
 mod spec;
+mod texts;
 mod words;
 
 pub use dialect::Dialect;
+pub use paths::Assumed;
 pub use reader::{Options, Report, read_cl};

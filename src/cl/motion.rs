@@ -153,6 +153,7 @@ impl Reader<'_> {
             return Ok(());
         }
         self.axis = unit;
+        self.close_holes()?;
         self.push(Event::Tilt(unit))
     }
 

@@ -8,22 +8,24 @@ use super::dialect::{Dialect, Sense};
 use super::lines::{LONGEST, Lines, text_statement, without_comment};
 use super::machine::Feed;
 use super::majors::{Major, major};
+use super::paths::Assumed;
+use super::texts::{Said, said};
 use super::words::{Word, plain_goto, words};
 use crate::diag::{Code, Diag};
 use crate::toolpath::{
-    Axes, Coolant, Event, First, Hold, Place, ReadError, Side, Sink, Spindle, SpindleTurn, Start, Tool, ToolChange,
-    Units,
+    Axes, Coolant, Event, First, Hold, Place, ReadError, Side, Sink, Spindle, SpindleTurn, Start, StopKind, Tool,
+    ToolChange, Units,
 };
 
 /// What a caller may choose.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Who wrote the file; else it is told from its first lines.
     pub dialect: Option<Dialect>,
     /// Units of a file that does not say them.
     pub units: Option<Units>,
-    /// The tool of a file that loads none.
-    pub tool: Option<f64>,
+    /// The tool of a file that loads none, or each by its name.
+    pub tool: Option<Assumed>,
 }
 
 /// What was noticed besides the events.
@@ -51,7 +53,9 @@ pub(super) type Done<T = ()> = Result<T, Box<Diag>>;
 /// What stands before a tool change is complete.
 pub(super) enum Waiting {
     Rapid(Axes),
-    Comment(String),
+    /// A text statement: its word, its text.
+    Words(&'static str, String),
+    /// A code as it stands.
     Text(String),
 }
 
@@ -94,11 +98,21 @@ pub(super) struct Reader<'s> {
     /// It was said since the last motion, so perhaps for the tool that comes.
     pub(super) spindle_is_new: bool,
     pub(super) diameter: Option<f64>,
+    /// The tool in use, as TOOL PATH names it.
+    pub(super) tool_name: Option<String>,
+    /// Tools that were named and not loaded.
+    pub(super) not_loaded: Vec<String>,
+    /// The greatest number that was loaded.
+    pub(super) greatest_tool: f64,
+    /// The first MSYS, and its line.
+    pub(super) msys: Option<(Vec<Word>, u64)>,
     /// The coolant, which stays from tool to tool.
     pub(super) coolant: Option<Coolant>,
     /// A tool change that is not complete.
     pub(super) change: Option<(ToolChange, Place)>,
     pub(super) waiting: Vec<(Waiting, Place)>,
+    /// An INSERT that may describe the tool that follows.
+    pub(super) insert: Option<(String, Place)>,
     operations: u32,
     /// Compensation that the next motion turns on or off.
     pub(super) compensation: Option<Option<Side>>,
@@ -112,7 +126,7 @@ pub(super) struct Reader<'s> {
 /// What is wrong with the file, or with what the sink was asked to do, and where. Warnings up to there are in the report.
 pub fn read_cl(input: impl Read, options: &Options, report: &mut Report, sink: &mut dyn Sink) -> Result<(), ReadError> {
     let mut lines = Lines::new(input);
-    let mut reader = Reader::new(*options, report, sink);
+    let mut reader = Reader::new(options.clone(), report, sink);
     let mut joined: Vec<u8> = Vec::new();
     let mut number = 0;
     let mut continues = false;
@@ -164,9 +178,14 @@ impl<'s> Reader<'s> {
             last_turn: None,
             spindle_is_new: false,
             diameter: None,
+            tool_name: None,
+            not_loaded: Vec::new(),
+            greatest_tool: 0.0,
+            msys: None,
             coolant: None,
             change: None,
             waiting: Vec::new(),
+            insert: None,
             operations: 0,
             compensation: None,
             compensated: false,
@@ -336,7 +355,7 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// Text that is printed as a comment, or as it stands.
+    /// What is printed where it stands, once the tool change before it is complete.
     pub(super) fn wait(&mut self, waiting: Waiting) -> Done {
         if self.started && self.change.is_none() {
             return self.push_waiting(&waiting, self.place);
@@ -351,10 +370,26 @@ impl<'s> Reader<'s> {
 
     fn push_waiting(&mut self, waiting: &Waiting, place: Place) -> Done {
         match waiting {
-            Waiting::Rapid(to) => self.hold.event(Event::Rapid(*to), place),
-            Waiting::Comment(text) => self.hold.event(Event::Comment(text), place),
-            Waiting::Text(text) => self.hold.event(Event::Text(text), place),
+            Waiting::Rapid(to) => self.between(Event::Rapid(*to), place),
+            Waiting::Text(text) => self.between(Event::Text(text), place),
+            Waiting::Words(word, text) => match said(self.dialect(), word, text) {
+                Said::Nothing => Ok(()),
+                Said::Comment(text) => self.between(Event::Comment(text), place),
+                Said::Block(text) => self.between(Event::Text(text), place),
+                Said::Stop(message) => {
+                    if !message.is_empty() {
+                        self.between(Event::Comment(message), place)?;
+                    }
+                    self.between(Event::Stop(StopKind::Program), place)
+                }
+            },
         }
+    }
+
+    /// An event that is no hole: the sink leaves its cycle for it.
+    fn between(&mut self, event: Event<'_>, place: Place) -> Done {
+        self.close_holes()?;
+        self.hold.event(event, place)
     }
 
     /// An event; what waits for it goes first.
@@ -387,11 +422,13 @@ impl<'s> Reader<'s> {
             self.started = true;
         }
         if self.change.is_none() && self.operations == 0 {
-            let tool = self.options.tool.map(|number| Tool { number, diameter: self.diameter, ..Tool::default() });
-            let coolant = self.coolant;
-            self.change = Some((ToolChange { coolant, ..no_change(tool) }, self.place));
+            self.change = Some((ToolChange { coolant: self.coolant, ..no_change(None) }, self.place));
         }
         if let Some((mut change, place)) = self.change.take() {
+            if change.tool.is_none() {
+                let number = self.assumed_tool(self.operations == 0)?;
+                change.tool = number.map(|number| Tool { number, ..Tool::default() });
+            }
             change.spindle = Some(self.spindle).filter(|spindle| *spindle != Spindle::default());
             if let Some(tool) = &mut change.tool {
                 tool.diameter = self.diameter;
@@ -411,9 +448,9 @@ impl<'s> Reader<'s> {
         self.operations > 0 || self.change.is_some()
     }
 
-    /// Another tool comes: the one before is complete, whatever it did.
+    /// Another tool comes: the one before is complete, whatever it did. One that is only named gives way.
     pub(super) fn complete_change(&mut self) -> Done {
-        if self.change.is_some() { self.release() } else { Ok(()) }
+        if self.change.as_ref().is_some_and(|(change, _)| change.tool.is_some()) { self.release() } else { Ok(()) }
     }
 
     pub(super) fn end(&mut self) -> Done {

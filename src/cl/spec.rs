@@ -5,7 +5,7 @@ use super::cycle_words::Opt;
 use super::reader::{Done, Reader, fault};
 use crate::cycle::stepped_pecks;
 use crate::diag::Code;
-use crate::toolpath::{CycleKind, CycleSpec, Peck, SpindleTurn};
+use crate::toolpath::{CycleKind, CycleSpec, Orient, Peck, SpindleTurn};
 
 impl Reader<'_> {
     /// The cycle that is coded, in units of the file a minute.
@@ -20,7 +20,9 @@ impl Reader<'_> {
         spec.emulate = self.cycle.emulate;
         spec.steps_from_point = true;
         let second = self.clearances(coded, kind, &mut spec)?;
-        self.dwells(coded, kind, &mut spec);
+        spec.norevr = coded.has(Opt::Norevr);
+        (spec.dwell, spec.revs) = (coded.number(Opt::Dwell), coded.number(Opt::Rev));
+        self.cycle.dwell.fill(&mut spec);
         spec.rapto = coded.number(Opt::Rapto);
         spec.decr = coded.number(Opt::Decr);
         spec.min_step = coded.number(Opt::Minstp);
@@ -34,9 +36,9 @@ impl Reader<'_> {
             return fault(Code::PC036, "MULTRD is no whole number of starts", "write MULTRD,2");
         }
         spec.rigid = (coded.has(Opt::Rigid) || coded.has(Opt::Float)).then(|| coded.has(Opt::Rigid));
-        spec.norevr = coded.has(Opt::Norevr);
         spec.rapout = coded.has(Opt::Rapout);
-        spec.orient = coded.numbers(Opt::Orient).map(|n| n.first().copied().unwrap_or(0.0));
+        let angle = |numbers: &[f64]| numbers.first().map_or(Orient::ByForm, |&angle| Orient::At(angle));
+        spec.orient = coded.numbers(Opt::Orient).map(angle);
         if matches!(kind, CycleKind::Bore | CycleKind::Back) {
             spec.jog = coded.number(Opt::Back);
             match coded.numbers(Opt::Ofsetl) {
@@ -73,19 +75,6 @@ impl Reader<'_> {
             return fault(Code::PC011, "the second clearance is there twice", help);
         }
         Ok(Some(second))
-    }
-
-    /// A dwell is not remembered, but FACE without one takes the last.
-    fn dwells(&mut self, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) {
-        let said = (coded.number(Opt::Dwell), coded.number(Opt::Rev));
-        if said != (None, None) {
-            self.cycle.dwell = Some(said);
-        }
-        let takes_last = kind == CycleKind::Face || coded.has(Opt::Norevr);
-        (spec.dwell, spec.revs) = match self.cycle.dwell {
-            Some(last) if takes_last && said == (None, None) => last,
-            _ => said,
-        };
     }
 
     /// Depths, steps and feeds.

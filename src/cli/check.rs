@@ -39,8 +39,9 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
         }
         Err(ReadError::Io(error)) => Err(io_message("read", path, &error)),
         Err(ReadError::Job(diag)) => {
+            let ending = Ending::of(&diag);
             say(&Reporter::new(colour).text(&[placed(*diag)], &[]));
-            Ok(Ending::Findings)
+            Ok(ending)
         }
     }
 }

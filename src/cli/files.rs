@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufReader, Read, Seek};
 use std::path::Path;
 
-use postform::cl::{Options, Report, read_cl};
+use postform::cl::{Assumed, Options, Report, read_cl};
 use postform::diag::escaped;
 use postform::nc::{Control, JobOptions, Settings, Unpointed, read_program};
 use postform::toolpath::json::{read_document, read_lines};
@@ -135,6 +135,9 @@ pub fn job_format(path: &Path, args: &ReadArgs) -> Result<From, String> {
     if from != From::Nc && (args.job_control.is_some() || args.job_no_point.is_some()) {
         return Err(format!("error: --job-.. is for NC programs, which {} is not", name(path)));
     }
+    if from == From::Nc && args.assume_tool.as_ref().is_some_and(|tool| tool.one().is_none()) {
+        return Err(format!("error: --assume-tool takes one number for an NC program, which {} is", name(path)));
+    }
     Ok(from)
 }
 
@@ -171,7 +174,7 @@ fn read_nc(
     let unpointed = args.job_no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
     let units = args.assume_units.map(UnitsArg::units);
     let settings = Settings { unpointed, units: units.unwrap_or(Units::Mm), ..Settings::new(control) };
-    let options = JobOptions { settings, units, tool: args.assume_tool.map(f64::from) };
+    let options = JobOptions { settings, units, tool: args.assume_tool.as_ref().and_then(Assumed::one) };
     read_program(buffered(copy), &options, &mut report.warnings, sink)
 }
 
@@ -190,7 +193,7 @@ pub fn read_job(
             let options = Options {
                 dialect: args.dialect,
                 units: args.assume_units.map(|units| units.units()),
-                tool: args.assume_tool.map(f64::from),
+                tool: args.assume_tool.clone(),
             };
             read_cl(input, &options, &mut report, sink)
         }

@@ -29,6 +29,8 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+use postform::diag::{Code, Diag};
+
 use args::{Arguments, Command};
 
 /// How a command ended.
@@ -40,6 +42,15 @@ pub enum Ending {
     Findings,
     /// Wrong usage, or a file that can't be read or written.
     Failed,
+    /// A fault of postform itself.
+    Broken,
+}
+
+impl Ending {
+    /// How a command ends that an error stopped.
+    pub fn of(error: &Diag) -> Ending {
+        if error.code == Code::PX001 { Ending::Broken } else { Ending::Findings }
+    }
 }
 
 impl From<Ending> for ExitCode {
@@ -48,6 +59,7 @@ impl From<Ending> for ExitCode {
             Ending::Clean => 0,
             Ending::Findings => 1,
             Ending::Failed => 2,
+            Ending::Broken => 101,
         })
     }
 }
@@ -81,4 +93,15 @@ pub fn run() -> ExitCode {
         Ending::Failed
     });
     ending.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_of_postform_has_an_exit_status_of_its_own() {
+        assert_eq!(Ending::of(&Diag::new(Code::PX001, "")), Ending::Broken);
+        assert_eq!(Ending::of(&Diag::new(Code::PC002, "")), Ending::Findings);
+    }
 }

@@ -70,9 +70,10 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         Ok(()) => {}
         Err(ReadError::Io(error)) => return Err(io_message("read", &args.job, &error)),
         Err(ReadError::Job(mut diag)) => {
+            let ending = Ending::of(&diag);
             place_in(&name, &mut diag);
             say(&reporter.text(&[*diag], &prepared.files));
-            return Ok(Ending::Findings);
+            return Ok(ending);
         }
     }
     let Some(job) = job else { return writer.finish(args) };

@@ -45,8 +45,8 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let (program, name) = match (&args.nc, &prepared) {
         (Some(path), _) => (Again::open(path)?.into_file()?, files::name(path)),
         (None, Some(prepared)) => match rendered(&job, prepared, reporter)? {
-            Some(file) => (file, "the program".to_owned()),
-            None => return Ok(Ending::Findings),
+            Ok(file) => (file, "the program".to_owned()),
+            Err(ending) => return Ok(ending),
         },
         (None, None) => return Err("error: give --form, --nc, or both; or name a form in postform.toml".into()),
     };
@@ -138,9 +138,10 @@ impl Proof<'_> {
                 let ReadError::Io(error) = error else { return Err("error: the job can't be read".into()) };
                 return Err(io_message("read", self.job.path, &error));
             };
+            let ending = Ending::of(&diag);
             render::place_in(&job, &mut diag);
             say(&reporter.text(&[*diag], &[]));
-            return Ok(Proven { ending: Ending::Findings, text: None });
+            return Ok(Proven { ending, text: None });
         }
         let ending = if let Verdict::Different(findings) = &verdict {
             self.show(findings, reporter)?;
@@ -229,18 +230,18 @@ fn sentence(verdict: &Verdict, program: &str, job: &str, counts: Counts) -> Stri
     }
 }
 
-/// The job rendered into a file that nobody sees. `None`: it can't be, which was shown.
-fn rendered(job: &Job, prepared: &Prepared, reporter: &Reporter) -> Result<Option<File>, String> {
+/// The job rendered into a file that nobody sees. `Err` within: it can't be, which was shown.
+fn rendered(job: &Job, prepared: &Prepared, reporter: &Reporter) -> Result<Result<File, Ending>, String> {
     Ok(spooled(job, prepared, reporter, false)?.map(|(file, _)| file))
 }
 
-/// The same, with where each line came from.
+/// The same, with where each line came from. `None`: it can't be.
 pub fn rendered_with_trace(
     job: &Job,
     prepared: &Prepared,
     reporter: &Reporter,
 ) -> Result<Option<(File, Vec<TraceLine>)>, String> {
-    spooled(job, prepared, reporter, true)
+    Ok(spooled(job, prepared, reporter, true)?.ok())
 }
 
 fn spooled(
@@ -248,7 +249,7 @@ fn spooled(
     prepared: &Prepared,
     reporter: &Reporter,
     trace: bool,
-) -> Result<Option<(File, Vec<TraceLine>)>, String> {
+) -> Result<Result<(File, Vec<TraceLine>), Ending>, String> {
     let fail = |error: std::io::Error| io_message("write", Path::new("the program"), &error);
     let mut sink = Printed {
         renderer: Renderer::new(&prepared.program, Options { trace, ..prepared.options.clone() }),
@@ -266,13 +267,14 @@ fn spooled(
         Ok(()) => {}
         Err(ReadError::Io(error)) => return Err(io_message("read", job.path, &error)),
         Err(ReadError::Job(mut diag)) => {
+            let ending = Ending::of(&diag);
             render::place_in(&files::name(job.path), &mut diag);
             say(&reporter.text(&[*diag], &prepared.files));
-            return Ok(None);
+            return Ok(Err(ending));
         }
     }
     let lines = sink.renderer.trace().map(std::mem::take).unwrap_or_default();
-    Ok(Some((sink.file.into_file().map_err(fail)?, lines)))
+    Ok(Ok((sink.file.into_file().map_err(fail)?, lines)))
 }
 
 struct Printed<'p> {

@@ -15,7 +15,7 @@ pub(super) fn bore(
 ) -> Result<(), Problem> {
     steps.push(Step::Feed(plan.bottom, plan.feed));
     steps.extend(plan.dwell.map(Step::Dwell));
-    match spec.orient {
+    match spec.orient.map(|orient| orient.angle(defaults.orient)) {
         None => steps.extend([Step::SpindleStop, Step::Rapid(top), Step::SpindleStart]),
         Some(angle) => {
             let (x, y) = aside(spec, angle, defaults);
@@ -47,7 +47,7 @@ pub(super) fn back_bore(
         let message = format!("the cut of a back bore ends {} below the point, it begins at {below}", -plan.bottom);
         return Err(Problem::new(Code::PC014, message, "give a smaller `depth`, or a deeper `rapto`"));
     }
-    let angle = spec.orient.unwrap_or(defaults.orient);
+    let angle = spec.orient.map_or(defaults.orient, |orient| orient.angle(defaults.orient));
     let (x, y) = aside(spec, angle, defaults);
     let lift = spec.jog.unwrap_or(0.0);
     steps.extend([Step::Orient(angle), Step::RapidAside(plan.clear, -x, -y), Step::RapidAside(-below, -x, -y)]);

@@ -25,9 +25,16 @@ pub fn check(spec: &CycleSpec) -> Result<(), Problem> {
     if spec.norevr && spec.rapout {
         return problem(Code::PC016, "the tap has both `norevr` and `rapout`", "keep one of them");
     }
+    if spec.mode.is_some() && (spec.norevr || spec.rapout) {
+        let help = "take `mode` (DEEP or BRKCHP) out, or `norevr` and `rapout`";
+        return problem(Code::PC016, "a tap that pecks and does not reverse", help);
+    }
     if spec.kind == Bore && spec.orient.is_none() && (spec.offset.is_some() || spec.jog.is_some()) {
         let message = "the tool moves off the wall at an unknown spindle angle";
         return problem(Code::PC015, message, "give `orient`, or take `offset` and `jog` out");
+    }
+    if spec.starts.is_some_and(|starts| !(1.0..=100.0).contains(&starts) || starts.fract() != 0.0) {
+        return problem(Code::PC036, "`starts` is no whole number from 1 to 100", "count the starts of the thread");
     }
     if spec.starts.is_some_and(|starts| starts > 1.0) && spec.rigid != Some(true) && spec.mode.is_none() {
         return problem(Code::PC020, "several starts with a floating tap", "make the tap rigid, or take `starts` out");

@@ -79,8 +79,7 @@ impl Plan {
         rpm: Option<f64>,
     ) -> Result<Plan, Problem> {
         let clear = spec.clear.unwrap_or(defaults.clear);
-        let depth =
-            own_depth.or(spec.depth).or_else(|| sink_depth(spec, defaults)).or_else(|| spec.webs.last().copied());
+        let depth = own_depth.or_else(|| spec.deepest()).or_else(|| sink_depth(spec, defaults));
         let depth = match (depth, spec.kind) {
             (Some(depth), _) => depth,
             (None, CycleKind::Manual) => -clear,

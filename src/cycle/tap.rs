@@ -15,16 +15,16 @@ pub(super) fn tap(
     list: &mut Vec<Peck>,
     steps: &mut Vec<Step>,
 ) -> Result<(), Problem> {
-    let rigid = spec.rigid == Some(true) || spec.mode.is_some();
-    if rigid && !defaults.rigid {
-        let message = "a rigid or pecking tap keeps step with the spindle, which single moves can't";
-        return Err(Problem::new(Code::PC021, message, "give the form a Tap sequence that prints what the tap needs"));
-    }
     let dwell = plan.dwell.map(Step::Dwell);
     if spec.rapout || spec.norevr {
         steps.push(Step::Feed(plan.bottom, plan.feed));
         steps.extend(dwell);
         return Ok(());
+    }
+    let rigid = spec.rigid == Some(true) || spec.mode.is_some();
+    if rigid && !defaults.rigid {
+        let message = "a rigid or pecking tap keeps step with the spindle, which single moves can't";
+        return Err(Problem::new(Code::PC021, message, "give the form a Tap sequence that prints what the tap needs"));
     }
     let starts = spec.starts.unwrap_or(1.0).max(1.0) as u32;
     let lead = plan.lead.unwrap_or(0.0);

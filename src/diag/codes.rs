@@ -17,7 +17,8 @@ pub struct CodeRow {
 
 macro_rules! codes {
     ($($name:ident $severity:ident $title:literal)*) => {
-        /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PC` canned cycle, `PR` rendering, `PN` NC program, `PV` verify.
+        /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PC` canned cycle, `PR` rendering, `PN` NC program, `PV` verify,
+        /// `PX` postform itself.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u16)]
         pub enum Code { $(#[doc = $title] $name),* }
@@ -213,6 +214,7 @@ codes! {
     PC040 Error "cycle.return.syntax: a return plane that can't be read"
     PC041 Error "cycle.compensation: a cycle under cutter compensation"
     PC042 Error "cycle.arc: an arc inside a cycle"
+    PC043 Error "cycle.tool_change: points after a tool change that ended their cycle"
     PC051 Warning "cycle.off_inactive: the end of a cycle that has not begun"
     PC052 Warning "cycle.fedrat_ignored: a feed inside a cycle"
     PC053 Warning "cycle.return.below_clear: a return plane below the clearance"
@@ -296,6 +298,8 @@ codes! {
     PV021 Error "a moved coordinate frame"
     PV022 Error "units that are not said"
     PV023 Error "other pecks"
+    // PX: postform itself
+    PX001 Error "an event that can't be"
 }
 
 impl Code {

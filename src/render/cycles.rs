@@ -8,7 +8,7 @@ use crate::cycle::{Plan, check};
 use crate::diag::Code;
 use crate::lang::{Group, Machine, SequenceId, VarId};
 use crate::sema::kind_of_remark;
-use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole, Peck, Place};
+use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole, Peck, Place, SpindleTurn};
 
 /// A cycle between its begin and its end.
 pub(super) struct ActiveCycle {
@@ -36,12 +36,17 @@ pub(super) struct ActiveCycle {
     pub held: Option<(Hole, Place)>,
     /// The feed that comes back after the cycle.
     pub feed: Option<f64>,
+    /// The height at which the job leaves the last hole.
+    pub left: Option<f64>,
+    /// The spindle's direction that comes back after a tap that turned it.
+    pub turned: Option<f64>,
 }
 
 impl Renderer<'_> {
     /// A cycle begins; nothing is printed before its first hole.
     pub(super) fn cycle_begin(&mut self, spec: &CycleSpec) -> Done {
         self.close_cycle()?;
+        self.left = None; // its holes come by rapids
         if self.program.settings.machine == Machine::Edm {
             return fault(Code::PR008, "a wire EDM machine has no canned cycles", "take the cycle out of the job");
         }
@@ -57,6 +62,7 @@ impl Renderer<'_> {
         let spec = self.scaled(spec);
         let sequence = self.choose(&spec)?;
         self.warn_of(&spec, sequence);
+        let turned = self.turn_for_tap(&spec)?;
         self.cycle = Some(ActiveCycle {
             spec,
             sequence,
@@ -70,6 +76,8 @@ impl Renderer<'_> {
             initial_level: 0.0,
             held: None,
             feed: self.feed,
+            left: None,
+            turned,
         });
         Ok(())
     }
@@ -91,8 +99,9 @@ impl Renderer<'_> {
         if spec.kind.is_tap()
             && self.vars.get(VarId::Direct).is_some_and(|code| code != needed && [cw, ccw].contains(&code))
         {
-            let message = format!("a `{}` with the spindle in M{}", spec.kind.name(), cw + ccw - needed);
-            self.note(Code::PC054, message, "turn the spindle the other way, or take the other tap");
+            let (name, turns) = (spec.kind.name(), cw + ccw - needed);
+            let message = format!("a `{name}` with the spindle in M{turns}: it is turned for the tap");
+            self.note(Code::PC054, message, "say the direction of the spindle in the job, or take the other tap");
         }
         if spec.back.is_some()
             && sequence
@@ -120,6 +129,44 @@ impl Renderer<'_> {
             let message = "`min_step` without effect: the steps do not shrink";
             self.note(Code::PC055, message.into(), "take it out, or give `decr`");
         }
+        if let (Some(mode), true) = (spec.mode, sequence.is_some()) {
+            let message = format!("how the tap pecks, here `{}`, is the control's own setting", mode.name());
+            self.note(Code::PR021, message, "set the control to it: no word of a form says which");
+        }
+    }
+
+    /// A tap goes in turning its own way: a floating one needs the spindle to, with a rigid one the control turns it.
+    /// The direction that comes back after the cycle, if it is another.
+    fn turn_for_tap(&mut self, spec: &CycleSpec) -> Done<Option<f64>> {
+        let [cw, ccw, off] = self.program.settings.spindle;
+        let inwards = match spec.kind.inwards() {
+            Some(SpindleTurn::Ccw) => ccw,
+            Some(_) => cw,
+            None => return Ok(None),
+        };
+        let (rigid, before) = (self.is_rigid(spec), self.vars.get(VarId::Direct));
+        if before == Some(off) && !rigid {
+            self.turning(before)?;
+        }
+        if before.is_none_or(|code| code == inwards || ![cw, ccw].contains(&code)) {
+            return Ok(None);
+        }
+        if !rigid && self.program.switches_spindle {
+            let message = "the tap goes in turning the other way, and the form's own sequences turn the spindle";
+            return fault(Code::PR006, message, "say the direction of the spindle in the job, or take the other tap");
+        }
+        self.vars.set(VarId::Direct, inwards);
+        if rigid {
+            self.served.direct = Some(inwards);
+        }
+        self.attention = true;
+        Ok(before)
+    }
+
+    /// A rigid tap keeps step with the spindle, in and out. One that does not reverse is made as a face or drill.
+    pub(super) fn is_rigid(&self, spec: &CycleSpec) -> bool {
+        let reverses = spec.kind.is_tap() && !spec.norevr && !spec.rapout;
+        reverses && spec.rigid.unwrap_or(self.program.settings.rigid_tap)
     }
 
     /// The cycle ends.
@@ -139,7 +186,14 @@ impl Renderer<'_> {
         }
         self.leave_cycle()?;
         let Some(cycle) = self.cycle.take() else { return Ok(()) };
+        let stands = self.position.get(self.depth_axis);
+        let as_left = |height: f64| cycle.exit_known && stands.is_some_and(|at| (at - height).abs() < 1e-9);
+        self.left = cycle.left.filter(|&height| !as_left(height)).map(|height| (self.position, height));
         self.keep_feed(cycle.feed);
+        if let Some(direct) = cycle.turned {
+            self.vars.set(VarId::Direct, direct);
+            self.attention = true;
+        }
         self.vars.put(VarId::Dwell, None);
         Ok(())
     }
@@ -211,11 +265,11 @@ impl Renderer<'_> {
     /// The sequence that prints a cycle, or none where moves are generated.
     fn choose(&mut self, spec: &CycleSpec) -> Done<Option<SequenceId>> {
         let program = self.program;
-        let rigid = spec.kind.is_tap() && spec.rigid.unwrap_or(program.settings.rigid_tap);
+        let rigid = self.is_rigid(spec);
         let emulated = self.options.cycles == Cycles::Emulated || spec.emulate && !rigid;
         let candidate = self.candidate(spec).filter(|_| !emulated);
         let floats = |block: &Block| !program.settings.rigid_tap && !block.vars.has(VarId::Rigid);
-        if spec.rigid == Some(true) && candidate.and_then(|id| program.block(id)).is_some_and(floats) {
+        if rigid && spec.rigid == Some(true) && candidate.and_then(|id| program.block(id)).is_some_and(floats) {
             let message = "a rigid tap, and the form's tap is for a floating holder";
             return fault(
                 Code::PC021,
@@ -245,20 +299,21 @@ impl Renderer<'_> {
     fn candidate(&self, spec: &CycleSpec) -> Option<SequenceId> {
         use SequenceId as S;
         let program = self.program;
-        let custom = || {
+        let custom = |kind: CycleKind| {
             let labels = program.custom.iter().zip([S::Custom1, S::Custom2, S::Custom3]);
-            let name = spec.kind.name();
+            let name = kind.name();
             let is_kind = |label: &String| kind_of_remark(label).is_some_and(|kind| kind.eq_ignore_ascii_case(name));
             labels.filter(|(label, _)| label.as_ref().is_some_and(is_kind)).map(|(_, id)| id).next()
         };
-        match spec.kind.sequence() {
+        let serves = |kind: CycleKind| match kind.sequence() {
             Some(own) if program.block(own).is_some() => Some(own),
-            None if spec.kind == CycleKind::Face => custom().or_else(|| {
+            None if kind == CycleKind::Face => custom(kind).or_else(|| {
                 let prints_dwell = |block: &&Block| block.vars.has(VarId::Dwell);
                 program.block(S::Drill).filter(prints_dwell).map(|_| S::Drill)
             }),
-            _ => custom(),
-        }
+            _ => custom(kind),
+        };
+        made_as(spec).into_iter().flatten().find_map(serves)
     }
 
     /// What a cycle asks for that its sequence does not print.
@@ -275,6 +330,9 @@ impl Renderer<'_> {
         let absolute = |code| code == program.settings.inc_abs[1];
         let positions = &[VarId::H, VarId::V, VarId::D, VarId::Vclear, VarId::Rplane];
         let steps = program.settings.incremental && prints(positions) && !self.says_code(block, b'G', absolute);
+        let feeds_out = !spec.norevr && !spec.rapout;
+        let by_form = self.defaults.orient;
+        let other_angle = spec.orient.is_some_and(|orient| orient.angle(by_form) != by_form);
         let missing = [
             (steps, &[][..], "increments, which the control expects here"),
             (across, &[VarId::H], "the position: [h]"),
@@ -286,11 +344,12 @@ impl Renderer<'_> {
             (spec.decr.is_some(), &[], "shrinking pecks (`decr`)"),
             (!spec.webs.is_empty(), &[], "webs"),
             (spec.rapto.is_some(), &[], "the extra rapid (`rapto`)"),
-            (spec.ratio.is_some_and(|r| r != 1.0), &[], "the retract feed (`ratio`)"),
-            (spec.starts.is_some_and(|s| s > 1.0), &[], "several starts"),
-            (spec.norevr || spec.rapout, &[], "a tap without reversing"),
+            (feeds_out && spec.ratio.is_some_and(|r| r != 1.0), &[], "the retract feed (`ratio`)"),
+            (spec.starts.is_some_and(|s| s > 1.0), &[VarId::Vclear], "several starts: [vclear]"),
             (spec.hole_diameter.is_some(), &[], "the rapid to the cone (`hole_diameter`)"),
-            (spec.orient.is_some_and(|a| a != self.defaults.orient), &[], "the spindle angle (`orient`)"),
+            (other_angle, &[], "the spindle angle (`orient`)"),
+            // at the control's own angle only a cycle that leaves the wall stops the spindle at one
+            (spec.kind == CycleKind::Bore && spec.orient.is_some(), &[VarId::Sleave], "an oriented spindle: [sleave]"),
             (spec.jog.is_some(), &[], "the lift of the jog (`jog`)"),
             (spec.offset_y.is_some(), &[], "a jog along both axes (`offset_y`)"),
             (spec.offset.is_some(), &[VarId::Sleave], "the jog off the wall: [sleave]"),
@@ -327,4 +386,18 @@ pub(super) fn no_height<T>() -> Done<T> {
         "the cycle's first point has no height",
         "give its third coordinate, the top of the hole, as [1, 1, 0]",
     )
+}
+
+/// The kinds whose sequences make a cycle, the best first: GENER makes some cycles as others.
+fn made_as(spec: &CycleSpec) -> [Option<CycleKind>; 3] {
+    use CycleKind as K;
+    let dwells = spec.dwell.or(spec.revs).is_some_and(|time| time > 0.0);
+    let faces = dwells.then_some(K::Face);
+    match spec.kind {
+        K::Drill => [faces, Some(K::Drill), None],
+        K::Csink => [Some(K::Csink), faces, Some(K::Drill)],
+        K::Tap | K::LTap if spec.norevr => [Some(K::Face), None, None],
+        K::Tap | K::LTap if spec.rapout => [faces, Some(K::Drill), None],
+        kind => [Some(kind), None, None],
+    }
 }

@@ -12,7 +12,7 @@ use crate::cycle::{Plan, Step, plan};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
 use crate::sema;
-use crate::toolpath::{Axes, CycleKind, FeedMode, Hole};
+use crate::toolpath::{Axes, CycleKind, FeedMode, Hole, impossible};
 
 /// Heights that differ by less are one.
 const SAME: f64 = 1e-9;
@@ -26,6 +26,22 @@ struct Heights {
     return_plane: f64,
 }
 
+impl Heights {
+    /// Each further start of a thread begins a part of its lead lower: the spindle has turned on by then.
+    fn of_start(self, start: u32, starts: u32, planes: &Plan) -> Done<Heights> {
+        if start == 0 {
+            return Ok(self);
+        }
+        let Some(lead) = planes.lead else {
+            let help = "give the operation a spindle speed";
+            return fault(Code::PC009, "a tap of several starts, and the spindle does not turn", help);
+        };
+        let clear = self.clear - lead * f64::from(start) / f64::from(starts);
+        let returns = self.return_plane > self.clear + SAME;
+        Ok(Heights { clear, return_plane: if returns { self.return_plane } else { clear }, ..self })
+    }
+}
+
 impl Renderer<'_> {
     /// A hole of the open cycle.
     pub(super) fn hole(&mut self, hole: &Hole) -> Done {
@@ -33,7 +49,7 @@ impl Renderer<'_> {
             return self.make_hole(hole);
         }
         let place = self.place;
-        let Some(cycle) = &mut self.cycle else { return Ok(()) };
+        let Some(cycle) = &mut self.cycle else { return impossible("a hole outside a cycle") };
         match cycle.held.replace((*hole, place)) {
             Some((before, at)) => {
                 self.place = at;
@@ -49,9 +65,14 @@ impl Renderer<'_> {
     pub(super) fn make_hole(&mut self, hole: &Hole) -> Done {
         let program = self.program;
         let (scale, rpm) = (self.scale, self.vars.get(VarId::Speed));
+        let per_rev = self.feed_mode == FeedMode::PerRev;
         let point = hole.at.get(self.depth_axis).map(|d| d * scale);
-        let Some(cycle) = &mut self.cycle else { return Ok(()) };
-        let planes = Plan::of(&cycle.spec, hole.depth.map(|d| d * scale), &self.defaults, rpm)?;
+        let Some(cycle) = &mut self.cycle else { return impossible("a hole outside a cycle") };
+        let mut planes = Plan::of(&cycle.spec, hole.depth.map(|d| d * scale), &self.defaults, rpm)?;
+        if per_rev {
+            planes.lead = Some(planes.feed);
+        }
+        let starts = cycle.spec.starts.unwrap_or(1.0).max(1.0) as u32;
         let Some(point) = point.or(cycle.point) else { return no_height() };
         cycle.point = Some(point);
         let clear = point + planes.clear;
@@ -94,11 +115,19 @@ impl Renderer<'_> {
         }
         self.moved_by = None; // every hole is approached by rapids
         match block {
-            Some(block) => self.sequence_hole(block, &target, &planes, heights)?,
+            Some(block) => {
+                for start in 0..starts {
+                    let heights = heights.of_start(start, starts, &planes)?;
+                    target.set(self.depth_axis, heights.return_plane);
+                    self.sequence_hole(block, &target, &planes, heights)?;
+                }
+            }
             None => self.generated_hole(&target, &planes, heights)?,
         }
         if let Some(cycle) = &mut self.cycle {
             cycle.holes += 1;
+            // a manual cycle stays where it stopped
+            cycle.left = (cycle.spec.kind != CycleKind::Manual).then_some(heights.return_plane);
         }
         Ok(())
     }
@@ -111,6 +140,7 @@ impl Renderer<'_> {
 
     /// Variables of a cycle at a hole.
     fn hole_variables(&mut self, planes: &Plan, heights: Heights) {
+        let rigid = self.cycle.as_ref().is_some_and(|cycle| self.is_rigid(&cycle.spec));
         let Some(cycle) = &self.cycle else { return };
         let spec = &cycle.spec;
         let settings = &self.program.settings;
@@ -141,7 +171,6 @@ impl Renderer<'_> {
         vars.set(VarId::Sleave, spec.offset.unwrap_or(self.defaults.jog));
         let unit = if settings.dwell.milliseconds { 1000.0 } else { 1.0 };
         vars.put(VarId::Dwell, planes.dwell.map(|seconds| seconds * unit));
-        let rigid = spec.kind.is_tap() && spec.rigid.unwrap_or(settings.rigid_tap);
         vars.set(VarId::Rigid, f64::from(u8::from(rigid)));
         let per_rev = self.feed_mode == FeedMode::PerRev;
         let rpm = vars.get(VarId::Speed).filter(|&rpm| rpm > 0.0);
@@ -342,11 +371,6 @@ impl Renderer<'_> {
         self.split_rapid(target)?;
         self.registers.forget(self.letters[self.program.settings.feed_code].printed);
         let direct = self.vars.get(VarId::Direct);
-        let is_left = self.cycle.as_ref().is_some_and(|cycle| cycle.spec.kind == CycleKind::LTap);
-        if is_left && direct == Some(self.program.settings.spindle[0]) {
-            let message = "a left-hand tap made of single moves goes in with the spindle turning clockwise";
-            return fault(Code::PR006, message, "give the operation a spindle with \"direction\": \"ccw\"");
-        }
         let mut sped_up = false;
         for step in steps {
             let mut to = *target;
@@ -416,7 +440,7 @@ impl Renderer<'_> {
     }
 
     /// The direction before the cycle, which must be one.
-    fn turning(&self, direct: Option<f64>) -> Done<f64> {
+    pub(super) fn turning(&self, direct: Option<f64>) -> Done<f64> {
         match direct {
             Some(code) if code != self.program.settings.spindle[2] => Ok(code),
             _ => fault(Code::PR006, "the spindle does not turn", "give the operation a spindle with a direction"),

@@ -87,8 +87,26 @@ impl Renderer<'_> {
         if self.cycle.is_some() {
             self.close_cycle()?;
         }
+        if self.left.is_some() {
+            self.stand_as_left(free)?;
+        }
         let target = self.target(to);
         if to.given & ROTARY != 0 { self.in_travel(&target, to.given, free) } else { Ok(target) }
+    }
+
+    /// After a cycle that left the tool at another height than the job: a cut begins at the job's.
+    #[cold]
+    fn stand_as_left(&mut self, free: bool) -> Done {
+        let Some((at, height)) = self.left.take() else { return Ok(()) };
+        // only where nothing moved the tool or the frame since
+        if free || at != self.position || self.pending().has(VarId::Work) {
+            return Ok(());
+        }
+        let mut to = self.position;
+        to.set(self.depth_axis, height);
+        to.given = self.depth_bit();
+        self.set_targets(&to)?;
+        self.split_rapid(&to)
     }
 
     /// A target in program units, with the axes that it keeps.

@@ -11,7 +11,7 @@ use crate::cycle::{Defaults, Steps};
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
 use crate::number::LetterFormat;
-use crate::toolpath::{Axes, Event, FeedMode, Place, Section, Sink, Units};
+use crate::toolpath::{Axes, Event, FeedMode, Order, Place, Section, Sink, Units};
 
 /// Where canned cycles come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -60,6 +60,8 @@ pub struct Renderer<'p> {
     pub(super) registers: Registers,
     pub(super) vars: Vars,
     pub(super) place: Place,
+    /// Where the stream of events stands.
+    order: Order,
     /// The form line and word being printed.
     pub(super) form: Option<usize>,
     /// In which frame the axis words of this body stand.
@@ -104,6 +106,8 @@ pub struct Renderer<'p> {
     pub(super) switched: bool,
     /// The sequence that took the tool away from its place by numbers of its own; a rapid brings it back.
     pub(super) moved_by: Option<crate::span::Span>,
+    /// Where the control left a cycle, and the other height at which the job did: a cut begins there.
+    pub(super) left: Option<(Axes, f64)>,
     /// Something must be done before the next move: close a cycle, print a change, look at an Upon.
     pub(super) attention: bool,
     pub(super) watches_moves: bool,
@@ -139,6 +143,7 @@ impl<'p> Renderer<'p> {
             registers: Registers::default(),
             vars: Vars::default(),
             place: Place::default(),
+            order: Order::default(),
             form: None,
             shifted: Shift::None,
             depth_moved: false,
@@ -166,6 +171,7 @@ impl<'p> Renderer<'p> {
             upon_used: vec![None; program.upons.len()],
             switched: false,
             moved_by: None,
+            left: None,
             attention: true,
             watches_moves: program.upon_vars.meets(super::motion::MOVE_VARS),
             measures: program.printed.with(program.upon_vars).meets(super::measure::MEASURES),
@@ -252,7 +258,7 @@ impl Sink for Renderer<'_> {
     #[inline]
     fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
         self.place = place;
-        self.take(event).map_err(|mut diag| {
+        self.order.follow(&event).and_then(|()| self.take(event)).map_err(|mut diag| {
             diag.place.get_or_insert_with(|| place.to_string());
             diag
         })

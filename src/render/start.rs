@@ -36,22 +36,32 @@ pub(super) fn no_defaults() -> Defaults {
     }
 }
 
+/// What holds where neither cycle nor form says it: in inches and in millimetres.
+const CLEAR: [f64; 2] = [0.1, 3.0];
+const BACK: [f64; 2] = [0.05, 1.0];
+const JOG: [f64; 2] = [0.02, 0.5];
+
 /// What a form gives where a cycle names nothing, in these units.
 pub fn cycle_defaults(settings: &Settings, units: Units, sink_as_printed: bool) -> Defaults {
     let scale = factor(units_of(settings).unwrap_or(Units::Inch), units);
     let length = |value: f64| value * scale;
+    // a form for both units has the defaults of each
+    let own = units_of(settings).unwrap_or(units);
+    let or = |said: Option<f64>, default: [f64; 2]| {
+        said.map_or_else(|| default[usize::from(own == Units::Mm)] * factor(own, units), length)
+    };
     Defaults {
-        clear: length(settings.cycle_clear),
+        clear: or(settings.cycle_clear, CLEAR),
         step: settings.cycle_step.map(length),
         min_step: length(settings.cycle_min_step),
-        back_deep: length(settings.cycle_back_deep),
-        back_chipbreak: length(settings.cycle_back_chipbreak),
-        back_thru: length(settings.cycle_back_thru),
+        back_deep: or(settings.cycle_back_deep, BACK),
+        back_chipbreak: or(settings.cycle_back_chipbreak, BACK),
+        back_thru: or(settings.cycle_back_thru, BACK),
         dwell: settings.cycle_dwell,
         dwell_at_steps: settings.cycle_dwell_steps,
         dwell_at_retracts: settings.cycle_dwell_retracts,
         orient: settings.cycle_orient,
-        jog: length(settings.cycle_jog),
+        jog: or(settings.cycle_jog, JOG),
         sink_clear: settings.cycle_sink_clear.map(length),
         sink_as_printed,
         rigid: false,

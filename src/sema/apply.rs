@@ -142,16 +142,16 @@ impl Settings {
             }
             C::Thread => self.thread = Some(args.codes(1, 1, b'G')?.remove(0)),
             C::ThreadPasses => self.thread_full = choice(&args)? == "full",
-            C::CycleClear => self.cycle_clear = args.length()?,
+            C::CycleClear => self.cycle_clear = Some(args.length()?),
             C::CycleStep => self.cycle_step = Some(args.length()?),
             C::CycleMinStep => self.cycle_min_step = args.length()?,
             C::CycleBack => {
                 args.count(2, 2, "words: kind and length")?;
                 let length = Arguments { id, all: &all[1..] }.length()?;
                 match all[0].text.to_ascii_lowercase().as_str() {
-                    "deep" => self.cycle_back_deep = length,
-                    "chipbreak" => self.cycle_back_chipbreak = length,
-                    "thru" => self.cycle_back_thru = length,
+                    "deep" => self.cycle_back_deep = Some(length),
+                    "chipbreak" => self.cycle_back_chipbreak = Some(length),
+                    "thru" => self.cycle_back_thru = Some(length),
                     _ => return bad(all.first(), "CycleBack is for `deep`, `chipbreak` or `thru`"),
                 }
             }
@@ -166,7 +166,7 @@ impl Settings {
                 }
             }
             C::CycleOrient => self.cycle_orient = args.number()?,
-            C::CycleJog => self.cycle_jog = args.length()?,
+            C::CycleJog => self.cycle_jog = Some(args.length()?),
             C::CycleSinkClear => self.cycle_sink_clear = Some(args.length()?),
             C::RigidTap => self.rigid_tap = args.switch()?,
             C::Call | C::CallMe | C::Tools | C::Drive | C::WindowSize => {}

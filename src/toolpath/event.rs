@@ -249,6 +249,22 @@ pub struct Peck {
     pub feed: Option<f64>,
 }
 
+/// At which angle a cycle stops the spindle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Orient {
+    /// At the form's (`CycleOrient`).
+    ByForm,
+    /// At this one, in degrees.
+    At(f64),
+}
+
+impl Orient {
+    /// The angle, where the form's is this one.
+    pub fn angle(self, form: f64) -> f64 {
+        if let Orient::At(angle) = self { angle } else { form }
+    }
+}
+
 /// A canned cycle without its points. Heights are distances along the tool axis from each point.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
@@ -265,7 +281,7 @@ pub struct CycleSpec {
     pub dwell: Option<f64>,
     pub revs: Option<f64>,
     pub rapto: Option<f64>,
-    pub orient: Option<f64>,
+    pub orient: Option<Orient>,
     pub offset: Option<f64>,
     pub ratio: Option<f64>,
     pub starts: Option<f64>,
@@ -328,6 +344,13 @@ impl CycleSpec {
             steps_from_point: false,
             emulate: false,
         }
+    }
+}
+
+impl CycleSpec {
+    /// How deep it says its holes are: by `depth`, else by the last of its webs or pecks.
+    pub fn deepest(&self) -> Option<f64> {
+        self.depth.or_else(|| self.webs.last().copied()).or_else(|| self.pecks.last().map(|peck| peck.to))
     }
 }
 

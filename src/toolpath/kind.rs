@@ -1,5 +1,6 @@
 //! Kinds of canned cycles, and which sequence serves each.
 
+use super::event::SpindleTurn;
 use crate::lang::SequenceId;
 
 /// Kinds of canned cycles (cycles.md section 1.5).
@@ -70,6 +71,15 @@ impl CycleKind {
             CycleKind::Custom3 => SequenceId::Custom3,
             CycleKind::Face | CycleKind::Thru | CycleKind::Csink | CycleKind::Manual => return None,
         })
+    }
+
+    /// Which way the spindle turns as a tap goes in.
+    pub fn inwards(self) -> Option<SpindleTurn> {
+        match self {
+            CycleKind::Tap => Some(SpindleTurn::Cw),
+            CycleKind::LTap => Some(SpindleTurn::Ccw),
+            _ => None,
+        }
     }
 
     /// Is it a tap?

@@ -2,6 +2,7 @@
 
 use super::CycleKind;
 use super::event::{Axes, Event, Start, Units};
+use super::order::{Order, impossible};
 use super::{Place, Sink};
 use crate::diag::Diag;
 
@@ -30,6 +31,7 @@ pub struct Summary {
     pub extents: [Option<(f64, f64)>; 3],
     /// How often the tool axis changes.
     pub tilts: u64,
+    order: Order,
     kind: Option<(CycleKind, f64)>,
     last: [f64; 3],
 }
@@ -58,6 +60,7 @@ impl Summary {
 
 impl Sink for Summary {
     fn event(&mut self, event: Event<'_>, _: Place) -> Result<(), Box<Diag>> {
+        self.order.follow(&event)?;
         match event {
             Event::Start(start) => self.start(start),
             Event::ToolChange(change) => {
@@ -86,13 +89,13 @@ impl Sink for Summary {
             }
             Event::Tilt(_) => self.tilts += 1,
             Event::CycleBegin(spec) => {
-                self.kind = Some((spec.kind, spec.depth.unwrap_or(0.0)));
+                self.kind = Some((spec.kind, spec.deepest().unwrap_or(0.0)));
                 if !self.holes.iter().any(|(kind, _)| *kind == spec.kind) {
                     self.holes.push((spec.kind, 0));
                 }
             }
             Event::Hole(hole) => {
-                let Some((kind, depth)) = self.kind else { return Ok(()) };
+                let Some((kind, depth)) = self.kind else { return impossible("a hole outside a cycle") };
                 if let Some(row) = self.holes.iter_mut().find(|(k, _)| *k == kind) {
                     row.1 += 1;
                 }

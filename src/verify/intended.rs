@@ -9,8 +9,8 @@ use crate::nc::{Rotation, Turn};
 use crate::render::cycle_defaults;
 use crate::sema::{Settings, UnitChoice};
 use crate::toolpath::{
-    Arc, Axes, CycleKind, CycleSpec, Direction, Event, FeedMode, Hole, Plane, Side, Spindle, SpindleTurn, Start,
-    StopKind, ToolChange, Units,
+    Arc, Axes, CycleKind, CycleSpec, Direction, Event, FeedMode, Hole, Order, Plane, Side, Spindle, SpindleTurn, Start,
+    StopKind, ToolChange, Units, impossible,
 };
 
 /// What the form says of the job's numbers.
@@ -93,6 +93,7 @@ struct Open {
 /// Where the job stands.
 pub(super) struct Job {
     expectation: Expectation,
+    order: Order,
     pub units: Option<Units>,
     at: Axes,
     feed: Option<f64>,
@@ -109,6 +110,7 @@ impl Job {
     pub fn new(expectation: Expectation) -> Job {
         Job {
             expectation,
+            order: Order::default(),
             units: None,
             at: Axes::default(),
             feed: None,
@@ -127,6 +129,7 @@ impl Job {
     /// # Errors
     /// What can't be proven; what the intent found.
     pub fn event(&mut self, event: Event<'_>, to: &mut impl Intent) -> Result<(), Box<Diag>> {
+        self.order.follow(&event)?;
         match event {
             Event::Start(start) => self.start(start, to),
             Event::ToolChange(change) => self.tool_change(change, to),
@@ -242,11 +245,7 @@ impl Job {
         self.css = spindle.css.unwrap_or(self.css);
         self.state.css = self.css;
         if let Some(turn) = spindle.turn {
-            self.state.rotation = Some(match turn {
-                SpindleTurn::Cw => Rotation::Cw,
-                SpindleTurn::Ccw => Rotation::Ccw,
-                SpindleTurn::Off => Rotation::Stop,
-            });
+            self.state.rotation = Some(rotation(turn));
         }
         self.state.speed = spindle.speed.or(self.state.speed).filter(|_| !self.css);
     }
@@ -340,10 +339,13 @@ impl Job {
     }
 
     fn hole(&mut self, hole: &Hole, to: &mut impl Intent) -> Result<(), Box<Diag>> {
-        let Some(open) = &mut self.cycle else { return Ok(()) };
+        let Some(open) = &mut self.cycle else { return impossible("a hole outside a cycle") };
         let defaults = self.expectation.defaults[usize::from(self.units == Some(Units::Mm))];
         let rpm = self.state.speed;
-        let planes = Plan::of(&open.spec, hole.depth, &defaults, rpm).map_err(Box::<Diag>::from)?;
+        let mut planes = Plan::of(&open.spec, hole.depth, &defaults, rpm).map_err(Box::<Diag>::from)?;
+        if self.mode == FeedMode::PerRev {
+            planes.lead = Some(planes.feed);
+        }
         let Some(point) = hole.at.get(DEPTH).or(open.point) else { return unproven("a hole has no height") };
         open.point = Some(point);
         let clear = point + planes.clear;
@@ -373,7 +375,12 @@ impl Job {
             is_tap: kind.is_tap(),
         };
         let list = std::mem::take(&mut steps.list);
+        let before = self.state;
+        if let (Some(inwards), Some(Rotation::Cw | Rotation::Ccw)) = (kind.inwards(), before.rotation) {
+            self.state.rotation = Some(rotation(inwards)); // whatever the spindle does else
+        }
         let done = self.steps(&list, point, target, &expected, to);
+        self.state = before;
         steps.list = list;
         self.steps = steps;
         done
@@ -436,4 +443,12 @@ impl Job {
 fn unproven<T>(what: &str) -> Result<T, Box<Diag>> {
     let message = format!("{what}: its motions can't be proven");
     Err(Box::new(Diag::new(Code::PV020, message).help("verify proves milling programs without subprograms")))
+}
+
+fn rotation(turn: SpindleTurn) -> Rotation {
+    match turn {
+        SpindleTurn::Cw => Rotation::Cw,
+        SpindleTurn::Ccw => Rotation::Ccw,
+        SpindleTurn::Off => Rotation::Stop,
+    }
 }

@@ -5,7 +5,7 @@ use crate::support;
 use std::fs;
 
 use crate::support::mill;
-use postform::cl::{Dialect, Options, Report, read_cl};
+use postform::cl::{Assumed, Dialect, Options, Report, read_cl};
 use postform::compile::compile;
 use postform::render::Renderer;
 use postform::toolpath::{ReadError, Summary, Units};
@@ -91,7 +91,7 @@ fn the_spindle_may_come_after_the_first_rapids() {
     assert!(
         read("UNITS/MM\nRAPID\nGOTO/0,0,1\nFINI", Options::default())[0].starts_with("PJ006 the operation has no tool")
     );
-    let assumed = Options { tool: Some(3.0), ..Options::default() };
+    let assumed = Options { tool: Some(Assumed::One(3.0)), ..Options::default() };
     assert!(read("UNITS/MM\nSPINDL/9,CLW\nRAPID\nGOTO/0,0,1\nFINI", assumed)[0].starts_with("G0 X0"));
 }
 
@@ -244,7 +244,7 @@ fn real_files_are_read_or_refused_for_a_reason() {
         };
         let read_whole = expected == "G0" && !code.starts_with(['P', 'L']);
         assert!(read_whole || code.starts_with(expected), "{name}: {first}");
-        let all = Options { units: Some(Units::Mm), tool: Some(1.0), ..Options::default() };
+        let all = Options { units: Some(Units::Mm), tool: Some(Assumed::One(1.0)), ..Options::default() };
         let all = if expected == "PL005" { all } else { Options { units: None, ..all } };
         if expected != "G0" {
             let code = read(&text, all)[0].split(' ').next().unwrap().to_owned();
@@ -331,4 +331,81 @@ fn units_and_dialect_are_known_before_they_are_needed() {
     // a mark in a later text is no sign of another system, whose circles would turn the other way
     let arc = "GOTO/1,0,10\nPPRINT/APTCL-SPEC\nCIRCLE/1,1,10,0,0,1,1\nGOTO/2,1,10";
     assert_eq!(body(arc).last().unwrap(), "G17 G3 X2. Y1. I0 J1.");
+}
+
+/// Whatever stands between the points of a cycle, no hole is lost.
+#[test]
+fn text_between_holes_loses_none() {
+    let words =
+        ["PPRINT/HI", "TPRINT/HI", "DISPLY/HI", "INSERT/M88", "AUXFUN/8", "OPSTOP", "DELAY/1", "COOLNT/ON", "REMARK A"];
+    for word in words {
+        let lines = body(&format!(
+            "CYCLE/DRILL,DEPTH,12,MMPM,100,CLEAR,3\nGOTO/10,10,0\n{word}\nGOTO/30,10,0\n{word}\nGOTO/50,20,0\nCYCLE/OFF"
+        ));
+        for hole in ["X30.", "X50. Y20."] {
+            assert!(lines.iter().any(|line| line.contains(hole)), "{word}: {hole} in {lines:?}");
+        }
+    }
+    let lines = body("CYCLE/DRILL,DEPTH,12,MMPM,100,CLEAR,3\nGOTO/10,10,0\nPPRINT/HI\nGOTO/30,10,0\nCYCLE/OFF");
+    let from = lines.iter().position(|line| line == "G80").unwrap();
+    assert_eq!(lines[from..], ["G80", "(HI)", "G99 G81 X30. Y10. Z-12. R3. F100.", "G80"]);
+}
+
+/// SolidWorks CAM stops and describes tools with INSERT, also before the first line that says who wrote the file.
+#[test]
+fn solidworks_inserts_are_stops_and_tools() {
+    let text = "PARTNO/1\nUNIT/MM\nINSERT/4.0mm JOBBER DRILL\nCUTTER/4.,0,2.,3.,31.,0,83.\nLOAD/TOOL,14\n\
+        CSI_SET_FLUTE_LENGTH/54.\nSPINDL/3500,RPM,CLW\nINSERT/Stock Size X350. Y150. Z10.5\nRAPID/\nGOTO/10,10,25.\n\
+        FEDRAT/100,MMPM\nGOTO/10,10,-1.\nRAPID/\nGOTO/10,10,25.\nINSERT/STOP  change fixture\nINSERT/mind the clamp\n\
+        RAPID/\nGOTO/50,10,25.\nFINI\n";
+    let lines = read(text, Options::default());
+    assert_eq!(lines[..2], ["(4.0MM JOBBER DRILL)", "(STOCK SIZE X350. Y150. Z10.5)"]);
+    let stop = lines.iter().position(|line| line == "M0").unwrap();
+    assert_eq!(lines[stop - 1..=stop + 1], ["(CHANGE FIXTURE)", "M0", "(MIND THE CLAMP)"]);
+    assert_eq!(lines.last().unwrap(), "PL008 INSERT/mind the clamp is printed as a comment");
+    assert!(lines.contains(&"S3500 M3".to_owned()), "the spindle turns again: {lines:?}");
+    // elsewhere INSERT goes into the program as it stands
+    assert_eq!(body("INSERT/M88"), ["M88"]);
+}
+
+/// A tool change ends a cycle; what its points mean then, only a feed or another cycle says.
+#[test]
+fn points_after_a_tool_change_that_ended_a_cycle_are_refused() {
+    let drill = "CYCLE/DRILL,DEPTH,5,MMPM,100,CLEAR,2";
+    let change =
+        |then: &str| format!("{drill}\nGOTO/1,1,0\nLOADTL/2\nSPINDL/700,CLW\nRAPID\nGOTO/1,1,50\n{then}\nGOTO/2,2,0");
+    let refused = error(&change(""));
+    assert!(refused.starts_with("PC043 the tool change in line 9 ended a cycle"), "{refused}");
+    for then in ["FEDRAT/50,MMPM", drill, "RAPID"] {
+        assert!(body(&change(then)).len() > 1, "{then}");
+    }
+}
+
+/// NX names tools and may load none: each needs its number. Two MSYS are two setups.
+#[test]
+fn tools_that_are_only_named_need_numbers() {
+    let path = |tool: &str, x: u8| {
+        format!(
+            "TOOL PATH/OP{x},TOOL,{tool}\nTLDATA/MILL,10.0\nSPINDL/RPM,900,CLW\nRAPID\nGOTO/{x},0,10\n\
+             FEDRAT/MMPM,100\nGOTO/{x},0,1\nEND-OF-PATH\n"
+        )
+    };
+    let by = |text: &str, assumed: &str| {
+        read(text, Options { tool: Some(Assumed::parse(assumed).unwrap()), ..Options::default() })
+    };
+    let two = format!("UNITS/MM\n{}{}", path("MILL", 1), path("Face Mill", 2));
+    assert!(read(&two, Options::default())[0].starts_with("PJ006"));
+    let refused = by(&two, "1");
+    assert!(refused[0].starts_with("PJ006 the file names the tool FACEMILL and does not load it"), "{refused:?}");
+    let lines = by(&two, "MILL=1,face mill=7");
+    assert!(lines.iter().any(|line| line.starts_with("T7 M6")), "{lines:?}");
+    let same = by(&format!("UNITS/MM\n{}{}", path("MILL", 1), path("MILL", 2)), "1");
+    assert!(same.len() > 2 && !same.iter().any(|line| line.contains("M6")), "{same:?}");
+    let loads = two.replace("TLDATA", "LOAD/TOOL,3\nTLDATA");
+    assert!(!read(&loads, Options::default())[0].starts_with("PJ006"));
+    let msys = "MSYS/0,0,0,1,0,0,0,1,0\n";
+    let other = msys.replace("/0,0,0", "/0,-40,-20");
+    let setups = format!("UNITS/MM\n{msys}{}{other}{}", path("MILL", 1), path("MILL", 2));
+    assert!(by(&setups, "1")[0].starts_with("PL004 this MSYS is not that of line 2"));
+    assert!(by(&setups.replace(&other, msys), "1")[0].starts_with("G0"));
 }

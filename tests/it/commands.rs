@@ -260,3 +260,19 @@ fn moves_are_measured_for_forms_that_print_them() {
     let lines = path_lines("", "BeginRow\n(L[movelength] T[movetime] SUM[totalcutdist])\nEnd", path);
     assert_eq!(lines[1], "(L5 T30 SUM5)");
 }
+
+/// A form for both units has the defaults of each.
+#[test]
+fn defaults_of_cycles_are_those_of_the_jobs_units() {
+    let form = mill("Units both", "").replace("%0\n", "%0\nG[unitmode]\n");
+    let cycle = job("{\"cycle\":{\"kind\":\"drill\",\"depth\":5,\"feed\":5,\"points\":[[1,1,0]]}}");
+    let cycle = cycle.replace("[0,0,1]", "[0,0,9]");
+    let clear = |form: &str, units: &str| {
+        let lines = program(form, &cycle.replace("\"units\":\"inch\"", &format!("\"units\":\"{units}\"")));
+        let cut = lines.iter().position(|line| line.starts_with("G1 Z")).unwrap_or_else(|| panic!("{lines:?}"));
+        lines[cut - 1].clone()
+    };
+    assert_eq!([clear(&form, "inch"), clear(&form, "mm")], ["Z.1", "Z3."]);
+    // what the form says is in inches
+    assert_eq!(clear(&form.replace("Units both", "Units both\nCycleClear 0.2"), "mm"), "Z5.08");
+}

@@ -3,8 +3,10 @@
 
 use crate::support;
 use crate::support::{job, mill, path_lines, program};
-use postform::render::Options;
-use postform::toolpath::Units;
+use postform::compile::compile;
+use postform::render::{Options, Renderer};
+use postform::toolpath::json::read_lines;
+use postform::toolpath::{Axes, Event, Hole, Place, Sink, Summary, Units};
 
 const DRILL: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
 const RETURNS: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -514,13 +516,23 @@ fn fixture_numbers_end_where_work_offsets_do() {
     assert_eq!(path_lines("", "", "{\"work\":59.1},{\"rapid\":[1,0,1]}")[0], "G59.1");
 }
 
-/// A left-hand tap goes in turning counter-clockwise.
+/// A tap goes in turning its own way, and afterwards the spindle turns as before.
 #[test]
-fn a_left_tap_of_moves_needs_its_direction() {
+fn a_tap_turns_the_spindle_its_own_way() {
     let tap = "{\"cycle\":{\"kind\":\"ltap\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0]]}}";
-    assert!(path_lines("", "", tap)[0].starts_with("PR006 a left-hand tap"));
     let turned = format!("{{\"spindle\":{{\"direction\":\"ccw\"}}}},{tap}");
-    assert_eq!(path_lines("", "", &turned)[3..], ["G1 Z-1. F5.", "M3", "Z.1", "M4"]);
+    let lines = path_lines("", "", &turned);
+    assert_eq!(lines[3..], ["G1 Z-1. F5.", "M3", "Z.1", "M4"]);
+    assert_eq!(path_lines("", "", tap), lines);
+    let after = format!("{tap},{{\"rapid\":[2,2,1]}}");
+    assert_eq!(path_lines("", "", &after)[lines.len()], "S1000 M3");
+    let ltap = "LTap\nG74 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    assert_eq!(path_lines("", ltap, tap)[0], "S1000 M4");
+    // the control of a rigid tap turns it itself
+    let rigid = path_lines("RigidTap? Y", ltap, &after);
+    assert!(!rigid.contains(&"S1000 M4".to_owned()) && rigid.contains(&"S1000 M3".to_owned()), "{rigid:?}");
+    let off = format!("{{\"spindle\":{{\"direction\":\"off\"}}}},{tap}");
+    assert!(path_lines("", ltap, &off)[0].starts_with("PR006 the spindle does not turn"));
 }
 
 /// What a sequence switches off is on again before the next move.
@@ -715,4 +727,107 @@ fn block_delete_leaves_nothing_known() {
     assert_eq!(skipped("/G55"), ["/G55", "G54", "G0 X1. Y0 Z1."]);
     assert_eq!(skipped("/M5"), ["/M5", "S1000 M3", "G0 X1."]);
     assert_eq!(skipped("/S500"), ["/S500", "S1000 M3", "G0 X1."]);
+}
+
+/// What no reader may push is refused, not left out: a hole that nobody prints is a hole that is missing.
+#[test]
+fn events_that_can_not_be_are_faults_of_postform() {
+    let checked = support::check(&mill("", DRILL));
+    let compiled = compile(&checked.form);
+    let mut renderer = Renderer::new(&compiled, Options::default());
+    let head = "{\"start\":{\"program\":1,\"tools\":[{\"number\":1}]}}\n\
+        {\"operation\":{\"tool\":1,\"spindle\":{\"speed\":9,\"direction\":\"cw\"},\"feed\":5}}\n{\"rapid\":[0,0,1]}\n";
+    _ = read_lines(head.as_bytes(), &mut renderer); // cut off: it has no end
+    let hole = || Event::Hole(Hole { at: Axes::new(&[1.0, 1.0, 0.0]), depth: None });
+    let place = Place { line: 7, column: 1, ..Place::default() };
+    let error = renderer.event(hole(), place).unwrap_err();
+    assert_eq!((error.code.name(), error.place.as_deref()), ("PX001", Some("7:1")));
+    renderer.event(Event::Finish, place).unwrap();
+    assert_eq!(renderer.event(Event::Rapid(Axes::new(&[0.0; 3])), place).unwrap_err().code.name(), "PX001");
+    assert_eq!(Summary::default().event(hole(), place).unwrap_err().code.name(), "PX001");
+}
+
+/// A bore that is to stop at an angle does, whichever it is: out without it the tool would score the wall.
+#[test]
+fn an_oriented_bore_is_oriented_at_any_angle() {
+    let bore = |orient: &str| {
+        format!(
+            "{{\"cycle\":{{\"kind\":\"bore\",\"depth\":0.5,\"clear\":0.1,\"feed\":5,{orient}\"points\":[[1,1,0]]}}}}"
+        )
+    };
+    let form = "Bore\nG86 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    assert!(path_lines("", form, &bore("")).iter().any(|line| line.starts_with("G86")));
+    for angle in ["0", "90"] {
+        let lines = path_lines("", form, &bore(&format!("\"orient\":{angle},")));
+        assert!(lines.iter().any(|line| line.starts_with(&format!("M19 R{angle}"))), "{angle}: {lines:?}");
+        assert!(!lines.iter().any(|line| line.contains("G86")), "{angle}: {lines:?}");
+    }
+}
+
+/// After holes of several heights the control stands higher than the job: a cut begins where the job has it.
+#[test]
+fn a_cut_after_a_cycle_begins_at_the_jobs_height() {
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":0.5,\"clear\":0.1,\"return\":0.3,\"feed\":5,\
+                 \"points\":[[0,0,0],[1,0,1],[2,0,0]]}}";
+    let lines = path_lines("", RETURNS, &format!("{cycle},{{\"line\":[5,0,0]}}"));
+    assert_eq!(lines[lines.len() - 3..], ["G80", "G0 Z.3", "G1 X5. Z0 F10."], "{lines:?}");
+    // a rapid needs nothing
+    let lines = path_lines("", RETURNS, &format!("{cycle},{{\"rapid\":[5,0,2]}}"));
+    assert_eq!(lines.iter().filter(|line| *line == "G0 Z.3").count(), 1, "only the way to the first hole: {lines:?}");
+}
+
+/// Cycles that are made as others use their sequences.
+#[test]
+fn some_cycles_are_made_as_others() {
+    let forms = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel\n\
+        Custom1   Face\nG82 X[h] Y[v] Z[d] R[vclear] P[dwell] F[frate]\nEnd Cancel\n\
+        Tap\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let code = |cycle: &str| {
+        let path = format!("{{\"cycle\":{{{cycle},\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0]]}}}}");
+        let lines = path_lines("RigidTap? Y", forms, &path);
+        lines.iter().find(|line| line.contains("G8")).cloned().unwrap_or_else(|| format!("{lines:?}"))
+    };
+    let csink = "\"kind\":\"csink\",\"diameter\":0.5,\"angle\":90";
+    assert_eq!(code("\"kind\":\"drill\",\"depth\":0.5,\"dwell\":2"), "G82 X1. Y1. Z-.5 R.1 P2 F5.");
+    assert_eq!(code(csink), "G81 X1. Y1. Z-.25 R.1 F5.");
+    assert_eq!(code("\"kind\":\"tap\",\"depth\":0.5,\"norevr\":true"), "G82 X1. Y1. Z-.5 R.1 P.5 F5.");
+    assert_eq!(code("\"kind\":\"tap\",\"depth\":0.5,\"rapout\":true"), "G81 X1. Y1. Z-.5 R.1 F5.");
+    let moves = code(&format!("{csink},\"hole_diameter\":0.2"));
+    assert!(moves.starts_with('['), "moves: {moves}");
+}
+
+/// A face takes the last dwell of an earlier cycle, then the form's; pecks say how deep they go.
+#[test]
+fn what_a_cycle_leaves_out_is_known() {
+    let cycle = |kind: &str, x: u8| {
+        format!("{{\"cycle\":{{\"kind\":{kind},\"clear\":0.1,\"feed\":5,\"points\":[[{x},1,0]]}}}}")
+    };
+    let face = "Custom1   Face\nG82 X[h] Y[v] Z[d] R[vclear] P[dwell] F[frate]\nEnd Cancel";
+    let alone = cycle("\"face\",\"depth\":0.5", 2);
+    assert!(path_lines("", face, &alone).iter().any(|line| line.ends_with("P.5 F5.")));
+    let after = format!("{},{alone}", cycle("\"ream\",\"depth\":0.5,\"dwell\":2", 1));
+    assert!(path_lines("", face, &after).iter().any(|line| line.starts_with("G82") && line.ends_with("P2 F5.")));
+    let pecks = path_lines("", "", &cycle("\"deep\",\"pecks\":[{\"to\":0.2},{\"to\":0.4}]", 1));
+    assert!(pecks.iter().any(|line| line.starts_with("G1 Z-.4")), "{pecks:?}");
+}
+
+/// How a tap pecks no word of a form says: it is noted.
+#[test]
+fn how_a_tap_pecks_is_the_controls_setting() {
+    let form = mill("RigidTap? Y", "Tap\nG84 X[h] Y[v] Z[d] R[vclear] Q[vbite] F[frate]\nEnd Cancel");
+    let tap = "{\"cycle\":{\"kind\":\"tap\",\"mode\":\"deep\",\"step\":0.1,\"depth\":0.5,\"clear\":0.1,\"feed\":5,\
+               \"points\":[[1,1,0]]}}";
+    let notes = support::render(&form, &job(tap)).unwrap().notes;
+    assert!(notes.iter().any(|note| note.code.name() == "PR021" && note.message.contains("`deep`")), "{notes:?}");
+}
+
+/// Each start of a thread is a tap of its own, which begins a part of the lead lower than the one before.
+#[test]
+fn a_tap_of_several_starts_is_made_once_for_each() {
+    let forms = "Tap\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let tap = "{\"cycle\":{\"kind\":\"tap\",\"rigid\":true,\"starts\":2,\"depth\":0.5,\"clear\":0.2,\"feed\":100,\
+               \"points\":[[1,1,0]]}}";
+    let lines = path_lines("RigidTap? Y", forms, tap);
+    let taps: Vec<&String> = lines.iter().filter(|line| line.contains("X1. Y1.") && line.contains('R')).collect();
+    assert_eq!(taps, ["G84 X1. Y1. Z-.5 R.2 F100.", "X1. Y1. R.15"], "{lines:?}");
 }

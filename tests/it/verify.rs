@@ -10,7 +10,7 @@ use postform::nc::{Control, JobOptions, Settings, read_program};
 use postform::render::{Cycles, Options, Renderer};
 use postform::sema::Checked;
 use postform::toolpath::Sink;
-use postform::toolpath::json::read_document;
+use postform::toolpath::json::{read_document, read_lines};
 use postform::verify::{Comparer, Equivalences, Expectation, Verdict};
 
 /// A job for verifying: it pushes its events into a sink.
@@ -303,7 +303,7 @@ fn becomes_a_job(fanuc: &Checked, text: &str, posts: &[&str]) {
     let mut summary = postform::toolpath::Summary::default();
     read_program(Cursor::new(old.clone()), &options, &mut warnings, &mut summary).unwrap();
     let kinds: Vec<(&str, u64)> = summary.holes.iter().map(|(kind, count)| (kind.name(), *count)).collect();
-    let all = [("drill", 6), ("face", 2), ("deep", 2), ("chipbreak", 2), ("ream", 2), ("bore", 2), ("tap", 2)];
+    let all = [("drill", 8), ("face", 2), ("deep", 2), ("chipbreak", 2), ("ream", 2), ("bore", 2), ("tap", 2)];
     assert_eq!(kinds, all[..kinds.len()]);
     assert!(kinds.len() >= 6);
     let again = Equivalences { pecks: 4, ways: 2, ..Equivalences::default() };
@@ -463,4 +463,54 @@ fn taps_with_a_dwell_and_by_the_spindle_are_the_jobs() {
     );
     let wrong = program.replacen("K1.", "K1.5", 1);
     assert!(wrong != program && matches!(verified(&form, &wrong, &job), Verdict::Different(_)), "{wrong}");
+}
+
+#[test]
+fn a_hole_outside_a_cycle_is_a_fault_of_postform() {
+    let settings = Settings::new(Control::Fanuc);
+    let mut comparer = Comparer::new(Cursor::new(String::new()), settings, Expectation::default(), None);
+    let hole = postform::toolpath::Hole { at: postform::toolpath::Axes::new(&[1.0, 1.0, 0.0]), depth: None };
+    let error = comparer.event(postform::toolpath::Event::Hole(hole), Default::default()).unwrap_err();
+    assert_eq!(error.code.name(), "PX001");
+}
+
+/// A tap against the spindle: it is turned for the tap, and turns as before after it.
+#[test]
+fn a_tap_against_the_spindle_goes_in_its_own_way() {
+    let text = r#"{"postform":1,"program":7,"units":"mm","tools":[{"number":1,"diameter":6}],"operations":[
+        {"tool":1,"work":54,"spindle":{"speed":600,"direction":"cw"},"feed":100,"path":[{"rapid":[0,0,50]},
+        {"cycle":{"kind":"ltap","depth":9,"clear":4,"feed":600,"points":[[0,90,0],[10,90,0]]}},
+        {"rapid":[0,0,50]},{"line":[5,0,40]},{"rapid":[5,0,60]}]}]}"#;
+    let job = document(text);
+    for name in ["fanuc.pf", "haas.pf", "linuxcnc.pf"] {
+        let form = check(&post(name));
+        let program = rendered(&form, &job, Cycles::Form);
+        let verdict = verified(&form, &program, &job);
+        assert!(!matches!(verdict, Verdict::Different(_)), "{name}: {verdict:?}\n{program}");
+    }
+}
+
+/// The control comes back to the height at which it began the cycle, the job to that of its last hole: a cut tells them apart.
+#[test]
+fn a_cut_after_holes_of_several_heights_is_the_jobs() {
+    let text = r#"{"start":{"units":"mm","program":1,"tools":[{"number":1,"length_offset":1,"diameter":10,"diameter_offset":1}]}}
+{"operation":{"tool":1,"work":55,"feed":100,"spindle":{"speed":1000,"direction":"cw"},"coolant":"off"}}
+{"cycle":{"kind":"ream","clear":1,"depth":8,"feed":60,"return":8}}
+{"point":[0,2.5,-5]}
+{"point":[0,0,5]}
+{"point":[-3.25,0.001,0]}
+{"cycle_end":true}
+{"line":[100,1,0]}
+{"cycle":{"kind":"deep","clear":5,"depth":8,"feed":60,"step":3}}
+{"point":[10,0.001,5]}
+{"cycle_end":true}
+{"end":true}
+"#;
+    let job = |sink: &mut dyn Sink| read_lines(text.as_bytes(), sink).is_ok();
+    for name in ["fanuc.pf", "haas.pf", "linuxcnc.pf"] {
+        let form = check(&post(name));
+        let program = rendered(&form, &job, Cycles::Form);
+        let verdict = verified(&form, &program, &job);
+        assert!(!matches!(verdict, Verdict::Different(_)), "{name}: {verdict:?}\n{program}");
+    }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use postform::cl::Dialect;
+use postform::cl::{Assumed, Dialect};
 use postform::toolpath::Units;
 
 use super::{ControlArg, ControlArgs, LimitsArg, NoPoint};
@@ -34,9 +34,9 @@ pub struct ReadArgs {
     /// Units of a CL file or program that does not say them
     #[arg(long, value_name = "UNITS")]
     pub assume_units: Option<UnitsArg>,
-    /// Tool number of a CL file or program that loads none
-    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(..=99_999_999))]
-    pub assume_tool: Option<u32>,
+    /// Tool number of a CL file or program that loads none; of a CL file that names several: NAME=1,OTHER=2
+    #[arg(long, value_name = "NUMBER", value_parser = Assumed::parse)]
+    pub assume_tool: Option<Assumed>,
     /// Whose rules a job that is an NC program follows [default: fanuc]
     #[arg(long, value_name = "CONTROL")]
     pub job_control: Option<ControlArg>,

@@ -5,7 +5,7 @@ use super::objects::{CycleObject, EndWord, ItemObject, JobHead, Object, Operatio
 use super::values::Number;
 use crate::diag::{Code, Diag};
 use crate::toolpath::event::*;
-use crate::toolpath::{Hold, Place, Sink};
+use crate::toolpath::{Hold, LastDwell, Place, Sink};
 
 type Done = Result<(), Box<Diag>>;
 
@@ -17,6 +17,7 @@ pub struct Builder<'s> {
     tools: Vec<Tool>,
     tool_needed: bool,
     tool: Option<f64>,
+    dwell: LastDwell,
     in_cycle: bool,
     in_subprogram: bool,
 }
@@ -30,6 +31,7 @@ impl<'s> Builder<'s> {
             tools: Vec::new(),
             tool_needed: true,
             tool: None,
+            dwell: LastDwell::default(),
             in_cycle: false,
             in_subprogram: false,
         }
@@ -269,7 +271,8 @@ impl<'s> Builder<'s> {
     pub fn cycle_begin(&mut self, cycle: &CycleObject) -> Done {
         self.leave_cycle("a cycle")?;
         self.in_operation()?;
-        let spec = spec_of(cycle)?;
+        let mut spec = spec_of(cycle)?;
+        self.dwell.fill(&mut spec);
         self.in_cycle = true;
         self.place.point = 0;
         self.push(Event::CycleBegin(&spec))

@@ -154,7 +154,7 @@ pub(super) fn spec_of(object: &CycleObject) -> Result<CycleSpec, Box<Diag>> {
         dwell: from_zero("dwell", object.dwell)?,
         revs: from_zero("revs", object.revs)?,
         rapto: from_zero("rapto", object.rapto)?,
-        orient: plain(object.orient),
+        orient: plain(object.orient).map(Orient::At),
         offset: from_zero("offset", object.offset)?,
         ratio: above_zero("ratio", object.ratio)?,
         starts: above_zero("starts", object.starts)?,

@@ -26,12 +26,13 @@ impl Renderer<'_> {
     }
 
     /// The motion code, before a sequence of moves that prints none where the control is in another motion: a cut would
-    /// be a rapid.
-    pub(super) fn motion_before(&mut self, code: &sema::Code, block: &Block) -> Done {
-        if !self.motion_in_force(code) && self.program.speaks_g && !self.says_motion(block) {
+    /// be a rapid. Whether it was printed.
+    fn motion_before(&mut self, code: &sema::Code, block: &Block) -> Done<bool> {
+        let lacks = !self.motion_in_force(code) && self.program.speaks_g && !self.says_motion(block);
+        if lacks {
             self.code_word(code)?;
         }
-        Ok(())
+        Ok(lacks)
     }
 
     /// The motion code as a block of its own, before a sequence of rapids that prints none.
@@ -43,14 +44,14 @@ impl Renderer<'_> {
 
     /// Motion code and feed as a block of their own, before a sequence that lacks one of them; arcs say their code.
     pub(super) fn feed_block(&mut self, code: &sema::Code, block: &Block) -> Done {
-        if code.value == self.program.settings.feed.value {
-            self.motion_before(code, block)?;
+        let begun = code.value == self.program.settings.feed.value && self.motion_before(code, block)?;
+        let says_feed = block.vars.has(VarId::Frate);
+        if !says_feed && self.inverse_time() {
+            let message = "in inverse time each move says its feed, and the sequence does not print [frate]";
+            return fault_at(Code::PR017, message, "add `F[frate]` to the sequence", Some(block.span));
         }
-        if !block.vars.has(VarId::Frate) {
-            if self.inverse_time() {
-                let message = "in inverse time each move says its feed, and the sequence does not print [frate]";
-                return fault_at(Code::PR017, message, "add `F[frate]` to the sequence", Some(block.span));
-            }
+        // a Grbl refuses G1 before any feed
+        if !says_feed || begun && !self.inverse_time() {
             self.feed_word()?;
         }
         self.end_block();

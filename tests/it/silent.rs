@@ -40,10 +40,10 @@ fn after_every_stop_the_spindle_turns_again() {
 fn a_cut_is_no_rapid() {
     let infeed = "InFeed\nG[side] X[h] Y[v] D[dcomp] F[frate]\nEnd\nOutFeed\nG40 X[h] Y[v]\nEnd";
     let path = "{\"rapid\":[0,0,-0.1]},{\"infeed\":[1,1],\"side\":\"left\"},{\"line\":[2,1]},{\"rapid\":[3,1]},{\"outfeed\":[0,0]}";
-    let cut = ["G0 Z-.1", "G1", "G41 X1. Y1. D21 F10.", "X2.", "G0 X3.", "G1", "G40 X0 Y0"];
+    let cut = ["G0 Z-.1", "G1 F10.", "G41 X1. Y1. D21 F10.", "X2.", "G0 X3.", "G1", "G40 X0 Y0"];
     assert_eq!(path_lines("", infeed, path), cut);
     let line = "LineCode\nX[h] Y[v] Z[d] F[frate]\nEnd";
-    assert_eq!(path_lines("", line, "{\"line\":[1,0,1]},{\"line\":[2,0,1]}"), ["G1", "X1. F10.", "X2."]);
+    assert_eq!(path_lines("", line, "{\"line\":[1,0,1]},{\"line\":[2,0,1]}"), ["G1 F10.", "X1.", "X2."]);
     let rapid = "RapidCode\nX[h] Y[v] Z[d]\nEnd";
     assert_eq!(path_lines("", rapid, "{\"line\":[1,0,1]},{\"rapid\":[2,0,1]}"), ["G1 X1. F10.", "G0", "X2."]);
     // an arc can't be a block of its own; a form without G codes has none to say

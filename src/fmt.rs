@@ -197,7 +197,11 @@ impl Page<'_> {
                 parts.iter().for_each(|part| self.piece(part, text));
                 text.push_str(if *closed { ")" } else { "" });
             }
-            PieceKind::Literal { .. } | PieceKind::Stray(_) => text.push_str(self.source.slice(piece.span)),
+            PieceKind::Literal { letter, number } => {
+                text.push(char::from(*letter));
+                text.push_str(&number.text); // without the brackets of the first forms
+            }
+            PieceKind::Stray(_) => text.push_str(self.source.slice(piece.span)),
         }
     }
 

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use postform::compile::{Program, compile};
-use postform::diag::Severity;
-use postform::lint::{Changed, sort};
+use postform::compile::Program;
+use postform::diag::Diag;
+use postform::lint::{Changed, ready};
 use postform::render::{Cycles, Options};
 use postform::source::Source;
 
@@ -37,16 +37,24 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
     }
     let config = Config::near(form)?;
     let mut file = FormFile::read(form, args.limits.or(config.limits).unwrap_or_default())?;
-    let mut checked = file.analyse(&Changed::new());
-    sort(&mut checked.diags);
-    let shown: Vec<_> = checked.diags.iter().filter(|diag| diag.severity > Severity::Note).cloned().collect();
-    say(&reporter.text(&shown, &checked.files));
-    if checked.has_errors() {
-        let count = checked.diags.iter().filter(|d| d.is_error()).count();
-        message(&format!("{}: {}, nothing was printed", files::name(form), report::count(count, "error")));
+    let checked = file.analyse(&Changed::new());
+    let (program, found) = match ready(&checked, &config.levels) {
+        Ok(form) => (Some(form.program), form.warnings),
+        Err(found) => (None, found),
+    };
+    let (errors, warnings): (Vec<Diag>, Vec<Diag>) = found.into_iter().partition(Diag::is_error);
+    say(&reporter.text(&errors, &checked.files));
+    let shown: Vec<Diag> = warnings.iter().filter(|diag| args.shows(diag)).cloned().collect();
+    let name = files::name(form);
+    let asked = if form == standard_input { "-" } else { name.as_str() };
+    say(&report::brief(&shown, &checked.files, asked));
+    let denied = if args.denies_warnings() { warnings.len() } else { 0 };
+    let stops = [(errors.len(), "error"), (denied, "warning")];
+    let stops: Vec<String> = stops.iter().filter(|(n, _)| *n > 0).map(|(n, what)| report::count(*n, what)).collect();
+    let (Some(program), true) = (program, stops.is_empty()) else {
+        message(&format!("{name}: {}, nothing was printed", stops.join(", ")));
         return Ok(None);
-    }
-    let program = compile(&checked.form);
+    };
     prompt::ask(&program, &mut set, job == standard_input)
         .map_err(|error| io_message("read", Path::new("standard input"), &error))?;
     let options = Options {

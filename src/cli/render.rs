@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use postform::diag::{Code, Diag};
+use postform::diag::{Code, Diag, Severity};
 use postform::render::{Options, Renderer, TraceLine};
 use postform::source::Source;
 use postform::toolpath::{Event, Place, ReadError, Sink};
@@ -61,6 +61,8 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     notes.extend_from_slice(writer.renderer.notes());
     let name = files::name(&args.job);
     notes.iter_mut().for_each(|diag| place_in(&name, diag));
+    let denied = args.options.denies_warnings() && notes.iter().any(|diag| diag.severity == Severity::Warning);
+    notes.retain(|diag| args.options.shows(diag));
     say(&reporter.text(&notes, &prepared.files));
     if let Some((is_trace, error)) = writer.failure.take() {
         let path = if is_trace { args.trace.as_deref() } else { None };
@@ -76,6 +78,10 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
             return Ok(ending);
         }
     }
+    if denied {
+        message("nothing was printed: --deny warnings");
+        return Ok(Ending::Findings);
+    }
     let Some(job) = job else { return writer.finish(args) };
     if writer.drain().is_err() {
         return writer.finish(args);
@@ -89,9 +95,12 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         control: &args.control,
         tolerance: None,
         name: "the program".into(),
+        quiet: args.options.quiet,
     };
     let proven = proof.run(program, &reporter)?;
-    say(&proven.text.unwrap_or_default());
+    if !args.options.quiet || proven.ending != Ending::Clean {
+        say(&proven.text.unwrap_or_default());
+    }
     match proven.ending {
         Ending::Clean => writer.finish(args),
         ending => {

@@ -182,6 +182,30 @@ fn too_long_to_draw(diag: &Diag, source: &Source, file: u32) -> bool {
     })
 }
 
+/// Findings of a form that a run shows.
+const MOST: usize = 10;
+
+/// Findings of a form in a line each, the first ten; `form`: what lint is asked for the others with.
+pub fn brief(diags: &[Diag], files: &[Source], form: &str) -> String {
+    let mut text: String = diags.iter().take(MOST).map(|diag| line(diag, files)).collect();
+    if diags.len() > MOST {
+        text += &format!("and {} more: postform lint {form}\n", diags.len() - MOST);
+    }
+    text
+}
+
+/// `form.pf:13:6: warning PF426: .. (print `G43` before it)`.
+fn line(diag: &Diag, files: &[Source]) -> String {
+    let place = diag.labels.first().and_then(|label| {
+        let source = files.get(label.span.file as usize)?;
+        let (line, column) = source.line_column(label.span.start);
+        Some(format!("{}:{line}:{column}: ", source.name))
+    });
+    let help = diag.help.as_ref().map(|help| format!(" ({help})")).unwrap_or_default();
+    let (place, severity) = (place.unwrap_or_default(), diag.severity.name());
+    format!("{place}{severity} {}: {}{help}\n", diag.code.name(), diag.message)
+}
+
 /// `1 error`, `2 errors`.
 pub fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })

@@ -59,6 +59,7 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
         control: &control,
         tolerance: args.tolerance,
         name,
+        quiet: args.options.quiet,
     };
     let proven = proof.run(program, reporter)?;
     if let Some(text) = &proven.text {
@@ -99,6 +100,8 @@ pub struct Proof<'a> {
     pub tolerance: Option<f64>,
     /// What the program is called.
     pub name: String,
+    /// Warnings of the run are not shown.
+    pub quiet: bool,
 }
 
 /// How it came out.
@@ -126,9 +129,11 @@ impl Proof<'_> {
         let mut comparer = Started { comparer, known: self.prepared.is_none_or(|p| p.options.units.is_none()) };
         let read = self.job.read(&mut comparer)?;
         let counts = comparer.comparer.counts();
-        let mut warnings = comparer.comparer.warnings();
-        warnings.iter_mut().for_each(|diag| self.place_in_program(diag));
-        say(&reporter.text(&warnings, &[]));
+        if !self.quiet {
+            let mut warnings = comparer.comparer.warnings();
+            warnings.iter_mut().for_each(|diag| self.place_in_program(diag));
+            say(&reporter.text(&warnings, &[]));
+        }
         let verdict = comparer.comparer.verdict().map_err(|error| io_message("read", Path::new(&self.name), &error))?;
         let job = files::name(self.job.path);
         if let Err(error) = read

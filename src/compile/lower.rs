@@ -3,7 +3,7 @@
 use super::letters::LetterTable;
 use super::program::{Block, CycleStyle, Literal, Op, Program, UponBlock};
 use super::work;
-use crate::lang::{Group, SequenceId, VarId, VarSet, group_of};
+use crate::lang::{Group, SequenceId, VarId, VarSet, ends_cycle, group_of, moves_by_itself};
 use crate::sema::{Form, Line, Sequence, WordKind};
 use crate::span::Span;
 
@@ -142,11 +142,18 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Block {
         vars,
         setup_vars: VarSet::default(),
         cancel: false,
+        stays: stays_in_cycle(lines),
         style: CycleStyle::Emulated,
         returns: prints_g98 || vars.has(VarId::Retplane) || vars.has(VarId::Rplane),
         span,
         ops,
     }
+}
+
+/// Do these lines leave the control in a motion of its own? The last code that says so counts.
+fn stays_in_cycle(lines: &[Line]) -> bool {
+    let mut codes = lines.iter().flat_map(|line| &line.words).filter_map(|word| word.typed(b'G'));
+    codes.rfind(|&code| moves_by_itself(code) || ends_cycle(code)).is_some_and(moves_by_itself)
 }
 
 /// Adds a row to a table and returns its index.

@@ -94,6 +94,8 @@ pub struct Block {
     pub setup_vars: VarSet,
     /// `End Cancel`.
     pub cancel: bool,
+    /// Its lines leave the control in a cycle, a macro or another motion of its own.
+    pub stays: bool,
     /// How it prints as a cycle.
     pub style: CycleStyle,
     /// It prints `[retplane]`, `[rplane]` or G98: the tool comes back to the return plane.

@@ -135,6 +135,7 @@ codes! {
     PF439 Warning "a distance among positions"
     PF440 Warning "a retract to the zero of the part"
     PF441 Warning "a tool that goes across before it is up"
+    PF442 Warning "a thread whose passes do not return"
     // PF5: modality
     PF501 Warning "a letter that no control keeps, named as modal"
     PF502 Warning "a code that acts once, named as modal"
@@ -248,6 +249,7 @@ codes! {
     PR023 Warning "cutter compensation at the end"
     PR024 Note "an arc printed as lines"
     PR025 Warning "a feed that its format rounds by more than 1 %"
+    PR026 Note "a comment in several blocks"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

@@ -122,6 +122,27 @@ pub fn work_code(first: f64, work: f64) -> Option<f64> {
     }
 }
 
+/// The machine-cycle codes of controls: G73, G74, G76 and G81 to G89.
+pub fn is_cycle_code(code: f64) -> bool {
+    [73.0, 74.0, 76.0].contains(&code) || (81.0..90.0).contains(&code)
+}
+
+/// Does the control move by itself after this G code: a cycle, a thread (it feeds by its pitch), a macro, or a code
+/// above G100, which is the machine builder's own?
+pub fn moves_by_itself(code: f64) -> bool {
+    is_cycle_code(code) || [32.0, 33.0, 33.1, 63.0].contains(&code) || is_called(code)
+}
+
+/// The codes of macro calls, and those above G100.
+pub fn is_called(code: f64) -> bool {
+    [65.0, 66.0].contains(&code) || code >= 100.0
+}
+
+/// Does a G code end what the control does by itself: a motion of another kind, G80, or G67 after a macro?
+pub fn ends_cycle(code: f64) -> bool {
+    (0.0..4.0).contains(&code) || [67.0, 80.0].contains(&code)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

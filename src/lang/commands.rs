@@ -72,8 +72,8 @@ commands! {
     Control          "Control"          (Choice(&["fanuc", "haas", "fadal", "linuxcnc", "emc2", "grbl"])) once "fanuc" Ours "the control that the programs are checked for"
     Rapid            "Rapid"            (Codes(1, 1))       once "G0" Doc "motion word of generated rapids"
     Feed             "Feed"             (Codes(1, 1))       once "G1" Doc "motion word of generated feed moves"
-    CW               "CW"               (Codes(1, 1))       once "G2" Ours "motion word of generated clockwise arcs"
-    CCW              "CCW"              (Codes(1, 1))       once "G3" Ours "motion word of generated counter-clockwise arcs"
+    CW               "CW"               (Codes(1, 2))       once "G2" Ours "motion word of generated clockwise arcs; an M code behind it is [direct]'s"
+    CCW              "CCW"              (Codes(1, 2))       once "G3" Ours "motion word of generated counter-clockwise arcs; an M code behind it is [direct]'s"
     FeedCode         "FeedCode"         (Letters(1, 1))     once "F" Doc "letter of generated feed words"
     SpeedCode        "SpeedCode"        (Letters(1, 1))     once "S" Doc "letter of generated speed words"
     FeedType         "FeedType"         (Codes(2, 3))       once "94 95 93; lathe 98 99" Ours "values of [feedtype]: per minute, per revolution, inverse time"
@@ -137,7 +137,7 @@ commands! {
     Ask              "Ask"              (Words("variable, prompt in quotes, default")) many "" Ours "a prompted variable"
     Call             "Call"             (Text)              many "" Ours "includes another form of the same folder"
     CallMe           "CallMe"           (Text)              many "" Ours "includes another form of the same folder"
-    SubsFirst        "Subs1st?"         (Switch)            once "N" Ours "subprograms before the main program"
+    SubsFirst        "Subs1st?"         (Switch)            once "N; with a Between Y" Ours "subprograms before the main program"
     RenumSubs        "RenumSubs?"       (Switch)            once "Y" Ours "number subprograms from 1"
     VRapid           "VRapid"           (Codes(1, 1))       once "" Ours "motion word of the depth part of a rapid, which is then split"
     ZRestart         "ZRestart?"        (Switch)            once "N" Ours "the move after a tool change prints the depth again"
@@ -171,9 +171,11 @@ impl CommandId {
         self.row().name
     }
 
-    /// Finds a name in any case.
+    /// Finds a name in any case; the question mark of a switch may be left out where no other command has that name.
     pub fn parse(name: &str) -> Option<CommandId> {
-        COMMANDS.iter().find(|c| c.name.eq_ignore_ascii_case(name)).map(|c| c.id)
+        let find = |same: &dyn Fn(&str) -> bool| COMMANDS.iter().find(|c| same(c.name)).map(|c| c.id);
+        find(&|own| own.eq_ignore_ascii_case(name))
+            .or_else(|| find(&|own| own.strip_suffix('?').is_some_and(|own| own.eq_ignore_ascii_case(name))))
     }
 }
 
@@ -186,5 +188,7 @@ mod tests {
         for command in COMMANDS {
             assert_eq!(CommandId::parse(&command.name.to_lowercase()), Some(command.id));
         }
+        assert_eq!(CommandId::parse("modality"), Some(CommandId::Modality));
+        assert_eq!(CommandId::parse("Spaces"), Some(CommandId::Spaces));
     }
 }

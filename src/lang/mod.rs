@@ -4,13 +4,18 @@
 
 mod codes;
 mod commands;
+mod controls;
 mod machine;
 mod sequences;
 mod suggest;
 mod variables;
 
-pub use codes::{Frame, GROUPS, Group, NC_CODES, changes_tool, frame_of, group_of, is_stop, work_code};
+pub use codes::{
+    Frame, GROUPS, Group, NC_CODES, changes_tool, ends_cycle, frame_of, group_of, is_called, is_cycle_code, is_stop,
+    moves_by_itself, work_code,
+};
 pub use commands::{Args, COMMANDS, Command, CommandId};
+pub use controls::longest_block;
 pub use machine::{Machine, Machines};
 pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
 pub use suggest::{did_you_mean, nearest};

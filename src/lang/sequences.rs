@@ -81,7 +81,7 @@ sequences! {
     SubStart          "SubStart"          plain "M"   ""    Doc "the beginning of a subprogram" "`subprograms`" "sub-start"
     SubEnd            "SubEnd"            plain "M"   ""    Doc "the end of a subprogram" "end of a subprogram" "sub-end"
     SubCall           "SubCall"           plain "M"   ""    Doc "the call of a subprogram" "`call`" "sub-call"
-    Between           "Between"           plain "M"   ""    Doc "after the last subprogram, before the main program" "after the subprograms, with `Subs1st? Y`" "between"
+    Between           "Between"           plain "M"   ""    Doc "after the last subprogram, before the main program" "after the subprograms" "between"
     EdmCut            "EdmCut"            plain "E"   ""    Doc "cuts the wire" "`edm` cut" "wire"
     EdmThread         "EdmThread"         plain "E"   ""    Doc "threads the wire" "`edm` thread" "wire"
     EdmPreDrillThread "EdmPreDrillThread" plain "E"   ""    Doc "predrills a thread point" "`edm` predrill" "wire"

@@ -30,6 +30,8 @@ pub enum Origin {
     Computed,
     /// The job's `set`, or a prompt.
     Job,
+    /// The renderer, from the job; a prompt or `--set` where the job says nothing.
+    Asked,
 }
 
 /// One row of the table.
@@ -89,6 +91,10 @@ variables! {
     Rotaxdir      "rotaxdir"       "Position"           Number  Computed  "M"    "direction of the rotary move: 1 or -1"
     Homeh         "homeh"          "Position"           Length  Job       "MLE"  "home position along the first axis"
     Homev         "homev"          "Position"           Length  Job       "MLE"  "home position along the second axis"
+    Endh          "endh"           "Position"           Length  Job       "MLE"  "end position along the first axis: where the tool waits after the program"
+    Endv          "endv"           "Position"           Length  Job       "MLE"  "end position along the second axis"
+    Hcdc          "hcdc"           "Position"           Length  Job       "MLE"  "cutter compensation along the first axis"
+    Vcdc          "vcdc"           "Position"           Length  Job       "MLE"  "cutter compensation along the second axis"
     Hvector       "hvector"        "Position"           Number  Computed  "M"    "tool axis, first component"
     Vvector       "vvector"        "Position"           Number  Computed  "M"    "tool axis, second component"
     Ivect         "ivect"          "Position"           Number  Computed  "M"    "tool axis, first component"
@@ -109,11 +115,11 @@ variables! {
     Feedtype      "feedtype"       "Feeds and speeds"   Code    Computed  "MLE"  "feed mode code (FeedType)"
     Speedtype     "speedtype"      "Feeds and speeds"   Code    Computed  "ML"   "spindle mode code (SpeedType)"
     Invtime       "invtime"        "Feeds and speeds"   Number  Computed  "M"    "inverse time of the move, 1/min"
-    Maxrpm        "maxrpm"         "Feeds and speeds"   Speed   Computed  "ML"   "highest spindle speed at constant surface speed"
+    Maxrpm        "maxrpm"         "Feeds and speeds"   Speed   Asked     "ML"   "highest spindle speed at constant surface speed"
     Pitch         "pitch"          "Threads"            Length  Computed  "ML"   "thread pitch"
     Rplane        "rplane"         "Cycles"             Length  Computed  "ML"   "return plane: where the tool is before and after a hole"
     Vclear        "vclear"         "Cycles"             Length  Computed  "ML"   "clearance plane (R plane): where the feed begins"
-    Depth         "depth"          "Cycles"             Length  Computed  "ML"   "depth of the hole below its point, positive; in a thread its height"
+    Depth         "depth"          "Cycles"             Length  Computed  "MLE"  "depth of the hole below its point, positive; in a thread its height"
     Inidep        "inidep"         "Cycles"             Length  Computed  "ML"   "depth after the first peck"
     Vbite         "vbite"          "Cycles"             Length  Computed  "ML"   "peck; in a thread the least cut"
     Vleave        "vleave"         "Cycles"             Length  Computed  "ML"   "finish allowance of a thread; secondary clearance of a hole"
@@ -137,11 +143,11 @@ variables! {
     Dcomp         "dcomp"          "Tools"              Count   Computed  "MLE"  "diameter offset register"
     Comp          "comp"           "Tools"              Count   Job       "MLE"  "offset register; on lathes the T number: tool x 100 + length register, or a tool number from 100 on as it is"
     Turret        "turret"         "Tools"              Count   Computed  "L"    "turret of the tool"
-    Cool          "cool"           "Tools"              Code    Computed  "ML"   "coolant code (Coolant)"
-    Coolantoff    "coolantoff"     "Tools"              Code    Computed  "ML"   "code that turns coolant off"
+    Cool          "cool"           "Tools"              Code    Computed  "MLE"  "coolant code (Coolant)"
+    Coolantoff    "coolantoff"     "Tools"              Code    Computed  "MLE"  "code that turns coolant off"
     Direct        "direct"         "Tools"              Code    Computed  "ML"   "spindle direction code (Spindle)"
     Side          "side"           "Tools"              Code    Computed  "MLE"  "cutter compensation code (CDC)"
-    Program       "program#"       "Program"            Count   Computed  "MLE"  "program number"
+    Program       "program#"       "Program"            Count   Asked     "MLE"  "program number"
     Block         "block"          "Program"            Count   Job       "MLE"  "number of this block"
     Sub           "sub"            "Program"            Count   Computed  "M"    "subprogram number"
     Subline       "subline"        "Program"            Count   Computed  "M"    "block number at which the subprogram starts"
@@ -185,6 +191,9 @@ variables! {
     Lowerdist     "lowerdist"      "Wire EDM"           Length  Job       "E"    "distance of the lower guide"
 }
 
+/// Names that the manual's list has for others.
+const ALSO: [(&str, VarId); 2] = [("lastrotang", VarId::Lastrotangle), ("etplane", VarId::Retplane)];
+
 impl VarId {
     /// Its row of the table.
     pub fn row(self) -> &'static Variable {
@@ -198,7 +207,8 @@ impl VarId {
 
     /// Finds a name in any case.
     pub fn parse(name: &str) -> Option<VarId> {
-        VARIABLES.iter().find(|v| v.name.eq_ignore_ascii_case(name)).map(|v| v.id)
+        let own = VARIABLES.iter().find(|v| v.name.eq_ignore_ascii_case(name)).map(|v| v.id);
+        own.or_else(|| ALSO.iter().find(|(also, _)| also.eq_ignore_ascii_case(name)).map(|(_, id)| *id))
     }
 }
 
@@ -269,5 +279,6 @@ mod tests {
             assert_eq!(VarId::parse(&variable.name.to_uppercase()), Some(variable.id));
         }
         assert_eq!(VarId::parse("vlcear"), None);
+        assert_eq!(VarId::parse("Etplane"), Some(VarId::Retplane));
     }
 }

@@ -1,6 +1,6 @@
 //! The blocks of a body as a control would read them: which modes hold where each word stands.
 
-use crate::lang::{Origin, VarId};
+use crate::lang::{Origin, VarId, is_called, moves_by_itself};
 use crate::sema::{Line, Settings, Word, WordKind};
 
 /// How the tool moves in a block.
@@ -54,24 +54,8 @@ impl<'a> Block<'a> {
     }
 }
 
-/// The machine-cycle codes of controls: G73, G74, G76 and G81 to G89.
-pub fn is_cycle_code(code: f64) -> bool {
-    [73.0, 74.0, 76.0].contains(&code) || (81.0..90.0).contains(&code)
-}
-
 /// Codes whose axis words are a time or a setting: dwell, data, scale, mirror, local zero, rotation.
 const SETS: &[f64] = &[4.0, 10.0, 50.1, 51.0, 51.1, 52.0, 68.0, 68.2, 68.3, 92.0];
-
-/// Does the control move by itself after this G code: a cycle, a thread (it feeds by its pitch), a macro, or a code
-/// above G100, which is the machine builder's own?
-pub fn moves_by_itself(code: f64) -> bool {
-    is_cycle_code(code) || [32.0, 33.0, 33.1, 63.0].contains(&code) || is_called(code)
-}
-
-/// The codes of macro calls, and those above G100.
-fn is_called(code: f64) -> bool {
-    [65.0, 66.0].contains(&code) || code >= 100.0
-}
 
 /// Does a word call something that does more than the block says: a macro, a subprogram, a code of the builder?
 pub fn calls(word: &Word) -> bool {

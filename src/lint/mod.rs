@@ -13,6 +13,7 @@ pub use levels::{Level, Levels};
 pub use mend::{Changed, Mended, mend};
 pub use rules::{RULES, Rule};
 
+use crate::compile::{Program, compile};
 use crate::diag::{Code, Diag, Severity};
 use crate::sema::Checked;
 use crate::syntax::SequenceNode;
@@ -42,6 +43,28 @@ pub fn lint(checked: &Checked, levels: &Levels) -> Findings {
     leave_causes(checked, &mut diags);
     sort(&mut diags);
     Findings { diags, suppressed }
+}
+
+/// A form that can print, with what it is warned of.
+#[derive(Debug)]
+pub struct Ready {
+    /// What prints.
+    pub program: Program,
+    /// Its warnings, in the order of their places; notes are for [`lint`].
+    pub warnings: Vec<Diag>,
+}
+
+/// Compiles a form that was analysed. Levels and the comments of the form hold.
+///
+/// # Errors
+/// All errors and warnings, where one of them is an error: of the form itself, or because these levels say so.
+pub fn ready(checked: &Checked, levels: &Levels) -> Result<Ready, Vec<Diag>> {
+    let mut diags = lint(checked, levels).diags;
+    diags.retain(|diag| diag.severity > Severity::Note);
+    match diags.iter().any(Diag::is_error) {
+        true => Err(diags),
+        false => Ok(Ready { program: compile(&checked.form), warnings: diags }),
+    }
 }
 
 /// Where words of a sequence were not understood, what it lacks only follows from that: the cause is shown alone.

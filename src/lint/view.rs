@@ -1,13 +1,13 @@
 //! A form as rules look at it: its bodies in one list, what its letters print, what it is for.
 
 use crate::compile::LetterTable;
-use crate::lang::{CommandId, Machine, SequenceId, VarId, VarSet};
+use crate::lang::{CommandId, Machine, SequenceId, VarId, VarSet, is_cycle_code, moves_by_itself};
 use crate::sema::{Checked, Form, Line, Sequence, Settings, UnitChoice, Word, before_remark};
 use crate::span::Span;
 use crate::syntax::{self, Piece, SequenceNode, Statement};
 use crate::toolpath::CycleKind;
 
-use super::blocks::{self, Block, is_cycle_code, moves_by_itself};
+use super::blocks::{self, Block};
 
 /// A form with what many rules ask of it.
 pub struct View<'a> {

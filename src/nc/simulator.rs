@@ -11,9 +11,9 @@ use super::machine::{Machine, Next, Settings};
 use super::parameters::Parameters;
 use crate::diag::{Code, Diag};
 
-/// Longest line in bytes; LinuxCNC takes 255.
+/// Longest line in bytes; LinuxCNC takes 252.
 const LONGEST: usize = 1 << 16;
-const LONGEST_OF_LINUXCNC: usize = 255;
+const LONGEST_OF_LINUXCNC: usize = 252;
 /// Rounds of loops, calls, and blocks passed over, before a program counts as endless.
 const MOST_JUMPS: u64 = 2_000_000;
 

@@ -27,6 +27,15 @@ fn plane_axes(plane: Plane) -> ([usize; 2], usize, f64) {
 /// Variables that say where an arc's centre is.
 const CENTRES: VarSet = VarSet::of(&[VarId::Ival, VarId::Jval, VarId::Kval, VarId::Hctr, VarId::Vctr]);
 
+/// The variables of the centre along each axis.
+const CENTRE_OF: [&[VarId]; 3] = [&[VarId::Ival, VarId::Hctr], &[VarId::Jval, VarId::Vctr], &[VarId::Kval]];
+
+/// Does a sequence say where an arc ends by its centre and the angle there?
+fn ends_by_angle(block: &Block, axes: [usize; 2]) -> bool {
+    let angle = block.vars.has(VarId::Endang) || block.vars.has(VarId::Sweep);
+    angle && axes.iter().all(|&axis| CENTRE_OF[axis].iter().any(|&var| block.vars.has(var)))
+}
+
 /// An arc or a part of one, ready to print.
 struct Piece<'a> {
     axes: [usize; 2],
@@ -207,9 +216,8 @@ impl Renderer<'_> {
     }
 
     fn has_centre_words(&self, axes: [usize; 2], ccw: bool) -> bool {
-        const WORDS: [&[VarId]; 3] = [&[VarId::Ival, VarId::Hctr], &[VarId::Jval, VarId::Vctr], &[VarId::Kval]];
         if let Some(block) = self.program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
-            let says = |axis: usize| WORDS[axis].iter().any(|&var| block.vars.has(var));
+            let says = |axis: usize| CENTRE_OF[axis].iter().any(|&var| block.vars.has(var));
             return block.vars.has(VarId::Arcrad) || axes.iter().all(|&axis| says(axis));
         }
         match &self.program.settings.centre {
@@ -371,13 +379,23 @@ impl Renderer<'_> {
         }
         self.shifted = Shift::None;
         if let Some(block) = program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
-            self.sequence_says(block, &piece.target)?;
+            let [a, b] = piece.axes;
+            let polar = ends_by_angle(block, piece.axes) && !(self.says_axis(block, a) && self.says_axis(block, b));
+            let said = if polar { 1 << a | 1 << b } else { 0 };
+            self.sequence_says(block, &Axes { given: piece.target.given & !said, ..piece.target })?;
             self.upons(block.vars)?;
             self.plane_block(piece.plane.value, block)?;
             self.says_arc(block, code)?;
             self.feed_block(code, block)?;
             self.shifted = Shift::None;
             self.run(block.ops.clone(), Mode::ArcMotion)?;
+            if polar {
+                // the control knows where it is, and the letters of these axes say something older
+                for axis in piece.axes {
+                    self.registers.forget(self.letters[self.axes[axis]].printed);
+                }
+                self.registers.forget_group(Group::Motion); // G12 is a motion that no group knows
+            }
         } else {
             self.arc_block(piece, code, &centre, ccw)?;
         }

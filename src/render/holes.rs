@@ -10,7 +10,7 @@ use super::words::Mode;
 use crate::compile::{Block, CycleStyle, LetterKind};
 use crate::cycle::{Plan, Step, plan};
 use crate::diag::Code;
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{SequenceId, VarId, VarSet};
 use crate::sema;
 use crate::toolpath::{Axes, CycleKind, FeedMode, Hole, impossible};
 
@@ -184,12 +184,13 @@ impl Renderer<'_> {
         self.attend_hole(block)?; // with [d] at the return plane: an Upon must not go down the hole
         self.hole_variables(planes, heights);
         self.vars.set(VarId::D, heights.return_plane);
-        let used = block.vars.without(crate::lang::VarSet::of(&[VarId::D]));
+        let used = block.vars.without(VarSet::of(&[VarId::D]));
         if self.upon_is_due(used, false) {
             self.leave_cycle()?; // else the control takes its words for those of a hole
             self.attend_between(target, planes, heights)?;
         }
         self.upons(used)?;
+        self.upon_bottom(block, target, planes, heights)?;
         self.plane_block(17.0, block)?; // else the control drills along another axis
         self.vars.set(VarId::D, heights.bottom);
         if matches!(block.style, CycleStyle::Emulated) {
@@ -198,6 +199,9 @@ impl Renderer<'_> {
             self.registers.forget_letters();
             self.shifted = Shift::None;
             self.run(block.ops.clone(), Mode::Hole)?;
+            if let Some(cycle) = &mut self.cycle {
+                cycle.in_force = block.stays;
+            }
             // after a cycle of the control the last height printed is its bottom
             let cycled = self.says_code(block, b'G', is_cycle);
             return self.left_hole(target, cycled.then_some((heights.return_plane, false)));
@@ -238,6 +242,19 @@ impl Renderer<'_> {
         let exit = if returns { initial.max(heights.clear) } else { heights.clear };
         let known = block.returns || heights.return_plane <= heights.clear + SAME;
         self.left_hole(target, Some((exit, known)))
+    }
+
+    /// An Upon of the hole's bottom, unless it would take the tool there.
+    fn upon_bottom(&mut self, block: &Block, target: &Axes, planes: &Plan, heights: Heights) -> Done {
+        const BOTTOM: VarSet = VarSet::of(&[VarId::D]);
+        self.vars.set(VarId::D, heights.bottom);
+        if !block.vars.has(VarId::D) || !self.upon_is_due(BOTTOM, false) || self.upon_is_due(BOTTOM, true) {
+            return Ok(());
+        }
+        self.leave_cycle()?; // else the control takes its words for those of a hole
+        self.attend_between(target, planes, heights)?;
+        self.vars.set(VarId::D, heights.bottom);
+        self.upons(BOTTOM)
     }
 
     /// What stands between holes. While the control is in its cycle nothing may come there: it would be taken for a hole, and
@@ -309,7 +326,11 @@ impl Renderer<'_> {
     fn raise_to(&mut self, target: &Axes) -> Done {
         let below = self.is_below(target) && self.differs(target, self.depth_bit());
         let across = (0..2).any(|axis| axis != self.depth_axis && self.position.get(axis) != target.get(axis));
-        if below && across { self.raise(target) } else { Ok(()) }
+        if !below || !across {
+            return Ok(());
+        }
+        self.cancel()?; // else the control takes the rapid for a hole
+        self.raise(target)
     }
 
     fn raise(&mut self, target: &Axes) -> Done {

@@ -100,6 +100,8 @@ pub struct Renderer<'p> {
     pub(super) tool: Option<f64>,
     pub(super) tool_order: Option<Vec<f64>>,
     pub(super) tool_changes: usize,
+    /// The spindle's limit that a prompt gave.
+    pub(super) most_rpm: Option<f64>,
     pub(super) served: super::changes::Served,
     pub(super) upon_used: Vec<Option<f64>>,
     /// A sequence printed a code or value that switches something.
@@ -167,6 +169,7 @@ impl<'p> Renderer<'p> {
             tool: None,
             tool_order: None,
             tool_changes: 0,
+            most_rpm: None,
             served: super::changes::Served::default(),
             upon_used: vec![None; program.upons.len()],
             switched: false,

@@ -4,7 +4,7 @@ use super::fault::{Done, fault};
 use super::renderer::Renderer;
 use super::words::tenths;
 use crate::diag::{Code, steers};
-use crate::lang::{Machine, SequenceId, VarId, is_stop};
+use crate::lang::{Machine, SequenceId, VarId, is_stop, longest_block};
 use crate::sema;
 use crate::toolpath::{EdmAction, Section, StopKind};
 
@@ -84,19 +84,25 @@ impl Renderer<'_> {
         }
     }
 
-    /// What a wire EDM machine does between moves, where the form has a sequence for it.
+    /// What a wire EDM machine does between moves: the form must have a sequence for it.
     pub(super) fn edm(&mut self, action: EdmAction) -> Done {
         let machine = self.program.settings.machine;
         if machine != Machine::Edm {
             let message = format!("a {} has no wire", machine.name());
             return fault(Code::PR008, message, "take the item out, or render it for a wire EDM machine");
         }
-        self.run_section(match action {
-            EdmAction::Thread => SequenceId::EdmThread,
-            EdmAction::Cut => SequenceId::EdmCut,
-            EdmAction::PreDrill => SequenceId::EdmPreDrillThread,
-            EdmAction::Submerge => SequenceId::SubmergeTank,
-        })
+        let (id, what) = match action {
+            EdmAction::Thread => (SequenceId::EdmThread, "threads the wire"),
+            EdmAction::Cut => (SequenceId::EdmCut, "cuts the wire"),
+            EdmAction::PreDrill => (SequenceId::EdmPreDrillThread, "drills a start hole"),
+            EdmAction::Submerge => (SequenceId::SubmergeTank, "fills the tank"),
+        };
+        if self.program.block(id).is_none() {
+            let message = format!("the job {what} here, and the form has no {}", id.name());
+            let help = format!("add the sequence `{}` with what the machine needs, to its `End`", id.name());
+            return fault(Code::PR008, message, help);
+        }
+        self.run_section(id)
     }
 
     /// A dwell in seconds.
@@ -168,7 +174,27 @@ impl Renderer<'_> {
         Ok(())
     }
 
+    /// A comment, in as many blocks as the control's line asks for.
     pub(super) fn comment_block(&mut self, text: &str) {
+        let room = self.comment_room();
+        for (i, line) in wrapped(text, room).enumerate() {
+            if i == 1 {
+                let message = "a comment is longer than the control's line, and goes on in the next";
+                self.note(Code::PR026, message.into(), "shorten it, if it is to stand in one block");
+            }
+            self.comment_line(line);
+        }
+    }
+
+    /// How many characters of a comment a block has room for, beside its marks, number and end.
+    fn comment_room(&self) -> usize {
+        let settings = &self.program.settings;
+        let number = settings.numbers.letter.map_or(0, |letter| usize::from(self.letters[letter].format.int.count) + 2);
+        let others = number + settings.eob.len() + settings.comment.iter().map(String::len).sum::<usize>();
+        longest_block(&settings.control).map_or(usize::MAX, |longest| longest.saturating_sub(others).max(1))
+    }
+
+    fn comment_line(&mut self, text: &str) {
         let settings = &self.program.settings;
         let [open, close] = &settings.comment;
         let out = self.out.word(&self.layout, false);
@@ -212,6 +238,19 @@ impl Renderer<'_> {
         self.end_block();
         Ok(())
     }
+}
+
+/// A text in lines of at most so many characters, broken at blanks where it has them.
+fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
+    let mut rest = Some(text);
+    std::iter::from_fn(move || {
+        let text = rest.take()?;
+        let Some((end, _)) = text.char_indices().nth(most) else { return Some(text) };
+        let blank = if text[end..].starts_with(' ') { Some(end) } else { text[..end].rfind(' ') };
+        let (line, later) = text.split_at(blank.filter(|&at| at > 0).unwrap_or(end));
+        rest = Some(later.trim_start_matches(' ')).filter(|later| !later.is_empty());
+        Some(line)
+    })
 }
 
 fn part(section: Section) -> &'static str {

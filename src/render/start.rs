@@ -179,6 +179,7 @@ impl Renderer<'_> {
             };
             self.vars.set(prompt.var, default);
         }
+        self.most_rpm = self.vars.get(VarId::Maxrpm);
         Ok(())
     }
 

@@ -63,7 +63,8 @@ impl Renderer<'_> {
         let starts = thread.starts.unwrap_or(1.0);
         let begin = self.target(&thread.from).values[0];
         self.thread_variables(thread, &cut);
-        if let Some(block) = program.block(SequenceId::AutoThread).or(program.block(SequenceId::CanThread)) {
+        let cycle = program.block(SequenceId::AutoThread).or(program.block(SequenceId::CanThread));
+        if let Some(block) = cycle {
             self.thread_says(thread, &cut, block)?;
         } else if thread.chamfer.is_some_and(|length| length != 0.0) {
             let help = "leave the chamfer out, or give the form an AutoThread that prints [chams]";
@@ -89,6 +90,11 @@ impl Renderer<'_> {
                 }
                 (None, Some(block)) => self.canned_passes(block, &cut)?,
                 (None, None) => self.own_passes(&cut, &here)?,
+            }
+            if cycle.is_some_and(|block| block.cancel)
+                && let Some(cancel) = program.block(SequenceId::Cancel)
+            {
+                self.run_with_upons(cancel)?; // else the rapid behind it would be a pass
             }
             self.registers.forget_all();
             self.position = here;

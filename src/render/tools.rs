@@ -50,9 +50,10 @@ impl Renderer<'_> {
     /// Spindle, coolant, work offset and feeds of the operation.
     fn conditions(&mut self, change: &ToolChange, new_tool: bool) -> Done {
         if new_tool {
-            for var in [VarId::Speed, VarId::Direct, VarId::Maxrpm] {
+            for var in [VarId::Speed, VarId::Direct] {
                 self.vars.put(var, None);
             }
+            self.vars.put(VarId::Maxrpm, self.most_rpm);
             self.vars.set(VarId::Speedtype, self.program.settings.speed_type[1]);
         }
         if let Some(spindle) = &change.spindle {

@@ -294,7 +294,15 @@ impl Renderer<'_> {
 
     /// A value without a letter; `said`: outside a comment, so that the control reads it.
     fn bare_word(&mut self, var: VarId, glued: bool, said: bool) -> Done {
-        let Some(value) = self.value_of(var, b' ')? else { return Ok(()) };
+        let value = match self.value_of(var, b' ') {
+            Ok(Some(value)) => value,
+            Ok(None) => return Ok(()),
+            Err(_) if !said => {
+                self.out.word(&self.layout, glued).push(b'-'); // a comment says what is known
+                return Ok(());
+            }
+            Err(diag) => return Err(diag),
+        };
         let format = *self.bare_format();
         let units = self.units_of(value, &format, "the value")?;
         let leading = self.program.settings.leading_zeros;

@@ -18,10 +18,10 @@ impl Settings {
             C::Name => self.name = args.text(),
             C::Machine | C::Units => _ = choice(&args)?, // read ahead of all others: defaults depend on them
             C::Control => self.control = choice(&args)?.to_owned(),
-            C::Rapid => self.rapid = args.codes(1, 1, b'G')?.remove(0),
-            C::Feed => self.feed = args.codes(1, 1, b'G')?.remove(0),
-            C::CW => self.cw = args.codes(1, 1, b'G')?.remove(0),
-            C::CCW => self.ccw = args.codes(1, 1, b'G')?.remove(0),
+            C::Rapid => self.rapid = args.g_codes(1, 1)?.remove(0),
+            C::Feed => self.feed = args.g_codes(1, 1)?.remove(0),
+            C::CW => self.cw = args.turn(&mut self.spindle[0])?,
+            C::CCW => self.ccw = args.turn(&mut self.spindle[1])?,
             C::FeedCode => self.feed_code = args.letter()?,
             C::SpeedCode => self.speed_code = args.letter()?,
             C::FeedType => args.values(&mut self.feed_type, 2, b'G')?,
@@ -73,7 +73,7 @@ impl Settings {
             },
             C::CtrIncremental => self.centre_incremental = args.switch()?,
             C::ByQuadrants => self.by_quadrants = args.switch()?,
-            C::ArcPlane => self.planes = args.codes(1, 3, b'G')?,
+            C::ArcPlane => self.planes = args.g_codes(1, 3)?,
             C::Helical => self.helical = args.switch()?,
             C::MinRad => self.min_radius = args.length()?,
             C::MaxRad => self.max_radius = args.length()?,
@@ -128,7 +128,7 @@ impl Settings {
             C::Each | C::Ask => self.prompts.push(prompt(&args, span)?),
             C::SubsFirst => self.subs_first = args.switch()?,
             C::RenumSubs => self.renumber_subs = args.switch()?,
-            C::VRapid => self.depth_rapid = Some(args.codes(1, 1, b'G')?.remove(0)),
+            C::VRapid => self.depth_rapid = Some(args.g_codes(1, 1)?.remove(0)),
             C::ZRestart => self.restart_depth = args.switch()?,
             C::RevTurret2 => self.reverse_turret_2 = args.switch()?,
             C::Limits => {
@@ -140,7 +140,7 @@ impl Settings {
                 }
                 self.limits.push(TravelLimit { letter, least, greatest, span });
             }
-            C::Thread => self.thread = Some(args.codes(1, 1, b'G')?.remove(0)),
+            C::Thread => self.thread = Some(args.g_codes(1, 1)?.remove(0)),
             C::ThreadPasses => self.thread_full = choice(&args)? == "full",
             C::CycleClear => self.cycle_clear = Some(args.length()?),
             C::CycleStep => self.cycle_step = Some(args.length()?),

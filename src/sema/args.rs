@@ -51,6 +51,29 @@ impl Arguments<'_> {
         self.all.iter().map(|arg| code(arg, letter)).collect()
     }
 
+    /// G codes: an M code moves nothing, whatever its number.
+    pub fn g_codes(&self, least: usize, most: usize) -> Read<Vec<Code>> {
+        let codes = self.codes(least, most, b'G')?;
+        match codes.iter().zip(self.all).find(|(code, _)| !code.letter.eq_ignore_ascii_case(&b'G')) {
+            None => Ok(codes),
+            Some((_, arg)) => bad(Some(arg), format!("`{}` is no G code, and only a G code moves the tool", arg.text)),
+        }
+    }
+
+    /// The G code of an arc and, if it is given, the M code of the spindle that turns the same way.
+    pub fn turn(&self, spindle: &mut f64) -> Read<Code> {
+        self.count(1, 2, "codes: of arcs, and of the spindle, as `G2 M3`")?;
+        let arc = Arguments { id: self.id, all: &self.all[..1] }.g_codes(1, 1)?.remove(0);
+        if let Some(second) = self.all.get(1) {
+            let turn = code(second, b'M')?;
+            if !turn.letter.eq_ignore_ascii_case(&b'M') {
+                return bad(Some(second), format!("`{}` is no M code of the spindle", second.text));
+            }
+            *spindle = turn.value;
+        }
+        Ok(arc)
+    }
+
     /// So many values, the later ones optional: those not given keep what they are.
     pub fn values<const N: usize>(&self, into: &mut [f64; N], least: usize, letter: u8) -> Read<()> {
         for (slot, code) in into.iter_mut().zip(self.codes(least, N, letter)?) {

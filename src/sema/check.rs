@@ -34,7 +34,10 @@ impl Checked {
 pub fn analyse(main: Source, limits: Limits, load: &mut dyn FnMut(&str) -> Result<Source, String>) -> Checked {
     let mut analysis = Analysis { limits, ..Analysis::default() };
     analysis.add_file(main, &mut vec![], load);
-    let items = std::mem::take(&mut analysis.items);
+    let mut items = std::mem::take(&mut analysis.items);
+    if let Some(second) = analysis.second_post(&items) {
+        items.truncate(second);
+    }
     analysis.settings(&items);
     for item in &items {
         analysis.item(item);
@@ -118,6 +121,11 @@ impl Analysis {
     /// What only the whole form shows.
     fn whole(&mut self) {
         self.line_limit();
+        // what stands between subprograms and the main program says which come first
+        let says = self.commands_seen.iter().any(|(id, _)| *id == CommandId::SubsFirst);
+        if !says && self.form.sequences.contains_key(&SequenceId::Between) {
+            self.form.settings.subs_first = true;
+        }
         let machine = self.form.settings.machine;
         let end = self.files.first().map_or(0, |file| file.text.len());
         for sequence in SEQUENCES.iter().filter(|s| s.required.has(machine)) {

@@ -4,6 +4,7 @@ mod apply;
 mod args;
 mod called;
 mod check;
+mod library;
 mod limits;
 mod messages;
 mod model;

@@ -7,9 +7,9 @@ use super::messages::{duplicate_sequence, is_word, no_name_line, unknown_name};
 use super::model::{Line, Sequence, Upon};
 use super::words::{Context, resolve, variable};
 use crate::diag::{Code, Diag};
-use crate::lang::{Machines, SequenceId, SequenceName};
+use crate::lang::{Args, CommandId, Machines, SequenceId, SequenceName};
 use crate::span::Span;
-use crate::syntax::{Body, End, Piece, PieceKind, SequenceNode, Spanned, Tail};
+use crate::syntax::{Body, End, Piece, PieceKind, SequenceNode, Spanned, Tail, Word};
 
 impl Analysis {
     pub(super) fn sequence(&mut self, node: &SequenceNode) {
@@ -33,6 +33,7 @@ impl Analysis {
             }
             self.limits_of(body);
             self.glued_end(body);
+            self.command_inside(body);
             lines.push(resolve(body, &context, &mut self.diags));
         }
         match SequenceName::parse(&words) {
@@ -159,6 +160,24 @@ impl Analysis {
         {
             let diag = Diag::new(Code::PF002, format!("`{text}` is no End")).at(*span, "a word of the output");
             self.report(diag.help("write `End Cancel`"));
+        }
+    }
+
+    /// A command between a name and its End would be printed: where its arguments are right ones, it was meant as a command.
+    /// Text commands are left out: `CALL` and `NAME` are words of conversational controls, too.
+    fn command_inside(&mut self, body: &Body) {
+        let Some((first, args)) = body.words.split_first().filter(|(_, args)| !args.is_empty()) else { return };
+        let [Piece { kind: PieceKind::Stray(name), .. }] = first.pieces.as_slice() else { return };
+        let Some(id) = CommandId::parse(name).filter(|id| !matches!(id.row().args, Args::Text)) else { return };
+        let spanned = |word: &Word| {
+            let text = self.files[word.span.file as usize].slice(word.span).to_owned();
+            Spanned { text, span: word.span }
+        };
+        let args: Vec<Spanned> = args.iter().map(spanned).collect();
+        let span = args.iter().fold(first.span, |all, arg| all.to(arg.span));
+        if self.form.settings.clone().apply(id, &args, span).is_ok() {
+            let diag = Diag::new(Code::PF003, format!("a command inside a sequence: {}", id.name()));
+            self.report(diag.at(span, "this would be printed").help("move it above the first sequence"));
         }
     }
 }

@@ -148,7 +148,7 @@ fn statement(at: At, mut line: Line, pair: Pair<Rule>) -> Statement {
                 arg.text = arg.text[1..arg.text.len() - 1].to_owned();
                 args.push(arg);
             }
-            Rule::bare => args.push(at.spanned(&part)),
+            Rule::bare => args.push(without_brackets(at.spanned(&part))),
             _ => line.tail = tail(at, &part),
         }
     }
@@ -244,6 +244,7 @@ fn piece(at: At, pair: Pair<Rule>) -> Piece {
     let span = at.span(&pair);
     let kind = match pair.as_rule() {
         Rule::variable | Rule::note_var => {
+            let old = pair.as_rule() == Rule::variable && pair.as_str().ends_with('>');
             let (mut letter, mut name) = (None, Spanned { text: String::new(), span });
             for part in pair.into_inner() {
                 match part.as_rule() {
@@ -251,7 +252,11 @@ fn piece(at: At, pair: Pair<Rule>) -> Piece {
                     _ => name = at.spanned(&part),
                 }
             }
-            PieceKind::Variable { letter, name }
+            match letter {
+                // the first forms have every number in brackets
+                Some(letter) if old && is_number(&name.text) => PieceKind::Literal { letter, number: name },
+                _ => PieceKind::Variable { letter, name },
+            }
         }
         Rule::literal => {
             let mut parts = pair.clone().into_inner();
@@ -267,6 +272,23 @@ fn piece(at: At, pair: Pair<Rule>) -> Piece {
         _ => PieceKind::Stray(pair.as_str().to_owned()),
     };
     Piece { span, kind }
+}
+
+/// Digits with a sign and a point.
+fn is_number(text: &str) -> bool {
+    text.parse::<f64>().is_ok() && text.bytes().all(|b| b.is_ascii_digit() || b"+-.".contains(&b))
+}
+
+/// `G<0>` as `G0`: an argument of the first forms. Its place stays whole.
+fn without_brackets(mut arg: Spanned) -> Spanned {
+    let inner = arg.text.strip_suffix('>').and_then(|text| text.split_once('<'));
+    if let Some((letter, number)) = inner
+        && letter.len() < 2
+        && is_number(number)
+    {
+        arg.text = format!("{letter}{number}");
+    }
+    arg
 }
 
 fn tail(at: At, pair: &Pair<Rule>) -> Tail {
@@ -316,6 +338,15 @@ mod tests {
         assert_eq!(written(&body[1], text), ["M6", "( Tool Diam: [toold]"]);
         assert!(matches!(body[1].words[1].pieces[0].kind, PieceKind::Note { closed: false, .. }));
         assert_eq!(written(&body[2], text), ["(T[tool])", "M30"]);
+    }
+
+    #[test]
+    fn numbers_may_stand_in_pointed_brackets() {
+        let form = parsed("Rapid G<0>\nDrill\nG<90> %<0> X<h> G[90]\nEnd\n");
+        let literal = |word: &Word| matches!(word.pieces[0].kind, PieceKind::Literal { .. });
+        let kinds: Vec<bool> = sequence(&form).body[0].words.iter().map(literal).collect();
+        assert_eq!(kinds, [true, true, false, false]);
+        assert_eq!(form.statements().next().unwrap().args[0].text, "G0");
     }
 
     #[test]

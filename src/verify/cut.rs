@@ -1,6 +1,6 @@
 //! Cuts and the ways to them: what job and program are compared by.
 
-use crate::nc::{Rotation, Turn};
+use crate::nc::{Cooling, Rotation, Turn};
 use crate::toolpath::{FeedMode, Plane, Side};
 
 /// A place: X Y Z in the job's units and A B C in degrees.
@@ -50,6 +50,8 @@ pub(super) struct State {
     pub work: Option<f64>,
     pub rotation: Option<Rotation>,
     pub speed: Option<f64>,
+    /// Coolant.
+    pub coolant: Option<Cooling>,
     /// Cutter compensation: `None` inside is off.
     pub side: Option<Option<Side>>,
     /// Registers of tool length, and of the diameter while compensation is on.

@@ -20,4 +20,4 @@ mod ways;
 pub use comparer::{Comparer, Counts};
 pub use finding::{Equivalences, Finding, Verdict};
 pub use intended::Expectation;
-pub use programs::{MotionDifference, NoMotion, compare_motions};
+pub use programs::{MotionDifference, Motions, NoMotion, compare_motions};

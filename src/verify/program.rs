@@ -5,7 +5,7 @@ use std::io::{BufRead, Seek};
 use super::cut::{Cut, Place, Rapid, State, What};
 use super::finding::Finding;
 use crate::diag::{Code, Diag};
-use crate::nc::{Action, Item, Position, Rotation, RunError, Settings, Simulator};
+use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, Settings, Simulator};
 use crate::toolpath::{FeedMode, StopKind, Units};
 
 /// A program that is run as far as it was asked for.
@@ -37,6 +37,12 @@ pub(super) struct Program<R> {
     pub moved_with: Vec<[Option<f64>; 2]>,
     /// Stops on the way, and whether the tool stood in a cut.
     pub stops: Vec<(StopKind, bool)>,
+    /// Dwells on the way.
+    pub waits: Vec<f64>,
+    /// How the spindle was switched on the way.
+    pub turns: Vec<Rotation>,
+    /// Codes on the way that are not simulated: letter, and ten times the number.
+    pub codes: Vec<(u8, u16)>,
     cuts: bool,
     cut: Option<Cut>,
     /// Hazards on the way.
@@ -61,6 +67,7 @@ impl<R: BufRead + Seek> Program<R> {
                 side: Some(None),
                 rotation: Some(Rotation::Stop),
                 speed: Some(0.0),
+                coolant: Some(Cooling::Off),
                 work: (!settings.fadal).then_some(54.0),
                 ..State::default()
             },
@@ -77,6 +84,9 @@ impl<R: BufRead + Seek> Program<R> {
             before: None,
             moved_with: Vec::new(),
             stops: Vec::new(),
+            waits: Vec::new(),
+            turns: Vec::new(),
+            codes: Vec::new(),
             cuts: false,
             cut: None,
             hazards: Vec::new(),
@@ -126,6 +136,9 @@ impl<R: BufRead + Seek> Program<R> {
             self.way.clear();
             self.before = None;
             self.stops.clear();
+            self.waits.clear();
+            self.turns.clear();
+            self.codes.clear();
             self.moved_with.clear();
             self.cuts = true;
         }
@@ -164,6 +177,7 @@ impl<R: BufRead + Seek> Program<R> {
     }
 
     fn take_item(&mut self, item: &Item) {
+        let turned = self.state.rotation;
         let cut = |program: &Self, what: What, feed: Option<f64>| Cut {
             from: program.at,
             unknown: program.unknown,
@@ -219,6 +233,7 @@ impl<R: BufRead + Seek> Program<R> {
             Action::Dwell(seconds) if *seconds > 0.0 && self.way.is_empty() => {
                 self.cut = Some(cut(self, What::Dwell(*seconds), None));
             }
+            Action::Dwell(seconds) if *seconds > 0.0 => self.waits.push(*seconds),
             Action::Stop(kind) => {
                 self.stops.push((*kind, self.cuts && self.way.is_empty() && !item.by_cycle));
                 // a Haas stops the spindle, and no form may count on another control's going on
@@ -280,7 +295,12 @@ impl<R: BufRead + Seek> Program<R> {
             Action::End if self.cycle => {
                 self.hazard(Code::PV013, item.line, "a canned cycle is still in force at the end", "end it with G80");
             }
+            Action::Coolant(cooling) => self.state.coolant = Some(*cooling),
+            Action::LeftOut(letter, tenths) => self.codes.push((*letter, *tenths)),
             _ => {}
+        }
+        if self.state.rotation != turned {
+            self.turns.extend(self.state.rotation);
         }
     }
 

@@ -2,11 +2,11 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ALL, Cut, State, What, number, same, shown};
+use super::cut::{ALL, Cut, State, What, number, same, same_dwell, shown};
 use super::program::Program;
 use super::way::{Compared, Way, compare, leaves_low};
-use crate::nc::{RunError, Settings, axes_of};
-use crate::toolpath::Units;
+use crate::nc::{Cooling, RunError, Settings, axes_of};
+use crate::toolpath::{StopKind, Units};
 
 /// The first difference of two programs' motions.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,11 +17,22 @@ pub struct MotionDifference {
     pub blocks: [(u64, String); 2],
 }
 
+/// How the motions of two programs compare.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Motions {
+    /// The first difference, after which nothing is compared.
+    pub difference: Option<MotionDifference>,
+    /// Ways between cuts that go otherwise, and nowhere lower.
+    pub ways: u64,
+    /// Cuts before which other codes stand, of those that are not simulated.
+    pub codes: u64,
+}
+
 /// Why motions can't be compared: a program (0 old, 1 new) that can't be read or that its control refuses.
 #[derive(Debug)]
 pub struct NoMotion(pub usize, pub RunError);
 
-/// Compares what two programs do, cut by cut; units, order of words and canned cycles do not matter.
+/// What two programs do, cut by cut; units, order of words and canned cycles do not matter.
 ///
 /// # Errors
 /// One of them can't be run.
@@ -31,13 +42,14 @@ pub fn compare_motions<R: BufRead + Seek>(
     settings: [Settings; 2],
     units: Units,
     tolerance: f64,
-) -> Result<Option<MotionDifference>, NoMotion> {
+) -> Result<Motions, NoMotion> {
     let [mut a, mut b] = [(old, settings[0]), (new, settings[1])].map(|(input, settings)| {
         let mut program = Program::new(input, settings, false, false);
         program.want(units);
         program
     });
     let mut ways = [Way::default(), Way::default()];
+    let mut motions = Motions::default();
     loop {
         let x = a.peek().map_err(|error| NoMotion(0, error))?;
         let y = b.peek().map_err(|error| NoMotion(1, error))?;
@@ -48,19 +60,25 @@ pub fn compare_motions<R: BufRead + Seek>(
         for (way, (program, start)) in ways.iter_mut().zip([(&a, starts[0]), (&b, starts[1])]) {
             way.set(Some(start), &program.way, tolerance);
         }
+        motions.codes += u64::from(a.codes != b.codes);
         let (Some(cut), Some(found)) = (x, y) else {
             // in neither direction: going out higher is another motion, too
             let low = |a: usize, b: usize| leaves_low(&ways[a], &ways[b], tolerance).is_some();
-            let leaves_well = ways[0].is(&ways[1], tolerance) || !low(0, 1) && !low(1, 0);
-            if x.is_none() && y.is_none() && leaves_well {
-                return Ok(None);
+            let same_way = ways[0].is(&ways[1], tolerance);
+            let leaves_well = same_way || !low(0, 1) && !low(1, 0);
+            // the end stops spindle and coolant, said or not
+            let besides = pauses(&a, &b);
+            if x.is_none() && y.is_none() && leaves_well && besides.is_none() {
+                motions.ways += u64::from(!same_way);
+                return Ok(motions);
             }
             let message = match (x, y) {
                 (Some(cut), _) => format!("the new program is over, and a cut to {} is missing", end(&cut)),
                 (None, Some(cut)) => format!("the old program is over, and the new one cuts to {}", end(&cut)),
-                (None, None) => "the tool leaves the last cut on another way".to_owned(),
+                (None, None) => besides.unwrap_or_else(|| "the tool leaves the last cut on another way".to_owned()),
             };
-            return Ok(Some(MotionDifference { message, blocks: blocks(&a, &b) }));
+            let difference = Some(MotionDifference { message, blocks: blocks(&a, &b) });
+            return Ok(Motions { difference, ..motions });
         };
         let known = starts.iter().all(|start| start.unknown == 0);
         let way = match ways[0].is(&ways[1], tolerance) {
@@ -70,8 +88,11 @@ pub fn compare_motions<R: BufRead + Seek>(
                 other => other,
             },
         };
-        if let Some(message) = differs(&cut, &found, way, tolerance) {
-            return Ok(Some(MotionDifference { message, blocks: blocks(&a, &b) }));
+        motions.ways += u64::from(matches!(way, Compared::AsGood { .. }));
+        let message = differs(&cut, &found, way, tolerance).or_else(|| pauses(&a, &b)).or_else(|| switching(&a, &b));
+        if let Some(message) = message {
+            let difference = Some(MotionDifference { message, blocks: blocks(&a, &b) });
+            return Ok(Motions { difference, ..motions });
         }
         a.take();
         b.take();
@@ -145,5 +166,38 @@ fn state(before: &State, now: &State) -> Option<String> {
     if before.rotation != now.rotation {
         return Some("the spindle turns otherwise".to_owned());
     }
+    if before.coolant != now.coolant {
+        let text = |coolant: Option<Cooling>| coolant.map_or("unknown", Cooling::name);
+        return Some(format!("the coolant is {}, before {}", text(now.coolant), text(before.coolant)));
+    }
     (before.side != now.side).then(|| "cutter compensation is otherwise".to_owned())
+}
+
+/// Stops and dwells on the ways.
+fn pauses<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>) -> Option<String> {
+    let stop = |kind: StopKind| if kind == StopKind::Program { "M0" } else { "M1" };
+    let stops = |program: &Program<R>| -> Vec<String> {
+        program.stops.iter().map(|(kind, _)| stop(*kind).to_owned()).collect()
+    };
+    let waits = |program: &Program<R>| -> Vec<String> {
+        program.waits.iter().map(|seconds| format!("{} s", number(*seconds))).collect()
+    };
+    let (before, now) = (stops(old), stops(new));
+    if before != now {
+        return Some(format!("stops on the way here: {}, before {}", listed(&now), listed(&before)));
+    }
+    let same = old.waits.len() == new.waits.len() && old.waits.iter().zip(&new.waits).all(|(a, b)| same_dwell(*a, *b));
+    (!same).then(|| format!("dwells on the way here: {}, before {}", listed(&waits(new)), listed(&waits(old))))
+}
+
+/// What the spindle does on the ways.
+fn switching<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>) -> Option<String> {
+    let turns =
+        |program: &Program<R>| -> Vec<String> { program.turns.iter().map(|turn| turn.name().to_owned()).collect() };
+    let (before, now) = (turns(old), turns(new));
+    (before != now).then(|| format!("the spindle on the way here: {}, before {}", listed(&now), listed(&before)))
+}
+
+fn listed(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(" ") }
 }

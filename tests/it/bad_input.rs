@@ -116,6 +116,12 @@ fn forms() {
         ),
         ("Upon twice", mill("", "Upon [work]\nG4\nEnd\nUpon <work>\nG4\nEnd").into(), 1, vec!["PF004", "Upon [work]"]),
         ("command twice", mill("Rapid G0\nRapid G00", "").into(), 1, vec!["PF006", "form.pf:2"]),
+        (
+            "a library of posts",
+            format!("Name Post A\n{0}\nName Post B\n{0}", good.trim_start()).into(),
+            1,
+            vec!["PF006", "the file holds 2 posts: `Post A`, `Post B`", "1 error, nothing was printed"],
+        ),
         ("letter format twice", mill("X->3.>4\nX->4.>3", "").into(), 1, vec!["PF006", "X has two formats"]),
         ("bad letter format", mill("X->3..>4", "").into(), 1, vec!["PF301"]),
         ("format without digits", mill("X->", "").into(), 1, vec!["PF301"]),
@@ -124,6 +130,8 @@ fn forms() {
         ("no argument", mill("Rapid", "").into(), 1, vec!["PF302", "Rapid needs a code"]),
         ("argument lost", mill("Rapid  G0", "").into(), 1, vec!["PF302", "two blanks"]),
         ("too many arguments", mill("FeedCode F G H", "").into(), 1, vec!["PF302", "FeedCode takes 1 letter"]),
+        ("an arc that is an M code", mill("CW M3", "").into(), 1, vec!["PF302", "`M3` is no G code", "form.pf:1:"]),
+        ("a feed that is an M code", mill("Feed M8", "").into(), 1, vec!["PF302", "`M8` is no G code"]),
         ("Machine of no kind", mill("Machine Router", "").into(), 1, vec!["PF302", "Mill, Lathe, EDM"]),
         (
             "count too large",
@@ -399,7 +407,7 @@ fn full_disks_and_closed_pipes() {
     };
     expect("a full device", &run("/dev/full").output().unwrap(), 2, &["can't write /dev/full", "No space left"]);
     assert!(fs::metadata("/dev/full").is_ok_and(|m| !m.is_file()), "the device was replaced by a file");
-    let mut child = run("-").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut child = run("-").arg("--quiet").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let mut first = [0; 10];
     child.stdout.take().unwrap().read_exact(&mut first).unwrap(); // and close the pipe
     let output = child.wait_with_output().unwrap();

@@ -21,6 +21,10 @@ fn motion_words() {
     let numbers = "G 2\nM 2";
     assert_eq!(path_lines(numbers, "", "{\"rapid\":[0,0,0.5]}"), ["G00 Z.5"]);
     assert_eq!(program(&mill(numbers, ""), &job("{\"rapid\":[0,0,0.5]}"))[2], "S1000 M03");
+    // the spindle's code may stand behind the arc's: [direct] is defined by CW and CCW
+    let both = program(&mill("CW G2 M13\nCCW G3 M14", ""), &job(CORNER));
+    assert_eq!(both[2], "S1000 M13");
+    assert!(both.iter().any(|line| line.contains("G3 X2. Y1.")), "{both:?}");
 }
 
 #[test]
@@ -225,7 +229,10 @@ fn the_next_tool_comes_from_the_list_of_tools() {
     let lines = program(&form, &two("\"tool_order\":[1,2],"));
     assert_eq!(lines[1], "T1 M6 (next 2, first 1)");
     assert_eq!(lines[5], "T2 M6 (next 1, first 1)");
-    assert!(program(&form, &two(""))[0].starts_with("PR001 [nexttool]"));
+    // a comment says what is known; what the control reads must be
+    assert_eq!(program(&form, &two(""))[1], "T1 M6 (next -, first 1)");
+    let word = form.replace("(next [nexttool], first [tool1])", "H[nexttool]");
+    assert!(program(&word, &two(""))[0].starts_with("PR001 [nexttool]"));
     assert!(program(&form, &two("\"tool_order\":[2,1],"))[0].starts_with("PJ005"));
     assert!(program(&form, &two("\"tool_order\":[1,2,1],"))[0].starts_with("PJ005"));
 }
@@ -275,4 +282,24 @@ fn defaults_of_cycles_are_those_of_the_jobs_units() {
     assert_eq!([clear(&form, "inch"), clear(&form, "mm")], ["Z.1", "Z3."]);
     // what the form says is in inches
     assert_eq!(clear(&form.replace("Units both", "Units both\nCycleClear 0.2"), "mm"), "Z5.08");
+}
+
+/// The first forms have every number in brackets.
+#[test]
+fn numbers_in_brackets() {
+    let plain = mill("Rapid G00", "");
+    let old = [("Rapid G00", "Rapid G<00>"), ("%0", "%<0>"), ("M6", "M<6>"), ("G0 ", "G<0> "), ("M30", "M<30>")]
+        .iter()
+        .fold(plain.clone(), |text, (from, to)| text.replace(from, to));
+    let path = job("{\"rapid\":[0,0,0.5]}");
+    assert_eq!(program(&old, &path), program(&plain, &path));
+}
+
+/// A program number that is asked for stands where the job has none.
+#[test]
+fn the_program_number_may_be_asked_for() {
+    let form = mill("Ask program# \"Program number\" 77", "").replacen("%0\n", "%0\nO[program#]\n", 1);
+    let text = job("{\"rapid\":[0,0,2]}");
+    assert_eq!(program(&form, &text)[1], "O100");
+    assert_eq!(program(&form, &text.replacen("\"program\":100,", "", 1))[1], "O77");
 }

@@ -33,7 +33,7 @@ fn compared(old: &str, new: &str, ignore: Ignore, tolerance: f64) -> Comparison 
 /// Do both machines do the same?
 fn same_motion(old: &str, new: &str) -> bool {
     let settings = Settings::new(Control::Fanuc);
-    compare_motions(Cursor::new(old), Cursor::new(new), [settings; 2], Units::Mm, 1e-6).unwrap().is_none()
+    compare_motions(Cursor::new(old), Cursor::new(new), [settings; 2], Units::Mm, 1e-6).unwrap().difference.is_none()
 }
 
 /// The program in inches: every length and feed divided.
@@ -126,6 +126,10 @@ fn pairs_and_their_verdicts() {
         ),
         ("blocks swapped in the cycle", edit("N120 X10.\nN130 X20.\n", "N130 X20.\nN120 X10.\n"), "-", false),
         ("the last retract lost", edit("N150 G0 Z50. M9", "N150 G0 X-50. M9"), "-", false),
+        ("a stop more", edit("N110", "M1\nN110"), "-", false),
+        ("coolant off too early", edit("N100 G0 Z50.", "N100 G0 Z50. M9"), "-", false),
+        ("a dwell between cuts", edit("N110", "G4 P500\nN110"), "-", false),
+        ("the spindle stopped and started between cuts", edit("N110", "M5\nM3\nN110"), "-", false),
     ];
     assert!(pairs.len() >= 30);
     for (what, new, helps, motion) in &pairs {
@@ -147,6 +151,15 @@ fn pairs_and_their_verdicts() {
         assert_eq!(same_motion(BASE, new), *motion, "{what}: motion");
         assert_eq!(same_motion(new, BASE), *motion, "{what}: motion the other way round");
     }
+}
+
+/// A detour is no difference, and is said.
+#[test]
+fn other_ways_are_counted() {
+    let detour = BASE.replacen("N110", "G0 X-20.\nN110", 1);
+    let settings = [Settings::new(Control::Fanuc); 2];
+    let found = compare_motions(Cursor::new(BASE), Cursor::new(detour.as_str()), settings, Units::Mm, 1e-6).unwrap();
+    assert_eq!((found.difference, found.ways), (None, 1));
 }
 
 #[test]

@@ -322,3 +322,37 @@ fn revolutions_need_no_limit() {
         assert!(program(&form, &faster)[0].starts_with("PR017 the tool change limited"), "{later}");
     }
 }
+
+/// What a job does with the wire is printed or refused: else the wire is dragged to the next start hole.
+#[test]
+fn wire_actions_need_their_sequences() {
+    let form = |sequences: &str| format!("Machine EDM\nStartCode\n%0\nEnd\nEndCode\nM2\nEnd\n{sequences}");
+    for (action, id) in
+        [("thread", "EdmThread"), ("cut", "EdmCut"), ("predrill", "EdmPreDrillThread"), ("submerge", "SubmergeTank")]
+    {
+        let text = format!(
+            "{{\"machine\":\"edm\",\"operations\":[{{\"feed\":2,\"path\":[{{\"rapid\":[0,0]}},{{\"edm\":\"{action}\"}}]}}]}}"
+        );
+        assert!(program(&form(""), &text)[0].starts_with("PR008"), "{action}");
+        assert_eq!(program(&form(&format!("{id}\nM50\nEnd")), &text)[2], "M50", "{action}");
+    }
+}
+
+/// The rapid behind a thread cycle in force would be a pass.
+#[test]
+fn a_thread_cycle_is_cancelled() {
+    let cycles = ["AutoThread\nG76 X[v] Z[h] P[depth] Q[peck1] F[frate]", "CanThread 1\nG92 X[v] Z[h] F[frate]\nX[v]"];
+    for cycle in cycles {
+        let lines = turned("", &format!("{cycle}\nEnd Cancel\nCancel\nG80\nEnd"), THREAD);
+        assert_eq!(lines.last().map(String::as_str), Some("G80"), "{lines:?}");
+    }
+}
+
+/// A form that says what stands between means subprograms first.
+#[test]
+fn between_means_subprograms_first() {
+    let form = mill("", &format!("{SUBS}\nBetween\nM17\nEnd"));
+    let lines = program(&form, &with_subs(&sub(1, "{\"rapid\":[0,0,1]}"), "{\"call\":{\"sub\":1}}"));
+    let at = |what: &str| lines.iter().position(|line| line == what);
+    assert!(at("M17").is_some() && at("M17") < at("T1 M6") && at("M99") < at("M17"), "{lines:?}");
+}

@@ -192,7 +192,7 @@ fn verify_reads_standard_input() {
     let job = fs::read(root().join("samples/bracket/job.json")).unwrap();
     let output = fed(&["verify", "-", "--form", "postforms/grbl.pf"], &job);
     assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
-    assert!(text(&output.stdout).starts_with("identical: "), "{}", text(&output.stdout));
+    assert!(text(&output.stdout).starts_with("equivalent: "), "{}", text(&output.stdout));
     let program = fs::read(root().join("samples/bracket/expected.fanuc.nc")).unwrap();
     let output = fed(&["verify", "samples/bracket/job.json", "--nc", "-"], &program);
     assert!(text(&output.stdout).starts_with("equivalent: standard input"), "{}", text(&output.stdout));
@@ -200,4 +200,52 @@ fn verify_reads_standard_input() {
     let output = fed(&["verify", "-", "--form", "postforms/grbl.pf"], &job[..job.len() / 2]);
     assert_eq!(output.status.code(), Some(1));
     assert!(output.stdout.is_empty() && text(&output.stderr).contains("PJ"), "{}", text(&output.stderr));
+}
+
+/// What lint knows of a form is said where its program is made, once, in lines; levels and allowances hold.
+#[test]
+fn render_says_what_lint_knows() {
+    let run = |more: &[&str]| {
+        let job = "samples/drill-machine/job.json";
+        let form = "samples/drill-machine/form.pf";
+        postform(&[&["render", job, "--form", form][..], more].concat())
+    };
+    let told = run(&[]);
+    let lines = text(&told.stderr);
+    assert!(lines.starts_with("samples/drill-machine/form.pf:13:6: warning PF426: "), "{lines}");
+    assert!(!lines.contains("PF303"), "notes are lint's: {lines}");
+    assert_eq!(text(&run(&["--quiet"]).stderr), "");
+    assert_eq!(run(&["--quiet"]).stdout, told.stdout);
+    let denied = run(&["--deny", "warnings"]);
+    assert_eq!((denied.status.code(), denied.stdout.len()), (Some(1), 0));
+    assert!(text(&denied.stderr).contains("1 warning, nothing was printed"), "{}", text(&denied.stderr));
+}
+
+/// Words that are lost are said, and the program is printed without them.
+#[test]
+fn render_says_what_a_form_loses() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let (form, job) = (folder.join("lost.pf"), folder.join("lost.json"));
+    fs::write(&form, crate::support::mill("", "").replacen("\nT[tool] M6", "\n  T[tool] M6", 1)).unwrap();
+    fs::write(&job, crate::support::job("{\"line\":[1,1,0]}")).unwrap();
+    let output = postform(&["render", job.to_str().unwrap(), "--form", form.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("warning PF101: `T[tool] M6` is lost"), "{}", text(&output.stderr));
+}
+
+/// The manual's tool change on a lathe prints Z under X: said for each word, wherever the form prints.
+#[test]
+fn render_says_that_lathe_axes_are_the_other_way_round() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let (form, job) = (folder.join("columns.pf"), folder.join("columns.json"));
+    let change = "T[tool] M6\nM[direct] S[speed]\nG0 G[work] X[h] Y[v]\nG43 Z[d] H[lcomp]\nEnd";
+    let start = "Machine Lathe\nStartCode\n%0\nO[program#]\nG90 G80 G40 G17\nEnd";
+    fs::write(&form, format!("{start}\n1stToolChange\n{change}\nToolChange\n{change}\nEndCode\nM5 M9\nM30\n%0\nEnd\n"))
+        .unwrap();
+    let text_of_job = "{\"postform\":1,\"program\":1234,\"units\":\"inch\",\"machine\":\"lathe\",\"tools\":[{\"number\":1}],\
+        \"operations\":[{\"tool\":1,\"work\":54,\"spindle\":{\"speed\":2000,\"direction\":\"cw\"},\"path\":[{\"rapid\":[1,1,0.1]}]}]}";
+    fs::write(&job, text_of_job).unwrap();
+    let output = postform(&["render", job.to_str().unwrap(), "--form", form.to_str().unwrap()]);
+    let told = text(&output.stderr);
+    assert_eq!((output.status.code(), told.matches("warning PF314: ").count()), (Some(0), 4), "{told}");
 }

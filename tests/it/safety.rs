@@ -831,3 +831,53 @@ fn a_tap_of_several_starts_is_made_once_for_each() {
     let taps: Vec<&String> = lines.iter().filter(|line| line.contains("X1. Y1.") && line.contains('R')).collect();
     assert_eq!(taps, ["G84 X1. Y1. Z-.5 R.2 F100.", "X1. Y1. R.15"], "{lines:?}");
 }
+
+/// A cycle of the control on several lines is cancelled like any other: the next position would be a hole.
+#[test]
+fn a_cycle_on_several_lines_is_cancelled() {
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":0.5,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,2,0]]}}";
+    let path = format!("{cycle},{{\"rapid\":[3,3,1]}}");
+    let lines = path_lines("", "Drill\nG99\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel", &path);
+    assert_eq!(lines[lines.len() - 2], "G80", "{lines:?}");
+    // moves end by themselves
+    let lines = path_lines("", "Drill\nG0 X[h] Y[v]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd Cancel", &path);
+    assert!(!lines.contains(&"G80".to_owned()), "{lines:?}");
+}
+
+/// LinuxCNC stops at a line that is too long, in the middle of the part: a comment goes on in the next block.
+#[test]
+fn long_comments_keep_to_the_controls_line() {
+    let text = "WORD ".repeat(80) + &"X".repeat(300);
+    let path = format!("{{\"comment\":\"{text}\"}}");
+    for (control, longest) in [("linuxcnc", 252), ("grbl", 80)] {
+        let lines = path_lines(&format!("Control {control}\nSequence#s N 10 10"), "", &path);
+        assert!(lines.iter().all(|line| line.len() <= longest), "{lines:?}");
+        let all: String = lines.iter().filter_map(|line| line.split(['(', ')']).nth(1)).collect();
+        assert_eq!(all.replace(' ', ""), text.replace(' ', ""));
+    }
+    assert_eq!(path_lines("", "", &path).iter().filter(|line| line.contains("WORD")).count(), 1);
+}
+
+/// An Upon of the bottom prints before the hole that has another one, outside the control's cycle; one that moves would go down.
+#[test]
+fn an_upon_of_the_bottom_prints_before_its_hole() {
+    let points = "[[1,1,0],[2,2,0],[3,3,-0.2]]";
+    let path =
+        format!("{{\"cycle\":{{\"kind\":\"drill\",\"depth\":0.5,\"clear\":0.1,\"feed\":5,\"points\":{points}}}}}");
+    let lines = path_lines("", &format!("Upon [d]\nM50\nEnd\n{DRILL}"), &path);
+    let said: Vec<usize> = (0..lines.len()).filter(|&i| lines[i] == "M50").collect();
+    assert!(said.len() >= 2, "{lines:?}");
+    assert!(lines[said[said.len() - 1] + 1].starts_with("G81 X3. Y3. Z-.7"), "{lines:?}");
+    let moving = path_lines("", &format!("Upon [d]\nG1 Z[d] F1.\nEnd\n{DRILL}"), &path);
+    assert!(!moving.iter().any(|line| line.starts_with("G1 Z-")), "{moving:?}");
+}
+
+/// Centre, radius and end angle say an arc whole; the next move says its position.
+#[test]
+fn a_polar_arc_is_whole() {
+    let path = "{\"line\":[0,0,0]},{\"arc\":{\"to\":[2,0],\"center\":[1,0],\"direction\":\"cw\"}},{\"line\":[0,0,0]}";
+    let polar = "CwCode\nG11 I[hctr] J[vctr] R[arcrad] C[startang]\nG12 C[endang]\nEnd";
+    let lines = path_lines("", polar, path);
+    assert_eq!(lines[lines.len() - 3..lines.len() - 1], ["G11 I1. J0 R1. C180.", "G12 C0"], "{lines:?}");
+    assert!(lines[lines.len() - 1].contains("X0 Y0"), "{lines:?}");
+}

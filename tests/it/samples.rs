@@ -81,3 +81,29 @@ fn every_program_line_has_its_place_in_the_job_and_traces_lose_nothing() {
         }
     }
 }
+
+/// Grbl refuses what others read: arcs without an axis word of their plane, mist, two motions in a block; and it acts on some
+/// characters at once, in comments too.
+#[test]
+fn the_grbl_post_prints_what_grbl_reads() {
+    let form = root().join("postforms/grbl.pf");
+    let mut programs = 0;
+    for folder in samples() {
+        let options = Options { program: Some(1), ..Options::default() };
+        let Ok(rendered) = render_sample_with(&folder, &form, options) else { continue };
+        programs += 1;
+        for line in rendered.text.lines() {
+            assert!(!line.contains(['%', '!', '~', '?']), "{}: {line}", folder.display());
+            let block = line.split('(').next().unwrap();
+            let words: Vec<&str> = block.split(' ').collect();
+            let has = |letters: &[char]| words.iter().any(|word| word.starts_with(letters));
+            let motions = words.iter().filter(|word| ["G0", "G1", "G2", "G3", "G80"].contains(word)).count();
+            assert!(motions < 2 && !words.contains(&"M7"), "{}: {line}", folder.display());
+            for (centre, axes) in [(['I', 'J'], ['X', 'Y']), (['I', 'K'], ['X', 'Z']), (['J', 'K'], ['Y', 'Z'])] {
+                let arc = centre.iter().all(|&letter| has(&[letter]));
+                assert!(!arc || has(&axes), "{}: {line}", folder.display());
+            }
+        }
+    }
+    assert!(programs > 30, "{programs}");
+}

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use postform::cl::{Assumed, Dialect};
+use postform::diag::{Diag, Severity};
 use postform::toolpath::Units;
 
 use super::{ControlArg, ControlArgs, LimitsArg, NoPoint};
@@ -103,6 +104,31 @@ pub struct RenderOptions {
     /// Limits of the form [default: of postform.toml, else classic]
     #[arg(long, value_name = "LIMITS")]
     pub limits: Option<LimitsArg>,
+    /// Show errors only
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// What keeps a program from being printed, besides errors
+    #[arg(long, value_name = "WHAT")]
+    pub deny: Option<DenyArg>,
+}
+
+/// What counts as an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DenyArg {
+    /// Warnings of the form, the job and the renderer
+    Warnings,
+}
+
+impl RenderOptions {
+    /// Does a warning keep a program from being printed?
+    pub fn denies_warnings(&self) -> bool {
+        self.deny == Some(DenyArg::Warnings)
+    }
+
+    /// Which findings are shown: with --quiet those alone that keep a program from being printed.
+    pub fn shows(&self, diag: &Diag) -> bool {
+        diag.is_error() || !self.quiet || self.denies_warnings() && diag.severity == Severity::Warning
+    }
 }
 
 /// `postform render`.
@@ -126,7 +152,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
     /// Print to standard output as it comes, even if an error cuts the program short
-    #[arg(long)]
+    #[arg(long, conflicts_with = "deny")]
     pub stream: bool,
     /// Run the program, and print it only if it makes the job's motions
     #[arg(long, conflicts_with = "stream")]

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use postform::diff::{Comparison, Edit, Options, Summary, changed_spans};
-use postform::verify::MotionDifference;
+use postform::verify::Motions;
 
 use super::super::output;
 use super::sides::Side;
@@ -51,13 +51,15 @@ pub fn document(old: &Side, new: &Side, comparison: &Comparison, summary: &Summa
     output::json(&document)
 }
 
-/// The first difference of motions, if there is one.
-pub fn motion(old: &Side, new: &Side, difference: Option<&MotionDifference>) -> String {
-    let first = difference.map(|difference| {
+/// The first difference of motions, if there is one, and what was left out.
+pub fn motion(old: &Side, new: &Side, found: &Motions) -> String {
+    let first = found.difference.as_ref().map(|difference| {
         let [(a, before), (b, after)] = &difference.blocks;
         json!({ "message": difference.message, "old": a, "old_text": before, "new": b, "new_text": after })
     });
-    let document =
-        json!({ "postform_diff": 1, "same": first.is_none(), "old": old.name, "new": new.name, "motion": first });
+    let document = json!({
+        "postform_diff": 1, "same": first.is_none(), "old": old.name, "new": new.name, "motion": first,
+        "left_out": { "ways": found.ways, "codes": found.codes },
+    });
     output::json(&document)
 }

@@ -10,7 +10,7 @@ use std::io::{Cursor, IsTerminal, Write};
 use postform::diff::{Ignore, Options, Program, Summary, compare};
 use postform::nc::{Kind, RunError, tokens};
 use postform::toolpath::Units;
-use postform::verify::{MotionDifference, NoMotion, compare_motions};
+use postform::verify::{Motions, NoMotion, compare_motions};
 
 use super::args::{DiffArgs, DiffFormat, Layout};
 use super::colour::Colour;
@@ -30,16 +30,16 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
     let text = if args.motion {
         match motions(args, &old, &new, &reporter)? {
             Outcome::Refused => return Ok(Ending::Findings),
-            Outcome::Same => {
-                return said(match args.format {
-                    DiffFormat::Text => String::new(),
-                    _ => json::motion(&old, &new, None),
-                });
+            Outcome::Compared(found) => {
+                let text = match args.format {
+                    DiffFormat::Text => text::motion(&old, &new, &found),
+                    _ => json::motion(&old, &new, &found),
+                };
+                if found.difference.is_none() {
+                    return said(text);
+                }
+                text
             }
-            Outcome::Different(difference) => match args.format {
-                DiffFormat::Text => text::motion(&old, &new, &difference),
-                _ => json::motion(&old, &new, Some(&difference)),
-            },
         }
     } else {
         let comparison = compare(&old.program, &new.program, &options);
@@ -109,8 +109,7 @@ fn units_of(program: &Program) -> Option<Units> {
 }
 
 enum Outcome {
-    Same,
-    Different(MotionDifference),
+    Compared(Motions),
     Refused,
 }
 
@@ -124,8 +123,7 @@ fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Resu
     let inputs = [old, new].map(|side| Cursor::new(side.program.bytes()));
     let [a, b] = inputs;
     match compare_motions(a, b, settings, units, tolerance) {
-        Ok(None) => Ok(Outcome::Same),
-        Ok(Some(difference)) => Ok(Outcome::Different(difference)),
+        Ok(found) => Ok(Outcome::Compared(found)),
         Err(NoMotion(which, RunError::Refused(mut diag, _))) => {
             simulate::place(&mut diag, if which == 0 { &old.name } else { &new.name });
             say(&reporter.text(&[*diag], &[]));

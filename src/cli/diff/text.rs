@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use postform::diag::escaped;
 use postform::diff::{Comparison, Edit, Hunk, Options, Summary, changed_spans};
-use postform::verify::MotionDifference;
+use postform::verify::Motions;
 
 use super::super::args::DiffArgs;
 use super::super::report::count;
@@ -236,8 +236,20 @@ pub fn sentence(summary: &Summary) -> String {
     format!("{}{kinds}\n", blocks.join(", "))
 }
 
-/// The first difference of motions.
-pub fn motion(old: &Side, new: &Side, difference: &MotionDifference) -> String {
+/// What a comparison of motions saw and did not judge; nothing, where there was nothing.
+fn left_out(found: &Motions) -> String {
+    let list = [
+        (found.ways, "way", "otherwise and nowhere lower"),
+        (found.codes, "cut", "behind other codes that are not simulated"),
+    ];
+    let seen = list.iter().filter(|(n, ..)| *n > 0);
+    let list: Vec<String> = seen.map(|(n, what, how)| format!("{} {how}", count(*n as usize, what))).collect();
+    if list.is_empty() { String::new() } else { format!("the same cuts; not compared: {}\n", list.join(", ")) }
+}
+
+/// The first difference of motions, or what was left out.
+pub fn motion(old: &Side, new: &Side, found: &Motions) -> String {
+    let Some(difference) = &found.difference else { return left_out(found) };
     let mut text = format!("the machine does something else: {}\n", escaped(&difference.message));
     for (sign, side, (line, block)) in [('-', old, &difference.blocks[0]), ('+', new, &difference.blocks[1])] {
         _ = match line {

@@ -5,11 +5,11 @@ use crate::lint::view::View;
 use crate::span::Span;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for sequence in view.form.sequences.values() {
+    for sequence in view.form.sequences.values().filter(|sequence| sequence.id.makes_holes()) {
         let Some(cancel) = sequence.cancel else { continue };
         let emulated = sequence.lines.len() > 1 && sequence.count.is_none();
-        // with a cycle of the control in it the count is what is missing, which another rule says
-        let starts_cycle = view.body(sequence.id).is_some_and(|body| body.cycle_word().is_some());
+        // a control that moves by itself is left by it
+        let starts_cycle = view.body(sequence.id).is_some_and(|body| body.moves_by_itself());
         if (emulated && !starts_cycle) || sequence.is_none {
             let gap = Span { start: cancel.start - 1, ..cancel };
             diags.push(

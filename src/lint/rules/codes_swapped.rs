@@ -15,11 +15,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             continue;
         }
         let usual = codes(row.default.split(';').next().unwrap_or("").split(' '));
-        let said = codes(statement.args.iter().map(|arg| arg.text.as_str()));
-        if said.len() != statement.args.len() {
+        // the spindle's code behind an arc's is none of a motion
+        let motion = MOTION.contains(&id);
+        let args = if motion { &statement.args[..statement.args.len().min(1)] } else { &statement.args[..] };
+        let said = codes(args.iter().map(|arg| arg.text.as_str()));
+        if said.len() != args.len() {
             continue; // what is no code is told as such
         }
-        let swapped = match MOTION.contains(&id) {
+        let swapped = match motion {
             true => said != usual && said.iter().all(|code| (0.0..4.0).contains(code)),
             false => said != usual && sorted(&said) == sorted(&usual),
         };

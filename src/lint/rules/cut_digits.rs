@@ -58,6 +58,30 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 .help(help),
         );
     }
+    built_in(view, diags);
+}
+
+/// Letters without a format: the built-in ones of counters print whole numbers.
+fn built_in(view: &View, diags: &mut Vec<Diag>) {
+    let mut told = Vec::new();
+    for word in view.words() {
+        let (Some(letter), Some(var)) = (word.letter(), word.printed_var()) else { continue };
+        let (row, wanted) = (view.letters[letter], needed(view, var));
+        let decimals = row.format.dec.count;
+        if row.has_format || decimals >= wanted || told.contains(&letter) {
+            continue;
+        }
+        told.push(letter);
+        let name = char::from(letter);
+        let better = LetterFormat { dec: Digits { count: wanted, fixed: false }, point: Point::Always, ..row.format };
+        let what = if decimals == 0 { "whole numbers".to_owned() } else { format!("{decimals} decimals") };
+        let message = format!("{name} has no format and prints {what}, [{}] needs {wanted} decimals", var.name());
+        diags.push(
+            Diag::new(Code::PF306, message)
+                .at(word.span, "the others are rounded away")
+                .help(format!("add the line `{name}{better}`; print counts by another letter, with `Rename`")),
+        );
+    }
 }
 
 /// A tenth of a thousandth of an inch, a thousandth of a millimetre.

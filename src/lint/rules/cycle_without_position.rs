@@ -1,8 +1,7 @@
 //! PF406: a cycle that does not print the position drills every hole at one place.
 
 use crate::diag::{Code, Diag};
-use crate::lang::VarId;
-use crate::lint::blocks::is_cycle_code;
+use crate::lang::{VarId, is_cycle_code};
 use crate::lint::view::View;
 use crate::sema::{Line, Word};
 

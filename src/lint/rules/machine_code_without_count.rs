@@ -16,14 +16,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 let help = format!("write `{} 1`, if the first line is for the first hole only", body.name());
                 (format!("G{code} drills again at each position below it"), help)
             }
-            (false, Some(_)) => {
-                let help = "give the count of the lines that are for the first hole only, and let the last line repeat \
-                            what changes: `X[h] Y[v] Z[d] R[vclear]`; or print G80 in the last line";
-                ("`End Cancel` is not used without a count: the cycle stays in force".to_owned(), help.to_owned())
-            }
+            (false, Some(_)) => continue, // Cancel ends it
             (false, None) => (
                 "the cycle stays in force: the next position would be a hole, too".to_owned(),
-                "print G80 in the last line".to_owned(),
+                "write `End Cancel`, or print G80 in the last line".to_owned(),
             ),
         };
         diags.push(

@@ -78,6 +78,7 @@ mod swallowed_words;
 mod tab;
 mod tap_without_reverse;
 mod tape_mark;
+mod thread_without_return;
 mod typed_without_point;
 mod typed_work;
 mod unbracketed_variable;
@@ -202,6 +203,7 @@ rules! {
     PF439 increment_as_position
     PF440 part_zero
     PF441 across_before_up
+    PF442 thread_without_return
     // modality
     PF501 modal_letters
     PF502 modal_codes

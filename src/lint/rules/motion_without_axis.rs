@@ -10,6 +10,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let flat = view.is_flat();
     for body in view.these(&[S::RapidCode, S::LineCode, S::CwCode, S::CcwCode]) {
         let arc = body.purpose == Purpose::Sequence(S::CwCode) || body.purpose == Purpose::Sequence(S::CcwCode);
+        let has_centre = body.prints_any(&[V::Ival, V::Hctr]) && body.prints_any(&[V::Jval, V::Vctr]);
+        if arc && has_centre && body.prints_any(&[V::Endang, V::Sweep]) {
+            continue; // centre and angle say where it ends
+        }
         let axes: &[[V; 2]] = match (view.is_mill() && !arc, body.lines.is_empty()) {
             (_, true) => continue,
             (true, _) => &[[V::H, V::Hdist], [V::V, V::Vdist], [V::D, V::Ddist]],

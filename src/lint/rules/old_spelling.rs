@@ -1,4 +1,4 @@
-//! PF204: `<h>` and `Rapid; G0` are how the first forms were written.
+//! PF204: `<h>`, `G<0>` and `Rapid; G0` are how the first forms were written.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, SequenceId, VarId};
@@ -11,16 +11,29 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let text = source.text.as_bytes();
         for word in tree.words() {
             for piece in word.pieces.iter().flat_map(parts) {
-                let PieceKind::Variable { name, .. } = &piece.kind else { continue };
+                let (name, letter) = match &piece.kind {
+                    PieceKind::Variable { name, .. } => (name, None),
+                    PieceKind::Literal { letter, number } => (number, Some(char::from(*letter))),
+                    _ => continue,
+                };
                 let (open, close) = (name.span.start.saturating_sub(1), name.span.end);
-                if text.get(open as usize) == Some(&b'<') && VarId::parse(&name.text).is_some() {
-                    let edit =
-                        |at: u32, bracket: &str| (Span { start: at, end: at + 1, ..name.span }, bracket.to_owned());
-                    diags.push(
-                        older(Span { start: open, end: close + 1, ..name.span }, format!("write `[{}]`", name.text))
-                            .fix("write square brackets", true, vec![edit(open, "["), edit(close, "]")]),
-                    );
+                if text.get(open as usize) != Some(&b'<') || letter.is_none() && VarId::parse(&name.text).is_none() {
+                    continue;
                 }
+                let span = Span { start: open, end: close + 1, ..name.span };
+                let edit = |at: u32, bracket: &str| (Span { start: at, end: at + 1, ..name.span }, bracket.to_owned());
+                diags.push(match letter {
+                    Some(letter) => older(span, format!("write `{letter}{}`", name.text)).fix(
+                        "take the brackets out",
+                        true,
+                        vec![edit(open, ""), edit(close, "")],
+                    ),
+                    None => older(span, format!("write `[{}]`", name.text)).fix(
+                        "write square brackets",
+                        true,
+                        vec![edit(open, "["), edit(close, "]")],
+                    ),
+                });
             }
         }
         for statement in tree.statements().chain(tree.sequences().map(|node| &node.name)) {

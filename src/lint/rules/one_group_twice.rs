@@ -1,8 +1,7 @@
 //! PF505: of two codes of one group a control takes the last, or alarms.
 
 use crate::diag::{Code, Diag};
-use crate::lang::group_of;
-use crate::lint::blocks::is_cycle_code;
+use crate::lang::{group_of, is_cycle_code};
 use crate::lint::view::View;
 use crate::sema::{Line, Word, WordKind};
 

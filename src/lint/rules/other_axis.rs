@@ -1,8 +1,7 @@
 //! PF314: `X[v]`: the position of one axis under the letter of another.
 
 use crate::diag::{Code, Diag};
-use crate::lang::VarId;
-use crate::lint::blocks::is_cycle_code;
+use crate::lang::{VarId, is_cycle_code};
 use crate::lint::view::View;
 use crate::sema::{Word, WordKind};
 

@@ -1,7 +1,7 @@
 //! PF309: on Fanuc and Haas `X1` is a ten-thousandth of an inch, or a micron.
 
 use crate::diag::{Code, Diag};
-use crate::lint::blocks::is_cycle_code;
+use crate::lang::is_cycle_code;
 use crate::lint::view::View;
 use crate::sema::{Line, Word, WordKind};
 use crate::span::Span;

@@ -11,7 +11,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let turns = view.settings.limits.iter().any(|limit| b"ABC".contains(&limit.letter));
     let table = [
         (S::Cancel, !cancels, "no cycle ends with `End Cancel`", "end the cycles of the control with `End Cancel`"),
-        (S::Between, !view.settings.subs_first, "it is printed under `Subs1st? Y` only", "add `Subs1st? Y`"),
+        (S::Between, !view.settings.subs_first, "subprograms come last under `Subs1st? N`", "take `Subs1st? N` out"),
         (S::SubStart, !has(S::SubCall), "the form has no SubCall", "add the sequence `SubCall`"),
         (S::SubEnd, !has(S::SubCall), "the form has no SubCall", "add the sequence `SubCall`"),
         (S::CanThread, has(S::AutoThread), "AutoThread serves all threads", "keep one of the two"),

@@ -1,0 +1,17 @@
+//! PF442: passes that print X alone leave the tool at the end of the thread, unless the code itself comes back.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{CommandId, SequenceId};
+use crate::lint::view::View;
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    let served = [SequenceId::AutoThread, SequenceId::CanThread].iter().any(|&id| view.body(id).is_some());
+    let Some(thread) = view.command(CommandId::Thread).filter(|_| !served) else { return };
+    if view.command(CommandId::ThreadPasses).is_none() {
+        diags.push(
+            Diag::new(Code::PF442, "later passes of a thread print X alone")
+                .at(thread.line.span, "the tool would plunge where the thread ends, unless this code returns by itself")
+                .help("write `ThreadPasses full`: approach, cut, clear, return; or `ThreadPasses x`, if it returns"),
+        );
+    }
+}

@@ -4,6 +4,10 @@ use std::borrow::Cow;
 
 use crate::span::Span;
 
+/// So many bytes apart it is known how many characters come before: columns of long lines cost no more than those of
+/// short ones.
+const STEP: usize = 1024;
+
 /// One form file, decoded.
 #[derive(Clone, Debug)]
 pub struct Source {
@@ -14,6 +18,8 @@ pub struct Source {
     /// The bytes were not UTF-8 and were read as Windows-1252.
     pub was_windows_1252: bool,
     line_starts: Vec<u32>,
+    /// Characters before every so many bytes.
+    characters: Vec<u32>,
 }
 
 impl Source {
@@ -37,7 +43,12 @@ impl Source {
     fn with(name: String, text: String, was_windows_1252: bool) -> Self {
         let mut line_starts = vec![0];
         line_starts.extend(memchr::memchr_iter(b'\n', text.as_bytes()).map(|at| at as u32 + 1));
-        Source { name, text, was_windows_1252, line_starts }
+        let (mut characters, mut count) = (vec![0], 0);
+        for part in text.as_bytes().chunks(STEP) {
+            count += beginnings(part);
+            characters.push(count);
+        }
+        Source { name, text, was_windows_1252, line_starts, characters }
     }
 
     /// The lines with the byte at which each starts, without their line ends.
@@ -63,17 +74,31 @@ impl Source {
 
     /// Line and column of a byte, both from 1; columns count characters.
     pub fn line_column(&self, at: u32) -> (u32, u32) {
-        let line = self.line_starts.partition_point(|&start| start <= at).max(1) - 1;
-        let start = self.line_starts[line] as usize;
-        let end = (at as usize).min(self.text.len());
-        let column = self.text.get(start..end).map_or(0, |s| s.chars().count());
-        (line as u32 + 1, column as u32 + 1)
+        let line = self.line(at);
+        let column = self.characters_before(at).saturating_sub(self.characters_before(self.line_starts[line]));
+        (line as u32 + 1, column + 1)
+    }
+
+    /// The line of a byte, from 0.
+    pub fn line(&self, at: u32) -> usize {
+        self.line_starts.partition_point(|&start| start <= at).max(1) - 1
+    }
+
+    fn characters_before(&self, at: u32) -> u32 {
+        let at = (at as usize).min(self.text.len());
+        let step = at / STEP;
+        self.characters[step] + beginnings(&self.text.as_bytes()[step * STEP..at])
     }
 
     /// The text of a span of this file.
     pub fn slice(&self, span: Span) -> &str {
         self.text.get(span.range()).unwrap_or("")
     }
+}
+
+/// How many characters begin in these bytes of UTF-8.
+fn beginnings(bytes: &[u8]) -> u32 {
+    bytes.iter().filter(|&&byte| byte & 0xc0 != 0x80).count() as u32
 }
 
 /// The character of one Windows-1252 byte. The five that have none keep their number, so that nothing is lost.
@@ -108,6 +133,11 @@ mod tests {
         assert_eq!(source.line_column(3), (1, 3));
         assert_eq!(source.line_column(5), (2, 1));
         assert_eq!(source.line_column(99), (2, 2));
+        let long = Source::from_text("f", "a\n".to_owned() + &"äb".repeat(5_000));
+        for characters in [0, 341, 342, 682, 683, 5_000, 9_999] {
+            let at = 2 + characters / 2 * 3 + characters % 2 * 2;
+            assert_eq!(long.line_column(at), (2, characters + 1));
+        }
     }
 
     #[test]

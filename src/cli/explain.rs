@@ -8,6 +8,9 @@ use postform::explain;
 use super::args::ExplainArgs;
 use super::{Ending, output};
 
+/// Letters of what is no name that a message shows.
+const MOST_SHOWN: usize = 60;
+
 /// Prints what something means, and what to write instead.
 pub fn run(args: &ExplainArgs) -> Result<Ending, String> {
     if args.list {
@@ -16,7 +19,10 @@ pub fn run(args: &ExplainArgs) -> Result<Ending, String> {
     // names may have blanks, as `Upon [work]`; several names are explained one after the other
     let whole = args.what.join(" ");
     let asked = if explain::explain(&whole).is_ok() { vec![whole] } else { args.what.clone() };
-    let none = |what: &str, help| format!("error: there is no `{}` to explain\n  help: {help}", escaped(what));
+    let none = |what: &str, help| {
+        let shown: String = escaped(what).chars().take(MOST_SHOWN).collect();
+        format!("error: there is no `{shown}` to explain\n  help: {help}")
+    };
     let texts = asked.iter().map(|what| explain::explain(what).map_err(|help| none(what, help)));
     let texts = texts.collect::<Result<Vec<_>, _>>()?;
     let text = texts.join("\n");

@@ -7,6 +7,7 @@ use std::path::Path;
 use postform::cl::{Assumed, Options, Report, read_cl};
 use postform::diag::escaped;
 use postform::nc::{Control, JobOptions, Settings, Unpointed, read_program};
+use postform::sema::MOST_TEXT;
 use postform::toolpath::json::{read_document, read_lines};
 use postform::toolpath::{ReadError, Sink, Units};
 
@@ -14,7 +15,7 @@ use super::args::{ControlArg, From, NoPoint, ReadArgs, UnitsArg};
 use super::spool::Spool;
 
 /// Largest form: a longer file is none.
-const LARGEST_FORM: u64 = 16 << 20;
+const LARGEST_FORM: u64 = MOST_TEXT as u64;
 
 /// A file that could not be read or written, as a message.
 pub fn io_message(what: &str, path: &Path, error: &io::Error) -> String {
@@ -105,7 +106,7 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     match open(path)?.take(LARGEST_FORM + 1).read_to_end(&mut bytes) {
         Ok(_) if bytes.len() as u64 > LARGEST_FORM => {
-            Err(format!("error: {} is larger than 16 MB: it is no form", name(path)))
+            Err(format!("error: {} is larger than {} KB: it is no form", name(path), LARGEST_FORM >> 10))
         }
         // what comes of it would be written back by a fix
         Ok(_) if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") => {

@@ -102,10 +102,14 @@ pub fn wholes(mut files: Vec<FormFile>) -> Vec<FormFile> {
     let mut seen = HashSet::new();
     files.retain(|file| seen.insert(real(file)));
     let calls: Vec<(PathBuf, Vec<PathBuf>)> = files.iter_mut().map(|file| (real(file), file.calls())).collect();
+    let mut callers: HashMap<&Path, Vec<usize>> = HashMap::new();
+    for (at, (_, parts)) in calls.iter().enumerate() {
+        parts.iter().for_each(|part| callers.entry(part).or_default().push(at));
+    }
     let is_part = |i: usize| {
         let (own, called) = &calls[i];
-        let mut callers = calls.iter().enumerate().filter(|(other, (_, parts))| *other != i && parts.contains(own));
-        callers.any(|(other, (caller, _))| other < i || !called.contains(caller))
+        let mut others = callers.get(own.as_path()).into_iter().flatten().filter(|&&other| other != i);
+        others.any(|&other| other < i || !called.contains(&calls[other].0))
     };
     let parts: Vec<bool> = (0..files.len()).map(is_part).collect();
     files.into_iter().zip(parts).filter(|(_, is_part)| !is_part).map(|(file, _)| file).collect()

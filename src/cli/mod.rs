@@ -9,6 +9,7 @@ mod explain;
 mod files;
 mod fmt;
 mod forms;
+mod huge;
 mod identity;
 mod lint;
 mod new;

@@ -24,6 +24,8 @@ pub struct Prepared {
     pub files: Vec<Source>,
     /// How jobs are rendered.
     pub options: Options,
+    /// Programs may be far longer than their jobs.
+    pub huge: bool,
     /// The files that it was made of, the configuration among them.
     pub inputs: Vec<PathBuf>,
 }
@@ -69,5 +71,5 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         trace: false,
     };
     let inputs = file.paths().map(Path::to_path_buf).chain(config.path).collect();
-    Ok(Some(Prepared { program, files: checked.files, options, inputs }))
+    Ok(Some(Prepared { program, files: checked.files, options, huge: args.huge, inputs }))
 }

@@ -12,6 +12,7 @@ use super::Ending;
 use super::args::RenderArgs;
 use super::config::Config;
 use super::files::{self, Again, io_message};
+use super::huge::Growth;
 use super::identity::Identity;
 use super::output::Target;
 use super::prepare::prepare;
@@ -47,11 +48,14 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         Some(job) => job.again.read()?,
         None => files::open(&args.job)?,
     };
+    let growth = Growth::new(args.options.huge);
+    let input = growth.of(input);
     let mut writer = Writer {
         renderer: Renderer::new(&prepared.program, options),
         target: Target::open(&args.output, args.stream)?,
         trace: args.trace.as_deref().map(|path| Target::open(path, false)).transpose()?,
         files: &prepared.files,
+        growth,
         failure: None,
         progress: Some(Progress::new()),
     };
@@ -154,6 +158,7 @@ struct Writer<'p> {
     target: Target,
     trace: Option<Target>,
     files: &'p [Source],
+    growth: Growth,
     failure: Option<(bool, io::Error)>,
     progress: Option<Progress>,
 }
@@ -161,9 +166,11 @@ struct Writer<'p> {
 impl Sink for Writer<'_> {
     fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
         self.renderer.event(event, place)?;
-        if self.renderer.text().len() < CHUNK {
+        let length = self.renderer.text().len();
+        if length < CHUNK {
             return Ok(());
         }
+        self.growth.print(length, place)?;
         self.drain().map_err(|()| Box::new(Diag::new(Code::PJ001, "the output can't be written")))
     }
 }
@@ -217,7 +224,7 @@ impl Writer<'_> {
 fn trace_line(line: &TraceLine, files: &[Source], out: &mut Vec<u8>) {
     let form = line.form.and_then(|span| {
         let source = files.get(span.file as usize)?;
-        Some(serde_json::json!({ "file": source.name, "line": source.line_column(span.start).0 }))
+        Some(serde_json::json!({ "file": source.name, "line": source.line(span.start) + 1 }))
     });
     let place = &line.place;
     let job = serde_json::json!({ "line": place.line, "column": place.column, "path": place.path() });

@@ -59,9 +59,8 @@ impl SourceCode for Text<'_> {
         after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         let (start, end) = (span.offset(), span.offset() + span.len());
-        let line = |at: usize| self.shown.line_column(at as u32).0 as usize - 1;
-        let first = line(start).saturating_sub(before);
-        let last = line(end) + after;
+        let first = self.shown.line(start as u32).saturating_sub(before);
+        let last = self.shown.line(end as u32) + after;
         let lines = self.shown.line_starts();
         let from = lines.get(first).copied().ok_or(MietteError::OutOfBounds)? as usize;
         let to = lines.get(last + 1).map_or(self.shown.text.len(), |&next| next as usize);
@@ -148,7 +147,7 @@ impl Reporter {
     pub fn text(&self, diags: &[Diag], files: &[Source]) -> String {
         let texts: Vec<Text> = files.iter().map(Text::new).collect();
         let mut all = String::new();
-        for diag in diags {
+        for diag in drawn(diags) {
             let file = diag.labels.first().map_or(0, |label| label.span.file);
             let mut place = diag.place.as_deref().map(Cow::Borrowed);
             let mut source = diag.labels.first().and_then(|_| texts.get(file as usize));
@@ -164,8 +163,26 @@ impl Reporter {
                 all += &format!("{} {}\n", diag.code.title(), diag.message);
             }
         }
+        if diags.len() > MOST_DRAWN {
+            all += &format!("and {}: mend these first\n", count(diags.len() - MOST_DRAWN, "more finding"));
+        }
         all
     }
+}
+
+/// Findings that are drawn: nobody reads more of them at once.
+const MOST_DRAWN: usize = 1000;
+
+/// The findings that are drawn, in their order: all of them, or of too many the errors first.
+fn drawn(diags: &[Diag]) -> impl Iterator<Item = &Diag> {
+    let mut errors = diags.iter().filter(|diag| diag.is_error()).count().min(MOST_DRAWN);
+    let mut others = MOST_DRAWN - errors;
+    diags.iter().filter(move |diag| {
+        let left = if diag.is_error() { &mut errors } else { &mut others };
+        let is_drawn = *left > 0;
+        *left -= usize::from(is_drawn);
+        is_drawn
+    })
 }
 
 /// Longest line that is drawn.
@@ -175,8 +192,8 @@ const LONGEST_LINE: usize = 400;
 fn too_long_to_draw(diag: &Diag, source: &Source, file: u32) -> bool {
     let starts = source.line_starts();
     diag.labels.iter().filter(|label| label.span.file == file).any(|label| {
-        let first = source.line_column(label.span.start).0.saturating_sub(2) as usize;
-        let last = source.line_column(label.span.end).0 as usize + 1;
+        let first = source.line(label.span.start).saturating_sub(1);
+        let last = source.line(label.span.end) + 2;
         let end = |line: usize| starts.get(line + 1).map_or(source.text.len(), |&next| next as usize);
         (first..last.min(starts.len())).any(|line| end(line) - starts[line] as usize > LONGEST_LINE)
     })

@@ -13,6 +13,7 @@ use postform::verify::{Comparer, Counts, Expectation, Finding, Verdict};
 use super::args::{ControlArgs, From, ReadArgs, VerifyArgs};
 use super::config::Config;
 use super::files::{self, Again, io_message};
+use super::huge::Growth;
 use super::prepare::{Prepared, prepare};
 use super::report::{self, Reporter};
 use super::say::say;
@@ -256,12 +257,15 @@ fn spooled(
     trace: bool,
 ) -> Result<Result<(File, Vec<TraceLine>), Ending>, String> {
     let fail = |error: std::io::Error| io_message("write", Path::new("the program"), &error);
+    let growth = Growth::new(prepared.huge);
+    let input = growth.of(job.again.read()?);
     let mut sink = Printed {
         renderer: Renderer::new(&prepared.program, Options { trace, ..prepared.options.clone() }),
         file: Spool::new().map_err(fail)?,
+        growth,
         failure: None,
     };
-    let read = job.read(&mut sink)?;
+    let (read, _) = files::read_job(input, job.from, job.read, &mut sink);
     if read.is_ok() {
         sink.drain();
     }
@@ -285,6 +289,7 @@ fn spooled(
 struct Printed<'p> {
     renderer: Renderer<'p>,
     file: Spool,
+    growth: Growth,
     failure: Option<std::io::Error>,
 }
 
@@ -301,7 +306,9 @@ impl Printed<'_> {
 impl Sink for Printed<'_> {
     fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
         self.renderer.event(event, place)?;
-        if self.renderer.text().len() >= CHUNK {
+        let length = self.renderer.text().len();
+        if length >= CHUNK {
+            self.growth.print(length, place)?;
             self.drain();
         }
         match &self.failure {

@@ -250,6 +250,8 @@ codes! {
     PR024 Note "an arc printed as lines"
     PR025 Warning "a feed that its format rounds by more than 1 %"
     PR026 Note "a comment in several blocks"
+    PR027 Error "a block that its control does not read"
+    PR028 Error "a program that is far longer than its job"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

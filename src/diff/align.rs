@@ -24,7 +24,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options { ignore: Ignore::USUAL, tolerance: 0.0, patience: Duration::from_millis(1200) }
+        Options { ignore: Ignore::USUAL, tolerance: 0.0, patience: Duration::from_millis(800) }
     }
 }
 
@@ -59,6 +59,8 @@ pub struct Comparison {
     pub hunks: Vec<Hunk>,
     /// It took too long to find the shortest answer.
     pub is_coarse: bool,
+    /// When to stop looking for short answers, inside blocks too.
+    pub until: Option<Instant>,
 }
 
 impl Comparison {
@@ -110,7 +112,7 @@ pub fn compare(old: &Program, new: &Program, options: &Options) -> Comparison {
     let (before, after) = (Lines::of(old, &options.ignore), Lines::of(new, &options.ignore));
     let deadline = Instant::now() + options.patience;
     let ops = capture_diff_slices_deadline(Algorithm::RawMyers, &before.keys, &after.keys, Some(deadline));
-    let mut comparison = Comparison { hunks: Vec::new(), is_coarse: Instant::now() > deadline };
+    let mut comparison = Comparison { hunks: Vec::new(), is_coarse: Instant::now() > deadline, until: Some(deadline) };
     for op in ops {
         let (tag, from, to) = op.as_tag_tuple();
         if tag == DiffTag::Equal {

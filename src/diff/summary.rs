@@ -1,6 +1,6 @@
 //! What changed, by kinds.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use super::align::{Comparison, Edit};
 use super::ignore::Ignore;
@@ -57,8 +57,9 @@ impl Summary {
                 letter => char::from(letter).to_string(),
             }
         };
+        let (olds, news) = (firsts(old), firsts(new));
         for word in new.iter().filter(|word| !is_code(word)) {
-            match old.iter().find(|before| before.letter == word.letter) {
+            match olds[usize::from(word.letter)] {
                 Some(before) if !before.is(word) => {
                     *self.letters.entry(char::from(word.letter)).or_default() += 1;
                 }
@@ -67,7 +68,7 @@ impl Summary {
             }
         }
         for word in old.iter().filter(|word| !is_code(word)) {
-            if !new.iter().any(|after| after.letter == word.letter) {
+            if news[usize::from(word.letter)].is_none() {
                 *self.less.entry(name(word, old_text)).or_default() += 1;
             }
         }
@@ -75,11 +76,19 @@ impl Summary {
             list.iter().filter(|word| is_code(word)).map(|word| name(word, text)).collect()
         };
         let (before, after) = (codes(old, old_text), codes(new, new_text));
-        for code in after.iter().filter(|code| !before.contains(code)) {
+        let [in_before, in_after] = [&before, &after].map(|list| list.iter().collect::<HashSet<_>>());
+        for code in after.iter().filter(|code| !in_before.contains(code)) {
             *self.more.entry(code.clone()).or_default() += 1;
         }
-        for code in before.iter().filter(|code| !after.contains(code)) {
+        for code in before.iter().filter(|code| !in_after.contains(code)) {
             *self.less.entry(code.clone()).or_default() += 1;
         }
     }
+}
+
+/// The first word of each letter.
+fn firsts(list: &[Word]) -> [Option<&Word>; 256] {
+    let mut firsts = [None; 256];
+    list.iter().rev().for_each(|word| firsts[usize::from(word.letter)] = Some(word));
+    firsts
 }

@@ -1,8 +1,10 @@
 //! Inside a changed block: which words changed.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
+use std::time::Instant;
 
-use similar::{Algorithm, DiffTag, capture_diff_slices};
+use similar::{Algorithm, DiffTag, capture_diff_slices_deadline};
 
 use super::ignore::Ignore;
 use super::key::is_seen;
@@ -25,6 +27,13 @@ impl Word {
     /// Is it the same, as compared?
     pub fn is(&self, other: &Word) -> bool {
         self.key == other.key
+    }
+
+    /// As compared, as a number: two different words of a line have one by chance once in 2^64.
+    fn hashed(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.key.hash(&mut hasher);
+        hasher.finish()
     }
 }
 
@@ -70,18 +79,18 @@ pub(super) fn within(old: &[Word], new: &[Word], tolerance: f64) -> bool {
 
 /// How many words two blocks share, of the longer one's.
 pub(super) fn likeness(old: &[Word], new: &[Word]) -> f64 {
-    let letters = |list: &[Word]| -> Vec<u8> { list.iter().map(|word| word.letter).collect() };
-    let (a, b) = (letters(old), letters(new));
-    let shared = a.iter().filter(|letter| b.contains(letter)).count();
-    shared as f64 / a.len().max(b.len()).max(1) as f64
+    let mut has = [false; 256];
+    new.iter().for_each(|word| has[usize::from(word.letter)] = true);
+    let shared = old.iter().filter(|word| has[usize::from(word.letter)]).count();
+    shared as f64 / old.len().max(new.len()).max(1) as f64
 }
 
-/// The places of changed words in an old and a new block.
-pub fn changed_spans(old: &[u8], new: &[u8], ignore: &Ignore) -> [Vec<Range<usize>>; 2] {
+/// The places of changed words in an old and a new block; more than need be where the search takes longer than `until`.
+pub fn changed_spans(old: &[u8], new: &[u8], ignore: &Ignore, until: Option<Instant>) -> [Vec<Range<usize>>; 2] {
     let (before, after) = (words(old, ignore), words(new, ignore));
-    let keys = |list: &[Word]| -> Vec<Vec<u8>> { list.iter().map(|word| word.key.clone()).collect() };
+    let keys = |list: &[Word]| -> Vec<u64> { list.iter().map(Word::hashed).collect() };
     let mut spans = [Vec::new(), Vec::new()];
-    for op in capture_diff_slices(Algorithm::RawMyers, &keys(&before), &keys(&after)) {
+    for op in capture_diff_slices_deadline(Algorithm::RawMyers, &keys(&before), &keys(&after), until) {
         let (tag, from, to) = op.as_tag_tuple();
         if tag != DiffTag::Equal {
             spans[0].extend(before[from].iter().map(|word| word.span.clone()));

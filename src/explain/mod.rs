@@ -8,7 +8,7 @@ pub mod reference;
 mod words;
 
 use crate::diag::{CODES, CodeRow};
-use crate::lang::{COMMANDS, CommandId, SEQUENCES, SequenceId, VARIABLES, VarId, did_you_mean};
+use crate::lang::{COMMANDS, CommandId, LONGEST_NAME, SEQUENCES, SequenceId, VARIABLES, VarId, did_you_mean};
 
 /// The text for a code, command, variable, sequence or cycle, whatever the case it is asked for in.
 ///
@@ -42,7 +42,7 @@ pub fn explain(what: &str) -> Result<String, String> {
         texts.extend(words::cycle(asked));
     }
     // a line of a form asks for what it begins with: `Back 3`, `Force X Z`
-    if let Some((head, _)) = asked.rsplit_once(' ').filter(|_| texts.is_empty()) {
+    if let Some((head, _)) = asked.rsplit_once(' ').filter(|_| texts.is_empty() && asked.len() < LONGEST_NAME) {
         texts.extend(explain(head));
     }
     match texts.is_empty() {

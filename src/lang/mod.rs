@@ -18,7 +18,7 @@ pub use commands::{Args, COMMANDS, Command, CommandId};
 pub use controls::longest_block;
 pub use machine::{Machine, Machines};
 pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
-pub use suggest::{did_you_mean, nearest};
+pub use suggest::{LONGEST_NAME, did_you_mean, nearest};
 pub use variables::{Origin, Unit, VARIABLES, VarId, VarSet, Variable};
 
 /// Where a rule comes from; the reference keeps the mark.

@@ -1,16 +1,35 @@
 //! "Did you mean": the known name nearest to a wrong one.
 
+/// No name is as long; what is, is no slip of the fingers.
+pub const LONGEST_NAME: usize = 64;
+
 /// The candidate nearest to `name` if it is near enough to be meant; case does not count.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() >= LONGEST_NAME {
+        return None;
+    }
     let wrong = name.to_ascii_lowercase();
+    let (length, letters) = shape(&wrong);
     // one slip in a short name, a third of a long one
-    let allowed = (wrong.chars().count() / 3).clamp(1, 4);
+    let allowed = (length / 3).clamp(1, 4);
+    // a slip changes the length by one at most, and which letters there are by two: few candidates are left to compare
+    let may_be = |candidate: &&str| {
+        let (own_length, own_letters) = shape(candidate);
+        own_length.abs_diff(length) <= allowed && (own_letters ^ letters).count_ones() as usize <= 2 * allowed
+    };
     candidates
         .into_iter()
+        .filter(may_be)
         .map(|candidate| (strsim::damerau_levenshtein(&wrong, &candidate.to_ascii_lowercase()), candidate))
         .filter(|&(distance, candidate)| distance <= allowed && distance < candidate.chars().count())
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
+}
+
+/// How many letters a name has, and which, a bit for each (some share one); case does not count.
+fn shape(name: &str) -> (usize, u64) {
+    let bit = |c: char| 1_u64 << (u32::from(c.to_ascii_lowercase()) % 64);
+    name.chars().fold((0, 0), |(length, letters), c| (length + 1, letters | bit(c)))
 }
 
 /// `did you mean `x`?`, ready for a help line.
@@ -29,5 +48,14 @@ mod tests {
         assert_eq!(nearest("RPLAN", names), Some("rplane"));
         assert_eq!(nearest("feedrate", names), None);
         assert_eq!(nearest("z", names), None);
+    }
+
+    #[test]
+    fn long_words_are_no_slips() {
+        let name = "b".repeat(1_000_000);
+        assert_eq!(nearest(&name, [name.as_str()]), None);
+        // and no near name is passed over
+        assert_eq!(nearest("Sequence#", ["Sequence#s"]), Some("Sequence#s"));
+        assert_eq!(nearest("fRAET", ["frate"]), Some("frate"));
     }
 }

@@ -25,6 +25,14 @@ pub struct View<'a> {
     blocks: Vec<Vec<Block<'a>>>,
     /// Letters that have a format of their own.
     has_format: [bool; 256],
+    /// The variables that bodies print, outside comments.
+    printed: VarSet,
+    /// The same with those in comments.
+    told: VarSet,
+    /// Letters of words.
+    has_words: [bool; 256],
+    /// A body has a cycle of the control.
+    has_cycles: bool,
 }
 
 /// What a body is for.
@@ -69,7 +77,15 @@ impl<'a> View<'a> {
             lines: &upon.lines,
             sequence: None,
         });
-        let bodies = sequences.chain(upons).enumerate().map(|(index, body)| Body { index, ..body }).collect();
+        let bodies: Vec<Body> =
+            sequences.chain(upons).enumerate().map(|(index, body)| Body { index, ..body }).collect();
+        let (mut printed, mut told, mut has_words) = (VarSet::default(), VarSet::default(), [false; 256]);
+        for word in bodies.iter().flat_map(|body| body.words()) {
+            word.printed_var().into_iter().for_each(|var| printed.insert(var));
+            word.var().into_iter().for_each(|var| told.insert(var));
+            word.letter().into_iter().for_each(|letter| has_words[usize::from(letter)] = true);
+        }
+        let has_cycles = bodies.iter().any(|body| body.cycle_word().is_some());
         let mut has_format = [false; 256];
         form.formats.keys().chain(form.packed.keys()).for_each(|&letter| has_format[usize::from(letter)] = true);
         let mut view = View {
@@ -80,6 +96,10 @@ impl<'a> View<'a> {
             bodies,
             blocks: Vec::new(),
             has_format,
+            printed,
+            told,
+            has_words,
+            has_cycles,
         };
         let axis = |word: &Word| word.letter().and_then(|letter| view.axis(letter));
         view.blocks = view.bodies.iter().map(|body| blocks::read(view.settings, axis, body.lines)).collect();
@@ -139,9 +159,22 @@ impl<'a> View<'a> {
 
     /// The variables that bodies print, outside comments.
     pub fn printed(&self) -> VarSet {
-        let mut printed = VarSet::default();
-        self.words().filter_map(Word::printed_var).for_each(|var| printed.insert(var));
-        printed
+        self.printed
+    }
+
+    /// Does a body print this variable, be it in a comment?
+    pub fn tells(&self, var: VarId) -> bool {
+        self.told.has(var)
+    }
+
+    /// Has a body words of this letter?
+    pub fn has_words_of(&self, letter: u8) -> bool {
+        self.has_words[usize::from(letter)]
+    }
+
+    /// Has a body a cycle of the control?
+    pub fn has_cycles(&self) -> bool {
+        self.has_cycles
     }
 
     /// The commands of all files with what they are.

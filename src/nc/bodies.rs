@@ -54,8 +54,9 @@ impl Machine {
         self.feed_to(hole.over(height), hole.feed, out);
     }
 
-    /// Drills, from over the hole at R to over the hole at the clear level.
-    pub(super) fn drill(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
+    /// Drills, from over the hole at R to over the hole at the clear level. `from`: where the next peck of a hole ends that
+    /// was begun; so is the answer, where the rest has to wait.
+    pub(super) fn drill(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
         let emc2 = self.control == Control::Emc2;
         match hole.code {
             810 => {
@@ -67,8 +68,8 @@ impl Machine {
                 out.push(Action::Dwell(hole.dwell));
                 self.rapid_over(hole, hole.clear, out);
             }
-            730 | 830 => self.pecks(hole, out)?,
-            740 | 840 => self.tap(hole, out)?,
+            730 | 830 => return self.pecks(hole, from, out),
+            740 | 840 => return self.tap(hole, from, out),
             850 => {
                 self.feed_over(hole, hole.bottom, out);
                 // the old manual feeds out all the way
@@ -117,27 +118,30 @@ impl Machine {
             760 => self.fine_bore(hole, out),
             _ => {}
         }
-        Ok(())
+        Ok(None)
     }
 
     /// G73 breaks the chip, G83 brings it out.
-    fn pecks(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
+    fn pecks(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
         if hole.peck <= 0.0 {
             return refuse(Code::PN018, format!("a peck of {}", hole.peck), "Q must be greater than zero");
         }
         check_pecks(hole)?;
         if self.control == Control::Emc2 && hole.code == 830 {
-            return self.pecks_of_emc2(hole, out);
+            return Ok(self.pecks_of_emc2(hole, from, out));
         }
         let back_off = self.back_off();
-        if hole.peck < back_off {
+        if from.is_none() && hole.peck < back_off {
             self.warnings.push((
                 Code::PN032,
                 "a peck is shorter than the control's back-off: the rapid ends above the last but one",
             ));
         }
-        let mut depth = hole.r - hole.peck;
+        let mut depth = from.unwrap_or(hole.r - hole.peck);
         while depth > hole.bottom {
+            if out.is_full() {
+                return Ok(Some(depth));
+            }
             self.feed_over(hole, depth, out);
             if hole.code == 830 {
                 self.rapid_over(hole, hole.r, out);
@@ -150,20 +154,24 @@ impl Machine {
             out.push(Action::Dwell(hole.dwell));
         }
         self.rapid_over(hole, hole.clear, out);
-        Ok(())
+        Ok(None)
     }
 
     /// The old manual's pecks: a quarter of a second, up to the clear level, and feed again from there.
-    fn pecks_of_emc2(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
-        let mut depth = hole.r;
+    fn pecks_of_emc2(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Option<f64> {
+        // here it is where the last peck ended
+        let mut depth = from.unwrap_or(hole.r);
         // what is left of a sum of decimals is no peck
         while depth > hole.bottom + 1e-9 {
+            if out.is_full() {
+                return Some(depth);
+            }
             depth = (depth - hole.peck).max(hole.bottom);
             self.feed_over(hole, depth, out);
             out.push(Action::Dwell(0.25));
             self.rapid_over(hole, hole.clear, out);
         }
-        Ok(())
+        None
     }
 
     /// The direction of the spindle, which must turn.
@@ -174,7 +182,7 @@ impl Machine {
         Ok(self.spindle)
     }
 
-    fn tap(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
+    fn tap(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
         let (inwards, name) = if hole.code == 840 { (Rotation::Cw, "G84") } else { (Rotation::Ccw, "G74") };
         let linuxcnc = self.control.is_linuxcnc();
         if linuxcnc && self.turning(name)? != inwards {
@@ -183,10 +191,13 @@ impl Machine {
         }
         let outwards = inwards.reversed();
         let clear = if linuxcnc { hole.clear } else { hole.r };
-        if !linuxcnc && self.spindle != inwards {
+        if from.is_none() && !linuxcnc && self.spindle != inwards {
             self.turn(inwards, out);
         }
-        self.tap_pecks(hole, [inwards, outwards], out)?;
+        let rest = self.tap_pecks(hole, from, [inwards, outwards], out)?;
+        if rest.is_some() {
+            return Ok(rest);
+        }
         self.feed_over(hole, hole.bottom, out);
         if linuxcnc {
             self.turn(Rotation::Stop, out);
@@ -205,25 +216,34 @@ impl Machine {
             self.spindle = inwards;
             self.rapid_over(hole, hole.clear, out);
         }
-        Ok(())
+        Ok(None)
     }
 
     /// Q of a Fanuc's tap: after each peck it turns back a little to break the chip.
-    fn tap_pecks(&mut self, hole: &Drilling, [inwards, outwards]: [Rotation; 2], out: &mut Out<'_>) -> Done {
+    fn tap_pecks(
+        &mut self,
+        hole: &Drilling,
+        from: Option<f64>,
+        [inwards, outwards]: [Rotation; 2],
+        out: &mut Out<'_>,
+    ) -> Done<Option<f64>> {
         if self.control.is_linuxcnc() || hole.peck <= 0.0 {
-            return Ok(());
+            return Ok(None);
         }
         check_pecks(hole)?;
         let back_off = self.back_off();
-        let mut depth = hole.r - hole.peck;
+        let mut depth = from.unwrap_or(hole.r - hole.peck);
         while depth > hole.bottom {
+            if out.is_full() {
+                return Ok(Some(depth));
+            }
             self.feed_over(hole, depth, out);
             self.turn(outwards, out);
             self.feed_over(hole, (depth + back_off).min(hole.r), out);
             self.turn(inwards, out);
             depth -= hole.peck;
         }
-        Ok(())
+        Ok(None)
     }
 
     /// Stops at an angle, moves off the wall and comes out.

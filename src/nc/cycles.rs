@@ -34,6 +34,21 @@ impl Series {
     }
 }
 
+/// Holes of one block that are still to be made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Work {
+    /// The hole that is made, or was made last.
+    pub hole: Drilling,
+    /// How many are to be made.
+    pub times: u32,
+    /// How many were begun.
+    pub begun: u32,
+    /// Height of the tool before the first.
+    pub level: f64,
+    /// Where the next peck of the hole ends.
+    pub depth: Option<f64>,
+}
+
 /// LinuxCNC's own mark of a word that is not there.
 fn given(word: Option<f64>) -> Option<f64> {
     word.filter(|&value| value != -1.0)
@@ -44,7 +59,7 @@ impl Machine {
     pub(super) fn linuxcnc_cycle(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
         self.check_cycle(block)?;
         let same = self.motion == code;
-        let [first, second, across] = axes_of(self.plane);
+        let [_, _, across] = axes_of(self.plane);
         let name = super::block::name_of(code);
         let mode = (self.absolute, self.plane, self.units);
         let kept = self.series;
@@ -90,46 +105,79 @@ impl Machine {
             ..hole
         };
         check_moves(times, &hole)?;
-        let was = self.position;
-        let level = was[across];
-        let mut at = self.position;
-        for n in 0..times {
-            // an absolute place stays where it was the first time
-            if block.polar != [None; 2] && (n == 0 || !self.absolute) {
-                let held = std::mem::replace(&mut self.position, at);
-                let done = self.polar(block, &mut at);
-                self.position = held;
-                done?;
-            }
-            for axis in [first, second] {
-                if let Some(value) = self.axis_word(block, axis) {
-                    at[axis] = if self.absolute { value } else { at[axis] + value };
-                    self.at_machine &= !(1 << axis);
-                }
-            }
-            self.at_machine &= !(1 << across);
-            let hole = Drilling { at, ..hole };
-            self.announce(&hole, out);
-            out.by_cycle = true;
-            if n == 0 && level > plane_r {
-                self.rapid_to(hole.over(level), out);
-                self.rapid_to(hole.over(plane_r), out);
-            } else {
-                let across_too = self.position[first] != at[first] || self.position[second] != at[second];
-                if self.position[across] < hole.clear && across_too {
-                    let message = "the rapid to this hole rises on its way: the hole before returned to R only";
-                    self.warnings.push((Code::PN031, message));
-                }
-                self.rapid_to(hole.over(hole.clear), out);
-                if hole.clear > plane_r {
-                    self.rapid_to(hole.over(plane_r), out);
-                }
-            }
-            self.drill(&hole, out)?;
-            out.by_cycle = false;
-        }
+        self.work = Some(Work { hole, times, begun: 0, level: self.position[across], depth: None });
         self.motion = code;
         self.series.running = true;
+        self.make_holes(block, out)
+    }
+
+    /// Makes the holes of a block, one after the other; stops where there is enough to be read.
+    pub(super) fn make_holes(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+        while let Some(mut work) = self.work.take() {
+            if work.depth.is_none() {
+                if work.begun == work.times {
+                    return Ok(());
+                }
+                self.go_to_hole(&mut work, block, out)?;
+                work.begun += 1;
+            }
+            out.by_cycle = true;
+            work.depth = self.drill(&work.hole, work.depth, out)?;
+            out.by_cycle = false;
+            if work.depth.is_some() || work.begun < work.times {
+                self.work = Some(work);
+            }
+            if out.is_full() {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    fn go_to_hole(&mut self, work: &mut Work, block: &Block, out: &mut Out<'_>) -> Done {
+        if self.control.is_linuxcnc() {
+            self.go_to_hole_of_linuxcnc(work, block, out)
+        } else {
+            self.go_to_hole_of_fanuc(work, block, out);
+            Ok(())
+        }
+    }
+
+    fn go_to_hole_of_linuxcnc(&mut self, work: &mut Work, block: &Block, out: &mut Out<'_>) -> Done {
+        let [first, second, across] = axes_of(self.plane);
+        let (begun, level) = (work.begun, work.level);
+        let at = &mut work.hole.at;
+        // an absolute place stays where it was the first time
+        if block.polar != [None; 2] && (begun == 0 || !self.absolute) {
+            let held = std::mem::replace(&mut self.position, *at);
+            let done = self.polar(block, at);
+            self.position = held;
+            done?;
+        }
+        for axis in [first, second] {
+            if let Some(value) = self.axis_word(block, axis) {
+                at[axis] = if self.absolute { value } else { at[axis] + value };
+                self.at_machine &= !(1 << axis);
+            }
+        }
+        self.at_machine &= !(1 << across);
+        let hole = work.hole;
+        self.announce(&hole, out);
+        out.by_cycle = true;
+        if begun == 0 && level > hole.r {
+            self.rapid_to(hole.over(level), out);
+            self.rapid_to(hole.over(hole.r), out);
+            return Ok(());
+        }
+        let across_too = self.position[first] != hole.at[first] || self.position[second] != hole.at[second];
+        if self.position[across] < hole.clear && across_too {
+            let message = "the rapid to this hole rises on its way: the hole before returned to R only";
+            self.warnings.push((Code::PN031, message));
+        }
+        self.rapid_to(hole.over(hole.clear), out);
+        if hole.clear > hole.r {
+            self.rapid_to(hole.over(hole.r), out);
+        }
         Ok(())
     }
 
@@ -221,7 +269,7 @@ impl Machine {
     }
 }
 
-/// A block makes its moves at once: not more than a machine makes in a day.
+/// Not more moves in a block than a machine makes in a day.
 pub(super) fn check_moves(times: u32, hole: &Drilling) -> Done {
     let pecks = if hole.peck > 0.0 { ((hole.r - hole.bottom) / hole.peck).abs() } else { 0.0 };
     if f64::from(times) * (pecks + 4.0) > 1e6 {

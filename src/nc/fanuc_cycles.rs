@@ -4,6 +4,7 @@ use super::action::Drilling;
 use super::arcs::{CENTERS, axes_of};
 use super::block::{Block, name_of};
 use super::codes::letters;
+use super::cycles::Work;
 use super::fault::{Done, refuse};
 use super::machine::{Machine, Out};
 use crate::diag::Code;
@@ -21,7 +22,7 @@ impl Machine {
     /// A block while a cycle is in force: a hole where it has X, Y, Z or R.
     pub(super) fn fanuc_cycle(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
         let name = name_of(code);
-        let [first, second, across] = axes_of(self.plane);
+        let [_, _, across] = axes_of(self.plane);
         if !self.series.running {
             self.series.running = true;
             self.series.initial = self.position[across];
@@ -82,11 +83,10 @@ impl Machine {
         if upward && !self.to_initial {
             return refuse(Code::PN013, "G87 under G99", "a back bore returns to the initial level: write G98");
         }
-        let mut at = self.position;
         let clear = if self.to_initial { initial.max(r) } else { r };
         let hole = Drilling {
             code,
-            at,
+            at: self.position,
             plane: self.plane,
             r,
             bottom,
@@ -98,27 +98,29 @@ impl Machine {
             feed: self.feed,
         };
         super::cycles::check_moves(times, &hole)?;
-        for _ in 0..times {
-            for axis in [first, second, 3, 4, 5] {
-                if let Some(value) = self.axis_word(block, axis) {
-                    at[axis] = if self.absolute { value } else { at[axis] + value };
-                    self.at_machine &= !(1 << axis);
-                }
+        self.work = Some(Work { hole, times, begun: 0, level: self.position[across], depth: None });
+        self.make_holes(block, out)
+    }
+
+    pub(super) fn go_to_hole_of_fanuc(&mut self, work: &mut Work, block: &Block, out: &mut Out<'_>) {
+        let [first, second, across] = axes_of(self.plane);
+        let at = &mut work.hole.at;
+        for axis in [first, second, 3, 4, 5] {
+            if let Some(value) = self.axis_word(block, axis) {
+                at[axis] = if self.absolute { value } else { at[axis] + value };
+                self.at_machine &= !(1 << axis);
             }
-            let hole = Drilling { at, ..hole };
-            self.announce(&hole, out);
-            out.by_cycle = true;
-            // across at the height where the tool is, then down to R
-            let height = self.position[across];
-            self.rapid_to(hole.over(height), out);
-            if !upward && height != r {
-                self.at_machine &= !(1 << across);
-                self.rapid_to(hole.over(r), out);
-            }
-            self.drill(&hole, out)?;
-            out.by_cycle = false;
         }
-        Ok(())
+        let hole = work.hole;
+        self.announce(&hole, out);
+        out.by_cycle = true;
+        // across at the height where the tool is, then down to R
+        let height = self.position[across];
+        self.rapid_to(hole.over(height), out);
+        if hole.code != 870 && height != hole.r {
+            self.at_machine &= !(1 << across);
+            self.rapid_to(hole.over(hole.r), out);
+        }
     }
 
     /// Off the wall: Q along the first axis, or I and J.

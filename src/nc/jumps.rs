@@ -252,7 +252,10 @@ impl<R: BufRead + Seek> Simulator<R> {
                 let message = format!("o{label} of line {begin} has no end");
                 return Err(self.refused(Fault::new(Code::PN015, message, "end it with the word that belongs to it")));
             }
-            self.count_jump()?;
+            // a line that is new is no round of a loop
+            if self.at.line <= self.farthest {
+                self.count_jump()?;
+            }
             let Some((found, step)) = Flow::head(&self.line) else { continue };
             if found != label {
                 continue;
@@ -298,7 +301,10 @@ impl<R: BufRead + Seek> Simulator<R> {
                 }
             }
             self.searched = true;
+            // reading ahead is no way back
+            let farthest = self.farthest;
             self.go(back)?;
+            self.farthest = farthest;
             self.line = text;
         }
         let Some(&start) = self.labels.get(&label) else {

@@ -4,7 +4,7 @@ use super::action::{Action, Cooling, Item, Position, Rotation};
 use super::block::Block;
 use super::codes::{GCode, Group, bit, g_code, letters};
 use super::control::Control;
-use super::cycles::Series;
+use super::cycles::{Series, Work};
 use super::fault::{Done, refuse};
 use super::frames::Frames;
 use crate::diag::Code;
@@ -70,6 +70,9 @@ impl Settings {
 /// Words that are lengths or angles.
 const LENGTHS: u32 = letters("XYZABCIJKRQ");
 
+/// Actions after which the rest of a block waits for the next call.
+const AT_ONCE: usize = 4096;
+
 /// Where a program goes after a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Next {
@@ -81,6 +84,8 @@ pub enum Next {
     Call(f64, u32),
     /// Back from a subprogram.
     Return,
+    /// The block is not done: [`Machine::run_on`].
+    Rest,
 }
 
 /// A control between two blocks.
@@ -97,6 +102,8 @@ pub struct Machine {
     /// The cycle in force on a Fanuc.
     pub(super) cycle: Option<u16>,
     pub(super) series: Series,
+    /// What the block's cycle still has to make.
+    pub(super) work: Option<Work>,
     pub(super) plane: Plane,
     pub(super) units: Units,
     pub(super) absolute: bool,
@@ -123,11 +130,24 @@ pub struct Machine {
 /// Where actions go.
 pub(super) struct Out<'a> {
     pub items: &'a mut Vec<Item>,
+    /// How many there were.
+    start: usize,
     pub line: u64,
     pub by_cycle: bool,
 }
 
-impl Out<'_> {
+impl<'a> Out<'a> {
+    /// Behind what is there.
+    fn new(items: &'a mut Vec<Item>, line: u64) -> Out<'a> {
+        Out { start: items.len(), items, line, by_cycle: false }
+    }
+
+    /// Is there enough to be read?
+    #[inline]
+    pub fn is_full(&self) -> bool {
+        self.items.len() - self.start >= AT_ONCE
+    }
+
     #[inline]
     pub fn push(&mut self, action: Action) {
         self.items.push(Item { line: self.line, by_cycle: self.by_cycle, action });
@@ -146,6 +166,7 @@ impl Machine {
             motion: NO_MOTION,
             cycle: None,
             series: Series::default(),
+            work: None,
             plane: Plane::Xy,
             units: settings.units,
             absolute: true,
@@ -217,7 +238,7 @@ impl Machine {
         let in_force = if self.control.is_linuxcnc() { None } else { self.cycle };
         let row = in_force.or(motion).and_then(|code| g_code(self.control, code));
         block.check_words(row, self.control)?;
-        let mut out = Out { items, line, by_cycle: false };
+        let mut out = Out::new(items, line);
         if let Some((start, end)) = block.comment {
             out.push(Action::Comment(start, end));
         }
@@ -247,7 +268,26 @@ impl Machine {
         } else {
             self.move_by_fanuc(motion, block, &mut out)?;
         }
-        if block.m().is_empty() { Ok(Next::On) } else { self.after(block, &mut out) }
+        self.finish(block, &mut out)
+    }
+
+    /// The rest of a block, which is as it was.
+    ///
+    /// # Errors
+    /// What the control refuses.
+    pub fn run_on(&mut self, block: &Block, line: u64, items: &mut Vec<Item>) -> Done<Next> {
+        let mut out = Out::new(items, line);
+        self.make_holes(block, &mut out)?;
+        self.finish(block, &mut out)
+    }
+
+    /// M codes come when everything else is done.
+    #[inline]
+    fn finish(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {
+        if self.work.is_some() {
+            return Ok(Next::Rest);
+        }
+        if block.m().is_empty() { Ok(Next::On) } else { self.after(block, out) }
     }
 
     /// Lengths without a point.

@@ -14,11 +14,11 @@ use crate::diag::{Code, Diag};
 /// Longest line in bytes; LinuxCNC takes 252.
 const LONGEST: usize = 1 << 16;
 const LONGEST_OF_LINUXCNC: usize = 252;
-/// Rounds of loops, calls, and blocks passed over, before a program counts as endless.
-const MOST_JUMPS: u64 = 2_000_000;
+/// Rounds of loops, calls, and blocks passed over again, before a program counts as endless.
+const MOST_JUMPS: u64 = 1_000_000;
 
-/// Actions of subprograms and loops after which a program counts as endless.
-const MOST_REPEATED: u64 = 50_000_000;
+/// Actions of subprograms, loops and long blocks after which a program counts as endless.
+const MOST_REPEATED: u64 = 20_000_000;
 
 /// Why a program was not run to its end.
 #[derive(Debug)]
@@ -59,8 +59,12 @@ pub struct Simulator<R> {
     /// It ended with M99, which begins it again.
     pub(super) again: bool,
     jumps: u64,
-    /// Actions inside subprograms and loops.
+    /// The last line from which the way led elsewhere: those up to it may be read again.
+    pub(super) farthest: u64,
+    /// Actions inside subprograms, loops and long blocks.
     repeated: u64,
+    /// The block has more to do.
+    unfinished: bool,
     blocks: u64,
 }
 
@@ -82,7 +86,9 @@ impl<R: BufRead + Seek> Simulator<R> {
             over: false,
             again: false,
             jumps: 0,
+            farthest: 0,
             repeated: 0,
+            unfinished: false,
             blocks: 0,
         }
     }
@@ -131,7 +137,8 @@ impl<R: BufRead + Seek> Simulator<R> {
         self.blocks
     }
 
-    /// Runs the next line and appends what the machine does; `false` when the program is over.
+    /// Runs the next line and appends what the machine does; `false` when the program is over. What a line does may come in
+    /// parts, some thousand actions each.
     ///
     /// # Errors
     /// The input fails, or the control refuses the block. What the block did before is in `items`.
@@ -140,7 +147,7 @@ impl<R: BufRead + Seek> Simulator<R> {
         if self.over {
             return Ok(false);
         }
-        if !self.read_line()? {
+        if !self.unfinished && !self.read_line()? {
             return self.at_end().map_err(|fault| self.refused(fault));
         }
         match self.line_step(items) {
@@ -208,6 +215,9 @@ impl<R: BufRead + Seek> Simulator<R> {
 
     #[inline]
     fn line_step(&mut self, items: &mut Vec<Item>) -> Done<Jump> {
+        if std::mem::take(&mut self.unfinished) {
+            return self.acted(items, |machine, block, line, items| machine.run_on(block, line, items));
+        }
         let linuxcnc = self.machine.settings.control.is_linuxcnc();
         let longest = if linuxcnc { LONGEST_OF_LINUXCNC } else { LONGEST };
         if self.line.len() > longest && self.line.trim_ascii_end().len() > longest {
@@ -234,17 +244,29 @@ impl<R: BufRead + Seek> Simulator<R> {
         if let Some(flow) = self.block.flow.take() {
             return self.follow(flow);
         }
+        self.acted(items, Machine::run)
+    }
+
+    /// Lets the machine act for the block, and says where the program goes.
+    #[inline]
+    fn acted(
+        &mut self,
+        items: &mut Vec<Item>,
+        act: impl FnOnce(&mut Machine, &mut Block, u64, &mut Vec<Item>) -> Done<Next>,
+    ) -> Done<Jump> {
         let before = items.len();
-        let next = self.machine.run(&mut self.block, self.at.line, items)?;
-        if !self.frames.is_empty() {
+        let next = act(&mut self.machine, &mut self.block, self.at.line, items)?;
+        self.unfinished = next == Next::Rest;
+        // a block alone may make as many as a loop
+        if self.unfinished || !self.frames.is_empty() {
             self.repeated += (items.len() - before) as u64;
             if self.repeated > MOST_REPEATED {
-                let help = "look at the repeats of subprograms, loops and cycles inside each other";
-                return refuse(Code::PN015, "the program does not come to an end", help);
+                let message = format!("over {MOST_REPEATED} actions by repeats, loops and pecks");
+                return refuse(Code::PN015, message, "look at Q, at K or L, and at loops inside each other");
             }
         }
         match next {
-            Next::On => Ok(Jump::On),
+            Next::Rest | Next::On => Ok(Jump::On),
             Next::End => Ok(Jump::End),
             Next::Call(_, 0) => Ok(Jump::On),
             Next::Call(number, times) => Ok(Jump::Find(format!("{number}"), times)),
@@ -260,6 +282,7 @@ impl<R: BufRead + Seek> Simulator<R> {
     }
 
     pub(super) fn go(&mut self, spot: Spot) -> Result<(), RunError> {
+        self.farthest = self.farthest.max(self.at.line);
         let offset = i128::from(spot.byte) - i128::from(self.at.byte);
         match i64::try_from(offset) {
             // stays inside the buffer where it can

@@ -1,8 +1,12 @@
 //! Blocks: words joined, numbered, ended, and appended to the output.
 
-use crate::sema::Settings;
+use crate::lang::longest_block;
+use crate::sema::{Replacement, Settings};
 use crate::span::Span;
 use crate::toolpath::Place;
+
+/// Longest block of a control that takes long ones; they read from 80 characters to a few hundred.
+const LONGEST: usize = 4096;
 
 /// Where an output line came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +17,17 @@ pub struct TraceLine {
     pub form: Option<Span>,
     /// Item of the job.
     pub place: Place,
+}
+
+/// A block that its control does not read.
+#[derive(Clone, Copy, Debug)]
+pub struct TooLong {
+    /// Its length, as far as it was made.
+    pub length: usize,
+    /// The longest that the control reads.
+    pub most: usize,
+    /// The `Replace` that made it too long.
+    pub replaced: Option<Span>,
 }
 
 /// The block being built and the output so far.
@@ -30,6 +45,8 @@ pub struct Output {
     pub lines: u64,
     /// The source map, when asked for.
     pub trace: Option<Vec<TraceLine>>,
+    /// The first block that was too long.
+    pub too_long: Option<TooLong>,
 }
 
 /// How blocks look, taken from the settings once.
@@ -37,7 +54,8 @@ pub struct Output {
 pub struct Layout {
     blanks: bool,
     columns: Vec<usize>,
-    replace: Vec<(Vec<u8>, Vec<u8>)>,
+    replace: Vec<(Vec<u8>, Vec<u8>, Span)>,
+    longest: usize,
     eob: Vec<u8>,
     number_letter: Option<u8>,
     start: i64,
@@ -50,11 +68,14 @@ pub struct Layout {
 impl Layout {
     /// `width` is the number of digits of a block number's format, `fixed` whether they are padded.
     pub fn new(settings: &Settings, width: u8, fixed: bool) -> Layout {
-        let bytes = |(old, new): &(String, String)| (old.clone().into_bytes(), new.clone().into_bytes());
+        let bytes = |row: &Replacement| (row.old.clone().into_bytes(), row.new.clone().into_bytes(), row.span);
+        // what a sender cuts is no reason to print nothing
+        let stops = ["linuxcnc", "emc2"].contains(&settings.control.as_str());
         Layout {
             blanks: settings.blanks,
             columns: settings.columns.clone(),
             replace: settings.replace.iter().map(bytes).collect(),
+            longest: longest_block(&settings.control).filter(|_| stops).unwrap_or(LONGEST),
             eob: settings.eob.clone().into_bytes(),
             number_letter: settings.numbers.letter,
             start: settings.numbers.start,
@@ -78,6 +99,7 @@ impl Output {
             first_done: false,
             lines: 0,
             trace: trace.then(Vec::new),
+            too_long: None,
         }
     }
 
@@ -164,6 +186,7 @@ impl Output {
         if !layout.eob.is_empty() {
             self.text.extend_from_slice(&layout.eob);
         }
+        self.fits(layout, None);
         self.text.push(b'\n');
         self.lines += 1;
         if let Some(trace) = &mut self.trace {
@@ -195,16 +218,33 @@ impl Output {
 
     #[cold]
     fn replace(&mut self, layout: &Layout) {
-        for (old, new) in &layout.replace {
+        for (old, new, span) in &layout.replace {
+            if memchr::memmem::find(&self.text[self.start..], old).is_none() {
+                continue;
+            }
             let block = self.text.split_off(self.start);
             let mut from = 0;
             for at in memchr::memmem::find_iter(&block, old) {
                 self.text.extend_from_slice(&block[from..at]);
                 self.text.extend_from_slice(new);
                 from = at + old.len();
+                // each row may double the block: the first that makes it too long is the last
+                if !self.fits(layout, Some(*span)) {
+                    return;
+                }
             }
             self.text.extend_from_slice(&block[from..]);
         }
+    }
+
+    /// Is the open block, as far as it is made, one that the control reads? The first that is not is kept.
+    #[inline]
+    fn fits(&mut self, layout: &Layout, replaced: Option<Span>) -> bool {
+        let length = self.text.len() - self.start;
+        if length > layout.longest && self.too_long.is_none() {
+            self.too_long = Some(TooLong { length, most: layout.longest, replaced });
+        }
+        length <= layout.longest
     }
 }
 

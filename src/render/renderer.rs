@@ -3,7 +3,7 @@
 use super::codes::Shift;
 use super::cycles::ActiveCycle;
 use super::fault::Done;
-use super::output::{Layout, Output, TraceLine};
+use super::output::{Layout, Output, TooLong, TraceLine};
 use super::registers::Registers;
 use super::vars::Vars;
 use crate::compile::{LetterTable, Program};
@@ -219,6 +219,12 @@ impl<'p> Renderer<'p> {
         }
     }
 
+    /// Was every block so far short enough for the control?
+    #[inline]
+    fn blocks_fit(&self) -> Done {
+        self.out.too_long.map_or(Ok(()), too_long)
+    }
+
     pub(super) fn bare_format(&self) -> &'p LetterFormat {
         &self.letters.bare
     }
@@ -261,9 +267,22 @@ impl Sink for Renderer<'_> {
     #[inline]
     fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
         self.place = place;
-        self.order.follow(&event).and_then(|()| self.take(event)).map_err(|mut diag| {
+        let done = self.order.follow(&event).and_then(|()| self.take(event)).and_then(|()| self.blocks_fit());
+        done.map_err(|mut diag| {
             diag.place.get_or_insert_with(|| place.to_string());
             diag
         })
     }
+}
+
+#[cold]
+fn too_long(block: TooLong) -> Done {
+    let TooLong { length, most, replaced } = block;
+    let diag = Diag::new(Code::PR027, format!("a block of {length} characters, and the control reads {most}"));
+    Err(Box::new(match replaced {
+        Some(span) => diag
+            .at(span, "this makes it too long")
+            .help("take this Replace out: what it writes is replaced again by the next"),
+        None => diag.help("make several blocks of it, or shorten its comment"),
+    }))
 }

@@ -1,5 +1,7 @@
 //! Subprograms: where they stand in the program, their numbers, and who calls whom.
 
+use std::collections::HashMap;
+
 use super::changes::{CONDITIONS, Served};
 use super::codes::Shift;
 use super::fault::{Done, fault};
@@ -10,12 +12,15 @@ use super::vars::Vars;
 use crate::compile::{Block, Op};
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId, VarSet};
-use crate::toolpath::{Axes, Call, FeedMode, Place};
+use crate::toolpath::{Axes, Call, FeedMode, Place, key};
 
 /// What is known of the job's subprograms.
 #[derive(Debug, Default)]
 pub(super) struct Subprograms {
     defined: Vec<Defined>,
+    /// Where each number is in `defined`.
+    by_number: HashMap<u64, usize>,
+    /// The calls inside subprograms.
     calls: Vec<Called>,
     /// The one that is open, as an index of `defined`.
     open: Option<usize>,
@@ -63,7 +68,6 @@ struct Waiting {
 
 #[derive(Debug)]
 struct Defined {
-    number: f64,
     printed: f64,
     first_block: Option<f64>,
     left: Left,
@@ -73,11 +77,43 @@ struct Defined {
 
 #[derive(Debug)]
 struct Called {
-    from: Option<f64>,
+    /// The calling subprogram, as an index of `defined`.
+    from: usize,
     to: f64,
     place: Place,
     /// What the caller does not know of spindle, coolant and work offset, so that it can't put it back.
     unknown: VarSet,
+}
+
+impl Subprograms {
+    /// The subprogram of a number, as an index of `defined`.
+    fn index(&self, number: f64) -> Option<usize> {
+        self.by_number.get(&key(number)).copied()
+    }
+
+    /// Which subprograms end: those all of whose calls do. Each of the others is in a circle, or leads into one.
+    fn ending(&self) -> Vec<bool> {
+        let mut open = vec![0_usize; self.defined.len()];
+        let mut callers = vec![Vec::new(); self.defined.len()];
+        for call in &self.calls {
+            if let Some(to) = self.index(call.to) {
+                open[call.from] += 1;
+                callers[to].push(call.from);
+            }
+        }
+        let mut done: Vec<usize> = (0..open.len()).filter(|&sub| open[sub] == 0).collect();
+        let mut ends = vec![false; open.len()];
+        while let Some(sub) = done.pop() {
+            ends[sub] = true;
+            for &caller in &callers[sub] {
+                open[caller] -= 1;
+                if open[caller] == 0 {
+                    done.push(caller);
+                }
+            }
+        }
+        ends
+    }
 }
 
 impl Renderer<'_> {
@@ -98,7 +134,7 @@ impl Renderer<'_> {
         if settings.machine != crate::lang::Machine::Mill {
             return fault(Code::PR008, "subprograms are for mills", "put the moves into the operations");
         }
-        if self.subs.defined.iter().any(|sub| sub.number == number) {
+        if self.subs.index(number).is_some() {
             return fault(
                 Code::PJ010,
                 format!("two subprograms have the number {number}"),
@@ -118,8 +154,10 @@ impl Renderer<'_> {
         let printed = if settings.renumber_subs { next } else { number };
         let first_block = settings.numbers.letter.map(|_| self.out.number() as f64);
         let left = Left::default();
-        self.subs.defined.push(Defined { number, printed, first_block, left, calls_ahead: false });
-        self.subs.open = Some(self.subs.defined.len() - 1);
+        let index = self.subs.defined.len();
+        self.subs.by_number.insert(key(number), index);
+        self.subs.defined.push(Defined { printed, first_block, left, calls_ahead: false });
+        self.subs.open = Some(index);
         if !settings.subs_first {
             self.aside();
         }
@@ -199,12 +237,15 @@ impl Renderer<'_> {
     /// A call: nothing is known before and after it, because the subprogram moves the tool.
     pub(super) fn sub_call(&mut self, call: &Call) -> Done {
         self.close_cycle()?;
-        let from = self.subs.open.map(|open| self.subs.defined[open].number);
+        let from = self.subs.open;
         let mut unknown = VarSet::default();
         for var in CONDITIONS.into_iter().filter(|&var| self.vars.get(var).is_none()) {
             unknown.insert(var);
         }
-        self.subs.calls.push(Called { from, to: call.sub, place: self.place, unknown });
+        // a call of the main program needs no look at the end: its subprogram is known here, and so is what that calls
+        if let Some(from) = from {
+            self.subs.calls.push(Called { from, to: call.sub, place: self.place, unknown });
+        }
         let Some(block) = self.program.block(SequenceId::SubCall) else {
             return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
         };
@@ -216,7 +257,7 @@ impl Renderer<'_> {
             let help = "make the call before an axis is unwound, or turn it back first";
             return fault(Code::PR008, "a call after a rotary axis was unwound: its angles would mean others", help);
         }
-        let called = self.subs.defined.iter().position(|sub| sub.number == call.sub);
+        let called = self.subs.index(call.sub);
         let (printed, first_block) = match called.map(|i| &self.subs.defined[i]) {
             Some(sub) => (sub.printed, sub.first_block),
             // inside a subprogram a later one may be called; whether it comes is checked at the end
@@ -330,21 +371,16 @@ impl Renderer<'_> {
 
     /// Every call has its subprogram, and none comes back to itself.
     pub(super) fn check_calls(&self) -> Done {
+        let ends = self.subs.ending();
         for call in &self.subs.calls {
-            if !self.subs.defined.iter().any(|sub| sub.number == call.to) {
-                return at(call.place, undefined(call.to));
-            }
-            let changes =
-                self.subs.defined.iter().filter(|sub| sub.number == call.to).map(|sub| sub.left.served.known());
-            if call.from.is_some() && changes.into_iter().any(|changes| changes.meets(call.unknown)) {
+            let Some(to) = self.subs.index(call.to) else { return at(call.place, undefined(call.to)) };
+            if self.subs.defined[to].left.served.known().meets(call.unknown) {
                 let message =
                     format!("subprogram {} changes what its caller does not know and can't put back", call.to);
                 let help = "say spindle, coolant and work offset in the calling subprogram before the call";
                 return at(call.place, fault(Code::PR008, message, help));
             }
-            // depth first from each call: a chain longer than there are subprograms is a circle
-            let mut open: Vec<f64> = call.from.into_iter().collect();
-            if self.comes_back(call.to, &mut open) {
+            if !ends[to] {
                 let message = format!("subprogram {} calls itself, directly or through others", call.to);
                 return at(
                     call.place,
@@ -353,16 +389,6 @@ impl Renderer<'_> {
             }
         }
         Ok(())
-    }
-
-    fn comes_back(&self, number: f64, open: &mut Vec<f64>) -> bool {
-        if open.contains(&number) {
-            return true;
-        }
-        open.push(number);
-        let found = self.subs.calls.iter().any(|call| call.from == Some(number) && self.comes_back(call.to, open));
-        open.pop();
-        found
     }
 
     /// Subprograms that stand after the main program: appended now. Whether there were any.

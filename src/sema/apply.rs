@@ -1,7 +1,7 @@
 //! Commands stored in the settings.
 
 use super::args::{Arguments, Read, bad, centre, choice, code, number, numbers, prompt, wants, whole};
-use super::settings::{ArcCentre, DwellWord, Settings, TravelLimit};
+use super::settings::{ArcCentre, DwellWord, Replacement, Settings, TravelLimit};
 use crate::lang::{Args, CommandId};
 use crate::span::Span;
 use crate::syntax::Spanned;
@@ -117,7 +117,8 @@ impl Settings {
                 if all[0].text.is_empty() {
                     return bad(all.first(), "the old text is empty");
                 }
-                self.replace.push((all[0].text.clone(), all[1].text.clone()));
+                let [old, new] = [&all[0], &all[1]].map(|arg| arg.text.clone());
+                self.replace.push(Replacement { old, new, span });
             }
             C::Rename => {
                 let letters = args.letters(2, 2)?;

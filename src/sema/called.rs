@@ -1,6 +1,7 @@
 //! `Call`: the files that a form brings in.
 
 use super::check::Analysis;
+use super::limits::MOST_TEXT;
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;
 use crate::source::Source;
@@ -26,15 +27,16 @@ impl Analysis {
                     .help("save it as UTF-8"),
             );
         }
-        let tree = syntax::parse(&source, number);
+        let file = number as usize;
+        self.size += source.text.len();
+        self.trees.push(syntax::parse(&source, number));
         self.files.push(source);
-        self.trees.push(tree.clone());
-        for item in tree.items {
-            self.items.push(item.clone());
-            if let Head::Statement(statement) = &item
-                && matches!(CommandId::parse(&statement.name.text), Some(CommandId::Call | CommandId::CallMe))
-            {
-                self.call(statement, open, load);
+        for at in 0..self.trees[file].items.len() {
+            self.order.push((number, at as u32));
+            let Head::Statement(statement) = &self.trees[file].items[at] else { continue };
+            if matches!(CommandId::parse(&statement.name.text), Some(CommandId::Call | CommandId::CallMe)) {
+                let statement = statement.clone();
+                self.call(&statement, open, load);
             }
         }
     }
@@ -57,8 +59,11 @@ impl Analysis {
             Some(format!("is called {MOST_CALLS} deep"))
         } else {
             match load(&name) {
+                Ok(source) if self.size + source.text.len() > MOST_TEXT => {
+                    Some(format!("makes the form larger than {} KB", MOST_TEXT >> 10))
+                }
                 Ok(source) => {
-                    self.called.push(name.clone());
+                    self.called.insert(name.clone());
                     open.push(name.clone());
                     self.add_file(source, open, load);
                     open.pop();

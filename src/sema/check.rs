@@ -1,5 +1,7 @@
 //! The whole form: every item once, every finding of the file in one run.
 
+use std::collections::HashSet;
+
 use super::args::choice_of;
 use super::limits::Limits;
 use super::model::Form;
@@ -34,7 +36,9 @@ impl Checked {
 pub fn analyse(main: Source, limits: Limits, load: &mut dyn FnMut(&str) -> Result<Source, String>) -> Checked {
     let mut analysis = Analysis { limits, ..Analysis::default() };
     analysis.add_file(main, &mut vec![], load);
-    let mut items = std::mem::take(&mut analysis.items);
+    let trees = std::mem::take(&mut analysis.trees);
+    let item_at = |&(file, at): &(u32, u32)| &trees[file as usize].items[at as usize];
+    let mut items: Vec<&Head> = analysis.order.iter().map(item_at).collect();
     if let Some(second) = analysis.second_post(&items) {
         items.truncate(second);
     }
@@ -43,7 +47,7 @@ pub fn analyse(main: Source, limits: Limits, load: &mut dyn FnMut(&str) -> Resul
         analysis.item(item);
     }
     analysis.whole();
-    Checked { files: analysis.files, trees: analysis.trees, form: analysis.form, diags: analysis.diags }
+    Checked { files: analysis.files, trees, form: analysis.form, diags: analysis.diags }
 }
 
 #[derive(Default)]
@@ -51,9 +55,12 @@ pub(super) struct Analysis {
     pub(super) limits: Limits,
     pub(super) files: Vec<Source>,
     /// The forms that were called, by the names they were called by.
-    pub(super) called: Vec<String>,
+    pub(super) called: HashSet<String>,
+    /// The bytes of all files.
+    pub(super) size: usize,
     pub(super) trees: Vec<syntax::Form>,
-    pub(super) items: Vec<Head>,
+    /// The items of all files as they are read: a file, and an item of its tree.
+    pub(super) order: Vec<(u32, u32)>,
     pub(super) form: Form,
     pub(super) diags: Vec<Diag>,
     pub(super) commands_seen: Vec<(CommandId, Span)>,
@@ -68,7 +75,7 @@ impl Analysis {
     }
 
     /// Machine and units come first: the defaults of the others depend on them.
-    fn settings(&mut self, items: &[Head]) {
+    fn settings(&mut self, items: &[&Head]) {
         let find = |id: CommandId| {
             items.iter().find_map(|item| match item {
                 Head::Statement(s) if CommandId::parse(&s.name.text) == Some(id) => {

@@ -7,11 +7,11 @@ use crate::syntax::{Head, Statement};
 
 impl Analysis {
     /// Where the second post begins among the items, which is reported; what is behind it is not looked at.
-    pub(super) fn second_post(&mut self, items: &[Head]) -> Option<usize> {
+    pub(super) fn second_post(&mut self, items: &[&Head]) -> Option<usize> {
         let begun = items.iter().enumerate().filter_map(|(at, item)| Some((at, named(item)?)));
         let posts: Vec<(usize, &Statement)> = begun.collect();
         let (&(_, first), &(at, second)) = (posts.first()?, posts.get(1)?);
-        let has_sequences = |items: &[Head]| items.iter().any(|item| matches!(item, Head::Sequence(_)));
+        let has_sequences = |items: &[&Head]| items.iter().any(|item| matches!(item, Head::Sequence(_)));
         if !has_sequences(&items[..at]) || !has_sequences(&items[at..]) {
             return None; // one post that is named twice
         }

@@ -18,6 +18,8 @@ pub enum Limits {
 pub const MOST_WORDS: usize = 15;
 /// Most sequence lines in a form, as the manual says.
 pub const MOST_LINES: usize = 150;
+/// Most bytes of a form, with all that it calls: no form has a tenth of that.
+pub const MOST_TEXT: usize = 512 << 10;
 
 impl Analysis {
     /// Counts the line of a sequence, and its words.

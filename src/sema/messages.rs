@@ -30,7 +30,8 @@ pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
     let names = || SEQUENCES.iter().map(|s| s.name).chain(COMMANDS.iter().map(|c| c.name));
     let mut diag = Diag::new(Code::PF201, format!("`{}` is no command or sequence", name)).at(span, "unknown");
     // an abbreviation is no slip of the fingers, but the name that begins with it is meant
-    let begins = || names().find(|n| name.len() > 2 && n.to_ascii_lowercase().starts_with(&name.to_ascii_lowercase()));
+    let begins_with = |n: &str| n.get(..name.len()).is_some_and(|head| head.eq_ignore_ascii_case(name));
+    let begins = || names().find(|n| name.len() > 2 && begins_with(n));
     diag.help = did_you_mean(name, names())
         .or_else(|| begins().map(|n| format!("did you mean `{n}`?")))
         .or_else(|| Some("a comment begins with `#`".into()));

@@ -14,7 +14,9 @@ mod statements;
 mod words;
 
 pub use check::{Checked, analyse};
-pub use limits::{Limits, MOST_LINES, MOST_WORDS};
+pub use limits::{Limits, MOST_LINES, MOST_TEXT, MOST_WORDS};
 pub use model::{Form, Line, Sequence, Upon, Word, WordKind, kind_of_remark};
-pub use settings::{ArcCentre, Code, DwellWord, Prompt, SequenceNumbers, Settings, TravelLimit, UnitChoice};
+pub use settings::{
+    ArcCentre, Code, DwellWord, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit, UnitChoice,
+};
 pub use words::before_remark;

@@ -89,6 +89,17 @@ pub struct TravelLimit {
     pub span: Span,
 }
 
+/// `Replace old new`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Replacement {
+    /// The text that goes.
+    pub old: String,
+    /// The text that comes.
+    pub new: String,
+    /// The command.
+    pub span: Span,
+}
+
 /// Everything that commands set. Lengths are in the form's units.
 #[derive(Clone, Debug)]
 #[allow(missing_docs)] // the table of commands says what each does
@@ -152,7 +163,7 @@ pub struct Settings {
     pub eob: String,
     pub comment: [String; 2],
     pub upper_comments: bool,
-    pub replace: Vec<(String, String)>,
+    pub replace: Vec<Replacement>,
     pub rename: Vec<(u8, u8)>,
     pub dummy: Vec<u8>,
     pub mod_text: Vec<String>,

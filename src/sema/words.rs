@@ -33,6 +33,7 @@ pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
         }
         note.end();
     }
+    words.shrink_to_fit();
     Line { span: body.line.span, words }
 }
 

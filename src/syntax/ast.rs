@@ -26,7 +26,7 @@ impl Form {
 
     /// Sequences.
     pub fn sequences(&self) -> impl Iterator<Item = &SequenceNode> {
-        self.items.iter().filter_map(|item| if let Head::Sequence(node) = item { Some(node) } else { None })
+        self.items.iter().filter_map(|item| if let Head::Sequence(node) = item { Some(node.as_ref()) } else { None })
     }
 
     /// The words of all sequences.
@@ -71,7 +71,7 @@ pub enum Head {
     /// `End` where no sequence is open.
     StrayEnd(Line),
     /// A sequence.
-    Sequence(SequenceNode),
+    Sequence(Box<SequenceNode>),
 }
 
 /// A line's span and what follows its words.

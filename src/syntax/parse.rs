@@ -28,6 +28,7 @@ pub fn parse(source: &Source, file: u32) -> Form {
 
 fn lines(source: &Source, file: u32) -> Form {
     let lines: Vec<(usize, &str)> = source.lines().collect();
+    let mut around = Around { lines: &lines, marks: vec![None; lines.len()], has_sequence: false };
     let mut form = Form::default();
     let mut open: Option<SequenceNode> = None;
     for (index, &(start, text)) in lines.iter().enumerate() {
@@ -37,20 +38,25 @@ fn lines(source: &Source, file: u32) -> Form {
                 Ok(body) if !begins_sequence(&body, text, start) => sequence.body.push(body),
                 Ok(_) => {
                     // a sequence name on a line of its own: the End before it is missing
-                    form.items.extend(open.take().map(Head::Sequence));
-                    open = head(at, text, &lines[index + 1..], &mut form);
+                    form.items.extend(open.take().map(boxed));
+                    open = head(at, text, index, &mut around, &mut form);
                 }
                 Err(end) => {
                     sequence.end = Some(end);
-                    form.items.extend(open.take().map(Head::Sequence));
+                    form.items.extend(open.take().map(boxed));
                 }
             }
         } else {
-            open = head(at, text, &lines[index + 1..], &mut form);
+            open = head(at, text, index, &mut around, &mut form);
         }
     }
-    form.items.extend(open.map(Head::Sequence));
+    form.items.extend(open.map(boxed));
     form
+}
+
+/// Most items are lines: they need not be as large as a sequence.
+fn boxed(node: SequenceNode) -> Head {
+    Head::Sequence(Box::new(node))
 }
 
 /// Where a line stands in its file.
@@ -81,7 +87,7 @@ fn pairs(rule: Rule, text: &str) -> impl Iterator<Item = Pair<'_, Rule>> {
 }
 
 /// A line outside sequences; returns the sequence that it opens.
-fn head(at: At, text: &str, following: &[(usize, &str)], form: &mut Form) -> Option<SequenceNode> {
+fn head(at: At, text: &str, index: usize, around: &mut Around<'_>, form: &mut Form) -> Option<SequenceNode> {
     for pair in pairs(Rule::head_line, text) {
         let mut line = at.line(text);
         match pair.as_rule() {
@@ -90,10 +96,10 @@ fn head(at: At, text: &str, following: &[(usize, &str)], form: &mut Form) -> Opt
                 let (Some(letter), Some(spec)) = (parts.next(), parts.next()) else { continue };
                 line.tail = parts.next().map_or(Tail::None, |pair| tail(at, &pair));
                 // behind a sequence `G80` is a word whose name line is missing, and no format
-                if spec.as_str().bytes().all(|b| b.is_ascii_digit()) && form.sequences().next().is_some() {
+                if spec.as_str().bytes().all(|b| b.is_ascii_digit()) && around.has_sequence {
                     let span = at.span(&letter).to(at.span(&spec));
                     let name = Spanned { text: format!("{}{}", letter.as_str(), spec.as_str()), span };
-                    return opened(Statement { line, name, args: Vec::new() }, following, form);
+                    return opened(Statement { line, name, args: Vec::new() }, index, around, form);
                 }
                 form.items.push(Head::Format { line, letter: at.spanned(&letter), spec: at.spanned(&spec) });
                 return None;
@@ -104,7 +110,7 @@ fn head(at: At, text: &str, following: &[(usize, &str)], form: &mut Form) -> Opt
                     form.items.push(Head::StrayEnd(statement.line));
                     return None;
                 }
-                return opened(statement, following, form);
+                return opened(statement, index, around, form);
             }
             Rule::remark => line.tail = remark(at, &pair),
             _ => {}
@@ -117,8 +123,9 @@ fn head(at: At, text: &str, following: &[(usize, &str)], form: &mut Form) -> Opt
 }
 
 /// The sequence that a statement opens; any other statement is one of the form.
-fn opened(statement: Statement, following: &[(usize, &str)], form: &mut Form) -> Option<SequenceNode> {
-    if opens_sequence(&statement, following) {
+fn opened(statement: Statement, index: usize, around: &mut Around<'_>, form: &mut Form) -> Option<SequenceNode> {
+    if opens_sequence(&statement, index, around) {
+        around.has_sequence = true;
         return Some(SequenceNode { name: statement, body: Vec::new(), end: None });
     }
     form.items.push(Head::Statement(statement));
@@ -155,12 +162,55 @@ fn statement(at: At, mut line: Line, pair: Pair<Rule>) -> Statement {
     Statement { line, name, args }
 }
 
-/// How far an unknown name may be from its `End`: no form has more sequence lines.
-const LONGEST_SEQUENCE: usize = 150;
+/// How many lines an unknown name may be from its `End`, empty ones and comments among them: no form has half as many.
+const LONGEST_SEQUENCE: usize = 400;
+
+/// What is known of the lines around one.
+struct Around<'a> {
+    lines: &'a [(usize, &'a str)],
+    /// What each tells about an unknown name above it, as far as somebody asked.
+    marks: Vec<Option<Mark>>,
+    /// A sequence stands above.
+    has_sequence: bool,
+}
+
+impl Around<'_> {
+    fn mark(&mut self, at: usize) -> Mark {
+        let text = self.lines[at].1;
+        *self.marks[at].get_or_insert_with(|| Mark::of(text))
+    }
+}
+
+/// What a line tells about an unknown name above it.
+#[derive(Clone, Copy)]
+enum Mark {
+    /// `End`.
+    End,
+    /// A name: no `End` behind it belongs to the unknown one.
+    Name,
+    /// Nothing.
+    Other,
+}
+
+impl Mark {
+    fn of(text: &str) -> Mark {
+        // the layout must not matter: neither empty lines nor how words are set apart
+        let all: Vec<&str> = text.split([' ', '\t', ';']).filter(|word| !word.is_empty()).collect();
+        let Some(first) = all.first().copied().filter(|word| !word.starts_with('#')) else { return Mark::Other };
+        if first.eq_ignore_ascii_case("End") {
+            return Mark::End;
+        }
+        let looks_like_a_name = all.len() == 1 && first.len() > 3 && first.bytes().all(|b| b.is_ascii_alphabetic());
+        if looks_like_a_name || CommandId::parse(first).is_some() || SequenceName::parse(&all).is_some() {
+            return Mark::Name;
+        }
+        Mark::Other
+    }
+}
 
 /// Does this line open a sequence? A known name does; an unknown one when an `End` comes before the next known name,
 /// so that a misspelt sequence costs one message and not one for each of its lines.
-fn opens_sequence(statement: &Statement, following: &[(usize, &str)]) -> bool {
+fn opens_sequence(statement: &Statement, index: usize, around: &mut Around<'_>) -> bool {
     if names_sequence(statement) {
         return true;
     }
@@ -168,18 +218,12 @@ fn opens_sequence(statement: &Statement, following: &[(usize, &str)]) -> bool {
     if CommandId::parse(name).is_some() || !name.chars().all(|c| c.is_alphanumeric()) || name.len() < 2 {
         return false;
     }
-    // the layout must not matter: neither empty lines nor how words are set apart
-    let lines = following
-        .iter()
-        .map(|(_, text)| text.split([' ', '\t', ';']).filter(|word| !word.is_empty()).collect::<Vec<_>>());
-    for all in lines.filter(|all| all.first().is_some_and(|word| !word.starts_with('#'))).take(LONGEST_SEQUENCE) {
-        let first = all[0];
-        if first.eq_ignore_ascii_case("End") {
-            return true;
-        }
-        let looks_like_a_name = all.len() == 1 && first.len() > 3 && first.bytes().all(|b| b.is_ascii_alphabetic());
-        if looks_like_a_name || CommandId::parse(first).is_some() || SequenceName::parse(&all).is_some() {
-            return false;
+    let end = around.lines.len().min(index + 1 + LONGEST_SEQUENCE);
+    for at in index + 1..end {
+        match around.mark(at) {
+            Mark::End => return true,
+            Mark::Name => return false,
+            Mark::Other => {}
         }
     }
     false
@@ -232,6 +276,7 @@ fn body_line(at: At, text: &str) -> Result<Body, End> {
                         _ => body.line.tail = tail(at, &part),
                     }
                 }
+                body.words.shrink_to_fit(); // a push makes room for four
             }
             Rule::remark => body.line.tail = remark(at, &pair),
             _ => {}
@@ -309,7 +354,7 @@ mod tests {
     }
 
     fn sequence(form: &Form) -> &SequenceNode {
-        form.items.iter().find_map(|i| if let Head::Sequence(s) = i { Some(s) } else { None }).unwrap()
+        form.sequences().next().unwrap()
     }
 
     fn written(body: &Body, text: &str) -> Vec<String> {
@@ -369,6 +414,12 @@ mod tests {
             kinds,
             ["X=->3.>4", "P= ->34", "A=010360", "T= 2", "Rapid(G0)", "Replace(a b|)", "Fancy(3)", "Dril:1"]
         );
+    }
+
+    #[test]
+    fn an_end_far_away_belongs_to_no_unknown_name() {
+        let sequences = |empty: usize| parsed(&format!("Dril\nG81\n{}End\n", "\n".repeat(empty))).sequences().count();
+        assert_eq!([100, 500].map(sequences), [1, 0]);
     }
 
     #[test]

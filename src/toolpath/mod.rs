@@ -33,3 +33,8 @@ pub trait Sink {
     /// What is wrong with the event; nothing may be pushed after it.
     fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>>;
 }
+
+/// A number as a key; zero has one sign.
+pub(crate) fn key(number: f64) -> u64 {
+    (number + 0.0).to_bits()
+}

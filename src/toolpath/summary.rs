@@ -1,9 +1,11 @@
 //! What is in a job: tools, moves, holes, extents.
 
+use std::collections::HashSet;
+
 use super::CycleKind;
 use super::event::{Axes, Event, Start, Units};
 use super::order::{Order, impossible};
-use super::{Place, Sink};
+use super::{Place, Sink, key};
 use crate::diag::Diag;
 
 /// Counts a job's events; `postform check` prints it.
@@ -33,6 +35,8 @@ pub struct Summary {
     pub tilts: u64,
     order: Order,
     kind: Option<(CycleKind, f64)>,
+    /// Tools that are in `tools`.
+    seen: HashSet<u64>,
     last: [f64; 3],
 }
 
@@ -66,7 +70,7 @@ impl Sink for Summary {
             Event::ToolChange(change) => {
                 self.operations += 1;
                 if let Some(tool) = &change.tool
-                    && !self.tools.iter().any(|(number, _)| *number == tool.number)
+                    && self.seen.insert(key(tool.number))
                 {
                     self.tools.push((tool.number, tool.diameter));
                 }

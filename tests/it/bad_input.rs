@@ -65,7 +65,7 @@ fn forms() {
         good.replacen(from, to, 1)
     };
     let long_body = format!("Drill\n{}\nEnd", "G1 X[h]\n".repeat(160));
-    let many_lines = format!("{good}{}", "# a comment\n".repeat(100_000));
+    let many_lines = format!("{good}{}", "# a comment\n".repeat(40_000));
     let many_bad = "Wrong thing\n".repeat(2_000);
     let table: Vec<(&str, Vec<u8>, i32, Vec<&str>)> = vec![
         ("empty", b"".into(), 1, vec!["PF005", "StartCode"]),
@@ -156,10 +156,10 @@ fn forms() {
         ("a call of nothing", mill("Call other.pf", "").into(), 1, vec!["PF009", "can't be found"]),
         ("a call of itself", mill("Call form.pf", "").into(), 1, vec!["PF"]),
         ("a call outside", mill("Call ../form.pf", "").into(), 1, vec!["PF009", "outside the form's folder"]),
-        ("megabyte line", format!("Name {}\n{good}X", "A".repeat(1 << 20)).into(), 1, vec!["PF"]),
-        ("megabyte word", mill("", &format!("Drill\n{}\nEnd", "[".repeat(1 << 20))).into(), 1, vec!["PF001"]),
+        ("a line of 400 KB", format!("Name {}\n{good}X", "A".repeat(400 << 10)).into(), 1, vec!["PF"]),
+        ("a word of 400 KB", mill("", &format!("Drill\n{}\nEnd", "[".repeat(400 << 10))).into(), 1, vec!["PF001"]),
         ("2000 wrong lines", many_bad.into(), 1, vec!["PF201", "2000"]),
-        ("100,000 lines", many_lines.into(), 0, vec![]),
+        ("40,000 lines", many_lines.into(), 0, vec![]),
         ("CRLF", good.replace('\n', "\r\n").into(), 0, vec![]),
         ("byte order mark", format!("\u{feff}{good}").into(), 0, vec![]),
         ("Latin-1", [b"Name Fr\xe4se\n".as_slice(), good.as_bytes()].concat(), 0, vec!["PF008", "Windows-1252"]),
@@ -178,7 +178,9 @@ fn forms() {
         let output = render(&folder, &good_job, &form);
         let wanted: Vec<&str> = wanted.into_iter().filter(|w| *w != "2000").collect();
         if what == "2000 wrong lines" {
-            assert_eq!(String::from_utf8_lossy(&output.stderr).matches("PF201").count(), 2000);
+            let message = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(message.matches("PF201").count(), 1000);
+            assert!(message.contains(" more findings: mend these first"), "{message}");
             continue;
         }
         expect(what, &output, status, &wanted);
@@ -291,6 +293,9 @@ fn jobs() {
         ("text that steers", with("{\"text\":\"A\\u001b\"},{\"line\":[1,1,0]}"), 1, vec!["PR008", "U+001B"]),
         ("text that ends the program", with("{\"text\":\" % \"},{\"line\":[1,1,0]}"), 1, vec!["PR008", "lone"]),
         ("a number of 309 digits", with("{\"line\":[1e308,0]}"), 1, vec!["…"]),
+        ("a name of 2 MB", head(&format!("\"name\":\"{}\",", "A".repeat(2 << 20))), 1, vec!["PJ003", "1 MB", "name"]),
+        ("2 MB of quotes", head(&format!("\"name\":\"{}\",", "\\\"".repeat(1 << 20))), 1, vec!["PJ003", "1 MB"]),
+        ("a name of a million letters", head(&format!("\"name\":\"{}\",", "A".repeat(1_000_000))), 0, vec![]),
         ("not UTF-8 in a text", [b"{\"name\":\"".as_slice(), b"\xff\"}"].concat(), 1, vec!["PJ001", "not UTF-8"]),
         ("UTF-16", good.encode_utf16().flat_map(u16::to_le_bytes).collect(), 1, vec!["PJ001", "UTF-16"]),
         (
@@ -352,6 +357,12 @@ fn json_lines() {
         ),
         ("no JSON", format!("{start}G0 X0\n"), 1, vec!["PJ001", "job.jsonl:2:"]),
         ("a line of 5 MB", format!("{start}{}", " ".repeat(5 << 20)), 1, vec!["PJ001", "4 MB"]),
+        (
+            "a name of 2 MB",
+            format!("{{\"start\":{{\"name\":\"{}\"}}}}\n", "A".repeat(2 << 20)),
+            1,
+            vec!["PJ003", "1 MB", "job.jsonl:1:"],
+        ),
     ];
     for (what, text, status, wanted) in table {
         let path = folder.write("job.jsonl", text);
@@ -460,4 +471,55 @@ fn outputs_do_not_replace_their_inputs() {
     expect("a circle of links", &run("job.json -o circle", ""), 2, &["can't write circle"]);
     folder.write("-", "");
     expect("a file called -", &run("- --from json", "< job.json"), 0, &[]);
+}
+
+/// Whatever is asked for is answered at once.
+#[test]
+fn long_questions_are_answered() {
+    for what in ["a ".repeat(50_000), "a".repeat(100_000)] {
+        let output = Command::new(env!("CARGO_BIN_EXE_postform")).args(["explain", &what]).output().unwrap();
+        expect("a long question", &output, 2, &["there is no `a"]);
+        assert!(output.stderr.len() < 1000, "{} bytes", output.stderr.len());
+    }
+}
+
+/// Of a long list of tools a message names some.
+#[test]
+fn many_tools() {
+    use postform::toolpath::{ReadError, Summary, json::read_document};
+    let tools: Vec<String> = (2..=60_000).map(|number| format!("{{\"number\":{number}}}")).collect();
+    let text = job("{\"line\":[1,1,0]}").replace("{\"number\":2}", &tools.join(","));
+    read_document(text.as_bytes(), &mut Summary::default()).unwrap();
+    let missing = text.replace("\"tool\":1,", "\"tool\":70000,");
+    let Err(ReadError::Job(diag)) = read_document(missing.as_bytes(), &mut Summary::default()) else { panic!() };
+    let help = diag.help.unwrap();
+    assert!(help.len() < 300 && help.ends_with(" and others"), "{help}");
+}
+
+/// A form has a size, with all that it calls.
+#[test]
+fn forms_have_a_size() {
+    let folder = Folder::new("large_forms");
+    let job = folder.write("job.json", job("{\"line\":[1,1,0]}"));
+    let part = "# a comment\n".repeat(25_000);
+    folder.write("a.pf", &part);
+    folder.write("b.pf", &part);
+    let form = folder.write("form.pf", mill("Call a.pf\nCall b.pf", ""));
+    let wanted = ["PF009", "`b.pf` makes the form larger than 512 KB"];
+    expect("two large parts", &render(&folder, &job, &form), 1, &wanted);
+    let form = folder.write("form.pf", format!("{part}{part}{}", mill("", "")));
+    expect("a large form", &render(&folder, &job, &form), 2, &["form.pf is larger than 512 KB"]);
+}
+
+/// A few words of a job may ask for more program than anybody wants.
+#[test]
+fn a_program_far_longer_than_its_job_is_asked_about() {
+    let folder = Folder::new("huge");
+    let form = folder.write("form.pf", mill("", ""));
+    let points = vec!["[0,0,0]"; 1_000].join(",");
+    let cycle = format!(
+        "{{\"cycle\":{{\"kind\":\"deep\",\"depth\":99,\"clear\":1,\"feed\":100,\"step\":0.01,\"emulate\":true,\"points\":[{points}]}}}}"
+    );
+    let job = folder.write("job.json", job(&cycle));
+    expect("a huge program", &render(&folder, &job, &form), 1, &["PR028", "100 MB of program", "--huge", "job.json:"]);
 }

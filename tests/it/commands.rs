@@ -303,3 +303,16 @@ fn the_program_number_may_be_asked_for() {
     assert_eq!(program(&form, &text)[1], "O100");
     assert_eq!(program(&form, &text.replacen("\"program\":100,", "", 1))[1], "O77");
 }
+
+/// Rows of Replace may double a block each: what no control reads is refused where it becomes too long.
+#[test]
+fn replaced_blocks_stay_short() {
+    let doubled = |rows: usize| path_lines(&"Replace G GG\n".repeat(rows), "", "{\"line\":[1,0,0]}");
+    assert_eq!(doubled(5), [format!("{}1 X1. Z0 F10.", "G".repeat(32))]);
+    let refused = doubled(28);
+    assert!(refused[0].starts_with("PR027 a block of 40"), "{refused:?}");
+    // LinuxCNC stops at a long block, in the middle of the part
+    let text = format!("{{\"text\":\"({})\"}}", "A".repeat(300));
+    assert!(path_lines("", "", &text)[0].starts_with('('));
+    assert!(path_lines("Control linuxcnc", "", &text)[0].starts_with("PR027 a block of 302 characters"));
+}

@@ -173,7 +173,7 @@ fn tolerance_moves_and_words() {
     let comparison = compared(BASE, &moved, Ignore::USUAL, 0.0);
     let edits: Vec<Edit> = comparison.edits().copied().collect();
     assert_eq!(edits, [Edit::Moved(9, 14), Edit::Moved(9, 14)]);
-    let spans = postform::diff::changed_spans(b"N1 G1 X1. F5.", b"N2 G1 X1. F6. M8", &Ignore::USUAL);
+    let spans = postform::diff::changed_spans(b"N1 G1 X1. F5.", b"N2 G1 X1. F6. M8", &Ignore::USUAL, None);
     let places =
         |list: &[std::ops::Range<usize>]| -> Vec<(usize, usize)> { list.iter().map(|r| (r.start, r.end)).collect() };
     assert_eq!(places(&spans[0]), [(10, 13)]);
@@ -192,6 +192,18 @@ fn a_coarse_answer_is_right() {
         applied(&old, &new, &comparison),
         (0..new.len()).map(|line| new.line(line)).collect::<Vec<_>>().concat()
     );
+}
+
+/// Blocks of so many words that have nothing in common are compared in bounded time, and every word is told.
+#[test]
+fn long_blocks_are_compared_in_bounded_time() {
+    let block = |end: &str| (0..60_000).map(|i| format!("X{i}{end} ")).collect::<String>() + "\n";
+    let (old, new) = (program(&block("")), program(&block(".5")));
+    let began = std::time::Instant::now();
+    let comparison = compare(&old, &new, &Options::default());
+    let spans = postform::diff::changed_spans(old.line(0), new.line(0), &Ignore::USUAL, comparison.until);
+    assert_eq!(spans.map(|list| list.len()), [60_000; 2]);
+    assert!(began.elapsed().as_secs() < 10, "{:?}", began.elapsed());
 }
 
 /// NEW made from OLD by the edits alone.

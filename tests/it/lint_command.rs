@@ -432,3 +432,16 @@ fn shells_and_manuals() {
         assert!(page.contains(part), "{part}\n{page}");
     }
 }
+
+/// Of thousands of findings the first are drawn, and all are counted.
+#[test]
+fn thousands_of_findings_are_counted() {
+    let folder = Folder::new("thousands");
+    folder.write("f.pf", "Wrong thing\n".repeat(5_000));
+    let output = folder.run(&["lint", "f.pf"]);
+    let text = out(&output);
+    assert_eq!((output.status.code(), text.matches("PF201").count()), (Some(1), 1000));
+    assert!(text.contains("\nand 4004 more findings: mend these first\n5004 errors, 0 warnings"), "{text}");
+    let all = out(&folder.run(&["lint", "f.pf", "--format", "github"]));
+    assert!(all.matches("PF201").count() >= 5_000);
+}

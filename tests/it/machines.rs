@@ -23,6 +23,17 @@ fn subprograms_stand_after_the_main_program_by_default() {
     assert_eq!(kept[4..], ["M98 P7 L3", "M30", "O7", "G0 X0 Y0 Z1.", "M99"]);
 }
 
+/// Each subprogram calls the two before it: a look at each way through them would never end.
+#[test]
+fn shared_subprograms_are_looked_at_once() {
+    let call = |number: u32| format!(",{{\"call\":{{\"sub\":{number}}}}}");
+    let mut subs = vec![sub(2, MOVE), sub(3, MOVE)];
+    subs.extend((4..=80).map(|n| sub(n, &format!("{MOVE}{}{}", call(n - 1), call(n - 2)))));
+    let lines = program(&mill("", SUBS), &with_subs(&subs.join(","), &call(80)[1..]));
+    assert_eq!(lines[4], "M98 P79 L1");
+    assert!(lines.len() > 79 * 4, "{} lines", lines.len());
+}
+
 #[test]
 fn a_call_is_known_to_move_the_tool() {
     let path = format!("{CALL},{{\"rapid\":[1]}}");

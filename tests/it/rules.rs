@@ -428,3 +428,16 @@ fn mistakes_are_found_in_other_words_too() {
         assert!(codes(&found).contains(&code), "{code}: {:?}\n{text}", codes(&found));
     }
 }
+
+/// A line of so many words, a comment of as many values: each is answered. How the work grows, benches/growth.py measures.
+#[test]
+fn long_lines_are_answered() {
+    let parts = ["M0 ", "X[h] ", "[h]", "(a) ", "a#b ", "G ", "S[speed] "];
+    let mut lines: Vec<String> = parts.iter().map(|part| part.repeat(50_000)).collect();
+    lines.push("M3 ".repeat(25_000) + &"G1 ".repeat(25_000));
+    for line in &lines {
+        let form = mill("Control fanuc", "").replacen("%0\n", &format!("%0\n{line}\n"), 1);
+        let found = lint(&support::check(&form), &Levels::default());
+        assert!(!found.diags.is_empty());
+    }
+}

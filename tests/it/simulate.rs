@@ -5,7 +5,7 @@
 use std::io::Cursor;
 
 use crate::support::nc::{Call, simulated};
-use postform::nc::{Control, RunError, Settings, Simulator, Unpointed};
+use postform::nc::{Action, Control, RunError, Settings, Simulator, Unpointed};
 
 /// Motions as text: `T` rapid, `F` feed.
 fn motions(control: Control, program: &str) -> Vec<String> {
@@ -396,4 +396,46 @@ fn rigid_taps_of_linuxcnc_come_back() {
     assert_eq!(refused("S100 M3 G33.1 Z-10"), "PN007");
     assert_eq!(refused("S100 M3 G33.1 K1"), "PN006");
     assert_eq!(refused_with(Settings::new(Control::Fanuc), "G21\nG33.1 Z-10. K1.\n").0, "PN016");
+}
+
+/// Passing over lines is no loop, however many there are; passing over them in a loop is one.
+#[test]
+fn lines_passed_over_are_no_loop() {
+    let lines = "G1 X1.\n".repeat(2_100_000);
+    for program in [format!("o1 if [0]\n{lines}o1 endif\nM2\n"), format!("o1 sub\n{lines}o1 endsub\nM2\n")] {
+        let (calls, ended, _) = simulated(program.as_bytes(), Settings::new(Control::Linuxcnc));
+        assert_eq!((calls.len(), ended), (0, Ok(())));
+    }
+    let lines = "G1 X1.\n".repeat(1_000);
+    let program = format!("o1 while [1]\no2 if [0]\n{lines}o2 endif\no1 endwhile\nM2\n");
+    assert_eq!(refused(Control::Linuxcnc, &program).0, "PN015");
+}
+
+/// A hole of so many pecks is handed on in parts, whole and in order.
+#[test]
+fn a_block_of_many_moves_is_not_held() {
+    for (code, each) in [("G83", 1), ("G84", 2)] {
+        let program = format!("{START}G98 {code} X0. Y0. Z-100. R0. Q0.001 F100. K2\nG80\nM30\n");
+        let mut simulator = Simulator::new(Cursor::new(program), Settings::new(Control::Fanuc));
+        let (mut items, mut most, mut depths) = (Vec::new(), 0, Vec::new());
+        loop {
+            items.clear();
+            let more = simulator.step(&mut items).unwrap();
+            most = most.max(items.len());
+            depths.extend(items.iter().filter_map(|item| match item.action {
+                Action::Feed { to, .. } => Some(to[2]),
+                _ => None,
+            }));
+            if !more {
+                break;
+            }
+        }
+        assert!(most < 5_000, "{most} actions at once");
+        // give or take the rounding of sums
+        let wanted = 2 * each * 100_000;
+        assert!(depths.len().abs_diff(wanted) < 4, "{code}: {} feeds", depths.len());
+        // the second hole is the first one again
+        let (first, second) = depths.split_at(depths.len() / 2);
+        assert!(first == second && first.contains(&-100.0), "{code}");
+    }
 }

@@ -104,6 +104,9 @@ pub struct RenderOptions {
     /// Limits of the form [default: of postform.toml, else classic]
     #[arg(long, value_name = "LIMITS")]
     pub limits: Option<LimitsArg>,
+    /// Print a program of over 100 MB also if it is over 1,000 times as long as its job
+    #[arg(long)]
+    pub huge: bool,
     /// Show errors only
     #[arg(short, long)]
     pub quiet: bool,

@@ -34,7 +34,7 @@ impl Side {
         let TraceLine { form, place, .. } = trace.line(line as u64 + 1)?;
         let form = form.and_then(|span| {
             let source = files.get(span.file as usize)?;
-            Some(format!("{}:{}", source.name, source.line_column(span.start).0))
+            Some(format!("{}:{}", source.name, source.line(span.start) + 1))
         });
         let form = form.unwrap_or_else(|| "generated".to_owned());
         let path = place.path();
@@ -48,7 +48,7 @@ impl Side {
         let (trace, files) = self.trace.as_ref()?;
         let span = trace.line(line as u64 + 1)?.form?;
         let source = files.get(span.file as usize)?;
-        source.text.lines().nth(source.line_column(span.start).0 as usize - 1)
+        source.text.lines().nth(source.line(span.start))
     }
 }
 

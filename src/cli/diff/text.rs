@@ -29,7 +29,7 @@ pub fn unified(
     if comparison.is_same() {
         return String::new();
     }
-    let mut page = Page { old, new, options, colour, text: String::new() };
+    let mut page = Page { old, new, comparison, options, colour, text: String::new() };
     _ = writeln!(page.text, "--- {}\n+++ {}", old.name, new.name);
     for group in grouped(&comparison.hunks, args.context) {
         page.group(group, args.context);
@@ -102,6 +102,7 @@ pub fn grouped(hunks: &[Hunk], context: usize) -> impl Iterator<Item = &[Hunk]> 
 struct Page<'a> {
     old: &'a Side,
     new: &'a Side,
+    comparison: &'a Comparison,
     options: &'a Options,
     colour: bool,
     text: String,
@@ -142,7 +143,7 @@ impl Page<'_> {
             Edit::Added(line) => self.line(GREEN, &format!("+{}", shown(new.text(line)))),
             Edit::Changed(a, b) => {
                 let (before, after) = (old.text(a), new.text(b));
-                let [gone, come] = changed_spans(before, after, &self.options.ignore);
+                let [gone, come] = changed_spans(before, after, &self.options.ignore, self.comparison.until);
                 self.line(RED, &format!("-{}", shown(before)));
                 self.marks(before, &gone);
                 self.line(GREEN, &format!("+{}", shown(after)));

@@ -74,7 +74,7 @@ fn line_of(diag: &Diag, original: &Checked) -> String {
     let title = diag.fix.as_ref().map_or("", |fix| &fix.title);
     let place = diag.labels.first().and_then(|label| {
         let source = original.files.get(label.span.file as usize)?;
-        Some(format!("{}:{}: ", source.name, source.line_column(label.span.start).0))
+        Some(format!("{}:{}: ", source.name, source.line(label.span.start) + 1))
     });
     format!("{}{title} ({})", place.unwrap_or_default(), diag.code.name())
 }

@@ -12,9 +12,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             (!letter.dummy && letter.printed.is_ascii_alphabetic() && !b"GgMmT".contains(&letter.printed))
                 .then_some(letter.printed)
         };
-        for (i, word) in line.words.iter().enumerate() {
+        let mut firsts: [Option<&Word>; 256] = [None; 256];
+        for word in &line.words {
             let Some(letter) = printed(word) else { continue };
-            let Some(first) = line.words[..i].iter().find(|other| printed(other) == Some(letter)) else { continue };
+            let Some(first) = firsts[usize::from(letter)] else {
+                firsts[usize::from(letter)] = Some(word);
+                continue;
+            };
             diags.push(
                 Diag::new(Code::PF506, format!("{} is there twice in one block", char::from(letter)))
                     .at(word.span, "again here")

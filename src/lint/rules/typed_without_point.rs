@@ -11,22 +11,23 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         return;
     }
     // in the block of a cycle K counts how often, J of a tap how much faster it comes out; G5.1 has a mode in R
-    let counts = |line: &Line, word: &Word| {
+    let counting = |line: &Line| {
         let has = |asked: &dyn Fn(f64) -> bool| line.words.iter().any(|word| word.typed(b'G').is_some_and(asked));
-        match word.letter() {
-            Some(b'K') => has(&is_cycle_code),
-            Some(b'J') => has(&|code| code == 74.0 || code.trunc() == 84.0),
-            _ => has(&|code| code == 5.1),
-        }
+        [has(&is_cycle_code), has(&|code| code == 74.0 || code.trunc() == 84.0), has(&|code| code == 5.1)]
+    };
+    let counts = |[cycle, tap, mode]: [bool; 3], word: &Word| match word.letter() {
+        Some(b'K') => cycle,
+        Some(b'J') => tap,
+        _ => mode,
     };
     // `R1 = 5`: a register, not a word
     let is_register = |line: &Line, at: usize| {
         line.words.get(at + 1).is_some_and(|next| matches!(&next.kind, WordKind::Text(text) if text.starts_with('=')))
     };
-    let lines = view.bodies.iter().flat_map(|body| body.lines);
-    let words = lines.flat_map(|line| line.words.iter().enumerate().map(move |(at, word)| (line, at, word)));
-    for (line, at, word) in words {
-        if counts(line, word) || is_register(line, at) {
+    let lines = view.bodies.iter().flat_map(|body| body.lines).map(|line| (line, counting(line)));
+    let words = lines.flat_map(|(line, codes)| line.words.iter().enumerate().map(move |word| (line, codes, word)));
+    for (line, codes, (at, word)) in words {
+        if counts(codes, word) || is_register(line, at) {
             continue;
         }
         let WordKind::Literal(letter, text, value) = &word.kind else { continue };

@@ -31,8 +31,7 @@ fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<&'static 
         C::LComp => (!prints(VarId::Lcomp), "nothing prints [lcomp]"),
         C::InchMm => (!prints(VarId::Unitmode), "nothing prints [unitmode]"),
         C::ReturnPlane => {
-            let cycles = view.bodies.iter().any(|body| body.cycle_word().is_some());
-            (!prints(VarId::Retplane) && !cycles, "nothing prints [retplane], and no cycle asks for it")
+            (!prints(VarId::Retplane) && !view.has_cycles(), "nothing prints [retplane], and no cycle asks for it")
         }
         C::RigidTap => (!has(S::Tap) && !has(S::LTap), "the form has no Tap and no LTap"),
         C::ThreadPasses => (settings.thread.is_none(), "there is no Thread command"),
@@ -65,7 +64,7 @@ fn is_printed(view: &View, letter: u8) -> bool {
         ArcCentre::Radius(own) => *own == letter,
     };
     let generated = [settings.feed_code, settings.speed_code, settings.dwell.letter, settings.cdc_code];
-    view.words().any(|word| word.letter() == Some(letter))
+    view.has_words_of(letter)
         || centres
         || generated.contains(&letter)
         || settings.axes.contains(&letter)

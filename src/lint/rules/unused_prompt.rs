@@ -7,7 +7,7 @@ use crate::lint::view::{Purpose, View};
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let used = |var: VarId| {
         let watched = view.bodies.iter().any(|body| matches!(body.purpose, Purpose::Upon(own, _) if own == var));
-        watched || view.words().any(|word| word.var() == Some(var))
+        watched || view.tells(var)
     };
     for prompt in view.settings.prompts.iter().filter(|prompt| !used(prompt.var)) {
         diags.push(

@@ -2,45 +2,53 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, Unit, VarId};
-use crate::lint::view::{Body, View};
-use crate::sema::{Word, WordKind};
+use crate::lint::view::View;
+use crate::sema::{Line, Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let settings = view.settings;
     pitch_per_minute(view, diags);
     plunge_in_cuts(view, diags);
-    for (body, word) in view.bodies.iter().flat_map(|body| body.words().map(move |word| (body, word))) {
-        let WordKind::Var(letter, var) = word.kind else { continue };
-        let unit = var.row().unit;
-        // with its pitch in Q, a Fadal taps at F turns
-        if var == VarId::Speed && view.is_for(&["fadal"]) && taps_by_pitch(body, word) {
-            continue;
-        }
-        let wrong = match letter {
-            _ if letter == settings.feed_code => {
-                let pitch = matches!(var, VarId::Pitch | VarId::Wirefeed);
-                !pitch
-                    && matches!(unit, Unit::Speed | Unit::Count | Unit::Code | Unit::Time | Unit::Angle | Unit::Length)
+    for line in view.bodies.iter().flat_map(|body| body.lines) {
+        // asked once a line, and of few lines
+        let mut taps = None;
+        for word in &line.words {
+            let WordKind::Var(letter, var) = word.kind else { continue };
+            let unit = var.row().unit;
+            // with its pitch in Q, a Fadal taps at F turns
+            if var == VarId::Speed && view.is_for(&["fadal"]) && *taps.get_or_insert_with(|| taps_by_pitch(line)) {
+                continue;
             }
-            _ if letter == settings.speed_code => {
-                matches!(unit, Unit::Feed | Unit::Length | Unit::Angle | Unit::Time | Unit::Count)
+            let wrong = match letter {
+                _ if letter == settings.feed_code => {
+                    let pitch = matches!(var, VarId::Pitch | VarId::Wirefeed);
+                    !pitch
+                        && matches!(
+                            unit,
+                            Unit::Speed | Unit::Count | Unit::Code | Unit::Time | Unit::Angle | Unit::Length
+                        )
+                }
+                _ if letter == settings.speed_code => {
+                    matches!(unit, Unit::Feed | Unit::Length | Unit::Angle | Unit::Time | Unit::Count)
+                }
+                _ => false,
+            };
+            if wrong {
+                let (what, right) =
+                    if letter == settings.feed_code { ("feed", "[frate]") } else { ("speed", "[speed]") };
+                diags.push(
+                    Diag::new(Code::PF313, format!("{} is the {what}, [{}] is none", char::from(letter), var.name()))
+                        .at(word.span, "another value than the control expects")
+                        .help(format!("write `{}{right}`", char::from(letter))),
+                );
             }
-            _ => false,
-        };
-        if wrong {
-            let (what, right) = if letter == settings.feed_code { ("feed", "[frate]") } else { ("speed", "[speed]") };
-            diags.push(
-                Diag::new(Code::PF313, format!("{} is the {what}, [{}] is none", char::from(letter), var.name()))
-                    .at(word.span, "another value than the control expects")
-                    .help(format!("write `{}{right}`", char::from(letter))),
-            );
         }
     }
 }
 
-/// Is it in a block of G84.1, G84.2 or G74.1 with a pitch?
-fn taps_by_pitch(body: &Body, word: &Word) -> bool {
-    let words = &body.lines[body.line_of(word)].words;
+/// Is it a block of G84.1, G84.2 or G74.1 with a pitch?
+fn taps_by_pitch(line: &Line) -> bool {
+    let words = &line.words;
     let taps = words.iter().any(|word| word.is_code(b'G', &[84.1, 84.2, 74.1]));
     taps && words.iter().any(|word| word.printed_var() == Some(VarId::Pitch))
 }

@@ -1,20 +1,30 @@
 //! From objects of a job to events, with the checks that need more than one key.
 
+use std::collections::{HashMap, HashSet};
+
 use super::convert::{arc_of, call_of, fault, not_negative, positive, spec_of, spindle_of, thread_of, tool_of, whole};
 use super::objects::{CycleObject, EndWord, ItemObject, JobHead, Object, OperationHead, SubprogramHead};
 use super::values::Number;
 use crate::diag::{Code, Diag};
 use crate::toolpath::event::*;
-use crate::toolpath::{Hold, LastDwell, Place, Sink};
+use crate::toolpath::{Hold, LastDwell, Place, Sink, key};
 
 type Done = Result<(), Box<Diag>>;
+
+/// Tools that a message names.
+const MOST_NAMED: usize = 20;
 
 /// Takes the parts of a job in order and pushes events.
 pub struct Builder<'s> {
     hold: Hold<'s>,
     /// The place of what comes next; readers keep line and column.
     pub place: Place,
+    /// The tools in the order of the job.
     tools: Vec<Tool>,
+    /// The first tool of each number.
+    by_number: HashMap<u64, usize>,
+    /// Numbers with their turrets: each is there once.
+    listed: HashSet<(u64, Option<u64>)>,
     tool_needed: bool,
     tool: Option<f64>,
     dwell: LastDwell,
@@ -29,6 +39,8 @@ impl<'s> Builder<'s> {
             hold: Hold::new(sink),
             place: Place::default(),
             tools: Vec::new(),
+            by_number: HashMap::new(),
+            listed: HashSet::new(),
             tool_needed: true,
             tool: None,
             dwell: LastDwell::default(),
@@ -48,10 +60,11 @@ impl<'s> Builder<'s> {
         }
         for tool in head.tools.unwrap_or_default() {
             let tool = tool_of(tool)?;
-            if self.tools.iter().any(|t| t.number == tool.number && t.turret == tool.turret) {
+            if !self.listed.insert((key(tool.number), tool.turret.map(key))) {
                 let message = format!("two tools have the number {}", tool.number);
                 return fault(Code::PJ010, message, "give each tool a number of its own");
             }
+            self.by_number.entry(key(tool.number)).or_insert(self.tools.len());
             self.tools.push(tool);
         }
         let machine = head.machine.map_or(Default::default(), |m| m.0);
@@ -109,13 +122,14 @@ impl<'s> Builder<'s> {
                 return fault(Code::PJ006, "the operation has no tool", "give its number, as \"tool\": 1");
             }
             None => None,
-            Some(number) => match self.tools.iter().find(|t| t.number == number) {
-                Some(tool) => Some(tool.clone()),
+            Some(number) => match self.by_number.get(&key(number)) {
+                Some(&at) => Some(self.tools[at].clone()),
                 None => {
-                    let known: Vec<_> = self.tools.iter().map(|t| t.number.to_string()).collect();
+                    let known: Vec<_> = self.tools.iter().take(MOST_NAMED).map(|t| t.number.to_string()).collect();
+                    let more = if self.tools.len() > MOST_NAMED { " and others" } else { "" };
                     let help = match known.len() {
                         0 => "list the tools under \"tools\", before the operations".to_owned(),
-                        _ => format!("add it to \"tools\", or take one of {}", known.join(", ")),
+                        _ => format!("add it to \"tools\", or take one of {}{more}", known.join(", ")),
                     };
                     return fault(Code::PJ006, format!("tool {number} is not among the job's tools"), help);
                 }

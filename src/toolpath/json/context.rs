@@ -50,6 +50,12 @@ impl Context {
         E::custom("stopped")
     }
 
+    /// The same for a failure that the input ends with.
+    pub fn fail_reading(&self, diag: Diag) -> std::io::Error {
+        *self.failure.borrow_mut() = Some(Box::new(diag));
+        std::io::Error::other("stopped")
+    }
+
     /// The path, as `operations[0].path[3].line`.
     pub fn path(&self) -> String {
         let mut text = String::new();
@@ -65,10 +71,11 @@ impl Context {
 
     /// The failure behind a serde error; `line` and `column` say where it stopped.
     pub fn explain(&self, error: serde_json::Error, line: u64, column: u32) -> ReadError {
-        if error.is_io() {
+        let failure = self.failure.borrow_mut().take();
+        if failure.is_none() && error.is_io() {
             return ReadError::Io(error.into());
         }
-        let mut diag = self.failure.borrow_mut().take().unwrap_or_else(|| Box::new(of_serde(&error)));
+        let mut diag = failure.unwrap_or_else(|| Box::new(of_serde(&error)));
         if diag.place.is_none() {
             let path = self.path();
             let comma = if path.is_empty() { "" } else { ", " };

@@ -1,6 +1,6 @@
 //! `job.json`: one document, read as a stream.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::fmt;
 use std::io::Read;
 
@@ -10,6 +10,7 @@ use super::build::Builder;
 use super::context::{Context, Step, not_utf_8};
 use super::objects::{CycleObject, ItemObject, JobHead, KeySeed, Object, OperationHead, SubprogramHead, once};
 use super::position::PointSeed;
+use super::strings::{Strings, too_long};
 use super::values::Point;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{ReadError, Sink};
@@ -24,7 +25,8 @@ const MOST_WAITING: usize = 4096;
 pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadError> {
     let context = Context::default();
     context.at.set((1, 0));
-    let mut reader = Counting { input, at: &context.at, buffer: Box::new([0; 64 * 1024]), from: 0, to: 0 };
+    let strings = Strings::default();
+    let mut reader = Counting { input, context: &context, strings, buffer: Box::new([0; 64 * 1024]), from: 0, to: 0 };
     if reader.begin().map_err(ReadError::Io)? == 0 {
         return Err(ReadError::Job(Box::new(Diag::new(Code::PJ007, "the job is empty").help("write a job file"))));
     }
@@ -47,7 +49,8 @@ pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadEr
 /// Counts lines and columns of what was taken. serde_json takes one byte at a time, so this is also its buffer.
 struct Counting<'a, R> {
     input: R,
-    at: &'a Cell<(u64, u32)>,
+    context: &'a Context,
+    strings: Strings,
     buffer: Box<[u8; 64 * 1024]>,
     from: usize,
     to: usize,
@@ -70,6 +73,10 @@ impl<R: Read> Counting<'_, R> {
                 Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
                 Err(error) => return Err(error),
                 Ok(count) => {
+                    // serde gathers a whole string before anybody sees it
+                    if !self.strings.take(&self.buffer[self.to..self.to + count]) {
+                        return Err(self.context.fail_reading(too_long()));
+                    }
                     self.to += count;
                     return Ok(count);
                 }
@@ -88,8 +95,8 @@ impl<R: Read> Read for Counting<'_, R> {
         let (Some(&byte), Some(slot)) = (self.buffer[..self.to].get(self.from), out.first_mut()) else { return Ok(0) };
         *slot = byte;
         self.from += 1;
-        let (line, column) = self.at.get();
-        self.at.set(if byte == b'\n' { (line + 1, 0) } else { (line, column + 1) });
+        let (line, column) = self.context.at.get();
+        self.context.at.set(if byte == b'\n' { (line + 1, 0) } else { (line, column + 1) });
         Ok(1)
     }
 }

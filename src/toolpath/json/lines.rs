@@ -11,6 +11,7 @@ use super::fast::{Kind, simple};
 use super::objects::{
     CycleObject, EndWord, ItemObject, JobHead, KeySeed, Object, ObjectSeed, OperationHead, SubprogramHead, Value, once,
 };
+use super::strings::{self, Strings};
 use super::values::Point;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{Hole, ReadError, Sink};
@@ -103,6 +104,9 @@ impl Lines<'_, '_> {
         if self.ended {
             let diag = Diag::new(Code::PJ008, "something stands after the end of the job");
             return Err(self.placed(Box::new(diag.help("`{\"end\": true}` is the last line"))));
+        }
+        if line.len() > strings::LONGEST && !Strings::default().take(line) {
+            return Err(self.placed(Box::new(strings::too_long())));
         }
         let number = self.builder.place.line;
         let mut deserializer = serde_json::Deserializer::from_slice(line);

@@ -10,6 +10,7 @@ mod objects;
 mod position;
 #[cfg(feature = "schema")]
 mod schema;
+mod strings;
 mod values;
 
 pub use document::read_document;

@@ -9,6 +9,7 @@
 
 pub mod cl;
 pub mod compile;
+pub mod control;
 pub mod cycle;
 pub mod diag;
 pub mod diff;

@@ -11,7 +11,9 @@ use serde::Deserialize;
 use postform::diag::escaped;
 use postform::lint::{Level, Levels};
 
-use super::args::{ControlArg, LimitsArg};
+use postform::control::{self, Control};
+
+use super::args::LimitsArg;
 use super::files::{self, io_message};
 
 /// What the file may say.
@@ -33,7 +35,7 @@ pub struct Config {
     /// The form of `render` and `verify`.
     pub form: Option<PathBuf>,
     /// Whose rules programs are run by.
-    pub control: Option<ControlArg>,
+    pub control: Option<&'static Control>,
     /// Limits of forms.
     pub limits: Option<LimitsArg>,
     /// What rules count as.
@@ -86,7 +88,7 @@ impl Config {
             format!("error: {name}: {}\n  help: {known}", error.to_string().trim_end())
         })?;
         let limits = written.limits.as_deref().map(|value| choice(&name, "limits", value)).transpose()?;
-        let control = written.control.as_deref().map(|value| choice(&name, "control", value)).transpose()?;
+        let control = written.control.as_deref().map(|value| named_control(&name, value)).transpose()?;
         let mut levels = Levels::default();
         // a family first, so that its codes can be told apart whatever the order
         let mut rules: Vec<_> = written.rules.iter().collect();
@@ -108,6 +110,13 @@ impl Config {
 fn shortened(path: PathBuf) -> PathBuf {
     let here = std::env::current_dir().and_then(|here| here.canonicalize());
     here.ok().and_then(|here| path.strip_prefix(here).ok().map(Path::to_path_buf)).unwrap_or(path)
+}
+
+fn named_control(name: &str, value: &str) -> Result<&'static Control, String> {
+    Control::named(&value.to_ascii_lowercase()).ok_or_else(|| {
+        let known: Vec<&str> = control::names().collect();
+        format!("error: {name}: control = {value:?}: it is one of {}", known.join(", "))
+    })
 }
 
 fn choice<T: ValueEnum>(name: &str, key: &str, value: &str) -> Result<T, String> {

@@ -5,13 +5,14 @@ use std::io::{self, BufReader, Read, Seek};
 use std::path::Path;
 
 use postform::cl::{Assumed, Options, Report, read_cl};
+use postform::control::Control;
 use postform::diag::escaped;
-use postform::nc::{Control, JobOptions, Settings, Unpointed, read_program};
+use postform::nc::{JobOptions, Settings, Unpointed, read_program};
 use postform::sema::MOST_TEXT;
 use postform::toolpath::json::{read_document, read_lines};
 use postform::toolpath::{ReadError, Sink, Units};
 
-use super::args::{ControlArg, From, NoPoint, ReadArgs, UnitsArg};
+use super::args::{From, NoPoint, ReadArgs, UnitsArg};
 use super::spool::Spool;
 
 /// Largest form: a longer file is none.
@@ -171,7 +172,7 @@ fn read_nc(
     let mut spool = Spool::new().map_err(ReadError::Io)?;
     io::copy(&mut input, &mut spool).map_err(ReadError::Io)?;
     let copy = spool.into_file().map_err(ReadError::Io)?;
-    let control = args.job_control.map_or(Control::Fanuc, ControlArg::control);
+    let control = args.job_control.unwrap_or_else(Control::usual);
     let unpointed = args.job_no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
     let units = args.assume_units.map(UnitsArg::units);
     let settings = Settings { unpointed, units: units.unwrap_or(Units::Mm), ..Settings::new(control) };

@@ -119,11 +119,7 @@ impl Proof<'_> {
         let form = self.prepared.map(|prepared| &prepared.program.settings);
         let units = self.prepared.and_then(|prepared| prepared.options.units).unwrap_or(Units::Mm);
         let control = self.control.settings(form.map(|form| form.control.as_str()), units);
-        let settings = Settings {
-            centers_absolute: form.is_some_and(|form| !form.centre_incremental),
-            fadal: form.is_some_and(|form| form.control == "fadal"),
-            ..control
-        };
+        let settings = Settings { centers_absolute: form.is_some_and(|form| !form.centre_incremental), ..control };
         let sink_as_printed = self.prepared.is_some_and(|prepared| prepared.options.sink_as_printed);
         let expectation = form.map_or_else(Expectation::default, |form| Expectation::of_form(form, sink_as_printed));
         let comparer = Comparer::new(files::buffered(program), settings, expectation, self.tolerance);

@@ -1,13 +1,13 @@
 //! One block: its words with their values, its codes, and whether they go together.
 
-use super::codes::{AXES, CHECKED, GCode, Group, bit, g_code, letters, m_group, m_words, why_not_run};
-use super::control::Control;
+use super::codes::{AXES, CHECKED, Group, bit, g_code, group, letters, m_code, m_group, takes_axes, why_not_run};
 use super::expression::Reader;
 use super::fault::{Done, Fault, refuse};
 use super::flow::Flow;
 use super::machine::{NO_MOTION, Settings};
 use super::parameters::{Parameters, Target};
 use super::scan::{Kind, tokens, tokens_from};
+use crate::control::{Control, Row};
 use crate::diag::Code;
 
 /// Most G codes and M codes of a block that are kept.
@@ -23,7 +23,7 @@ pub struct Block {
     /// Bit i: its value was written as a number without a point.
     pub whole: u32,
     /// G codes by group.
-    g: [Option<&'static GCode>; 16],
+    g: [Option<&'static Row>; 16],
     /// A G code is there.
     has_g: bool,
     /// One besides motions and cycles is.
@@ -47,7 +47,8 @@ pub struct Block {
     pub flow: Option<Flow>,
     settings: Vec<(Target, f64)>,
     is_empty: bool,
-    fadal: bool,
+    /// A comment may go on to the end of its line.
+    open_comments: bool,
 }
 
 impl Block {
@@ -74,7 +75,7 @@ impl Block {
         if !self.has_g {
             return None;
         }
-        self.g[group as usize].map(|row| row.code)
+        self.g[group as usize].map(|row| row.code.tenths)
     }
 
     /// Has it G codes besides motions and cycles?
@@ -111,7 +112,7 @@ impl Block {
     /// What the control can't read, or refuses before it does anything.
     pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, settings: &Settings) -> Done {
         let control = settings.control;
-        self.fadal = settings.fadal;
+        self.open_comments = control.open_comments();
         self.given = 0;
         self.whole = 0;
         self.m_count = 0;
@@ -172,7 +173,7 @@ impl Block {
         line: &[u8],
         mut reader: Reader<'_>,
         parameters: &mut Parameters,
-        control: Control,
+        control: &'static Control,
     ) -> Done {
         while let Some(token) = reader.next() {
             match token.kind {
@@ -222,7 +223,7 @@ impl Block {
     }
 
     /// What is no word.
-    fn mark(&mut self, line: &[u8], kind: Kind, start: usize, end: usize, control: Control) -> Done {
+    fn mark(&mut self, line: &[u8], kind: Kind, start: usize, end: usize, control: &'static Control) -> Done {
         match kind {
             Kind::Comment => {
                 if control.is_linuxcnc() && line[start + 1..end].contains(&b'(') {
@@ -231,7 +232,7 @@ impl Block {
                 self.comment.get_or_insert((start + 1, end - 1));
             }
             Kind::Remark => _ = self.comment.get_or_insert((start + 1, end)),
-            Kind::OpenComment if self.fadal => _ = self.comment.get_or_insert((start + 1, end)),
+            Kind::OpenComment if self.open_comments => _ = self.comment.get_or_insert((start + 1, end)),
             Kind::OpenComment => {
                 return Err(Fault::at(Code::PN001, start, "a comment without its `)`", "close it on this line"));
             }
@@ -247,7 +248,7 @@ impl Block {
     }
 
     #[inline]
-    fn word(&mut self, letter: u8, value: f64, whole: bool, column: usize, control: Control) -> Done {
+    fn word(&mut self, letter: u8, value: f64, whole: bool, column: usize, control: &'static Control) -> Done {
         self.is_empty &= letter == b'N';
         match letter {
             b'G' => self.g_word(value, column, control),
@@ -287,25 +288,27 @@ impl Block {
     }
 
     #[inline]
-    fn g_word(&mut self, value: f64, column: usize, control: Control) -> Done {
+    fn g_word(&mut self, value: f64, column: usize, control: &'static Control) -> Done {
         let code = (value * 10.0 + 0.5) as u16;
         let code = if (value * 10.0 - f64::from(code)).abs() < 1e-3 { code } else { u16::MAX };
         let Some(row) = g_code(control, code) else { return unknown_g(value, code, column, control) };
         self.has_g = true;
-        self.takes_axes |= row.takes_axes;
-        self.has_modes |= !matches!(row.group, Group::Motion | Group::Cycle);
-        let group = row.group as usize;
+        let rules = control.rules();
+        let its_group = group(row, rules);
+        self.takes_axes |= takes_axes(row, rules);
+        self.has_modes |= !matches!(its_group, Group::Motion | Group::Cycle);
+        let group = its_group as usize;
         // beside another motion, LinuxCNC takes no notice of G80
-        if control.is_linuxcnc() && row.group == Group::Motion {
-            match self.g[group].map(|before| before.code) {
+        if control.is_linuxcnc() && its_group == Group::Motion {
+            match self.g[group].map(|before| before.code.tenths) {
                 Some(_) if code == NO_MOTION => return Ok(()),
                 Some(NO_MOTION) => self.g[group] = None,
                 _ => {}
             }
         }
         // modal codes that change nothing here may come in numbers
-        if let Some(before) = self.g[group].filter(|_| row.group != Group::Other) {
-            let message = format!("{} and {} are of one group", name_of(before.code), name_of(code));
+        if let Some(before) = self.g[group].filter(|_| its_group != Group::Other) {
+            let message = format!("{} and {} are of one group", name_of(before.code.tenths), name_of(code));
             return Err(Fault::at(Code::PN004, column, message, "write them in two blocks, or take one out"));
         }
         self.g[group] = Some(row);
@@ -323,7 +326,7 @@ impl Block {
     }
 
     /// Do its codes and words go together?
-    fn check(&self, control: Control) -> Done {
+    fn check(&self, control: &'static Control) -> Done {
         if self.m_count > 0 {
             self.check_m(control)?;
         }
@@ -338,10 +341,10 @@ impl Block {
         Ok(())
     }
 
-    fn check_m(&self, control: Control) -> Done {
+    fn check_m(&self, control: &'static Control) -> Done {
         let mut seen = 0u16;
         for &code in self.m() {
-            let Some(group) = m_group(control, code) else {
+            let Some(group) = m_code(control, code).map(m_group) else {
                 let help = "it is unknown to this control: take it out";
                 return refuse(Code::PN003, format!("M{code} is unknown"), help);
             };
@@ -360,26 +363,21 @@ impl Block {
     /// # Errors
     /// A word that nothing uses.
     #[inline]
-    pub fn check_words(&self, motion: Option<&GCode>, control: Control) -> Done {
+    pub fn check_words(&self, motion: Option<&Row>, control: &'static Control) -> Done {
         if self.given & CHECKED == 0 && !self.spindle {
             return Ok(());
         }
         self.check_used(motion, control)
     }
 
-    fn check_used(&self, motion: Option<&GCode>, control: Control) -> Done {
-        let mut used = motion.map_or(0, |row| row.words);
+    fn check_used(&self, motion: Option<&Row>, control: &'static Control) -> Done {
+        let mut used = motion.map_or(0, |row| row.words.bits());
         if self.has_g {
-            used |= self.g.iter().flatten().fold(0, |words, row| words | row.words);
+            used |= self.g.iter().flatten().fold(0, |words, row| words | row.words.bits());
         }
-        used |= self.m().iter().fold(0, |words, &code| words | m_words(control, code));
-        if !control.is_linuxcnc() {
-            // offsets may be called ahead, and H or D alone changes the offset
-            used |= letters("DH");
-        }
-        if self.fadal {
-            used |= letters("E");
-        }
+        used |=
+            self.m().iter().filter_map(|&code| m_code(control, code)).fold(0, |words, row| words | row.words.bits());
+        used |= control.everywhere().bits();
         let unused = self.given & CHECKED & !used;
         if unused != 0 {
             let letter = char::from(b'A' + unused.trailing_zeros() as u8);
@@ -403,8 +401,8 @@ fn twice<T>(letter: u8, column: usize) -> Done<T> {
 }
 
 #[cold]
-fn unknown_g(value: f64, code: u16, column: usize, control: Control) -> Done {
-    Err(match why_not_run(code) {
+fn unknown_g(value: f64, code: u16, column: usize, control: &'static Control) -> Done {
+    Err(match why_not_run(control, code) {
         Some(why) => {
             Fault::at(Code::PN016, column, format!("G{value} is not run: {why}"), "run the program without it")
         }

@@ -2,9 +2,9 @@
 
 use super::action::{Action, Drilling, Position, Rotation};
 use super::arcs::axes_of;
-use super::control::Control;
 use super::fault::{Done, refuse};
 use super::machine::{Machine, Out};
+use crate::control::Rules;
 use crate::diag::Code;
 use crate::toolpath::{StopKind, Units};
 
@@ -36,9 +36,9 @@ impl Machine {
     /// How far a peck's rapid stays above the last depth.
     fn back_off(&self) -> f64 {
         let inch = self.units == Units::Inch;
-        self.settings.back_off.unwrap_or(match (self.control, inch) {
-            (Control::Fanuc, true) => 0.02,
-            (Control::Fanuc, false) => 0.5,
+        self.settings.back_off.unwrap_or(match (self.control.rules(), inch) {
+            (Rules::Fanuc, true) => 0.02,
+            (Rules::Fanuc, false) => 0.5,
             (_, true) => 0.010,
             (_, false) => 0.254,
         })
@@ -57,7 +57,7 @@ impl Machine {
     /// Drills, from over the hole at R to over the hole at the clear level. `from`: where the next peck of a hole ends that
     /// was begun; so is the answer, where the rest has to wait.
     pub(super) fn drill(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
-        let emc2 = self.control == Control::Emc2;
+        let emc2 = self.control.rules() == Rules::Emc2;
         match hole.code {
             810 => {
                 self.feed_over(hole, hole.bottom, out);
@@ -127,7 +127,7 @@ impl Machine {
             return refuse(Code::PN018, format!("a peck of {}", hole.peck), "Q must be greater than zero");
         }
         check_pecks(hole)?;
-        if self.control == Control::Emc2 && hole.code == 830 {
+        if self.control.rules() == Rules::Emc2 && hole.code == 830 {
             return Ok(self.pecks_of_emc2(hole, from, out));
         }
         let back_off = self.back_off();

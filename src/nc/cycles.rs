@@ -4,9 +4,9 @@ use super::action::{Action, Drilling};
 use super::arcs::{CENTERS, axes_of};
 use super::block::Block;
 use super::codes::letters;
-use super::control::Control;
 use super::fault::{Done, refuse};
 use super::machine::{Machine, Out};
+use crate::control::Rules;
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane, Units};
 
@@ -79,7 +79,7 @@ impl Machine {
         if !reused {
             self.series.written = Some(mode);
         }
-        if !self.series.running || self.control == Control::Emc2 {
+        if !self.series.running || self.control.rules() == Rules::Emc2 {
             self.series.initial = self.position[across];
         }
         let initial = self.series.initial;

@@ -2,11 +2,11 @@
 
 use super::action::{Action, Cooling, Item, Position, Rotation};
 use super::block::Block;
-use super::codes::{GCode, Group, bit, g_code, letters};
-use super::control::Control;
+use super::codes::{Group, bit, g_code, letters};
 use super::cycles::{Series, Work};
 use super::fault::{Done, refuse};
 use super::frames::Frames;
+use crate::control::{Control, Row, Rules};
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane, Side, StopKind, Units};
 
@@ -17,7 +17,7 @@ pub(super) const NO_MOTION: u16 = 800;
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// By whose rules.
-    pub control: Control,
+    pub control: &'static Control,
     /// Units before the first G20 or G21.
     pub units: Units,
     /// Blocks with a slash are left out.
@@ -34,8 +34,6 @@ pub struct Settings {
     pub centers_absolute: bool,
     /// Which way G76 and G87 of a Fanuc move off the wall along the first axis: a parameter of the machine, 1 or -1.
     pub bore_shift: f64,
-    /// Two things of a FADAL: a comment may go on to the end of its line without a mark, and E is the work offset.
-    pub fadal: bool,
 }
 
 /// What a length without a point means on a Fanuc: a setting of the machine.
@@ -52,7 +50,7 @@ pub enum Unpointed {
 
 impl Settings {
     /// A control as it is switched on.
-    pub fn new(control: Control) -> Settings {
+    pub fn new(control: &'static Control) -> Settings {
         Settings {
             control,
             units: Units::Mm,
@@ -62,7 +60,6 @@ impl Settings {
             places_unknown: false,
             centers_absolute: false,
             bore_shift: 1.0,
-            fadal: false,
         }
     }
 }
@@ -92,7 +89,7 @@ pub enum Next {
 #[derive(Debug)]
 pub struct Machine {
     pub(super) settings: Settings,
-    pub(super) control: Control,
+    pub(super) control: &'static Control,
     pub(super) position: Position,
     /// Axes that stand at a place in machine coordinates.
     pub(super) at_machine: u8,
@@ -215,8 +212,8 @@ impl Machine {
 
     /// The canned cycle in force, times ten.
     pub fn cycle_in_force(&self) -> Option<u16> {
-        match self.control {
-            Control::Fanuc => self.cycle,
+        match self.control.rules() {
+            Rules::Fanuc => self.cycle,
             _ => Some(self.motion).filter(|&code| is_cycle(code)),
         }
     }
@@ -365,7 +362,7 @@ impl Machine {
         }
     }
 
-    fn move_by(&mut self, code: u16, row: Option<&'static GCode>, block: &Block, out: &mut Out<'_>) -> Done {
+    fn move_by(&mut self, code: u16, row: Option<&'static Row>, block: &Block, out: &mut Out<'_>) -> Done {
         let moved = match code {
             0 | 10 => self.straight(code, block, out),
             20 | 30 => self.arc(code, block, out),

@@ -8,7 +8,6 @@ mod arcs;
 mod block;
 mod bodies;
 mod codes;
-mod control;
 mod cycles;
 mod expression;
 mod fanuc_cycles;
@@ -29,7 +28,6 @@ mod thread;
 
 pub use action::{Action, Cooling, Drilling, Item, Position, Rotation, Turn};
 pub(crate) use arcs::axes_of;
-pub use control::Control;
 pub use job::{JobOptions, read_program};
 pub use machine::{Machine, Settings, Unpointed};
 pub use scan::{Kind, Number, Token, Tokens, tokens};

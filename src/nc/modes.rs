@@ -282,7 +282,7 @@ impl Machine {
 
     pub(super) fn work_offset(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(code) = block.g(Group::Work) else {
-            if let Some(fixture) = block.get(b'E').filter(|_| self.settings.fadal) {
+            if let Some(fixture) = self.control.work_letter().and_then(|letter| block.get(letter)) {
                 out.push(Action::Work(fixture));
             }
             return Ok(());

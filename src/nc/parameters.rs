@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::control::Control;
 use super::fault::{Done, refuse};
+use crate::control::Control;
 use crate::diag::Code;
 
 /// Highest number of a parameter.
@@ -12,7 +12,7 @@ const HIGHEST: usize = 9999;
 /// Parameters of a program, by number and by name.
 #[derive(Debug)]
 pub struct Parameters {
-    control: Control,
+    control: &'static Control,
     numbered: Vec<Option<f64>>,
     global: HashMap<String, f64>,
     /// Named parameters of the main program and of each subprogram that runs.
@@ -34,7 +34,7 @@ pub enum Target {
 
 impl Parameters {
     /// None has a value yet.
-    pub fn new(control: Control) -> Parameters {
+    pub fn new(control: &'static Control) -> Parameters {
         Parameters {
             control,
             numbered: vec![None; HIGHEST + 1],

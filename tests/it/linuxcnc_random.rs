@@ -1,10 +1,11 @@
 //! Random programs through the simulator and through LinuxCNC's interpreter, where it is installed: the same motions,
 //! or a refusal at the same block.
 
+use crate::support::control;
 use std::path::Path;
 
 use crate::support::nc::{self, difference, interpreted, simulated};
-use postform::nc::{Control, Settings};
+use postform::nc::Settings;
 
 /// A generator of its own, so that a failing program can be made again from its number.
 struct Random(u64);
@@ -109,7 +110,7 @@ fn random_programs_run_as_in_the_interpreter() {
         let arguments = ["-v".as_ref(), parameters.as_os_str(), "-g".as_ref(), path.as_os_str()];
         let Some(output) = nc::rs274(&[(&path, &text), (&parameters, PARAMETERS)], &arguments) else { return };
         let canon = String::from_utf8_lossy(&output.stdout).into_owned();
-        let (calls, ended, _) = simulated(text.as_bytes(), Settings::new(Control::Linuxcnc));
+        let (calls, ended, _) = simulated(text.as_bytes(), Settings::new(control("linuxcnc")));
         let theirs = interpreted(&canon);
         let ended_well = canon.contains("PROGRAM_END");
         if ended_well != ended.is_ok() {

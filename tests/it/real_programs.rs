@@ -2,12 +2,13 @@
 //! reason that a machinist accepts, and printed by another form they make the same motions.
 
 use crate::support;
+use crate::support::control;
 use std::fs;
 use std::io::Cursor;
 
 use crate::support::root;
 use postform::compile::compile;
-use postform::nc::{Control, JobOptions, RunError, Settings, Simulator, Tally, Unpointed, read_program};
+use postform::nc::{JobOptions, RunError, Settings, Simulator, Tally, Unpointed, read_program};
 use postform::render::{Options, Renderer};
 use postform::toolpath::{Sink, Units};
 use postform::verify::{Comparer, Expectation, Verdict};
@@ -40,7 +41,7 @@ fn programs() -> Vec<Program> {
     let with = |(name, units, expected): (&'static str, Option<Units>, _)| {
         // two of them end with a G53 X12, whose units only the shop knows
         let unpointed = if units.is_some() { Unpointed::Whole } else { Unpointed::Refused };
-        let settings = Settings { units: units.unwrap_or(Units::Mm), unpointed, ..Settings::new(Control::Fanuc) };
+        let settings = Settings { units: units.unwrap_or(Units::Mm), unpointed, ..Settings::new(control("fanuc")) };
         (name, fs::read(folder.join(name)).unwrap(), settings, units, expected)
     };
     PROGRAMS.into_iter().map(with).collect()
@@ -86,7 +87,7 @@ fn real_programs_printed_by_another_form_make_the_same_motions() {
         let program = std::mem::take(renderer.text());
         let text = String::from_utf8_lossy(&program).into_owned();
         let expectation = Expectation::of_form(&form.settings, false);
-        let mut comparer = Comparer::new(Cursor::new(program), Settings::new(Control::Fanuc), expectation, None);
+        let mut comparer = Comparer::new(Cursor::new(program), Settings::new(control("fanuc")), expectation, None);
         let read = read(&mut comparer);
         let verdict = comparer.verdict().unwrap();
         assert!(read.is_ok() && !matches!(verdict, Verdict::Different(_)), "{name}: {verdict:?}\n{text}");

@@ -2,13 +2,15 @@
 //!
 //! LinuxCNC's own rules are held by recorded programs (`nc_golden.rs`) and by its interpreter (`linuxcnc_random.rs`).
 
+use crate::support::control;
+use postform::control::Control;
 use std::io::Cursor;
 
 use crate::support::nc::{Call, simulated};
-use postform::nc::{Action, Control, RunError, Settings, Simulator, Unpointed};
+use postform::nc::{Action, RunError, Settings, Simulator, Unpointed};
 
 /// Motions as text: `T` rapid, `F` feed.
-fn motions(control: Control, program: &str) -> Vec<String> {
+fn motions(control: &'static Control, program: &str) -> Vec<String> {
     let (calls, ended, _) = simulated(program.as_bytes(), Settings::new(control));
     assert_eq!(ended, Ok(()), "{program}");
     calls.iter().map(shown).collect()
@@ -33,7 +35,7 @@ fn shown(call: &Call) -> String {
 }
 
 /// The code and line of a refusal.
-fn refused(control: Control, program: &str) -> (String, u64) {
+fn refused(control: &'static Control, program: &str) -> (String, u64) {
     refused_with(Settings::new(control), program)
 }
 
@@ -55,7 +57,7 @@ fn refused_with(settings: Settings, program: &str) -> (String, u64) {
 const START: &str = "G21 G17 G90 G94\nS500 M3\nG0 X0. Y0. Z10.\n";
 
 fn fanuc(blocks: &str) -> Vec<String> {
-    let lines = motions(Control::Fanuc, &format!("{START}{blocks}\nM30\n"));
+    let lines = motions(control("fanuc"), &format!("{START}{blocks}\nM30\n"));
     lines[2..].to_vec() // the spindle and the first rapid
 }
 
@@ -130,29 +132,30 @@ fn cycles_of_a_fanuc() {
 #[test]
 fn programs_of_a_fanuc_and_their_subprograms() {
     let program = "%\nO1\nG21 G90 G0 X0. Y0. Z1.\nM98 P100 L2\nM98 P20200\nM30\nO100\nG91 X1.\nG90 M99\nO200\nG91 Y1.\nG90 M99\n%\n";
-    assert_eq!(motions(Control::Fanuc, program), ["T 0 0 1", "T 1 0 1", "T 2 0 1", "T 2 1 1", "T 2 2 1"]);
-    assert_eq!(refused(Control::Fanuc, "G21\nM98 P7\nM30\n"), ("PN015".into(), 2));
+    assert_eq!(motions(control("fanuc"), program), ["T 0 0 1", "T 1 0 1", "T 2 0 1", "T 2 1 1", "T 2 2 1"]);
+    assert_eq!(refused(control("fanuc"), "G21\nM98 P7\nM30\n"), ("PN015".into(), 2));
     // the home of the axes that are named, by way of a place
-    let home = motions(Control::Fanuc, "G21 G90 G0 X1. Y2. Z3.\nG91 G28 Z0\nG90\nM30\n");
+    let home = motions(control("fanuc"), "G21 G90 G0 X1. Y2. Z3.\nG91 G28 Z0\nG90\nM30\n");
     assert_eq!(home, ["T 1 2 3", "T 1 2 3", "T 1 2 0"]);
-    assert_eq!(motions(Control::Fanuc, "G90 G10 L2 P1 X5.\n#1=2.5\nG0 X#1 Y[#1*2]\nM30\n"), ["T 2.5 5 0"]);
+    assert_eq!(motions(control("fanuc"), "G90 G10 L2 P1 X5.\n#1=2.5\nG0 X#1 Y[#1*2]\nM30\n"), ["T 2.5 5 0"]);
 }
 
 #[test]
 fn lengths_without_a_point() {
     let program = "G21\nG0 X1000 Z0\nM30\n";
-    assert_eq!(refused(Control::Fanuc, program), ("PN017".into(), 2));
+    assert_eq!(refused(control("fanuc"), program), ("PN017".into(), 2));
     for (unpointed, x) in [(Unpointed::Whole, 1000.0), (Unpointed::Increments, 1.0)] {
-        let (calls, ended, _) = simulated(program.as_bytes(), Settings { unpointed, ..Settings::new(Control::Fanuc) });
+        let (calls, ended, _) =
+            simulated(program.as_bytes(), Settings { unpointed, ..Settings::new(control("fanuc")) });
         assert_eq!((calls, ended), (vec![Call::Rapid([x, 0.0, 0.0, 0.0, 0.0, 0.0])], Ok(())));
     }
-    assert_eq!(motions(Control::Linuxcnc, program), ["T 1000 0 0"]);
+    assert_eq!(motions(control("linuxcnc"), program), ["T 1000 0 0"]);
 }
 
 /// Where the old manual differs: the Z before each block counts, and pecks wait and come out all the way.
 #[test]
 fn cycles_of_emc2() {
-    let emc2 = |program: &str| motions(Control::Emc2, program);
+    let emc2 = |program: &str| motions(control("emc2"), program);
     let holes = |program: &str| -> Vec<String> {
         emc2(program).into_iter().filter(|line| line.starts_with('F')).map(|line| line[2..].to_owned()).collect()
     };
@@ -234,7 +237,7 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
         ("(open\nM30", "PN001", 1),
     ];
     for (program, code, line) in cases {
-        assert_eq!(refused(Control::Fanuc, program), (code.into(), line), "{program}");
+        assert_eq!(refused(control("fanuc"), program), (code.into(), line), "{program}");
     }
     for (program, code, line) in [
         ("o1 sub\nG0 X1\nM2", "PN015", 3),
@@ -245,50 +248,50 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
         ("G0 X#1#2\nM2", "PN014", 1),
         ("G0 X1 (a (b))\nM2", "PN001", 1),
     ] {
-        let (found, at) = refused(Control::Linuxcnc, program);
+        let (found, at) = refused(control("linuxcnc"), program);
         assert_eq!(found, code, "{program} at {at}");
         assert!(at >= line, "{program}: {at}");
     }
     let deep = format!("G0 X{}1{}\nM2\n", "[".repeat(100), "]".repeat(100));
-    assert_eq!(refused(Control::Linuxcnc, &deep).0, "PN014");
+    assert_eq!(refused(control("linuxcnc"), &deep).0, "PN014");
     let long = format!("G0 X1 ({})\nM2\n", "x".repeat(100_000));
-    assert_eq!(refused(Control::Fanuc, &long), ("PN001".into(), 1));
+    assert_eq!(refused(control("fanuc"), &long), ("PN001".into(), 1));
 }
 
 /// What a trial machinist and the real interpreter found.
 #[test]
 fn rules_that_are_easily_missed() {
-    let both = |program: &str| motions(Control::Linuxcnc, program);
+    let both = |program: &str| motions(control("linuxcnc"), program);
     assert_eq!(both("G80 G0 X1\nM2\n"), ["T 1 0 0"], "G80 beside a motion counts for nothing");
     assert_eq!(both("G0 X[1 EQ 1.00005]\nM2\n"), ["T 1 0 0"]);
     assert_eq!(both("#1=0\no1 do\n#1=[#1+1]\no1 continue\nG0 X1\no1 while [#1 LT 3]\nM2\n"), Vec::<String>::new());
     assert_eq!(both("\u{feff}G0 X1\nM2\n"), ["T 1 0 0"], "the mark before UTF-8");
-    assert_eq!(refused(Control::Linuxcnc, "G0 X5 o1 if [1]\nM2\n"), ("PN015".into(), 1));
-    assert_eq!(refused(Control::Linuxcnc, "#5161=10\nM2\n"), ("PN014".into(), 1));
-    assert_eq!(refused(Control::Linuxcnc, "F10\nG81 X1 Z-1 R1\nG53 X2\nM2\n"), ("PN006".into(), 3));
+    assert_eq!(refused(control("linuxcnc"), "G0 X5 o1 if [1]\nM2\n"), ("PN015".into(), 1));
+    assert_eq!(refused(control("linuxcnc"), "#5161=10\nM2\n"), ("PN014".into(), 1));
+    assert_eq!(refused(control("linuxcnc"), "F10\nG81 X1 Z-1 R1\nG53 X2\nM2\n"), ("PN006".into(), 3));
     assert_eq!(
-        refused(Control::Linuxcnc, "M3 S1\nT1 M6\nF10\nG84 X2 Z-1 R1\nM2\n"),
+        refused(control("linuxcnc"), "M3 S1\nT1 M6\nF10\nG84 X2 Z-1 R1\nM2\n"),
         ("PN012".into(), 4),
         "M6 stops the spindle"
     );
-    assert_eq!(refused(Control::Fanuc, "G81 X1. Z-1. R.1 F5.\nX3. G4 P200\nM30\n"), ("PN004".into(), 2));
-    assert_eq!(refused(Control::Fanuc, "G1 G41 X1. F9.\nM30\n"), ("PN007".into(), 1));
+    assert_eq!(refused(control("fanuc"), "G81 X1. Z-1. R.1 F5.\nX3. G4 P200\nM30\n"), ("PN004".into(), 2));
+    assert_eq!(refused(control("fanuc"), "G1 G41 X1. F9.\nM30\n"), ("PN007".into(), 1));
     // the spindle stops when the motion is done
     assert_eq!(fanuc("G1 X1. F10. M5")[..], ["F 1 0 10", "stop"]);
     // a whole circle by its centre alone
     assert_eq!(fanuc("G2 X0. I1. F10.\nI2.").len(), 2);
     // blocks and loops whose moves nobody could wait for
-    let many = refused(Control::Linuxcnc, "F10\nG91 G83 X1 Z-10000 R1 Q.011 L9999\nM2\n");
+    let many = refused(control("linuxcnc"), "F10\nG91 G83 X1 Z-10000 R1 Q.011 L9999\nM2\n");
     assert_eq!(many, ("PN018".into(), 2));
     let deep = "F10. G91\nG81 X0. Y0. Z-.1 R.1\nM98 P2 L9999\nM30\nO2\nM98 P3 L9999\nM99\nO3\nX.0001 K9999\nM99\n";
-    assert_eq!(refused(Control::Fanuc, deep).0, "PN015");
+    assert_eq!(refused(control("fanuc"), deep).0, "PN015");
 }
 
 /// Line ends, characters and case of all kinds are the same program.
 #[test]
 fn the_same_program_however_it_is_written() {
     let plain = "%\nN10 G21 G90\nN20 G0 X1.5 Y-2.\nG1 Z-1. F100.\nM30\n%\n";
-    let wanted = motions(Control::Fanuc, plain);
+    let wanted = motions(control("fanuc"), plain);
     let variants = [
         plain.replace('\n', "\r\n"),
         plain.to_lowercase(),
@@ -300,12 +303,12 @@ fn the_same_program_however_it_is_written() {
         plain.replace("N20", "/N20"),
     ];
     for text in variants {
-        assert_eq!(motions(Control::Fanuc, &text), wanted, "{text:?}");
+        assert_eq!(motions(control("fanuc"), &text), wanted, "{text:?}");
     }
     let latin1 = [&b"(90\xb0)\n"[..], &plain.as_bytes()[2..]].concat();
-    let (calls, ended, _) = simulated(&latin1, Settings::new(Control::Fanuc));
+    let (calls, ended, _) = simulated(&latin1, Settings::new(control("fanuc")));
     assert_eq!((calls.len(), ended), (2, Ok(())));
-    let skipped = Settings { block_delete: true, ..Settings::new(Control::Fanuc) };
+    let skipped = Settings { block_delete: true, ..Settings::new(control("fanuc")) };
     let (calls, ..) = simulated(
         plain.replace("N20", "/N20").replace("G1", "G0 X0 G1").replace("G0 X0 G1", "G1 X0").as_bytes(),
         skipped,
@@ -333,7 +336,7 @@ fn mutilated_programs_get_an_answer() {
                 bytes[at] = [b'[', b']', b'#', b'(', b'%', b'-', b'9', b'G', b'o', b'\n', 0, 0xff][random(12)];
             }
         }
-        for control in Control::ALL {
+        for control in postform::control::names().map(control) {
             let _ended = simulated(&bytes, Settings::new(control)).1;
         }
     }
@@ -355,7 +358,7 @@ fn interrupted_reads_are_made_again() {
             self.0.seek(to)
         }
     }
-    let (program, settings) = ("G21\nG0 X1.\nM30\n", Settings::new(Control::Fanuc));
+    let (program, settings) = ("G21\nG0 X1.\nM30\n", Settings::new(control("fanuc")));
     let input = BufReader::with_capacity(4, Interrupted(Cursor::new(program), false));
     let mut simulator = Simulator::new(input, settings);
     let mut items = Vec::new();
@@ -390,12 +393,12 @@ fn a_tap_with_q_turns_back_after_each_peck() {
 fn rigid_taps_of_linuxcnc_come_back() {
     let program = "G21 G90\nS100 M3\nG0 X1 Y2 Z5\nG33.1 Z-10 K1.5\nG91\nZ-3 K2\nM2\n";
     let lines = ["cw", "T 1 2 5", "F 1 2 -10", "ccw", "F 1 2 5", "cw", "F 1 2 2", "ccw", "F 1 2 5", "cw"];
-    assert_eq!(motions(Control::Linuxcnc, program), lines);
-    let refused = |block: &str| refused(Control::Linuxcnc, &format!("G21 G90\nG0 Z5\n{block}\nM2\n")).0;
+    assert_eq!(motions(control("linuxcnc"), program), lines);
+    let refused = |block: &str| refused(control("linuxcnc"), &format!("G21 G90\nG0 Z5\n{block}\nM2\n")).0;
     assert_eq!(refused("G33.1 Z-10 K1.5"), "PN012");
     assert_eq!(refused("S100 M3 G33.1 Z-10"), "PN007");
     assert_eq!(refused("S100 M3 G33.1 K1"), "PN006");
-    assert_eq!(refused_with(Settings::new(Control::Fanuc), "G21\nG33.1 Z-10. K1.\n").0, "PN016");
+    assert_eq!(refused_with(Settings::new(control("fanuc")), "G21\nG33.1 Z-10. K1.\n").0, "PN016");
 }
 
 /// Passing over lines is no loop, however many there are; passing over them in a loop is one.
@@ -403,12 +406,12 @@ fn rigid_taps_of_linuxcnc_come_back() {
 fn lines_passed_over_are_no_loop() {
     let lines = "G1 X1.\n".repeat(2_100_000);
     for program in [format!("o1 if [0]\n{lines}o1 endif\nM2\n"), format!("o1 sub\n{lines}o1 endsub\nM2\n")] {
-        let (calls, ended, _) = simulated(program.as_bytes(), Settings::new(Control::Linuxcnc));
+        let (calls, ended, _) = simulated(program.as_bytes(), Settings::new(control("linuxcnc")));
         assert_eq!((calls.len(), ended), (0, Ok(())));
     }
     let lines = "G1 X1.\n".repeat(1_000);
     let program = format!("o1 while [1]\no2 if [0]\n{lines}o2 endif\no1 endwhile\nM2\n");
-    assert_eq!(refused(Control::Linuxcnc, &program).0, "PN015");
+    assert_eq!(refused(control("linuxcnc"), &program).0, "PN015");
 }
 
 /// A hole of so many pecks is handed on in parts, whole and in order.
@@ -416,7 +419,7 @@ fn lines_passed_over_are_no_loop() {
 fn a_block_of_many_moves_is_not_held() {
     for (code, each) in [("G83", 1), ("G84", 2)] {
         let program = format!("{START}G98 {code} X0. Y0. Z-100. R0. Q0.001 F100. K2\nG80\nM30\n");
-        let mut simulator = Simulator::new(Cursor::new(program), Settings::new(Control::Fanuc));
+        let mut simulator = Simulator::new(Cursor::new(program), Settings::new(control("fanuc")));
         let (mut items, mut most, mut depths) = (Vec::new(), 0, Vec::new());
         loop {
             items.clear();

@@ -1,16 +1,18 @@
 //! How a program is run.
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use postform::nc::{Control, Settings, Unpointed};
+use postform::control::{self, Control};
+use postform::nc::{Settings, Unpointed};
 use postform::toolpath::Units;
 
 /// How a program is run.
 #[derive(Clone, Debug, Args)]
 pub struct ControlArgs {
     /// By whose rules [default: the form's Control, else fanuc]
-    #[arg(long, value_name = "CONTROL")]
-    pub control: Option<ControlArg>,
+    #[arg(long, value_name = "CONTROL", value_parser = control_parser())]
+    pub control: Option<&'static Control>,
     /// Leave out blocks with a slash
     #[arg(long)]
     pub block_delete: bool,
@@ -30,15 +32,9 @@ pub fn length(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Controls whose reading is known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ControlArg {
-    /// LinuxCNC 2.9
-    Linuxcnc,
-    /// EMC as its old manual describes it
-    Emc2,
-    /// Fanuc and Haas mills
-    Fanuc,
+/// Reads the name of a control.
+pub fn control_parser() -> impl TypedValueParser<Value = &'static Control> {
+    PossibleValuesParser::new(control::names()).try_map(|name| Control::named(&name).ok_or("there is no such control"))
 }
 
 /// Lengths without a point.
@@ -48,17 +44,6 @@ pub enum NoPoint {
     Whole,
     /// Least increments: 0.0001 inch, 0.001 mm
     Increments,
-}
-
-impl ControlArg {
-    /// As the library has it.
-    pub fn control(self) -> Control {
-        match self {
-            ControlArg::Linuxcnc => Control::Linuxcnc,
-            ControlArg::Emc2 => Control::Emc2,
-            ControlArg::Fanuc => Control::Fanuc,
-        }
-    }
 }
 
 impl NoPoint {
@@ -74,7 +59,7 @@ impl NoPoint {
 impl ControlArgs {
     /// As the library has it; `form` is the form's own control.
     pub fn settings(&self, form: Option<&str>, units: Units) -> Settings {
-        let control = self.control.map_or_else(|| form.map_or(Control::Fanuc, Control::of_form), ControlArg::control);
+        let control = self.control.or_else(|| Control::named(form?)).unwrap_or_else(Control::usual);
         let unpointed = self.no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
         Settings {
             units,

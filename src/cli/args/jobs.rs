@@ -8,7 +8,9 @@ use postform::cl::{Assumed, Dialect};
 use postform::diag::{Diag, Severity};
 use postform::toolpath::Units;
 
-use super::{ControlArg, ControlArgs, LimitsArg, NoPoint};
+use postform::control::Control;
+
+use super::{ControlArgs, LimitsArg, NoPoint, control_parser};
 
 /// A file by its format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -39,8 +41,8 @@ pub struct ReadArgs {
     #[arg(long, value_name = "NUMBER", value_parser = Assumed::parse)]
     pub assume_tool: Option<Assumed>,
     /// Whose rules a job that is an NC program follows [default: fanuc]
-    #[arg(long, value_name = "CONTROL")]
-    pub job_control: Option<ControlArg>,
+    #[arg(long, value_name = "CONTROL", value_parser = control_parser())]
+    pub job_control: Option<&'static Control>,
     /// What a length without a point means in a job that is an NC program [default: it is an error]
     #[arg(long, value_name = "MEANING")]
     pub job_no_point: Option<NoPoint>,

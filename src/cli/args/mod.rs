@@ -8,7 +8,7 @@ mod programs;
 use clap::{Args, Parser, Subcommand};
 
 use super::colour::Colour;
-pub use controls::{ControlArg, ControlArgs, NoPoint};
+pub use controls::{ControlArgs, NoPoint, control_parser};
 pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, NewControl};
 pub use jobs::{CheckArgs, CyclesArg, From, ReadArgs, RenderArgs, RenderOptions, SinkArg, UnitsArg};
 pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, VerifyArgs};

@@ -9,12 +9,18 @@ use std::path::{Path, PathBuf};
 
 use postform::cl::read_cl;
 use postform::compile::compile;
+use postform::control::Control;
 use postform::diag::Diag;
 use postform::render::{Options, Renderer, TraceLine};
 use postform::sema::{Checked, Limits, analyse};
 use postform::source::Source;
 use postform::toolpath::ReadError;
 use postform::toolpath::json::{read_document, read_lines};
+
+/// A control that ships; for a name that is none, the usual one.
+pub fn control(name: &str) -> &'static Control {
+    Control::named(name).unwrap_or_else(Control::usual)
+}
 
 pub fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

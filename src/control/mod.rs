@@ -1,0 +1,311 @@
+//! What a control is, written once: a file of `controls/`, or a shop's own.
+//!
+//! A file says which codes the control has and what they mean, by the names of [`Meaning`]; what the meanings do is the
+//! program's. What a file does not say is as in the control that it is `like`.
+
+mod code;
+mod file;
+mod meaning;
+mod words;
+
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
+pub use code::{Code, NoCode};
+pub use file::Wrong;
+pub use meaning::{AxisWords, GROUPS, Group, Meaning};
+pub use words::Words;
+
+/// By whose rules programs are run: what no table says, as in which order a block acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Rules {
+    /// The usual reading of Fanuc and Haas mills.
+    #[default]
+    Fanuc,
+    /// LinuxCNC 2.9, as its interpreter was observed.
+    Linuxcnc,
+    /// EMC as its manual of about 2005 describes the cycles; else as LinuxCNC.
+    Emc2,
+}
+
+/// A control.
+#[derive(Clone, Debug)]
+pub struct Control {
+    /// Its name, and the names of those that it is like.
+    chain: Vec<String>,
+    /// Its title.
+    title: String,
+    rules: Rules,
+    longest_line: Option<usize>,
+    open_comments: bool,
+    everywhere: Words,
+    work_letter: Option<u8>,
+    height_is_machine: bool,
+    rows: Rows,
+}
+
+/// What a control has of one code.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The code; of a row for many, the first.
+    pub code: Code,
+    /// What it means.
+    pub meaning: Meaning,
+    /// The words that it takes besides axes, F, S and T.
+    pub words: Words,
+    /// More about it; why it can't be run.
+    pub text: String,
+}
+
+/// The rows of a control, found by code.
+#[derive(Clone, Debug, Default)]
+struct Rows {
+    /// In the order of their codes.
+    one: Vec<Row>,
+    /// Where each G code is in `one`, by its tenths; past its end for those that have no row.
+    index: Vec<u16>,
+    /// For all codes of a number.
+    numbers: Vec<Row>,
+    /// For all others of a letter.
+    others: Vec<Row>,
+}
+
+impl Rows {
+    fn put(&mut self, row: Row) {
+        match self.one.binary_search_by_key(&row.code, |row| row.code) {
+            Ok(at) => self.one[at] = row,
+            Err(at) => self.one.insert(at, row),
+        }
+    }
+
+    /// All rows are there.
+    fn finish(&mut self) {
+        let highest =
+            self.one.iter().rfind(|row| row.code.letter == b'G').map_or(0, |row| usize::from(row.code.tenths) + 1);
+        self.index = vec![u16::MAX; highest];
+        for (at, row) in self.one.iter().enumerate().filter(|(_, row)| row.code.letter == b'G') {
+            self.index[usize::from(row.code.tenths)] = at as u16;
+        }
+    }
+
+    #[inline]
+    fn own(&self, code: Code) -> Option<&Row> {
+        match code.letter {
+            b'G' => self.one.get(usize::from(*self.index.get(usize::from(code.tenths))?)),
+            _ => self.one.binary_search_by_key(&code, |row| row.code).ok().map(|at| &self.one[at]),
+        }
+    }
+
+    fn put_number(&mut self, row: Row) {
+        replace(&mut self.numbers, row, |row| (row.code.letter, row.code.tenths));
+    }
+
+    fn put_others(&mut self, row: Row) {
+        replace(&mut self.others, row, |row| (row.code.letter, 0));
+    }
+}
+
+fn replace(rows: &mut Vec<Row>, row: Row, key: impl Fn(&Row) -> (u8, u16)) {
+    match rows.iter_mut().find(|other| key(other) == key(&row)) {
+        Some(other) => *other = row,
+        None => rows.push(row),
+    }
+}
+
+/// Files that come with the program.
+const FILES: [(&str, &str); 6] = [
+    ("fanuc", include_str!("../../controls/fanuc.toml")),
+    ("haas", include_str!("../../controls/haas.toml")),
+    ("fadal", include_str!("../../controls/fadal.toml")),
+    ("linuxcnc", include_str!("../../controls/linuxcnc.toml")),
+    ("emc2", include_str!("../../controls/emc2.toml")),
+    ("grbl", include_str!("../../controls/grbl.toml")),
+];
+
+static CONTROLS: [LazyLock<Control>; FILES.len()] = [
+    LazyLock::new(|| shipped(0)),
+    LazyLock::new(|| shipped(1)),
+    LazyLock::new(|| shipped(2)),
+    LazyLock::new(|| shipped(3)),
+    LazyLock::new(|| shipped(4)),
+    LazyLock::new(|| shipped(5)),
+];
+
+/// A file that comes with the program; a test reads them all.
+fn shipped(at: usize) -> Control {
+    let (name, text) = FILES[at];
+    Control::read(name, text).unwrap_or_else(|_| Control::empty())
+}
+
+/// The names of the controls that come with the program.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    FILES.iter().map(|(name, _)| *name)
+}
+
+fn nearest(name: &str, names: impl Iterator<Item = &'static str>) -> String {
+    let names: Vec<&str> = names.collect();
+    let near = names.iter().map(|&other| (strsim::damerau_levenshtein(name, other), other)).min();
+    match near.filter(|(distance, _)| *distance <= 2 && name.len() < 64) {
+        Some((_, near)) => format!("did you mean `{near}`?"),
+        None => format!("one of {}", names.join(", ")),
+    }
+}
+
+impl Control {
+    /// The control of a name that comes with the program.
+    pub fn named(name: &str) -> Option<&'static Control> {
+        let at = FILES.iter().position(|(known, _)| *known == name)?;
+        Some(&CONTROLS[at])
+    }
+
+    /// The one of forms and programs that name none: a Fanuc mill.
+    pub fn usual() -> &'static Control {
+        &CONTROLS[0]
+    }
+
+    /// Reads the text of a control file; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// What is wrong, with its line and column.
+    pub fn read(name: &str, text: &str) -> Result<Control, Wrong> {
+        file::read(name, text, &like, 0)
+    }
+
+    fn empty() -> Control {
+        Control {
+            chain: Vec::new(),
+            title: String::new(),
+            rules: Rules::default(),
+            longest_line: None,
+            open_comments: false,
+            everywhere: Words::NONE,
+            work_letter: None,
+            height_is_machine: false,
+            rows: Rows::default(),
+        }
+    }
+
+    /// Its name, as forms and options write it.
+    pub fn name(&self) -> &str {
+        self.chain.first().map_or("", String::as_str)
+    }
+
+    /// Its title.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Is it this control, or like it?
+    pub fn is_like(&self, name: &str) -> bool {
+        self.chain.iter().any(|other| other == name)
+    }
+
+    /// By whose rules its programs are run.
+    pub fn rules(&self) -> Rules {
+        self.rules
+    }
+
+    /// Its longest block in characters; `None`: nothing public says.
+    pub fn longest_line(&self) -> Option<usize> {
+        self.longest_line
+    }
+
+    /// May a comment go on to the end of its line without its closing mark?
+    pub fn open_comments(&self) -> bool {
+        self.open_comments
+    }
+
+    /// The words that need no code in their block.
+    pub fn everywhere(&self) -> Words {
+        self.everywhere
+    }
+
+    /// The letter of a word that selects a work offset, beside its codes.
+    pub fn work_letter(&self) -> Option<u8> {
+        self.work_letter
+    }
+
+    /// Is a height a place of the machine while no length of a tool counts?
+    pub fn height_is_machine(&self) -> bool {
+        self.height_is_machine
+    }
+
+    /// Has it the interpreter of LinuxCNC and its predecessors?
+    pub fn is_linuxcnc(&self) -> bool {
+        self.rules != Rules::Fanuc
+    }
+
+    /// What it has of a code: its own row, else that of its number, else that of its letter. `None`: nobody knows.
+    pub fn row(&self, code: Code) -> Option<&Row> {
+        let rows = &self.rows;
+        rows.own(code)
+            .or_else(|| {
+                rows.numbers
+                    .iter()
+                    .find(|row| row.code.letter == code.letter && row.code.tenths / 10 == code.tenths / 10)
+            })
+            .or_else(|| rows.others.iter().find(|row| row.code.letter == code.letter))
+    }
+
+    /// Its rows of single codes, in their order.
+    pub fn rows(&self) -> impl Iterator<Item = &Row> {
+        self.rows.one.iter()
+    }
+}
+
+/// The control that a file is like, read anew: files are short, and a chain is read once.
+fn like(name: &str, depth: usize) -> Option<Result<Control, Wrong>> {
+    let (name, text) = FILES.iter().find(|(known, _)| *known == name)?;
+    Some(file::read(name, text, &like, depth))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_file_that_ships_is_right() {
+        for (name, text) in FILES {
+            let control = Control::read(name, text).unwrap_or_else(|wrong| panic!("{wrong}"));
+            assert_eq!((control.name(), Control::named(name).map(Control::name)), (name, Some(name)));
+            assert!(!control.title().is_empty() && control.rows().count() > 30);
+        }
+    }
+
+    #[test]
+    fn a_shops_own_control_adds_to_another() {
+        let own = Control::read(
+            "vf2.toml",
+            "name = \"vf2\"\nlike = \"haas\"\n[codes]\n\"G201\" = { is = \"harmless\", words = \"P\" }\n",
+        )
+        .unwrap();
+        assert!(own.is_like("haas") && own.is_like("fanuc") && !own.is_like("linuxcnc"));
+        let row = own.row("G201".parse().unwrap()).unwrap();
+        assert_eq!((row.meaning, row.words), (Meaning::Harmless, Words::of("P")));
+        assert_eq!(own.row("G81".parse().unwrap()).unwrap().meaning, Meaning::Cycle);
+        assert!(own.row("G202".parse().unwrap()).is_none());
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_with_its_place() {
+        let wrong = |text: &str| Control::read("my.toml", text).unwrap_err().to_string();
+        assert!(wrong("name = 1").starts_with("my.toml:1:8: invalid type"), "{}", wrong("name = 1"));
+        assert!(wrong("name = \"a\"\nlike = \"hass\"").contains("my.toml:2:8: there is no control `hass`"));
+        assert!(wrong("name = \"a\"\nsize = 1").contains("my.toml:2:1: unknown field `size`"));
+        let codes = |row: &str| wrong(&format!("name = \"a\"\nlike = \"haas\"\n[codes]\n{row}\n"));
+        assert!(codes("\"X1\" = { is = \"work\" }").starts_with("my.toml:4:1: `X1` is no code"));
+        assert!(codes("\"G1.25\" = { is = \"work\" }").starts_with("my.toml:4:1: `G1.25` is no code"));
+        let near = codes("\"G154\" = { is = \"works\" }");
+        assert!(
+            near.starts_with("my.toml:4:17: `works` is no meaning") && near.ends_with("did you mean `work`?"),
+            "{near}"
+        );
+        assert!(codes("\"G154\" = { is = \"work\", words = \"P,\" }").contains("my.toml:4:33: `,` is no letter"));
+        assert!(
+            codes("\"G154\" = { is = \"work\" }\n\"G154\" = { is = \"line\" }").starts_with("my.toml:5:"),
+            "a code twice"
+        );
+    }
+}

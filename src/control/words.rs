@@ -1,0 +1,28 @@
+//! Sets of word letters.
+
+/// Letters of words, `A` to `Z`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Words(u32);
+
+impl Words {
+    /// None of them.
+    pub const NONE: Words = Words(0);
+
+    /// These capital letters; others count for nothing.
+    pub const fn of(text: &str) -> Words {
+        let (mut bits, mut i) = (0, 0);
+        while i < text.len() {
+            let letter = text.as_bytes()[i];
+            if letter.is_ascii_uppercase() {
+                bits |= 1 << (letter - b'A');
+            }
+            i += 1;
+        }
+        Words(bits)
+    }
+
+    /// As bits: bit 0 is A.
+    pub const fn bits(self) -> u32 {
+        self.0
+    }
+}

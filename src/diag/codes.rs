@@ -252,6 +252,7 @@ codes! {
     PR026 Note "a comment in several blocks"
     PR027 Error "a block that its control does not read"
     PR028 Error "a program that is far longer than its job"
+    PR029 Warning "a thread at constant surface speed"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

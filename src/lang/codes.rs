@@ -102,8 +102,10 @@ pub fn frame_of(tenths: i64) -> Option<Frame> {
     match tenths {
         280 | 300 | 530 => Some(Frame::Block),
         910 => Some(Frame::Increments),
-        920..=923 => Some(Frame::Shifts),
-        100 | 500 | 510 | 520 | 540..=599 | 680 | 690 => Some(Frame::Moves),
+        920 => Some(Frame::Shifts),
+        100 | 121 | 131 | 160 | 500 | 501 | 510 | 511 | 520 | 531 | 540..=599 | 680..=692 | 921..=923 | 1540 => {
+            Some(Frame::Moves)
+        }
         430..=449 | 490 => Some(Frame::MovesDepth),
         _ => None,
     }

@@ -86,7 +86,7 @@ impl Renderer<'_> {
         };
         let ccw = arc.direction == Direction::Ccw;
         let centre = self.centre(arc, axes, from, to, ccw)?;
-        self.check_radii(axes, from, to, centre)?;
+        let coarse = self.check_radii(axes, from, to, centre)?;
         target.given |= self.position.given;
         if self.attention {
             self.attend_here(true)?;
@@ -117,11 +117,15 @@ impl Renderer<'_> {
         let scale = self.form_scale;
         let printable = shape.radius >= settings.min_radius * scale
             && shape.radius <= settings.max_radius * scale
-            && (settings.helical || !climbs)
+            && (settings.helical && self.linear == 3 || !climbs)
             && (3..6).all(|axis| !self.differs_by(&target, axis));
         let shrinks = self.ends_meet(&target, axes) && shape.sweep.abs() < PI;
+        if let Some(differ) = coarse {
+            let message = format!("the arc is printed as lines: in the form's digits its radii differ by {differ:.4}");
+            self.note(Code::PR024, message, "give the axes and centre words more decimals");
+        }
         match plane {
-            Some(plane) if printable && !shrinks => match self.has_centre_words(axes, ccw) {
+            Some(plane) if printable && !shrinks && coarse.is_none() => match self.has_centre_words(axes, ccw) {
                 true => self.pieces(&Piece { axes, plane, arc: shape, target }, across),
                 false => {
                     self.note_lines(axes, ccw);
@@ -180,20 +184,24 @@ impl Renderer<'_> {
         Ok(if info.reversed { -number } else { number })
     }
 
-    /// Controls alarm, or cut something else, when start and end have different radii.
-    fn check_radii(&self, axes: [usize; 2], from: [f64; 2], to: [f64; 2], centre: [f64; 2]) -> Done {
+    /// Controls alarm, or cut something else, when start and end have different radii: the job's is an error. Whether
+    /// the form's digits make it so: then lines say it better.
+    fn check_radii(&self, axes: [usize; 2], from: [f64; 2], to: [f64; 2], centre: [f64; 2]) -> Done<Option<f64>> {
+        let allowed = if self.units == Units::Mm { 0.01 } else { 0.0005 } + 1e-9;
+        let radius = |point: [f64; 2]| (point[0] - centre[0]).hypot(point[1] - centre[1]);
+        let (start, end) = (radius(from), radius(to));
+        if (start - end).abs() > allowed {
+            let message = format!("the arc's radius is {start:.6} at its start and {end:.6} at its end");
+            return fault(Code::PR005, message, "look at the centre: both ends must be equally far from it");
+        }
         let mut radii = [0.0; 2];
         for (radius, point) in radii.iter_mut().zip([from, to]) {
             let a = self.printed(axes[0], point[0])? - self.printed(axes[0], centre[0])?;
             let b = self.printed(axes[1], point[1])? - self.printed(axes[1], centre[1])?;
             *radius = a.hypot(b);
         }
-        let allowed = if self.units == Units::Mm { 0.01 } else { 0.0005 };
-        if (radii[0] - radii[1]).abs() > allowed + 1e-9 {
-            let message = format!("the arc's radius is {:.6} at its start and {:.6} at its end", radii[0], radii[1]);
-            return fault(Code::PR005, message, "look at the centre: both ends must be equally far from it");
-        }
-        Ok(())
+        let differ = (radii[0] - radii[1]).abs();
+        Ok((differ > allowed).then_some(differ))
     }
 
     /// Do both ends print alike? A short arc would then become a full circle.
@@ -218,7 +226,10 @@ impl Renderer<'_> {
     fn has_centre_words(&self, axes: [usize; 2], ccw: bool) -> bool {
         if let Some(block) = self.program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
             let says = |axis: usize| CENTRE_OF[axis].iter().any(|&var| block.vars.has(var));
-            return block.vars.has(VarId::Arcrad) || axes.iter().all(|&axis| says(axis));
+            let planes = [Plane::Xy, Plane::Xz, Plane::Yz].map(plane_axes);
+            let own = planes.into_iter().find(|plane| plane.0 == axes).map(|plane| plane.2);
+            let elsewhere = self.says_code(block, b'G', |code| (17.0..20.0).contains(&code) && Some(code) != own);
+            return !elsewhere && (block.vars.has(VarId::Arcrad) || axes.iter().all(|&axis| says(axis)));
         }
         match &self.program.settings.centre {
             ArcCentre::Radius(_) => true,
@@ -418,8 +429,31 @@ impl Renderer<'_> {
         fault_at(Code::PR017, message, format!("begin its block with G{}", code.value), Some(block.span))
     }
 
+    /// `RevSigns` of an axis is one of its centre word too, and turns the arc round.
+    fn check_signs(&self, piece: &Piece) -> Done {
+        let settings = &self.program.settings;
+        let reversed = |axis: usize| self.letters[self.axes[axis]].reversed;
+        if let ArcCentre::Letters(letters) = Self::centre_by(settings, piece.arc.sweep.abs()) {
+            let other = |axis: &usize| {
+                let centre = self.centre_letter(letters, *axis);
+                centre.is_some_and(|letter| self.letters[letter].reversed != reversed(*axis))
+            };
+            if let Some(axis) = piece.axes.iter().copied().find(other) {
+                let axis = char::from(self.axes[axis]);
+                let message = format!("{axis} is printed with the other sign, and the arc's centre is not");
+                return fault(Code::PR017, message, "reverse its centre word too, as `RevSigns X I`");
+            }
+        }
+        if reversed(piece.axes[0]) != reversed(piece.axes[1]) && settings.cw.value < settings.ccw.value {
+            let message = "one axis of the arc's plane has the other sign, and the arc would turn the other way";
+            return fault(Code::PR017, message, "exchange the codes: `CW G3` and `CCW G2`");
+        }
+        Ok(())
+    }
+
     /// The generated block: plane, motion code, axes, centre, direction, feed.
     fn arc_block(&mut self, piece: &Piece, code: &sema::Code, centre: &[f64; 2], ccw: bool) -> Done {
+        self.check_signs(piece)?;
         let settings = &self.program.settings;
         if self.program.settings.machine == Machine::Mill {
             self.motion_word(piece.plane)?; // a lathe and a wire have but one
@@ -501,7 +535,7 @@ impl Renderer<'_> {
         for (i, &axis) in piece.axes.iter().enumerate() {
             self.vars.set(VALUES[axis], centre[i]);
             if let Some(var) = CENTRES[axis] {
-                self.vars.set(var, piece.arc.centre[i]);
+                self.vars.set(var, piece.arc.centre[i] * self.axis_scale[axis].signum());
             }
         }
         let degrees = |angle: f64| (angle.to_degrees() % 360.0 + 360.0) % 360.0;

@@ -5,6 +5,7 @@ use super::motion::MOVED;
 use super::renderer::Renderer;
 use super::words::tenths;
 use crate::compile::Op;
+use crate::control::{self, Control, Meaning};
 use crate::diag::Code;
 use crate::lang::{Frame, Group, Machine, VarId, changes_tool, frame_of, group_of, is_stop};
 
@@ -34,8 +35,8 @@ impl Renderer<'_> {
         if letter == b'M' {
             if is_stop(tenths) || self.program.settings.stop_code.contains(&value) {
                 self.stopped();
-            } else if changes_tool(tenths) {
-                self.forget_axes();
+            } else if changes_tool(tenths) || (960..=980).contains(&tenths) {
+                self.forget_axes(); // a changer, and what M96 to M98 call, go where they like
             }
         }
         if letter == b'G' || letter == b'g' {
@@ -53,6 +54,7 @@ impl Renderer<'_> {
                 Some(Frame::Increments) if lathe => self.shifted = Shift::Body,
                 Some(Frame::Moves) if self.registers.group(Group::Work) != Some(tenths) => self.forget_axes(),
                 Some(Frame::MovesDepth) => self.depth_moved = true,
+                None if group_of(letter, tenths).is_none() && !self.is_harmless(value) => self.forget_axes(),
                 _ => {}
             }
         }
@@ -78,6 +80,18 @@ impl Renderer<'_> {
             None if is_feed_mode => self.registers.forget(self.letters[settings.feed_code].printed),
             None => {}
         }
+    }
+
+    /// Is it known of the form's control that a G code, which has no modal group, moves nothing and means no other place?
+    /// Axis words in its block, as of a control's own cycle, are its own business.
+    fn is_harmless(&self, value: f64) -> bool {
+        let control = Control::named(&self.program.settings.control).unwrap_or_else(Control::usual);
+        let row = control::Code::of(b'G', value).and_then(|code| control.row(code));
+        let known = row.is_some_and(|row| row.meaning != Meaning::NotRun);
+        known
+            || self.program.settings.names_code(value)
+            || self.cycle.is_some()
+            || self.line_prints(|renderer, letter, _| renderer.axis_bit(letter) != 0)
     }
 
     /// Do axis words that are printed now stand in another frame than the job's positions?

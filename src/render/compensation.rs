@@ -46,6 +46,9 @@ impl Renderer<'_> {
         }
         let rapid = rapid && program.block(id).is_none();
         let target = self.reach(to, false)?;
+        if self.fresh_tool && !rapid {
+            self.begins_somewhere(&target)?;
+        }
         if !rapid {
             self.take_feed(feed)?;
         }

@@ -217,6 +217,9 @@ impl Renderer<'_> {
                 self.registers.set(info.printed, units, info.format.dec.count);
             }
         }
+        if !exit_known {
+            self.displaced(self.depth_bit()); // an increment must know from where
+        }
         Ok(())
     }
 

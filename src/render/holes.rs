@@ -7,7 +7,7 @@ use super::motion::ROTARY;
 use super::move_words::as_number;
 use super::renderer::Renderer;
 use super::words::Mode;
-use crate::compile::{Block, CycleStyle, LetterKind};
+use crate::compile::{Block, CycleStyle, LetterKind, Op};
 use crate::cycle::{Plan, Step, plan};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
@@ -109,7 +109,13 @@ impl Renderer<'_> {
                 self.attend()?;
             }
             match program.block(SequenceId::Index).filter(|_| self.turns(&target)) {
-                Some(_) => self.turn_to(&target)?,
+                Some(index) => {
+                    // one that does not take the tool up itself would turn the part under it
+                    if !self.names_axes(index, true) && self.is_below(&target) {
+                        self.raise(&target)?;
+                    }
+                    self.turn_to(&target)?;
+                }
                 None => self.split_rapid(&target)?,
             }
         }
@@ -195,8 +201,12 @@ impl Renderer<'_> {
         self.vars.set(VarId::D, heights.bottom);
         if matches!(block.style, CycleStyle::Emulated) {
             self.raise_to(target)?;
+            if !self.cycle.as_ref().is_some_and(|cycle| cycle.in_force) {
+                self.attend_between(target, planes, heights)?; // what Cancel switched is put back
+            }
             self.vars.set(VarId::D, heights.bottom);
             self.registers.forget_letters();
+            self.way_to_hole(block)?;
             self.shifted = Shift::None;
             self.run(block.ops.clone(), Mode::Hole)?;
             if let Some(cycle) = &mut self.cycle {
@@ -226,6 +236,9 @@ impl Renderer<'_> {
                 self.registers.forget_letters();
                 if starts {
                     self.run(block.ops.start..block.repeat, Mode::All)?;
+                    if !self.drills_at_once(block) {
+                        self.registers.forget_letters(); // the first hole needs its lines whole
+                    }
                 }
                 self.run(block.repeat..block.ops.end, Mode::Hole)?;
             }
@@ -240,7 +253,10 @@ impl Renderer<'_> {
         let higher = heights.return_plane > heights.clear + SAME;
         let returns = block.returns && (higher || !block.vars.has(VarId::Retplane));
         let exit = if returns { initial.max(heights.clear) } else { heights.clear };
-        let known = block.returns || heights.return_plane <= heights.clear + SAME;
+        // without a code that says it, the control's own setting decides whether it returns
+        let stays = self.says_code(block, b'G', |code| code == self.program.settings.return_plane[0]);
+        let low = heights.return_plane <= heights.clear + SAME;
+        let known = block.returns || low && (stays || initial <= heights.clear + SAME);
         self.left_hole(target, Some((exit, known)))
     }
 
@@ -255,6 +271,42 @@ impl Renderer<'_> {
         self.attend_between(target, planes, heights)?;
         self.vars.set(VarId::D, heights.bottom);
         self.upons(BOTTOM)
+    }
+
+    /// The way to a hole of an emulated cycle is a rapid, also where its first block with axis words says no motion.
+    fn way_to_hole(&mut self, block: &Block) -> Done {
+        let program = self.program;
+        let is_line = |i: &usize| matches!(program.ops[*i], Op::Line { .. });
+        let moves = |i: usize| {
+            let letter = match program.ops[i] {
+                Op::Var { letter, .. } => letter,
+                Op::Literal { index, .. } => program.literals[index as usize].letter,
+                _ => return false,
+            };
+            self.letters[letter].kind == LetterKind::Axis
+        };
+        let Some(first) = block.ops.clone().find(|&i| moves(i)) else { return Ok(()) };
+        let end = (first..block.ops.end).find(is_line).unwrap_or(block.ops.end);
+        let begin = Block { ops: block.ops.start..end, ..block.clone() };
+        if !self.says_code(&begin, b'G', |_| true) {
+            self.motion_block(&program.settings.rapid, &begin)?;
+        }
+        Ok(())
+    }
+
+    /// Do the first lines of a counted cycle drill a hole themselves? K0 and L0 keep the control from it.
+    fn drills_at_once(&self, block: &Block) -> bool {
+        let typed = |asked: &dyn Fn(u8, f64) -> bool| {
+            (block.ops.start..block.repeat).any(|i| match self.program.ops[i] {
+                Op::Literal { index, .. } => {
+                    let literal = &self.program.literals[index as usize];
+                    asked(literal.letter, literal.value)
+                }
+                _ => false,
+            })
+        };
+        typed(&|letter, value| letter == b'G' && is_cycle(value))
+            && !typed(&|letter, value| matches!(letter, b'K' | b'L') && value == 0.0)
     }
 
     /// What stands between holes. While the control is in its cycle nothing may come there: it would be taken for a hole, and
@@ -425,6 +477,10 @@ impl Renderer<'_> {
                     let code = if self.turning(direct)? == cw { ccw } else { cw };
                     sped_up = ratio != 1.0;
                     self.spindle_block(code, sped_up.then_some(ratio))?;
+                }
+                Step::Orient(_) if self.depth_axis == 0 => {
+                    let message = "a turned hole has no wall that the tool could leave at an angle of the spindle";
+                    return fault(Code::PR008, message, "leave `orient` and `offset` out");
                 }
                 Step::Orient(angle) => {
                     let (code, letter) = &self.program.settings.orient;

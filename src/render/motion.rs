@@ -2,7 +2,7 @@
 
 use super::codes::Shift;
 use super::fault::{Done, fault, fault_at};
-use super::move_words::AxisUnits;
+use super::move_words::{AxisUnits, as_number};
 use super::renderer::{LastMove, Renderer};
 use super::words::{Mode, tenths};
 use crate::compile::Program;
@@ -66,6 +66,9 @@ impl Renderer<'_> {
     /// A feed move of the path.
     pub(super) fn line(&mut self, to: &Axes, feed: Option<f64>) -> Done {
         let target = self.reach(to, false)?;
+        if self.fresh_tool {
+            self.begins_somewhere(&target)?;
+        }
         self.take_feed(feed)?;
         if self.attention {
             self.attend_here(true)?;
@@ -79,6 +82,18 @@ impl Renderer<'_> {
             self.upons(MOVE_VARS)?;
         }
         self.line_to(&target)
+    }
+
+    /// A new tool comes from where nobody knows: its first cut must have a beginning.
+    #[cold]
+    pub(super) fn begins_somewhere(&mut self, target: &Axes) -> Done {
+        let unknown = target.given & !self.position.given & ((1 << self.linear.min(3)) - 1);
+        self.fresh_tool = false;
+        if unknown == 0 || self.program.settings.incremental {
+            return Ok(());
+        }
+        let help = "begin it with a rapid to the beginning of its first cut";
+        fault(Code::PR012, "the operation begins with a cut from where nobody knows", help)
     }
 
     /// Where an item of the path goes, in the travel of the machine; `free`: out of the part. An open cycle ends before it.
@@ -143,7 +158,7 @@ impl Renderer<'_> {
             if self.position.given & bit != 0 {
                 let before = self.position.values[axis] * self.axis_scale[axis];
                 self.vars.set(LAST[axis], before);
-                self.vars.set(MOVED[axis], value - before);
+                self.vars.set(MOVED[axis], self.as_printed(axis, value) - self.as_printed(axis, before));
             } else {
                 self.vars.put(MOVED[axis], None);
             }
@@ -155,6 +170,13 @@ impl Renderer<'_> {
             self.check_limits(target)?;
         }
         Ok(())
+    }
+
+    /// A value in the digits of its axis: distances between such places add up without a rest.
+    #[inline]
+    fn as_printed(&self, axis: usize, value: f64) -> f64 {
+        let decimals = self.letters[self.axes[axis]].format.dec.count;
+        quantise(value, decimals).map_or(value, |units| as_number(units, decimals))
     }
 
     /// The position variables where the tool is, for a sequence that stands between moves.
@@ -204,7 +226,10 @@ impl Renderer<'_> {
         }
         let here = self.position;
         self.set_targets(&here)?;
-        self.attend()?;
+        if cuts {
+            self.knows_after_stop()?;
+        }
+        self.settle()?;
         if cuts { self.stands_at_cut() } else { Ok(()) }
     }
 
@@ -222,6 +247,12 @@ impl Renderer<'_> {
     /// What stands between events and the next move.
     #[cold]
     pub(super) fn attend(&mut self) -> Done {
+        self.knows_after_stop()?;
+        self.settle()
+    }
+
+    /// Changes that wait are printed.
+    fn settle(&mut self) -> Done {
         self.attention = false;
         self.pending_changes()?;
         self.check_distance()

@@ -1,7 +1,7 @@
 //! What is printed before a motion sequence that does not print it: the plane, the feed.
 
 use super::fault::{Done, fault_at};
-use super::renderer::Renderer;
+use super::renderer::{LastMove, Renderer};
 use crate::compile::Block;
 use crate::diag::Code;
 use crate::lang::{Machine, VarId};
@@ -39,6 +39,16 @@ impl Renderer<'_> {
     pub(super) fn motion_block(&mut self, code: &sema::Code, block: &Block) -> Done {
         self.motion_before(code, block)?;
         self.end_block();
+        Ok(())
+    }
+
+    /// After a cut, before a sequence that goes to a place and prints no motion: it goes there at rapid.
+    pub(super) fn rapid_before(&mut self, block: &Block) -> Done {
+        let cuts = matches!(self.last_move, LastMove::Line | LastMove::Cw | LastMove::Ccw);
+        if cuts && self.names_axes(block, false) {
+            let program = self.program;
+            self.motion_block(&program.settings.rapid, block)?;
+        }
         Ok(())
     }
 

@@ -100,6 +100,8 @@ pub struct Renderer<'p> {
     pub(super) tool: Option<f64>,
     pub(super) tool_order: Option<Vec<f64>>,
     pub(super) tool_changes: usize,
+    /// The tool has not moved since its change but by what the change printed.
+    pub(super) fresh_tool: bool,
     /// The spindle's limit that a prompt gave.
     pub(super) most_rpm: Option<f64>,
     pub(super) served: super::changes::Served,
@@ -169,6 +171,7 @@ impl<'p> Renderer<'p> {
             tool: None,
             tool_order: None,
             tool_changes: 0,
+            fresh_tool: false,
             most_rpm: None,
             served: super::changes::Served::default(),
             upon_used: vec![None; program.upons.len()],

@@ -231,7 +231,12 @@ impl Renderer<'_> {
         let placed = self.placed;
         self.move_to(&Axes { given: target.given & placed, ..*target });
         let left = Axes { given: target.given & !placed, ..*target };
-        if left.given == 0 { Ok(()) } else { self.rapid_to(&left) }
+        match left.given {
+            0 => Ok(()),
+            // over a hole first, down last
+            _ if self.cycle.is_some() => self.split_rapid(&left),
+            _ => self.rapid_to(&left),
+        }
     }
 
     /// A sequence that goes down must first go everywhere else that the target says.

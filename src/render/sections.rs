@@ -115,8 +115,11 @@ impl Renderer<'_> {
     /// The generated dwell block.
     pub(super) fn dwell_block(&mut self, seconds: f64) -> Done {
         let dwell = &self.program.settings.dwell;
+        let (info, time) = (&self.letters[dwell.letter], if dwell.milliseconds { seconds * 1000.0 } else { seconds });
+        let units = self.quantised(info, time)?;
+        self.check_feed(info, VarId::Dwell, time, units)?;
         self.code_word(&dwell.code)?;
-        self.parameter_word(dwell.letter, if dwell.milliseconds { seconds * 1000.0 } else { seconds })?;
+        self.parameter_word(dwell.letter, time)?;
         self.end_block();
         Ok(())
     }
@@ -147,6 +150,7 @@ impl Renderer<'_> {
     /// The program stops, or may. Many controls stop spindle and coolant with it: before the next move that cuts or
     /// crosses they are said again, whoever printed the stop.
     pub(super) fn stopped(&mut self) {
+        self.subs.stops();
         for (var, served) in [
             (VarId::Speed, &mut self.served.speed),
             (VarId::Direct, &mut self.served.direct),
@@ -227,6 +231,7 @@ impl Renderer<'_> {
             return fault(Code::PR008, message, "take it out: StartCode and EndCode print it");
         }
         self.close_cycle()?;
+        self.fresh_tool = false;
         if text.trim().is_empty() {
             return Ok(()); // an empty block is not printed
         }

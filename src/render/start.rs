@@ -9,7 +9,7 @@ use super::words::Mode;
 use crate::compile::{Block, Op};
 use crate::cycle::Defaults;
 use crate::diag::Code;
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{SequenceId, VarId, work_code};
 use crate::sema::{Settings, UnitChoice};
 use crate::toolpath::{FeedMode, Start, Units};
 
@@ -93,10 +93,13 @@ impl Renderer<'_> {
         self.vars.set(VarId::Coolantoff, settings.coolant[1]);
         self.vars.set(VarId::Flush, settings.flush[1]);
         self.vars.set(VarId::Speedtype, settings.speed_type[1]);
-        self.vars.set(VarId::Work, settings.work_default);
+        // a form that counts its offsets from 1 counts the default code so too
+        let default = settings.work_default;
+        let work = if default < 50.0 { default } else { work_code(settings.work, default).unwrap_or(default) };
+        self.vars.set(VarId::Work, work);
         self.vars.set(VarId::Cool, settings.coolant[1]);
         self.vars.set(VarId::Lasthole, 0.0);
-        self.served.work = Some(settings.work_default);
+        self.served.work = Some(work);
         self.served.cool = Some(settings.coolant[1]);
         self.served.speed_type = Some(settings.speed_type[1]);
         self.set_feed_mode(FeedMode::PerMinute);
@@ -192,6 +195,9 @@ impl Renderer<'_> {
     pub(super) fn finish(&mut self) -> Done {
         self.close_cycle()?;
         self.check_sections_closed()?;
+        if !self.program.settings.incremental {
+            self.check_distance()?; // their positions too
+        }
         if self.compensated {
             let message = "cutter compensation is still on at the end of the program";
             self.note(Code::PR023, message.into(), "end it with an `outfeed`");

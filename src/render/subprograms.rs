@@ -30,6 +30,15 @@ pub(super) struct Subprograms {
     pub(super) start_waits: bool,
     /// What is so in the main program, while a subprogram is written.
     main: Option<Box<State>>,
+    /// The open subprogram printed a stop, or called one that does.
+    stopped: bool,
+}
+
+impl Subprograms {
+    /// A stop was printed.
+    pub(super) fn stops(&mut self) {
+        self.stopped |= self.open.is_some();
+    }
 }
 
 /// What a subprogram's own items must not change for the program around it.
@@ -49,6 +58,8 @@ struct Left {
     upon_used: Vec<Option<f64>>,
     /// A rotary axis turned.
     turned: bool,
+    /// It stopped: spindle and coolant may stand, whoever calls it.
+    stops: bool,
 }
 
 impl Left {
@@ -194,7 +205,7 @@ impl Renderer<'_> {
         self.forget_where();
         let Some(main) = self.subs.main.take() else { return };
         let upon_used = std::mem::replace(&mut self.upon_used, main.upon_used);
-        let left = Left { served: self.served, upon_used, turned };
+        let left = Left { served: self.served, upon_used, turned, stops: std::mem::take(&mut self.subs.stopped) };
         (self.vars, self.served, self.angles) = (main.vars, main.served, main.angles);
         self.keep_feed(main.feed);
         if let Some(sub) = self.subs.open.take().and_then(|open| self.subs.defined.get_mut(open)) {
@@ -296,8 +307,10 @@ impl Renderer<'_> {
             if run > 0 && leaves {
                 self.pending_changes()?;
             }
+            self.upons(block.vars)?;
+            self.rapid_before(block)?;
             self.registers.forget_all();
-            self.run_with_upons(block)?;
+            self.run_block(block)?;
             self.after_call(called);
         }
         // the call's work offset is the call's alone: what follows is in the operation's again
@@ -328,12 +341,27 @@ impl Renderer<'_> {
         Ok(target)
     }
 
+    /// In a subprogram, a move after a stop needs a spindle that it knows: its caller may have said any.
+    pub(super) fn knows_after_stop(&self) -> Done {
+        let unknown = |var: VarId| self.vars.get(var).is_none();
+        if !self.subs.stopped || !(unknown(VarId::Speed) || unknown(VarId::Direct)) {
+            return Ok(());
+        }
+        let help = "give it its own `spindle` before the stop, and its `coolant`";
+        fault(Code::PR008, "the subprogram goes on after a stop, and nobody knows its spindle here", help)
+    }
+
     /// The subprogram moved the tool, and changed what it says it changed.
     fn after_call(&mut self, called: Option<usize>) {
+        self.fresh_tool = false;
         self.forget_where();
         let known = called.map(|i| &self.subs.defined[i]).filter(|sub| !sub.calls_ahead);
         match known {
             Some(sub) => {
+                if sub.left.stops {
+                    (self.served.speed, self.served.direct, self.served.cool) = (None, None, None);
+                }
+                self.subs.stopped |= sub.left.stops && self.subs.open.is_some();
                 self.served = self.served.then(&sub.left.served);
                 for (used, left) in self.upon_used.iter_mut().zip(&sub.left.upon_used) {
                     *used = left.filter(|value| !value.is_nan()).or(*used);

@@ -43,6 +43,15 @@ impl Renderer<'_> {
         if !self.vars.get(VarId::Direct).is_some_and(|code| code != program.settings.spindle[2]) {
             return fault(Code::PR006, "the spindle does not turn", "give the operation a spindle with a direction");
         }
+        if self.compensated {
+            let help = "end the compensation with an `outfeed` before";
+            return fault(Code::PR006, "a thread under cutter compensation", help);
+        }
+        if self.vars.get(VarId::Speedtype) == Some(program.settings.speed_type[0]) {
+            let message =
+                "a thread at constant surface speed: each pass turns otherwise, and begins elsewhere".to_owned();
+            self.note(Code::PR029, message, "give its operation a spindle with \"mode\": \"rpm\"");
+        }
         if program.settings.incremental {
             let help = "thread with a form of positions";
             return fault(Code::PR008, "a thread's words are positions, and the form prints increments", help);

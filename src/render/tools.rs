@@ -16,6 +16,9 @@ impl Renderer<'_> {
         self.close_cycle()?;
         self.check_sections_closed()?;
         self.begin_main()?;
+        if !self.program.settings.incremental {
+            self.check_distance()?; // their positions too
+        }
         let number = change.tool.as_ref().map(|tool| tool.number);
         let changes = number.is_some() && number != self.tool;
         if number.is_none() && self.tool.is_none() && self.program.settings.machine != Machine::Edm {
@@ -56,6 +59,9 @@ impl Renderer<'_> {
             self.vars.put(VarId::Maxrpm, self.most_rpm);
             self.vars.set(VarId::Speedtype, self.program.settings.speed_type[1]);
         }
+        if change.spindle.is_some_and(|spindle| spindle.speed.is_some() && spindle.css.is_none()) {
+            self.vars.set(VarId::Speedtype, self.program.settings.speed_type[1]); // revolutions, unless it says otherwise
+        }
         if let Some(spindle) = &change.spindle {
             self.set_spindle(spindle)?;
         }
@@ -68,7 +74,7 @@ impl Renderer<'_> {
             self.set_work(work)?;
         }
         if let (Some(tool), Machine::Lathe) = (&change.tool, self.program.settings.machine) {
-            self.vars.set(VarId::Comp, self.turret_word(tool));
+            self.vars.set(VarId::Comp, self.turret_word(tool)?);
         }
         for (name, value) in &change.set {
             let var = settable(name)?;
@@ -94,6 +100,7 @@ impl Renderer<'_> {
         let is_first = self.tool.is_none();
         self.tool_variables(tool)?;
         self.tool = Some(tool.number);
+        self.fresh_tool = true;
         self.tool_changes += 1;
         let id = if is_first { SequenceId::FirstToolChange } else { SequenceId::ToolChange };
         let block = program.block(id);
@@ -156,12 +163,21 @@ impl Renderer<'_> {
 
     /// `[comp]`, the T word of a lathe: station and offset register in two digits each. A job's number that holds both
     /// stays as it is.
-    fn turret_word(&self, tool: &Tool) -> f64 {
+    fn turret_word(&self, tool: &Tool) -> Done<f64> {
         const STATIONS: f64 = 100.0;
-        if tool.number >= STATIONS {
-            return tool.number;
+        let whole = tool.number >= STATIONS;
+        let register = match tool.length_offset {
+            None if whole => return Ok(tool.number),
+            own => own.unwrap_or(tool.number + self.program.settings.lcomp),
+        };
+        let other = whole && register != tool.number % STATIONS && register != tool.number;
+        if self.program.printed.has(VarId::Comp) && (other || !whole && register >= STATIONS) {
+            let message =
+                format!("tool {} with the offset register {register} has no T word of two and two digits", tool.number);
+            let help = "give it a register below 100, and a number from 100 on only if it holds the register";
+            return fault(Code::PR017, message, help);
         }
-        tool.number * STATIONS + tool.length_offset.unwrap_or(tool.number + self.program.settings.lcomp)
+        Ok(if whole { tool.number } else { tool.number * STATIONS + register })
     }
 
     fn tool_variables(&mut self, tool: &Tool) -> Done {

@@ -64,8 +64,8 @@ const POSITIONS: VarSet = VarSet::of(&[
     VarId::Pointd,
 ]);
 
-/// Variables of feeds and pecks: rounded to nothing, they would stop the machine or never end.
-const FEEDS: VarSet = VarSet::of(&[VarId::Frate, VarId::Plunge, VarId::Pitch, VarId::Vbite]);
+/// Variables of feeds, pecks and dwells: rounded to nothing, they would stop the machine, never end, or not be.
+const FEEDS: VarSet = VarSet::of(&[VarId::Frate, VarId::Plunge, VarId::Pitch, VarId::Vbite, VarId::Dwell]);
 
 impl Renderer<'_> {
     /// The place in the form of what is being printed.

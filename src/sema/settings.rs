@@ -198,6 +198,16 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// Do the form's commands name this G code, so that what it does is known?
+    pub fn names_code(&self, value: f64) -> bool {
+        let codes = [Some(&self.rapid), Some(&self.feed), Some(&self.cw), Some(&self.ccw), Some(&self.dwell.code)];
+        let more = [self.depth_rapid.as_ref(), self.thread.as_ref(), Some(&self.orient.0)];
+        let mut codes = codes.into_iter().chain(more).flatten().chain(&self.planes);
+        let numbers =
+            [&self.feed_type[..], &self.speed_type, &self.cdc, &self.inc_abs, &self.inch_mm, &self.return_plane];
+        codes.any(|code| code.value == value) || numbers.iter().any(|numbers| numbers.contains(&value))
+    }
+
     /// The defaults for a type of machine and the form's units.
     pub fn new(machine: Machine, units: UnitChoice) -> Self {
         let lathe = machine == Machine::Lathe;

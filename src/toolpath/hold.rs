@@ -19,6 +19,10 @@ pub struct Hold<'s> {
     depth: u8,
     /// Where the rapids so far lead, while they do not say all axes: of each the first place.
     first: Axes,
+    /// The tool that is in.
+    tool: Option<f64>,
+    /// The change that is held loads another one.
+    changes: bool,
 }
 
 /// An event that stands before the first move, owned.
@@ -26,13 +30,34 @@ enum Waiting {
     Plain(Event<'static>),
     Comment(String),
     Text(String),
+    Set(String, f64),
     Cycle(Box<CycleSpec>),
+}
+
+impl Waiting {
+    /// Comments, rapids and changes: nothing of theirs is printed by a sequence before the tool change.
+    fn prints_nothing(&self) -> bool {
+        matches!(
+            self,
+            Waiting::Comment(_)
+                | Waiting::Plain(Event::Rapid(_) | Event::Feed(_) | Event::Spindle(_) | Event::Coolant(_))
+        )
+    }
 }
 
 impl<'s> Hold<'s> {
     /// In front of `sink`.
     pub fn new(sink: &'s mut dyn Sink) -> Self {
-        Hold { sink, change: None, waiting: Vec::new(), axes: 0b111, depth: 0b100, first: Axes::default() }
+        Hold {
+            sink,
+            change: None,
+            waiting: Vec::new(),
+            axes: 0b111,
+            depth: 0b100,
+            first: Axes::default(),
+            tool: None,
+            changes: false,
+        }
     }
 
     /// Holds a tool change; its `first` is filled in here.
@@ -41,6 +66,9 @@ impl<'s> Hold<'s> {
     /// Those of the sink for what was held before.
     pub fn tool_change(&mut self, change: ToolChange, place: Place) -> Result<(), Box<Diag>> {
         self.release(First::Nothing)?;
+        let tool = change.tool.as_ref().map(|tool| tool.number);
+        self.changes = tool.is_some() && tool != self.tool;
+        self.tool = tool.or(self.tool);
         self.change = Some((change, place));
         Ok(())
     }
@@ -57,6 +85,7 @@ impl<'s> Hold<'s> {
                 Waiting::Plain(event) => event.clone(),
                 Waiting::Comment(text) => Event::Comment(text),
                 Waiting::Text(text) => Event::Text(text),
+                Waiting::Set(name, value) => Event::Set(name, *value),
                 Waiting::Cycle(spec) => Event::CycleBegin(spec),
             };
             self.sink.event(event, place)?;
@@ -64,12 +93,24 @@ impl<'s> Hold<'s> {
         Ok(())
     }
 
-    /// A rapid goes there: of each axis the first place is kept.
+    /// A rapid goes there: of each axis the first place is kept. Another tool has no height before it is told one: ways
+    /// across are those of its change, which goes down at the last of them.
     fn reaches(&mut self, to: &Axes) {
+        if self.changes && self.first.given & self.depth == 0 && self.first.given & to.given & !self.depth != 0 {
+            self.first.given &= !to.given;
+            self.forget_ways();
+        }
         let new = to.given & !self.first.given;
         for axis in (0..6).filter(|axis| new & 1 << axis != 0) {
             self.first.set(axis, to.values[axis]);
         }
+    }
+
+    /// Rapids that tell no height, before a tool change that goes to a later place.
+    fn forget_ways(&mut self) {
+        let (depth, changes) = (self.depth, self.changes);
+        let is_way = |w: &Waiting| matches!(w, Waiting::Plain(Event::Rapid(to)) if changes && to.given & depth == 0);
+        self.waiting.retain(|(waiting, _)| !is_way(waiting));
     }
 
     #[cold]
@@ -83,7 +124,7 @@ impl<'s> Hold<'s> {
                 return Ok(());
             }
             // so does what switches the spindle and the coolant before anything else is done
-            Event::Spindle(spindle) if self.waiting.iter().all(|(w, _)| matches!(w, Waiting::Comment(_))) => {
+            Event::Spindle(spindle) if self.waiting.iter().all(|(w, _)| w.prints_nothing()) => {
                 if let Some((change, _)) = &mut self.change {
                     let before = change.spindle.unwrap_or_default();
                     change.spindle = Some(Spindle {
@@ -114,11 +155,15 @@ impl<'s> Hold<'s> {
                     self.reaches(&Axes { given: hole.at.given & self.axes & !self.depth, ..hole.at });
                 } else {
                     self.first = Axes::default();
+                    self.forget_ways(); // the tool change goes over the hole at once
                 }
                 self.release(spec.map_or(First::Cut, |spec| First::Hole(spec, hole)))?;
                 return self.sink.event(event, place);
             }
             Event::Thread(thread) => {
+                if self.first.given != 0 {
+                    self.reaches(&Axes { given: thread.from.given & self.axes, ..thread.from });
+                }
                 self.release(First::Rapid(thread.from))?;
                 return self.sink.event(event, place);
             }
@@ -153,12 +198,13 @@ impl<'s> Hold<'s> {
             Event::Comment(text) => Waiting::Comment(text.to_owned()),
             Event::Text(text) => Waiting::Text(text.to_owned()),
             // values too are those of the tool change: it may print them
-            Event::Set(name, value) => {
+            Event::Set(name, value) if self.waiting.iter().all(|(w, _)| w.prints_nothing()) => {
                 if let Some((change, _)) = &mut self.change {
                     change.set.push((name.to_owned(), value));
                 }
                 return Ok(());
             }
+            Event::Set(name, value) => Waiting::Set(name.to_owned(), value),
             Event::Tilt(axis) => Waiting::Plain(Event::Tilt(axis)),
             Event::Begin(section) => Waiting::Plain(Event::Begin(section)),
             Event::End(section) => Waiting::Plain(Event::End(section)),

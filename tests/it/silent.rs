@@ -226,3 +226,226 @@ fn an_index_serves_a_new_work_offset() {
     let at = lines.iter().position(|line| line == "G55").unwrap_or_else(|| panic!("{lines:?}"));
     assert_eq!(lines[at..at + 6], ["G55", "G0 G53 Z0", "A90.", "X2. Y3.", "Z1.", "G1 Z0 F5."]);
 }
+
+/// The height is told last: the tool goes down where it is told, and crosses nothing at that height.
+#[test]
+fn a_tool_change_goes_down_at_the_last_place() {
+    let path = |items: &str| job("@").replace("{\"rapid\":[0,0,1]},@", items);
+    let items = "{\"rapid\":[0,0]},{\"rapid\":[5,5]},{\"rapid\":[null,null,0.1]},{\"line\":[5,5,-1]}";
+    assert_eq!(program(&mill("", ""), &path(items))[3..], ["G0 G54 X5. Y5. Z.1", "G1 Z-1. F10.", "M30"]);
+    let hole = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[5,6,0]]}}";
+    let lines = program(&mill("", ""), &path(&format!("{{\"rapid\":[1,1]}},{hole}")));
+    assert_eq!(lines[3..5], ["G0 G54 X5. Y6. Z.1", "G1 Z-1. F5."]);
+}
+
+/// Values before the first move keep their order where something between them is printed.
+#[test]
+fn values_before_the_first_move_keep_their_order() {
+    let form = mill("", "BeginRow\nM[val1]\nEnd");
+    let row = "{\"begin\":\"row\"},{\"end\":\"row\"}";
+    let items = format!("{{\"set\":{{\"val1\":41}}}},{row},{{\"set\":{{\"val1\":42}}}},{{\"rapid\":[0,0,1]}},{row}");
+    let text = job("@").replace("{\"rapid\":[0,0,1]},@", &items);
+    let said: Vec<_> = program(&form, &text).into_iter().filter(|line| line.starts_with("M4")).collect();
+    assert_eq!(said, ["M41", "M42"]);
+}
+
+const SUBS: &str = "SubStart\nO[sub]\nEnd\nSubEnd\nM99\nEnd\nSubCall\nM98 P[sub]\nEnd";
+
+/// A job with one subprogram and this path of its operation.
+fn with_sub(sub: &str, path: &str) -> String {
+    job(path).replace("\"operations\"", &format!("\"subprograms\":[{{\"number\":1,\"path\":[{sub}]}}],\"operations\""))
+}
+
+/// The way to a call, and that of an Upon, is a rapid also where the form does not say so.
+#[test]
+fn the_way_to_a_call_is_a_rapid() {
+    let text = with_sub("{\"rapid\":[3,3,1]}", "{\"line\":[1,0,0]},{\"call\":{\"sub\":1,\"at\":[3,3]}}");
+    let subs = SUBS.replace("M98", "X[h] Y[v]\nM98");
+    let lines = program(&mill("", &subs), &text);
+    let at = lines.iter().position(|line| line == "X3. Y3.").unwrap_or_else(|| panic!("{lines:?}"));
+    assert_eq!(lines[at - 1], "G0");
+    let upon = "Upon [work]\nG[work] X[h] Y[v]\nEnd";
+    let lines = path_lines("", upon, "{\"line\":[1,0,1]},{\"work\":55},{\"rapid\":[5,5,1]}");
+    assert_eq!(lines[1..3], ["G0", "G55 X5. Y5."]);
+}
+
+/// A stop in a subprogram is one for its caller too; what goes on in it must know its spindle.
+#[test]
+fn a_stop_in_a_subprogram_is_known_behind_its_call() {
+    let path = "{\"call\":{\"sub\":1}},{\"rapid\":[0,0,1]},{\"line\":[1,0,0]}";
+    let lines = program(&mill("", SUBS), &with_sub("{\"rapid\":[0,0,1]},{\"stop\":\"program\"}", path));
+    let at = lines.iter().position(|line| line == "M98 P1").unwrap_or_else(|| panic!("{lines:?}"));
+    assert_eq!(lines[at + 1], "S1000 M3");
+    let cuts = "{\"rapid\":[0,0,1]},{\"stop\":\"program\"},{\"line\":[0,0,0],\"feed\":5}";
+    assert!(program(&mill("", SUBS), &with_sub(cuts, path))[0].starts_with("PR008"));
+    let own = format!("{{\"spindle\":{{\"speed\":9,\"direction\":\"cw\"}}}},{cuts}");
+    let lines = program(&mill("", SUBS), &with_sub(&own, path));
+    assert!(lines.windows(2).any(|pair| pair == ["M0", "S9 M3"]), "{lines:?}");
+}
+
+/// A lathe's T word has two digits for the station and two for the register.
+#[test]
+fn a_turret_has_no_other_registers() {
+    let text = |tool: &str, number: u32| {
+        format!(
+            "{{\"postform\":1,\"program\":1,\"units\":\"inch\",\"machine\":\"lathe\",\"tools\":[{tool}],\"operations\":[{{\"tool\":{number},\
+             \"spindle\":{{\"speed\":500,\"direction\":\"cw\",\"max\":1000}},\"feed\":0.01,\"path\":[{{\"rapid\":[0.1,1]}}]}}]}}"
+        )
+    };
+    for (tool, number) in [("{\"number\":1,\"length_offset\":101}", 1), ("{\"number\":101,\"length_offset\":11}", 101)]
+    {
+        assert!(post("fanuc-lathe", &text(tool, number))[0].starts_with("PR017"), "{tool}");
+    }
+    // nobody knows where another tool stands: it does not begin with a cut
+    for path in ["{\"line\":[-1,0.5]}", "{\"rapid\":[null,0.5]},{\"line\":[-1]}"] {
+        let job = text("{\"number\":1}", 1).replace("{\"rapid\":[0.1,1]}", path);
+        assert!(post("haas-lathe", &job)[0].starts_with("PR012"), "{path}");
+    }
+    let bore = "{\"rapid\":[0.1,0]},{\"cycle\":{\"kind\":\"bore\",\"depth\":1,\"clear\":0.1,\"orient\":0,\"offset\":0.02,\"feed\":0.01,\"points\":[[0,0]]}}";
+    let job = text("{\"number\":1}", 1).replace("{\"rapid\":[0.1,1]}", bore);
+    assert!(post("haas-lathe", &job)[0].starts_with("PR008"), "{:?}", post("haas-lathe", &job));
+}
+
+/// What a macro does, and codes that nobody described, leave no position certain.
+#[test]
+fn after_a_macro_the_place_is_said_again() {
+    let lines = |head: &str, line: &str| {
+        let change = format!("X[h] Y[v] Z[d]\n{line}\nEnd\nToolChange");
+        program(&mill(head, "").replace("X[h] Y[v] Z[d]\nEnd\nToolChange", &change), &job("{\"line\":[0,0,0]}"))
+    };
+    let again = |head: &str, line: &str| lines(head, line).iter().any(|line| line == "G0 X0 Y0 Z1.");
+    for line in ["G65 P9010", "M98 P9010", "G154 P2", "G110", "G254", "G68.2 P1", "G16", "G51.1 P1", "G199"] {
+        assert!(again("Control haas", line), "{line}: {:?}", lines("Control haas", line));
+    }
+    for line in ["G187 P1", "G64", "G4 P1", "G5.1 Q1"] {
+        assert!(!again("Control haas", line), "{line}: {:?}", lines("Control haas", line));
+    }
+}
+
+/// An axis with the other sign has its arcs' centre and turn with it.
+#[test]
+fn reversed_axes_reverse_their_arcs() {
+    let arc = "{\"arc\":{\"to\":[2,0],\"center\":[1,0.5],\"direction\":\"ccw\"}}";
+    assert!(path_lines("RevSigns X", "", arc)[0].starts_with("PR017"));
+    assert!(path_lines("RevSigns X I", "", arc)[0].starts_with("PR017"));
+    assert_eq!(path_lines("RevSigns X I\nCW G3\nCCW G2", "", arc), ["G17 G2 X-2. I-1. J.5 F10."]);
+}
+
+/// An arc of the lower wire guide with a move of the upper one is no helix.
+#[test]
+fn an_arc_of_one_guide_is_printed_as_lines() {
+    let text = "{\"postform\":1,\"program\":7,\"units\":\"mm\",\"machine\":\"edm\",\"operations\":[{\"work\":54,\"feed\":3,\"path\":[\
+        {\"rapid\":[0,0,0,0]},{\"arc\":{\"to\":[10,10,8,0],\"center\":[0,10],\"direction\":\"ccw\"}}]}]}";
+    let lines = post("wire-edm", text);
+    assert!(lines.len() > 5 && lines.iter().all(|line| !line.contains("G3")), "{lines:?}");
+}
+
+/// Increments of a sequence count between printed positions, as generated ones do: they add up without a rest.
+#[test]
+fn increments_of_a_sequence_add_up() {
+    let line = "LineCode\nG1 X[hdist] Y[vdist] Z[ddist] F[frate]\nEnd";
+    let sum = |step: f64, count: u32| {
+        let path: Vec<_> = (1..=count).map(|i| format!("{{\"line\":[{:.5},0,1]}}", step * f64::from(i))).collect();
+        let lines = path_lines("X->4.>3\nIncremental? Y", line, &path.join(","));
+        let words = lines.iter().flat_map(|line| line.split(' '));
+        words.filter_map(|word| word.strip_prefix('X')?.parse::<f64>().ok()).sum::<f64>()
+    };
+    assert!((sum(0.0004, 2000) - 0.8).abs() < 1e-6, "{}", sum(0.0004, 2000));
+    assert!((sum(0.03333, 6) - 0.2).abs() < 1e-6, "{}", sum(0.03333, 6));
+}
+
+const HOLES: &str = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":";
+
+/// What Cancel switches off between two holes is on again at the next.
+#[test]
+fn a_cancel_between_holes_leaves_the_spindle_turning() {
+    let drill = "Drill\nG0 X[h] Y[v]\nG98 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let form = mill("", drill).replace("Cancel\nG80\nEnd", "Cancel\nG80\nM5\nEnd");
+    let lines = program(&form, &job(&format!("{HOLES}[[1,1,0],[2,1,3]]}}}}")));
+    let (stop, hole) = (lines.iter().position(|l| l == "M5"), lines.iter().rposition(|l| l.contains("G81")));
+    assert!(lines[stop.unwrap()..hole.unwrap()].iter().any(|line| line.ends_with("M3")), "{lines:?}");
+}
+
+/// A counted cycle whose first lines only set it up drills its first hole by its other lines.
+#[test]
+fn a_cycle_that_waits_for_its_holes_drills_the_first() {
+    let first_hole = |first: &str| {
+        let form = format!("Drill 1\nG98 G81 X[h] Y[v] Z[d] R[vclear] F[frate]{first}\nX[h] Y[v]\nEnd Cancel");
+        let lines = path_lines("", &form, &format!("{HOLES}[[1,1,0],[2,1,0]]}}}}"));
+        lines.contains(&"X1. Y1.".to_owned())
+    };
+    assert!(first_hole(" K0") && first_hole(" L0") && !first_hole(""));
+}
+
+/// Increments behind a cycle count from a height that somebody knows, or are an error.
+#[test]
+fn no_increment_from_a_height_that_nobody_knows() {
+    let drill = "Drill\nG90\nG98 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let form = mill("Incremental? Y", drill)
+        .replace("Cancel\nG80\nEnd", "Cancel\nG80 G91\nEnd")
+        .replace("G0 G[work] X[h] Y[v] Z[d]", "G90 G0 G[work] X[h] Y[v] Z[d]\nG91");
+    for typed in ["G98", "G99"] {
+        let path = format!("{{\"rapid\":[0,0,4]}},{HOLES}[[1,1,0]],\"return\":2}}}},{{\"line\":[3,1,-0.5]}}");
+        let lines = program(&form.replace("G98", typed), &job(&path));
+        assert!(typed == "G98" || lines[0].starts_with("PR001 an increment of Z"), "{lines:?}");
+    }
+}
+
+/// An arc is not printed in the plane that its sequence types when it lies in another.
+#[test]
+fn an_arc_of_another_plane_is_not_printed_in_the_sequences_own() {
+    let arc =
+        "{\"line\":[0,0,0]},{\"arc\":{\"to\":[0,1,1],\"center\":[null,0,1],\"direction\":\"cw\",\"plane\":\"yz\"}}";
+    for centre in ["I[ival] J[jval] K[kval]", "R[arcrad]"] {
+        let lines = path_lines("", &format!("CwCode\nG17 G2 X[h] Y[v] Z[d] {centre} F[frate]\nEnd"), arc);
+        assert!(lines.len() > 4 && lines.iter().all(|line| !line.contains("G2")), "{lines:?}");
+    }
+}
+
+/// The offset of a job that names none is counted as the form counts.
+#[test]
+fn the_default_offset_is_counted_as_the_form_counts() {
+    let form = mill("Work 1", "").replace("G0 G[work]", "G15 H[work]\nG0");
+    let lines = program(&form, &job("{\"line\":[1,0,1]}").replace("\"work\":54,", ""));
+    assert_eq!(lines[3], "G15 H1");
+}
+
+/// A hole behind an Index is reached across first and down last, and the part turns under no tool.
+#[test]
+fn a_hole_behind_an_index_is_reached_across_first() {
+    let form = "Index\nG0 G53 Z0\nA[rotangle]\nEnd\nDrill\nG98 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let cycle = format!("{HOLES}[[1,1,0,90],[4,2,0,180]]}}}}");
+    let lines = path_lines("", form, &cycle);
+    let at = lines.iter().rposition(|line| line == "A180.").unwrap_or_else(|| panic!("{lines:?}"));
+    assert_eq!(lines[at + 1..at + 3], ["G0 X4. Y2.", "Z.1"]);
+    let low = form.replace("G0 G53 Z0\nA", "G0 A");
+    let lines = path_lines("", &low, &format!("{{\"line\":[1,1,-0.1]}},{cycle}"));
+    let turn = lines.iter().position(|line| line.ends_with("A90.")).unwrap_or_else(|| panic!("{lines:?}"));
+    assert!(lines[..turn].iter().any(|line| line.ends_with("Z.1")), "{lines:?}");
+}
+
+/// The way to a hole is a rapid, also where an emulated cycle begins without a motion code.
+#[test]
+fn the_way_to_an_emulated_hole_is_a_rapid() {
+    let drill = "Drill\nX[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd";
+    let lines = path_lines("", drill, &format!("{{\"line\":[0.5,0,1]}},{HOLES}[[1,1,0],[2,1,0]]}}}}"));
+    assert_eq!(lines[1..3], ["G0", "X1. Y1."], "{lines:?}");
+}
+
+/// A dwell does not vanish in the digits of its letter.
+#[test]
+fn dwells_that_lose_digits_are_said() {
+    let dwell = |head: &str, seconds: &str| path_lines(head, "", &format!("{{\"dwell\":{seconds}}}"));
+    assert!(dwell("P >4", "0.4")[0].starts_with("PR002 [dwell] is 0.4 and prints as 0"), "{:?}", dwell("P >4", "0.4"));
+    assert_eq!(dwell("P >4.>1", "0.4"), ["G4 P.4"]);
+}
+
+/// An arc whose radii differ only in the digits of the form is printed as lines, with a note; a wrong centre is an error.
+#[test]
+fn arcs_in_coarse_digits_are_lines() {
+    let path = "{\"line\":[-0.28491,0.37034,1]},{\"arc\":{\"to\":[-0.65683,2.01101],\"center\":[-1.1415,1.03865],\"direction\":\"ccw\"}}";
+    let coarse = support::render(&mill("X->4.>3\nY->4.>3\nI->4.>3\nJ->4.>3", ""), &job(path)).unwrap();
+    assert!(!coarse.text.contains("G3") && coarse.notes[0].code.name() == "PR024", "{coarse:?}");
+    assert!(support::render(&mill("", ""), &job(path)).unwrap().text.contains("G3"));
+    assert!(path_lines("", "", &path.replace("1.03865", "1.05"))[0].starts_with("PR005"));
+}

@@ -454,6 +454,7 @@ impl<'s> Reader<'s> {
     }
 
     pub(super) fn end(&mut self) -> Done {
+        self.lone_insert();
         self.end_cycle()?;
         self.ended = true;
         Ok(())

@@ -59,7 +59,16 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct Text {
     line: Option<usize>,
+    longer: Option<Longer>,
     open_comments: Option<bool>,
+}
+
+/// What becomes of a block that is longer.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Longer {
+    Stops,
+    Cut,
 }
 
 /// `[words]`: words that need no code.
@@ -149,6 +158,7 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
     control.title = file.title.unwrap_or(control.title);
     control.rules = file.rules.unwrap_or(control.rules);
     control.longest_line = file.text.line.or(control.longest_line);
+    control.stops_at_longer = file.text.longer.map_or(control.stops_at_longer, |longer| longer == Longer::Stops);
     control.open_comments = file.text.open_comments.unwrap_or(control.open_comments);
     if let Some(words) = &file.words.everywhere {
         control.everywhere = reader.words(words)?;

@@ -39,6 +39,7 @@ pub struct Control {
     title: String,
     rules: Rules,
     longest_line: Option<usize>,
+    stops_at_longer: bool,
     open_comments: bool,
     everywhere: Words,
     work_letter: Option<u8>,
@@ -179,6 +180,7 @@ impl Control {
             title: String::new(),
             rules: Rules::default(),
             longest_line: None,
+            stops_at_longer: false,
             open_comments: false,
             everywhere: Words::NONE,
             work_letter: None,
@@ -210,6 +212,11 @@ impl Control {
     /// Its longest block in characters; `None`: nothing public says.
     pub fn longest_line(&self) -> Option<usize> {
         self.longest_line
+    }
+
+    /// Does it stop at a longer block? Of others a sender cuts what is too long.
+    pub fn stops_at_longer(&self) -> bool {
+        self.stops_at_longer
     }
 
     /// May a comment go on to the end of its line without its closing mark?

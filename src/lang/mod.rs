@@ -4,7 +4,6 @@
 
 mod codes;
 mod commands;
-mod controls;
 mod machine;
 mod sequences;
 mod suggest;
@@ -15,7 +14,6 @@ pub use codes::{
     moves_by_itself, work_code,
 };
 pub use commands::{Args, COMMANDS, Command, CommandId};
-pub use controls::longest_block;
 pub use machine::{Machine, Machines};
 pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
 pub use suggest::{LONGEST_NAME, did_you_mean, nearest};

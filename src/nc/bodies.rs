@@ -54,8 +54,8 @@ impl Machine {
         self.feed_to(hole.over(height), hole.feed, out);
     }
 
-    /// Drills, from over the hole at R to over the hole at the clear level. `from`: where the next peck of a hole ends that
-    /// was begun; so is the answer, where the rest has to wait.
+    /// Drills, from over the hole at R to over the hole at the clear level. `from`: the hole was begun, and its next peck
+    /// ends there. The answer: the depth at which the next peck ends, where there are actions enough for one call.
     pub(super) fn drill(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
         let emc2 = self.control.rules() == Rules::Emc2;
         match hole.code {

@@ -83,7 +83,7 @@ pub fn g_code(control: &'static Control, code: u16) -> Option<&'static Row> {
     control.row(Code { letter: b'G', tenths: code }).filter(|row| row.meaning != Meaning::NotRun)
 }
 
-/// Why a code that some control has is not run.
+/// Why a G code that this control has is not run.
 pub fn why_not_run(control: &Control, code: u16) -> Option<&str> {
     let row = control.row(Code { letter: b'G', tenths: code })?;
     (row.meaning == Meaning::NotRun).then_some(row.text.as_str())

@@ -170,7 +170,7 @@ impl Machine {
             return refuse(Code::PN007, "G33 without K", "write K with the distance of one turn");
         };
         let mut to = self.target(block)?;
-        if block.g(Group::Motion) == Some(331) || self.motion == 331 {
+        if block.g(Group::Motion).unwrap_or(self.motion) == 331 {
             to[3..].copy_from_slice(&self.position[3..]); // a tap turns no axis
         }
         self.position = to;

@@ -8,10 +8,10 @@ use super::geometry::PlaneArc;
 use super::motion::MOVE_VARS;
 use super::move_words::{AxisUnits, as_number};
 use super::renderer::{LastMove, Renderer};
-use super::words::{Mode, tenths};
+use super::words::Mode;
 use crate::compile::{Block, Op};
 use crate::diag::Code;
-use crate::lang::{Group, Machine, SequenceId, VarId, VarSet, group_of};
+use crate::lang::{Group, Machine, SequenceId, VarId, VarSet};
 use crate::sema::{self, ArcCentre, Settings};
 use crate::toolpath::{Arc, Axes, Direction, Plane, Units};
 
@@ -292,10 +292,11 @@ impl Renderer<'_> {
     /// Divides an arc that radius words say badly. Near half a turn the last digit of the radius moves the centre far:
     /// more and shorter parts say the same arc to the digits of the form.
     fn divide_for_radius(&self, whole: &Piece, across: usize, parts: &mut Vec<f64>) -> Done {
-        const MOST_PARTS: usize = 8;
+        const MOST_PARTS: usize = 8; // of each piece that the form would say
+        let (most, step) = ((parts.len() + 1) * MOST_PARTS, parts.len() + 1);
         let allowed = if self.units == Units::Mm { 0.005 } else { 0.0002 };
         let from = self.position;
-        while parts.len() + 1 < MOST_PARTS {
+        while parts.len() + 1 < most {
             let (mut here, mut done, mut worst) = (from, 0.0, 0.0f64);
             for part in parts.iter().copied().chain([1.0]) {
                 let piece = whole.part(&from, done, part, across);
@@ -305,7 +306,7 @@ impl Renderer<'_> {
             if worst <= allowed {
                 return Ok(());
             }
-            let count = parts.len() + 2;
+            let count = parts.len() + 1 + step.div_ceil(2);
             parts.clear();
             parts.extend((1..count).map(|i| i as f64 / count as f64));
         }
@@ -417,12 +418,7 @@ impl Renderer<'_> {
 
     /// A sequence of arcs must print a code of its own: an arc code in a block before it would have no end.
     fn says_arc(&self, block: &Block, code: &sema::Code) -> Done {
-        let own = |code: f64| matches!(group_of(b'G', tenths(code)), None | Some(Group::Motion));
-        if !self.program.speaks_g
-            || self.motion_in_force(code)
-            || self.says_motion(block)
-            || self.says_code(block, b'G', own)
-        {
+        if !self.program.speaks_g || self.motion_in_force(code) || self.says_own_motion(block) {
             return Ok(());
         }
         let message = format!("the sequence prints no G{}, and the control is in another motion", code.value);
@@ -444,6 +440,7 @@ impl Renderer<'_> {
                 return fault(Code::PR017, message, "reverse its centre word too, as `RevSigns X I`");
             }
         }
+        // G2 before G3: the codes are not exchanged
         if reversed(piece.axes[0]) != reversed(piece.axes[1]) && settings.cw.value < settings.ccw.value {
             let message = "one axis of the arc's plane has the other sign, and the arc would turn the other way";
             return fault(Code::PR017, message, "exchange the codes: `CW G3` and `CCW G2`");

@@ -35,8 +35,8 @@ impl Renderer<'_> {
         if letter == b'M' {
             if is_stop(tenths) || self.program.settings.stop_code.contains(&value) {
                 self.stopped();
-            } else if changes_tool(tenths) || (960..=980).contains(&tenths) {
-                self.forget_axes(); // a changer, and what M96 to M98 call, go where they like
+            } else if changes_tool(tenths) || (960..=980).contains(&tenths) || tenths == 1980 {
+                self.forget_axes(); // a changer, and what M96 to M98 and M198 call, go where they like
             }
         }
         if letter == b'G' || letter == b'g' {
@@ -82,8 +82,8 @@ impl Renderer<'_> {
         }
     }
 
-    /// Is it known of the form's control that a G code, which has no modal group, moves nothing and means no other place?
-    /// Axis words in its block, as of a control's own cycle, are its own business.
+    /// May positions be kept after a G code without a modal group? Where the form's control runs it, where the form's
+    /// commands name it, in a cycle, whose end forgets them, and beside axis words, which say where it goes.
     fn is_harmless(&self, value: f64) -> bool {
         let control = Control::named(&self.program.settings.control).unwrap_or_else(Control::usual);
         let row = control::Code::of(b'G', value).and_then(|code| control.row(code));
@@ -103,6 +103,9 @@ impl Renderer<'_> {
     /// where it has one. Generated blocks have no line.
     pub(super) fn line_prints(&self, asked: impl Fn(&Self, u8, Option<VarId>) -> bool) -> bool {
         let (ops, Some(here)) = (&self.program.ops, self.form) else { return false };
+        if self.out.is_too_long(&self.layout) {
+            return false; // the block is refused at its end, whatever it says
+        }
         let is_line = |op: &Op| matches!(op, Op::Line { .. });
         let start = ops[..here].iter().rposition(is_line).map_or(0, |at| at + 1);
         ops[start..].iter().take_while(|op| !is_line(op)).any(|op| match *op {

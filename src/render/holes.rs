@@ -288,7 +288,7 @@ impl Renderer<'_> {
         let Some(first) = block.ops.clone().find(|&i| moves(i)) else { return Ok(()) };
         let end = (first..block.ops.end).find(is_line).unwrap_or(block.ops.end);
         let begin = Block { ops: block.ops.start..end, ..block.clone() };
-        if !self.says_code(&begin, b'G', |_| true) {
+        if !self.says_own_motion(&begin) {
             self.motion_block(&program.settings.rapid, &begin)?;
         }
         Ok(())

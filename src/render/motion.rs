@@ -87,7 +87,9 @@ impl Renderer<'_> {
     /// A new tool comes from where nobody knows: its first cut must have a beginning.
     #[cold]
     pub(super) fn begins_somewhere(&mut self, target: &Axes) -> Done {
-        let unknown = target.given & !self.position.given & ((1 << self.linear.min(3)) - 1);
+        // the upper guides of a wire follow the lower ones
+        let axes = if self.linear == 4 { 2 } else { self.linear };
+        let unknown = target.given & !self.position.given & ((1 << axes) - 1);
         self.fresh_tool = false;
         if unknown == 0 || self.program.settings.incremental {
             return Ok(());

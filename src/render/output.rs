@@ -1,6 +1,6 @@
 //! Blocks: words joined, numbered, ended, and appended to the output.
 
-use crate::lang::longest_block;
+use crate::control::Control;
 use crate::sema::{Replacement, Settings};
 use crate::span::Span;
 use crate::toolpath::Place;
@@ -70,12 +70,12 @@ impl Layout {
     pub fn new(settings: &Settings, width: u8, fixed: bool) -> Layout {
         let bytes = |row: &Replacement| (row.old.clone().into_bytes(), row.new.clone().into_bytes(), row.span);
         // what a sender cuts is no reason to print nothing
-        let stops = ["linuxcnc", "emc2"].contains(&settings.control.as_str());
+        let control = Control::named(&settings.control).filter(|control| control.stops_at_longer());
         Layout {
             blanks: settings.blanks,
             columns: settings.columns.clone(),
             replace: settings.replace.iter().map(bytes).collect(),
-            longest: longest_block(&settings.control).filter(|_| stops).unwrap_or(LONGEST),
+            longest: control.and_then(Control::longest_line).unwrap_or(LONGEST),
             eob: settings.eob.clone().into_bytes(),
             number_letter: settings.numbers.letter,
             start: settings.numbers.start,
@@ -235,6 +235,12 @@ impl Output {
             }
             self.text.extend_from_slice(&block[from..]);
         }
+    }
+
+    /// Is the open block longer than its control reads?
+    #[inline]
+    pub fn is_too_long(&self, layout: &Layout) -> bool {
+        self.text.len() - self.start > layout.longest
     }
 
     /// Is the open block, as far as it is made, one that the control reads? The first that is not is kept.

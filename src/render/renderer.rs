@@ -100,7 +100,7 @@ pub struct Renderer<'p> {
     pub(super) tool: Option<f64>,
     pub(super) tool_order: Option<Vec<f64>>,
     pub(super) tool_changes: usize,
-    /// The tool has not moved since its change but by what the change printed.
+    /// Since its change the tool has made no cut by a line: the first one must have a beginning.
     pub(super) fresh_tool: bool,
     /// The spindle's limit that a prompt gave.
     pub(super) most_rpm: Option<f64>,

@@ -33,6 +33,12 @@ impl Renderer<'_> {
             || block.ops.clone().any(by_variable)
     }
 
+    /// Does a sequence print a motion code, or one of no group, which may move by itself?
+    pub(super) fn says_own_motion(&self, block: &Block) -> bool {
+        let own = |code: f64| matches!(group_of(b'G', tenths(code)), None | Some(Group::Motion));
+        self.says_motion(block) || self.says_code(block, b'G', own)
+    }
+
     /// The variables that say where a linear axis goes.
     fn words_of(&self, axis: usize) -> &'static [VarId] {
         match (axis, self.linear) {

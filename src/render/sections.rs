@@ -3,8 +3,9 @@
 use super::fault::{Done, fault};
 use super::renderer::Renderer;
 use super::words::tenths;
+use crate::control::Control;
 use crate::diag::{Code, steers};
-use crate::lang::{Machine, SequenceId, VarId, is_stop, longest_block};
+use crate::lang::{Machine, SequenceId, VarId, is_stop};
 use crate::sema;
 use crate::toolpath::{EdmAction, Section, StopKind};
 
@@ -195,7 +196,8 @@ impl Renderer<'_> {
         let settings = &self.program.settings;
         let number = settings.numbers.letter.map_or(0, |letter| usize::from(self.letters[letter].format.int.count) + 2);
         let others = number + settings.eob.len() + settings.comment.iter().map(String::len).sum::<usize>();
-        longest_block(&settings.control).map_or(usize::MAX, |longest| longest.saturating_sub(others).max(1))
+        let longest = Control::named(&settings.control).and_then(Control::longest_line);
+        longest.map_or(usize::MAX, |longest| longest.saturating_sub(others).max(1))
     }
 
     fn comment_line(&mut self, text: &str) {

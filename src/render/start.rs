@@ -45,7 +45,7 @@ const JOG: [f64; 2] = [0.02, 0.5];
 pub fn cycle_defaults(settings: &Settings, units: Units, sink_as_printed: bool) -> Defaults {
     let scale = factor(units_of(settings).unwrap_or(Units::Inch), units);
     let length = |value: f64| value * scale;
-    // a form for both units has the defaults of each
+    // what a form for both units says is inches; what it leaves to the default is the job's own
     let own = units_of(settings).unwrap_or(units);
     let or = |said: Option<f64>, default: [f64; 2]| {
         said.map_or_else(|| default[usize::from(own == Units::Mm)] * factor(own, units), length)

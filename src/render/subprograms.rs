@@ -34,13 +34,6 @@ pub(super) struct Subprograms {
     stopped: bool,
 }
 
-impl Subprograms {
-    /// A stop was printed.
-    pub(super) fn stops(&mut self) {
-        self.stopped |= self.open.is_some();
-    }
-}
-
 /// What a subprogram's own items must not change for the program around it.
 #[derive(Debug)]
 struct State {
@@ -97,6 +90,11 @@ struct Called {
 }
 
 impl Subprograms {
+    /// A stop was printed.
+    pub(super) fn stops(&mut self) {
+        self.stopped |= self.open.is_some();
+    }
+
     /// The subprogram of a number, as an index of `defined`.
     fn index(&self, number: f64) -> Option<usize> {
         self.by_number.get(&key(number)).copied()
@@ -344,7 +342,8 @@ impl Renderer<'_> {
     /// In a subprogram, a move after a stop needs a spindle that it knows: its caller may have said any.
     pub(super) fn knows_after_stop(&self) -> Done {
         let unknown = |var: VarId| self.vars.get(var).is_none();
-        if !self.subs.stopped || !(unknown(VarId::Speed) || unknown(VarId::Direct)) {
+        let by_form = self.program.switches_spindle; // then nothing is said again
+        if !self.subs.stopped || by_form || !(unknown(VarId::Speed) || unknown(VarId::Direct)) {
             return Ok(());
         }
         let help = "give it its own `spindle` before the stop, and its `coolant`";

@@ -5,6 +5,7 @@ use indexmap::map::Entry;
 use super::check::Analysis;
 use super::messages::{duplicate_sequence, is_word, no_name_line, unknown_name};
 use super::model::{Line, Sequence, Upon};
+use super::settings::Settings;
 use super::words::{Context, resolve, variable};
 use crate::diag::{Code, Diag};
 use crate::lang::{Args, CommandId, Machines, SequenceId, SequenceName};
@@ -175,7 +176,9 @@ impl Analysis {
         };
         let args: Vec<Spanned> = args.iter().map(spanned).collect();
         let span = args.iter().fold(first.span, |all, arg| all.to(arg.span));
-        if self.form.settings.clone().apply(id, &args, span).is_ok() {
+        // tried on fresh settings: those of the form grow with its commands
+        let (machine, units) = (self.form.settings.machine, self.form.settings.units);
+        if Settings::new(machine, units).apply(id, &args, span).is_ok() {
             let diag = Diag::new(Code::PF003, format!("a command inside a sequence: {}", id.name()));
             self.report(diag.at(span, "this would be printed").help("move it above the first sequence"));
         }

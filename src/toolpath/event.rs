@@ -345,9 +345,7 @@ impl CycleSpec {
             emulate: false,
         }
     }
-}
 
-impl CycleSpec {
     /// How deep it says its holes are: by `depth`, else by the last of its webs or pecks.
     pub fn deepest(&self) -> Option<f64> {
         self.depth.or_else(|| self.webs.last().copied()).or_else(|| self.pecks.last().map(|peck| peck.to))

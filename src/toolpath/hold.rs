@@ -96,7 +96,11 @@ impl<'s> Hold<'s> {
     /// A rapid goes there: of each axis the first place is kept. Another tool has no height before it is told one: ways
     /// across are those of its change, which goes down at the last of them.
     fn reaches(&mut self, to: &Axes) {
-        if self.changes && self.first.given & self.depth == 0 && self.first.given & to.given & !self.depth != 0 {
+        if self.changes
+            && self.depth != 0
+            && self.first.given & self.depth == 0
+            && self.first.given & to.given & !self.depth != 0
+        {
             self.first.given &= !to.given;
             self.forget_ways();
         }
@@ -116,6 +120,11 @@ impl<'s> Hold<'s> {
     #[cold]
     fn held(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
         let waiting = match event {
+            // rapids before it told places of the offset before: they are gone to in that one
+            Event::Work(_) if self.first.given != 0 => {
+                self.release(First::Nothing)?;
+                return self.sink.event(event, place);
+            }
             Event::Work(work) => {
                 // the first position counts from this offset: the tool must not go there in another
                 if let Some((change, _)) = &mut self.change {
@@ -123,7 +132,7 @@ impl<'s> Hold<'s> {
                 }
                 return Ok(());
             }
-            // so does what switches the spindle and the coolant before anything else is done
+            // a spindle that is switched before anything is done is the tool change's
             Event::Spindle(spindle) if self.waiting.iter().all(|(w, _)| w.prints_nothing()) => {
                 if let Some((change, _)) = &mut self.change {
                     let before = change.spindle.unwrap_or_default();
@@ -234,7 +243,11 @@ impl Sink for Hold<'_> {
             return self.held(event, place);
         }
         if let Event::Start(start) = event {
-            (self.axes, self.depth) = if start.machine == Machine::Mill { (0b111, 0b100) } else { (0b011, 0b001) };
+            (self.axes, self.depth) = match start.machine {
+                Machine::Mill => (0b111, 0b100),
+                Machine::Lathe => (0b011, 0b001),
+                Machine::Edm => (0b011, 0), // nothing goes down
+            };
         }
         self.sink.event(event, place)
     }

@@ -449,3 +449,31 @@ fn arcs_in_coarse_digits_are_lines() {
     assert!(support::render(&mill("", ""), &job(path)).unwrap().text.contains("G3"));
     assert!(path_lines("", "", &path.replace("1.03865", "1.05"))[0].starts_with("PR005"));
 }
+
+/// A place that is told before another work offset belongs to the offset before it.
+#[test]
+fn places_belong_to_the_offset_in_which_they_are_told() {
+    let items = "{\"rapid\":[20,20]},{\"work\":55},{\"rapid\":[null,null,5]},{\"line\":[20,20,0]}";
+    let second = format!("{{\"tool\":1,\"work\":54,\"feed\":10,\"path\":[{items}]}}]}}");
+    let text = job("{\"line\":[0,0,0]}");
+    let text = format!("{},{second}", &text[..text.len() - 2]);
+    let lines = program(&mill("", ""), &text);
+    let at = lines.iter().position(|line| line.starts_with("G0 X20. Y20.")).unwrap_or_else(|| panic!("{lines:?}"));
+    assert_eq!(lines[at + 1], "G55", "{lines:?}");
+}
+
+/// G90 in front of the way to an emulated hole is no motion.
+#[test]
+fn the_way_to_an_emulated_hole_is_a_rapid_behind_g90() {
+    let drill = "Drill\nG90 X[h] Y[v] Z[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd";
+    let lines = path_lines("", drill, &format!("{{\"line\":[0.5,0,1]}},{HOLES}[[1,1,0]]}}}}"));
+    assert_eq!(lines[1..3], ["G0", "G90 X1. Y1. Z.1"], "{lines:?}");
+}
+
+/// A wire with a tool of its own tapers from its first cut on.
+#[test]
+fn a_wire_tapers_from_its_first_cut() {
+    let text = "{\"postform\":1,\"program\":7,\"units\":\"mm\",\"machine\":\"edm\",\"tools\":[{\"number\":1}],\"operations\":[{\"tool\":1,\
+        \"work\":54,\"feed\":3,\"path\":[{\"rapid\":[0,0]},{\"line\":[5,10,4.5,10]}]}]}";
+    assert!(post("wire-edm", text).len() > 4, "{:?}", post("wire-edm", text));
+}

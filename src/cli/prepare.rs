@@ -26,6 +26,8 @@ pub struct Prepared {
     pub options: Options,
     /// Programs may be far longer than their jobs.
     pub huge: bool,
+    /// Warnings keep a program from being printed.
+    pub denies: bool,
     /// The files that it was made of, the configuration among them.
     pub inputs: Vec<PathBuf>,
 }
@@ -71,5 +73,12 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         trace: false,
     };
     let inputs = file.paths().map(Path::to_path_buf).chain(config.path).collect();
-    Ok(Some(Prepared { program, files: checked.files, options, huge: args.huge, inputs }))
+    Ok(Some(Prepared {
+        program,
+        files: checked.files,
+        options,
+        huge: args.huge,
+        denies: args.denies_warnings(),
+        inputs,
+    }))
 }

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{Seek, Write};
 use std::path::Path;
 
-use postform::diag::{Code, Diag};
+use postform::diag::{Code, Diag, Severity};
 use postform::nc::Settings;
 use postform::render::{Options, Renderer, TraceLine};
 use postform::toolpath::{Event, Place, ReadError, Sink, Units};
@@ -261,7 +261,7 @@ fn spooled(
         growth,
         failure: None,
     };
-    let (read, _) = files::read_job(input, job.from, job.read, &mut sink);
+    let (read, report) = files::read_job(input, job.from, job.read, &mut sink);
     if read.is_ok() {
         sink.drain();
     }
@@ -277,6 +277,14 @@ fn spooled(
             say(&reporter.text(&[*diag], &prepared.files));
             return Ok(Err(ending));
         }
+    }
+    let mut denied = report.warnings;
+    denied.extend_from_slice(sink.renderer.notes());
+    denied.retain(|diag| diag.severity == Severity::Warning);
+    if prepared.denies && !denied.is_empty() {
+        denied.iter_mut().for_each(|diag| render::place_in(&files::name(job.path), diag));
+        say(&reporter.text(&denied, &prepared.files));
+        return Ok(Err(Ending::Findings));
     }
     let lines = sink.renderer.trace().map(std::mem::take).unwrap_or_default();
     Ok(Ok((sink.file.into_file().map_err(fail)?, lines)))

@@ -249,3 +249,14 @@ fn render_says_that_lathe_axes_are_the_other_way_round() {
     let told = text(&output.stderr);
     assert_eq!((output.status.code(), told.matches("warning PF314: ").count()), (Some(0), 4), "{told}");
 }
+
+/// Warnings of the renderer are denied where a program is made for verify and diff, too.
+#[test]
+fn verify_hears_what_the_renderer_warns_of() {
+    let job = concat!(env!("CARGO_TARGET_TMPDIR"), "/slow.json");
+    fs::write(job, crate::support::job("{\"line\":[1,0,0],\"feed\":0.00155}")).unwrap();
+    let run = |more: &[&str]| postform(&[&["verify", job, "--form", "postforms/fanuc.pf"][..], more].concat());
+    let denied = run(&["--deny", "warnings"]);
+    assert!(denied.status.code() == Some(1) && text(&denied.stderr).contains("PR025"), "{}", text(&denied.stderr));
+    assert!(!text(&run(&[]).stderr).contains("PR025"), "{}", text(&run(&[]).stderr));
+}

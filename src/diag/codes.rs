@@ -136,6 +136,7 @@ codes! {
     PF440 Warning "a retract to the zero of the part"
     PF441 Warning "a tool that goes across before it is up"
     PF442 Warning "a thread whose passes do not return"
+    PF443 Warning "the program ends too early"
     // PF5: modality
     PF501 Warning "a letter that no control keeps, named as modal"
     PF502 Warning "a code that acts once, named as modal"

@@ -27,6 +27,7 @@ mod depth_before_position;
 mod dwell_unit;
 mod empty_sequence;
 mod ends_in_hole;
+mod ends_too_early;
 mod feed_line_without_feed;
 mod foreign_comment_mark;
 mod h_without_length_code;
@@ -204,6 +205,7 @@ rules! {
     PF440 part_zero
     PF441 across_before_up
     PF442 thread_without_return
+    PF443 ends_too_early
     // modality
     PF501 modal_letters
     PF502 modal_codes

@@ -1,11 +1,13 @@
 //! From toolpath events to NC blocks (render.md): modality, tool changes, arcs, canned cycles.
 
 mod arcs;
+mod centres;
 mod changes;
 mod codes;
 mod compensation;
 mod cycles;
 mod fault;
+mod generated;
 mod geometry;
 mod holes;
 mod measure;

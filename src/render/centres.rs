@@ -1,0 +1,184 @@
+//! Centres of arcs: by the words of the form, by the radius, as values of variables.
+
+use std::f64::consts::PI;
+
+use super::arcs::{CENTRES, Piece};
+use super::fault::{Done, fault};
+use super::geometry::PlaneArc;
+use super::move_words::as_number;
+use super::renderer::Renderer;
+use crate::compile::Op;
+use crate::diag::Code;
+use crate::lang::{SequenceId, VarId};
+use crate::sema::{ArcCentre, Settings};
+use crate::toolpath::{Axes, Units};
+
+impl Renderer<'_> {
+    /// The letter of the centre word along an axis.
+    pub(super) fn centre_letter(&self, letters: &[u8], axis: usize) -> Option<u8> {
+        let natural = match self.axes[axis] {
+            b'X' | b'U' => b'I',
+            b'Y' | b'V' => b'J',
+            _ => b'K',
+        };
+        let named = letters.iter().all(|l| b"IJK".contains(l));
+        if named { letters.contains(&natural).then_some(natural) } else { letters.get(axis).copied() }
+    }
+
+    /// Divides an arc that radius words say badly. Near half a turn the last digit of the radius moves the centre far:
+    /// more and shorter parts say the same arc to the digits of the form.
+    pub(super) fn divide_for_radius(&self, whole: &Piece, across: usize, parts: &mut Vec<f64>) -> Done {
+        const MOST_PARTS: usize = 8; // of each piece that the form would say
+        let (most, step) = ((parts.len() + 1) * MOST_PARTS, parts.len() + 1);
+        let allowed = if self.units == Units::Mm { 0.005 } else { 0.0002 };
+        let from = self.position;
+        while parts.len() + 1 < most {
+            let (mut here, mut done, mut worst) = (from, 0.0, 0.0f64);
+            for part in parts.iter().copied().chain([1.0]) {
+                let piece = whole.part(&from, done, part, across);
+                worst = worst.max(self.centre_moves(&piece, &here)?);
+                (here, done) = (piece.target, part);
+            }
+            if worst <= allowed {
+                return Ok(());
+            }
+            let count = parts.len() + 1 + step.div_ceil(2);
+            parts.clear();
+            parts.extend((1..count).map(|i| i as f64 / count as f64));
+        }
+        Ok(())
+    }
+
+    /// How far the control's centre of a piece that begins `here` is from the arc's, where a radius says it.
+    fn centre_moves(&self, piece: &Piece, here: &Axes) -> Done<f64> {
+        let ccw = piece.arc.sweep > 0.0;
+        let Some(letter) = self.radius_letter(piece, ccw) else { return Ok(0.0) };
+        let mut ends = [[0.0; 2]; 2];
+        for (end, position) in ends.iter_mut().zip([here, &piece.target]) {
+            for (value, &axis) in end.iter_mut().zip(&piece.axes) {
+                *value = self.printed(axis, position.values[axis])?;
+            }
+        }
+        let info = &self.letters[letter];
+        let radius = as_number(self.quantised(info, piece.arc.radius)?, info.format.dec.count).abs();
+        let longer = piece.arc.sweep.abs() > PI + 1e-9;
+        let centre = PlaneArc::centre_by_radius(ends[0], ends[1], if longer { -radius } else { radius }, ccw);
+        Ok(centre.map_or(f64::INFINITY, |[a, b]| (a - piece.arc.centre[0]).hypot(b - piece.arc.centre[1])))
+    }
+
+    /// The letter of a piece's radius, where that is what says its centre.
+    fn radius_letter(&self, piece: &Piece, ccw: bool) -> Option<u8> {
+        let program = self.program;
+        match program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
+            Some(block) if block.vars.meets(CENTRES) => None,
+            Some(block) => block.ops.clone().find_map(|i| match program.ops[i] {
+                Op::Var { letter, var: VarId::Arcrad, .. } => Some(letter),
+                _ => None,
+            }),
+            None => match Self::centre_by(&program.settings, piece.arc.sweep.abs()) {
+                ArcCentre::Radius(letter) => Some(*letter),
+                ArcCentre::Letters(_) => None,
+            },
+        }
+    }
+
+    /// How the form says the centre of an arc that turns so far.
+    pub(super) fn centre_by(settings: &Settings, sweep: f64) -> &ArcCentre {
+        let over = sweep > PI + 1e-9;
+        let full = sweep > 2.0 * PI - 1e-9;
+        match (&settings.centre_full, &settings.centre_over_180) {
+            (Some(words), _) if full => words,
+            (_, Some(words)) if over && !full => words,
+            _ => &settings.centre,
+        }
+    }
+
+    /// `RevSigns` of an axis is one of its centre word too, and turns the arc round.
+    pub(super) fn check_signs(&self, piece: &Piece) -> Done {
+        let settings = &self.program.settings;
+        let reversed = |axis: usize| self.letters[self.axes[axis]].reversed;
+        if let ArcCentre::Letters(letters) = Self::centre_by(settings, piece.arc.sweep.abs()) {
+            let other = |axis: &usize| {
+                let centre = self.centre_letter(letters, *axis);
+                centre.is_some_and(|letter| self.letters[letter].reversed != reversed(*axis))
+            };
+            if let Some(axis) = piece.axes.iter().copied().find(other) {
+                let axis = char::from(self.axes[axis]);
+                let message = format!("{axis} is printed with the other sign, and the arc's centre is not");
+                return fault(Code::PR017, message, "reverse its centre word too, as `RevSigns X I`");
+            }
+        }
+        // G2 before G3: the codes are not exchanged
+        if reversed(piece.axes[0]) != reversed(piece.axes[1]) && settings.cw.value < settings.ccw.value {
+            let message = "one axis of the arc's plane has the other sign, and the arc would turn the other way";
+            return fault(Code::PR017, message, "exchange the codes: `CW G3` and `CCW G2`");
+        }
+        Ok(())
+    }
+
+    /// The centre as the form counts it: from the printed start, or absolute.
+    pub(super) fn centre_values(&self, piece: &Piece) -> Done<[f64; 2]> {
+        let mut values = piece.arc.centre;
+        let mirrored = |axis: usize| self.axis_scale[axis] < 0.0;
+        if self.program.settings.centre_incremental {
+            for (value, &axis) in values.iter_mut().zip(&piece.axes) {
+                // the control starts where it was told to, not where the job exactly was
+                *value -= self.printed(axis, self.position.values[axis])?;
+            }
+        }
+        for (value, &axis) in values.iter_mut().zip(&piece.axes) {
+            *value = if mirrored(axis) { -*value } else { *value };
+        }
+        Ok(values)
+    }
+
+    pub(super) fn centre_words(&mut self, piece: &Piece, centre: &[f64; 2]) -> Done {
+        let sweep = piece.arc.sweep.abs();
+        match Self::centre_by(&self.program.settings, sweep) {
+            ArcCentre::Radius(letter) => {
+                let radius = if sweep > PI + 1e-9 { -piece.arc.radius } else { piece.arc.radius };
+                self.arc_word(*letter, radius)
+            }
+            ArcCentre::Letters(letters) => {
+                // in the order of the axes: I J, I K, J K
+                let mut order = [0, 1];
+                if piece.axes[0] > piece.axes[1] {
+                    order = [1, 0];
+                }
+                for i in order {
+                    if let Some(letter) = self.centre_letter(letters, piece.axes[i]) {
+                        self.arc_word(letter, centre[i])?;
+                    }
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// A centre word: always printed, and no register keeps it.
+    fn arc_word(&mut self, letter: u8, value: f64) -> Done {
+        let info = &self.letters[letter];
+        let units = self.quantised(info, value)?;
+        self.put_word(info, units, false)
+    }
+
+    pub(super) fn set_arc_variables(&mut self, piece: &Piece, centre: &[f64; 2]) {
+        const VALUES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
+        const CENTRES: [Option<VarId>; 3] = [Some(VarId::Hctr), Some(VarId::Vctr), None];
+        for var in VALUES.into_iter().chain(CENTRES.into_iter().flatten()) {
+            self.vars.put(var, None);
+        }
+        for (i, &axis) in piece.axes.iter().enumerate() {
+            self.vars.set(VALUES[axis], centre[i]);
+            if let Some(var) = CENTRES[axis] {
+                self.vars.set(var, piece.arc.centre[i] * self.axis_scale[axis].signum());
+            }
+        }
+        let degrees = |angle: f64| (angle.to_degrees() % 360.0 + 360.0) % 360.0;
+        let sweep = piece.arc.sweep;
+        self.vars.set(VarId::Arcrad, piece.arc.radius);
+        self.vars.set(VarId::Startang, degrees(piece.arc.start));
+        self.vars.set(VarId::Endang, degrees(piece.arc.start + sweep));
+        self.vars.set(VarId::Sweep, sweep.to_degrees());
+    }
+}

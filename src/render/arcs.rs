@@ -311,7 +311,9 @@ impl Renderer<'_> {
             self.force();
         }
         self.shifted = Shift::None;
-        if let Some(block) = program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
+        let block = program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode });
+        self.check_signs(piece, block, code, ccw)?;
+        if let Some(block) = block {
             let [a, b] = piece.axes;
             let polar = ends_by_angle(block, piece.axes) && !(self.says_axis(block, a) && self.says_axis(block, b));
             let said = if polar { 1 << a | 1 << b } else { 0 };
@@ -348,7 +350,6 @@ impl Renderer<'_> {
 
     /// The generated block: plane, motion code, axes, centre, direction, feed.
     fn arc_block(&mut self, piece: &Piece, code: &sema::Code, centre: &[f64; 2], ccw: bool) -> Done {
-        self.check_signs(piece)?;
         let settings = &self.program.settings;
         if self.program.settings.machine == Machine::Mill {
             self.motion_word(piece.plane)?; // a lathe and a wire have but one

@@ -7,10 +7,10 @@ use super::fault::{Done, fault};
 use super::geometry::PlaneArc;
 use super::move_words::as_number;
 use super::renderer::Renderer;
-use crate::compile::Op;
+use crate::compile::{Block, Op};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
-use crate::sema::{ArcCentre, Settings};
+use crate::sema::{self, ArcCentre, Settings};
 use crate::toolpath::{Axes, Units};
 
 impl Renderer<'_> {
@@ -93,25 +93,42 @@ impl Renderer<'_> {
         }
     }
 
-    /// `RevSigns` of an axis is one of its centre word too, and turns the arc round.
-    pub(super) fn check_signs(&self, piece: &Piece) -> Done {
+    /// `RevSigns` of an axis is one of its centre word too, and turns the arc round: in blocks that are generated and in the
+    /// form's own.
+    pub(super) fn check_signs(&self, piece: &Piece, block: Option<&Block>, code: &sema::Code, ccw: bool) -> Done {
+        const VALUES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
         let settings = &self.program.settings;
         let reversed = |axis: usize| self.letters[self.axes[axis]].reversed;
-        if let ArcCentre::Letters(letters) = Self::centre_by(settings, piece.arc.sweep.abs()) {
-            let other = |axis: &usize| {
-                let centre = self.centre_letter(letters, *axis);
-                centre.is_some_and(|letter| self.letters[letter].reversed != reversed(*axis))
-            };
-            if let Some(axis) = piece.axes.iter().copied().find(other) {
-                let axis = char::from(self.axes[axis]);
-                let message = format!("{axis} is printed with the other sign, and the arc's centre is not");
-                return fault(Code::PR017, message, "reverse its centre word too, as `RevSigns X I`");
-            }
+        let centre = |axis: usize| match (block, Self::centre_by(settings, piece.arc.sweep.abs())) {
+            (Some(block), _) => block.ops.clone().find_map(|i| match self.program.ops[i] {
+                Op::Var { letter, var, .. } if var == VALUES[axis] => Some(letter),
+                _ => None,
+            }),
+            (None, ArcCentre::Letters(letters)) => self.centre_letter(letters, axis),
+            (None, ArcCentre::Radius(_)) => None,
+        };
+        // both centre words the other way round: some controls count from the centre to the start
+        let other = |axis: &usize| centre(*axis).is_some_and(|letter| self.letters[letter].reversed != reversed(*axis));
+        let others = piece.axes.iter().copied().filter(other).count();
+        if others == 1 || others == 2 && !settings.centre_incremental {
+            let axis = piece.axes.into_iter().find(other).map_or(' ', |axis| char::from(self.axes[axis]));
+            let message = format!("{axis} and its word of the arc's centre have different signs");
+            return fault(Code::PR017, message, "reverse both, as `RevSigns X I`, or none");
         }
-        // G2 before G3: the codes are not exchanged
-        if reversed(piece.axes[0]) != reversed(piece.axes[1]) && settings.cw.value < settings.ccw.value {
-            let message = "one axis of the arc's plane has the other sign, and the arc would turn the other way";
-            return fault(Code::PR017, message, "exchange the codes: `CW G3` and `CCW G2`");
+        let mirrored = reversed(piece.axes[0]) != reversed(piece.axes[1]);
+        let own = if ccw != mirrored { 3.0 } else { 2.0 };
+        let typed = |value: f64| block.is_some_and(|block| self.says_code(block, b'G', |code| code == value));
+        let wrong = match block {
+            Some(_) => typed(5.0 - own) && !typed(own),
+            None => code.value == 5.0 - own,
+        };
+        if wrong && (0..self.linear).any(reversed) {
+            let message = match mirrored {
+                true => "one axis of the arc's plane has the other sign, and the arc would turn the other way",
+                false => "no axis of the arc's plane has the other sign alone, and the arc would turn the other way",
+            };
+            let help = "exchange the codes, `CW G3` and `CCW G2`, where one axis of the plane is reversed; leave other planes out of `ArcPlane`";
+            return fault(Code::PR017, message, help);
         }
         Ok(())
     }

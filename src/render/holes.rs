@@ -108,13 +108,7 @@ impl Renderer<'_> {
                 self.attend()?;
             }
             match program.block(SequenceId::Index).filter(|_| self.turns(&target)) {
-                Some(index) => {
-                    // one that does not take the tool up itself would turn the part under it
-                    if !self.names_axes(index, true) && self.is_below(&target) {
-                        self.raise(&target)?;
-                    }
-                    self.turn_to(&target)?;
-                }
+                Some(_) => self.turn_to(&target)?,
                 None => self.split_rapid(&target)?,
             }
         }
@@ -384,7 +378,7 @@ impl Renderer<'_> {
         self.raise(target)
     }
 
-    fn raise(&mut self, target: &Axes) -> Done {
+    pub(super) fn raise(&mut self, target: &Axes) -> Done {
         let above = Axes { given: self.depth_bit(), ..*target };
         self.set_targets(&above)?;
         self.split_rapid(&above)?;

@@ -5,7 +5,7 @@ use super::fault::{Done, fault, fault_at};
 use super::move_words::{AxisUnits, as_number};
 use super::renderer::{LastMove, Renderer};
 use super::words::{Mode, tenths};
-use crate::compile::Program;
+use crate::compile::{Block, LetterKind, Op, Program};
 use crate::diag::Code;
 use crate::lang::{Group, SequenceId, VarId, VarSet};
 use crate::number::quantise;
@@ -51,7 +51,8 @@ impl Renderer<'_> {
                 let message = "an Upon sequence would move the tool here before the part turns";
                 return fault(Code::PR017, message, "put a rapid that keeps the angle before it");
             }
-            self.attend()?;
+            self.settle()?;
+            self.attention |= self.subs.has_stopped(); // a cut behind it must know its spindle
         }
         self.moved_by = None;
         if turns {
@@ -271,6 +272,27 @@ impl Renderer<'_> {
             let message = format!("the control is in G{now} here, and would read {read}");
             let help = format!("print G{needed} in the sequence that printed G{now}, after the words that need it");
             return fault(Code::PR017, message, help);
+        }
+        Ok(())
+    }
+
+    /// A sequence that prints words of axes before a G90 or G91 of its own prints them in the mode that is in force.
+    pub(super) fn check_distance_of(&self, block: &Block) -> Done {
+        for i in block.ops.clone() {
+            let letter = match self.program.ops[i] {
+                Op::Var { letter, .. } => letter,
+                Op::Literal { index, .. } => {
+                    let literal = &self.program.literals[index as usize];
+                    if literal.letter == b'G' && self.program.settings.inc_abs.contains(&literal.value) {
+                        return Ok(());
+                    }
+                    literal.letter
+                }
+                _ => continue,
+            };
+            if self.letters[letter].kind == LetterKind::Axis && !self.program.settings.incremental {
+                return self.check_distance();
+            }
         }
         Ok(())
     }

@@ -226,6 +226,10 @@ impl Renderer<'_> {
             let message = format!("{letter} turns to {}, which Index does not print", target.values[axis]);
             return fault_at(Code::PR017, message, format!("add `{letter}[rotangle]` to Index"), Some(block.span));
         }
+        // one that does not take the tool up itself would turn the part under it
+        if target.get(self.depth_axis).is_some() && !self.names_axes(block, true) && self.is_below(target) {
+            self.raise(target)?;
+        }
         self.sequence_goes_down(block, target)?;
         self.run_elsewhere(block)?;
         let placed = self.placed;

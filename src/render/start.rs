@@ -195,9 +195,6 @@ impl Renderer<'_> {
     pub(super) fn finish(&mut self) -> Done {
         self.close_cycle()?;
         self.check_sections_closed()?;
-        if !self.program.settings.incremental {
-            self.check_distance()?; // their positions too
-        }
         if self.compensated {
             let message = "cutter compensation is still on at the end of the program";
             self.note(Code::PR023, message.into(), "end it with an `outfeed`");
@@ -212,6 +209,7 @@ impl Renderer<'_> {
         self.check_calls()?;
         self.set_here()?;
         let Some(block) = self.program.block(SequenceId::EndCode) else { return Ok(()) };
+        self.check_distance_of(block)?;
         if !self.has_waiting() {
             return self.run_with_upons(block);
         }

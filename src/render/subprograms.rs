@@ -90,6 +90,11 @@ struct Called {
 }
 
 impl Subprograms {
+    /// Did the open subprogram stop?
+    pub(super) fn has_stopped(&self) -> bool {
+        self.stopped
+    }
+
     /// A stop was printed.
     pub(super) fn stops(&mut self) {
         self.stopped |= self.open.is_some();

@@ -16,9 +16,6 @@ impl Renderer<'_> {
         self.close_cycle()?;
         self.check_sections_closed()?;
         self.begin_main()?;
-        if !self.program.settings.incremental {
-            self.check_distance()?; // their positions too
-        }
         let number = change.tool.as_ref().map(|tool| tool.number);
         let changes = number.is_some() && number != self.tool;
         if number.is_none() && self.tool.is_none() && self.program.settings.machine != Machine::Edm {
@@ -145,6 +142,7 @@ impl Renderer<'_> {
         if block.vars.has(VarId::Speed) && !block.vars.has(VarId::Speedtype) {
             self.speed_mode_before()?; // else a surface speed would be revolutions
         }
+        self.check_distance_of(block)?;
         self.placed = 0;
         self.moved_by = None;
         self.upons_of_change(block);

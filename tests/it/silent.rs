@@ -329,6 +329,10 @@ fn reversed_axes_reverse_their_arcs() {
     assert!(path_lines("RevSigns X", "", arc)[0].starts_with("PR017"));
     assert!(path_lines("RevSigns X I", "", arc)[0].starts_with("PR017"));
     assert_eq!(path_lines("RevSigns X I\nCW G3\nCCW G2", "", arc), ["G17 G2 X-2. I-1. J.5 F10."]);
+    // a control that counts from the centre to the start of the arc
+    assert_eq!(path_lines("RevSigns I J", "", arc), ["G17 G3 X2. I-1. J-.5 F10."]);
+    let own = "CcwCode\nG3 X[h] Y[v] I[ival] J[jval] F[frate]\nEnd";
+    assert!(path_lines("RevSigns X I", own, arc)[0].starts_with("PR017"));
 }
 
 /// An arc of the lower wire guide with a move of the upper one is no helix.
@@ -476,4 +480,15 @@ fn a_wire_tapers_from_its_first_cut() {
     let text = "{\"postform\":1,\"program\":7,\"units\":\"mm\",\"machine\":\"edm\",\"tools\":[{\"number\":1}],\"operations\":[{\"tool\":1,\
         \"work\":54,\"feed\":3,\"path\":[{\"rapid\":[0,0]},{\"line\":[5,10,4.5,10]}]}]}";
     assert!(post("wire-edm", text).len() > 4, "{:?}", post("wire-edm", text));
+}
+
+/// G91 that a part of the path leaves is read by what prints axis words next; a G90 before them ends it.
+#[test]
+fn increments_left_on_are_ended_by_the_sequence_itself() {
+    let row = "{\"begin\":\"row\"},{\"end\":\"row\"}";
+    let lines = |end: &str| {
+        program(&mill("", "EndRow\nG91\nEnd").replace("EndCode\n", &format!("EndCode\n{end}\n")), &job(row))
+    };
+    assert!(lines("G0 G53 Z0")[0].starts_with("PR017"), "{:?}", lines("G0 G53 Z0"));
+    assert!(lines("G90 G0 G53 Z0").contains(&"M30".to_owned()) && lines("M9").contains(&"M30".to_owned()));
 }

@@ -3,7 +3,7 @@
 use super::letters::LetterTable;
 use super::program::{Block, CycleStyle, Literal, Op, Program, UponBlock};
 use super::work;
-use crate::lang::{Group, SequenceId, VarId, VarSet, ends_cycle, group_of, moves_by_itself};
+use crate::lang::{Group, SequenceId, VarId, VarSet, ends_cycle, group_of, is_cycle_code, moves_by_itself};
 use crate::sema::{Form, Line, Sequence, WordKind};
 use crate::span::Span;
 
@@ -50,7 +50,8 @@ pub fn compile(form: &Form) -> Program {
 
 fn speaks_g(program: &Program) -> bool {
     let generated = [SequenceId::RapidCode, SequenceId::LineCode].iter().any(|&id| program.block(id).is_none());
-    generated || program.literals.iter().any(|word| word.letter == b'G' && (0.0..4.0).contains(&word.value))
+    let motion = |code: f64| (0.0..4.0).contains(&code) || (17.0..20.0).contains(&code) || is_cycle_code(code);
+    generated || program.literals.iter().any(|word| word.letter == b'G' && motion(word.value))
 }
 
 /// Do sequences of parts of the path type both M3 or M4 and M5, or does a sequence of moves print the speed?

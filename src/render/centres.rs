@@ -192,10 +192,12 @@ impl Renderer<'_> {
             }
         }
         let degrees = |angle: f64| (angle.to_degrees() % 360.0 + 360.0) % 360.0;
-        let sweep = piece.arc.sweep;
+        // a turret on the other side sees them in a mirror
+        let way = if piece.axes.iter().any(|&axis| self.axis_scale[axis] < 0.0) { -1.0 } else { 1.0 };
+        let (start, sweep) = (piece.arc.start * way, piece.arc.sweep * way);
         self.vars.set(VarId::Arcrad, piece.arc.radius);
-        self.vars.set(VarId::Startang, degrees(piece.arc.start));
-        self.vars.set(VarId::Endang, degrees(piece.arc.start + sweep));
+        self.vars.set(VarId::Startang, degrees(start));
+        self.vars.set(VarId::Endang, degrees(start + sweep));
         self.vars.set(VarId::Sweep, sweep.to_degrees());
     }
 }

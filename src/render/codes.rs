@@ -7,7 +7,7 @@ use super::words::tenths;
 use crate::compile::Op;
 use crate::control::{self, Control, Meaning};
 use crate::diag::Code;
-use crate::lang::{Frame, Group, Machine, VarId, changes_tool, frame_of, group_of, is_stop};
+use crate::lang::{Frame, Group, Machine, VarId, changes_tool, frame_of, group_of, is_called, is_stop};
 
 /// Which axis words of a body stand in another frame than the job's positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +37,7 @@ impl Renderer<'_> {
                 self.stopped();
             } else if changes_tool(tenths) || (960..=980).contains(&tenths) || tenths == 1980 {
                 self.forget_axes(); // a changer, and what M96 to M98 and M198 call, go where they like
+                self.forget_motion();
             }
         }
         if letter == b'G' || letter == b'g' {
@@ -54,7 +55,12 @@ impl Renderer<'_> {
                 Some(Frame::Increments) if lathe => self.shifted = Shift::Body,
                 Some(Frame::Moves) if self.registers.group(Group::Work) != Some(tenths) => self.forget_axes(),
                 Some(Frame::MovesDepth) => self.depth_moved = true,
-                None if group_of(letter, tenths).is_none() && !self.is_harmless(value) => self.forget_axes(),
+                None if group_of(letter, tenths).is_none() && !self.is_harmless(value) => {
+                    self.forget_axes();
+                    if is_called(value) {
+                        self.forget_motion();
+                    }
+                }
                 _ => {}
             }
         }
@@ -68,6 +74,7 @@ impl Renderer<'_> {
             Some(group) => {
                 match group {
                     Group::Plane => self.plane = value,
+                    Group::Motion => self.in_motion = Some(tenths),
                     Group::Distance => self.distance = Some(tenths),
                     _ => {}
                 }
@@ -91,7 +98,7 @@ impl Renderer<'_> {
         known
             || self.program.settings.names_code(value)
             || self.cycle.is_some()
-            || self.line_prints(|renderer, letter, _| renderer.axis_bit(letter) != 0)
+            || !is_called(value) && self.line_prints(|renderer, letter, _| renderer.axis_bit(letter) != 0)
     }
 
     /// Do axis words that are printed now stand in another frame than the job's positions?
@@ -155,6 +162,12 @@ impl Renderer<'_> {
                 self.vars.put(MOVED[axis], None);
             }
         }
+    }
+
+    /// Which motion the control is in is unknown, as after a macro.
+    pub(super) fn forget_motion(&mut self) {
+        self.registers.forget_group(Group::Motion);
+        self.in_motion = None;
     }
 
     /// Where the axes are is unknown.

@@ -15,6 +15,11 @@ impl Renderer<'_> {
         let [left, right, _] = self.program.settings.cdc;
         let mirrored = self.axis_scale[1] < 0.0; // a turret on the other side
         let code = if (infeed.side == Side::Left) != mirrored { left } else { right };
+        let reversed = |axis: usize| self.letters[self.axes[axis]].reversed;
+        if reversed(0) != reversed(1) && left < right {
+            let message = "one axis is printed with the other sign, and the offset would be on the other side";
+            return fault(Code::PR017, message, "exchange the codes: `CDC 42 41 40`");
+        }
         self.vars.set(VarId::Side, code);
         self.compensate(&infeed.to, (feed, infeed.rapid), SequenceId::InFeed, code, true)?;
         self.compensated = true;

@@ -207,7 +207,11 @@ impl Renderer<'_> {
             }
             // after a cycle of the control the last height printed is its bottom
             let cycled = self.says_code(block, b'G', is_cycle);
-            return self.left_hole(target, cycled.then_some((heights.return_plane, false)));
+            let exit = match self.stays_at_clearance(block, heights) {
+                true => (heights.clear, true),
+                false => (heights.return_plane, false),
+            };
+            return self.left_hole(target, cycled.then_some(exit));
         }
         let starts = self.starts_cycle(block, heights);
         if starts {
@@ -249,8 +253,27 @@ impl Renderer<'_> {
         // without a code that says it, the control's own setting decides whether it returns
         let stays = self.says_code(block, b'G', |code| code == self.program.settings.return_plane[0]);
         let low = heights.return_plane <= heights.clear + SAME;
-        let known = block.returns || low && (stays || initial <= heights.clear + SAME);
+        let known = block.returns || stays || low && initial <= heights.clear + SAME;
         self.left_hole(target, Some((exit, known)))
+    }
+
+    /// Does an emulated sequence leave the tool at the clearance for certain: G99, and no axis behind the control's cycle?
+    fn stays_at_clearance(&self, block: &Block, heights: Heights) -> bool {
+        let code = self.program.settings.return_plane[0];
+        let chosen = block.vars.has(VarId::Retplane) && heights.return_plane <= heights.clear + SAME;
+        if !chosen && !self.says_code(block, b'G', |value| value == code) {
+            return false;
+        }
+        let is_line = |i: &usize| matches!(self.program.ops[*i], Op::Line { .. });
+        let cycle = block.ops.clone().rfind(|&i| match self.program.ops[i] {
+            Op::Literal { index, .. } => {
+                let literal = &self.program.literals[index as usize];
+                literal.letter == b'G' && is_cycle(literal.value)
+            }
+            _ => false,
+        });
+        let Some(end) = cycle.and_then(|cycle| (cycle..block.ops.end).find(is_line)) else { return true };
+        !self.names_axes(&Block { ops: end..block.ops.end, ..block.clone() }, false)
     }
 
     /// An Upon of the hole's bottom, unless it would take the tool there.

@@ -326,7 +326,8 @@ impl Renderer<'_> {
 
     /// Is the tool below a target, by what the job said last? From an unknown height it comes from above.
     pub(super) fn is_below(&self, target: &Axes) -> bool {
-        self.position.get(self.depth_axis).is_some_and(|from| target.values[self.depth_axis] > from)
+        let from = self.position.get(self.depth_axis).or(self.left_at);
+        from.is_some_and(|from| target.values[self.depth_axis] > from)
     }
 
     /// The depth axis in a set of axes.

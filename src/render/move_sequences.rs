@@ -1,7 +1,8 @@
 //! What is printed before a motion sequence that does not print it: the plane, the feed.
 
 use super::fault::{Done, fault_at};
-use super::renderer::{LastMove, Renderer};
+use super::renderer::Renderer;
+use super::words::tenths;
 use crate::compile::Block;
 use crate::diag::Code;
 use crate::lang::{Machine, VarId};
@@ -42,13 +43,19 @@ impl Renderer<'_> {
         Ok(())
     }
 
-    /// After a cut, before a sequence that goes to a place and prints no motion: it goes there at rapid.
-    pub(super) fn rapid_before(&mut self, block: &Block) -> Done {
-        let cuts = matches!(self.last_move, LastMove::Line | LastMove::Cw | LastMove::Ccw);
-        if cuts && self.names_axes(block, false) {
-            let program = self.program;
-            self.motion_block(&program.settings.rapid, block)?;
+    /// The motion before a sequence that goes to a place and says none: a cut's is a cut, every other way a rapid.
+    pub(super) fn way_before(&mut self, block: &Block) -> Done {
+        let program = self.program;
+        let code = if self.cutting { &program.settings.feed } else { &program.settings.rapid };
+        let known = self.in_motion == Some(tenths(code.value));
+        if known || !program.speaks_g || !self.goes_unsaid(block) {
+            return Ok(());
         }
+        self.code_word(code)?;
+        if self.cutting && !self.inverse_time() {
+            self.feed_word()?;
+        }
+        self.end_block();
         Ok(())
     }
 

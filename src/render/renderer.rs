@@ -88,6 +88,12 @@ pub struct Renderer<'p> {
     /// Cutter compensation is on.
     pub(super) compensated: bool,
     pub(super) last_move: LastMove,
+    /// The motion that the control is in, in tenths of its code: also where the next move says it again.
+    pub(super) in_motion: Option<i64>,
+    /// The item that is printed cuts.
+    pub(super) cutting: bool,
+    /// The height at which the subprogram called last left the tool, while nothing else tells one.
+    pub(super) left_at: Option<f64>,
     /// Factor from the job's lengths to the program's.
     pub(super) scale: f64,
     /// Factor from the form's lengths to the program's.
@@ -162,6 +168,9 @@ impl<'p> Renderer<'p> {
             distance: None,
             compensated: false,
             last_move: LastMove::None,
+            in_motion: None,
+            cutting: false,
+            left_at: None,
             scale: 1.0,
             form_scale: 1.0,
             units: Units::Inch,
@@ -233,6 +242,10 @@ impl<'p> Renderer<'p> {
     }
 
     fn take(&mut self, event: Event<'_>) -> Done {
+        self.cutting = matches!(
+            event,
+            Event::Line { .. } | Event::Arc { .. } | Event::Infeed { .. } | Event::Outfeed { rapid: false, .. }
+        );
         match event {
             Event::Rapid(to) => self.rapid(&to),
             Event::Line { to, feed } => self.line(&to, feed),

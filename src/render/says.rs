@@ -39,6 +39,25 @@ impl Renderer<'_> {
         self.says_motion(block) || self.says_code(block, b'G', own)
     }
 
+    /// Does a sequence come to words of axes before it says a motion? A block with a code of no group, as G28, goes by
+    /// itself.
+    pub(super) fn goes_unsaid(&self, block: &Block) -> bool {
+        let is_line = |i: &usize| matches!(self.program.ops[*i], Op::Line { .. });
+        let mut start = block.ops.start;
+        while start < block.ops.end {
+            let end = (start + 1..block.ops.end).find(is_line).unwrap_or(block.ops.end);
+            let line = Block { ops: start..end, ..block.clone() };
+            if self.says_motion(&line) {
+                return false;
+            }
+            if self.names_axes(&line, false) && !self.says_own_motion(&line) {
+                return true;
+            }
+            start = end;
+        }
+        false
+    }
+
     /// The variables that say where a linear axis goes.
     fn words_of(&self, axis: usize) -> &'static [VarId] {
         match (axis, self.linear) {

@@ -1,7 +1,7 @@
 //! Named parts of a path, dwells, stops, comments and text as it stands.
 
 use super::fault::{Done, fault};
-use super::renderer::Renderer;
+use super::renderer::{LastMove, Renderer};
 use super::words::tenths;
 use crate::control::Control;
 use crate::diag::{Code, steers};
@@ -56,6 +56,11 @@ impl Renderer<'_> {
         match self.program.block(id) {
             Some(block) => {
                 self.set_here()?;
+                // an arc's code would want a centre; among cuts it stays a cut
+                if matches!(self.last_move, LastMove::Cw | LastMove::Ccw) {
+                    self.cutting = true;
+                    self.way_before(block)?;
+                }
                 self.run_with_upons(block)?;
                 if self.names_axes(block, true) {
                     self.moved_by = Some(block.span);

@@ -53,12 +53,14 @@ struct Left {
     turned: bool,
     /// It stopped: spindle and coolant may stand, whoever calls it.
     stops: bool,
+    /// The height at which it leaves the tool.
+    height: Option<f64>,
 }
 
 impl Left {
     /// Nothing that its next run would find otherwise.
     fn is_nothing(&self) -> bool {
-        self.served.known().is_empty()
+        self.served.known().is_empty() && !self.stops
     }
 }
 
@@ -205,10 +207,12 @@ impl Renderer<'_> {
     /// The main program goes on as if the subprogram had not been written, because only calls run it.
     fn back_to_main(&mut self) {
         let turned = self.angles.is_known();
+        let height = self.position.get(self.depth_axis).or(self.left_at);
         self.forget_where();
         let Some(main) = self.subs.main.take() else { return };
         let upon_used = std::mem::replace(&mut self.upon_used, main.upon_used);
-        let left = Left { served: self.served, upon_used, turned, stops: std::mem::take(&mut self.subs.stopped) };
+        let left =
+            Left { served: self.served, upon_used, turned, stops: std::mem::take(&mut self.subs.stopped), height };
         (self.vars, self.served, self.angles) = (main.vars, main.served, main.angles);
         self.keep_feed(main.feed);
         if let Some(sub) = self.subs.open.take().and_then(|open| self.subs.defined.get_mut(open)) {
@@ -308,10 +312,11 @@ impl Renderer<'_> {
         for run in 0..calls {
             self.set_targets(&place)?;
             if run > 0 && leaves {
+                self.knows_after_stop()?;
                 self.pending_changes()?;
             }
             self.upons(block.vars)?;
-            self.rapid_before(block)?;
+            self.way_before(block)?;
             self.registers.forget_all();
             self.run_block(block)?;
             self.after_call(called);
@@ -348,11 +353,11 @@ impl Renderer<'_> {
     pub(super) fn knows_after_stop(&self) -> Done {
         let unknown = |var: VarId| self.vars.get(var).is_none();
         let by_form = self.program.switches_spindle; // then nothing is said again
-        if !self.subs.stopped || by_form || !(unknown(VarId::Speed) || unknown(VarId::Direct)) {
+        if !self.subs.stopped || by_form || ![VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(unknown) {
             return Ok(());
         }
-        let help = "give it its own `spindle` before the stop, and its `coolant`";
-        fault(Code::PR008, "the subprogram goes on after a stop, and nobody knows its spindle here", help)
+        let help = "give it its own `spindle` and `coolant` before the stop";
+        fault(Code::PR008, "the subprogram goes on after a stop, and nobody knows its spindle and coolant here", help)
     }
 
     /// The subprogram moved the tool, and changed what it says it changed.
@@ -362,6 +367,7 @@ impl Renderer<'_> {
         let known = called.map(|i| &self.subs.defined[i]).filter(|sub| !sub.calls_ahead);
         match known {
             Some(sub) => {
+                self.left_at = sub.left.height;
                 if sub.left.stops {
                     (self.served.speed, self.served.direct, self.served.cool) = (None, None, None);
                 }
@@ -410,6 +416,14 @@ impl Renderer<'_> {
                 let message =
                     format!("subprogram {} changes what its caller does not know and can't put back", call.to);
                 let help = "say spindle, coolant and work offset in the calling subprogram before the call";
+                return at(call.place, fault(Code::PR008, message, help));
+            }
+            // a later one that stops: its caller went on without a look at it
+            let unknown = [VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(|var| call.unknown.has(var));
+            if to > call.from && unknown && self.subs.defined[to].left.stops {
+                let message =
+                    format!("subprogram {} stops, and its caller does not know its spindle and coolant", call.to);
+                let help = "say spindle and coolant in the calling subprogram before the call";
                 return at(call.place, fault(Code::PR008, message, help));
             }
             if !ends[to] {
@@ -478,6 +492,8 @@ impl Renderer<'_> {
     /// Where the tool is, is unknown.
     fn forget_position(&mut self) {
         self.position = Axes::default();
+        self.left_at = None;
+        self.in_motion = None;
         self.last_move = LastMove::None;
         for var in [VarId::H, VarId::V, VarId::D, VarId::Lasth, VarId::Lastv, VarId::Lastd] {
             self.vars.put(var, None);

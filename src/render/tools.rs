@@ -113,6 +113,7 @@ impl Renderer<'_> {
         // another tool has no last position that a first rapid could keep; the part stays turned as it is
         self.angles.keep(&self.position);
         self.position = Axes::default();
+        self.left_at = None;
         for var in [VarId::H, VarId::V, VarId::D] {
             self.vars.put(var, None);
         }

@@ -80,7 +80,7 @@ impl Renderer<'_> {
                     return fault_at(Code::PR006, message, help, Some(upon.block.span));
                 }
                 let placed = std::mem::take(&mut self.placed);
-                self.rapid_before(&upon.block)?;
+                self.way_before(&upon.block)?;
                 self.run_block(&upon.block)?;
                 self.stands_where_it_was_put();
                 self.placed |= placed;

@@ -96,11 +96,7 @@ impl<'s> Hold<'s> {
     /// A rapid goes there: of each axis the first place is kept. Another tool has no height before it is told one: ways
     /// across are those of its change, which goes down at the last of them.
     fn reaches(&mut self, to: &Axes) {
-        if self.changes
-            && self.depth != 0
-            && self.first.given & self.depth == 0
-            && self.first.given & to.given & !self.depth != 0
-        {
+        if self.is_way() && self.first.given & to.given & !self.depth != 0 {
             self.first.given &= !to.given;
             self.forget_ways();
         }
@@ -108,6 +104,11 @@ impl<'s> Hold<'s> {
         for axis in (0..6).filter(|axis| new & 1 << axis != 0) {
             self.first.set(axis, to.values[axis]);
         }
+    }
+
+    /// Are the rapids so far ways across of another tool, which has no height yet?
+    fn is_way(&self) -> bool {
+        self.changes && self.depth != 0 && self.first.given & self.depth == 0
     }
 
     /// Rapids that tell no height, before a tool change that goes to a later place.
@@ -121,11 +122,16 @@ impl<'s> Hold<'s> {
     fn held(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
         let waiting = match event {
             // rapids before it told places of the offset before: they are gone to in that one
-            Event::Work(_) if self.first.given != 0 => {
+            Event::Work(_) if self.first.given != 0 && !self.is_way() => {
                 self.release(First::Nothing)?;
                 return self.sink.event(event, place);
             }
             Event::Work(work) => {
+                if self.first.given != 0 {
+                    // another tool goes to its place in the last offset at once
+                    self.first = Axes::default();
+                    self.forget_ways();
+                }
                 // the first position counts from this offset: the tool must not go there in another
                 if let Some((change, _)) = &mut self.change {
                     change.work = Some(work);
@@ -171,7 +177,7 @@ impl<'s> Hold<'s> {
             }
             Event::Thread(thread) => {
                 if self.first.given != 0 {
-                    self.reaches(&Axes { given: thread.from.given & self.axes, ..thread.from });
+                    self.reaches(&Axes { given: thread.from.given & self.axes & !self.first.given, ..thread.from });
                 }
                 self.release(First::Rapid(thread.from))?;
                 return self.sink.event(event, place);

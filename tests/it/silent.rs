@@ -278,7 +278,7 @@ fn a_stop_in_a_subprogram_is_known_behind_its_call() {
     assert_eq!(lines[at + 1], "S1000 M3");
     let cuts = "{\"rapid\":[0,0,1]},{\"stop\":\"program\"},{\"line\":[0,0,0],\"feed\":5}";
     assert!(program(&mill("", SUBS), &with_sub(cuts, path))[0].starts_with("PR008"));
-    let own = format!("{{\"spindle\":{{\"speed\":9,\"direction\":\"cw\"}}}},{cuts}");
+    let own = format!("{{\"spindle\":{{\"speed\":9,\"direction\":\"cw\"}}}},{{\"coolant\":\"off\"}},{cuts}");
     let lines = program(&mill("", SUBS), &with_sub(&own, path));
     assert!(lines.windows(2).any(|pair| pair == ["M0", "S9 M3"]), "{lines:?}");
 }
@@ -388,11 +388,11 @@ fn no_increment_from_a_height_that_nobody_knows() {
     let form = mill("Incremental? Y", drill)
         .replace("Cancel\nG80\nEnd", "Cancel\nG80 G91\nEnd")
         .replace("G0 G[work] X[h] Y[v] Z[d]", "G90 G0 G[work] X[h] Y[v] Z[d]\nG91");
-    for typed in ["G98", "G99"] {
-        let path = format!("{{\"rapid\":[0,0,4]}},{HOLES}[[1,1,0]],\"return\":2}}}},{{\"line\":[3,1,-0.5]}}");
-        let lines = program(&form.replace("G98", typed), &job(&path));
-        assert!(typed == "G98" || lines[0].starts_with("PR001 an increment of Z"), "{lines:?}");
-    }
+    let path = format!("{{\"rapid\":[0,0,4]}},{HOLES}[[1,1,0]],\"return\":2}}}},{{\"line\":[3,1,-0.5]}}");
+    assert!(program(&form, &job(&path))[0].starts_with("PR001 an increment of Z"));
+    // G99 leaves it at the clearance
+    let lines = program(&form.replace("G98", "G99"), &job(&path));
+    assert_eq!(lines[lines.len() - 4..lines.len() - 1], ["G80 G91", "G0 Z1.9", "G1 X2. Z-2.5 F10."]);
 }
 
 /// An arc is not printed in the plane that its sequence types when it lies in another.
@@ -491,4 +491,156 @@ fn increments_left_on_are_ended_by_the_sequence_itself() {
     };
     assert!(lines("G0 G53 Z0")[0].starts_with("PR017"), "{:?}", lines("G0 G53 Z0"));
     assert!(lines("G90 G0 G53 Z0").contains(&"M30".to_owned()) && lines("M9").contains(&"M30".to_owned()));
+}
+
+/// What an Upon of a cut prints is a cut: at feed, never a rapid into the part.
+#[test]
+fn an_upon_of_a_cut_cuts() {
+    let path = "{\"line\":[1,0,0]},{\"line\":[2,0,-1]},{\"line\":[3,0,-1]}";
+    let lines = path_lines("", "Upon [d]\nZ[d] F[frate]\nEnd", path);
+    assert_eq!(lines, ["G1 F10.", "Z0 F10.", "X1.", "Z-1. F10.", "X2.", "X3."]);
+}
+
+/// A macro with arguments that are named as axes goes where it likes all the same.
+#[test]
+fn the_arguments_of_a_macro_are_no_position() {
+    let lines = |line: &str| {
+        let change = format!("X[h] Y[v] Z[d]\n{line}\nEnd\nToolChange");
+        program(&mill("", "").replace("X[h] Y[v] Z[d]\nEnd\nToolChange", &change), &job("{\"line\":[0,0,0]}"))
+    };
+    for line in ["G65 P9010 X1. Y2.", "G65 P9010 Z2.", "G66 P9010 X2."] {
+        assert!(lines(line).iter().any(|line| line == "G0 X0 Y0 Z1."), "{line}: {:?}", lines(line));
+    }
+    // and leaves any motion
+    let row = "{\"line\":[1,0,0]},{\"begin\":\"row\"},{\"line\":[2,0,0]},{\"end\":\"row\"}";
+    assert_eq!(path_lines("", "BeginRow\nG65 P9010\nEnd", row)[2..], ["G1 X2. Y0 Z0"]);
+}
+
+/// The way to a call, and that of an Upon, is a rapid whatever came before it: another call, text, a cycle.
+#[test]
+fn the_way_to_a_call_is_a_rapid_whatever_came_before() {
+    let subs = SUBS.replace("M98", "X[h] Y[v]\nM98");
+    let cuts = "{\"rapid\":[0,0,1]},{\"line\":[0,0,-1],\"feed\":5}";
+    let before = |lines: &[String], way: &str| {
+        let at = lines.iter().rposition(|line| line == way).unwrap_or_else(|| panic!("{lines:?}"));
+        lines[at - 1].clone()
+    };
+    let calls = "{\"call\":{\"sub\":1,\"at\":[3,3]}},{\"call\":{\"sub\":1,\"at\":[4,4]}},{\"rapid\":[0,0,1]}";
+    assert_eq!(before(&program(&mill("", &subs), &with_sub(cuts, calls)), "X4. Y4."), "G0");
+    let times = "{\"call\":{\"sub\":1,\"at\":[4,4],\"times\":2}},{\"rapid\":[0,0,1]}";
+    assert_eq!(before(&program(&mill("", &subs), &with_sub(cuts, times)), "X4. Y4."), "G0");
+    let text = "{\"text\":\"G1 Z-1. F5.\"},{\"call\":{\"sub\":1,\"at\":[4,4]}},{\"rapid\":[0,0,1]}";
+    assert_eq!(before(&program(&mill("", &subs), &with_sub(cuts, text)), "X4. Y4."), "G0");
+    let upon = format!("{SUBS}\nUpon [work]\nG[work] X[h] Y[v]\nEnd");
+    let path = "{\"call\":{\"sub\":1}},{\"work\":55},{\"rapid\":[5,5,1]}";
+    assert_eq!(before(&program(&mill("", &upon), &with_sub(cuts, path)), "G55 X5. Y5."), "G0");
+}
+
+/// A subprogram that stops is begun again as it began first; one that goes on knows its coolant too; a way is no cut.
+#[test]
+fn a_stop_in_a_subprogram_is_one_for_its_next_run() {
+    let cut = "{\"rapid\":[0,0,1]},{\"line\":[0,0,-1],\"feed\":5},{\"rapid\":[0,0,1]},{\"stop\":\"program\"}";
+    let path = "{\"call\":{\"sub\":1,\"times\":2}},{\"rapid\":[0,0,1]}";
+    for call in ["M98 P[sub]", "M98 P[sub] L[times]"] {
+        let lines = program(&mill("", &SUBS.replace("M98 P[sub]", call)), &with_sub(cut, path));
+        let calls: Vec<_> = (0..lines.len()).filter(|&i| lines[i].starts_with("M98")).collect();
+        assert_eq!(calls.len(), 2, "{lines:?}");
+        assert_eq!(lines[calls[0] + 1], "S1000 M3", "{lines:?}");
+    }
+    let dry = format!("{{\"spindle\":{{\"speed\":9,\"direction\":\"cw\"}}}},{cut},{{\"line\":[0,0,-1]}}");
+    assert!(program(&mill("", SUBS), &with_sub(&dry, path))[0].starts_with("PR008"));
+    let away = format!("{cut},{{\"rapid\":[9,9,1]}}");
+    assert!(program(&mill("", SUBS), &with_sub(&away, path)).contains(&"X9. Y9.".to_owned()));
+    let on = format!("{away},{{\"line\":[9,9,0]}}");
+    assert!(program(&mill("", SUBS), &with_sub(&on, path))[0].starts_with("PR008"));
+}
+
+/// From where a subprogram left it the tool goes up first.
+#[test]
+fn behind_a_call_the_tool_goes_up_before_it_crosses() {
+    let low = "{\"rapid\":[0,0,1]},{\"line\":[0,0,-1],\"feed\":5}";
+    let lines = program(&mill("", SUBS), &with_sub(low, &format!("{{\"call\":{{\"sub\":1}}}},{HOLES}[[5,5,0]]}}}}")));
+    let at = lines.iter().position(|line| line == "M98 P1").unwrap_or_else(|| panic!("{lines:?}"));
+    assert_eq!(lines[at + 1..at + 3], ["G0 Z.1", "X5. Y5."]);
+    let path = "{\"call\":{\"sub\":1}},{\"rapid\":[5,5,1]}";
+    let lines = program(&mill("VRapid G0", SUBS), &with_sub(low, path));
+    assert_eq!(lines[at + 1..at + 3], ["G0 Z1.", "X5. Y5."], "{lines:?}");
+}
+
+/// With an axis of the other sign the offset has another side, and the form's own arcs are looked at like generated ones.
+#[test]
+fn reversed_axes_reverse_sides_and_sequences() {
+    let infeed = "{\"infeed\":[1,1],\"side\":\"left\"},{\"outfeed\":[3,1]}";
+    let head = "RevSigns X I\nCW G3\nCCW G2";
+    assert!(path_lines(head, "", infeed)[0].starts_with("PR017"));
+    assert_eq!(path_lines(&format!("{head}\nCDC 42 41 40"), "", infeed)[0], "G1 G42 X-1. Y1. D21 F10.");
+    let arc = "{\"arc\":{\"to\":[2,0],\"center\":[1,0.5],\"direction\":\"ccw\"}}";
+    let own = |code: &str| format!("CcwCode\n{code} X[h] Y[v] I[ival] J[jval] F[frate]\nEnd");
+    assert!(path_lines("RevSigns X", &own("G2"), arc)[0].starts_with("PR017"));
+    assert!(path_lines("RevSigns X I", &own("G3"), arc)[0].starts_with("PR017"));
+    assert_eq!(path_lines("RevSigns X I", &own("G2"), arc), ["G2 X-2. I-1. J.5 F10."]);
+    let yz = "{\"arc\":{\"to\":[0,2,1],\"center\":[null,1,1],\"direction\":\"ccw\",\"plane\":\"yz\"}}";
+    assert!(path_lines(head, "", yz)[0].starts_with("PR017"));
+    // controls that count from the centre to the start
+    assert_eq!(path_lines("RevSigns I J", "", arc), ["G17 G3 X2. I-1. J-.5 F10."]);
+}
+
+/// G99 leaves the tool at the clearance: increments may count from there.
+#[test]
+fn increments_count_from_a_height_that_is_certain() {
+    for drill in [
+        "Drill\nG90\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel",
+        "Drill\nG90 G99 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel",
+    ] {
+        let form = mill("Incremental? Y", drill)
+            .replace("Cancel\nG80\nEnd", "Cancel\nG80 G91\nEnd")
+            .replace("G0 G[work] X[h] Y[v] Z[d]", "G90 G0 G[work] X[h] Y[v] Z[d]\nG91");
+        let path = format!("{HOLES}[[1,1,0]]}}}},{{\"line\":[3,1,-0.5]}}");
+        let lines = program(&form, &job(&path));
+        assert_eq!(lines[lines.len() - 2], "G1 X2. Z-.6 F10.", "{lines:?}");
+    }
+}
+
+/// Behind an arc a part of the path does not go on as an arc.
+#[test]
+fn a_part_behind_an_arc_is_no_arc() {
+    let arc = "{\"arc\":{\"to\":[2,0],\"center\":[1,0],\"direction\":\"ccw\"}}";
+    let path = format!("{arc},{{\"begin\":\"row\"}},{{\"line\":[3,0,1]}},{{\"end\":\"row\"}}");
+    let lines = path_lines("", "BeginRow\nX[h] Y[v]\nEnd", &path);
+    assert_eq!(lines[1..3], ["G1", "X2. Y0"], "{lines:?}");
+}
+
+/// The angles of an arc are those that a turret on the other side sees; a thread begins where the way before it came to.
+#[test]
+fn a_mirrored_turret_has_mirrored_angles() {
+    let lathe = |head: &str, seqs: &str| {
+        format!(
+            "Machine Lathe\n{head}\nStartCode\n%0\nEnd\n1stToolChange\nT[comp]\nG97 S[speed] M[direct]\nG0 X[v] Z[h]\nEnd\n\
+                 ToolChange\nT[comp]\nEnd\nEndCode\nM30\nEnd\n{seqs}\n"
+        )
+    };
+    let text = |turret: u32, path: &str| {
+        format!(
+            "{{\"postform\":1,\"program\":1,\"units\":\"inch\",\"machine\":\"lathe\",\"tools\":[{{\"number\":2,\"turret\":{turret}}}],\
+                 \"operations\":[{{\"tool\":2,\"spindle\":{{\"speed\":500,\"direction\":\"cw\"}},\"feed\":5,\"path\":[{path}]}}]}}"
+        )
+    };
+    let own = "CcwCode\nG3 X[v] Z[h] A[startang] B[endang] C[sweep] I[jval] K[ival] F[frate]\nEnd\nCwCode\nG2 X[v] Z[h] A[startang] B[endang] C[sweep] I[jval] K[ival] F[frate]\nEnd";
+    let arc = "{\"rapid\":[-1,0.375]},{\"arc\":{\"to\":[-1.125,0.5],\"center\":[-1.125,0.375],\"direction\":\"ccw\"}}";
+    let said = |turret| {
+        program(&lathe("RevTurret2? Y", own), &text(turret, arc)).into_iter().find(|line| line.contains("A0")).unwrap()
+    };
+    assert!(said(1).contains("B90. C90."), "{}", said(1));
+    assert!(said(2).contains("B270. C-90."), "{}", said(2));
+    let thread = "{\"rapid\":[null,0.6]},{\"thread\":{\"from\":[0.2,0.5],\"to\":[-0.9],\"pitch\":0.0625,\"depth\":0.0383,\"passes\":2}}";
+    let lines = program(&lathe("Thread G33\nThreadPasses full", ""), &text(1, thread));
+    assert!(lines.iter().any(|line| line.starts_with("G0 X1.2 Z.2")), "{lines:?}");
+}
+
+/// Ways of another tool in the offset before are not gone: it goes to its place in the last offset at once.
+#[test]
+fn ways_before_another_offset_are_those_of_the_tool_change() {
+    let items = "{\"rapid\":[1,1]},{\"work\":55},{\"rapid\":[2,2,1]},{\"line\":[2,2,0]}";
+    let lines = program(&mill("", ""), &job("@").replace("{\"rapid\":[0,0,1]},@", items));
+    assert_eq!(lines[3..], ["G0 G55 X2. Y2. Z1.", "G1 Z0 F10.", "M30"]);
 }

@@ -2,7 +2,8 @@
 
 use super::cycle_words::{OPTIONS, Opt, TYPES};
 use super::dialect::Dialect;
-use super::reader::{Done, Reader, fault};
+use super::fault::{Done, fault};
+use super::report::Notes;
 use super::words::Word;
 use crate::diag::Code;
 use crate::lang::did_you_mean;
@@ -40,126 +41,117 @@ impl Coded {
     }
 }
 
-impl Reader<'_> {
-    /// The type, and the word that changes it: DRILL,DEEP, TAP,BRKCHP, BORE,BACK.
-    pub(super) fn cycle_type<'w>(&self, words: &'w [Word]) -> Done<(Coded, &'w [Word])> {
-        let name = words.first().and_then(Word::name).unwrap_or("");
-        let Some((_, mut kind)) = TYPES.iter().find(|(word, _)| *word == name).copied() else {
-            let names = TYPES.iter().map(|(word, _)| *word);
-            let help = did_you_mean(name, names).unwrap_or_else(|| {
-                "it is one of DRILL, FACE, TAP, BORE, REAM, DEEP, BRKCHP, THRU, CSINK, MANUAL".into()
-            });
-            return fault(Code::PC001, format!("`{name}` is no cycle that postform knows"), help);
-        };
-        let mut rest = &words[1..];
-        let mut mode = None;
-        let next_is_number = rest.get(1).is_some_and(|word| word.number().is_some());
-        let second = match (kind, rest.first().and_then(Word::name)) {
-            (CycleKind::Drill | CycleKind::Tap, Some("DEEP")) => Some(CycleKind::Deep),
-            (CycleKind::Drill | CycleKind::Tap, Some("BRKCHP")) => Some(CycleKind::Chipbreak),
-            (CycleKind::Bore, Some("BACK")) if !next_is_number => Some(CycleKind::Back),
-            _ => None,
-        };
-        if let Some(second) = second {
-            rest = &rest[1..];
-            if kind == CycleKind::Tap { mode = Some(second) } else { kind = second }
-        }
-        Ok((Coded { kind: Some(kind), mode, ..Coded::default() }, rest))
+/// The type, and the word that changes it: DRILL,DEEP, TAP,BRKCHP, BORE,BACK.
+pub(super) fn cycle_type(words: &[Word]) -> Done<(Coded, &[Word])> {
+    let name = words.first().and_then(Word::name).unwrap_or("");
+    let Some((_, mut kind)) = TYPES.iter().find(|(word, _)| *word == name).copied() else {
+        let names = TYPES.iter().map(|(word, _)| *word);
+        let help = did_you_mean(name, names)
+            .unwrap_or_else(|| "it is one of DRILL, FACE, TAP, BORE, REAM, DEEP, BRKCHP, THRU, CSINK, MANUAL".into());
+        return fault(Code::PC001, format!("`{name}` is no cycle that postform knows"), help);
+    };
+    let mut rest = &words[1..];
+    let mut mode = None;
+    let next_is_number = rest.get(1).is_some_and(|word| word.number().is_some());
+    let second = match (kind, rest.first().and_then(Word::name)) {
+        (CycleKind::Drill | CycleKind::Tap, Some("DEEP")) => Some(CycleKind::Deep),
+        (CycleKind::Drill | CycleKind::Tap, Some("BRKCHP")) => Some(CycleKind::Chipbreak),
+        (CycleKind::Bore, Some("BACK")) if !next_is_number => Some(CycleKind::Back),
+        _ => None,
+    };
+    if let Some(second) = second {
+        rest = &rest[1..];
+        if kind == CycleKind::Tap { mode = Some(second) } else { kind = second }
     }
+    Ok((Coded { kind: Some(kind), mode, ..Coded::default() }, rest))
+}
 
-    pub(super) fn read_options(&mut self, before: &Coded, words: &[Word], whole: bool) -> Done<Coded> {
-        let kind = before.kind.unwrap_or(CycleKind::Drill);
-        let mut coded = Coded { kind: before.kind, mode: before.mode, ..Coded::default() };
-        let mut at = 0;
-        while at < words.len() {
-            let name = match &words[at] {
-                Word::Name(name) => name,
-                Word::Null => {
-                    self.warn(Code::PC056, "an empty place between two commas in CYCLE", "take a comma out");
-                    at += 1;
-                    continue;
-                }
-                Word::Number(value) if at == 0 && whole => return self.positional(coded, words, *value),
-                Word::Number(value) => {
-                    let help = "put its word before it, as DEPTH, STEP or MMPM";
-                    return fault(Code::PC037, format!("{value} belongs to no word"), help);
-                }
-            };
-            let Some(row) = OPTIONS.iter().find(|row| row.word == name) else {
-                let help = did_you_mean(name, OPTIONS.iter().map(|row| row.word))
-                    .unwrap_or_else(|| "take it out, or say who wrote the file with `--dialect`".into());
-                return fault(Code::PC018, format!("`{name}` is no option of a cycle"), help);
-            };
-            let start = at + 1;
-            at = start;
-            let room = if row.most > 0 { row.most + 1 } else { 1 };
-            while at < words.len() && words[at].number().is_some() && at - start < room {
+/// The options of a CYCLE statement; CYCLE/ON says only some of them (`whole` is false).
+pub(super) fn read_options(notes: &mut Notes<'_>, before: &Coded, words: &[Word], whole: bool) -> Done<Coded> {
+    let kind = before.kind.unwrap_or(CycleKind::Drill);
+    let mut coded = Coded { kind: before.kind, mode: before.mode, ..Coded::default() };
+    let mut at = 0;
+    while at < words.len() {
+        let name = match &words[at] {
+            Word::Name(name) => name,
+            Word::Null => {
+                notes.warn(Code::PC056, "an empty place between two commas in CYCLE", "take a comma out");
                 at += 1;
+                continue;
             }
-            let numbers: Vec<f64> = words[start..at].iter().filter_map(Word::number).collect();
-            if let (Opt::Dwell, true, Some(next)) = (row.option, numbers.is_empty(), words.get(at)) {
-                // CATIA writes DWELL,DWELL,2 and DWELL,REV,2 and DWELL,,
-                if next.is("DWELL") || next.is("REV") || *next == Word::Null {
-                    continue;
-                }
+            Word::Number(value) if at == 0 && whole => return positional(notes, coded, words, *value),
+            Word::Number(value) => {
+                let help = "put its word before it, as DEPTH, STEP or MMPM";
+                return fault(Code::PC037, format!("{value} belongs to no word"), help);
             }
-            check_numbers(row.word, &numbers, (row.least, row.most), row.signed)?;
-            let allowed = if row.types.is_empty() { kind != CycleKind::Manual } else { row.types.contains(&kind) };
-            let pecking_tap =
-                before.mode.is_some() && matches!(row.option, Opt::Step | Opt::Back | Opt::Decr | Opt::Minstp);
-            if !allowed && !pecking_tap {
-                let name = TYPES.iter().find(|(_, k)| *k == kind).map_or("BORE,BACK", |(word, _)| word);
-                return fault(Code::PC017, format!("{name} has no {}", row.word), "take it out");
-            }
-            match row.option {
-                Opt::Depth => group_for(&mut coded.groups, |g| !g.depths.is_empty()).depths = numbers,
-                Opt::Step => group_for(&mut coded.groups, |g| !g.steps.is_empty()).steps = numbers,
-                Opt::Feed => {
-                    if name == "TPI" && kind != CycleKind::Tap {
-                        return fault(
-                            Code::PC008,
-                            "threads per inch for something that is no tap",
-                            "write IPR or MMPR",
-                        );
-                    }
-                    if numbers[0] <= 0.0 {
-                        return fault(Code::PC006, format!("a feed of {}", numbers[0]), "give a feed above zero");
-                    }
-                    let group = group_for(&mut coded.groups, |g| g.feed.is_some());
-                    group.feed = Some((name.clone(), numbers[0]));
-                }
-                Opt::Side => self.warn(
-                    Code::PL008,
-                    "SIDE of CYCLE/TAP is not known and nothing is done for it",
-                    "compare the tap",
-                ),
-                option if coded.has(option) => {
-                    return fault(Code::PC019, format!("{name} is there twice"), "keep one");
-                }
-                option => coded.options.push((option, numbers)),
+        };
+        let Some(row) = OPTIONS.iter().find(|row| row.word == name) else {
+            let help = did_you_mean(name, OPTIONS.iter().map(|row| row.word))
+                .unwrap_or_else(|| "take it out, or say who wrote the file with `--dialect`".into());
+            return fault(Code::PC018, format!("`{name}` is no option of a cycle"), help);
+        };
+        let start = at + 1;
+        at = start;
+        let room = if row.most > 0 { row.most + 1 } else { 1 };
+        while at < words.len() && words[at].number().is_some() && at - start < room {
+            at += 1;
+        }
+        let numbers: Vec<f64> = words[start..at].iter().filter_map(Word::number).collect();
+        if let (Opt::Dwell, true, Some(next)) = (row.option, numbers.is_empty(), words.get(at)) {
+            // CATIA writes DWELL,DWELL,2 and DWELL,REV,2 and DWELL,,
+            if next.is("DWELL") || next.is("REV") || *next == Word::Null {
+                continue;
             }
         }
-        Ok(coded)
+        check_numbers(row.word, &numbers, (row.least, row.most), row.signed)?;
+        let allowed = if row.types.is_empty() { kind != CycleKind::Manual } else { row.types.contains(&kind) };
+        let pecking_tap =
+            before.mode.is_some() && matches!(row.option, Opt::Step | Opt::Back | Opt::Decr | Opt::Minstp);
+        if !allowed && !pecking_tap {
+            let name = TYPES.iter().find(|(_, k)| *k == kind).map_or("BORE,BACK", |(word, _)| word);
+            return fault(Code::PC017, format!("{name} has no {}", row.word), "take it out");
+        }
+        match row.option {
+            Opt::Depth => group_for(&mut coded.groups, |g| !g.depths.is_empty()).depths = numbers,
+            Opt::Step => group_for(&mut coded.groups, |g| !g.steps.is_empty()).steps = numbers,
+            Opt::Feed => {
+                if name == "TPI" && kind != CycleKind::Tap {
+                    return fault(Code::PC008, "threads per inch for something that is no tap", "write IPR or MMPR");
+                }
+                if numbers[0] <= 0.0 {
+                    return fault(Code::PC006, format!("a feed of {}", numbers[0]), "give a feed above zero");
+                }
+                let group = group_for(&mut coded.groups, |g| g.feed.is_some());
+                group.feed = Some((name.clone(), numbers[0]));
+            }
+            Opt::Side => {
+                notes.warn(Code::PL008, "SIDE of CYCLE/TAP is not known and nothing is done for it", "compare the tap")
+            }
+            option if coded.has(option) => {
+                return fault(Code::PC019, format!("{name} is there twice"), "keep one");
+            }
+            option => coded.options.push((option, numbers)),
+        }
     }
+    Ok(coded)
+}
 
-    /// The format of 1978, whose order each system has its own: only where a dialect is named.
-    fn positional(&self, mut coded: Coded, words: &[Word], depth: f64) -> Done<Coded> {
-        let catia = self.options.dialect == Some(Dialect::Catia);
-        match words {
-            [_, Word::Number(clear), Word::Number(feed), Word::Name(unit)] if catia => {
-                let feed = Some((unit.clone(), *feed));
-                coded.groups.push(Group { depths: vec![depth], steps: Vec::new(), feed });
-                coded.options.push((Opt::Clear, vec![*clear]));
-                Ok(coded)
-            }
-            _ => {
-                let help = "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2, or name CATIA with `--dialect catia`";
-                fault(Code::PC032, "numbers without their words, which each system orders in its own way", help)
-            }
+/// The format of 1978, whose order each system has its own: only where a dialect is named.
+fn positional(notes: &Notes<'_>, mut coded: Coded, words: &[Word], depth: f64) -> Done<Coded> {
+    let catia = notes.said && notes.dialect() == Dialect::Catia;
+    match words {
+        [_, Word::Number(clear), Word::Number(feed), Word::Name(unit)] if catia => {
+            let feed = Some((unit.clone(), *feed));
+            coded.groups.push(Group { depths: vec![depth], steps: Vec::new(), feed });
+            coded.options.push((Opt::Clear, vec![*clear]));
+            Ok(coded)
+        }
+        _ => {
+            let help = "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2, or name CATIA with `--dialect catia`";
+            fault(Code::PC032, "numbers without their words, which each system orders in its own way", help)
         }
     }
 }
-
 /// What CYCLE/ON says replaces what was coded.
 pub(super) fn over(mut last: Coded, said: Coded) -> Coded {
     for (option, numbers) in said.options {

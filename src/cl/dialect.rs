@@ -1,5 +1,6 @@
 //! The systems that write CL files, and how their files differ.
 
+use super::lines::text_statement;
 use crate::lang::did_you_mean;
 
 /// Who wrote a file.
@@ -88,8 +89,24 @@ impl Dialect {
         self.row().last
     }
 
+    /// The dialect that the first lines of a file give away, with the number of the line and its mark. Text behind the
+    /// first motion is no mark: it is the programmer's.
+    pub(super) fn of_head<'l>(lines: impl Iterator<Item = &'l [u8]>) -> Option<(Dialect, usize, &'static str)> {
+        let mut moves = false;
+        for (line, number) in lines.zip(1..) {
+            moves |= line.trim_ascii_start().get(..4).is_some_and(|word| word.eq_ignore_ascii_case(b"GOTO"));
+            if moves && text_statement(line.trim_ascii()).is_some() {
+                continue;
+            }
+            if let Some((dialect, mark)) = Self::of_line(line) {
+                return Some((dialect, number, mark));
+            }
+        }
+        None
+    }
+
     /// The dialect that a line gives away, and its mark.
-    pub(super) fn of_line(line: &[u8]) -> Option<(Dialect, &'static str)> {
+    fn of_line(line: &[u8]) -> Option<(Dialect, &'static str)> {
         let plain: Vec<u8> =
             line.iter().filter(|b| !b.is_ascii_whitespace()).take(200).map(u8::to_ascii_uppercase).collect();
         ROWS.iter()

@@ -19,6 +19,28 @@ impl<R: Read> Lines<R> {
         Lines { input, buffer: vec![0; 256 * 1024], from: 0, to: 0, at_end: false }
     }
 
+    /// The first lines, which stay to be read: at most `most`, and no more than the buffer holds.
+    pub(super) fn ahead(&mut self, most: usize) -> Result<impl Iterator<Item = &[u8]>> {
+        while !self.at_end
+            && self.to < self.buffer.len()
+            && memchr::memchr_iter(b'\n', &self.buffer[self.from..self.to]).count() < most
+        {
+            self.fill()?;
+        }
+        Ok(self.buffer[self.from..self.to].split(|&byte| byte == b'\n').take(most))
+    }
+
+    /// Reads on behind what is in the buffer.
+    fn fill(&mut self) -> Result<()> {
+        match self.input.read(&mut self.buffer[self.to..]) {
+            Ok(0) => self.at_end = true,
+            Ok(count) => self.to += count,
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+        Ok(())
+    }
+
     /// The next line without its end; `None` at the end. A line that is too long is cut, which its reader sees.
     pub(super) fn next(&mut self) -> Result<Option<&[u8]>> {
         loop {
@@ -37,12 +59,7 @@ impl<R: Read> Lines<R> {
             if self.to == self.buffer.len() {
                 self.buffer.resize(self.to * 2, 0);
             }
-            match self.input.read(&mut self.buffer[self.to..]) {
-                Ok(0) => self.at_end = true,
-                Ok(count) => self.to += count,
-                Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) => return Err(error),
-            }
+            self.fill()?;
         }
     }
 }

@@ -1,6 +1,15 @@
 //! Major words: what is done for each.
 
-use super::reader::{Done, Reader, Waiting, fault};
+use super::arcs::circle;
+use super::dialect::Sense;
+use super::fault::{Done, fault};
+use super::feed::{delay, fedrat};
+use super::job::{Job, Waiting};
+use super::load::{load, tool_path};
+use super::machine::{coolnt, cutcom, spindl, units};
+use super::motion::{from, godlta, goto_words, rapid, tlaxis, trans};
+use super::state::State;
+use super::tlon::{indirv, tlon};
 use super::words::Word;
 use crate::diag::Code;
 use crate::toolpath::{Event, StopKind};
@@ -87,100 +96,114 @@ pub(super) fn major(name: &str) -> Major {
     }
 }
 
-impl Reader<'_> {
-    /// Does what a statement asks for.
-    pub(super) fn run(&mut self, major: Major, name: &str, words: &[Word]) -> Done {
-        if major == Major::Cutter {
-            self.insert = None; // the text before it was the tool's
-        } else {
-            self.lone_insert();
+/// Does what a statement asks for.
+pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_>) -> Done {
+    let State { job, motion, arcs, cycle, .. } = state;
+    match major {
+        Major::Goto => goto_words(words, state),
+        Major::Godlta => godlta(words, state),
+        Major::From => from(words, state),
+        Major::Rapid => rapid(words, state),
+        Major::Circle => circle(words, None, state),
+        Major::Movarc => circle(words, Some(Sense::RightHand), state),
+        Major::Indirv => indirv(words, arcs),
+        Major::Tlon => tlon(words, state),
+        Major::Fedrat => fedrat(words, state),
+        Major::Spindl => spindl(words, cycle, job),
+        Major::Coolnt => coolnt(words, job),
+        Major::Load => load(name, words, state),
+        Major::Cutter => {
+            job.tools.diameter = words.iter().find_map(Word::number);
+            Ok(())
         }
-        match major {
-            Major::Goto => self.goto_words(words),
-            Major::Godlta => self.godlta(words),
-            Major::From => self.from(words),
-            Major::Rapid => self.rapid(words),
-            Major::Circle => self.circle(words, None),
-            Major::Movarc => self.circle(words, Some(super::dialect::Sense::RightHand)),
-            Major::Indirv => self.indirv(words),
-            Major::Tlon => self.tlon(words),
-            Major::Fedrat => self.fedrat(words),
-            Major::Spindl => self.spindl(words),
-            Major::Coolnt => self.coolnt(words),
-            Major::Load => self.load(name, words),
-            Major::Cutter => self.cutter(words),
-            Major::Cutcom => self.cutcom(words),
-            Major::Cycle => self.cycle(words),
-            Major::Units => self.units(words),
-            Major::Delay => self.delay(words),
-            Major::Stop => self.stop(StopKind::Program),
-            Major::Opstop => self.stop(StopKind::Optional),
-            Major::Trans => self.shift(words, false),
-            Major::Origin => self.shift(words, true),
-            Major::Tlaxis => self.tlaxis(words),
-            Major::Set => self.set(name, words),
-            Major::Auxfun => self.code('M', name, words),
-            Major::Prefun => self.code('G', name, words),
-            Major::Data => self.data(words),
-            Major::Fini => self.end(),
-            Major::Fact | Major::ToolPath | Major::Msys => {
-                self.fact(shown(name, words));
-                match major {
-                    Major::ToolPath => self.tool_path(words),
-                    Major::Msys => self.msys(words),
-                    _ => Ok(()),
-                }
-            }
-            Major::EndOfPath | Major::Ignored | Major::None => Ok(()),
-            Major::Unknown => {
-                // a label or number before a motion must not hide it
-                if let Some(hidden) = words.iter().filter_map(Word::name).find(|name| MOTIONS.contains(name)) {
-                    let message = format!("`{name}` stands before {hidden}");
-                    return fault(Code::PL001, message, "take it out, or put it on a line of its own");
-                }
-                self.note_unknown(name);
-                Ok(())
-            }
-            Major::Refused => {
-                let message = format!("{name} moves, shifts or turns something that postform can't follow");
-                fault(Code::PL004, message, "let the CAM system write plain motions instead")
-            }
+        Major::Cutcom => cutcom(words, &mut motion.cutcom, cycle, job),
+        Major::Cycle => super::cycle::cycle(words, state),
+        Major::Units => units(words, job),
+        Major::Delay => delay(words, job),
+        Major::Stop => job.between(Event::Stop(StopKind::Program)),
+        Major::Opstop => job.between(Event::Stop(StopKind::Optional)),
+        Major::Trans => trans(words, &mut motion.shift, false),
+        Major::Origin => trans(words, &mut motion.shift, true),
+        Major::Tlaxis => tlaxis(words, &mut motion.axis, job),
+        Major::Set => set(name, words),
+        Major::Auxfun => code('M', name, words, job),
+        Major::Prefun => code('G', name, words, job),
+        Major::Data => {
+            data(words, job);
+            Ok(())
+        }
+        Major::Fact => {
+            job.notes.fact(shown(name, words));
+            Ok(())
+        }
+        Major::ToolPath => {
+            job.notes.fact(shown(name, words));
+            tool_path(words, state)
+        }
+        Major::Msys => {
+            job.notes.fact(shown(name, words));
+            msys(words, job)
+        }
+        Major::Fini => super::cycle::end(cycle, job),
+        Major::EndOfPath | Major::Ignored | Major::None => Ok(()),
+        Major::Unknown => unknown(name, words, job),
+        Major::Refused => {
+            let message = format!("{name} moves, shifts or turns something that postform can't follow");
+            fault(Code::PL004, message, "let the CAM system write plain motions instead")
         }
     }
+}
 
-    fn stop(&mut self, kind: StopKind) -> Done {
-        self.close_holes()?;
-        self.push(Event::Stop(kind))
+/// A major word that is not known: nothing is done for it, but what it stands before must not be hidden.
+fn unknown(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
+    if let Some(hidden) = words.iter().filter_map(Word::name).find(|name| MOTIONS.contains(name)) {
+        let message = format!("`{name}` stands before {hidden}");
+        return fault(Code::PL001, message, "take it out, or put it on a line of its own");
     }
+    job.notes.unknown(name);
+    Ok(())
+}
 
-    /// AUXFUN and PREFUN are codes by number.
-    fn code(&mut self, letter: char, name: &str, words: &[Word]) -> Done {
-        match words {
-            [Word::Number(code)] if *code >= 0.0 && code.fract() == 0.0 => {
-                self.wait(Waiting::Text(format!("{letter}{code}")))
-            }
-            _ => fault(Code::PL001, format!("{name} without the number of a code"), format!("write {name}/8")),
+/// AUXFUN and PREFUN are codes by number.
+fn code(letter: char, name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
+    match words {
+        [Word::Number(code)] if *code >= 0.0 && code.fract() == 0.0 => {
+            job.wait(Waiting::Text(format!("{letter}{code}")))
+        }
+        _ => fault(Code::PL001, format!("{name} without the number of a code"), format!("write {name}/8")),
+    }
+}
+
+/// MODE and SET: what counts is whether positions stay positions.
+fn set(name: &str, words: &[Word]) -> Done {
+    if words.iter().any(|word| word.name().is_some_and(|name| name.starts_with("INCR"))) {
+        let help = "let the CAM system write absolute positions";
+        return fault(Code::PL004, format!("{name} asks for incremental positions"), help);
+    }
+    Ok(())
+}
+
+/// What Creo writes behind `$$->`.
+fn data(words: &[Word], job: &mut Job<'_>) {
+    match words {
+        [Word::Name(word), Word::Number(diameter)] if word == "CUTTER" => job.tools.diameter = Some(*diameter),
+        [Word::Name(word), ..] if word == "CSYS" || word == "MFGNO" => job.notes.fact(shown("", words)),
+        _ => {}
+    }
+}
+
+/// MSYS: where positions count from. One work offset can't stand for two.
+fn msys(words: &[Word], job: &mut Job<'_>) -> Done {
+    match &job.setup {
+        None => job.setup = Some((words.to_vec(), job.notes.place.line)),
+        Some((before, _)) if before.as_slice() == words => {}
+        Some((_, line)) => {
+            let message = format!("this MSYS is not that of line {line}: its positions count from another place");
+            let help = "let NX write the operations of each MSYS into a file of their own: each is a setup";
+            return fault(Code::PL004, message, help);
         }
     }
-
-    /// MODE and SET: what counts is whether positions stay positions.
-    fn set(&mut self, name: &str, words: &[Word]) -> Done {
-        if words.iter().any(|word| word.name().is_some_and(|name| name.starts_with("INCR"))) {
-            let help = "let the CAM system write absolute positions";
-            return fault(Code::PL004, format!("{name} asks for incremental positions"), help);
-        }
-        Ok(())
-    }
-
-    /// What Creo writes behind `$$->`.
-    fn data(&mut self, words: &[Word]) -> Done {
-        match words {
-            [Word::Name(word), Word::Number(diameter)] if word == "CUTTER" => self.diameter = Some(*diameter),
-            [Word::Name(word), ..] if word == "CSYS" || word == "MFGNO" => self.fact(shown("", words)),
-            _ => {}
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
 /// A statement as it is shown.

@@ -1,12 +1,15 @@
 //! Text statements: the part's name, remarks, and words for the program.
 
 use super::dialect::Dialect;
-use super::reader::{Done, Reader, Waiting};
+use super::fault::Done;
+use super::job::{Job, Waiting};
+use super::report::Notes;
 use crate::diag::Code;
+use crate::toolpath::Place;
 
 /// What a text statement puts into the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Said<'t> {
+enum Said<'t> {
     Nothing,
     Comment(&'t str),
     /// A block as it stands.
@@ -16,7 +19,7 @@ pub(super) enum Said<'t> {
 }
 
 /// What a text statement means in the files of a system.
-pub(super) fn said<'t>(dialect: Dialect, word: &str, text: &'t str) -> Said<'t> {
+fn said<'t>(dialect: Dialect, word: &str, text: &'t str) -> Said<'t> {
     match (dialect, word) {
         // Makino's PPRINT carries data for its own post processor
         (Dialect::Makino, "PPRINT") => Said::Nothing,
@@ -38,34 +41,45 @@ fn may_be_lost(text: &str) -> bool {
     !stock && !text.starts_with('[') && stop(text).is_none()
 }
 
-impl Reader<'_> {
-    /// A text statement. What it means is decided when it is printed: the first ones may stand before the line that
-    /// says who wrote the file.
-    pub(super) fn text(&mut self, word: &'static str, text: String) -> Done {
-        self.lone_insert();
-        match word {
-            "PARTNO" => self.name = Some(text).filter(|text| !text.is_empty()),
-            "REMARK" | "LETTER" => {}
-            _ if text.is_empty() => {}
-            _ => {
-                if word == "INSERT" && may_be_lost(&text) {
-                    self.insert = Some((text.clone(), self.place));
-                }
-                return self.wait(Waiting::Words(word, text));
-            }
-        }
-        Ok(())
-    }
+/// An INSERT that may describe the tool that follows, and its place.
+pub(super) type Insert = Option<(String, Place)>;
 
-    /// Text that no tool follows may have been meant for the machine.
-    pub(super) fn lone_insert(&mut self) {
-        let insert = self.insert.take().filter(|_| self.dialect() == Dialect::SolidWorksCam);
-        let Some((text, place)) = insert else { return };
-        let here = std::mem::replace(&mut self.place, place);
-        let help = "if the machine shall do something there, write INSERT/STOP, AUXFUN/code or PREFUN/code";
-        self.warn(Code::PL008, format!("INSERT/{text} is printed as a comment"), help);
-        self.place = here;
+/// A text statement.
+pub(super) fn text(word: &str, text: String, insert: &mut Insert, job: &mut Job<'_>) -> Done {
+    lone_insert(insert, &mut job.notes);
+    match word {
+        "PARTNO" => job.name = Some(text).filter(|text| !text.is_empty()),
+        "REMARK" | "LETTER" => {}
+        _ if text.is_empty() => {}
+        _ => {
+            if word == "INSERT" && may_be_lost(&text) {
+                *insert = Some((text.clone(), job.notes.place));
+            }
+            return say(said(job.notes.dialect(), word, &text), job);
+        }
     }
+    Ok(())
+}
+
+fn say(said: Said<'_>, job: &mut Job<'_>) -> Done {
+    match said {
+        Said::Nothing => Ok(()),
+        Said::Comment(text) => job.wait(Waiting::Comment(text.to_owned())),
+        Said::Block(text) => job.wait(Waiting::Text(text.to_owned())),
+        Said::Stop(message) => {
+            if !message.is_empty() {
+                job.wait(Waiting::Comment(message.to_owned()))?;
+            }
+            job.wait(Waiting::Stop)
+        }
+    }
+}
+
+/// Text that no tool follows may have been meant for the machine.
+pub(super) fn lone_insert(insert: &mut Insert, notes: &mut Notes<'_>) {
+    let Some((text, place)) = insert.take().filter(|_| notes.dialect() == Dialect::SolidWorksCam) else { return };
+    let help = "if the machine shall do something there, write INSERT/STOP, AUXFUN/code or PREFUN/code";
+    notes.warn_at(place, Code::PL008, format!("INSERT/{text} is printed as a comment"), help);
 }
 
 #[cfg(test)]

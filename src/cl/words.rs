@@ -37,6 +37,11 @@ impl fmt::Display for Word {
     }
 }
 
+/// Words that are all numbers.
+pub(super) fn numbers(words: &[Word]) -> Option<Vec<f64>> {
+    words.iter().map(Word::number).collect()
+}
+
 /// The words of a statement; slashes, commas and parentheses part them, blanks count nowhere outside quotes.
 /// `Err`: a number that is not finite.
 pub(super) fn words(text: &[u8]) -> Result<Vec<Word>, String> {

@@ -1,0 +1,72 @@
+//! Points of a cycle.
+
+use super::fault::{Done, fault};
+use super::job::Job;
+use super::state::{Arcs, Cycle, Motion, ReturnMode, State};
+use crate::diag::Code;
+use crate::toolpath::{Axes, CycleSpec, Event, Hole};
+
+/// A point of the cycle in force.
+pub(super) fn point(at: [f64; 3], state: &mut State<'_>) -> Done {
+    let Some(mut spec) = state.cycle.active.take() else { return Ok(()) };
+    let State { job, motion, arcs, cycle, .. } = state;
+    let done = hole(at, &mut spec, motion, arcs, cycle, job);
+    cycle.active = Some(spec);
+    done
+}
+
+fn hole(
+    at: [f64; 3],
+    spec: &mut CycleSpec,
+    motion: &mut Motion,
+    arcs: &mut Arcs,
+    cycle: &mut Cycle,
+    job: &mut Job<'_>,
+) -> Done {
+    if !job.holes_are_open() {
+        // a sink counts the return plane from the first point that it sees
+        let plane = return_plane(at, spec, motion, cycle, job)?;
+        spec.return_height = plane.map(|plane| plane - at[2]).filter(|&height| height > spec.clear.unwrap_or(f64::MIN));
+        job.open_holes(spec)?;
+    }
+    job.push(Event::Hole(Hole { at: Axes::new(&at), depth: None }))?;
+    // where the hole is left is known where its clearance is
+    motion.position = spec.clear.map(|clear| {
+        let plane = cycle.plane.flatten().unwrap_or(f64::MIN);
+        [at[0], at[1], plane.max(at[2] + clear)]
+    });
+    arcs.heading = None;
+    Ok(())
+}
+
+/// The height to which the tool comes back, one for the whole cycle: set at its first point.
+fn return_plane(
+    at: [f64; 3],
+    spec: &CycleSpec,
+    motion: &Motion,
+    cycle: &mut Cycle,
+    job: &mut Job<'_>,
+) -> Done<Option<f64>> {
+    if let Some(plane) = cycle.plane {
+        return Ok(plane);
+    }
+    let clear = at[2] + spec.clear.unwrap_or(0.0);
+    let plane = match (cycle.return_mode, cycle.coded_return) {
+        (ReturnMode::Off, _) | (ReturnMode::AsCoded, None) => None,
+        (ReturnMode::AsCoded, Some(above)) => Some(above.map_or(clear, |above| at[2] + above)),
+        (ReturnMode::Above(above), _) => Some(at[2] + above),
+        (ReturnMode::AtStart, _) => match motion.position {
+            Some(position) => Some(position[2]),
+            None => {
+                let help = "put a GOTO before the cycle, or give CYCLE/RETURN a height";
+                return fault(Code::PC040, "CYCLE/RETURN,ON, and the tool's height is not known", help);
+            }
+        },
+    };
+    if plane.is_some_and(|plane| plane >= at[2] && plane < clear) {
+        let help = "give RETURN above CLEAR, or leave it out";
+        job.notes.warn(Code::PC053, "the return plane is below the clearance, which is used", help);
+    }
+    cycle.plane = Some(plane);
+    Ok(plane)
+}

@@ -1,0 +1,261 @@
+//! The job that a CL file becomes: what is held back until a tool change is complete, and the events.
+
+use super::fault::{Done, fault};
+use super::options::Options;
+use super::report::{Notes, Report};
+use super::tools::{Tools, Turning};
+use super::words::Word;
+use crate::diag::Code;
+use crate::toolpath::{Axes, CycleSpec, Event, First, Hold, Place, Sink, Start, StopKind, Tool, ToolChange, Units};
+
+/// Most items between a tool change and its spindle.
+const MOST_WAITING: usize = 4096;
+
+/// What stands before a tool change is complete.
+pub(super) enum Waiting {
+    Rapid(Axes),
+    Comment(String),
+    /// A block as it stands.
+    Text(String),
+    Stop,
+}
+
+/// The job so far.
+pub(super) struct Job<'s> {
+    hold: Hold<'s>,
+    pub notes: Notes<'s>,
+    pub tools: Tools,
+    pub spindle: Turning,
+    /// The job's name.
+    pub name: Option<String>,
+    /// Where positions count from: the first MSYS, and its line.
+    pub setup: Option<(Vec<Word>, u64)>,
+    units: Option<Units>,
+    /// Units of a file that does not say them.
+    assumed_units: Option<Units>,
+    started: bool,
+    operations: u32,
+    /// A tool change that is not complete.
+    change: Option<(ToolChange, Place)>,
+    waiting: Vec<(Waiting, Place)>,
+    /// The feed that the sink has.
+    feed: Option<f64>,
+    /// The sink is in a cycle.
+    in_cycle: bool,
+}
+
+impl<'s> Job<'s> {
+    /// A job that has not begun.
+    pub fn new(options: &Options, report: &'s mut Report, sink: &'s mut dyn Sink) -> Self {
+        Job {
+            hold: Hold::new(sink),
+            notes: Notes::new(report, options.dialect),
+            tools: Tools::new(options.tool.clone()),
+            spindle: Turning::default(),
+            name: None,
+            setup: None,
+            units: None,
+            assumed_units: options.units,
+            started: false,
+            operations: 0,
+            change: None,
+            waiting: Vec::new(),
+            feed: None,
+            in_cycle: false,
+        }
+    }
+
+    /// The job has begun, so plain motions need no further look.
+    #[inline]
+    pub fn has_started(&self) -> bool {
+        self.started
+    }
+
+    /// UNITS of the file.
+    pub fn set_units(&mut self, units: Units) -> Done {
+        if self.units.is_some_and(|before| before != units) {
+            return fault(Code::PL004, "the units change inside the file", "let the CAM system write one unit");
+        }
+        self.units = Some(units);
+        Ok(())
+    }
+
+    /// The file's units; what is said in units of its own can't be converted before they are known.
+    pub fn units(&self) -> Done<Units> {
+        match self.units.or(self.assumed_units) {
+            Some(units) => Ok(units),
+            None => {
+                let help = "put UNITS/MM or UNITS/INCHES before it, or say it with `--assume-units`";
+                fault(Code::PL005, "the file has not said its units yet", help)
+            }
+        }
+    }
+
+    /// What is printed where it stands, once the tool change before it is complete.
+    pub fn wait(&mut self, waiting: Waiting) -> Done {
+        if self.started && self.change.is_none() {
+            return self.push_waiting(&waiting, self.notes.place);
+        }
+        if self.waiting.len() == MOST_WAITING {
+            let help = "put the spindle before them, or look whether this is a CL file";
+            return fault(Code::PL004, format!("more than {MOST_WAITING} items before the spindle of a tool"), help);
+        }
+        self.waiting.push((waiting, self.notes.place));
+        Ok(())
+    }
+
+    fn push_waiting(&mut self, waiting: &Waiting, place: Place) -> Done {
+        self.close_holes()?;
+        let event = match waiting {
+            Waiting::Rapid(to) => Event::Rapid(*to),
+            Waiting::Comment(text) => Event::Comment(text),
+            Waiting::Text(text) => Event::Text(text),
+            Waiting::Stop => Event::Stop(StopKind::Program),
+        };
+        self.hold.event(event, place)
+    }
+
+    /// An event that is no hole: the sink leaves its cycle for it.
+    pub fn between(&mut self, event: Event<'_>) -> Done {
+        self.close_holes()?;
+        self.push(event)
+    }
+
+    /// An event; what waits for it goes first.
+    #[inline]
+    pub fn push(&mut self, event: Event<'_>) -> Done {
+        if self.change.is_some() || !self.started || self.operations == 0 {
+            self.release()?;
+        }
+        self.hold.event(event, self.notes.place)
+    }
+
+    /// The sink goes into a cycle.
+    pub fn open_holes(&mut self, spec: &CycleSpec) -> Done {
+        self.push(Event::CycleBegin(spec))?;
+        self.in_cycle = true;
+        Ok(())
+    }
+
+    /// Is the sink in a cycle?
+    pub fn holes_are_open(&self) -> bool {
+        self.in_cycle
+    }
+
+    /// The sink leaves the cycle; it may go on after a motion that is none of its points.
+    pub fn close_holes(&mut self) -> Done {
+        if std::mem::take(&mut self.in_cycle) { self.push(Event::CycleEnd) } else { Ok(()) }
+    }
+
+    /// Begins the job and the operation: nothing more is to come that belongs before.
+    #[cold]
+    fn release(&mut self) -> Done {
+        if !self.started {
+            let Some(units) = self.units.or(self.assumed_units) else {
+                let help = "put UNITS/MM or UNITS/INCHES into the file, or say it with `--assume-units`";
+                return fault(Code::PL005, "the file does not say its units", help);
+            };
+            self.units = Some(units);
+            let start = Start {
+                program: None,
+                name: self.name.clone(),
+                units,
+                machine: crate::lang::Machine::Mill,
+                set: Vec::new(),
+                tool_order: None,
+            };
+            self.hold.event(Event::Start(&start), self.notes.place)?;
+            self.started = true;
+        }
+        if self.change.is_none() && self.operations == 0 {
+            self.change = Some((self.operation(None), self.notes.place));
+        }
+        if let Some((mut change, place)) = self.change.take() {
+            if change.tool.is_none() {
+                let number = self.tools.assumed(self.operations == 0)?;
+                change.tool = number.map(|number| Tool { number, ..Tool::default() });
+            }
+            change.spindle = Some(self.spindle.now).filter(|spindle| *spindle != Default::default());
+            if let Some(tool) = &mut change.tool {
+                tool.diameter = self.tools.diameter;
+            }
+            self.operations += 1;
+            self.feed = None;
+            self.hold.tool_change(change, place)?;
+        }
+        for (waiting, place) in std::mem::take(&mut self.waiting) {
+            self.push_waiting(&waiting, place)?;
+        }
+        Ok(())
+    }
+
+    /// An operation that says its coolant alone.
+    fn operation(&self, tool: Option<Tool>) -> ToolChange {
+        ToolChange {
+            name: None,
+            tool,
+            spindle: None,
+            coolant: self.tools.coolant,
+            work: None,
+            feed: None,
+            plunge: None,
+            feed_mode: None,
+            comment: None,
+            set: Vec::new(),
+            first: First::Nothing,
+        }
+    }
+
+    /// Another tool comes: the change before it is complete, whatever was done with that tool; one that is only named
+    /// gives way.
+    pub fn begin_change(&mut self, tool: Option<Tool>) -> Done {
+        if self.change.as_ref().is_some_and(|(change, _)| change.tool.is_some()) {
+            self.release()?;
+        }
+        self.change = Some((self.operation(tool), self.notes.place));
+        Ok(())
+    }
+
+    /// Is a tool change waiting to be complete?
+    #[inline]
+    pub fn changes(&self) -> bool {
+        self.change.is_some()
+    }
+
+    /// Has a tool been loaded, or anything moved?
+    pub fn has_operation(&self) -> bool {
+        self.operations > 0 || self.change.is_some()
+    }
+
+    /// COOLNT: with the tool change that waits, else as an event.
+    pub fn coolant(&mut self, coolant: crate::toolpath::Coolant) -> Done {
+        self.tools.coolant = Some(coolant);
+        match &mut self.change {
+            Some((change, _)) => change.coolant = Some(coolant),
+            None if self.operations > 0 => return self.between(Event::Coolant(coolant)),
+            None => {}
+        }
+        Ok(())
+    }
+
+    /// A feed for the motion that comes, where the sink does not have it yet.
+    #[inline]
+    pub fn feed_to_say(&mut self, feed: f64) -> Option<f64> {
+        if self.change.is_some() {
+            return Some(feed); // an operation that is about to begin forgets the feed
+        }
+        if self.feed == Some(feed) {
+            return None;
+        }
+        self.feed = Some(feed);
+        Some(feed)
+    }
+
+    /// The end of the file.
+    pub fn finish(&mut self) -> Done {
+        if !self.has_operation() {
+            return fault(Code::PJ009, "the file has no motion", "look whether this is a CL file");
+        }
+        self.push(Event::Finish)
+    }
+}

@@ -1,0 +1,77 @@
+//! Tool changes: LOADTL and its like, tools that NX only names, and the setup that they work in.
+
+use super::cycle;
+use super::dialect::Dialect;
+use super::fault::{Done, fault};
+use super::state::State;
+use super::words::Word;
+use crate::diag::Code;
+use crate::toolpath::{Spindle, Tool};
+
+/// LOADTL/n, LOAD/TOOL,n, TOOLNO/n: a tool change, complete with the next feed motion or spindle.
+pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
+    if name == "TOOLNO" && state.job.notes.dialect() == Dialect::Catia {
+        return Ok(()); // describes the tool that LOADTL loads
+    }
+    let words = match words.first() {
+        Some(word) if word.is("TOOL") => &words[1..],
+        _ => words,
+    };
+    let Some(number) = words.first().and_then(Word::number).filter(|n| *n >= 0.0 && n.fract() == 0.0) else {
+        return fault(Code::PL001, format!("{name} without a tool number"), format!("write {name}/1"));
+    };
+    let tools = &mut state.job.tools;
+    tools.greatest = tools.greatest.max(number);
+    let register = length_register(name, &words[1..])?;
+    another_tool(Some(Tool { number, length_offset: register, ..Tool::default() }), state)
+}
+
+/// TOOL PATH/name,TOOL,tool: a tool other than the one in use must be loaded, or have an assumed number.
+pub(super) fn tool_path(words: &[Word], state: &mut State<'_>) -> Done {
+    let tool = match words {
+        [_, word, tool, ..] if word.is("TOOL") => tool.to_string(),
+        _ => return Ok(()),
+    };
+    if state.job.tools.name.as_ref() == Some(&tool) {
+        return Ok(());
+    }
+    state.job.tools.name = Some(tool);
+    another_tool(None, state)
+}
+
+/// Another tool: its change is complete with the next feed motion or spindle. `None`: it is only named so far.
+fn another_tool(tool: Option<Tool>, state: &mut State<'_>) -> Done {
+    let State { job, motion, feeds, cycle, .. } = state;
+    feeds.cut_off = cycle.is_active().then_some(job.notes.place.line).or(feeds.cut_off);
+    cycle::end(cycle, job)?;
+    let is_named = tool.is_none();
+    job.begin_change(tool)?;
+    motion.rapid_after_cycle = false; // what the tool before left
+    if !job.spindle.is_new {
+        job.spindle.now = Spindle::default();
+    }
+    job.spindle.is_new &= is_named;
+    Ok(())
+}
+
+/// The words behind a tool's number; those that say its length register.
+fn length_register(name: &str, words: &[Word]) -> Done<Option<f64>> {
+    let mut register = None;
+    let mut words = words.iter().peekable();
+    while let Some(word) = words.next() {
+        match word.name() {
+            None => {}
+            Some("ADJUST" | "OFSETNO" | "OSETNO") => {
+                register = words.next_if(|word| word.number().is_some() || word.is("OFF")).and_then(Word::number);
+            }
+            Some("LENGTH" | "SPINDL") => {
+                words.next_if(|word| word.number().is_some());
+            }
+            Some("MILL" | "DRILL" | "TURN" | "AUTO" | "MANUAL" | "IN") => {}
+            Some(word) => {
+                return fault(Code::PL002, format!("{name} does not know `{word}`"), format!("write {name}/1"));
+            }
+        }
+    }
+    Ok(register)
+}

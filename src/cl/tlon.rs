@@ -1,0 +1,51 @@
+//! CATIA's arcs: INDIRV, then TLON,GOFWD.
+
+use super::arcs::{arc_event, cross};
+use super::fault::{Done, fault};
+use super::state::{Arcs, PendingArc, State};
+use super::words::{Word, numbers};
+use crate::diag::Code;
+
+/// INDIRV: the direction in which the next TLON leaves.
+pub(super) fn indirv(words: &[Word], arcs: &mut Arcs) -> Done {
+    match numbers(words).as_deref() {
+        Some([i, j, k]) => {
+            arcs.direction = Some([*i, *j, *k]);
+            Ok(())
+        }
+        _ => fault(Code::PL001, "INDIRV takes a vector", "write i, j, k"),
+    }
+}
+
+/// TLON,GOFWD/(CIRCLE/x,y,z,r),ON,[n,INTOF,](LINE/x,y,z,x,y,z): an arc to the line's second point.
+pub(super) fn tlon(words: &[Word], state: &mut State<'_>) -> Done {
+    let number = |at: usize| words.get(at).and_then(Word::number);
+    let circle = words.iter().position(|word| word.is("CIRCLE"));
+    let line = words.iter().position(|word| word.is("LINE"));
+    let point = |at: usize| Some([number(at)?, number(at + 1)?, number(at + 2)?]);
+    let read = circle.zip(line).and_then(|(circle, line)| Some((point(circle + 1)?, point(line + 4)?)));
+    let (Some((centre, to)), Some(direction)) = (read, state.arcs.direction.take()) else {
+        let help = "only INDIRV, then TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z) is";
+        return fault(Code::PL004, "a TLON that can't be read", help);
+    };
+    let Some(from) = state.motion.position else {
+        return fault(Code::PR005, "the arc begins at an unknown position", "put a GOTO before it");
+    };
+    if state.cycle.is_active() {
+        return fault(Code::PC042, "an arc inside a cycle", "end the cycle before with CYCLE/OFF");
+    }
+    if state.motion.rapid {
+        return fault(Code::PL004, "a rapid along an arc", "take RAPID out");
+    }
+    let shift = &state.motion.shift;
+    let (centre, to) = (shift.of(centre), shift.of(to));
+    let radius = [from[0] - centre[0], from[1] - centre[1], 0.0];
+    let turn = cross(radius, direction)[2];
+    if turn.abs() < 0.1 * radius[0].hypot(radius[1]) * direction[0].hypot(direction[1]) {
+        let help = "INDIRV must lie along the arc";
+        return fault(Code::PL004, "INDIRV points to the centre, so nothing says which way the arc turns", help);
+    }
+    state.motion.point = Some(to);
+    let arc = PendingArc { centre, axis: 2, up: true, radius: None, sense: None };
+    arc_event(&arc, to, turn > 0.0, state)
+}

@@ -1,7 +1,7 @@
 //! Lowering: lines of words become operations.
 
 use super::letters::LetterTable;
-use super::program::{Block, CycleStyle, Literal, Op, Program, UponBlock};
+use super::program::{CycleStyle, Literal, Op, Program, Routine, Upon};
 use super::work;
 use crate::lang::{Group, SequenceId, VarId, VarSet, ends_cycle, group_of, is_cycle_code, moves_by_itself};
 use crate::sema::{Form, Line, Sequence, WordKind};
@@ -15,7 +15,7 @@ pub fn compile(form: &Form) -> Program {
         spans: Vec::new(),
         literals: Vec::new(),
         texts: Vec::new(),
-        blocks: Program::empty_blocks(),
+        routines: Program::no_routines(),
         upons: Vec::new(),
         upon_vars: VarSet::default(),
         printed: VarSet::default(),
@@ -26,9 +26,9 @@ pub fn compile(form: &Form) -> Program {
         custom: [None, None, None],
     };
     for sequence in form.sequences.values() {
-        let block = lower_sequence(&mut program, sequence);
-        program.printed = program.printed.with(block.vars);
-        program.blocks[sequence.id as usize] = Some(block);
+        let routine = lower_sequence(&mut program, sequence);
+        program.printed = program.printed.with(routine.vars);
+        program.routines[sequence.id as usize] = Some(routine);
         let custom = match sequence.id {
             SequenceId::Custom1 => 0,
             SequenceId::Custom2 => 1,
@@ -38,10 +38,10 @@ pub fn compile(form: &Form) -> Program {
         program.custom[custom].clone_from(&sequence.remark);
     }
     for upon in &form.upons {
-        let block = lower(&mut program, &upon.lines, upon.span);
-        program.printed = program.printed.with(block.vars);
+        let routine = lower(&mut program, &upon.lines, upon.span);
+        program.printed = program.printed.with(routine.vars);
         program.upon_vars.insert(upon.var);
-        program.upons.push(UponBlock { var: upon.var, every: upon.every, block });
+        program.upons.push(Upon { var: upon.var, every: upon.every, routine });
     }
     program.speaks_g = speaks_g(&program);
     program.switches_spindle = switches_spindle(&program);
@@ -49,7 +49,7 @@ pub fn compile(form: &Form) -> Program {
 }
 
 fn speaks_g(program: &Program) -> bool {
-    let generated = [SequenceId::RapidCode, SequenceId::LineCode].iter().any(|&id| program.block(id).is_none());
+    let generated = [SequenceId::RapidCode, SequenceId::LineCode].iter().any(|&id| program.routine(id).is_none());
     let motion = |code: f64| (0.0..4.0).contains(&code) || (17.0..20.0).contains(&code) || is_cycle_code(code);
     generated || program.literals.iter().any(|word| word.letter == b'G' && motion(word.value))
 }
@@ -74,7 +74,7 @@ fn switches_spindle(program: &Program) -> bool {
         S::EndRow,
     ];
     const MOVES: [SequenceId; 4] = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode];
-    let blocks = |ids: &'static [SequenceId]| ids.iter().filter_map(|&id| program.block(id));
+    let routines = |ids: &'static [SequenceId]| ids.iter().filter_map(|&id| program.routine(id));
     let types = |turns: bool| {
         let answers = |op: &Op| match op {
             Op::Literal { index, .. } => {
@@ -84,31 +84,31 @@ fn switches_spindle(program: &Program) -> bool {
             }
             _ => false,
         };
-        blocks(&PARTS).any(|block| program.ops[block.ops.clone()].iter().any(answers))
+        routines(&PARTS).any(|routine| program.ops[routine.ops.clone()].iter().any(answers))
     };
-    types(true) && types(false) || blocks(&MOVES).any(|block| block.vars.has(VarId::Speed))
+    types(true) && types(false) || routines(&MOVES).any(|routine| routine.vars.has(VarId::Speed))
 }
 
-fn lower_sequence(program: &mut Program, sequence: &Sequence) -> Block {
-    let mut block = lower(program, &sequence.lines, sequence.span);
-    block.cancel = sequence.cancel.is_some();
-    block.style = match (sequence.is_none, sequence.count, sequence.lines.len()) {
+fn lower_sequence(program: &mut Program, sequence: &Sequence) -> Routine {
+    let mut routine = lower(program, &sequence.lines, sequence.span);
+    routine.cancel = sequence.cancel.is_some();
+    routine.style = match (sequence.is_none, sequence.count, sequence.lines.len()) {
         (true, ..) => CycleStyle::Generated,
         (_, Some(_), _) => CycleStyle::Advanced,
-        (_, None, 0 | 1) if block.cancel => CycleStyle::Machine,
+        (_, None, 0 | 1) if routine.cancel => CycleStyle::Machine,
         (_, None, 0 | 1) => CycleStyle::WholeLine,
         _ => CycleStyle::Emulated,
     };
     if let Some(count) = sequence.count {
-        let mut begins = (block.ops.clone()).filter(|&i| matches!(program.ops[i], Op::Line { .. }));
-        block.repeat = begins.nth(count).unwrap_or(block.ops.end);
-        let repeated = vars_of(&program.ops[block.repeat..block.ops.end]);
-        block.setup_vars = vars_of(&program.ops[block.ops.start..block.repeat]).without(repeated);
+        let mut begins = (routine.ops.clone()).filter(|&i| matches!(program.ops[i], Op::Line { .. }));
+        routine.repeat = begins.nth(count).unwrap_or(routine.ops.end);
+        let repeated = vars_of(&program.ops[routine.repeat..routine.ops.end]);
+        routine.setup_vars = vars_of(&program.ops[routine.ops.start..routine.repeat]).without(repeated);
     }
-    block
+    routine
 }
 
-fn lower(program: &mut Program, lines: &[Line], span: Span) -> Block {
+fn lower(program: &mut Program, lines: &[Line], span: Span) -> Routine {
     let start = program.ops.len();
     let mut prints_g98 = false;
     for line in lines {
@@ -138,7 +138,7 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Block {
     }
     let ops = start..program.ops.len();
     let vars = vars_of(&program.ops[ops.clone()]);
-    Block {
+    Routine {
         repeat: start,
         vars,
         setup_vars: VarSet::default(),

@@ -7,5 +7,5 @@ mod work;
 
 pub use letters::{Letter, LetterKind, LetterTable};
 pub use lower::compile;
-pub use program::{Block, CycleStyle, Literal, Op, Program, UponBlock};
+pub use program::{CycleStyle, Literal, Op, Program, Routine, Upon};
 pub use work::WorkWord;

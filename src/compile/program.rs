@@ -83,7 +83,7 @@ pub enum CycleStyle {
 
 /// A sequence's operations.
 #[derive(Clone, Debug)]
-pub struct Block {
+pub struct Routine {
     /// Which part of [`Program::ops`].
     pub ops: Range<usize>,
     /// Where the lines begin that an advanced cycle repeats; else the start.
@@ -106,13 +106,13 @@ pub struct Block {
 
 /// A sequence printed when a variable changes.
 #[derive(Clone, Debug)]
-pub struct UponBlock {
+pub struct Upon {
     /// The variable.
     pub var: VarId,
     /// At every use.
     pub every: bool,
     /// Its operations.
-    pub block: Block,
+    pub routine: Routine,
 }
 
 /// A compiled form. It is immutable; many renderers may share it.
@@ -129,9 +129,9 @@ pub struct Program {
     /// Texts.
     pub texts: Vec<String>,
     /// The sequences, by [`SequenceId`].
-    pub(super) blocks: Vec<Option<Block>>,
+    pub(super) routines: Vec<Option<Routine>>,
     /// The Upon sequences in the order of the form.
-    pub upons: Vec<UponBlock>,
+    pub upons: Vec<Upon>,
     /// The variables that some Upon watches.
     pub upon_vars: VarSet,
     /// The variables that the form prints anywhere.
@@ -151,11 +151,11 @@ pub struct Program {
 impl Program {
     /// A sequence, if the form has it.
     #[inline]
-    pub fn block(&self, id: SequenceId) -> Option<&Block> {
-        self.blocks[id as usize].as_ref()
+    pub fn routine(&self, id: SequenceId) -> Option<&Routine> {
+        self.routines[id as usize].as_ref()
     }
 
-    pub(super) fn empty_blocks() -> Vec<Option<Block>> {
+    pub(super) fn no_routines() -> Vec<Option<Routine>> {
         SEQUENCES.iter().map(|_| None).collect()
     }
 }

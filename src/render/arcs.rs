@@ -9,7 +9,7 @@ use super::motion::MOVE_VARS;
 use super::move_words::{AxisUnits, as_number};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
-use crate::compile::Block;
+use crate::compile::Routine;
 use crate::diag::Code;
 use crate::lang::{Group, Machine, SequenceId, VarId, VarSet};
 use crate::sema::{self, ArcCentre};
@@ -31,9 +31,9 @@ pub(super) const CENTRES: VarSet = VarSet::of(&[VarId::Ival, VarId::Jval, VarId:
 const CENTRE_OF: [&[VarId]; 3] = [&[VarId::Ival, VarId::Hctr], &[VarId::Jval, VarId::Vctr], &[VarId::Kval]];
 
 /// Does a sequence say where an arc ends by its centre and the angle there?
-fn ends_by_angle(block: &Block, axes: [usize; 2]) -> bool {
-    let angle = block.vars.has(VarId::Endang) || block.vars.has(VarId::Sweep);
-    angle && axes.iter().all(|&axis| CENTRE_OF[axis].iter().any(|&var| block.vars.has(var)))
+fn ends_by_angle(routine: &Routine, axes: [usize; 2]) -> bool {
+    let angle = routine.vars.has(VarId::Endang) || routine.vars.has(VarId::Sweep);
+    angle && axes.iter().all(|&axis| CENTRE_OF[axis].iter().any(|&var| routine.vars.has(var)))
 }
 
 /// An arc or a part of one, ready to print.
@@ -213,12 +213,12 @@ impl Renderer<'_> {
     }
 
     fn has_centre_words(&self, axes: [usize; 2], ccw: bool) -> bool {
-        if let Some(block) = self.program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
-            let says = |axis: usize| CENTRE_OF[axis].iter().any(|&var| block.vars.has(var));
+        if let Some(routine) = self.program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
+            let says = |axis: usize| CENTRE_OF[axis].iter().any(|&var| routine.vars.has(var));
             let planes = [Plane::Xy, Plane::Xz, Plane::Yz].map(plane_axes);
             let own = planes.into_iter().find(|plane| plane.0 == axes).map(|plane| plane.2);
-            let elsewhere = self.says_code(block, b'G', |code| (17.0..20.0).contains(&code) && Some(code) != own);
-            return !elsewhere && (block.vars.has(VarId::Arcrad) || axes.iter().all(|&axis| says(axis)));
+            let elsewhere = self.says_code(routine, b'G', |code| (17.0..20.0).contains(&code) && Some(code) != own);
+            return !elsewhere && (routine.vars.has(VarId::Arcrad) || axes.iter().all(|&axis| says(axis)));
         }
         match &self.program.settings.centre {
             ArcCentre::Radius(_) => true,
@@ -229,7 +229,7 @@ impl Renderer<'_> {
     /// Says once that a sequence can't print an arc which it is there for.
     fn note_lines(&mut self, axes: [usize; 2], ccw: bool) {
         let id = if ccw { SequenceId::CcwCode } else { SequenceId::CwCode };
-        if self.program.block(id).is_some() && !self.notes().iter().any(|note| note.code == Code::PR024) {
+        if self.program.routine(id).is_some() && !self.notes().iter().any(|note| note.code == Code::PR024) {
             let [first, second] = axes.map(|axis| ["[ival]", "[jval]", "[kval]"][axis]);
             let message = format!("the arc is printed as lines: {} does not print {first} and {second}", id.name());
             self.note(Code::PR024, message, "print both, or the radius as [arcrad]");
@@ -247,16 +247,16 @@ impl Renderer<'_> {
             arc.quadrant_parts(&mut parts);
         } else {
             let sequence = if arc.sweep > 0.0 { SequenceId::CcwCode } else { SequenceId::CwCode };
-            let block = self.program.block(sequence);
+            let routine = self.program.routine(sequence);
             // a sequence that prints the radius and no centre can't say more than half a turn
-            let radius_only = match block {
-                Some(block) => block.vars.has(VarId::Arcrad) && !block.vars.meets(CENTRES),
+            let radius_only = match routine {
+                Some(routine) => routine.vars.has(VarId::Arcrad) && !routine.vars.meets(CENTRES),
                 None => matches!(settings.centre, ArcCentre::Radius(_)),
             };
             let full = arc.sweep.abs() > turn - 1e-9;
-            let most = if !radius_only || (block.is_none() && full && settings.centre_full.is_some()) {
+            let most = if !radius_only || (routine.is_none() && full && settings.centre_full.is_some()) {
                 turn
-            } else if block.is_none() && settings.centre_over_180.is_some() && !full {
+            } else if routine.is_none() && settings.centre_over_180.is_some() && !full {
                 turn - 1e-6
             } else {
                 PI
@@ -311,19 +311,20 @@ impl Renderer<'_> {
             self.force();
         }
         self.shifted = Shift::None;
-        let block = program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode });
-        self.check_signs(piece, block, code, ccw)?;
-        if let Some(block) = block {
+        let routine = program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode });
+        self.check_signs(piece, routine, code, ccw)?;
+        if let Some(routine) = routine {
             let [a, b] = piece.axes;
-            let polar = ends_by_angle(block, piece.axes) && !(self.says_axis(block, a) && self.says_axis(block, b));
+            let polar =
+                ends_by_angle(routine, piece.axes) && !(self.says_axis(routine, a) && self.says_axis(routine, b));
             let said = if polar { 1 << a | 1 << b } else { 0 };
-            self.sequence_says(block, &Axes { given: piece.target.given & !said, ..piece.target })?;
-            self.upons(block.vars)?;
-            self.plane_block(piece.plane.value, block)?;
-            self.says_arc(block, code)?;
-            self.feed_block(code, block)?;
+            self.sequence_says(routine, &Axes { given: piece.target.given & !said, ..piece.target })?;
+            self.upons(routine.vars)?;
+            self.plane_block(piece.plane.value, routine)?;
+            self.says_arc(routine, code)?;
+            self.feed_block(code, routine)?;
             self.shifted = Shift::None;
-            self.run(block.ops.clone(), Mode::ArcMotion)?;
+            self.run(routine.ops.clone(), Mode::ArcMotion)?;
             if polar {
                 // the control knows where it is, and the letters of these axes say something older
                 for axis in piece.axes {
@@ -340,12 +341,12 @@ impl Renderer<'_> {
     }
 
     /// A sequence of arcs must print a code of its own: an arc code in a block before it would have no end.
-    fn says_arc(&self, block: &Block, code: &sema::Code) -> Done {
-        if !self.program.speaks_g || self.motion_in_force(code) || self.says_own_motion(block) {
+    fn says_arc(&self, routine: &Routine, code: &sema::Code) -> Done {
+        if !self.program.speaks_g || self.motion_in_force(code) || self.says_own_motion(routine) {
             return Ok(());
         }
         let message = format!("the sequence prints no G{}, and the control is in another motion", code.value);
-        fault_at(Code::PR017, message, format!("begin its block with G{}", code.value), Some(block.span))
+        fault_at(Code::PR017, message, format!("begin its block with G{}", code.value), Some(routine.span))
     }
 
     /// The generated block: plane, motion code, axes, centre, direction, feed.

@@ -7,7 +7,7 @@ use super::fault::{Done, fault};
 use super::geometry::PlaneArc;
 use super::move_words::as_number;
 use super::renderer::Renderer;
-use crate::compile::{Block, Op};
+use crate::compile::{Op, Routine};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
 use crate::sema::{self, ArcCentre, Settings};
@@ -69,9 +69,9 @@ impl Renderer<'_> {
     /// The letter of a piece's radius, where that is what says its centre.
     fn radius_letter(&self, piece: &Piece, ccw: bool) -> Option<u8> {
         let program = self.program;
-        match program.block(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
-            Some(block) if block.vars.meets(CENTRES) => None,
-            Some(block) => block.ops.clone().find_map(|i| match program.ops[i] {
+        match program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
+            Some(routine) if routine.vars.meets(CENTRES) => None,
+            Some(routine) => routine.ops.clone().find_map(|i| match program.ops[i] {
                 Op::Var { letter, var: VarId::Arcrad, .. } => Some(letter),
                 _ => None,
             }),
@@ -95,12 +95,12 @@ impl Renderer<'_> {
 
     /// `RevSigns` of an axis is one of its centre word too, and turns the arc round: in blocks that are generated and in the
     /// form's own.
-    pub(super) fn check_signs(&self, piece: &Piece, block: Option<&Block>, code: &sema::Code, ccw: bool) -> Done {
+    pub(super) fn check_signs(&self, piece: &Piece, routine: Option<&Routine>, code: &sema::Code, ccw: bool) -> Done {
         const VALUES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
         let settings = &self.program.settings;
         let reversed = |axis: usize| self.letters[self.axes[axis]].reversed;
-        let centre = |axis: usize| match (block, Self::centre_by(settings, piece.arc.sweep.abs())) {
-            (Some(block), _) => block.ops.clone().find_map(|i| match self.program.ops[i] {
+        let centre = |axis: usize| match (routine, Self::centre_by(settings, piece.arc.sweep.abs())) {
+            (Some(routine), _) => routine.ops.clone().find_map(|i| match self.program.ops[i] {
                 Op::Var { letter, var, .. } if var == VALUES[axis] => Some(letter),
                 _ => None,
             }),
@@ -117,8 +117,8 @@ impl Renderer<'_> {
         }
         let mirrored = reversed(piece.axes[0]) != reversed(piece.axes[1]);
         let own = if ccw != mirrored { 3.0 } else { 2.0 };
-        let typed = |value: f64| block.is_some_and(|block| self.says_code(block, b'G', |code| code == value));
-        let wrong = match block {
+        let typed = |value: f64| routine.is_some_and(|routine| self.says_code(routine, b'G', |code| code == value));
+        let wrong = match routine {
             Some(_) => typed(5.0 - own) && !typed(own),
             None => code.value == 5.0 - own,
         };

@@ -45,11 +45,11 @@ impl Renderer<'_> {
         offset: bool,
     ) -> Done {
         let program = self.program;
-        if rapid && program.block(id).is_some() {
+        if rapid && program.routine(id).is_some() {
             let message = format!("a rapid with cutter compensation is printed by {}, which may feed", id.name());
             self.note(Code::PR022, message, "look at the move");
         }
-        let rapid = rapid && program.block(id).is_none();
+        let rapid = rapid && program.routine(id).is_none();
         let target = self.reach(to, false)?;
         if self.fresh_tool && !rapid {
             self.begins_somewhere(&target)?;
@@ -68,29 +68,29 @@ impl Renderer<'_> {
         if self.measures {
             self.measure(&target, !rapid);
         }
-        if let Some(block) = program.block(id) {
+        if let Some(routine) = program.routine(id) {
             let tapers = self.linear == 4 && (2..4).any(|axis| to.get(axis).is_some());
             let blocks =
-                block.ops.clone().filter(|&i| matches!(program.ops[i], crate::compile::Op::Line { .. })).count();
+                routine.ops.clone().filter(|&i| matches!(program.ops[i], crate::compile::Op::Line { .. })).count();
             if tapers && blocks > 1 {
                 let message = format!("{} has {blocks} blocks, a four-axis wire takes one", id.name());
-                return fault_at(Code::PR008, message, "write the sequence on one line", Some(block.span));
+                return fault_at(Code::PR008, message, "write the sequence on one line", Some(routine.span));
             }
-            self.sequence_says(block, &target)?;
+            self.sequence_says(routine, &target)?;
             // among increments no register holds a height: it is where the moves so far lead
             if program.settings.machine == Machine::Mill
                 && !program.settings.incremental
-                && !block.vars.has(VarId::D)
+                && !routine.vars.has(VarId::D)
                 && self.differs(&target, self.depth_bit())
             {
                 let message = format!("nobody knows the height here, and {} does not print it", id.name());
                 let help = "put a rapid before it, or the word of [d] into the sequence";
-                return fault_at(Code::PR017, message, help, Some(block.span));
+                return fault_at(Code::PR017, message, help, Some(routine.span));
             }
-            self.plane_block(17.0, block)?;
-            self.upons(block.vars)?;
-            self.feed_block(&program.settings.feed, block)?;
-            self.run_block(block)?;
+            self.plane_block(17.0, routine)?;
+            self.upons(routine.vars)?;
+            self.feed_block(&program.settings.feed, routine)?;
+            self.run_block(routine)?;
         } else {
             self.enter_plane(17.0)?;
             self.shifted = Shift::None;

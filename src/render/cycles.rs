@@ -3,7 +3,7 @@
 use super::fault::{Done, fault};
 use super::renderer::{Cycles, Renderer};
 use super::vars::Vars;
-use crate::compile::{Block, CycleStyle};
+use crate::compile::{CycleStyle, Routine};
 use crate::cycle::{Plan, check};
 use crate::diag::Code;
 use crate::lang::{Group, Machine, SequenceId, VarId};
@@ -105,13 +105,14 @@ impl Renderer<'_> {
         }
         if spec.back.is_some()
             && sequence
-                .and_then(|id| self.program.block(id))
-                .is_some_and(|block| !block.vars.has(VarId::Sclear) && !block.vars.has(VarId::Vleave))
+                .and_then(|id| self.program.routine(id))
+                .is_some_and(|routine| !routine.vars.has(VarId::Sclear) && !routine.vars.has(VarId::Vleave))
         {
             let message = "the distance that pecks go back, `back`, is the control's own setting here";
             self.note(Code::PR021, message.into(), "set it at the control, or print [vleave] in the cycle");
         }
-        let printed = sequence.and_then(|id| self.program.block(id)).is_some_and(|block| block.vars.has(VarId::Vbite));
+        let printed =
+            sequence.and_then(|id| self.program.routine(id)).is_some_and(|routine| routine.vars.has(VarId::Vbite));
         if spec.kind.is_tap() && spec.mode.is_none() && spec.step.is_some() && !printed {
             let message = "`step` without effect: this tap goes down in one";
             self.note(Code::PC061, message.into(), "say how it pecks with `mode`, or take `step` out");
@@ -227,12 +228,12 @@ impl Renderer<'_> {
     pub(super) fn cancel(&mut self) -> Done {
         let program = self.program;
         let Some(cycle) = &mut self.cycle else { return Ok(()) };
-        let cancels = cycle.sequence.and_then(|id| program.block(id)).is_some_and(|block| block.cancel);
+        let cancels = cycle.sequence.and_then(|id| program.routine(id)).is_some_and(|routine| routine.cancel);
         if std::mem::take(&mut cycle.in_force)
             && cancels
-            && let Some(block) = program.block(SequenceId::Cancel)
+            && let Some(routine) = program.routine(SequenceId::Cancel)
         {
-            self.run_with_upons(block)?;
+            self.run_with_upons(routine)?;
             self.registers.forget_group(Group::Motion);
         }
         Ok(())
@@ -271,8 +272,8 @@ impl Renderer<'_> {
         let rigid = self.is_rigid(spec);
         let emulated = self.options.cycles == Cycles::Emulated || spec.emulate && !rigid;
         let candidate = self.candidate(spec).filter(|_| !emulated);
-        let floats = |block: &Block| !program.settings.rigid_tap && !block.vars.has(VarId::Rigid);
-        if rigid && spec.rigid == Some(true) && candidate.and_then(|id| program.block(id)).is_some_and(floats) {
+        let floats = |routine: &Routine| !program.settings.rigid_tap && !routine.vars.has(VarId::Rigid);
+        if rigid && spec.rigid == Some(true) && candidate.and_then(|id| program.routine(id)).is_some_and(floats) {
             let message = "a rigid tap, and the form's tap is for a floating holder";
             return fault(
                 Code::PC021,
@@ -280,9 +281,9 @@ impl Renderer<'_> {
                 "say `RigidTap? Y` in the form where its tap is rigid, or print [rigid]",
             );
         }
-        let why = match candidate.and_then(|id| program.block(id).map(|block| (id, block))) {
-            Some((id, block)) => match self.cannot_say(spec, block) {
-                None => return Ok((block.style != CycleStyle::Generated).then_some(id)),
+        let why = match candidate.and_then(|id| program.routine(id).map(|routine| (id, routine))) {
+            Some((id, routine)) => match self.cannot_say(spec, routine) {
+                None => return Ok((routine.style != CycleStyle::Generated).then_some(id)),
                 Some(what) => format!("{} does not print {what}", id.name()),
             },
             None if emulated => "cycles are emulated".to_owned(),
@@ -309,10 +310,10 @@ impl Renderer<'_> {
             labels.filter(|(label, _)| label.as_ref().is_some_and(is_kind)).map(|(_, id)| id).next()
         };
         let serves = |kind: CycleKind| match kind.sequence() {
-            Some(own) if program.block(own).is_some() => Some(own),
+            Some(own) if program.routine(own).is_some() => Some(own),
             None if kind == CycleKind::Face => custom(kind).or_else(|| {
-                let prints_dwell = |block: &&Block| block.vars.has(VarId::Dwell);
-                program.block(S::Drill).filter(prints_dwell).map(|_| S::Drill)
+                let prints_dwell = |routine: &&Routine| routine.vars.has(VarId::Dwell);
+                program.routine(S::Drill).filter(prints_dwell).map(|_| S::Drill)
             }),
             _ => custom(kind),
         };
@@ -320,11 +321,11 @@ impl Renderer<'_> {
     }
 
     /// What a cycle asks for that its sequence does not print.
-    fn cannot_say(&self, spec: &CycleSpec, block: &Block) -> Option<&'static str> {
-        if block.style == CycleStyle::Generated {
+    fn cannot_say(&self, spec: &CycleSpec, routine: &Routine) -> Option<&'static str> {
+        if routine.style == CycleStyle::Generated {
             return None;
         }
-        let prints = |vars: &[VarId]| vars.iter().any(|&var| block.vars.has(var));
+        let prints = |vars: &[VarId]| vars.iter().any(|&var| routine.vars.has(var));
         let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak) || spec.mode.is_some();
         let custom = matches!(spec.kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
         let program = self.program;
@@ -332,7 +333,7 @@ impl Renderer<'_> {
         let across = own && program.settings.machine == Machine::Mill; // a lathe drills at its centre
         let absolute = |code| code == program.settings.inc_abs[1];
         let positions = &[VarId::H, VarId::V, VarId::D, VarId::Vclear, VarId::Rplane];
-        let steps = program.settings.incremental && prints(positions) && !self.says_code(block, b'G', absolute);
+        let steps = program.settings.incremental && prints(positions) && !self.says_code(routine, b'G', absolute);
         let feeds_out = !spec.norevr && !spec.rapout;
         let by_form = self.defaults.orient;
         let other_angle = spec.orient.is_some_and(|orient| orient.angle(by_form) != by_form);

@@ -7,7 +7,7 @@ use super::motion::ROTARY;
 use super::move_words::as_number;
 use super::renderer::Renderer;
 use super::words::Mode;
-use crate::compile::{Block, CycleStyle, LetterKind, Op};
+use crate::compile::{CycleStyle, LetterKind, Op, Routine};
 use crate::cycle::Plan;
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
@@ -77,7 +77,7 @@ impl Renderer<'_> {
         let clear = point + planes.clear;
         let first = *cycle.return_plane.get_or_insert(point + cycle.spec.return_height.unwrap_or(planes.clear));
         let heights = Heights { point, clear, bottom: point + planes.bottom, return_plane: first.max(clear) };
-        let block = cycle.sequence.and_then(|id| program.block(id));
+        let routine = cycle.sequence.and_then(|id| program.routine(id));
         let mut target = self.target(&hole.at);
         if hole.at.given & ROTARY != 0 {
             if self.turns(&self.unwound(&target, hole.at.given)) {
@@ -99,7 +99,7 @@ impl Renderer<'_> {
                 );
             }
         }
-        let lost = block.is_some_and(|block| self.sequence_loses(block, &target));
+        let lost = routine.is_some_and(|routine| self.sequence_loses(routine, &target));
         if self.turns(&target) || lost {
             // no cycle turns the part: the control leaves it, and begins it again there
             self.leave_cycle()?;
@@ -107,18 +107,18 @@ impl Renderer<'_> {
             if self.attention {
                 self.attend()?;
             }
-            match program.block(SequenceId::Index).filter(|_| self.turns(&target)) {
+            match program.routine(SequenceId::Index).filter(|_| self.turns(&target)) {
                 Some(_) => self.turn_to(&target)?,
                 None => self.split_rapid(&target)?,
             }
         }
         self.moved_by = None; // every hole is approached by rapids
-        match block {
-            Some(block) => {
+        match routine {
+            Some(routine) => {
                 for start in 0..starts {
                     let heights = heights.of_start(start, starts, &planes)?;
                     target.set(self.depth_axis, heights.return_plane);
-                    self.sequence_hole(block, &target, &planes, heights)?;
+                    self.sequence_hole(routine, &target, &planes, heights)?;
                 }
             }
             None => self.generated_hole(&target, &planes, heights)?,
@@ -132,9 +132,9 @@ impl Renderer<'_> {
     }
 
     /// Does a hole lie at a place across the tool that its sequence does not print, as on a lathe?
-    fn sequence_loses(&self, block: &Block, target: &Axes) -> bool {
+    fn sequence_loses(&self, routine: &Routine, target: &Axes) -> bool {
         let mut across = (0..2).filter(|&axis| axis != self.depth_axis);
-        across.any(|axis| target.get(axis) != self.position.get(axis) && !self.says_axis(block, axis))
+        across.any(|axis| target.get(axis) != self.position.get(axis) && !self.says_axis(routine, axis))
     }
 
     /// Variables of a cycle at a hole.
@@ -178,48 +178,48 @@ impl Renderer<'_> {
     }
 
     /// A hole by a sequence of the form.
-    fn sequence_hole(&mut self, block: &Block, target: &Axes, planes: &Plan, heights: Heights) -> Done {
+    fn sequence_hole(&mut self, routine: &Routine, target: &Axes, planes: &Plan, heights: Heights) -> Done {
         self.set_targets(target)?;
-        self.attend_hole(block)?; // with [d] at the return plane: an Upon must not go down the hole
+        self.attend_hole(routine)?; // with [d] at the return plane: an Upon must not go down the hole
         self.hole_variables(planes, heights);
         self.vars.set(VarId::D, heights.return_plane);
-        let used = block.vars.without(VarSet::of(&[VarId::D]));
+        let used = routine.vars.without(VarSet::of(&[VarId::D]));
         if self.upon_is_due(used, false) {
             self.leave_cycle()?; // else the control takes its words for those of a hole
             self.attend_between(target, planes, heights)?;
         }
         self.upons(used)?;
-        self.upon_bottom(block, target, planes, heights)?;
-        self.plane_block(17.0, block)?; // else the control drills along another axis
+        self.upon_bottom(routine, target, planes, heights)?;
+        self.plane_block(17.0, routine)?; // else the control drills along another axis
         self.vars.set(VarId::D, heights.bottom);
-        if matches!(block.style, CycleStyle::Emulated) {
+        if matches!(routine.style, CycleStyle::Emulated) {
             self.raise_to(target)?;
             if !self.cycle.as_ref().is_some_and(|cycle| cycle.in_force) {
                 self.attend_between(target, planes, heights)?; // what Cancel switched is put back
             }
             self.vars.set(VarId::D, heights.bottom);
             self.registers.forget_letters();
-            self.way_to_hole(block)?;
+            self.way_to_hole(routine)?;
             self.shifted = Shift::None;
-            self.run(block.ops.clone(), Mode::Hole)?;
+            self.run(routine.ops.clone(), Mode::Hole)?;
             if let Some(cycle) = &mut self.cycle {
-                cycle.in_force = block.stays;
+                cycle.in_force = routine.stays;
             }
             // after a cycle of the control the last height printed is its bottom
-            let cycled = self.says_code(block, b'G', is_cycle);
-            let exit = match self.stays_at_clearance(block, heights) {
+            let cycled = self.says_code(routine, b'G', is_cycle);
+            let exit = match self.stays_at_clearance(routine, heights) {
                 true => (heights.clear, true),
                 false => (heights.return_plane, false),
             };
             return self.left_hole(target, cycled.then_some(exit));
         }
-        let starts = self.starts_cycle(block, heights);
+        let starts = self.starts_cycle(routine, heights);
         if starts {
             self.cancel()?;
             self.attend_between(target, planes, heights)?; // what Cancel switched is put back
             self.approach(target)?;
             self.vars.set(VarId::D, heights.bottom);
-            self.warn_of_return(block, heights);
+            self.warn_of_return(routine, heights);
             let snapshot = self.vars.clone();
             if let Some(cycle) = &mut self.cycle {
                 cycle.setup = snapshot;
@@ -228,59 +228,59 @@ impl Renderer<'_> {
             }
         }
         self.shifted = Shift::None;
-        match block.style {
+        match routine.style {
             CycleStyle::Advanced => {
                 self.registers.forget_letters();
                 if starts {
-                    self.run(block.ops.start..block.repeat, Mode::All)?;
-                    if !self.drills_at_once(block) {
+                    self.run(routine.ops.start..routine.repeat, Mode::All)?;
+                    if !self.drills_at_once(routine) {
                         self.registers.forget_letters(); // the first hole needs its lines whole
                     }
                 }
-                self.run(block.repeat..block.ops.end, Mode::Hole)?;
+                self.run(routine.repeat..routine.ops.end, Mode::Hole)?;
             }
             CycleStyle::Machine if !starts => {
-                let position = !self.changes_position(block)?;
-                self.run(block.ops.clone(), Mode::NextHole { position })?;
+                let position = !self.changes_position(routine)?;
+                self.run(routine.ops.clone(), Mode::NextHole { position })?;
             }
-            _ => self.run(block.ops.clone(), Mode::All)?,
+            _ => self.run(routine.ops.clone(), Mode::All)?,
         }
         let initial = self.cycle.as_ref().map_or(heights.return_plane, |cycle| cycle.initial_level);
         // with [retplane] the code says whether it returns: G98 where the job goes higher, else G99
         let higher = heights.return_plane > heights.clear + SAME;
-        let returns = block.returns && (higher || !block.vars.has(VarId::Retplane));
+        let returns = routine.returns && (higher || !routine.vars.has(VarId::Retplane));
         let exit = if returns { initial.max(heights.clear) } else { heights.clear };
         // without a code that says it, the control's own setting decides whether it returns
-        let stays = self.says_code(block, b'G', |code| code == self.program.settings.return_plane[0]);
+        let stays = self.says_code(routine, b'G', |code| code == self.program.settings.return_plane[0]);
         let low = heights.return_plane <= heights.clear + SAME;
-        let known = block.returns || stays || low && initial <= heights.clear + SAME;
+        let known = routine.returns || stays || low && initial <= heights.clear + SAME;
         self.left_hole(target, Some((exit, known)))
     }
 
     /// Does an emulated sequence leave the tool at the clearance for certain: G99, and no axis behind the control's cycle?
-    fn stays_at_clearance(&self, block: &Block, heights: Heights) -> bool {
+    fn stays_at_clearance(&self, routine: &Routine, heights: Heights) -> bool {
         let code = self.program.settings.return_plane[0];
-        let chosen = block.vars.has(VarId::Retplane) && heights.return_plane <= heights.clear + SAME;
-        if !chosen && !self.says_code(block, b'G', |value| value == code) {
+        let chosen = routine.vars.has(VarId::Retplane) && heights.return_plane <= heights.clear + SAME;
+        if !chosen && !self.says_code(routine, b'G', |value| value == code) {
             return false;
         }
         let is_line = |i: &usize| matches!(self.program.ops[*i], Op::Line { .. });
-        let cycle = block.ops.clone().rfind(|&i| match self.program.ops[i] {
+        let cycle = routine.ops.clone().rfind(|&i| match self.program.ops[i] {
             Op::Literal { index, .. } => {
                 let literal = &self.program.literals[index as usize];
                 literal.letter == b'G' && is_cycle(literal.value)
             }
             _ => false,
         });
-        let Some(end) = cycle.and_then(|cycle| (cycle..block.ops.end).find(is_line)) else { return true };
-        !self.names_axes(&Block { ops: end..block.ops.end, ..block.clone() }, false)
+        let Some(end) = cycle.and_then(|cycle| (cycle..routine.ops.end).find(is_line)) else { return true };
+        !self.names_axes(&Routine { ops: end..routine.ops.end, ..routine.clone() }, false)
     }
 
     /// An Upon of the hole's bottom, unless it would take the tool there.
-    fn upon_bottom(&mut self, block: &Block, target: &Axes, planes: &Plan, heights: Heights) -> Done {
+    fn upon_bottom(&mut self, routine: &Routine, target: &Axes, planes: &Plan, heights: Heights) -> Done {
         const BOTTOM: VarSet = VarSet::of(&[VarId::D]);
         self.vars.set(VarId::D, heights.bottom);
-        if !block.vars.has(VarId::D) || !self.upon_is_due(BOTTOM, false) || self.upon_is_due(BOTTOM, true) {
+        if !routine.vars.has(VarId::D) || !self.upon_is_due(BOTTOM, false) || self.upon_is_due(BOTTOM, true) {
             return Ok(());
         }
         self.leave_cycle()?; // else the control takes its words for those of a hole
@@ -290,7 +290,7 @@ impl Renderer<'_> {
     }
 
     /// The way to a hole of an emulated cycle is a rapid, also where its first block with axis words says no motion.
-    fn way_to_hole(&mut self, block: &Block) -> Done {
+    fn way_to_hole(&mut self, routine: &Routine) -> Done {
         let program = self.program;
         let is_line = |i: &usize| matches!(program.ops[*i], Op::Line { .. });
         let moves = |i: usize| {
@@ -301,9 +301,9 @@ impl Renderer<'_> {
             };
             self.letters[letter].kind == LetterKind::Axis
         };
-        let Some(first) = block.ops.clone().find(|&i| moves(i)) else { return Ok(()) };
-        let end = (first..block.ops.end).find(is_line).unwrap_or(block.ops.end);
-        let begin = Block { ops: block.ops.start..end, ..block.clone() };
+        let Some(first) = routine.ops.clone().find(|&i| moves(i)) else { return Ok(()) };
+        let end = (first..routine.ops.end).find(is_line).unwrap_or(routine.ops.end);
+        let begin = Routine { ops: routine.ops.start..end, ..routine.clone() };
         if !self.says_own_motion(&begin) {
             self.motion_block(&program.settings.rapid, &begin)?;
         }
@@ -311,9 +311,9 @@ impl Renderer<'_> {
     }
 
     /// Do the first lines of a counted cycle drill a hole themselves? K0 and L0 keep the control from it.
-    fn drills_at_once(&self, block: &Block) -> bool {
+    fn drills_at_once(&self, routine: &Routine) -> bool {
         let typed = |asked: &dyn Fn(u8, f64) -> bool| {
-            (block.ops.start..block.repeat).any(|i| match self.program.ops[i] {
+            (routine.ops.start..routine.repeat).any(|i| match self.program.ops[i] {
                 Op::Literal { index, .. } => {
                     let literal = &self.program.literals[index as usize];
                     asked(literal.letter, literal.value)
@@ -327,12 +327,12 @@ impl Renderer<'_> {
 
     /// What stands between holes. While the control is in its cycle nothing may come there: it would be taken for a hole, and
     /// what differs from the job is what the sequence itself switched, as `G95` for a tap. It waits for Cancel.
-    fn attend_hole(&mut self, block: &Block) -> Done {
+    fn attend_hole(&mut self, routine: &Routine) -> Done {
         if !self.attention {
             return Ok(());
         }
         let in_force = self.cycle.as_ref().is_some_and(|cycle| cycle.in_force);
-        match in_force && (block.cancel || self.says_code(block, b'G', is_cycle)) {
+        match in_force && (routine.cancel || self.says_code(routine, b'G', is_cycle)) {
             // positions in a form of increments are right if the sequence says G90
             true if self.program.settings.incremental => Ok(()),
             true => self.check_distance(),
@@ -352,7 +352,7 @@ impl Renderer<'_> {
     }
 
     /// Must the whole cycle be printed at this hole?
-    fn starts_cycle(&self, block: &Block, heights: Heights) -> bool {
+    fn starts_cycle(&self, routine: &Routine, heights: Heights) -> bool {
         let Some(cycle) = &self.cycle else { return true };
         if !cycle.in_force {
             return true;
@@ -362,13 +362,13 @@ impl Renderer<'_> {
         if level.is_none_or(|level| heights.clear > level + SAME) {
             return true;
         }
-        block.style == CycleStyle::Advanced
-            && block.setup_vars.iter().any(|var| cycle.setup.get(var) != self.vars.get(var))
+        routine.style == CycleStyle::Advanced
+            && routine.setup_vars.iter().any(|var| cycle.setup.get(var) != self.vars.get(var))
     }
 
     /// Does a word of the position change at this hole? A block without one would drill on no control, or only on some.
-    fn changes_position(&self, block: &Block) -> Done<bool> {
-        for i in block.ops.clone() {
+    fn changes_position(&self, routine: &Routine) -> Done<bool> {
+        for i in routine.ops.clone() {
             let crate::compile::Op::Var { letter, var, .. } = self.program.ops[i] else { continue };
             let (info, Some(value)) = (&self.letters[letter], self.vars.get(var)) else { continue };
             if info.kind != LetterKind::Axis {
@@ -408,8 +408,8 @@ impl Renderer<'_> {
         self.set_targets(target)
     }
 
-    fn warn_of_return(&mut self, block: &Block, heights: Heights) {
-        if heights.return_plane > heights.clear + SAME && !block.returns {
+    fn warn_of_return(&mut self, routine: &Routine, heights: Heights) {
+        if heights.return_plane > heights.clear + SAME && !routine.returns {
             let message = format!("the job returns to {}, the cycle stays at {}", heights.return_plane, heights.clear);
             self.note(
                 Code::PR013,

@@ -5,7 +5,7 @@ use super::fault::{Done, fault, fault_at};
 use super::move_words::{AxisUnits, as_number};
 use super::renderer::{LastMove, Renderer};
 use super::words::{Mode, tenths};
-use crate::compile::{Block, LetterKind, Op, Program};
+use crate::compile::{LetterKind, Op, Program, Routine};
 use crate::diag::Code;
 use crate::lang::{Group, SequenceId, VarId, VarSet};
 use crate::number::quantise;
@@ -23,7 +23,7 @@ const LAST_VARS: VarSet =
 pub(super) fn tracks(program: &Program) -> bool {
     let moves = [SequenceId::RapidCode, SequenceId::LineCode, SequenceId::CwCode, SequenceId::CcwCode];
     program.printed.with(program.upon_vars).meets(LAST_VARS)
-        || moves.iter().any(|&id| program.block(id).is_some())
+        || moves.iter().any(|&id| program.routine(id).is_some())
         || !program.settings.limits.is_empty()
         || program.upon_vars.meets(MOVE_VARS)
 }
@@ -277,8 +277,8 @@ impl Renderer<'_> {
     }
 
     /// A sequence that prints words of axes before a G90 or G91 of its own prints them in the mode that is in force.
-    pub(super) fn check_distance_of(&self, block: &Block) -> Done {
-        for i in block.ops.clone() {
+    pub(super) fn check_distance_of(&self, routine: &Routine) -> Done {
+        for i in routine.ops.clone() {
             let letter = match self.program.ops[i] {
                 Op::Var { letter, .. } => letter,
                 Op::Literal { index, .. } => {
@@ -356,19 +356,19 @@ impl Renderer<'_> {
     pub(super) fn rapid_block(&mut self, target: &Axes, code: Option<sema::Code>) -> Done {
         let program = self.program;
         // the depth part under VRapid has its own code, which the sequence can't print
-        match program.block(SequenceId::RapidCode).filter(|_| code.is_none()) {
-            Some(block) if self.differs(target, 0x3f) => {
+        match program.routine(SequenceId::RapidCode).filter(|_| code.is_none()) {
+            Some(routine) if self.differs(target, 0x3f) => {
                 let mut whole = self.position;
                 for axis in (0..6).filter(|axis| target.given & 1 << axis != 0) {
                     whole.set(axis, target.values[axis]);
                 }
                 self.set_targets(&whole)?;
                 self.measure(target, false);
-                self.sequence_says(block, target)?;
-                self.upons(block.vars)?;
-                self.motion_block(&program.settings.rapid, block)?;
+                self.sequence_says(routine, target)?;
+                self.upons(routine.vars)?;
+                self.motion_block(&program.settings.rapid, routine)?;
                 self.shifted = Shift::None;
-                self.run(block.ops.clone(), Mode::Motion)?;
+                self.run(routine.ops.clone(), Mode::Motion)?;
             }
             Some(_) => {}
             None => {
@@ -404,13 +404,13 @@ impl Renderer<'_> {
         if self.measures {
             self.measure(target, true);
         }
-        match program.block(SequenceId::LineCode) {
-            Some(block) if self.differs(target, 0x3f) => {
-                self.sequence_says(block, target)?;
-                self.upons(block.vars)?;
-                self.feed_block(&program.settings.feed, block)?;
+        match program.routine(SequenceId::LineCode) {
+            Some(routine) if self.differs(target, 0x3f) => {
+                self.sequence_says(routine, target)?;
+                self.upons(routine.vars)?;
+                self.feed_block(&program.settings.feed, routine)?;
                 self.shifted = Shift::None;
-                self.run(block.ops.clone(), Mode::Motion)?;
+                self.run(routine.ops.clone(), Mode::Motion)?;
             }
             Some(_) => {}
             None => {

@@ -3,15 +3,15 @@
 use super::fault::{Done, fault_at};
 use super::renderer::Renderer;
 use super::words::tenths;
-use crate::compile::Block;
+use crate::compile::Routine;
 use crate::diag::Code;
 use crate::lang::{Machine, VarId};
 use crate::sema;
 
 impl Renderer<'_> {
     /// The plane's code as a block of its own, before what prints none and needs it.
-    pub(super) fn plane_block(&mut self, plane: f64, block: &Block) -> Done {
-        if self.plane == plane || self.says_code(block, b'G', |code| (17.0..20.0).contains(&code)) {
+    pub(super) fn plane_block(&mut self, plane: f64, routine: &Routine) -> Done {
+        if self.plane == plane || self.says_code(routine, b'G', |code| (17.0..20.0).contains(&code)) {
             return Ok(());
         }
         self.enter_plane(plane)
@@ -28,8 +28,8 @@ impl Renderer<'_> {
 
     /// The motion code, before a sequence of moves that prints none where the control is in another motion: a cut would
     /// be a rapid. Whether it was printed.
-    fn motion_before(&mut self, code: &sema::Code, block: &Block) -> Done<bool> {
-        let lacks = !self.motion_in_force(code) && self.program.speaks_g && !self.says_motion(block);
+    fn motion_before(&mut self, code: &sema::Code, routine: &Routine) -> Done<bool> {
+        let lacks = !self.motion_in_force(code) && self.program.speaks_g && !self.says_motion(routine);
         if lacks {
             self.code_word(code)?;
         }
@@ -37,18 +37,18 @@ impl Renderer<'_> {
     }
 
     /// The motion code as a block of its own, before a sequence of rapids that prints none.
-    pub(super) fn motion_block(&mut self, code: &sema::Code, block: &Block) -> Done {
-        self.motion_before(code, block)?;
+    pub(super) fn motion_block(&mut self, code: &sema::Code, routine: &Routine) -> Done {
+        self.motion_before(code, routine)?;
         self.end_block();
         Ok(())
     }
 
     /// The motion before a sequence that goes to a place and says none: a cut's is a cut, every other way a rapid.
-    pub(super) fn way_before(&mut self, block: &Block) -> Done {
+    pub(super) fn way_before(&mut self, routine: &Routine) -> Done {
         let program = self.program;
         let code = if self.cutting { &program.settings.feed } else { &program.settings.rapid };
         let known = self.in_motion == Some(tenths(code.value));
-        if known || !program.speaks_g || !self.goes_unsaid(block) {
+        if known || !program.speaks_g || !self.goes_unsaid(routine) {
             return Ok(());
         }
         self.code_word(code)?;
@@ -60,12 +60,12 @@ impl Renderer<'_> {
     }
 
     /// Motion code and feed as a block of their own, before a sequence that lacks one of them; arcs say their code.
-    pub(super) fn feed_block(&mut self, code: &sema::Code, block: &Block) -> Done {
-        let begun = code.value == self.program.settings.feed.value && self.motion_before(code, block)?;
-        let says_feed = block.vars.has(VarId::Frate);
+    pub(super) fn feed_block(&mut self, code: &sema::Code, routine: &Routine) -> Done {
+        let begun = code.value == self.program.settings.feed.value && self.motion_before(code, routine)?;
+        let says_feed = routine.vars.has(VarId::Frate);
         if !says_feed && self.inverse_time() {
             let message = "in inverse time each move says its feed, and the sequence does not print [frate]";
-            return fault_at(Code::PR017, message, "add `F[frate]` to the sequence", Some(block.span));
+            return fault_at(Code::PR017, message, "add `F[frate]` to the sequence", Some(routine.span));
         }
         // a Grbl refuses G1 before any feed
         if !says_feed || begun && !self.inverse_time() {

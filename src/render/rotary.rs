@@ -2,7 +2,7 @@
 
 use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
-use crate::compile::{Block, Op};
+use crate::compile::{Op, Routine};
 use crate::diag::Code;
 use crate::lang::{Group, SequenceId, VarId};
 use crate::toolpath::Axes;
@@ -122,7 +122,7 @@ impl Renderer<'_> {
     fn unwind(&mut self, axis: usize) -> Done {
         let program = self.program;
         let letter = char::from(self.axes[axis]);
-        let Some(block) = program.block(SequenceId::Unwind) else {
+        let Some(routine) = program.routine(SequenceId::Unwind) else {
             let message = format!("{letter} reaches the end of its travel, and the form has no Unwind");
             return fault(Code::PR007, message, "add Unwind: it lifts the tool, turns the axis back and goes on");
         };
@@ -130,9 +130,9 @@ impl Renderer<'_> {
             let help = "end the compensation with an `outfeed` before";
             return fault(Code::PR006, "a rotary axis is unwound under cutter compensation", help);
         }
-        if !self.says_angle(block, axis) {
+        if !self.says_angle(routine, axis) {
             let message = format!("{letter} is to be unwound, and Unwind does not print its angle");
-            return fault_at(Code::PR017, message, format!("print `{letter}[lastrotangle]`"), Some(block.span));
+            return fault_at(Code::PR017, message, format!("print `{letter}[lastrotangle]`"), Some(routine.span));
         }
         let mut here = self.position;
         here.set(axis, self.angle(axis).unwrap_or(0.0) % 360.0);
@@ -142,16 +142,16 @@ impl Renderer<'_> {
         }
         self.angles.last[axis - ROTARY.start] = here.get(axis);
         self.vars.put(VarId::Lastrotangle, here.get(axis));
-        self.run_elsewhere(block)?;
+        self.run_elsewhere(routine)?;
         self.position.set(axis, here.values[axis]);
         Ok(())
     }
 
     /// A sequence that may leave the path and come back: only what it prints is known afterwards.
-    fn run_elsewhere(&mut self, block: &Block) -> Done {
+    fn run_elsewhere(&mut self, routine: &Routine) -> Done {
         self.registers.forget_all();
         self.placed = 0;
-        self.run_with_upons(block)?;
+        self.run_with_upons(routine)?;
         self.registers.forget_group(Group::Motion);
         self.last_move = LastMove::None;
         Ok(())
@@ -220,18 +220,18 @@ impl Renderer<'_> {
     /// A rapid to another rotary view: Index, where the form has it.
     pub(super) fn turn_to(&mut self, target: &Axes) -> Done {
         let program = self.program;
-        let Some(block) = program.block(SequenceId::Index) else { return self.rapid_to(target) };
-        if let Some(axis) = self.turned_axes(target).find(|&axis| !self.says_angle(block, axis)) {
+        let Some(routine) = program.routine(SequenceId::Index) else { return self.rapid_to(target) };
+        if let Some(axis) = self.turned_axes(target).find(|&axis| !self.says_angle(routine, axis)) {
             let letter = char::from(self.axes[axis]);
             let message = format!("{letter} turns to {}, which Index does not print", target.values[axis]);
-            return fault_at(Code::PR017, message, format!("add `{letter}[rotangle]` to Index"), Some(block.span));
+            return fault_at(Code::PR017, message, format!("add `{letter}[rotangle]` to Index"), Some(routine.span));
         }
         // one that does not take the tool up itself would turn the part under it
-        if target.get(self.depth_axis).is_some() && !self.names_axes(block, true) && self.is_below(target) {
+        if target.get(self.depth_axis).is_some() && !self.names_axes(routine, true) && self.is_below(target) {
             self.raise(target)?;
         }
-        self.sequence_goes_down(block, target)?;
-        self.run_elsewhere(block)?;
+        self.sequence_goes_down(routine, target)?;
+        self.run_elsewhere(routine)?;
         let placed = self.placed;
         self.move_to(&Axes { given: target.given & placed, ..*target });
         let left = Axes { given: target.given & !placed, ..*target };
@@ -244,23 +244,23 @@ impl Renderer<'_> {
     }
 
     /// A sequence that goes down must first go everywhere else that the target says.
-    fn sequence_goes_down(&self, block: &Block, target: &Axes) -> Done {
-        if block.vars.has(VarId::D) { self.sequence_says(block, target) } else { Ok(()) }
+    fn sequence_goes_down(&self, routine: &Routine, target: &Axes) -> Done {
+        if routine.vars.has(VarId::D) { self.sequence_says(routine, target) } else { Ok(()) }
     }
 
     /// What a tool change prints of its first target: rotary axes only where it has a word for them. One that goes
     /// down must have it: else the part would turn against the tool.
-    pub(super) fn change_turns(&mut self, block: &Block, target: &Axes, given: u8) -> Done<Axes> {
-        let down = block.ops.clone().find(|&i| matches!(self.program.ops[i], Op::Var { var: VarId::D, .. }));
-        let before = Block { ops: block.ops.start..down.unwrap_or(block.ops.end), ..block.clone() };
+    pub(super) fn change_turns(&mut self, routine: &Routine, target: &Axes, given: u8) -> Done<Axes> {
+        let down = routine.ops.clone().find(|&i| matches!(self.program.ops[i], Op::Var { var: VarId::D, .. }));
+        let before = Routine { ops: routine.ops.start..down.unwrap_or(routine.ops.end), ..routine.clone() };
         let says = |axis: &usize| self.says_angle(&before, *axis);
         let lost = self.turned_axes(target).find(|axis| !says(axis));
-        if let Some(axis) = lost.filter(|_| block.vars.has(VarId::D)) {
+        if let Some(axis) = lost.filter(|_| routine.vars.has(VarId::D)) {
             let (letter, angle) = (char::from(self.axes[axis]), target.values[axis]);
             let message =
                 format!("the tool begins at {letter}{angle}, and the tool change goes down before the part turns");
             let help = format!("print `{letter}[rotangle]` in the tool change, before the height");
-            return fault_at(Code::PR017, message, help, Some(block.span));
+            return fault_at(Code::PR017, message, help, Some(routine.span));
         }
         let unsaid = self.rotary().filter(|axis| !says(axis)).fold(0, |axes, axis| axes | 1 << axis);
         // only what the first move gives: another tool keeps no position

@@ -53,17 +53,17 @@ impl Renderer<'_> {
 
     fn run_section(&mut self, id: SequenceId) -> Done {
         self.close_cycle()?;
-        match self.program.block(id) {
-            Some(block) => {
+        match self.program.routine(id) {
+            Some(routine) => {
                 self.set_here()?;
                 // an arc's code would want a centre; among cuts it stays a cut
                 if matches!(self.last_move, LastMove::Cw | LastMove::Ccw) {
                     self.cutting = true;
-                    self.way_before(block)?;
+                    self.way_before(routine)?;
                 }
-                self.run_with_upons(block)?;
-                if self.names_axes(block, true) {
-                    self.moved_by = Some(block.span);
+                self.run_with_upons(routine)?;
+                if self.names_axes(routine, true) {
+                    self.moved_by = Some(routine.span);
                 }
                 Ok(())
             }
@@ -103,7 +103,7 @@ impl Renderer<'_> {
             EdmAction::PreDrill => (SequenceId::EdmPreDrillThread, "drills a start hole"),
             EdmAction::Submerge => (SequenceId::SubmergeTank, "fills the tank"),
         };
-        if self.program.block(id).is_none() {
+        if self.program.routine(id).is_none() {
             let message = format!("the job {what} here, and the form has no {}", id.name());
             let help = format!("add the sequence `{}` with what the machine needs, to its `End`", id.name());
             return fault(Code::PR008, message, help);
@@ -137,11 +137,11 @@ impl Renderer<'_> {
         let [program, optional] = self.program.settings.stop_code;
         let code = if kind == StopKind::Program { program } else { optional };
         self.vars.set(VarId::Stop, code);
-        match self.program.block(SequenceId::Stop) {
-            Some(block) => {
+        match self.program.routine(SequenceId::Stop) {
+            Some(routine) => {
                 self.set_here()?;
-                self.run_with_upons(block)?;
-                if !block.vars.has(VarId::Stop) && !self.says_code(block, b'M', |code| is_stop(tenths(code))) {
+                self.run_with_upons(routine)?;
+                if !routine.vars.has(VarId::Stop) && !self.says_code(routine, b'M', |code| is_stop(tenths(code))) {
                     self.stopped(); // by words of its own
                 }
             }

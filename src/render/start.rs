@@ -6,7 +6,7 @@ use super::fault::{Done, fault};
 use super::output::Layout;
 use super::renderer::Renderer;
 use super::words::Mode;
-use crate::compile::{Block, Op};
+use crate::compile::{Op, Routine};
 use crate::cycle::Defaults;
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, work_code};
@@ -130,12 +130,12 @@ impl Renderer<'_> {
             self.out.word(&self.layout, false).extend_from_slice(text.as_bytes());
             self.end_block();
         }
-        if let Some(block) = program.block(SequenceId::StartCode) {
-            self.upons(block.vars)?;
+        if let Some(routine) = program.routine(SequenceId::StartCode) {
+            self.upons(routine.vars)?;
             self.shifted = Shift::None;
             // with subprograms first only the leading `%` comes now
-            let now = if settings.subs_first { self.start_code_rest() } else { block.ops.end };
-            self.run(block.ops.start..now, Mode::All)?;
+            let now = if settings.subs_first { self.start_code_rest() } else { routine.ops.end };
+            self.run(routine.ops.start..now, Mode::All)?;
             self.subs.start_waits = settings.subs_first;
         }
         Ok(())
@@ -208,24 +208,24 @@ impl Renderer<'_> {
         self.begin_main()?;
         self.check_calls()?;
         self.set_here()?;
-        let Some(block) = self.program.block(SequenceId::EndCode) else { return Ok(()) };
-        self.check_distance_of(block)?;
+        let Some(routine) = self.program.routine(SequenceId::EndCode) else { return Ok(()) };
+        self.check_distance_of(routine)?;
         if !self.has_waiting() {
-            return self.run_with_upons(block);
+            return self.run_with_upons(routine);
         }
         // subprograms stand after the main program, before the `%` that ends the tape
-        let percent = self.closing_percent(block);
-        self.upons(block.vars)?;
+        let percent = self.closing_percent(routine);
+        self.upons(routine.vars)?;
         self.shifted = Shift::None;
-        self.run(block.ops.start..percent, Mode::All)?;
+        self.run(routine.ops.start..percent, Mode::All)?;
         self.append_waiting();
-        self.run(percent..block.ops.end, Mode::All)
+        self.run(percent..routine.ops.end, Mode::All)
     }
 
     /// Where the `%` at the end of EndCode begins; its end, when there is none.
-    fn closing_percent(&self, block: &Block) -> usize {
-        let mut lines = block.ops.clone().rev().filter(|&i| matches!(self.program.ops[i], Op::Line { .. }));
-        lines.next().filter(|&line| self.is_percent(line)).unwrap_or(block.ops.end)
+    fn closing_percent(&self, routine: &Routine) -> usize {
+        let mut lines = routine.ops.clone().rev().filter(|&i| matches!(self.program.ops[i], Op::Line { .. }));
+        lines.next().filter(|&line| self.is_percent(line)).unwrap_or(routine.ops.end)
     }
 
     /// Is the line that begins here a `%`?
@@ -236,8 +236,8 @@ impl Renderer<'_> {
 
     /// The last line of EndCode that may have a block number: `%` is none.
     pub(super) fn last_line(&self) -> Option<usize> {
-        let block = self.program.block(SequenceId::EndCode)?;
+        let routine = self.program.routine(SequenceId::EndCode)?;
         let is_line = |i: &usize| matches!(self.program.ops[*i], Op::Line { .. });
-        block.ops.clone().rev().filter(is_line).find(|&line| !self.is_percent(line))
+        routine.ops.clone().rev().filter(is_line).find(|&line| !self.is_percent(line))
     }
 }

@@ -9,7 +9,7 @@ use super::output::TraceLine;
 use super::renderer::{LastMove, Renderer};
 use super::rotary::Angles;
 use super::vars::Vars;
-use crate::compile::{Block, Op};
+use crate::compile::{Op, Routine};
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId, VarSet};
 use crate::toolpath::{Axes, Call, FeedMode, Place, key};
@@ -135,12 +135,12 @@ impl Subprograms {
 impl Renderer<'_> {
     /// Where StartCode is divided when subprograms come first: after its leading `%` line.
     pub(super) fn start_code_rest(&self) -> usize {
-        let Some(block) = self.program.block(SequenceId::StartCode) else { return 0 };
+        let Some(routine) = self.program.routine(SequenceId::StartCode) else { return 0 };
         let ops = &self.program.ops;
-        let mut lines = block.ops.clone().filter(|&i| matches!(ops[i], Op::Line { .. }));
+        let mut lines = routine.ops.clone().filter(|&i| matches!(ops[i], Op::Line { .. }));
         match lines.next() {
-            Some(first) if self.is_percent(first) => lines.next().unwrap_or(block.ops.end),
-            _ => block.ops.start,
+            Some(first) if self.is_percent(first) => lines.next().unwrap_or(routine.ops.end),
+            _ => routine.ops.start,
         }
     }
 
@@ -157,7 +157,7 @@ impl Renderer<'_> {
                 "give each a number of its own",
             );
         }
-        let Some(block) = self.program.block(SequenceId::SubStart) else {
+        let Some(routine) = self.program.routine(SequenceId::SubStart) else {
             return fault(Code::PR008, "the form has no SubStart", "add SubStart, SubEnd and SubCall to the form");
         };
         let program = self.vars.get(VarId::Program);
@@ -179,7 +179,7 @@ impl Renderer<'_> {
         }
         self.leave_main();
         self.vars.set(VarId::Sub, printed);
-        self.run_with_upons(block)
+        self.run_with_upons(routine)
     }
 
     /// In a subprogram nothing is known but what it says itself.
@@ -232,8 +232,8 @@ impl Renderer<'_> {
             let help = "unwind in the main program: a call would leave the axis turned otherwise than the next expects";
             return fault(Code::PR008, "a rotary axis was unwound inside a subprogram", help);
         }
-        match self.program.block(SequenceId::SubEnd) {
-            Some(block) => self.run_with_upons(block)?,
+        match self.program.routine(SequenceId::SubEnd) {
+            Some(routine) => self.run_with_upons(routine)?,
             None => return fault(Code::PR008, "the form has no SubEnd", "add SubEnd to the form"),
         }
         if !self.program.settings.subs_first {
@@ -264,7 +264,7 @@ impl Renderer<'_> {
         if let Some(from) = from {
             self.subs.calls.push(Called { from, to: call.sub, place: self.place, unknown });
         }
-        let Some(block) = self.program.block(SequenceId::SubCall) else {
+        let Some(routine) = self.program.routine(SequenceId::SubCall) else {
             return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
         };
         if self.feed_mode != FeedMode::PerMinute {
@@ -294,7 +294,7 @@ impl Renderer<'_> {
         if let Some(work) = call.work {
             self.set_work(work)?;
         }
-        let place = self.go_to_call(call, block)?;
+        let place = self.go_to_call(call, routine)?;
         self.vars.set(VarId::Sub, printed);
         self.vars.set(VarId::Times, call.times);
         self.vars.put(VarId::Subline, first_block);
@@ -304,7 +304,7 @@ impl Renderer<'_> {
             return fault(Code::PR008, "a subprogram that leaves the part turned is called several times", help);
         }
         // a sequence that does not print how often is printed as often; so is one whose next run must begin as the first
-        let together = block.vars.has(VarId::Times) && !(leaves && call.times > 1.0);
+        let together = routine.vars.has(VarId::Times) && !(leaves && call.times > 1.0);
         let calls = if together { 1 } else { call.times as u32 };
         if !together {
             self.vars.set(VarId::Times, 1.0);
@@ -315,10 +315,10 @@ impl Renderer<'_> {
                 self.knows_after_stop()?;
                 self.pending_changes()?;
             }
-            self.upons(block.vars)?;
-            self.way_before(block)?;
+            self.upons(routine.vars)?;
+            self.way_before(routine)?;
             self.registers.forget_all();
-            self.run_block(block)?;
+            self.run_block(routine)?;
             self.after_call(called);
         }
         // the call's work offset is the call's alone: what follows is in the operation's again
@@ -329,17 +329,17 @@ impl Renderer<'_> {
 
     /// What the call needs before it: changes that its sequence does not print, and the place it is called at.
     /// Returns the place.
-    fn go_to_call(&mut self, call: &Call, block: &Block) -> Done<Axes> {
+    fn go_to_call(&mut self, call: &Call, routine: &Routine) -> Done<Axes> {
         self.plain_cutting()?;
         let target = self.reach(&call.at, true)?;
         self.set_targets(&target)?;
-        if self.attention && !(block.vars.has(VarId::Work) && self.only_work_waits()) {
+        if self.attention && !(routine.vars.has(VarId::Work) && self.only_work_waits()) {
             self.attend()?;
         }
         let at = Axes { given: call.at.given, ..target };
         // all of it: a part alone would go down before it goes across
-        if (0..6).any(|axis| at.get(axis).is_some() && !self.says_axis(block, axis)) {
-            if block.vars.has(VarId::Work) {
+        if (0..6).any(|axis| at.get(axis).is_some() && !self.says_axis(routine, axis)) {
+            if routine.vars.has(VarId::Work) {
                 self.upons(VarSet::of(&[VarId::Work]))?;
                 self.work_before()?;
             }
@@ -393,15 +393,15 @@ impl Renderer<'_> {
         }
         let program = self.program;
         if !self.subs.defined.is_empty()
-            && let Some(block) = program.block(SequenceId::Between)
+            && let Some(routine) = program.routine(SequenceId::Between)
         {
-            self.run_with_upons(block)?;
+            self.run_with_upons(routine)?;
         }
-        if let Some(block) = program.block(SequenceId::StartCode) {
+        if let Some(routine) = program.routine(SequenceId::StartCode) {
             self.shifted = Shift::None;
             self.registers.forget_all();
             let rest = self.start_code_rest();
-            self.run(rest..block.ops.end, super::words::Mode::All)?;
+            self.run(rest..routine.ops.end, super::words::Mode::All)?;
         }
         self.forget_position();
         Ok(())

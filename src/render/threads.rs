@@ -4,7 +4,7 @@ use super::codes::Shift;
 use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
-use crate::compile::{Block, Op};
+use crate::compile::{Op, Routine};
 use crate::cycle::thread_passes;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
@@ -72,9 +72,9 @@ impl Renderer<'_> {
         let starts = thread.starts.unwrap_or(1.0);
         let begin = self.target(&thread.from).values[0];
         self.thread_variables(thread, &cut);
-        let cycle = program.block(SequenceId::AutoThread).or(program.block(SequenceId::CanThread));
-        if let Some(block) = cycle {
-            self.thread_says(thread, &cut, block)?;
+        let cycle = program.routine(SequenceId::AutoThread).or(program.routine(SequenceId::CanThread));
+        if let Some(routine) = cycle {
+            self.thread_says(thread, &cut, routine)?;
         } else if thread.chamfer.is_some_and(|length| length != 0.0) {
             let help = "leave the chamfer out, or give the form an AutoThread that prints [chams]";
             return fault(Code::PR017, "passes made of single moves have no chamfer", help);
@@ -92,16 +92,16 @@ impl Renderer<'_> {
             }
             self.rapid_to(&at)?;
             let here = self.position;
-            match (program.block(SequenceId::AutoThread), program.block(SequenceId::CanThread)) {
-                (Some(block), _) => {
+            match (program.routine(SequenceId::AutoThread), program.routine(SequenceId::CanThread)) {
+                (Some(routine), _) => {
                     self.pass_variables(&cut, cut.passes[cut.passes.len() - 1])?;
-                    self.run_with_upons(block)?;
+                    self.run_with_upons(routine)?;
                 }
-                (None, Some(block)) => self.canned_passes(block, &cut)?,
+                (None, Some(routine)) => self.canned_passes(routine, &cut)?,
                 (None, None) => self.own_passes(&cut, &here)?,
             }
-            if cycle.is_some_and(|block| block.cancel)
-                && let Some(cancel) = program.block(SequenceId::Cancel)
+            if cycle.is_some_and(|routine| routine.cancel)
+                && let Some(cancel) = program.routine(SequenceId::Cancel)
             {
                 self.run_with_upons(cancel)?; // else the rapid behind it would be a pass
             }
@@ -165,14 +165,14 @@ impl Renderer<'_> {
     }
 
     /// What the thread asks for must be in the cycle's words, or stand in its packed parameters.
-    fn thread_says(&self, thread: &Thread, cut: &Cut, block: &Block) -> Done {
-        let packed = self.packed_parameters(block);
+    fn thread_says(&self, thread: &Thread, cut: &Cut, routine: &Routine) -> Done {
+        let packed = self.packed_parameters(routine);
         let in_packed = |digits: std::ops::Range<usize>, value: f64| {
             packed.as_deref().and_then(|text| text.get(digits)?.parse().ok()) == Some(value)
         };
-        let prints = |vars: &[VarId]| vars.iter().any(|&var| block.vars.has(var));
+        let prints = |vars: &[VarId]| vars.iter().any(|&var| routine.vars.has(var));
         let starts = thread.starts.unwrap_or(1.0);
-        let auto = self.program.block(SequenceId::AutoThread).is_some();
+        let auto = self.program.routine(SequenceId::AutoThread).is_some();
         let missing = [
             (cut.slope != 0.0 && !prints(&[VarId::Taper]), "the taper: [taper]"),
             (starts > 1.0 && !prints(&[VarId::Frate]), "the lead of several starts: [frate]"),
@@ -196,14 +196,14 @@ impl Renderer<'_> {
             Some((_, what)) => {
                 let message = format!("the thread cycle does not print {what}");
                 let help = "add the word, or say it in the packed parameters: `--set tparams=010029` is 1 finishing pass, no chamfer, 29 degrees";
-                fault_at(Code::PR017, message, help, Some(block.span))
+                fault_at(Code::PR017, message, help, Some(routine.span))
             }
         }
     }
 
     /// The digits of a packed `[tparams]` word: finishing passes, chamfer, angle, two each.
-    fn packed_parameters(&self, block: &Block) -> Option<String> {
-        let letter = block.ops.clone().find_map(|i| match self.program.ops[i] {
+    fn packed_parameters(&self, routine: &Routine) -> Option<String> {
+        let letter = routine.ops.clone().find_map(|i| match self.program.ops[i] {
             Op::Var { letter, var: VarId::Tparams, .. } => Some(letter),
             _ => None,
         })?;
@@ -223,16 +223,16 @@ impl Renderer<'_> {
     }
 
     /// CanThread: its first lines once, the others at every pass.
-    fn canned_passes(&mut self, block: &Block, cut: &Cut) -> Done {
-        self.upons(block.vars)?;
+    fn canned_passes(&mut self, routine: &Routine, cut: &Cut) -> Done {
+        self.upons(routine.vars)?;
         for (i, &depth) in cut.passes.iter().enumerate() {
             self.pass_variables(cut, depth)?;
             self.registers.forget_letters();
             self.shifted = Shift::None;
             if i == 0 {
-                self.run(block.ops.start..block.repeat, Mode::All)?;
+                self.run(routine.ops.start..routine.repeat, Mode::All)?;
             }
-            self.run(block.repeat..block.ops.end, Mode::Hole)?;
+            self.run(routine.repeat..routine.ops.end, Mode::Hole)?;
         }
         Ok(())
     }

@@ -100,14 +100,14 @@ impl Renderer<'_> {
         self.fresh_tool = true;
         self.tool_changes += 1;
         let id = if is_first { SequenceId::FirstToolChange } else { SequenceId::ToolChange };
-        let block = program.block(id);
+        let routine = program.routine(id);
         let first_target = match first {
             First::Rapid(to) => Some((self.target(to), to.given)),
             First::Hole(spec, hole) => Some((self.hole_position(spec, hole)?, hole.at.given | self.depth_bit())),
             First::Cut | First::Nothing => None,
         };
-        let target = match (first_target, block) {
-            (Some((target, given)), Some(block)) => Some(self.change_turns(block, &target, given)?),
+        let target = match (first_target, routine) {
+            (Some((target, given)), Some(routine)) => Some(self.change_turns(routine, &target, given)?),
             _ => None,
         };
         // another tool has no last position that a first rapid could keep; the part stays turned as it is
@@ -121,11 +121,11 @@ impl Renderer<'_> {
         self.served.speed = None;
         self.served.direct = None;
         self.served.max = None;
-        let Some(block) = block else { return Ok(()) };
+        let Some(routine) = routine else { return Ok(()) };
         match &target {
             Some(target) => self.set_targets(target)?,
-            None if block.vars.meets(POSITION) => {
-                let at = program.spans[block.ops.clone()].first().copied();
+            None if routine.vars.meets(POSITION) => {
+                let at = program.spans[routine.ops.clone()].first().copied();
                 let help = "begin the operation with a rapid to above its first cut";
                 return match first {
                     First::Cut => {
@@ -137,17 +137,17 @@ impl Renderer<'_> {
             }
             None => {}
         }
-        if block.vars.meets(POSITION) && !block.vars.has(VarId::Work) {
+        if routine.vars.meets(POSITION) && !routine.vars.has(VarId::Work) {
             self.work_before()?; // the position counts from it
         }
-        if block.vars.has(VarId::Speed) && !block.vars.has(VarId::Speedtype) {
+        if routine.vars.has(VarId::Speed) && !routine.vars.has(VarId::Speedtype) {
             self.speed_mode_before()?; // else a surface speed would be revolutions
         }
-        self.check_distance_of(block)?;
+        self.check_distance_of(routine)?;
         self.placed = 0;
         self.moved_by = None;
-        self.upons_of_change(block);
-        self.run_with_upons(block)?;
+        self.upons_of_change(routine);
+        self.run_with_upons(routine)?;
         if let Some(target) = target {
             self.move_to(&Axes { given: target.given & self.placed, ..target });
         }

@@ -3,7 +3,7 @@
 use super::fault::{Done, fault_at};
 use super::motion::{MOVED, NOW};
 use super::renderer::Renderer;
-use crate::compile::{Block, LetterKind, Op, UponBlock};
+use crate::compile::{LetterKind, Op, Routine, Upon};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
 
@@ -13,16 +13,16 @@ impl Renderer<'_> {
         self.program.upon_vars.meets(used)
             && self.program.upons.iter().zip(&self.upon_used).any(|(upon, before)| {
                 let Some(value) = self.vars.get(upon.var).filter(|_| used.has(upon.var)) else { return false };
-                is_due(upon, *before, value) && (!moving || self.names_axes(&upon.block, false))
+                is_due(upon, *before, value) && (!moving || self.names_axes(&upon.routine, false))
             })
     }
 
     /// Another work offset together with another view: Index takes the tool away and goes over the new place, so the
     /// offset's code is all that is left of an Upon sequence that does the same.
     pub(super) fn index_serves_work(&self) -> bool {
-        let retracts = self.program.block(SequenceId::Index).is_some_and(|block| self.names_axes(block, true));
-        let only_moves = |upon: &UponBlock| {
-            upon.block.ops.clone().all(|i| match self.program.ops[i] {
+        let retracts = self.program.routine(SequenceId::Index).is_some_and(|routine| self.names_axes(routine, true));
+        let only_moves = |upon: &Upon| {
+            upon.routine.ops.clone().all(|i| match self.program.ops[i] {
                 Op::Line { .. } => true,
                 Op::Var { letter, var, .. } => var == VarId::Work || self.letters[letter].kind == LetterKind::Axis,
                 Op::Literal { index, .. } => {
@@ -37,9 +37,9 @@ impl Renderer<'_> {
     }
 
     /// A tool change prints what it uses: an Upon that moves would do so with the tool that goes.
-    pub(super) fn upons_of_change(&mut self, block: &Block) {
+    pub(super) fn upons_of_change(&mut self, routine: &Routine) {
         for (i, upon) in self.program.upons.iter().enumerate() {
-            if block.vars.has(upon.var) && self.names_axes(&upon.block, false) {
+            if routine.vars.has(upon.var) && self.names_axes(&upon.routine, false) {
                 self.upon_used[i] = self.vars.get(upon.var).or(self.upon_used[i]);
             }
         }
@@ -55,9 +55,9 @@ impl Renderer<'_> {
     }
 
     /// Runs a sequence after the Upon sequences of the variables that it prints.
-    pub(super) fn run_with_upons(&mut self, block: &Block) -> Done {
-        self.upons(block.vars)?;
-        self.run_block(block)
+    pub(super) fn run_with_upons(&mut self, routine: &Routine) -> Done {
+        self.upons(routine.vars)?;
+        self.run_block(routine)
     }
 
     /// Before these variables are used: prints the Upon sequences that are due. Their bodies trigger none.
@@ -73,19 +73,19 @@ impl Renderer<'_> {
             let Some(value) = self.vars.get(upon.var) else { continue };
             let before = self.upon_used[i].replace(value);
             if is_due(upon, before, value) {
-                let moves = self.names_axes(&upon.block, false);
+                let moves = self.names_axes(&upon.routine, false);
                 if moves && self.compensated {
                     let message = format!("Upon [{}] moves the tool under cutter compensation", upon.var.name());
                     let help = "end the compensation with an `outfeed` before the change";
-                    return fault_at(Code::PR006, message, help, Some(upon.block.span));
+                    return fault_at(Code::PR006, message, help, Some(upon.routine.span));
                 }
                 let placed = std::mem::take(&mut self.placed);
-                self.way_before(&upon.block)?;
-                self.run_block(&upon.block)?;
+                self.way_before(&upon.routine)?;
+                self.run_block(&upon.routine)?;
                 self.stands_where_it_was_put();
                 self.placed |= placed;
-                if self.names_axes(&upon.block, true) {
-                    self.moved_by = Some(upon.block.span);
+                if self.names_axes(&upon.routine, true) {
+                    self.moved_by = Some(upon.routine.span);
                 }
             }
         }
@@ -111,6 +111,6 @@ impl Renderer<'_> {
 }
 
 /// The first use only sets the baseline, unless it prints at every use.
-fn is_due(upon: &UponBlock, before: Option<f64>, value: f64) -> bool {
+fn is_due(upon: &Upon, before: Option<f64>, value: f64) -> bool {
     upon.every || before.is_some_and(|before| before != value)
 }

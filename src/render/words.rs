@@ -7,7 +7,7 @@ use super::fault::{Done, fault_at};
 use super::motion::MOVED;
 use super::move_words::as_number;
 use super::renderer::Renderer;
-use crate::compile::{Block, Letter, LetterKind, Op};
+use crate::compile::{Letter, LetterKind, Op, Routine};
 use crate::diag::Code;
 use crate::lang::{VarId, VarSet, group_of};
 use crate::number::{LetterFormat, Unprintable, quantise, write_number};
@@ -81,9 +81,9 @@ impl Renderer<'_> {
     }
 
     /// Runs a whole sequence in which every word prints.
-    pub(super) fn run_block(&mut self, block: &Block) -> Done {
+    pub(super) fn run_block(&mut self, routine: &Routine) -> Done {
         self.shifted = Shift::None;
-        self.run(block.ops.clone(), Mode::All)
+        self.run(routine.ops.clone(), Mode::All)
     }
 
     /// Runs operations; each line is a block.

@@ -6,13 +6,15 @@ use super::codes::Shift;
 use super::fault::{Done, fault, fault_at};
 use super::geometry::PlaneArc;
 use super::motion::MOVE_VARS;
-use super::move_words::{AxisUnits, as_number};
+use super::move_words::AxisUnits;
+use super::numbers::{as_number, quantised};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
 use crate::compile::Routine;
 use crate::diag::Code;
 use crate::lang::{Group, Machine, SequenceId, VarId, VarSet};
-use crate::sema::{self, ArcCentre};
+use crate::sema;
+use crate::sema::ArcCentre;
 use crate::toolpath::{Arc, Axes, Direction, Plane, Units};
 
 /// The axes of a plane in the order that makes counter-clockwise positive, the axis across it, the plane's code.
@@ -73,7 +75,7 @@ impl Renderer<'_> {
         let mut target = self.reach(&arc.to, false)?;
         self.take_feed(feed)?;
         let (axes, across, code) = plane_axes(arc.plane);
-        if self.compensated && arc.plane != Plane::Xy && self.program.settings.machine == Machine::Mill {
+        if self.compensated && arc.plane != Plane::Xy && self.shape.program.settings.machine == Machine::Mill {
             let help = "end the compensation with an `outfeed` before";
             return fault(Code::PR006, "an arc in another plane under cutter compensation", help);
         }
@@ -93,10 +95,10 @@ impl Renderer<'_> {
         }
         self.stands_at_cut()?;
         self.set_targets(&target)?;
-        if self.watches_moves {
+        if self.shape.watches_moves {
             self.upons(MOVE_VARS)?;
         }
-        if self.differs(&self.position, 1 << axes[0] | 1 << axes[1]) && !self.program.settings.incremental {
+        if self.differs(&self.position, 1 << axes[0] | 1 << axes[1]) && !self.shape.program.settings.incremental {
             // the control must begin where its centre is counted from
             let here = self.position;
             self.set_targets(&here)?;
@@ -105,24 +107,24 @@ impl Renderer<'_> {
         }
         let shape = PlaneArc::new(from, to, centre, ccw, arc.turns);
         let climbs = self.differs_by(&target, across);
-        if self.measures {
+        if self.shape.measures {
             let rise = target.values[across] - self.position.values[across];
             self.measured((shape.radius * shape.sweep.abs()).hypot(if climbs { rise } else { 0.0 }), true);
         }
-        if !self.program.settings.limits.is_empty() {
+        if !self.shape.program.settings.limits.is_empty() {
             self.check_arc(&shape, axes, &target)?;
         }
-        let settings = &self.program.settings;
+        let settings = &self.shape.program.settings;
         let plane = settings.planes.iter().find(|plane| plane.value == code);
-        let scale = self.form_scale;
+        let scale = self.shape.form_scale;
         let printable = shape.radius >= settings.min_radius * scale
             && shape.radius <= settings.max_radius * scale
-            && (settings.helical && self.linear == 3 || !climbs)
+            && (settings.helical && self.shape.linear == 3 || !climbs)
             && (3..6).all(|axis| !self.differs_by(&target, axis));
         let shrinks = self.ends_meet(&target, axes) && shape.sweep.abs() < PI;
         if let Some(differ) = coarse {
             let message = format!("the arc is printed as lines: in the form's digits its radii differ by {differ:.4}");
-            self.note(Code::PR024, message, "give the axes and centre words more decimals");
+            self.out.note(Code::PR024, message, "give the axes and centre words more decimals");
         }
         match plane {
             Some(plane) if printable && !shrinks && coarse.is_none() => match self.has_centre_words(axes, ccw) {
@@ -160,11 +162,11 @@ impl Renderer<'_> {
     fn centre(&self, arc: &Arc, axes: [usize; 2], from: [f64; 2], to: [f64; 2], ccw: bool) -> Done<[f64; 2]> {
         if let Some(centre) = &arc.center {
             return match (centre.get(axes[0]), centre.get(axes[1])) {
-                (Some(a), Some(b)) => Ok([a * self.scale, b * self.scale]),
+                (Some(a), Some(b)) => Ok([a * self.shape.scale, b * self.shape.scale]),
                 _ => fault(Code::PR005, "the arc's centre lacks a coordinate of its plane", "give both"),
             };
         }
-        let radius = arc.radius.unwrap_or(0.0) * self.scale;
+        let radius = arc.radius.unwrap_or(0.0) * self.shape.scale;
         match PlaneArc::centre_by_radius(from, to, radius, ccw) {
             Some(centre) => Ok(centre),
             None => fault(
@@ -177,9 +179,9 @@ impl Renderer<'_> {
 
     /// A value as the axis prints it.
     pub(super) fn printed(&self, axis: usize, value: f64) -> Done<f64> {
-        let info = &self.letters[self.axes[axis]];
-        let scale = self.axis_scale[axis];
-        let units = self.quantised(info, value * scale)?;
+        let info = &self.shape.letters[self.shape.axes[axis]];
+        let scale = self.shape.scales[axis];
+        let units = quantised(info, value * scale)?;
         let number = as_number(units, info.format.dec.count) / scale;
         Ok(if info.reversed { -number } else { number })
     }
@@ -187,7 +189,7 @@ impl Renderer<'_> {
     /// Controls alarm, or cut something else, when start and end have different radii: the job's is an error. Whether
     /// the form's digits make it so: then lines say it better.
     fn check_radii(&self, axes: [usize; 2], from: [f64; 2], to: [f64; 2], centre: [f64; 2]) -> Done<Option<f64>> {
-        let allowed = if self.units == Units::Mm { 0.01 } else { 0.0005 } + 1e-9;
+        let allowed = if self.shape.units == Units::Mm { 0.01 } else { 0.0005 } + 1e-9;
         let radius = |point: [f64; 2]| (point[0] - centre[0]).hypot(point[1] - centre[1]);
         let (start, end) = (radius(from), radius(to));
         if (start - end).abs() > allowed {
@@ -213,14 +215,14 @@ impl Renderer<'_> {
     }
 
     fn has_centre_words(&self, axes: [usize; 2], ccw: bool) -> bool {
-        if let Some(routine) = self.program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
+        if let Some(routine) = self.shape.program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
             let says = |axis: usize| CENTRE_OF[axis].iter().any(|&var| routine.vars.has(var));
             let planes = [Plane::Xy, Plane::Xz, Plane::Yz].map(plane_axes);
             let own = planes.into_iter().find(|plane| plane.0 == axes).map(|plane| plane.2);
             let elsewhere = self.says_code(routine, b'G', |code| (17.0..20.0).contains(&code) && Some(code) != own);
             return !elsewhere && (routine.vars.has(VarId::Arcrad) || axes.iter().all(|&axis| says(axis)));
         }
-        match &self.program.settings.centre {
+        match &self.shape.program.settings.centre {
             ArcCentre::Radius(_) => true,
             ArcCentre::Letters(letters) => axes.iter().all(|&axis| self.centre_letter(letters, axis).is_some()),
         }
@@ -229,16 +231,16 @@ impl Renderer<'_> {
     /// Says once that a sequence can't print an arc which it is there for.
     fn note_lines(&mut self, axes: [usize; 2], ccw: bool) {
         let id = if ccw { SequenceId::CcwCode } else { SequenceId::CwCode };
-        if self.program.routine(id).is_some() && !self.notes().iter().any(|note| note.code == Code::PR024) {
+        if self.shape.program.routine(id).is_some() && !self.out.notes().iter().any(|note| note.code == Code::PR024) {
             let [first, second] = axes.map(|axis| ["[ival]", "[jval]", "[kval]"][axis]);
             let message = format!("the arc is printed as lines: {} does not print {first} and {second}", id.name());
-            self.note(Code::PR024, message, "print both, or the radius as [arcrad]");
+            self.out.note(Code::PR024, message, "print both, or the radius as [arcrad]");
         }
     }
 
     /// Prints an arc in as many parts as the form needs.
     fn pieces(&mut self, whole: &Piece, across: usize) -> Done {
-        let settings = &self.program.settings;
+        let settings = &self.shape.program.settings;
         let arc = &whole.arc;
         let turn = 2.0 * PI;
         let mut parts = std::mem::take(&mut self.parts);
@@ -247,7 +249,7 @@ impl Renderer<'_> {
             arc.quadrant_parts(&mut parts);
         } else {
             let sequence = if arc.sweep > 0.0 { SequenceId::CcwCode } else { SequenceId::CwCode };
-            let routine = self.program.routine(sequence);
+            let routine = self.shape.program.routine(sequence);
             // a sequence that prints the radius and no centre can't say more than half a turn
             let radius_only = match routine {
                 Some(routine) => routine.vars.has(VarId::Arcrad) && !routine.vars.meets(CENTRES),
@@ -287,14 +289,14 @@ impl Renderer<'_> {
 
     /// Prints one arc block or the form's sequence for it.
     fn piece(&mut self, piece: &Piece) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         let settings = &program.settings;
         if self.ends_meet(&piece.target, piece.axes) && piece.arc.sweep.abs() < PI {
             self.set_targets(&piece.target)?;
             return self.line_to(&piece.target); // as an arc it would be a full circle
         }
         // a turret on the other side sees the arc in a mirror
-        let ccw = (piece.arc.sweep > 0.0) != piece.axes.iter().any(|&axis| self.axis_scale[axis] < 0.0);
+        let ccw = (piece.arc.sweep > 0.0) != piece.axes.iter().any(|&axis| self.shape.scales[axis] < 0.0);
         let centre = self.centre_values(piece)?;
         self.set_targets(&piece.target)?;
         self.set_arc_variables(piece, &centre);
@@ -328,7 +330,7 @@ impl Renderer<'_> {
             if polar {
                 // the control knows where it is, and the letters of these axes say something older
                 for axis in piece.axes {
-                    self.registers.forget(self.letters[self.axes[axis]].printed);
+                    self.registers.forget(self.shape.letters[self.shape.axes[axis]].printed);
                 }
                 self.registers.forget_group(Group::Motion); // G12 is a motion that no group knows
             }
@@ -342,7 +344,7 @@ impl Renderer<'_> {
 
     /// A sequence of arcs must print a code of its own: an arc code in a block before it would have no end.
     fn says_arc(&self, routine: &Routine, code: &sema::Code) -> Done {
-        if !self.program.speaks_g || self.motion_in_force(code) || self.says_own_motion(routine) {
+        if !self.shape.program.speaks_g || self.motion_in_force(code) || self.says_own_motion(routine) {
             return Ok(());
         }
         let message = format!("the sequence prints no G{}, and the control is in another motion", code.value);
@@ -351,8 +353,8 @@ impl Renderer<'_> {
 
     /// The generated block: plane, motion code, axes, centre, direction, feed.
     fn arc_block(&mut self, piece: &Piece, code: &sema::Code, centre: &[f64; 2], ccw: bool) -> Done {
-        let settings = &self.program.settings;
-        if self.program.settings.machine == Machine::Mill {
+        let settings = &self.shape.program.settings;
+        if self.shape.program.settings.machine == Machine::Mill {
             self.motion_word(piece.plane)?; // a lathe and a wire have but one
         }
         if !self.differs(&piece.target, 0x3f) {
@@ -364,16 +366,16 @@ impl Renderer<'_> {
         self.axis_units(&piece.target, &mut axes)?;
         self.axis_words(&piece.target, &axes)?;
         if let Some(word) = &settings.second_circle {
-            self.end_block();
-            self.out.word(&self.layout, false).extend_from_slice(word.as_bytes());
+            self.out.end_block();
+            self.out.text(word, false);
         }
         self.centre_words(piece, centre)?;
         if let Some([cw, ccw_word]) = &settings.circle_direction {
             let word = if ccw { ccw_word } else { cw };
-            self.out.word(&self.layout, false).extend_from_slice(word.as_bytes());
+            self.out.text(word, false);
         }
         self.feed_word()?;
-        self.end_block();
+        self.out.end_block();
         Ok(())
     }
 
@@ -394,7 +396,7 @@ impl Renderer<'_> {
         }
         let mut parts = std::mem::take(&mut self.parts);
         parts.clear();
-        arc.equal_parts(arc.chord_angle(self.program.settings.tolerance * self.form_scale), &mut parts);
+        arc.equal_parts(arc.chord_angle(self.shape.program.settings.tolerance * self.shape.form_scale), &mut parts);
         let (whole_feed, share) = (self.feed, 1.0 / (parts.len() + 1) as f64);
         self.share_of_time(whole_feed, share);
         for &part in &parts {

@@ -5,18 +5,19 @@ use std::f64::consts::PI;
 use super::arcs::{CENTRES, Piece};
 use super::fault::{Done, fault};
 use super::geometry::PlaneArc;
-use super::move_words::as_number;
+use super::numbers::{as_number, quantised};
 use super::renderer::Renderer;
 use crate::compile::{Op, Routine};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
-use crate::sema::{self, ArcCentre, Settings};
+use crate::sema;
+use crate::sema::{ArcCentre, Settings};
 use crate::toolpath::{Axes, Units};
 
 impl Renderer<'_> {
     /// The letter of the centre word along an axis.
     pub(super) fn centre_letter(&self, letters: &[u8], axis: usize) -> Option<u8> {
-        let natural = match self.axes[axis] {
+        let natural = match self.shape.axes[axis] {
             b'X' | b'U' => b'I',
             b'Y' | b'V' => b'J',
             _ => b'K',
@@ -30,7 +31,7 @@ impl Renderer<'_> {
     pub(super) fn divide_for_radius(&self, whole: &Piece, across: usize, parts: &mut Vec<f64>) -> Done {
         const MOST_PARTS: usize = 8; // of each piece that the form would say
         let (most, step) = ((parts.len() + 1) * MOST_PARTS, parts.len() + 1);
-        let allowed = if self.units == Units::Mm { 0.005 } else { 0.0002 };
+        let allowed = if self.shape.units == Units::Mm { 0.005 } else { 0.0002 };
         let from = self.position;
         while parts.len() + 1 < most {
             let (mut here, mut done, mut worst) = (from, 0.0, 0.0f64);
@@ -59,8 +60,8 @@ impl Renderer<'_> {
                 *value = self.printed(axis, position.values[axis])?;
             }
         }
-        let info = &self.letters[letter];
-        let radius = as_number(self.quantised(info, piece.arc.radius)?, info.format.dec.count).abs();
+        let info = &self.shape.letters[letter];
+        let radius = as_number(quantised(info, piece.arc.radius)?, info.format.dec.count).abs();
         let longer = piece.arc.sweep.abs() > PI + 1e-9;
         let centre = PlaneArc::centre_by_radius(ends[0], ends[1], if longer { -radius } else { radius }, ccw);
         Ok(centre.map_or(f64::INFINITY, |[a, b]| (a - piece.arc.centre[0]).hypot(b - piece.arc.centre[1])))
@@ -68,7 +69,7 @@ impl Renderer<'_> {
 
     /// The letter of a piece's radius, where that is what says its centre.
     fn radius_letter(&self, piece: &Piece, ccw: bool) -> Option<u8> {
-        let program = self.program;
+        let program = self.shape.program;
         match program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
             Some(routine) if routine.vars.meets(CENTRES) => None,
             Some(routine) => routine.ops.clone().find_map(|i| match program.ops[i] {
@@ -97,10 +98,10 @@ impl Renderer<'_> {
     /// form's own.
     pub(super) fn check_signs(&self, piece: &Piece, routine: Option<&Routine>, code: &sema::Code, ccw: bool) -> Done {
         const VALUES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
-        let settings = &self.program.settings;
-        let reversed = |axis: usize| self.letters[self.axes[axis]].reversed;
+        let settings = &self.shape.program.settings;
+        let reversed = |axis: usize| self.shape.letters[self.shape.axes[axis]].reversed;
         let centre = |axis: usize| match (routine, Self::centre_by(settings, piece.arc.sweep.abs())) {
-            (Some(routine), _) => routine.ops.clone().find_map(|i| match self.program.ops[i] {
+            (Some(routine), _) => routine.ops.clone().find_map(|i| match self.shape.program.ops[i] {
                 Op::Var { letter, var, .. } if var == VALUES[axis] => Some(letter),
                 _ => None,
             }),
@@ -108,10 +109,11 @@ impl Renderer<'_> {
             (None, ArcCentre::Radius(_)) => None,
         };
         // both centre words the other way round: some controls count from the centre to the start
-        let other = |axis: &usize| centre(*axis).is_some_and(|letter| self.letters[letter].reversed != reversed(*axis));
+        let other =
+            |axis: &usize| centre(*axis).is_some_and(|letter| self.shape.letters[letter].reversed != reversed(*axis));
         let others = piece.axes.iter().copied().filter(other).count();
         if others == 1 || others == 2 && !settings.centre_incremental {
-            let axis = piece.axes.into_iter().find(other).map_or(' ', |axis| char::from(self.axes[axis]));
+            let axis = piece.axes.into_iter().find(other).map_or(' ', |axis| char::from(self.shape.axes[axis]));
             let message = format!("{axis} and its word of the arc's centre have different signs");
             return fault(Code::PR017, message, "reverse both, as `RevSigns X I`, or none");
         }
@@ -122,7 +124,7 @@ impl Renderer<'_> {
             Some(_) => typed(5.0 - own) && !typed(own),
             None => code.value == 5.0 - own,
         };
-        if wrong && (0..self.linear).any(reversed) {
+        if wrong && (0..self.shape.linear).any(reversed) {
             let message = match mirrored {
                 true => "one axis of the arc's plane has the other sign, and the arc would turn the other way",
                 false => "no axis of the arc's plane has the other sign alone, and the arc would turn the other way",
@@ -136,8 +138,8 @@ impl Renderer<'_> {
     /// The centre as the form counts it: from the printed start, or absolute.
     pub(super) fn centre_values(&self, piece: &Piece) -> Done<[f64; 2]> {
         let mut values = piece.arc.centre;
-        let mirrored = |axis: usize| self.axis_scale[axis] < 0.0;
-        if self.program.settings.centre_incremental {
+        let mirrored = |axis: usize| self.shape.scales[axis] < 0.0;
+        if self.shape.program.settings.centre_incremental {
             for (value, &axis) in values.iter_mut().zip(&piece.axes) {
                 // the control starts where it was told to, not where the job exactly was
                 *value -= self.printed(axis, self.position.values[axis])?;
@@ -151,7 +153,7 @@ impl Renderer<'_> {
 
     pub(super) fn centre_words(&mut self, piece: &Piece, centre: &[f64; 2]) -> Done {
         let sweep = piece.arc.sweep.abs();
-        match Self::centre_by(&self.program.settings, sweep) {
+        match Self::centre_by(&self.shape.program.settings, sweep) {
             ArcCentre::Radius(letter) => {
                 let radius = if sweep > PI + 1e-9 { -piece.arc.radius } else { piece.arc.radius };
                 self.arc_word(*letter, radius)
@@ -174,9 +176,9 @@ impl Renderer<'_> {
 
     /// A centre word: always printed, and no register keeps it.
     fn arc_word(&mut self, letter: u8, value: f64) -> Done {
-        let info = &self.letters[letter];
-        let units = self.quantised(info, value)?;
-        self.put_word(info, units, false)
+        let info = &self.shape.letters[letter];
+        let units = quantised(info, value)?;
+        self.out.letter(info, units, false)
     }
 
     pub(super) fn set_arc_variables(&mut self, piece: &Piece, centre: &[f64; 2]) {
@@ -188,12 +190,12 @@ impl Renderer<'_> {
         for (i, &axis) in piece.axes.iter().enumerate() {
             self.vars.set(VALUES[axis], centre[i]);
             if let Some(var) = CENTRES[axis] {
-                self.vars.set(var, piece.arc.centre[i] * self.axis_scale[axis].signum());
+                self.vars.set(var, piece.arc.centre[i] * self.shape.scales[axis].signum());
             }
         }
         let degrees = |angle: f64| (angle.to_degrees() % 360.0 + 360.0) % 360.0;
         // a turret on the other side sees them in a mirror
-        let way = if piece.axes.iter().any(|&axis| self.axis_scale[axis] < 0.0) { -1.0 } else { 1.0 };
+        let way = if piece.axes.iter().any(|&axis| self.shape.scales[axis] < 0.0) { -1.0 } else { 1.0 };
         let (start, sweep) = (piece.arc.start * way, piece.arc.sweep * way);
         self.vars.set(VarId::Arcrad, piece.arc.radius);
         self.vars.set(VarId::Startang, degrees(start));

@@ -1,8 +1,8 @@
 //! Work offset, spindle, coolant and feed mode: what was printed of them, and blocks for changes that no sequence serves.
 
 use super::fault::{Done, fault};
+use super::numbers::tenths;
 use super::renderer::Renderer;
-use super::words::tenths;
 use crate::compile::WorkWord;
 use crate::diag::Code;
 use crate::lang::{Group, Machine, Origin, Unit, VARIABLES, VarId, VarSet, did_you_mean, work_code};
@@ -69,7 +69,7 @@ impl Renderer<'_> {
             VarId::Feedtype => &mut self.served.feed_type,
             VarId::Speedtype => &mut self.served.speed_type,
             VarId::Maxrpm => &mut self.served.max,
-            _ if letter == self.program.settings.speed_code => &mut self.served.speed,
+            _ if letter == self.shape.program.settings.speed_code => &mut self.served.speed,
             _ => return,
         };
         *served = Some(value);
@@ -78,8 +78,8 @@ impl Renderer<'_> {
 
     /// The work offset was printed by the letter that it has, and not as the argument of something else.
     fn served_work(&mut self, letter: u8, value: f64) {
-        let own = self.program.work_word.map_or(b'G', |word| word.letter);
-        if own == letter || own == self.letters[letter].printed {
+        let own = self.shape.program.work_word.map_or(b'G', |word| word.letter);
+        if own == letter || own == self.shape.letters[letter].printed {
             self.served.work = Some(value);
             self.switched = true;
         }
@@ -89,7 +89,7 @@ impl Renderer<'_> {
     pub(super) fn served_code(&mut self, group: Group, value: f64) {
         self.switched |= !matches!(group, Group::Motion | Group::ReturnPlane);
         match group {
-            Group::Work => match self.program.work_word {
+            Group::Work => match self.shape.program.work_word {
                 None => self.served.work = Some(value),
                 Some(word) if word.shares_its_codes() => self.served.work = None,
                 // G56 of an Okuma is a length
@@ -111,7 +111,7 @@ impl Renderer<'_> {
                 set.insert(var);
             }
         }
-        if self.program.switches_spindle { set.without(SPINDLE) } else { set }
+        if self.shape.program.switches_spindle { set.without(SPINDLE) } else { set }
     }
 
     /// Was this work offset the last one printed?
@@ -151,14 +151,14 @@ impl Renderer<'_> {
             && self.served.cool != Some(cool)
         {
             self.code_word(&sema::Code::plain(b'M', cool))?;
-            self.end_block();
+            self.out.end_block();
             self.served.cool = Some(cool);
         }
         if let Some(feed_type) = self.vars.get(VarId::Feedtype)
             && self.served.feed_type != Some(feed_type)
         {
             self.code_word(&sema::Code::plain(b'G', feed_type))?;
-            self.end_block();
+            self.out.end_block();
             self.served.feed_type = Some(feed_type);
         }
         Ok(())
@@ -166,9 +166,9 @@ impl Renderer<'_> {
 
     /// Speed and direction of the spindle that nothing printed yet, unless the form's own sequences say when it turns.
     fn pending_spindle(&mut self) -> Done {
-        let settings = &self.program.settings;
+        let settings = &self.shape.program.settings;
         let [cw, ccw, off] = settings.spindle;
-        if self.program.switches_spindle {
+        if self.shape.program.switches_spindle {
             return Ok(());
         }
         let speed = self.vars.get(VarId::Speed);
@@ -191,10 +191,10 @@ impl Renderer<'_> {
             if let Some(direct) = direct {
                 self.code_word(&sema::Code::plain(b'M', direct))?;
             }
-            self.end_block();
+            self.out.end_block();
         } else if direct == Some(off) && self.served.direct != Some(off) {
             self.code_word(&sema::Code::plain(b'M', off))?;
-            self.end_block();
+            self.out.end_block();
         }
         Ok(())
     }
@@ -202,7 +202,7 @@ impl Renderer<'_> {
     /// A tool without a limit of its own printed its revolutions as one: it holds for no more, and for no surface speed.
     fn check_own_limit(&self) -> Done {
         let Some(limit) = self.served.max.filter(|_| self.vars.get(VarId::Maxrpm).is_none()) else { return Ok(()) };
-        let surface = self.vars.get(VarId::Speedtype) == Some(self.program.settings.speed_type[0]);
+        let surface = self.vars.get(VarId::Speedtype) == Some(self.shape.program.settings.speed_type[0]);
         if !surface && self.vars.get(VarId::Speed).is_none_or(|speed| speed <= limit) {
             return Ok(());
         }
@@ -228,14 +228,14 @@ impl Renderer<'_> {
             return Ok(());
         };
         self.code_word(&sema::Code::plain(b'G', mode))?;
-        self.end_block();
+        self.out.end_block();
         self.served.speed_type = Some(mode);
         Ok(())
     }
 
     /// The work offset as the form prints it.
     fn work_block(&mut self, work: f64) -> Done {
-        match self.program.work_word {
+        match self.shape.program.work_word {
             Some(WorkWord { code, letter }) => {
                 if let Some(code) = code {
                     self.code_word(&sema::Code::plain(b'G', code))?;
@@ -249,7 +249,7 @@ impl Renderer<'_> {
             }
             None => self.code_word(&sema::Code::plain(b'G', work))?,
         }
-        self.end_block();
+        self.out.end_block();
         self.served.work = Some(work);
         Ok(())
     }
@@ -262,12 +262,14 @@ impl Renderer<'_> {
 
     /// A fixture number below 50, or a code: see [`work_code`].
     pub(super) fn set_work(&mut self, work: f64) -> Done {
-        let first = self.program.settings.work;
+        let first = self.shape.program.settings.work;
         let Some(code) = work_code(first, work) else {
             let message = format!("the work offset {work} is a code, and this form counts its offsets from {first}");
             return fault(Code::PR017, message, "give the number of the fixture, from 1, or a code from 54 to 59");
         };
-        if self.program.work_word.is_none() && group_is_not_work(code) && self.program.settings.machine == Machine::Mill
+        if self.shape.program.work_word.is_none()
+            && group_is_not_work(code)
+            && self.shape.program.settings.machine == Machine::Mill
         {
             let message = format!("the work offset {work} would be G{code}, which is none");
             return fault(Code::PR017, message, "give the code itself, as 59.1, or a fixture number from 1 to 6");
@@ -284,7 +286,7 @@ impl Renderer<'_> {
     }
 
     pub(super) fn set_spindle(&mut self, spindle: &Spindle) -> Done {
-        let settings = &self.program.settings;
+        let settings = &self.shape.program.settings;
         if let Some(css) = spindle.css {
             self.vars.set(VarId::Speedtype, settings.speed_type[usize::from(!css)]);
         }
@@ -302,7 +304,7 @@ impl Renderer<'_> {
         }
         if let Some(max) = spindle.max {
             self.vars.set(VarId::Maxrpm, max);
-            if !self.program.printed.has(VarId::Maxrpm) {
+            if !self.shape.program.printed.has(VarId::Maxrpm) {
                 let message = format!("the spindle is limited to {max}, and the form nowhere prints [maxrpm]");
                 return fault(Code::PR017, message, "print it, as `G50 S[maxrpm]`, before the spindle starts");
             }
@@ -314,7 +316,7 @@ impl Renderer<'_> {
     /// Factor from the job's surface speed to the program's: feet a minute with inches, metres with millimetres.
     fn surface_scale(&self) -> f64 {
         const METRES_A_FOOT: f64 = 0.3048;
-        match self.scale {
+        match self.shape.scale {
             scale if scale > 1.0 => METRES_A_FOOT,
             scale if scale < 1.0 => 1.0 / METRES_A_FOOT,
             _ => 1.0,
@@ -329,7 +331,7 @@ impl Renderer<'_> {
     }
 
     pub(super) fn set_coolant(&mut self, coolant: Coolant) {
-        let [on, off, mist] = self.program.settings.coolant;
+        let [on, off, mist] = self.shape.program.settings.coolant;
         let code = match coolant {
             Coolant::On => on,
             Coolant::Mist => mist,
@@ -340,7 +342,7 @@ impl Renderer<'_> {
     }
 
     pub(super) fn set_feed_mode(&mut self, mode: FeedMode) {
-        let [minute, rev, inverse] = self.program.settings.feed_type;
+        let [minute, rev, inverse] = self.shape.program.settings.feed_type;
         self.feed_mode = mode;
         let code = match mode {
             FeedMode::PerMinute => minute,
@@ -367,7 +369,7 @@ impl Renderer<'_> {
 
     /// A variable's value in program units.
     pub(super) fn in_program_units(&self, var: VarId, value: f64) -> f64 {
-        if matches!(var.row().unit, Unit::Length | Unit::Feed) { value * self.scale } else { value }
+        if matches!(var.row().unit, Unit::Length | Unit::Feed) { value * self.shape.scale } else { value }
     }
 
     pub(super) fn set_variable(&mut self, var: VarId, value: f64) {

@@ -2,10 +2,11 @@
 
 use super::fault::{Done, fault_at};
 use super::motion::MOVED;
+use super::numbers::tenths;
 use super::renderer::Renderer;
-use super::words::tenths;
 use crate::compile::Op;
-use crate::control::{self, Control, Meaning};
+use crate::control;
+use crate::control::{Control, Meaning};
 use crate::diag::Code;
 use crate::lang::{Frame, Group, Machine, VarId, changes_tool, frame_of, group_of, is_called, is_stop};
 
@@ -31,9 +32,9 @@ impl Renderer<'_> {
     /// What a printed G or M code does to the registers.
     pub(super) fn printed_code(&mut self, letter: u8, value: f64) {
         let tenths = tenths(value);
-        let lathe = self.program.settings.machine == Machine::Lathe;
+        let lathe = self.shape.program.settings.machine == Machine::Lathe;
         if letter == b'M' {
-            if is_stop(tenths) || self.program.settings.stop_code.contains(&value) {
+            if is_stop(tenths) || self.shape.program.settings.stop_code.contains(&value) {
                 self.stopped();
             } else if changes_tool(tenths) || (960..=980).contains(&tenths) || tenths == 1980 {
                 self.forget_axes(); // a changer, and what M96 to M98 and M198 call, go where they like
@@ -44,7 +45,7 @@ impl Renderer<'_> {
             match frame_of(tenths) {
                 Some(Frame::Block) => {
                     self.shifted = self.shifted.max_of(Shift::Block);
-                    if tenths != 530 && !self.line_prints(|renderer, letter, _| renderer.axis_bit(letter) != 0) {
+                    if tenths != 530 && !self.line_prints(|renderer, letter, _| renderer.shape.axis_bit(letter) != 0) {
                         self.forget_axes();
                     }
                 }
@@ -64,7 +65,7 @@ impl Renderer<'_> {
                 _ => {}
             }
         }
-        let settings = &self.program.settings;
+        let settings = &self.shape.program.settings;
         let is_feed_mode = letter == b'G' && settings.feed_type.contains(&value);
         if is_feed_mode {
             self.served.feed_type = Some(value);
@@ -79,12 +80,12 @@ impl Renderer<'_> {
                     _ => {}
                 }
                 if matches!(group, Group::FeedMode | Group::Units) || is_feed_mode {
-                    self.registers.forget(self.letters[settings.feed_code].printed);
+                    self.registers.forget(self.shape.letters[settings.feed_code].printed);
                 }
                 self.registers.set_group(group, tenths);
                 self.served_code(group, value);
             }
-            None if is_feed_mode => self.registers.forget(self.letters[settings.feed_code].printed),
+            None if is_feed_mode => self.registers.forget(self.shape.letters[settings.feed_code].printed),
             None => {}
         }
     }
@@ -92,32 +93,32 @@ impl Renderer<'_> {
     /// May positions be kept after a G code without a modal group? Where the form's control runs it, where the form's
     /// commands name it, in a cycle, whose end forgets them, and beside axis words, which say where it goes.
     fn is_harmless(&self, value: f64) -> bool {
-        let control = Control::named(&self.program.settings.control).unwrap_or_else(Control::usual);
+        let control = Control::named(&self.shape.program.settings.control).unwrap_or_else(Control::usual);
         let row = control::Code::of(b'G', value).and_then(|code| control.row(code));
         let known = row.is_some_and(|row| row.meaning != Meaning::NotRun);
         known
-            || self.program.settings.names_code(value)
+            || self.shape.program.settings.names_code(value)
             || self.cycle.is_some()
-            || !is_called(value) && self.line_prints(|renderer, letter, _| renderer.axis_bit(letter) != 0)
+            || !is_called(value) && self.line_prints(|renderer, letter, _| renderer.shape.axis_bit(letter) != 0)
     }
 
     /// Do axis words that are printed now stand in another frame than the job's positions?
     pub(super) fn is_elsewhere(&self) -> bool {
-        self.shifted != Shift::None || !self.program.settings.incremental && self.distance_is_wrong()
+        self.shifted != Shift::None || !self.shape.program.settings.incremental && self.distance_is_wrong()
     }
 
     /// Does the line of the sequence that is being printed have such a word? Asked of its letter, and of its variable
     /// where it has one. Generated blocks have no line.
     pub(super) fn line_prints(&self, asked: impl Fn(&Self, u8, Option<VarId>) -> bool) -> bool {
-        let (ops, Some(here)) = (&self.program.ops, self.form) else { return false };
-        if self.out.is_too_long(&self.layout) {
+        let (ops, Some(here)) = (&self.shape.program.ops, self.form) else { return false };
+        if self.out.is_too_long() {
             return false; // the block is refused at its end, whatever it says
         }
         let is_line = |op: &Op| matches!(op, Op::Line { .. });
         let start = ops[..here].iter().rposition(is_line).map_or(0, |at| at + 1);
         ops[start..].iter().take_while(|op| !is_line(op)).any(|op| match *op {
             Op::Var { letter, var, .. } => asked(self, letter, Some(var)),
-            Op::Literal { index, .. } => asked(self, self.program.literals[index as usize].letter, None),
+            Op::Literal { index, .. } => asked(self, self.shape.program.literals[index as usize].letter, None),
             _ => false,
         })
     }
@@ -134,7 +135,7 @@ impl Renderer<'_> {
         if value.is_nan() || value.abs() >= 10_000.0 {
             return;
         }
-        if letter == self.program.settings.speed_code {
+        if letter == self.shape.program.settings.speed_code {
             self.served.speed = Some(value);
             self.switched = true;
         }
@@ -144,19 +145,14 @@ impl Renderer<'_> {
                 self.registers.forget_group(group);
             }
         }
-        self.displaced(self.axis_bit(letter));
+        self.displaced(self.shape.axis_bit(letter));
         self.registers.forget(letter);
-    }
-
-    /// The axis of a letter, in a set of axes.
-    pub(super) fn axis_bit(&self, letter: u8) -> u8 {
-        self.axes.iter().position(|&axis| axis == letter).map_or(0, |axis| 1 << axis)
     }
 
     /// These axes are somewhere else now. Positions stay what the job means by them; increments need to know more.
     pub(super) fn displaced(&mut self, axes: u8) {
         self.placed &= !axes;
-        if self.program.settings.incremental {
+        if self.shape.program.settings.incremental {
             self.position.given &= !axes;
             for axis in (0..MOVED.len()).filter(|axis| axes & 1 << axis != 0) {
                 self.vars.put(MOVED[axis], None);
@@ -173,14 +169,14 @@ impl Renderer<'_> {
     /// Where the axes are is unknown.
     pub(super) fn forget_axes(&mut self) {
         self.displaced(0x3f);
-        for letter in self.axes.into_iter().chain(self.program.settings.axes2) {
-            self.registers.forget(self.letters[letter].printed);
+        for letter in self.shape.axes.into_iter().chain(self.shape.program.settings.axes2) {
+            self.registers.forget(self.shape.letters[letter].printed);
         }
     }
 
     /// Would the control read generated positions as increments, or the other way round?
     pub(super) fn distance_is_wrong(&self) -> bool {
-        let settings = &self.program.settings;
+        let settings = &self.shape.program.settings;
         let wrong = tenths(settings.inc_abs[usize::from(settings.incremental)]);
         self.distance == Some(wrong) && settings.machine != Machine::Lathe
     }
@@ -188,13 +184,13 @@ impl Renderer<'_> {
     /// In a form of increments a position is read as one, unless the control was told otherwise.
     #[cold]
     pub(super) fn check_position_word(&self, letter: u8, var: VarId) -> Done {
-        let [increments, _] = self.program.settings.inc_abs;
+        let [increments, _] = self.shape.program.settings.inc_abs;
         if self.distance != Some(tenths(increments)) {
             return Ok(());
         }
         let message =
             format!("{}[{}] is a position, and the control is in G{increments}", char::from(letter), var.name());
-        fault_at(Code::PR017, message, "print G90 before it, or the increment, as [hdist]", self.form_span())
+        fault_at(Code::PR017, message, "print G90 before it, or the increment, as [hdist]", None)
     }
 
     /// The codes of a text outside comments: what they switch is known.
@@ -242,7 +238,7 @@ impl Renderer<'_> {
         let var = match group_of(letter, tenths(value)) {
             Some(Group::Spindle) => VarId::Direct,
             Some(Group::Coolant) => VarId::Cool,
-            Some(Group::Work) => match self.program.work_word {
+            Some(Group::Work) => match self.shape.program.work_word {
                 None => VarId::Work,
                 // G54 is none of the offsets that have a word of their own: nobody knows its number
                 Some(word) if word.shares_its_codes() => return self.vars.put(VarId::Work, None),

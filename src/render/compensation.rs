@@ -12,10 +12,10 @@ use crate::toolpath::{Axes, Infeed, Side};
 impl Renderer<'_> {
     /// The move that turns cutter compensation on.
     pub(super) fn infeed(&mut self, infeed: &Infeed, feed: Option<f64>) -> Done {
-        let [left, right, _] = self.program.settings.cdc;
-        let mirrored = self.axis_scale[1] < 0.0; // a turret on the other side
+        let [left, right, _] = self.shape.program.settings.cdc;
+        let mirrored = self.shape.scales[1] < 0.0; // a turret on the other side
         let code = if (infeed.side == Side::Left) != mirrored { left } else { right };
-        let reversed = |axis: usize| self.letters[self.axes[axis]].reversed;
+        let reversed = |axis: usize| self.shape.letters[self.shape.axes[axis]].reversed;
         if reversed(0) != reversed(1) && left < right {
             let message = "one axis is printed with the other sign, and the offset would be on the other side";
             return fault(Code::PR017, message, "exchange the codes: `CDC 42 41 40`");
@@ -28,7 +28,7 @@ impl Renderer<'_> {
 
     /// The move that turns it off.
     pub(super) fn outfeed(&mut self, to: &Axes, feed: Option<f64>, rapid: bool) -> Done {
-        let off = self.program.settings.cdc[2];
+        let off = self.shape.program.settings.cdc[2];
         self.vars.set(VarId::Side, off);
         self.compensate(to, (feed, rapid), SequenceId::OutFeed, off, false)?;
         self.compensated = false;
@@ -44,10 +44,10 @@ impl Renderer<'_> {
         code: f64,
         offset: bool,
     ) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         if rapid && program.routine(id).is_some() {
             let message = format!("a rapid with cutter compensation is printed by {}, which may feed", id.name());
-            self.note(Code::PR022, message, "look at the move");
+            self.out.note(Code::PR022, message, "look at the move");
         }
         let rapid = rapid && program.routine(id).is_none();
         let target = self.reach(to, false)?;
@@ -62,14 +62,14 @@ impl Renderer<'_> {
         }
         self.stands_at_cut()?;
         self.set_targets(&target)?;
-        if self.watches_moves {
+        if self.shape.watches_moves {
             self.upons(super::motion::MOVE_VARS)?;
         }
-        if self.measures {
+        if self.shape.measures {
             self.measure(&target, !rapid);
         }
         if let Some(routine) = program.routine(id) {
-            let tapers = self.linear == 4 && (2..4).any(|axis| to.get(axis).is_some());
+            let tapers = self.shape.linear == 4 && (2..4).any(|axis| to.get(axis).is_some());
             let blocks =
                 routine.ops.clone().filter(|&i| matches!(program.ops[i], crate::compile::Op::Line { .. })).count();
             if tapers && blocks > 1 {
@@ -81,7 +81,7 @@ impl Renderer<'_> {
             if program.settings.machine == Machine::Mill
                 && !program.settings.incremental
                 && !routine.vars.has(VarId::D)
-                && self.differs(&target, self.depth_bit())
+                && self.differs(&target, self.shape.depth_bit())
             {
                 let message = format!("nobody knows the height here, and {} does not print it", id.name());
                 let help = "put a rapid before it, or the word of [d] into the sequence";
@@ -110,7 +110,7 @@ impl Renderer<'_> {
             if !rapid {
                 self.feed_word()?;
             }
-            self.end_block();
+            self.out.end_block();
         }
         self.position = target;
         self.last_move = if rapid { LastMove::Rapid } else { LastMove::Line };

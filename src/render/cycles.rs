@@ -1,7 +1,9 @@
 //! Canned cycles: which sequence serves a cycle, when it begins and ends.
 
 use super::fault::{Done, fault};
-use super::renderer::{Cycles, Renderer};
+use super::numbers::quantised;
+use super::options::Cycles;
+use super::renderer::Renderer;
 use super::vars::Vars;
 use crate::compile::{CycleStyle, Routine};
 use crate::cycle::{Plan, check};
@@ -47,7 +49,7 @@ impl Renderer<'_> {
     pub(super) fn cycle_begin(&mut self, spec: &CycleSpec) -> Done {
         self.close_cycle()?;
         self.left = None; // its holes come by rapids
-        if self.program.settings.machine == Machine::Edm {
+        if self.shape.program.settings.machine == Machine::Edm {
             return fault(Code::PR008, "a wire EDM machine has no canned cycles", "take the cycle out of the job");
         }
         if self.compensated {
@@ -85,61 +87,64 @@ impl Renderer<'_> {
     /// What a cycle leaves out or contradicts, without being wrong.
     fn warn_of(&mut self, spec: &CycleSpec, sequence: Option<SequenceId>) {
         let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak);
-        if pecks && spec.step.or(self.defaults.step).is_none() && spec.pecks.is_empty() {
+        if pecks && spec.step.or(self.shape.defaults.step).is_none() && spec.pecks.is_empty() {
             let message = format!("`{}` has no step and goes down in one peck", spec.kind.name());
-            self.note(Code::PC060, message, "give the cycle a `step`, or the form a `CycleStep`");
+            self.out.note(Code::PC060, message, "give the cycle a `step`, or the form a `CycleStep`");
         }
-        let clear = spec.clear.unwrap_or(self.defaults.clear);
+        let clear = spec.clear.unwrap_or(self.shape.defaults.clear);
         if let Some(height) = spec.return_height.filter(|&height| height < clear) {
             let message = format!("the return plane, {height} above the point, is below the clearance, {clear}");
-            self.note(Code::PC053, message, "the clearance is used: give `return` above `clear`, or leave it out");
+            self.out.note(Code::PC053, message, "the clearance is used: give `return` above `clear`, or leave it out");
         }
-        let [cw, ccw, _] = self.program.settings.spindle;
+        let [cw, ccw, _] = self.shape.program.settings.spindle;
         let needed = if spec.kind == CycleKind::LTap { ccw } else { cw };
         if spec.kind.is_tap()
             && self.vars.get(VarId::Direct).is_some_and(|code| code != needed && [cw, ccw].contains(&code))
         {
             let (name, turns) = (spec.kind.name(), cw + ccw - needed);
             let message = format!("a `{name}` with the spindle in M{turns}: it is turned for the tap");
-            self.note(Code::PC054, message, "say the direction of the spindle in the job, or take the other tap");
+            self.out.note(Code::PC054, message, "say the direction of the spindle in the job, or take the other tap");
         }
         if spec.back.is_some()
             && sequence
-                .and_then(|id| self.program.routine(id))
+                .and_then(|id| self.shape.program.routine(id))
                 .is_some_and(|routine| !routine.vars.has(VarId::Sclear) && !routine.vars.has(VarId::Vleave))
         {
             let message = "the distance that pecks go back, `back`, is the control's own setting here";
-            self.note(Code::PR021, message.into(), "set it at the control, or print [vleave] in the cycle");
+            self.out.note(Code::PR021, message.into(), "set it at the control, or print [vleave] in the cycle");
         }
-        let printed =
-            sequence.and_then(|id| self.program.routine(id)).is_some_and(|routine| routine.vars.has(VarId::Vbite));
+        let printed = sequence
+            .and_then(|id| self.shape.program.routine(id))
+            .is_some_and(|routine| routine.vars.has(VarId::Vbite));
         if spec.kind.is_tap() && spec.mode.is_none() && spec.step.is_some() && !printed {
             let message = "`step` without effect: this tap goes down in one";
-            self.note(Code::PC061, message.into(), "say how it pecks with `mode`, or take `step` out");
+            self.out.note(Code::PC061, message.into(), "say how it pecks with `mode`, or take `step` out");
         }
         if spec.ratio.is_some() && (spec.norevr || spec.rapout) {
             let message = "`ratio` without effect: this tap does not feed out";
-            self.note(Code::PC057, message.into(), "take `ratio` out");
+            self.out.note(Code::PC057, message.into(), "take `ratio` out");
         }
-        if self.options.sink_as_printed && spec.kind == CycleKind::Csink && spec.angle.is_some_and(|angle| angle > 90.0)
+        if self.shape.options.sink_as_printed
+            && spec.kind == CycleKind::Csink
+            && spec.angle.is_some_and(|angle| angle > 90.0)
         {
             let message = "the printed formula makes this countersink too deep";
-            self.note(Code::PC059, message.into(), "render without `--csink-depth printed`");
+            self.out.note(Code::PC059, message.into(), "render without `--csink-depth printed`");
         }
-        if spec.min_step.is_some() && spec.decr.is_none() && self.program.settings.cycle_min_step == 0.0 {
+        if spec.min_step.is_some() && spec.decr.is_none() && self.shape.program.settings.cycle_min_step == 0.0 {
             let message = "`min_step` without effect: the steps do not shrink";
-            self.note(Code::PC055, message.into(), "take it out, or give `decr`");
+            self.out.note(Code::PC055, message.into(), "take it out, or give `decr`");
         }
         if let (Some(mode), true) = (spec.mode, sequence.is_some()) {
             let message = format!("how the tap pecks, here `{}`, is the control's own setting", mode.name());
-            self.note(Code::PR021, message, "set the control to it: no word of a form says which");
+            self.out.note(Code::PR021, message, "set the control to it: no word of a form says which");
         }
     }
 
     /// A tap goes in turning its own way: a floating one needs the spindle to, with a rigid one the control turns it.
     /// The direction that comes back after the cycle, if it is another.
     fn turn_for_tap(&mut self, spec: &CycleSpec) -> Done<Option<f64>> {
-        let [cw, ccw, off] = self.program.settings.spindle;
+        let [cw, ccw, off] = self.shape.program.settings.spindle;
         let inwards = match spec.kind.inwards() {
             Some(SpindleTurn::Ccw) => ccw,
             Some(_) => cw,
@@ -152,7 +157,7 @@ impl Renderer<'_> {
         if before.is_none_or(|code| code == inwards || ![cw, ccw].contains(&code)) {
             return Ok(None);
         }
-        if !rigid && self.program.switches_spindle {
+        if !rigid && self.shape.program.switches_spindle {
             let message = "the tap goes in turning the other way, and the form's own sequences turn the spindle";
             return fault(Code::PR006, message, "say the direction of the spindle in the job, or take the other tap");
         }
@@ -167,7 +172,7 @@ impl Renderer<'_> {
     /// A rigid tap keeps step with the spindle, in and out. One that does not reverse is made as a face or drill.
     pub(super) fn is_rigid(&self, spec: &CycleSpec) -> bool {
         let reverses = spec.kind.is_tap() && !spec.norevr && !spec.rapout;
-        reverses && spec.rigid.unwrap_or(self.program.settings.rigid_tap)
+        reverses && spec.rigid.unwrap_or(self.shape.program.settings.rigid_tap)
     }
 
     /// The cycle ends.
@@ -179,15 +184,15 @@ impl Renderer<'_> {
     pub(super) fn close_cycle(&mut self) -> Done {
         let Some(cycle) = &mut self.cycle else { return Ok(()) };
         if let Some((hole, place)) = cycle.held.take() {
-            let now = std::mem::replace(&mut self.place, place);
+            let now = std::mem::replace(&mut self.out.place, place);
             self.vars.set(VarId::Lasthole, 1.0);
             self.make_hole(&hole)?;
             self.vars.set(VarId::Lasthole, 0.0);
-            self.place = now;
+            self.out.place = now;
         }
         self.leave_cycle()?;
         let Some(cycle) = self.cycle.take() else { return Ok(()) };
-        let stands = self.position.get(self.depth_axis);
+        let stands = self.position.get(self.shape.depth);
         let as_left = |height: f64| cycle.exit_known && stands.is_some_and(|at| (at - height).abs() < 1e-9);
         self.left = cycle.left.filter(|&height| !as_left(height)).map(|height| (self.position, height));
         self.keep_feed(cycle.feed);
@@ -210,23 +215,23 @@ impl Renderer<'_> {
         self.set_targets(&last)?;
         self.registers.forget_letters();
         self.registers.forget_group(Group::Motion);
-        let known = if exit_known { 0b111 } else { 0b111 & !self.depth_bit() };
+        let known = if exit_known { 0b111 } else { 0b111 & !self.shape.depth_bit() };
         for axis in 0..3 {
             if known & last.given & 1 << axis != 0 {
-                let info = &self.letters[self.axes[axis]];
-                let units = self.quantised(info, last.values[axis] * self.axis_scale[axis])?;
+                let info = &self.shape.letters[self.shape.axes[axis]];
+                let units = quantised(info, last.values[axis] * self.shape.scales[axis])?;
                 self.registers.set(info.printed, units, info.format.dec.count);
             }
         }
         if !exit_known {
-            self.displaced(self.depth_bit()); // an increment must know from where
+            self.displaced(self.shape.depth_bit()); // an increment must know from where
         }
         Ok(())
     }
 
     /// Prints the Cancel sequence if the control is in the cycle.
     pub(super) fn cancel(&mut self) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         let Some(cycle) = &mut self.cycle else { return Ok(()) };
         let cancels = cycle.sequence.and_then(|id| program.routine(id)).is_some_and(|routine| routine.cancel);
         if std::mem::take(&mut cycle.in_force)
@@ -241,7 +246,7 @@ impl Renderer<'_> {
 
     /// The same cycle in program units.
     pub(super) fn scaled(&self, spec: &CycleSpec) -> CycleSpec {
-        let scale = self.scale;
+        let scale = self.shape.scale;
         let length = |value: Option<f64>| value.map(|v| v * scale);
         CycleSpec {
             depth: length(spec.depth),
@@ -268,9 +273,9 @@ impl Renderer<'_> {
 
     /// The sequence that prints a cycle, or none where moves are generated.
     fn choose(&mut self, spec: &CycleSpec) -> Done<Option<SequenceId>> {
-        let program = self.program;
+        let program = self.shape.program;
         let rigid = self.is_rigid(spec);
-        let emulated = self.options.cycles == Cycles::Emulated || spec.emulate && !rigid;
+        let emulated = self.shape.options.cycles == Cycles::Emulated || spec.emulate && !rigid;
         let candidate = self.candidate(spec).filter(|_| !emulated);
         let floats = |routine: &Routine| !program.settings.rigid_tap && !routine.vars.has(VarId::Rigid);
         if rigid && spec.rigid == Some(true) && candidate.and_then(|id| program.routine(id)).is_some_and(floats) {
@@ -294,7 +299,7 @@ impl Renderer<'_> {
             return fault(Code::PC021, message, "add a Tap sequence that prints what the tap needs");
         }
         if candidate.is_some() {
-            self.note(Code::PR014, format!("the cycle is printed as single moves: {why}"), "look at the moves");
+            self.out.note(Code::PR014, format!("the cycle is printed as single moves: {why}"), "look at the moves");
         }
         Ok(None)
     }
@@ -302,7 +307,7 @@ impl Renderer<'_> {
     /// Which sequence serves which kind (render.md section 3).
     fn candidate(&self, spec: &CycleSpec) -> Option<SequenceId> {
         use SequenceId as S;
-        let program = self.program;
+        let program = self.shape.program;
         let custom = |kind: CycleKind| {
             let labels = program.custom.iter().zip([S::Custom1, S::Custom2, S::Custom3]);
             let name = kind.name();
@@ -328,14 +333,14 @@ impl Renderer<'_> {
         let prints = |vars: &[VarId]| vars.iter().any(|&var| routine.vars.has(var));
         let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak) || spec.mode.is_some();
         let custom = matches!(spec.kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
-        let program = self.program;
+        let program = self.shape.program;
         let own = !custom; // what a custom cycle must say, only its form knows
         let across = own && program.settings.machine == Machine::Mill; // a lathe drills at its centre
         let absolute = |code| code == program.settings.inc_abs[1];
         let positions = &[VarId::H, VarId::V, VarId::D, VarId::Vclear, VarId::Rplane];
         let steps = program.settings.incremental && prints(positions) && !self.says_code(routine, b'G', absolute);
         let feeds_out = !spec.norevr && !spec.rapout;
-        let by_form = self.defaults.orient;
+        let by_form = self.shape.defaults.orient;
         let other_angle = spec.orient.is_some_and(|orient| orient.angle(by_form) != by_form);
         let missing = [
             (steps, &[][..], "increments, which the control expects here"),
@@ -367,8 +372,8 @@ impl Renderer<'_> {
 
     /// The planes of a cycle at a hole.
     pub(super) fn planes(&self, spec: &CycleSpec, hole: &Hole) -> Done<Plan> {
-        let depth = hole.depth.map(|d| d * self.scale);
-        Ok(Plan::of(spec, depth, &self.defaults, self.vars.get(VarId::Speed))?)
+        let depth = hole.depth.map(|d| d * self.shape.scale);
+        Ok(Plan::of(spec, depth, &self.shape.defaults, self.vars.get(VarId::Speed))?)
     }
 
     /// Where the tool is before the first hole of a cycle: over it, at the return plane. For tool changes.
@@ -376,9 +381,9 @@ impl Renderer<'_> {
         let spec = self.scaled(spec);
         let planes = self.planes(&spec, hole)?;
         let mut target = self.target(&hole.at);
-        let Some(point) = hole.at.get(self.depth_axis) else { return no_height() };
-        let point = point * self.scale;
-        target.set(self.depth_axis, point + spec.return_height.unwrap_or(planes.clear).max(planes.clear));
+        let Some(point) = hole.at.get(self.shape.depth) else { return no_height() };
+        let point = point * self.shape.scale;
+        target.set(self.shape.depth, point + spec.return_height.unwrap_or(planes.clear).max(planes.clear));
         Ok(target)
     }
 }

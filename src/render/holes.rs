@@ -4,7 +4,7 @@ use super::codes::Shift;
 use super::cycles::no_height;
 use super::fault::{Done, fault};
 use super::motion::ROTARY;
-use super::move_words::as_number;
+use super::numbers::{as_number, quantised};
 use super::renderer::Renderer;
 use super::words::Mode;
 use crate::compile::{CycleStyle, LetterKind, Op, Routine};
@@ -44,16 +44,16 @@ impl Heights {
 impl Renderer<'_> {
     /// A hole of the open cycle.
     pub(super) fn hole(&mut self, hole: &Hole) -> Done {
-        if !self.program.printed.has(VarId::Lasthole) {
+        if !self.shape.program.printed.has(VarId::Lasthole) {
             return self.make_hole(hole);
         }
-        let place = self.place;
+        let place = self.out.place;
         let Some(cycle) = &mut self.cycle else { return impossible("a hole outside a cycle") };
         match cycle.held.replace((*hole, place)) {
             Some((before, at)) => {
-                self.place = at;
+                self.out.place = at;
                 let made = self.make_hole(&before);
-                self.place = place;
+                self.out.place = place;
                 made
             }
             None => Ok(()),
@@ -62,12 +62,12 @@ impl Renderer<'_> {
 
     /// Prints a hole.
     pub(super) fn make_hole(&mut self, hole: &Hole) -> Done {
-        let program = self.program;
-        let (scale, rpm) = (self.scale, self.vars.get(VarId::Speed));
+        let program = self.shape.program;
+        let (scale, rpm) = (self.shape.scale, self.vars.get(VarId::Speed));
         let per_rev = self.feed_mode == FeedMode::PerRev;
-        let point = hole.at.get(self.depth_axis).map(|d| d * scale);
+        let point = hole.at.get(self.shape.depth).map(|d| d * scale);
         let Some(cycle) = &mut self.cycle else { return impossible("a hole outside a cycle") };
-        let mut planes = Plan::of(&cycle.spec, hole.depth.map(|d| d * scale), &self.defaults, rpm)?;
+        let mut planes = Plan::of(&cycle.spec, hole.depth.map(|d| d * scale), &self.shape.defaults, rpm)?;
         if per_rev {
             planes.lead = Some(planes.feed);
         }
@@ -85,12 +85,12 @@ impl Renderer<'_> {
             }
             target = self.in_travel(&target, hole.at.given, true)?;
         }
-        target.set(self.depth_axis, heights.bottom);
-        if !self.program.settings.limits.is_empty() {
+        target.set(self.shape.depth, heights.bottom);
+        if !self.shape.program.settings.limits.is_empty() {
             self.check_limits(&target)?;
         }
-        target.set(self.depth_axis, heights.return_plane);
-        for axis in (0..2).filter(|&axis| axis != self.depth_axis) {
+        target.set(self.shape.depth, heights.return_plane);
+        for axis in (0..2).filter(|&axis| axis != self.shape.depth) {
             if target.get(axis).is_none() {
                 return fault(
                     Code::PR006,
@@ -117,7 +117,7 @@ impl Renderer<'_> {
             Some(routine) => {
                 for start in 0..starts {
                     let heights = heights.of_start(start, starts, &planes)?;
-                    target.set(self.depth_axis, heights.return_plane);
+                    target.set(self.shape.depth, heights.return_plane);
                     self.sequence_hole(routine, &target, &planes, heights)?;
                 }
             }
@@ -133,7 +133,7 @@ impl Renderer<'_> {
 
     /// Does a hole lie at a place across the tool that its sequence does not print, as on a lathe?
     fn sequence_loses(&self, routine: &Routine, target: &Axes) -> bool {
-        let mut across = (0..2).filter(|&axis| axis != self.depth_axis);
+        let mut across = (0..2).filter(|&axis| axis != self.shape.depth);
         across.any(|axis| target.get(axis) != self.position.get(axis) && !self.says_axis(routine, axis))
     }
 
@@ -142,7 +142,7 @@ impl Renderer<'_> {
         let rigid = self.cycle.as_ref().is_some_and(|cycle| self.is_rigid(&cycle.spec));
         let Some(cycle) = &self.cycle else { return };
         let spec = &cycle.spec;
-        let settings = &self.program.settings;
+        let settings = &self.shape.program.settings;
         let vars = &mut self.vars;
         let [r_level, initial_level] = settings.return_plane;
         let higher = heights.return_plane > heights.clear + SAME;
@@ -155,19 +155,19 @@ impl Renderer<'_> {
         vars.set(VarId::Frate, planes.feed);
         vars.set(VarId::Plunge, spec.plunge.unwrap_or(planes.feed));
         // without a step the cycle goes down in one
-        let step = spec.step.or(self.defaults.step).or(Some(heights.clear - heights.bottom));
+        let step = spec.step.or(self.shape.defaults.step).or(Some(heights.clear - heights.bottom));
         vars.put(VarId::Vbite, step);
         vars.put(VarId::Peck1, spec.first_step.or(step));
         vars.put(VarId::Inidep, spec.first_step.or(step));
-        vars.set(VarId::Sbite, spec.min_step.unwrap_or(self.defaults.min_step));
+        vars.set(VarId::Sbite, spec.min_step.unwrap_or(self.shape.defaults.min_step));
         let back = spec.back.unwrap_or(match spec.kind {
-            CycleKind::Chipbreak => self.defaults.back_chipbreak,
-            CycleKind::Thru => self.defaults.back_thru,
-            _ => self.defaults.back_deep,
+            CycleKind::Chipbreak => self.shape.defaults.back_chipbreak,
+            CycleKind::Thru => self.shape.defaults.back_thru,
+            _ => self.shape.defaults.back_deep,
         });
         vars.set(VarId::Sclear, back);
         vars.set(VarId::Vleave, back);
-        vars.set(VarId::Sleave, spec.offset.unwrap_or(self.defaults.jog));
+        vars.set(VarId::Sleave, spec.offset.unwrap_or(self.shape.defaults.jog));
         let unit = if settings.dwell.milliseconds { 1000.0 } else { 1.0 };
         vars.put(VarId::Dwell, planes.dwell.map(|seconds| seconds * unit));
         vars.set(VarId::Rigid, f64::from(u8::from(rigid)));
@@ -251,7 +251,7 @@ impl Renderer<'_> {
         let returns = routine.returns && (higher || !routine.vars.has(VarId::Retplane));
         let exit = if returns { initial.max(heights.clear) } else { heights.clear };
         // without a code that says it, the control's own setting decides whether it returns
-        let stays = self.says_code(routine, b'G', |code| code == self.program.settings.return_plane[0]);
+        let stays = self.says_code(routine, b'G', |code| code == self.shape.program.settings.return_plane[0]);
         let low = heights.return_plane <= heights.clear + SAME;
         let known = routine.returns || stays || low && initial <= heights.clear + SAME;
         self.left_hole(target, Some((exit, known)))
@@ -259,15 +259,15 @@ impl Renderer<'_> {
 
     /// Does an emulated sequence leave the tool at the clearance for certain: G99, and no axis behind the control's cycle?
     fn stays_at_clearance(&self, routine: &Routine, heights: Heights) -> bool {
-        let code = self.program.settings.return_plane[0];
+        let code = self.shape.program.settings.return_plane[0];
         let chosen = routine.vars.has(VarId::Retplane) && heights.return_plane <= heights.clear + SAME;
         if !chosen && !self.says_code(routine, b'G', |value| value == code) {
             return false;
         }
-        let is_line = |i: &usize| matches!(self.program.ops[*i], Op::Line { .. });
-        let cycle = routine.ops.clone().rfind(|&i| match self.program.ops[i] {
+        let is_line = |i: &usize| matches!(self.shape.program.ops[*i], Op::Line { .. });
+        let cycle = routine.ops.clone().rfind(|&i| match self.shape.program.ops[i] {
             Op::Literal { index, .. } => {
-                let literal = &self.program.literals[index as usize];
+                let literal = &self.shape.program.literals[index as usize];
                 literal.letter == b'G' && is_cycle(literal.value)
             }
             _ => false,
@@ -291,7 +291,7 @@ impl Renderer<'_> {
 
     /// The way to a hole of an emulated cycle is a rapid, also where its first block with axis words says no motion.
     fn way_to_hole(&mut self, routine: &Routine) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         let is_line = |i: &usize| matches!(program.ops[*i], Op::Line { .. });
         let moves = |i: usize| {
             let letter = match program.ops[i] {
@@ -299,7 +299,7 @@ impl Renderer<'_> {
                 Op::Literal { index, .. } => program.literals[index as usize].letter,
                 _ => return false,
             };
-            self.letters[letter].kind == LetterKind::Axis
+            self.shape.letters[letter].kind == LetterKind::Axis
         };
         let Some(first) = routine.ops.clone().find(|&i| moves(i)) else { return Ok(()) };
         let end = (first..routine.ops.end).find(is_line).unwrap_or(routine.ops.end);
@@ -313,9 +313,9 @@ impl Renderer<'_> {
     /// Do the first lines of a counted cycle drill a hole themselves? K0 and L0 keep the control from it.
     fn drills_at_once(&self, routine: &Routine) -> bool {
         let typed = |asked: &dyn Fn(u8, f64) -> bool| {
-            (routine.ops.start..routine.repeat).any(|i| match self.program.ops[i] {
+            (routine.ops.start..routine.repeat).any(|i| match self.shape.program.ops[i] {
                 Op::Literal { index, .. } => {
-                    let literal = &self.program.literals[index as usize];
+                    let literal = &self.shape.program.literals[index as usize];
                     asked(literal.letter, literal.value)
                 }
                 _ => false,
@@ -334,7 +334,7 @@ impl Renderer<'_> {
         let in_force = self.cycle.as_ref().is_some_and(|cycle| cycle.in_force);
         match in_force && (routine.cancel || self.says_code(routine, b'G', is_cycle)) {
             // positions in a form of increments are right if the sequence says G90
-            true if self.program.settings.incremental => Ok(()),
+            true if self.shape.program.settings.incremental => Ok(()),
             true => self.check_distance(),
             false => self.attend(),
         }
@@ -358,7 +358,7 @@ impl Renderer<'_> {
             return true;
         }
         // the control would rapid there through the material
-        let level = cycle.last.and_then(|last| last.get(self.depth_axis));
+        let level = cycle.last.and_then(|last| last.get(self.shape.depth));
         if level.is_none_or(|level| heights.clear > level + SAME) {
             return true;
         }
@@ -369,12 +369,12 @@ impl Renderer<'_> {
     /// Does a word of the position change at this hole? A block without one would drill on no control, or only on some.
     fn changes_position(&self, routine: &Routine) -> Done<bool> {
         for i in routine.ops.clone() {
-            let crate::compile::Op::Var { letter, var, .. } = self.program.ops[i] else { continue };
-            let (info, Some(value)) = (&self.letters[letter], self.vars.get(var)) else { continue };
+            let crate::compile::Op::Var { letter, var, .. } = self.shape.program.ops[i] else { continue };
+            let (info, Some(value)) = (&self.shape.letters[letter], self.vars.get(var)) else { continue };
             if info.kind != LetterKind::Axis {
                 continue;
             }
-            let units = self.quantised(info, value)?;
+            let units = quantised(info, value)?;
             if !self.registers.holds(info.printed, units, info.format.dec.count) {
                 return Ok(true);
             }
@@ -384,7 +384,7 @@ impl Renderer<'_> {
 
     /// Before a control's cycle: the tool goes to the return plane, up first or down last.
     fn approach(&mut self, target: &Axes) -> Done {
-        if !self.differs(target, self.depth_bit()) {
+        if !self.differs(target, self.shape.depth_bit()) {
             return Ok(());
         }
         if self.is_below(target) { self.raise(target) } else { self.split_rapid(target) }
@@ -392,8 +392,8 @@ impl Renderer<'_> {
 
     /// An emulated cycle's first line may go across: the tool must not be below the return plane then.
     fn raise_to(&mut self, target: &Axes) -> Done {
-        let below = self.is_below(target) && self.differs(target, self.depth_bit());
-        let across = (0..2).any(|axis| axis != self.depth_axis && self.position.get(axis) != target.get(axis));
+        let below = self.is_below(target) && self.differs(target, self.shape.depth_bit());
+        let across = (0..2).any(|axis| axis != self.shape.depth && self.position.get(axis) != target.get(axis));
         if !below || !across {
             return Ok(());
         }
@@ -402,7 +402,7 @@ impl Renderer<'_> {
     }
 
     pub(super) fn raise(&mut self, target: &Axes) -> Done {
-        let above = Axes { given: self.depth_bit(), ..*target };
+        let above = Axes { given: self.shape.depth_bit(), ..*target };
         self.set_targets(&above)?;
         self.split_rapid(&above)?;
         self.set_targets(target)
@@ -411,7 +411,7 @@ impl Renderer<'_> {
     fn warn_of_return(&mut self, routine: &Routine, heights: Heights) {
         if heights.return_plane > heights.clear + SAME && !routine.returns {
             let message = format!("the job returns to {}, the cycle stays at {}", heights.return_plane, heights.clear);
-            self.note(
+            self.out.note(
                 Code::PR013,
                 message,
                 "print `G[retplane]` in the cycle, so that the control knows where to return to",
@@ -422,16 +422,16 @@ impl Renderer<'_> {
     /// Where the tool is after a hole; `exit` is the height, if the sequence does not print it, and whether it is sure.
     pub(super) fn left_hole(&mut self, target: &Axes, exit: Option<(f64, bool)>) -> Done {
         let mut last = *target;
-        let depth = &self.letters[self.axes[self.depth_axis]];
+        let depth = &self.shape.letters[self.shape.axes[self.shape.depth]];
         let (exit, known) = exit.unwrap_or_else(|| match self.registers.get(depth.printed) {
             Some((units, decimals)) => {
                 let value = as_number(units, decimals);
                 (if depth.reversed { -value } else { value }, true)
             }
-            None => (target.values[self.depth_axis], false),
+            None => (target.values[self.shape.depth], false),
         });
         // what the job means by its last position is the return plane, also where the control stays lower
-        last.set(self.depth_axis, exit);
+        last.set(self.shape.depth, exit);
         self.position = last;
         if let Some(cycle) = &mut self.cycle {
             cycle.last = Some(last);

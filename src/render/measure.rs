@@ -51,10 +51,10 @@ impl Renderer<'_> {
     /// Travel limits of the form.
     #[cold]
     pub(super) fn check_limits(&self, target: &Axes) -> Done {
-        for limit in &self.program.settings.limits {
-            let Some(axis) = self.axes.iter().position(|&letter| letter == limit.letter) else { continue };
-            let Some(value) = target.get(axis).map(|value| value * self.axis_scale[axis]) else { continue };
-            let scale = if axis < self.linear { self.form_scale } else { 1.0 };
+        for limit in &self.shape.program.settings.limits {
+            let Some(axis) = self.shape.axes.iter().position(|&letter| letter == limit.letter) else { continue };
+            let Some(value) = target.get(axis).map(|value| value * self.shape.scales[axis]) else { continue };
+            let scale = if axis < self.shape.linear { self.shape.form_scale } else { 1.0 };
             let (least, greatest) = (limit.least * scale, limit.greatest * scale);
             if value < least || value > greatest {
                 let letter = char::from(limit.letter);

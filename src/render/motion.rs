@@ -2,10 +2,11 @@
 
 use super::codes::Shift;
 use super::fault::{Done, fault, fault_at};
-use super::move_words::{AxisUnits, as_number};
+use super::move_words::AxisUnits;
+use super::numbers::{as_number, tenths};
 use super::renderer::{LastMove, Renderer};
-use super::words::{Mode, tenths};
-use crate::compile::{LetterKind, Op, Program, Routine};
+use super::words::Mode;
+use crate::compile::{LetterKind, Op, Routine};
 use crate::diag::Code;
 use crate::lang::{Group, SequenceId, VarId, VarSet};
 use crate::number::quantise;
@@ -16,17 +17,8 @@ use crate::toolpath::{Axes, FeedMode};
 pub(super) const MOVE_VARS: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::D, VarId::Frate, VarId::Rotangle]);
 
 /// Variables that remember the position before a move.
-const LAST_VARS: VarSet =
+pub(super) const LAST_VARS: VarSet =
     VarSet::of(&[VarId::Lasth, VarId::Lastv, VarId::Lastd, VarId::Hdist, VarId::Vdist, VarId::Ddist]);
-
-/// Must every move set the position variables? Else they are set when a sequence is about to print.
-pub(super) fn tracks(program: &Program) -> bool {
-    let moves = [SequenceId::RapidCode, SequenceId::LineCode, SequenceId::CwCode, SequenceId::CcwCode];
-    program.printed.with(program.upon_vars).meets(LAST_VARS)
-        || moves.iter().any(|&id| program.routine(id).is_some())
-        || !program.settings.limits.is_empty()
-        || program.upon_vars.meets(MOVE_VARS)
-}
 
 /// The variables of where the linear axes go, and of how far that is.
 pub(super) const NOW: [VarId; 3] = [VarId::H, VarId::V, VarId::D];
@@ -39,7 +31,7 @@ impl Renderer<'_> {
     /// A rapid of the path.
     pub(super) fn rapid(&mut self, to: &Axes) -> Done {
         let target = self.reach(to, true)?;
-        if self.tracks || self.attention || target.given & ROTARY != 0 {
+        if self.shape.sets_targets || self.attention || target.given & ROTARY != 0 {
             self.set_targets(&target)?;
         }
         let turns = target.given & ROTARY != 0 && self.turns(&target);
@@ -58,7 +50,7 @@ impl Renderer<'_> {
         if turns {
             return self.turn_to(&target);
         }
-        if self.watches_moves && self.differs(&target, 0x3f) {
+        if self.shape.watches_moves && self.differs(&target, 0x3f) {
             self.upons(MOVE_VARS.without(VarSet::of(&[VarId::Frate])))?;
         }
         self.rapid_to(&target)
@@ -76,10 +68,10 @@ impl Renderer<'_> {
         } else if self.moved_by.is_some() {
             self.stands_at_cut()?;
         }
-        if self.tracks || target.given & ROTARY != 0 {
+        if self.shape.sets_targets || target.given & ROTARY != 0 {
             self.set_targets(&target)?;
         }
-        if self.watches_moves && self.differs(&target, 0x3f) {
+        if self.shape.watches_moves && self.differs(&target, 0x3f) {
             self.upons(MOVE_VARS)?;
         }
         self.line_to(&target)
@@ -89,10 +81,10 @@ impl Renderer<'_> {
     #[cold]
     pub(super) fn begins_somewhere(&mut self, target: &Axes) -> Done {
         // the upper guides of a wire follow the lower ones
-        let axes = if self.linear == 4 { 2 } else { self.linear };
+        let axes = if self.shape.linear == 4 { 2 } else { self.shape.linear };
         let unknown = target.given & !self.position.given & ((1 << axes) - 1);
         self.fresh_tool = false;
-        if unknown == 0 || self.program.settings.incremental {
+        if unknown == 0 || self.shape.program.settings.incremental {
             return Ok(());
         }
         let help = "begin it with a rapid to the beginning of its first cut";
@@ -121,8 +113,8 @@ impl Renderer<'_> {
             return Ok(());
         }
         let mut to = self.position;
-        to.set(self.depth_axis, height);
-        to.given = self.depth_bit();
+        to.set(self.shape.depth, height);
+        to.given = self.shape.depth_bit();
         self.set_targets(&to)?;
         self.split_rapid(&to)
     }
@@ -133,7 +125,7 @@ impl Renderer<'_> {
         let mut target = self.position;
         for axis in 0..6 {
             if to.given & 1 << axis != 0 {
-                let scale = if axis < self.linear { self.scale } else { 1.0 };
+                let scale = if axis < self.shape.linear { self.shape.scale } else { 1.0 };
                 target.values[axis] = to.values[axis] * scale;
             }
         }
@@ -146,20 +138,20 @@ impl Renderer<'_> {
     pub(super) fn set_targets(&mut self, target: &Axes) -> Done {
         const UPPER: [VarId; 2] = [VarId::H2, VarId::V2];
         const LAST: [VarId; 3] = [VarId::Lasth, VarId::Lastv, VarId::Lastd];
-        if self.linear == 4 {
+        if self.shape.linear == 4 {
             for (axis, var) in (2..4).zip(UPPER) {
                 self.vars.put(var, target.get(axis));
             }
         }
-        for axis in 0..self.linear.min(if self.linear == 4 { 2 } else { 3 }) {
+        for axis in 0..self.shape.linear.min(if self.shape.linear == 4 { 2 } else { 3 }) {
             let bit = 1 << axis;
             if target.given & bit == 0 {
                 continue;
             }
-            let value = target.values[axis] * self.axis_scale[axis];
+            let value = target.values[axis] * self.shape.scales[axis];
             self.vars.set(NOW[axis], value);
             if self.position.given & bit != 0 {
-                let before = self.position.values[axis] * self.axis_scale[axis];
+                let before = self.position.values[axis] * self.shape.scales[axis];
                 self.vars.set(LAST[axis], before);
                 self.vars.set(MOVED[axis], self.as_printed(axis, value) - self.as_printed(axis, before));
             } else {
@@ -169,7 +161,7 @@ impl Renderer<'_> {
         if target.given & ROTARY != 0 {
             self.set_angles(target);
         }
-        if !self.program.settings.limits.is_empty() {
+        if !self.shape.program.settings.limits.is_empty() {
             self.check_limits(target)?;
         }
         Ok(())
@@ -178,14 +170,14 @@ impl Renderer<'_> {
     /// A value in the digits of its axis: distances between such places add up without a rest.
     #[inline]
     fn as_printed(&self, axis: usize, value: f64) -> f64 {
-        let decimals = self.letters[self.axes[axis]].format.dec.count;
+        let decimals = self.shape.letters[self.shape.axes[axis]].format.dec.count;
         quantise(value, decimals).map_or(value, |units| as_number(units, decimals))
     }
 
     /// The position variables where the tool is, for a sequence that stands between moves.
     pub(super) fn set_here(&mut self) -> Done {
         let here = self.position;
-        if self.tracks { Ok(()) } else { self.set_targets(&here) }
+        if self.shape.sets_targets { Ok(()) } else { self.set_targets(&here) }
     }
 
     /// The feed of a move: its own, which the next ones keep.
@@ -202,13 +194,13 @@ impl Renderer<'_> {
 
     #[inline]
     pub(super) fn set_feed(&mut self, feed: f64) {
-        let feed = if self.feed_mode == FeedMode::InverseTime { feed } else { feed * self.scale };
+        let feed = if self.feed_mode == FeedMode::InverseTime { feed } else { feed * self.shape.scale };
         self.keep_feed(Some(feed));
     }
 
     /// A feed in program units, for the moves that follow.
     pub(super) fn keep_feed(&mut self, feed: Option<f64>) {
-        let info = &self.letters[self.program.settings.feed_code];
+        let info = &self.shape.letters[self.shape.program.settings.feed_code];
         self.feed = feed;
         self.feed_units = feed.and_then(|feed| quantise(feed, info.format.dec.count));
         self.vars.put(VarId::Frate, feed);
@@ -264,8 +256,8 @@ impl Renderer<'_> {
     /// Positions are not printed where they would be read as increments, nor the other way round.
     pub(super) fn check_distance(&self) -> Done {
         if self.distance_is_wrong() {
-            let [increments, positions] = self.program.settings.inc_abs;
-            let (now, needed, read) = match self.program.settings.incremental {
+            let [increments, positions] = self.shape.program.settings.inc_abs;
+            let (now, needed, read) = match self.shape.program.settings.incremental {
                 true => (positions, increments, "increments as positions"),
                 false => (increments, positions, "positions as increments"),
             };
@@ -279,18 +271,18 @@ impl Renderer<'_> {
     /// A sequence that prints words of axes before a G90 or G91 of its own prints them in the mode that is in force.
     pub(super) fn check_distance_of(&self, routine: &Routine) -> Done {
         for i in routine.ops.clone() {
-            let letter = match self.program.ops[i] {
+            let letter = match self.shape.program.ops[i] {
                 Op::Var { letter, .. } => letter,
                 Op::Literal { index, .. } => {
-                    let literal = &self.program.literals[index as usize];
-                    if literal.letter == b'G' && self.program.settings.inc_abs.contains(&literal.value) {
+                    let literal = &self.shape.program.literals[index as usize];
+                    if literal.letter == b'G' && self.shape.program.settings.inc_abs.contains(&literal.value) {
                         return Ok(());
                     }
                     literal.letter
                 }
                 _ => continue,
             };
-            if self.letters[letter].kind == LetterKind::Axis && !self.program.settings.incremental {
+            if self.shape.letters[letter].kind == LetterKind::Axis && !self.shape.program.settings.incremental {
                 return self.check_distance();
             }
         }
@@ -299,7 +291,10 @@ impl Renderer<'_> {
 
     /// A rapid to a target in program units, as one block or, under VRapid, split.
     pub(super) fn rapid_to(&mut self, target: &Axes) -> Done {
-        if self.program.settings.depth_rapid.is_some() && self.linear == 3 && self.changes_depth_and_plane(target) {
+        if self.shape.program.settings.depth_rapid.is_some()
+            && self.shape.linear == 3
+            && self.changes_depth_and_plane(target)
+        {
             return self.split_rapid(target);
         }
         self.rapid_block(target, None)
@@ -307,13 +302,13 @@ impl Renderer<'_> {
 
     /// A rapid that goes up first or down last: between holes, and under VRapid.
     pub(super) fn split_rapid(&mut self, target: &Axes) -> Done {
-        let code = self.program.settings.depth_rapid.clone();
+        let code = self.shape.program.settings.depth_rapid.clone();
         if !self.changes_depth_and_plane(target) {
-            let depth_only = target.given & self.depth_bit() != 0 && self.differs(target, self.depth_bit());
+            let depth_only = target.given & self.shape.depth_bit() != 0 && self.differs(target, self.shape.depth_bit());
             return self.rapid_block(target, code.filter(|_| depth_only));
         }
         // only the axes of each part: the others stay where they are, printed or not
-        let depth = self.depth_bit();
+        let depth = self.shape.depth_bit();
         let part = |axes: u8| Axes { given: target.given & axes, ..*target };
         if self.is_below(target) {
             self.rapid_block(&part(depth), code)?;
@@ -326,17 +321,12 @@ impl Renderer<'_> {
 
     /// Is the tool below a target, by what the job said last? From an unknown height it comes from above.
     pub(super) fn is_below(&self, target: &Axes) -> bool {
-        let from = self.position.get(self.depth_axis).or(self.left_at);
-        from.is_some_and(|from| target.values[self.depth_axis] > from)
-    }
-
-    /// The depth axis in a set of axes.
-    pub(super) fn depth_bit(&self) -> u8 {
-        1 << self.depth_axis
+        let from = self.position.get(self.shape.depth).or(self.left_at);
+        from.is_some_and(|from| target.values[self.shape.depth] > from)
     }
 
     fn changes_depth_and_plane(&self, target: &Axes) -> bool {
-        self.differs(target, self.depth_bit()) && self.differs(target, 0x3f & !self.depth_bit())
+        self.differs(target, self.shape.depth_bit()) && self.differs(target, 0x3f & !self.shape.depth_bit())
     }
 
     /// Does a target differ on one of these axes from what was printed?
@@ -346,15 +336,15 @@ impl Renderer<'_> {
             if axes & target.given & bit == 0 {
                 return false;
             }
-            let info = &self.letters[self.axes[axis]];
-            let value = target.values[axis] * self.axis_scale[axis];
+            let info = &self.shape.letters[self.shape.axes[axis]];
+            let value = target.values[axis] * self.shape.scales[axis];
             quantise(if info.reversed { -value } else { value }, info.format.dec.count)
                 .is_none_or(|units| !self.registers.holds(info.printed, units, info.format.dec.count))
         })
     }
 
     pub(super) fn rapid_block(&mut self, target: &Axes, code: Option<sema::Code>) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         // the depth part under VRapid has its own code, which the sequence can't print
         match program.routine(SequenceId::RapidCode).filter(|_| code.is_none()) {
             Some(routine) if self.differs(target, 0x3f) => {
@@ -397,11 +387,11 @@ impl Renderer<'_> {
 
     /// A feed move to a target in program units.
     pub(super) fn line_to(&mut self, target: &Axes) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         if self.last_move == LastMove::Rapid && !program.settings.force.is_empty() {
             self.force();
         }
-        if self.measures {
+        if self.shape.measures {
             self.measure(target, true);
         }
         match program.routine(SequenceId::LineCode) {
@@ -428,7 +418,7 @@ impl Renderer<'_> {
     fn move_block(&mut self, target: &Axes, code: &sema::Code, feeds: bool) -> Done<bool> {
         let mut axes = AxisUnits::default();
         self.axis_units(target, &mut axes)?;
-        if axes.changed == 0 || (self.program.settings.incremental && !self.has_increment(target)?) {
+        if axes.changed == 0 || (self.shape.program.settings.incremental && !self.has_increment(target)?) {
             return Ok(false);
         }
         self.motion_word(code)?;
@@ -436,14 +426,14 @@ impl Renderer<'_> {
         if feeds {
             self.feed_word()?;
         }
-        self.end_block();
+        self.out.end_block();
         Ok(true)
     }
 
     /// The letters of `Force` print again.
     pub(super) fn force(&mut self) {
-        for &letter in &self.program.settings.force {
-            self.registers.forget(self.letters[letter].printed);
+        for &letter in &self.shape.program.settings.force {
+            self.registers.forget(self.shape.letters[letter].printed);
         }
     }
 

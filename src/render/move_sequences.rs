@@ -1,8 +1,8 @@
 //! What is printed before a motion sequence that does not print it: the plane, the feed.
 
 use super::fault::{Done, fault_at};
+use super::numbers::tenths;
 use super::renderer::Renderer;
-use super::words::tenths;
 use crate::compile::Routine;
 use crate::diag::Code;
 use crate::lang::{Machine, VarId};
@@ -19,9 +19,9 @@ impl Renderer<'_> {
 
     /// The plane's code as a block of its own, where the control is in another; only mills have planes.
     pub(super) fn enter_plane(&mut self, plane: f64) -> Done {
-        if self.plane != plane && self.program.settings.machine == Machine::Mill {
+        if self.plane != plane && self.shape.program.settings.machine == Machine::Mill {
             self.code_word(&sema::Code::plain(b'G', plane))?;
-            self.end_block();
+            self.out.end_block();
         }
         Ok(())
     }
@@ -29,7 +29,7 @@ impl Renderer<'_> {
     /// The motion code, before a sequence of moves that prints none where the control is in another motion: a cut would
     /// be a rapid. Whether it was printed.
     fn motion_before(&mut self, code: &sema::Code, routine: &Routine) -> Done<bool> {
-        let lacks = !self.motion_in_force(code) && self.program.speaks_g && !self.says_motion(routine);
+        let lacks = !self.motion_in_force(code) && self.shape.program.speaks_g && !self.says_motion(routine);
         if lacks {
             self.code_word(code)?;
         }
@@ -39,13 +39,13 @@ impl Renderer<'_> {
     /// The motion code as a block of its own, before a sequence of rapids that prints none.
     pub(super) fn motion_block(&mut self, code: &sema::Code, routine: &Routine) -> Done {
         self.motion_before(code, routine)?;
-        self.end_block();
+        self.out.end_block();
         Ok(())
     }
 
     /// The motion before a sequence that goes to a place and says none: a cut's is a cut, every other way a rapid.
     pub(super) fn way_before(&mut self, routine: &Routine) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         let code = if self.cutting { &program.settings.feed } else { &program.settings.rapid };
         let known = self.in_motion == Some(tenths(code.value));
         if known || !program.speaks_g || !self.goes_unsaid(routine) {
@@ -55,13 +55,13 @@ impl Renderer<'_> {
         if self.cutting && !self.inverse_time() {
             self.feed_word()?;
         }
-        self.end_block();
+        self.out.end_block();
         Ok(())
     }
 
     /// Motion code and feed as a block of their own, before a sequence that lacks one of them; arcs say their code.
     pub(super) fn feed_block(&mut self, code: &sema::Code, routine: &Routine) -> Done {
-        let begun = code.value == self.program.settings.feed.value && self.motion_before(code, routine)?;
+        let begun = code.value == self.shape.program.settings.feed.value && self.motion_before(code, routine)?;
         let says_feed = routine.vars.has(VarId::Frate);
         if !says_feed && self.inverse_time() {
             let message = "in inverse time each move says its feed, and the sequence does not print [frate]";
@@ -71,7 +71,7 @@ impl Renderer<'_> {
         if !says_feed || begun && !self.inverse_time() {
             self.feed_word()?;
         }
-        self.end_block();
+        self.out.end_block();
         Ok(())
     }
 }

@@ -1,11 +1,11 @@
 //! The words of generated blocks: axes, increments, motion codes, the feed.
 
 use super::fault::{Done, fault};
+use super::numbers::quantised;
 use super::renderer::Renderer;
 use crate::compile::LetterKind;
 use crate::diag::Code;
 use crate::lang::VarId;
-use crate::number::POWERS;
 use crate::sema;
 use crate::toolpath::Axes;
 
@@ -27,8 +27,8 @@ impl Renderer<'_> {
         while axes != 0 {
             let axis = axes.trailing_zeros() as usize;
             axes &= axes - 1;
-            let info = &self.letters[self.axes[axis]];
-            let units = self.quantised(info, target.values[axis] * self.axis_scale[axis])?;
+            let info = &self.shape.letters[self.shape.axes[axis]];
+            let units = quantised(info, target.values[axis] * self.shape.scales[axis])?;
             found.units[axis] = units;
             let changed = !self.registers.holds(info.printed, units, info.format.dec.count);
             found.changed |= u8::from(changed) << axis;
@@ -40,15 +40,15 @@ impl Renderer<'_> {
     /// The words of the axes that must be printed.
     #[inline]
     pub(super) fn axis_words(&mut self, target: &Axes, axes: &AxisUnits) -> Done {
-        if self.program.settings.incremental {
+        if self.shape.program.settings.incremental {
             return self.increments(target, axes.prints);
         }
         let mut left = axes.prints;
         while left != 0 {
             let axis = left.trailing_zeros() as usize;
             left &= left - 1;
-            let info = &self.letters[self.axes[axis]];
-            self.put_word(info, axes.units[axis], false)?;
+            let info = &self.shape.letters[self.shape.axes[axis]];
+            self.out.letter(info, axes.units[axis], false)?;
             self.registers.set(info.printed, axes.units[axis], info.format.dec.count);
         }
         Ok(())
@@ -65,8 +65,8 @@ impl Renderer<'_> {
                 }
                 continue;
             };
-            let (info, scale) = (&self.letters[self.axes[axis]], self.axis_scale[axis]);
-            if self.quantised(info, from * scale)? != self.quantised(info, to * scale)? {
+            let (info, scale) = (&self.shape.letters[self.shape.axes[axis]], self.shape.scales[axis]);
+            if quantised(info, from * scale)? != quantised(info, to * scale)? {
                 return Ok(true);
             }
         }
@@ -79,7 +79,7 @@ impl Renderer<'_> {
             if axes & 1 << axis == 0 {
                 continue;
             }
-            let info = &self.letters[self.axes[axis]];
+            let info = &self.shape.letters[self.shape.axes[axis]];
             let Some(from) = self.position.get(axis) else {
                 return fault(
                     Code::PR001,
@@ -87,10 +87,10 @@ impl Renderer<'_> {
                     "a tool change that prints the position makes it known; a new work offset or a literal axis word does not",
                 );
             };
-            let scale = self.axis_scale[axis];
-            let (from, to) = (self.quantised(info, from * scale)?, self.quantised(info, target.values[axis] * scale)?);
+            let scale = self.shape.scales[axis];
+            let (from, to) = (quantised(info, from * scale)?, quantised(info, target.values[axis] * scale)?);
             if to != from {
-                self.put_word(info, to - from, false)?;
+                self.out.letter(info, to - from, false)?;
             }
             self.registers.set(info.printed, to, info.format.dec.count);
         }
@@ -108,12 +108,12 @@ impl Renderer<'_> {
 
     /// A code, as typed in its command or by its letter's format.
     pub(super) fn code_word(&mut self, code: &sema::Code) -> Done {
-        let info = &self.letters[code.letter];
+        let info = &self.shape.letters[code.letter];
         match &code.text {
-            Some(text) => self.out.word(&self.layout, false).extend_from_slice(text.as_bytes()),
+            Some(text) => self.out.text(text, false),
             None => {
-                let units = self.quantised(info, code.value)?;
-                self.put_word(info, units, false)?;
+                let units = quantised(info, code.value)?;
+                self.out.letter(info, units, false)?;
             }
         }
         if matches!(info.kind, LetterKind::GCode | LetterKind::MCode) {
@@ -126,8 +126,8 @@ impl Renderer<'_> {
     /// be that of an axis, the feed or the speed, whose value is then unknown rather than this one.
     pub(super) fn parameter_word(&mut self, letter: u8, value: f64) -> Done {
         self.letter_word(letter, value)?;
-        self.registers.forget(self.letters[letter].printed);
-        if letter == self.program.settings.speed_code {
+        self.registers.forget(self.shape.letters[letter].printed);
+        if letter == self.shape.program.settings.speed_code {
             self.served.speed = None;
         }
         Ok(())
@@ -135,14 +135,14 @@ impl Renderer<'_> {
 
     /// The word of one axis, always printed.
     pub(super) fn axis_word(&mut self, axis: usize, target: &Axes) -> Done {
-        self.letter_word(self.axes[axis], target.values[axis] * self.axis_scale[axis])
+        self.letter_word(self.shape.axes[axis], target.values[axis] * self.shape.scales[axis])
     }
 
     /// A letter with a value, always printed.
     pub(super) fn letter_word(&mut self, letter: u8, value: f64) -> Done {
-        let info = &self.letters[letter];
-        let units = self.quantised(info, value)?;
-        self.put_word(info, units, false)?;
+        let info = &self.shape.letters[letter];
+        let units = quantised(info, value)?;
+        self.out.letter(info, units, false)?;
         self.registers.set(info.printed, units, info.format.dec.count);
         Ok(())
     }
@@ -150,7 +150,7 @@ impl Renderer<'_> {
     /// The feed, when it changed; in inverse time always.
     #[inline]
     pub(super) fn feed_word(&mut self) -> Done {
-        let info = &self.letters[self.program.settings.feed_code];
+        let info = &self.shape.letters[self.shape.program.settings.feed_code];
         if let Some(units) = self.feed_units
             && self.registers.holds(info.printed, units, info.format.dec.count)
             && info.modal
@@ -159,15 +159,10 @@ impl Renderer<'_> {
             return Ok(());
         }
         let Some(feed) = self.feed else { return Ok(()) };
-        let units = self.quantised(info, feed)?;
+        let units = quantised(info, feed)?;
         self.check_feed(info, VarId::Frate, feed, units)?;
-        self.put_word(info, units, false)?;
+        self.out.letter(info, units, false)?;
         self.registers.set(info.printed, units, info.format.dec.count);
         Ok(())
     }
-}
-
-/// Units of a letter as a number, for messages and geometry.
-pub(super) fn as_number(units: i64, decimals: u8) -> f64 {
-    units as f64 / POWERS[usize::from(decimals)] as f64
 }

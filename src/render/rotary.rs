@@ -67,9 +67,9 @@ impl Renderer<'_> {
         let mut inside = *target;
         for axis in self.rotary().filter(|axis| given & 1 << axis != 0) {
             let turn = axis - ROTARY.start;
-            let letter = self.axes[axis];
+            let letter = self.shape.axes[axis];
             inside.values[axis] = target.values[axis] - self.angles.wound[turn];
-            let Some(limit) = self.program.settings.limits.iter().find(|limit| limit.letter == letter) else {
+            let Some(limit) = self.shape.program.settings.limits.iter().find(|limit| limit.letter == letter) else {
                 continue;
             };
             let free = free
@@ -120,8 +120,8 @@ impl Renderer<'_> {
 
     /// Prints Unwind; the tool is back where it was, its angle modulo 360.
     fn unwind(&mut self, axis: usize) -> Done {
-        let program = self.program;
-        let letter = char::from(self.axes[axis]);
+        let program = self.shape.program;
+        let letter = char::from(self.shape.axes[axis]);
         let Some(routine) = program.routine(SequenceId::Unwind) else {
             let message = format!("{letter} reaches the end of its travel, and the form has no Unwind");
             return fault(Code::PR007, message, "add Unwind: it lifts the tool, turns the axis back and goes on");
@@ -174,7 +174,7 @@ impl Renderer<'_> {
 
     /// The rotary axes of this machine.
     fn rotary(&self) -> std::ops::Range<usize> {
-        if self.linear == ROTARY.start { ROTARY } else { 0..0 }
+        if self.shape.linear == ROTARY.start { ROTARY } else { 0..0 }
     }
 
     /// Does a target turn the part?
@@ -212,22 +212,22 @@ impl Renderer<'_> {
 
     /// The angle that a letter prints: its own axis', for `[rotangle]` and `[lastrotangle]`.
     pub(super) fn angle_of(&self, var: VarId, letter: u8) -> Option<f64> {
-        let axis = self.rotary().find(|&axis| self.axes[axis] == letter)?;
+        let axis = self.rotary().find(|&axis| self.shape.axes[axis] == letter)?;
         let angles = if var == VarId::Rotangle { &self.angles.now } else { &self.angles.last };
         angles[axis - ROTARY.start]
     }
 
     /// A rapid to another rotary view: Index, where the form has it.
     pub(super) fn turn_to(&mut self, target: &Axes) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         let Some(routine) = program.routine(SequenceId::Index) else { return self.rapid_to(target) };
         if let Some(axis) = self.turned_axes(target).find(|&axis| !self.says_angle(routine, axis)) {
-            let letter = char::from(self.axes[axis]);
+            let letter = char::from(self.shape.axes[axis]);
             let message = format!("{letter} turns to {}, which Index does not print", target.values[axis]);
             return fault_at(Code::PR017, message, format!("add `{letter}[rotangle]` to Index"), Some(routine.span));
         }
         // one that does not take the tool up itself would turn the part under it
-        if target.get(self.depth_axis).is_some() && !self.names_axes(routine, true) && self.is_below(target) {
+        if target.get(self.shape.depth).is_some() && !self.names_axes(routine, true) && self.is_below(target) {
             self.raise(target)?;
         }
         self.sequence_goes_down(routine, target)?;
@@ -251,12 +251,12 @@ impl Renderer<'_> {
     /// What a tool change prints of its first target: rotary axes only where it has a word for them. One that goes
     /// down must have it: else the part would turn against the tool.
     pub(super) fn change_turns(&mut self, routine: &Routine, target: &Axes, given: u8) -> Done<Axes> {
-        let down = routine.ops.clone().find(|&i| matches!(self.program.ops[i], Op::Var { var: VarId::D, .. }));
+        let down = routine.ops.clone().find(|&i| matches!(self.shape.program.ops[i], Op::Var { var: VarId::D, .. }));
         let before = Routine { ops: routine.ops.start..down.unwrap_or(routine.ops.end), ..routine.clone() };
         let says = |axis: &usize| self.says_angle(&before, *axis);
         let lost = self.turned_axes(target).find(|axis| !says(axis));
         if let Some(axis) = lost.filter(|_| routine.vars.has(VarId::D)) {
-            let (letter, angle) = (char::from(self.axes[axis]), target.values[axis]);
+            let (letter, angle) = (char::from(self.shape.axes[axis]), target.values[axis]);
             let message =
                 format!("the tool begins at {letter}{angle}, and the tool change goes down before the part turns");
             let help = format!("print `{letter}[rotangle]` in the tool change, before the height");

@@ -1,8 +1,8 @@
 //! What a sequence prints: codes, axes, angles; and what a move would lose in it.
 
 use super::fault::{Done, fault_at};
+use super::numbers::tenths;
 use super::renderer::Renderer;
-use super::words::tenths;
 use crate::compile::{LetterKind, Op, Routine};
 use crate::diag::Code;
 use crate::lang::{Group, Origin, VarId, group_of};
@@ -11,10 +11,10 @@ use crate::toolpath::Axes;
 impl Renderer<'_> {
     /// Does a sequence print a code of this letter as typed that answers this?
     pub(super) fn says_code(&self, routine: &Routine, letter: u8, asked: impl Fn(f64) -> bool) -> bool {
-        routine.ops.clone().any(|i| match self.program.ops[i] {
+        routine.ops.clone().any(|i| match self.shape.program.ops[i] {
             Op::Literal { index, .. } => {
-                let literal = &self.program.literals[index as usize];
-                self.letters[literal.letter].printed == letter && asked(literal.value)
+                let literal = &self.shape.program.literals[index as usize];
+                self.shape.letters[literal.letter].printed == letter && asked(literal.value)
             }
             _ => false,
         })
@@ -22,9 +22,9 @@ impl Renderer<'_> {
 
     /// Does a sequence print its motion code: as typed, or by a variable?
     pub(super) fn says_motion(&self, routine: &Routine) -> bool {
-        let by_variable = |i: usize| match self.program.ops[i] {
+        let by_variable = |i: usize| match self.shape.program.ops[i] {
             Op::Var { letter, var, .. } => {
-                self.letters[letter].kind == LetterKind::GCode
+                self.shape.letters[letter].kind == LetterKind::GCode
                     && (var == VarId::Direct || var.row().origin == Origin::Job)
             }
             _ => false,
@@ -42,7 +42,7 @@ impl Renderer<'_> {
     /// Does a sequence come to words of axes before it says a motion? A block with a code of no group, as G28, goes by
     /// itself.
     pub(super) fn goes_unsaid(&self, routine: &Routine) -> bool {
-        let is_line = |i: &usize| matches!(self.program.ops[*i], Op::Line { .. });
+        let is_line = |i: &usize| matches!(self.shape.program.ops[*i], Op::Line { .. });
         let mut start = routine.ops.start;
         while start < routine.ops.end {
             let end = (start + 1..routine.ops.end).find(is_line).unwrap_or(routine.ops.end);
@@ -60,7 +60,7 @@ impl Renderer<'_> {
 
     /// The variables that say where a linear axis goes.
     fn words_of(&self, axis: usize) -> &'static [VarId] {
-        match (axis, self.linear) {
+        match (axis, self.shape.linear) {
             (0, _) => &[VarId::H, VarId::Hdist],
             (1, _) => &[VarId::V, VarId::Vdist],
             (2, 4) => &[VarId::H2],
@@ -78,31 +78,31 @@ impl Renderer<'_> {
     /// Does a sequence print words of axes? `typed`: with numbers of its own, so that the tool leaves its place.
     pub(super) fn names_axes(&self, routine: &Routine, typed: bool) -> bool {
         routine.ops.clone().any(|i| {
-            let letter = match self.program.ops[i] {
+            let letter = match self.shape.program.ops[i] {
                 Op::Var { letter, .. } if !typed => letter,
-                Op::Literal { index, .. } => self.program.literals[index as usize].letter,
+                Op::Literal { index, .. } => self.shape.program.literals[index as usize].letter,
                 _ => return false,
             };
-            self.letters[letter].kind == LetterKind::Axis
+            self.shape.letters[letter].kind == LetterKind::Axis
         })
     }
 
     /// Does a sequence print the angle of a rotary axis?
     pub(super) fn says_angle(&self, routine: &Routine, axis: usize) -> bool {
         routine.ops.clone().any(|i| {
-            matches!(self.program.ops[i], Op::Var { letter, var: VarId::Rotangle | VarId::Lastrotangle, .. }
-                if letter == self.axes[axis] || !self.axes.contains(&letter))
+            matches!(self.shape.program.ops[i], Op::Var { letter, var: VarId::Rotangle | VarId::Lastrotangle, .. }
+                if letter == self.shape.axes[axis] || !self.shape.axes.contains(&letter))
         })
     }
 
     /// A motion sequence must print every axis that moves: a word that the form leaves out is a move that is lost.
     pub(super) fn sequence_says(&self, routine: &Routine, target: &Axes) -> Done {
         let moves = |axis: usize| target.get(axis).is_some() && target.get(axis) != self.position.get(axis);
-        let lost = (0..self.linear).find(|&axis| moves(axis) && !self.says_axis(routine, axis));
+        let lost = (0..self.shape.linear).find(|&axis| moves(axis) && !self.says_axis(routine, axis));
         let turns = self.turned_axes(target).find(|&axis| !self.says_angle(routine, axis));
         let word = match (lost, turns) {
             (Some(axis), _) => format!("[{}]", self.words_of(axis)[0].name()),
-            (None, Some(axis)) => format!("{}[rotangle]", char::from(self.axes[axis])),
+            (None, Some(axis)) => format!("{}[rotangle]", char::from(self.shape.axes[axis])),
             (None, None) => return Ok(()),
         };
         let message = format!("this move changes {word}, which the sequence does not print");

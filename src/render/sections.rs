@@ -1,8 +1,8 @@
 //! Named parts of a path, dwells, stops, comments and text as it stands.
 
 use super::fault::{Done, fault};
+use super::numbers::{quantised, tenths};
 use super::renderer::{LastMove, Renderer};
-use super::words::tenths;
 use crate::control::Control;
 use crate::diag::{Code, steers};
 use crate::lang::{Machine, SequenceId, VarId, is_stop};
@@ -53,7 +53,7 @@ impl Renderer<'_> {
 
     fn run_section(&mut self, id: SequenceId) -> Done {
         self.close_cycle()?;
-        match self.program.routine(id) {
+        match self.shape.program.routine(id) {
             Some(routine) => {
                 self.set_here()?;
                 // an arc's code would want a centre; among cuts it stays a cut
@@ -72,7 +72,7 @@ impl Renderer<'_> {
     }
 
     fn check_section(&self, id: SequenceId) -> Done {
-        let machine = self.program.settings.machine;
+        let machine = self.shape.program.settings.machine;
         if id.row().machines.has(machine) {
             return Ok(());
         }
@@ -92,7 +92,7 @@ impl Renderer<'_> {
 
     /// What a wire EDM machine does between moves: the form must have a sequence for it.
     pub(super) fn edm(&mut self, action: EdmAction) -> Done {
-        let machine = self.program.settings.machine;
+        let machine = self.shape.program.settings.machine;
         if machine != Machine::Edm {
             let message = format!("a {} has no wire", machine.name());
             return fault(Code::PR008, message, "take the item out, or render it for a wire EDM machine");
@@ -103,7 +103,7 @@ impl Renderer<'_> {
             EdmAction::PreDrill => (SequenceId::EdmPreDrillThread, "drills a start hole"),
             EdmAction::Submerge => (SequenceId::SubmergeTank, "fills the tank"),
         };
-        if self.program.routine(id).is_none() {
+        if self.shape.program.routine(id).is_none() {
             let message = format!("the job {what} here, and the form has no {}", id.name());
             let help = format!("add the sequence `{}` with what the machine needs, to its `End`", id.name());
             return fault(Code::PR008, message, help);
@@ -120,13 +120,14 @@ impl Renderer<'_> {
 
     /// The generated dwell block.
     pub(super) fn dwell_block(&mut self, seconds: f64) -> Done {
-        let dwell = &self.program.settings.dwell;
-        let (info, time) = (&self.letters[dwell.letter], if dwell.milliseconds { seconds * 1000.0 } else { seconds });
-        let units = self.quantised(info, time)?;
+        let dwell = &self.shape.program.settings.dwell;
+        let (info, time) =
+            (&self.shape.letters[dwell.letter], if dwell.milliseconds { seconds * 1000.0 } else { seconds });
+        let units = quantised(info, time)?;
         self.check_feed(info, VarId::Dwell, time, units)?;
         self.code_word(&dwell.code)?;
         self.parameter_word(dwell.letter, time)?;
-        self.end_block();
+        self.out.end_block();
         Ok(())
     }
 
@@ -134,10 +135,10 @@ impl Renderer<'_> {
     pub(super) fn stop(&mut self, kind: StopKind) -> Done {
         self.close_cycle()?;
         self.attend_changes()?;
-        let [program, optional] = self.program.settings.stop_code;
+        let [program, optional] = self.shape.program.settings.stop_code;
         let code = if kind == StopKind::Program { program } else { optional };
         self.vars.set(VarId::Stop, code);
-        match self.program.routine(SequenceId::Stop) {
+        match self.shape.program.routine(SequenceId::Stop) {
             Some(routine) => {
                 self.set_here()?;
                 self.run_with_upons(routine)?;
@@ -147,7 +148,7 @@ impl Renderer<'_> {
             }
             None => {
                 self.code_word(&sema::Code::plain(b'M', code))?;
-                self.end_block();
+                self.out.end_block();
             }
         }
         Ok(())
@@ -162,7 +163,7 @@ impl Renderer<'_> {
             (VarId::Direct, &mut self.served.direct),
             (VarId::Cool, &mut self.served.cool),
         ] {
-            let off = [self.program.settings.spindle[2], self.program.settings.coolant[1]];
+            let off = [self.shape.program.settings.spindle[2], self.shape.program.settings.coolant[1]];
             if self.vars.get(var).is_some_and(|value| !off.contains(&value)) {
                 *served = None;
             }
@@ -190,7 +191,7 @@ impl Renderer<'_> {
         for (i, line) in wrapped(text, room).enumerate() {
             if i == 1 {
                 let message = "a comment is longer than the control's line, and goes on in the next";
-                self.note(Code::PR026, message.into(), "shorten it, if it is to stand in one block");
+                self.out.note(Code::PR026, message.into(), "shorten it, if it is to stand in one block");
             }
             self.comment_line(line);
         }
@@ -198,17 +199,18 @@ impl Renderer<'_> {
 
     /// How many characters of a comment a block has room for, beside its marks, number and end.
     fn comment_room(&self) -> usize {
-        let settings = &self.program.settings;
-        let number = settings.numbers.letter.map_or(0, |letter| usize::from(self.letters[letter].format.int.count) + 2);
+        let settings = &self.shape.program.settings;
+        let number =
+            settings.numbers.letter.map_or(0, |letter| usize::from(self.shape.letters[letter].format.int.count) + 2);
         let others = number + settings.eob.len() + settings.comment.iter().map(String::len).sum::<usize>();
         let longest = Control::named(&settings.control).and_then(Control::longest_line);
         longest.map_or(usize::MAX, |longest| longest.saturating_sub(others).max(1))
     }
 
     fn comment_line(&mut self, text: &str) {
-        let settings = &self.program.settings;
+        let settings = &self.shape.program.settings;
         let [open, close] = &settings.comment;
-        let out = self.out.word(&self.layout, false);
+        let out = self.out.word(false);
         out.extend_from_slice(open.as_bytes());
         for c in text.chars() {
             let c = if settings.upper_comments { c.to_ascii_uppercase() } else { c };
@@ -224,7 +226,7 @@ impl Renderer<'_> {
             });
         }
         out.extend_from_slice(close.as_bytes());
-        self.end_block();
+        self.out.end_block();
     }
 
     /// A block as it stands: nobody knows what it did.
@@ -246,8 +248,8 @@ impl Renderer<'_> {
         self.registers.forget_all();
         self.displaced(0x3f);
         self.text_codes(text)?;
-        self.out.word(&self.layout, false).extend_from_slice(text.as_bytes());
-        self.end_block();
+        self.out.text(text, false);
+        self.out.end_block();
         Ok(())
     }
 }

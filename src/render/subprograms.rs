@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::changes::{CONDITIONS, Served};
 use super::codes::Shift;
 use super::fault::{Done, fault};
-use super::output::TraceLine;
+use super::printer::Page;
 use super::renderer::{LastMove, Renderer};
 use super::rotary::Angles;
 use super::vars::Vars;
@@ -25,7 +25,7 @@ pub(super) struct Subprograms {
     /// The one that is open, as an index of `defined`.
     open: Option<usize>,
     /// Subprograms that stand after the main program wait here.
-    waiting: Waiting,
+    waiting: Page,
     /// The rest of StartCode is still to be printed: subprograms come first.
     pub(super) start_waits: bool,
     /// What is so in the main program, while a subprogram is written.
@@ -62,14 +62,6 @@ impl Left {
     fn is_nothing(&self) -> bool {
         self.served.known().is_empty() && !self.stops
     }
-}
-
-/// Text that stands aside, with its source map.
-#[derive(Debug, Default)]
-struct Waiting {
-    text: Vec<u8>,
-    trace: Vec<TraceLine>,
-    lines: u64,
 }
 
 #[derive(Debug)]
@@ -135,8 +127,8 @@ impl Subprograms {
 impl Renderer<'_> {
     /// Where StartCode is divided when subprograms come first: after its leading `%` line.
     pub(super) fn start_code_rest(&self) -> usize {
-        let Some(routine) = self.program.routine(SequenceId::StartCode) else { return 0 };
-        let ops = &self.program.ops;
+        let Some(routine) = self.shape.program.routine(SequenceId::StartCode) else { return 0 };
+        let ops = &self.shape.program.ops;
         let mut lines = routine.ops.clone().filter(|&i| matches!(ops[i], Op::Line { .. }));
         match lines.next() {
             Some(first) if self.is_percent(first) => lines.next().unwrap_or(routine.ops.end),
@@ -146,7 +138,7 @@ impl Renderer<'_> {
 
     /// A subprogram begins.
     pub(super) fn sub_start(&mut self, number: f64) -> Done {
-        let settings = &self.program.settings;
+        let settings = &self.shape.program.settings;
         if settings.machine != crate::lang::Machine::Mill {
             return fault(Code::PR008, "subprograms are for mills", "put the moves into the operations");
         }
@@ -157,7 +149,7 @@ impl Renderer<'_> {
                 "give each a number of its own",
             );
         }
-        let Some(routine) = self.program.routine(SequenceId::SubStart) else {
+        let Some(routine) = self.shape.program.routine(SequenceId::SubStart) else {
             return fault(Code::PR008, "the form has no SubStart", "add SubStart, SubEnd and SubCall to the form");
         };
         let program = self.vars.get(VarId::Program);
@@ -201,13 +193,13 @@ impl Renderer<'_> {
 
     /// For Upon sequences: whatever a subprogram says of these is a change, because its caller may have said anything.
     fn nothing_served(&self) -> Vec<Option<f64>> {
-        self.program.upons.iter().map(|upon| CONDITIONS.contains(&upon.var).then_some(f64::NAN)).collect()
+        self.shape.program.upons.iter().map(|upon| CONDITIONS.contains(&upon.var).then_some(f64::NAN)).collect()
     }
 
     /// The main program goes on as if the subprogram had not been written, because only calls run it.
     fn back_to_main(&mut self) {
         let turned = self.angles.is_known();
-        let height = self.position.get(self.depth_axis).or(self.left_at);
+        let height = self.position.get(self.shape.depth).or(self.left_at);
         self.forget_where();
         let Some(main) = self.subs.main.take() else { return };
         let upon_used = std::mem::replace(&mut self.upon_used, main.upon_used);
@@ -232,11 +224,11 @@ impl Renderer<'_> {
             let help = "unwind in the main program: a call would leave the axis turned otherwise than the next expects";
             return fault(Code::PR008, "a rotary axis was unwound inside a subprogram", help);
         }
-        match self.program.routine(SequenceId::SubEnd) {
+        match self.shape.program.routine(SequenceId::SubEnd) {
             Some(routine) => self.run_with_upons(routine)?,
             None => return fault(Code::PR008, "the form has no SubEnd", "add SubEnd to the form"),
         }
-        if !self.program.settings.subs_first {
+        if !self.shape.program.settings.subs_first {
             self.aside();
         }
         self.back_to_main();
@@ -262,9 +254,9 @@ impl Renderer<'_> {
         }
         // a call of the main program needs no look at the end: its subprogram is known here, and so is what that calls
         if let Some(from) = from {
-            self.subs.calls.push(Called { from, to: call.sub, place: self.place, unknown });
+            self.subs.calls.push(Called { from, to: call.sub, place: self.out.place, unknown });
         }
-        let Some(routine) = self.program.routine(SequenceId::SubCall) else {
+        let Some(routine) = self.shape.program.routine(SequenceId::SubCall) else {
             return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
         };
         if self.feed_mode != FeedMode::PerMinute {
@@ -279,7 +271,7 @@ impl Renderer<'_> {
         let (printed, first_block) = match called.map(|i| &self.subs.defined[i]) {
             Some(sub) => (sub.printed, sub.first_block),
             // inside a subprogram a later one may be called; whether it comes is checked at the end
-            None if from.is_some() && !self.program.settings.renumber_subs => (call.sub, None),
+            None if from.is_some() && !self.shape.program.settings.renumber_subs => (call.sub, None),
             None if from.is_some() => {
                 let help = "put the called subprogram before this one, or set `RenumSubs? N`";
                 return fault(Code::PR008, format!("subprogram {} is not known yet", call.sub), help);
@@ -352,7 +344,7 @@ impl Renderer<'_> {
     /// In a subprogram, a move after a stop needs a spindle that it knows: its caller may have said any.
     pub(super) fn knows_after_stop(&self) -> Done {
         let unknown = |var: VarId| self.vars.get(var).is_none();
-        let by_form = self.program.switches_spindle; // then nothing is said again
+        let by_form = self.shape.program.switches_spindle; // then nothing is said again
         if !self.subs.stopped || by_form || ![VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(unknown) {
             return Ok(());
         }
@@ -391,7 +383,7 @@ impl Renderer<'_> {
         if !std::mem::take(&mut self.subs.start_waits) {
             return Ok(());
         }
-        let program = self.program;
+        let program = self.shape.program;
         if !self.subs.defined.is_empty()
             && let Some(routine) = program.routine(SequenceId::Between)
         {
@@ -437,15 +429,9 @@ impl Renderer<'_> {
         Ok(())
     }
 
-    /// Subprograms that stand after the main program: appended now. Whether there were any.
+    /// Subprograms that stand after the main program: appended now.
     pub(super) fn append_waiting(&mut self) {
-        let waiting = std::mem::take(&mut self.subs.waiting);
-        let before = self.out.lines;
-        self.out.text.extend_from_slice(&waiting.text);
-        self.out.lines += waiting.lines;
-        if let Some(trace) = &mut self.out.trace {
-            trace.extend(waiting.trace.iter().map(|line| TraceLine { line: line.line + before, ..*line }));
-        }
+        self.out.append(std::mem::take(&mut self.subs.waiting));
     }
 
     /// Is there text aside, so that the end of the program must wait for it?
@@ -453,30 +439,15 @@ impl Renderer<'_> {
         !self.subs.waiting.text.is_empty()
     }
 
-    /// The text outside subprograms, while one is written aside.
-    pub(super) fn main_text(&mut self) -> &mut Vec<u8> {
-        if self.is_aside() { &mut self.subs.waiting.text } else { &mut self.out.text }
-    }
-
-    /// Its source map.
-    pub(super) fn main_trace(&mut self) -> Option<&mut Vec<TraceLine>> {
-        let aside = self.is_aside();
-        let trace = self.out.trace.as_mut()?;
-        Some(if aside { &mut self.subs.waiting.trace } else { trace })
-    }
-
-    fn is_aside(&self) -> bool {
-        self.subs.open.is_some() && !self.program.settings.subs_first
+    /// What is printed outside subprograms, while one is written aside.
+    pub(super) fn main_page(&mut self) -> &mut Page {
+        let is_aside = self.subs.open.is_some() && !self.shape.program.settings.subs_first;
+        if is_aside { &mut self.subs.waiting } else { self.out.page() }
     }
 
     /// Changes places with the text aside.
     fn aside(&mut self) {
-        let waiting = &mut self.subs.waiting;
-        std::mem::swap(&mut self.out.text, &mut waiting.text);
-        std::mem::swap(&mut self.out.lines, &mut waiting.lines);
-        if let Some(trace) = &mut self.out.trace {
-            std::mem::swap(trace, &mut waiting.trace);
-        }
+        self.out.turn_to(&mut self.subs.waiting);
     }
 
     /// Nobody knows where the tool and the part are.

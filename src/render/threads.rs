@@ -35,7 +35,7 @@ impl Cut {
 impl Renderer<'_> {
     /// A thread of the path. AutoThread goes before CanThread, both before passes made here.
     pub(super) fn thread(&mut self, thread: &Thread) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         self.close_cycle()?;
         if program.settings.machine != Machine::Lathe {
             return fault(Code::PR008, "threads are for lathes", "mill the thread by its moves, or tap it");
@@ -50,7 +50,7 @@ impl Renderer<'_> {
         if self.vars.get(VarId::Speedtype) == Some(program.settings.speed_type[0]) {
             let message =
                 "a thread at constant surface speed: each pass turns otherwise, and begins elsewhere".to_owned();
-            self.note(Code::PR029, message, "give its operation a spindle with \"mode\": \"rpm\"");
+            self.out.note(Code::PR029, message, "give its operation a spindle with \"mode\": \"rpm\"");
         }
         if program.settings.incremental {
             let help = "thread with a form of positions";
@@ -81,7 +81,7 @@ impl Renderer<'_> {
         }
         for start in 0..starts as u32 {
             // each start begins one pitch further back
-            let back = f64::from(start) * thread.pitch * self.scale;
+            let back = f64::from(start) * thread.pitch * self.shape.scale;
             let begin = begin + back * if begin >= cut.end { 1.0 } else { -1.0 };
             self.vars.set(VarId::Taper, cut.taper(begin));
             let mut at = self.position;
@@ -127,36 +127,36 @@ impl Renderer<'_> {
         let Some(begin) = from.get(0).filter(|&begin| begin != end) else {
             return fault(Code::PR006, "the thread has no length", "give `from` and `to` different z");
         };
-        let taper = thread.taper.map(|taper| taper * self.scale);
+        let taper = thread.taper.map(|taper| taper * self.shape.scale);
         let crest = if thread.to.given & 0b10 != 0 { to.values[1] } else { start - taper.unwrap_or(0.0) };
         let falls = start - crest;
         if let Some(taper) = taper.filter(|taper| (taper - falls).abs() > 1e-9) {
             let message = format!("the thread's ends differ by {falls} in radius, its `taper` is {taper}");
             return fault(Code::PR006, message, "give x of `to`, or `taper`, or both alike");
         }
-        let depth = thread.depth.abs() * self.scale;
-        let first = thread.first_depth.map(|d| d * self.scale);
-        let least = thread.min_depth.unwrap_or(0.0) * self.scale;
+        let depth = thread.depth.abs() * self.shape.scale;
+        let first = thread.first_depth.map(|d| d * self.shape.scale);
+        let least = thread.min_depth.unwrap_or(0.0) * self.shape.scale;
         let passes = thread_passes(depth, first, thread.passes.map(|n| n as usize), least)?;
         Ok(Cut {
             end,
             crest,
             inward: if thread.depth < 0.0 { 1.0 } else { -1.0 },
             passes,
-            lead: thread.pitch * thread.starts.unwrap_or(1.0) * self.scale,
-            slope: falls / (begin - end).abs() * self.axis_scale[1].signum(),
+            lead: thread.pitch * thread.starts.unwrap_or(1.0) * self.shape.scale,
+            slope: falls / (begin - end).abs() * self.shape.scales[1].signum(),
         })
     }
 
     fn thread_variables(&mut self, thread: &Thread, cut: &Cut) {
         let first = cut.passes[0];
-        let depth = thread.depth.abs() * self.scale;
+        let depth = thread.depth.abs() * self.shape.scale;
         let angle = thread.angle.unwrap_or(60.0);
-        self.vars.set(VarId::Pitch, thread.pitch * self.scale);
+        self.vars.set(VarId::Pitch, thread.pitch * self.shape.scale);
         self.vars.set(VarId::Frate, cut.lead);
         self.vars.set(VarId::Depth, depth);
         self.vars.set(VarId::Peck1, first);
-        self.vars.set(VarId::Vbite, thread.min_depth.unwrap_or(0.0) * self.scale);
+        self.vars.set(VarId::Vbite, thread.min_depth.unwrap_or(0.0) * self.shape.scale);
         self.vars.set(VarId::Vleave, 0.0);
         self.vars.set(VarId::Passes, thread.passes.unwrap_or(cut.passes.len() as f64));
         self.vars.set(VarId::Chams, thread.chamfer.unwrap_or(0.0));
@@ -172,7 +172,7 @@ impl Renderer<'_> {
         };
         let prints = |vars: &[VarId]| vars.iter().any(|&var| routine.vars.has(var));
         let starts = thread.starts.unwrap_or(1.0);
-        let auto = self.program.routine(SequenceId::AutoThread).is_some();
+        let auto = self.shape.program.routine(SequenceId::AutoThread).is_some();
         let missing = [
             (cut.slope != 0.0 && !prints(&[VarId::Taper]), "the taper: [taper]"),
             (starts > 1.0 && !prints(&[VarId::Frate]), "the lead of several starts: [frate]"),
@@ -203,13 +203,15 @@ impl Renderer<'_> {
 
     /// The digits of a packed `[tparams]` word: finishing passes, chamfer, angle, two each.
     fn packed_parameters(&self, routine: &Routine) -> Option<String> {
-        let letter = routine.ops.clone().find_map(|i| match self.program.ops[i] {
+        let letter = routine.ops.clone().find_map(|i| match self.shape.program.ops[i] {
             Op::Var { letter, var: VarId::Tparams, .. } => Some(letter),
             _ => None,
         })?;
         match self.vars.get(VarId::Tparams) {
             Some(set) => Some(format!("{set:06}")),
-            None => self.letters.packed.iter().find(|(packed, _)| *packed == letter).map(|(_, digits)| digits.clone()),
+            None => {
+                self.shape.letters.packed.iter().find(|(packed, _)| *packed == letter).map(|(_, digits)| digits.clone())
+            }
         }
     }
 
@@ -239,7 +241,7 @@ impl Renderer<'_> {
 
     /// Passes with the code of the `Thread` command.
     fn own_passes(&mut self, cut: &Cut, here: &Axes) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         let Some(code) = &program.settings.thread else {
             let help = "add AutoThread, CanThread or the line `Thread G33` to the form";
             return fault(Code::PR008, "the form has no way to thread", help);
@@ -248,14 +250,14 @@ impl Renderer<'_> {
             let end = self.pass_variables(cut, depth)?;
             if program.settings.thread_full {
                 let mut start = *here;
-                start.set(1, end.values[1] + cut.taper(here.values[0]) * self.axis_scale[1].signum());
+                start.set(1, end.values[1] + cut.taper(here.values[0]) * self.shape.scales[1].signum());
                 self.rapid_to(&start)?;
             }
             if i == 0 || program.settings.thread_full {
                 self.thread_block(code, here, &end, cut)?;
             } else {
                 self.axis_word(1, &end)?;
-                self.end_block();
+                self.out.end_block();
             }
             self.position = end;
             if program.settings.thread_full {
@@ -275,8 +277,8 @@ impl Renderer<'_> {
         self.axis_word(1, end)?;
         self.axis_word(0, end)?;
         self.letter_word(b'I', cut.taper(here.values[0]))?;
-        self.letter_word(self.program.settings.feed_code, cut.lead)?;
-        self.end_block();
+        self.letter_word(self.shape.program.settings.feed_code, cut.lead)?;
+        self.out.end_block();
         Ok(())
     }
 }

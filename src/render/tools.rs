@@ -18,7 +18,7 @@ impl Renderer<'_> {
         self.begin_main()?;
         let number = change.tool.as_ref().map(|tool| tool.number);
         let changes = number.is_some() && number != self.tool;
-        if number.is_none() && self.tool.is_none() && self.program.settings.machine != Machine::Edm {
+        if number.is_none() && self.tool.is_none() && self.shape.program.settings.machine != Machine::Edm {
             let help = "load a tool before the first motion, or give a CL file one with `--assume-tool`";
             return fault(Code::PJ006, "the operation has no tool", help);
         }
@@ -54,10 +54,10 @@ impl Renderer<'_> {
                 self.vars.put(var, None);
             }
             self.vars.put(VarId::Maxrpm, self.most_rpm);
-            self.vars.set(VarId::Speedtype, self.program.settings.speed_type[1]);
+            self.vars.set(VarId::Speedtype, self.shape.program.settings.speed_type[1]);
         }
         if change.spindle.is_some_and(|spindle| spindle.speed.is_some() && spindle.css.is_none()) {
-            self.vars.set(VarId::Speedtype, self.program.settings.speed_type[1]); // revolutions, unless it says otherwise
+            self.vars.set(VarId::Speedtype, self.shape.program.settings.speed_type[1]); // revolutions, unless it says otherwise
         }
         if let Some(spindle) = &change.spindle {
             self.set_spindle(spindle)?;
@@ -70,7 +70,7 @@ impl Renderer<'_> {
         if let Some(work) = change.work {
             self.set_work(work)?;
         }
-        if let (Some(tool), Machine::Lathe) = (&change.tool, self.program.settings.machine) {
+        if let (Some(tool), Machine::Lathe) = (&change.tool, self.shape.program.settings.machine) {
             self.vars.set(VarId::Comp, self.turret_word(tool)?);
         }
         for (name, value) in &change.set {
@@ -82,14 +82,14 @@ impl Renderer<'_> {
         if let Some(feed) = change.feed {
             self.set_feed(feed);
         }
-        let plunge = change.plunge.or(change.feed).map(|feed| feed * self.scale);
+        let plunge = change.plunge.or(change.feed).map(|feed| feed * self.shape.scale);
         self.vars.put(VarId::Plunge, plunge);
         self.attention = true;
         Ok(())
     }
 
     fn change_tool(&mut self, tool: &Tool, first: &First) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         if self.compensated {
             let help = "end the compensation with an `outfeed` before";
             return fault(Code::PR006, "the tool changes under cutter compensation", help);
@@ -103,7 +103,7 @@ impl Renderer<'_> {
         let routine = program.routine(id);
         let first_target = match first {
             First::Rapid(to) => Some((self.target(to), to.given)),
-            First::Hole(spec, hole) => Some((self.hole_position(spec, hole)?, hole.at.given | self.depth_bit())),
+            First::Hole(spec, hole) => Some((self.hole_position(spec, hole)?, hole.at.given | self.shape.depth_bit())),
             First::Cut | First::Nothing => None,
         };
         let target = match (first_target, routine) {
@@ -154,7 +154,7 @@ impl Renderer<'_> {
         self.registers.forget_group(crate::lang::Group::Motion);
         self.last_move = LastMove::None;
         if program.settings.restart_depth {
-            self.registers.forget(self.letters[self.axes[self.depth_axis]].printed);
+            self.registers.forget(self.shape.letters[self.shape.axes[self.shape.depth]].printed);
         }
         self.force();
         Ok(())
@@ -167,10 +167,10 @@ impl Renderer<'_> {
         let whole = tool.number >= STATIONS;
         let register = match tool.length_offset {
             None if whole => return Ok(tool.number),
-            own => own.unwrap_or(tool.number + self.program.settings.lcomp),
+            own => own.unwrap_or(tool.number + self.shape.program.settings.lcomp),
         };
         let other = whole && register != tool.number % STATIONS && register != tool.number;
-        if self.program.printed.has(VarId::Comp) && (other || !whole && register >= STATIONS) {
+        if self.shape.program.printed.has(VarId::Comp) && (other || !whole && register >= STATIONS) {
             let message =
                 format!("tool {} with the offset register {register} has no T word of two and two digits", tool.number);
             let help = "give it a register below 100, and a number from 100 on only if it holds the register";
@@ -180,19 +180,17 @@ impl Renderer<'_> {
     }
 
     fn tool_variables(&mut self, tool: &Tool) -> Done {
-        let settings = &self.program.settings;
+        let settings = &self.shape.program.settings;
         self.vars.put(VarId::Lasttool, self.tool);
         if self.tool.is_none() {
             self.vars.set(VarId::Tool1, tool.number);
         }
         self.vars.set(VarId::Tool, tool.number);
-        self.vars.put(VarId::Toold, tool.diameter.map(|d| d * self.scale));
+        self.vars.put(VarId::Toold, tool.diameter.map(|d| d * self.shape.scale));
         self.vars.set(VarId::Lcomp, tool.length_offset.unwrap_or(tool.number + settings.lcomp));
         self.vars.set(VarId::Dcomp, tool.diameter_offset.unwrap_or(tool.number + settings.dcomp));
         self.vars.put(VarId::Turret, tool.turret);
-        // the second turret works from the other side
-        let side = if settings.reverse_turret_2 && tool.turret == Some(2.0) { -1.0 } else { 1.0 };
-        self.axis_scale[1] = self.axis_scale[1].abs() * side;
+        self.shape.choose_turret(tool.turret);
         if let Some(order) = &self.tool_order {
             if order.get(self.tool_changes) != Some(&tool.number) {
                 let message = format!("tool {} comes next, `tool_order` says otherwise", tool.number);

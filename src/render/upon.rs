@@ -10,8 +10,8 @@ use crate::lang::{SequenceId, VarId, VarSet};
 impl Renderer<'_> {
     /// Is an Upon sequence due before these variables are used? `moving`: one that prints words of axes.
     pub(super) fn upon_is_due(&self, used: VarSet, moving: bool) -> bool {
-        self.program.upon_vars.meets(used)
-            && self.program.upons.iter().zip(&self.upon_used).any(|(upon, before)| {
+        self.shape.program.upon_vars.meets(used)
+            && self.shape.program.upons.iter().zip(&self.upon_used).any(|(upon, before)| {
                 let Some(value) = self.vars.get(upon.var).filter(|_| used.has(upon.var)) else { return false };
                 is_due(upon, *before, value) && (!moving || self.names_axes(&upon.routine, false))
             })
@@ -20,25 +20,28 @@ impl Renderer<'_> {
     /// Another work offset together with another view: Index takes the tool away and goes over the new place, so the
     /// offset's code is all that is left of an Upon sequence that does the same.
     pub(super) fn index_serves_work(&self) -> bool {
-        let retracts = self.program.routine(SequenceId::Index).is_some_and(|routine| self.names_axes(routine, true));
+        let retracts =
+            self.shape.program.routine(SequenceId::Index).is_some_and(|routine| self.names_axes(routine, true));
         let only_moves = |upon: &Upon| {
-            upon.routine.ops.clone().all(|i| match self.program.ops[i] {
+            upon.routine.ops.clone().all(|i| match self.shape.program.ops[i] {
                 Op::Line { .. } => true,
-                Op::Var { letter, var, .. } => var == VarId::Work || self.letters[letter].kind == LetterKind::Axis,
+                Op::Var { letter, var, .. } => {
+                    var == VarId::Work || self.shape.letters[letter].kind == LetterKind::Axis
+                }
                 Op::Literal { index, .. } => {
-                    let kind = self.letters[self.program.literals[index as usize].letter].kind;
+                    let kind = self.shape.letters[self.shape.program.literals[index as usize].letter].kind;
                     matches!(kind, LetterKind::Axis | LetterKind::GCode)
                 }
                 Op::Remark { .. } => true,
                 Op::Value { .. } | Op::Text { .. } => false,
             })
         };
-        retracts && self.program.upons.iter().filter(|upon| upon.var == VarId::Work).all(only_moves)
+        retracts && self.shape.program.upons.iter().filter(|upon| upon.var == VarId::Work).all(only_moves)
     }
 
     /// A tool change prints what it uses: an Upon that moves would do so with the tool that goes.
     pub(super) fn upons_of_change(&mut self, routine: &Routine) {
-        for (i, upon) in self.program.upons.iter().enumerate() {
+        for (i, upon) in self.shape.program.upons.iter().enumerate() {
             if routine.vars.has(upon.var) && self.names_axes(&upon.routine, false) {
                 self.upon_used[i] = self.vars.get(upon.var).or(self.upon_used[i]);
             }
@@ -47,7 +50,7 @@ impl Renderer<'_> {
 
     /// A variable's value was printed otherwise: no Upon is due for it.
     pub(super) fn served_upons(&mut self, var: VarId, value: f64) {
-        for (upon, used) in self.program.upons.iter().zip(&mut self.upon_used) {
+        for (upon, used) in self.shape.program.upons.iter().zip(&mut self.upon_used) {
             if upon.var == var && !upon.every {
                 *used = Some(value);
             }
@@ -62,7 +65,7 @@ impl Renderer<'_> {
 
     /// Before these variables are used: prints the Upon sequences that are due. Their bodies trigger none.
     pub(super) fn upons(&mut self, used: VarSet) -> Done {
-        let program = self.program;
+        let program = self.shape.program;
         if !program.upon_vars.meets(used) {
             return Ok(());
         }
@@ -96,14 +99,14 @@ impl Renderer<'_> {
 impl Renderer<'_> {
     /// Increments count from the position that the sequence printed: nothing is left to go along its axes.
     fn stands_where_it_was_put(&mut self) {
-        if !self.program.settings.incremental {
+        if !self.shape.program.settings.incremental {
             return;
         }
         for (axis, (now, moved)) in NOW.into_iter().zip(MOVED).enumerate() {
             if self.placed & 1 << axis != 0
                 && let Some(value) = self.vars.get(now)
             {
-                self.position.set(axis, value / self.axis_scale[axis]);
+                self.position.set(axis, value / self.shape.scales[axis]);
                 self.vars.set(moved, 0.0);
             }
         }

@@ -5,13 +5,12 @@ use std::ops::Range;
 use super::codes::Shift;
 use super::fault::{Done, fault_at};
 use super::motion::MOVED;
-use super::move_words::as_number;
+use super::numbers::{as_number, quantised, tenths};
 use super::renderer::Renderer;
 use crate::compile::{Letter, LetterKind, Op, Routine};
 use crate::diag::Code;
 use crate::lang::{VarId, VarSet, group_of};
-use crate::number::{LetterFormat, Unprintable, quantise, write_number};
-use crate::span::Span;
+use crate::number::quantise;
 
 /// Which words of a line print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,18 +67,6 @@ const POSITIONS: VarSet = VarSet::of(&[
 const FEEDS: VarSet = VarSet::of(&[VarId::Frate, VarId::Plunge, VarId::Pitch, VarId::Vbite, VarId::Dwell]);
 
 impl Renderer<'_> {
-    /// The place in the form of what is being printed.
-    pub(super) fn form_span(&self) -> Option<Span> {
-        self.form.map(|op| self.program.spans[op])
-    }
-
-    /// Ends the open block.
-    #[inline]
-    pub(super) fn end_block(&mut self) {
-        let form = if self.out.trace.is_some() { self.form_span() } else { None };
-        self.out.finish(&self.layout, true, form, self.place);
-    }
-
     /// Runs a whole sequence in which every word prints.
     pub(super) fn run_block(&mut self, routine: &Routine) -> Done {
         self.shifted = Shift::None;
@@ -88,40 +75,49 @@ impl Renderer<'_> {
 
     /// Runs operations; each line is a block.
     pub(super) fn run(&mut self, ops: Range<usize>, mode: Mode) -> Done {
-        let program = self.program;
         let mut line = ops.start;
         let mut drops = false;
         for i in ops {
             self.form = Some(i);
-            match program.ops[i] {
-                Op::Line { droppable } => {
-                    self.end_line(line);
-                    (line, drops) = (i, droppable);
-                }
-                Op::Var { letter, var, glued } => self.var_word(letter, var, glued, mode, drops)?,
-                Op::Value { var, glued } | Op::Remark { var, glued } => {
-                    if !matches!(mode, Mode::NextHole { .. }) {
-                        let said = matches!(program.ops[i], Op::Value { .. });
-                        self.bare_word(var, glued, said)?;
-                    }
-                }
-                Op::Literal { index, glued } => self.literal_word(index as usize, glued, mode),
-                Op::Text { index, glued } => {
-                    if !matches!(mode, Mode::NextHole { .. }) {
-                        let text = &program.texts[index as usize];
-                        self.out.word(&self.layout, glued).extend_from_slice(text.as_bytes());
-                        if let Some(word) = text.strip_prefix('/') {
-                            self.may_be_skipped(word);
-                        }
-                    }
-                }
+            if let Op::Line { droppable } = self.shape.program.ops[i] {
+                self.end_line(line);
+                (line, drops) = (i, droppable);
+                continue;
             }
+            self.word(i, mode, drops)
+                .map_err(|diag| Box::new(diag.at(self.shape.program.spans[i], "printed from here")))?;
         }
         self.end_line(line);
         self.form = None;
         // looked at before the next move: until then another sequence may put it right
         if std::mem::take(&mut self.switched) {
             self.attention |= self.distance_is_wrong() || self.has_changes();
+        }
+        Ok(())
+    }
+
+    /// Runs one operation.
+    fn word(&mut self, i: usize, mode: Mode, drops: bool) -> Done {
+        let program = self.shape.program;
+        match program.ops[i] {
+            Op::Line { .. } => {}
+            Op::Var { letter, var, glued } => self.var_word(letter, var, glued, mode, drops)?,
+            Op::Value { var, glued } | Op::Remark { var, glued } => {
+                if !matches!(mode, Mode::NextHole { .. }) {
+                    let said = matches!(program.ops[i], Op::Value { .. });
+                    self.bare_word(var, glued, said)?;
+                }
+            }
+            Op::Literal { index, glued } => self.literal_word(index as usize, glued, mode),
+            Op::Text { index, glued } => {
+                if !matches!(mode, Mode::NextHole { .. }) {
+                    let text = &program.texts[index as usize];
+                    self.out.text(text, glued);
+                    if let Some(word) = text.strip_prefix('/') {
+                        self.may_be_skipped(word);
+                    }
+                }
+            }
         }
         Ok(())
     }
@@ -133,19 +129,19 @@ impl Renderer<'_> {
         }
         if self.depth_moved {
             self.depth_moved = false;
-            self.registers.forget(self.letters[self.axes[self.depth_axis]].printed);
+            self.registers.forget(self.shape.letters[self.shape.axes[self.shape.depth]].printed);
         }
         if self.out.has_words() {
-            let form = self.out.trace.is_some().then(|| self.program.spans[line]);
-            let number = self.program.settings.number_last || Some(line) != self.last_line();
-            self.out.finish(&self.layout, number, form, self.place);
+            let form = Some(self.shape.program.spans[line]);
+            let number = self.shape.program.settings.number_last || Some(line) != self.last_line();
+            self.out.finish(number, form);
         }
     }
 
     fn var_word(&mut self, letter: u8, var: VarId, glued: bool, mode: Mode, line_drops: bool) -> Done {
-        let info = &self.letters[letter];
+        let info = &self.shape.letters[letter];
         if var == VarId::Tparams
-            && let Some((_, digits)) = self.letters.packed.iter().find(|(l, _)| *l == letter)
+            && let Some((_, digits)) = self.shape.letters.packed.iter().find(|(l, _)| *l == letter)
         {
             return self.packed_word(info, digits, glued);
         }
@@ -153,16 +149,16 @@ impl Renderer<'_> {
             return Ok(()); // the centre along the axis across the plane
         }
         let Some(value) = self.value_of(var, letter)? else { return Ok(()) };
-        if info.kind == LetterKind::Axis && self.program.settings.incremental && POSITIONS.has(var) {
+        if info.kind == LetterKind::Axis && self.shape.program.settings.incremental && POSITIONS.has(var) {
             self.check_position_word(letter, var)?;
         }
         if var == VarId::Work
-            && self.program.work_word.is_some_and(|word| word.letter == letter)
+            && self.shape.program.work_word.is_some_and(|word| word.letter == letter)
             && !self.has_work(value)
         {
             self.forget_axes(); // the positions behind it count in the new offset
         }
-        let units = self.quantised(info, value)?;
+        let units = quantised(info, value)?;
         let decimals = info.format.dec.count;
         if FEEDS.has(var) {
             self.check_feed(info, var, value, units)?;
@@ -178,24 +174,24 @@ impl Renderer<'_> {
                         _ if INCREMENTS.has(var) => units == 0,
                         _ => info.modal && self.registers.holds(info.printed, units, decimals),
                     }
-                    && !(self.inverse_time() && letter == self.program.settings.feed_code)
+                    && !(self.inverse_time() && letter == self.shape.program.settings.feed_code)
             }
             Mode::NextHole { position } => {
                 let is_position = matches!(var, VarId::H | VarId::V);
-                self.program.settings.modality && !(position && is_position) && self.holds(info, units, value)
+                self.shape.program.settings.modality && !(position && is_position) && self.holds(info, units, value)
             }
             Mode::Hole => line_drops && self.holds(info, units, value),
         };
         if drop {
             return Ok(());
         }
-        self.put_word(info, units, glued)?;
+        self.out.letter(info, units, glued)?;
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => self.printed_code(info.printed, value),
             LetterKind::Axis => {
                 let is_position = POSITIONS.has(var);
                 if is_position {
-                    self.placed |= self.axis_bit(letter);
+                    self.placed |= self.shape.axis_bit(letter);
                 }
                 if self.is_elsewhere() || !is_position {
                     self.registers.forget(info.printed);
@@ -212,7 +208,7 @@ impl Renderer<'_> {
             _ => {}
         }
         self.served_by(letter, var, value);
-        if Some(info.printed) == self.program.settings.numbers.letter || var == VarId::Block {
+        if Some(info.printed) == self.shape.program.settings.numbers.letter || var == VarId::Block {
             self.out.prints_number();
         }
         Ok(())
@@ -226,9 +222,9 @@ impl Renderer<'_> {
         };
         if text.len() != digits.len() || !text.bytes().all(|digit| digit.is_ascii_digit()) {
             let message = format!("[tparams] is {text}, its word has {} digits", digits.len());
-            return fault_at(Code::PR002, message, "give a whole number of that many digits", self.form_span());
+            return fault_at(Code::PR002, message, "give a whole number of that many digits", None);
         }
-        let out = self.out.word(&self.layout, glued);
+        let out = self.out.word(glued);
         out.push(info.printed);
         out.extend_from_slice(text.as_bytes());
         Ok(())
@@ -247,7 +243,7 @@ impl Renderer<'_> {
 
     /// May a motion block drop this code?
     pub(super) fn code_drops(&self, letter: u8, value: f64) -> bool {
-        let settings = &self.program.settings;
+        let settings = &self.shape.program.settings;
         let tenths = tenths(value);
         settings.modality
             && settings.modal_codes.contains(&value)
@@ -265,12 +261,12 @@ impl Renderer<'_> {
         }
         match var {
             // revolutions are their own limit
-            VarId::Maxrpm if self.vars.get(VarId::Speedtype) == Some(self.program.settings.speed_type[1]) => {
+            VarId::Maxrpm if self.vars.get(VarId::Speedtype) == Some(self.shape.program.settings.speed_type[1]) => {
                 return Ok(self.vars.get(VarId::Speed));
             }
             VarId::Block => return Ok(Some(self.out.number() as f64)),
             // a two-axis job has no upper guide
-            VarId::H2 | VarId::V2 if self.linear == 4 => return Ok(None),
+            VarId::H2 | VarId::V2 if self.shape.linear == 4 => return Ok(None),
             // a cycle without dwell drops the word
             VarId::Dwell if self.cycle.is_some() => return Ok(None),
             _ => {}
@@ -289,7 +285,7 @@ impl Renderer<'_> {
             _ => format!("it stands for: {}; let the job say it, or take the word out of the form", var.row().meaning),
         };
         let message = format!("[{}] has no value here", var.name());
-        fault_at(Code::PR001, message, help, self.form_span())
+        fault_at(Code::PR001, message, help, None)
     }
 
     /// A value without a letter; `said`: outside a comment, so that the control reads it.
@@ -298,18 +294,12 @@ impl Renderer<'_> {
             Ok(Some(value)) => value,
             Ok(None) => return Ok(()),
             Err(_) if !said => {
-                self.out.word(&self.layout, glued).push(b'-'); // a comment says what is known
+                self.out.word(glued).push(b'-'); // a comment says what is known
                 return Ok(());
             }
             Err(diag) => return Err(diag),
         };
-        let format = *self.bare_format();
-        let units = self.units_of(value, &format, "the value")?;
-        let leading = self.program.settings.leading_zeros;
-        let out = self.out.word(&self.layout, glued);
-        if let Err(why) = write_number(out, units, &format, leading) {
-            return self.unprintable(why, "the value", value, &format);
-        }
+        self.out.bare(value, &self.shape.letters.bare, glued)?;
         if said {
             if var == VarId::Block {
                 self.out.prints_number();
@@ -321,8 +311,8 @@ impl Renderer<'_> {
 
     /// A word as typed; its value goes into the registers.
     fn literal_word(&mut self, index: usize, glued: bool, mode: Mode) {
-        let literal = &self.program.literals[index];
-        let info = &self.letters[literal.letter];
+        let literal = &self.shape.program.literals[index];
+        let info = &self.shape.letters[literal.letter];
         let drop = match mode {
             Mode::All | Mode::Hole => false,
             Mode::Motion | Mode::ArcMotion => {
@@ -334,7 +324,7 @@ impl Renderer<'_> {
         if drop {
             return;
         }
-        let out = self.out.word(&self.layout, glued);
+        let out = self.out.word(glued);
         if info.printed == literal.letter && !info.dummy {
             out.extend_from_slice(literal.text.as_bytes());
         } else {
@@ -348,90 +338,19 @@ impl Renderer<'_> {
             // a literal position may stand in another frame
             LetterKind::Axis => {
                 self.registers.forget(info.printed);
-                self.displaced(self.axis_bit(literal.letter));
+                self.displaced(self.shape.axis_bit(literal.letter));
             }
             LetterKind::Other => match quantise(literal.value, info.format.dec.count) {
                 Some(units) => self.registers.set(info.printed, units, info.format.dec.count),
                 None => self.registers.forget(info.printed),
             },
         }
-        if Some(info.printed) == self.program.settings.numbers.letter {
+        if Some(info.printed) == self.shape.program.settings.numbers.letter {
             self.out.prints_number();
         }
-        if literal.letter == self.program.settings.speed_code {
+        if literal.letter == self.shape.program.settings.speed_code {
             self.served.speed = Some(literal.value);
             self.switched = true;
-        }
-    }
-
-    /// A value in units of its letter's last decimal, its sign reversed where the form says so.
-    #[inline(always)]
-    pub(super) fn quantised(&self, info: &Letter, value: f64) -> Done<i64> {
-        let value = if info.reversed { -value } else { value };
-        match quantise(value, info.format.dec.count) {
-            Some(units) => {
-                if matches!(info.kind, LetterKind::GCode | LetterKind::MCode) {
-                    self.check_code(info, value, units)?;
-                }
-                Ok(units)
-            }
-            None => self.not_a_number(char::from(info.printed), value, &info.format),
-        }
-    }
-
-    /// A code must not be rounded: G59.1 as G59 is another work offset.
-    #[cold]
-    fn check_code(&self, info: &Letter, value: f64, units: i64) -> Done {
-        let exact = units as f64 / crate::number::POWERS[usize::from(info.format.dec.count)] as f64;
-        if (exact - value).abs() < 1e-9 {
-            return Ok(());
-        }
-        let letter = char::from(info.printed);
-        fault_at(
-            Code::PR002,
-            format!("{letter}{value} does not fit the format `{letter}{}`", info.format),
-            "give the letter a format with a decimal, as `G >3~>1`",
-            self.form_span(),
-        )
-    }
-
-    fn units_of(&self, value: f64, format: &LetterFormat, what: &str) -> Done<i64> {
-        match quantise(value, format.dec.count) {
-            Some(units) => Ok(units),
-            None => self.not_a_number_named(what, value, format),
-        }
-    }
-
-    #[cold]
-    fn not_a_number<T>(&self, letter: char, value: f64, format: &LetterFormat) -> Done<T> {
-        self.not_a_number_named(&format!("{letter}"), value, format)
-    }
-
-    #[cold]
-    fn not_a_number_named<T>(&self, what: &str, value: f64, format: &LetterFormat) -> Done<T> {
-        if value.is_finite() {
-            return self.unprintable(Unprintable::Overflow, what, value, format);
-        }
-        let message = format!("{what} would be {value}, which is no number");
-        fault_at(Code::PR004, message, "look at the job's numbers here", self.form_span())
-    }
-
-    #[cold]
-    fn unprintable<T>(&self, why: Unprintable, what: &str, value: f64, format: &LetterFormat) -> Done<T> {
-        let form = self.form_span();
-        match why {
-            Unprintable::Overflow => fault_at(
-                Code::PR002,
-                format!("{what} is {value}, its format `{}` has {} digits before the point", format, format.int.count),
-                "give the letter more digits, or look at the number in the job",
-                form,
-            ),
-            Unprintable::Negative => fault_at(
-                Code::PR003,
-                format!("{what} is {value}, its format `{}` has no sign", format.to_string().trim_start()),
-                format!("write `-` before the digits to let it be negative, as `-{}`", format.to_string().trim_start()),
-                form,
-            ),
         }
     }
 
@@ -451,40 +370,16 @@ impl Renderer<'_> {
         let (name, format) = (var.name(), &info.format);
         if printed == 0.0 {
             let message = format!("[{name}] is {value} and prints as 0 in the format `{format}`");
-            return fault_at(Code::PR002, message, "give the letter more decimals", self.form_span());
+            return fault_at(Code::PR002, message, "give the letter more decimals", None);
         }
         const MOST: usize = 5; // one letter's format is the cause of all
-        if self.notes().iter().filter(|note| note.code == Code::PR025).count() == MOST {
+        if self.out.notes().iter().filter(|note| note.code == Code::PR025).count() == MOST {
             return Ok(());
         }
         let percent = (printed.abs() / value.abs() - 1.0) * 100.0;
         let letter = char::from(info.printed);
         let message = format!("[{name}] is {value:.5} and prints as {letter}{printed}: {percent:+.1} %");
-        self.note(Code::PR025, message, "give the letter more decimals, or the job a feed that the format can say");
+        self.out.note(Code::PR025, message, "give the letter more decimals, or the job a feed that the format can say");
         Ok(())
     }
-
-    /// Prints a word of a letter that is known to fit or is refused.
-    #[inline]
-    pub(super) fn put_word(&mut self, info: &Letter, units: i64, glued: bool) -> Done {
-        let leading = self.program.settings.leading_zeros;
-        let out = self.out.word(&self.layout, glued);
-        if !info.dummy {
-            out.push(info.printed);
-        }
-        // N wraps to its start at its width, all other letters refuse
-        match write_number(out, units, &info.format, leading) {
-            Ok(()) => Ok(()),
-            Err(why) => {
-                self.out.clear_block();
-                let value = units as f64 / crate::number::POWERS[usize::from(info.format.dec.count)] as f64;
-                self.unprintable(why, &char::from(info.printed).to_string(), value, &info.format)
-            }
-        }
-    }
-}
-
-/// A code in tenths: G59.1 is 591.
-pub(super) fn tenths(value: f64) -> i64 {
-    (value * 10.0 + 0.5) as i64 // codes are not negative
 }

@@ -1,0 +1,79 @@
+//! Values in units of a letter's last decimal, and what is said where one does not fit its format.
+
+use super::fault::{Done, fault};
+use crate::compile::{Letter, LetterKind};
+use crate::diag::Code;
+use crate::number::{LetterFormat, POWERS, Unprintable, quantise};
+
+/// A value in units of its letter's last decimal, its sign reversed where the form says so.
+#[inline(always)]
+pub fn quantised(info: &Letter, value: f64) -> Done<i64> {
+    let value = if info.reversed { -value } else { value };
+    match quantise(value, info.format.dec.count) {
+        Some(units) => {
+            if matches!(info.kind, LetterKind::GCode | LetterKind::MCode) {
+                check_code(info, value, units)?;
+            }
+            Ok(units)
+        }
+        None => no_number(&char::from(info.printed).to_string(), value, &info.format),
+    }
+}
+
+/// A value in units of a format's last decimal; `what` it is, for messages.
+pub fn units_of(value: f64, format: &LetterFormat, what: &str) -> Done<i64> {
+    match quantise(value, format.dec.count) {
+        Some(units) => Ok(units),
+        None => no_number(what, value, format),
+    }
+}
+
+/// Units of a letter as a number, for messages and geometry.
+pub fn as_number(units: i64, decimals: u8) -> f64 {
+    units as f64 / POWERS[usize::from(decimals)] as f64
+}
+
+/// A code in tenths: G59.1 is 591.
+pub fn tenths(value: f64) -> i64 {
+    (value * 10.0 + 0.5) as i64 // codes are not negative
+}
+
+/// A code must not be rounded: G59.1 as G59 is another work offset.
+#[cold]
+fn check_code(info: &Letter, value: f64, units: i64) -> Done {
+    if (as_number(units, info.format.dec.count) - value).abs() < 1e-9 {
+        return Ok(());
+    }
+    let letter = char::from(info.printed);
+    let message = format!("{letter}{value} does not fit the format `{letter}{}`", info.format);
+    fault(Code::PR002, message, "give the letter a format with a decimal, as `G >3~>1`")
+}
+
+#[cold]
+fn no_number<T>(what: &str, value: f64, format: &LetterFormat) -> Done<T> {
+    if value.is_finite() {
+        return unprintable(Unprintable::Overflow, what, value, format);
+    }
+    fault(Code::PR004, format!("{what} would be {value}, which is no number"), "look at the job's numbers here")
+}
+
+/// The error of a value that its format can't say.
+#[cold]
+pub fn unprintable<T>(why: Unprintable, what: &str, value: f64, format: &LetterFormat) -> Done<T> {
+    match why {
+        Unprintable::Overflow => fault(
+            Code::PR002,
+            format!("{what} is {value}, its format `{}` has {} digits before the point", format, format.int.count),
+            "give the letter more digits, or look at the number in the job",
+        ),
+        Unprintable::Negative => {
+            let format = format.to_string();
+            let format = format.trim_start();
+            fault(
+                Code::PR003,
+                format!("{what} is {value}, its format `{format}` has no sign"),
+                format!("write `-` before the digits to let it be negative, as `-{format}`"),
+            )
+        }
+    }
+}

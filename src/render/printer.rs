@@ -1,0 +1,394 @@
+//! The printer: words joined to blocks, numbered, ended, with the source map and the remarks that go with them.
+
+use super::fault::Done;
+use super::numbers::{as_number, units_of, unprintable};
+use crate::compile::{Letter, LetterTable};
+use crate::control::Control;
+use crate::diag::{Code, Diag};
+use crate::number::{LetterFormat, write_number};
+use crate::sema::{Replacement, Settings};
+use crate::span::Span;
+use crate::toolpath::Place;
+
+/// Longest block of a control that takes long ones; they read from 80 characters to a few hundred.
+const LONGEST: usize = 4096;
+
+/// Where an output line came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TraceLine {
+    /// Line of the program, from 1.
+    pub line: u64,
+    /// Line of the form; `None` when the block was generated.
+    pub form: Option<Span>,
+    /// Item of the job.
+    pub place: Place,
+}
+
+/// A block that its control does not read.
+#[derive(Clone, Copy, Debug)]
+struct TooLong {
+    /// Its length, as far as it was made.
+    length: usize,
+    /// The longest that the control reads.
+    most: usize,
+    /// The `Replace` that made it too long.
+    replaced: Option<Span>,
+}
+
+/// How blocks look, taken from the settings once.
+#[derive(Debug)]
+struct Layout {
+    blanks: bool,
+    leading_zeros: bool,
+    columns: Vec<usize>,
+    replace: Vec<(Vec<u8>, Vec<u8>, Span)>,
+    longest: usize,
+    eob: Vec<u8>,
+    number_letter: Option<u8>,
+    start: i64,
+    step: i64,
+    largest: i64,
+    width: usize,
+    number_first: bool,
+}
+
+impl Layout {
+    /// The layout of a form, with the number format that these letters give.
+    fn new(settings: &Settings, letters: &LetterTable) -> Layout {
+        let format = letters[settings.numbers.letter.unwrap_or(b'N')].format;
+        let width = format.int.count;
+        let bytes = |row: &Replacement| (row.old.clone().into_bytes(), row.new.clone().into_bytes(), row.span);
+        // what a sender cuts is no reason to print nothing
+        let control = Control::named(&settings.control).filter(|control| control.stops_at_longer());
+        Layout {
+            blanks: settings.blanks,
+            leading_zeros: settings.leading_zeros,
+            columns: settings.columns.clone(),
+            replace: settings.replace.iter().map(bytes).collect(),
+            longest: control.and_then(Control::longest_line).unwrap_or(LONGEST),
+            eob: settings.eob.clone().into_bytes(),
+            number_letter: settings.numbers.letter,
+            start: settings.numbers.start,
+            step: settings.numbers.step,
+            largest: crate::number::POWERS[usize::from(width.min(18))] - 1,
+            width: if format.int.fixed { usize::from(width) } else { 1 },
+            number_first: settings.number_first,
+        }
+    }
+}
+
+/// The program as far as it is printed, and the block being made.
+#[derive(Debug)]
+pub struct Printer {
+    layout: Layout,
+    /// The item of the job that is printed.
+    pub place: Place,
+    page: Page,
+    /// Where the open block begins in the text.
+    start: usize,
+    words: usize,
+    numbered: bool,
+    next_number: i64,
+    first_done: bool,
+    too_long: Option<TooLong>,
+    notes: Vec<Diag>,
+}
+
+/// Text with its source map: the program's, or what stands aside until the program has its place for it.
+#[derive(Debug, Default)]
+pub struct Page {
+    /// Finished blocks, and the open one; the caller takes them.
+    pub text: Vec<u8>,
+    /// Blocks printed so far.
+    pub lines: u64,
+    /// The source map, when asked for.
+    pub trace: Option<Vec<TraceLine>>,
+}
+
+impl Printer {
+    /// Empty; the first block number is the form's.
+    pub fn new(settings: &Settings, letters: &LetterTable, trace: bool) -> Printer {
+        let layout = Layout::new(settings, letters);
+        Printer {
+            place: Place::default(),
+            page: Page { text: Vec::with_capacity(128 * 1024), lines: 0, trace: trace.then(Vec::new) },
+            start: 0,
+            words: 0,
+            numbered: false,
+            next_number: layout.start,
+            first_done: false,
+            too_long: None,
+            notes: Vec::new(),
+            layout,
+        }
+    }
+
+    /// The job has said its units: letters have other formats.
+    pub fn set_letters(&mut self, settings: &Settings, letters: &LetterTable) {
+        self.layout = Layout::new(settings, letters);
+    }
+
+    /// What is being printed.
+    pub fn page(&mut self) -> &mut Page {
+        &mut self.page
+    }
+
+    /// Changes places with another page.
+    pub fn turn_to(&mut self, page: &mut Page) {
+        if self.page.trace.is_some() {
+            page.trace.get_or_insert_default();
+        }
+        std::mem::swap(&mut self.page, page);
+    }
+
+    /// Appends what stood aside.
+    pub fn append(&mut self, aside: Page) {
+        let before = self.page.lines;
+        self.page.text.extend_from_slice(&aside.text);
+        self.page.lines += aside.lines;
+        if let Some(trace) = &mut self.page.trace {
+            let lines = aside.trace.into_iter().flatten();
+            trace.extend(lines.map(|line| TraceLine { line: line.line + before, ..line }));
+        }
+    }
+
+    /// Lines printed so far.
+    pub fn lines(&self) -> u64 {
+        self.page.lines
+    }
+
+    /// A remark on the item that is printed: each kind once.
+    pub fn note(&mut self, code: Code, message: String, help: &str) {
+        if !self.notes.iter().any(|n| n.code == code && n.message == message) && self.notes.len() < 100 {
+            let mut diag = Diag::new(code, message).help(help);
+            diag.place = Some(self.place.to_string());
+            self.notes.push(diag);
+        }
+    }
+
+    /// The remarks so far.
+    pub fn notes(&self) -> &[Diag] {
+        &self.notes
+    }
+
+    /// Was every block so far short enough for the control?
+    #[inline]
+    pub fn blocks_fit(&self) -> Done {
+        self.too_long.map_or(Ok(()), too_long)
+    }
+
+    /// A value in units of its letter's last decimal. One that does not fit takes its block back.
+    #[inline]
+    pub fn letter(&mut self, info: &Letter, units: i64, glued: bool) -> Done {
+        let leading = self.layout.leading_zeros;
+        let out = self.word(glued);
+        if !info.dummy {
+            out.push(info.printed);
+        }
+        // N wraps to its start at its width, all other letters refuse
+        match write_number(out, units, &info.format, leading) {
+            Ok(()) => Ok(()),
+            Err(why) => {
+                self.clear_block();
+                let value = as_number(units, info.format.dec.count);
+                unprintable(why, &char::from(info.printed).to_string(), value, &info.format)
+            }
+        }
+    }
+
+    /// A value without a letter.
+    pub fn bare(&mut self, value: f64, format: &LetterFormat, glued: bool) -> Done {
+        let units = units_of(value, format, "the value")?;
+        let leading = self.layout.leading_zeros;
+        match write_number(self.word(glued), units, format, leading) {
+            Ok(()) => Ok(()),
+            Err(why) => unprintable(why, "the value", value, format),
+        }
+    }
+
+    /// Text as a word.
+    pub fn text(&mut self, text: &str, glued: bool) {
+        self.word(glued).extend_from_slice(text.as_bytes());
+    }
+
+    /// Ends a block that the form has no line for.
+    #[inline]
+    pub fn end_block(&mut self) {
+        self.finish(true, None);
+    }
+
+    /// The open block, to append a word to. A blank or column comes first, unless the word sticks to the one before.
+    #[inline]
+    pub fn word(&mut self, glued: bool) -> &mut Vec<u8> {
+        if !glued || self.words == 0 {
+            if self.words == 0 {
+                self.start = self.page.text.len();
+            } else if self.layout.blanks {
+                self.page.text.push(b' ');
+            }
+            if !self.layout.columns.is_empty() {
+                self.pad();
+            }
+            self.words += 1;
+        }
+        &mut self.page.text
+    }
+
+    #[cold]
+    fn pad(&mut self) {
+        let column = match self.layout.columns.as_slice() {
+            [width] => self.words * width,
+            columns => columns.get(self.words).map_or(0, |column| column - 1),
+        };
+        while self.page.text.len() < self.start + column {
+            self.page.text.push(b' ');
+        }
+    }
+
+    /// Takes the open block back: a word of it could not be printed.
+    pub fn clear_block(&mut self) {
+        if self.words > 0 {
+            self.page.text.truncate(self.start);
+        }
+        self.words = 0;
+        self.numbered = false;
+    }
+
+    /// Is a block open?
+    #[inline]
+    pub fn has_words(&self) -> bool {
+        self.words > 0
+    }
+
+    /// The number of the open block.
+    pub fn number(&self) -> i64 {
+        self.next_number
+    }
+
+    /// Sets the number of the next block.
+    pub fn set_number(&mut self, number: i64) {
+        self.next_number = number;
+    }
+
+    /// The open block prints its number itself.
+    pub fn prints_number(&mut self) {
+        self.numbered = true;
+    }
+
+    /// Ends the open block. An empty one is not printed. `number`: it may have a block number.
+    #[inline]
+    pub fn finish(&mut self, number: bool, form: Option<Span>) {
+        if self.words == 0 {
+            return;
+        }
+        if self.layout.number_letter.is_some() && !self.numbered && number && !is_frame(&self.page.text[self.start..]) {
+            if self.first_done || self.layout.number_first {
+                self.insert_number();
+                self.numbered = true;
+            }
+            self.first_done = true;
+        }
+        if self.numbered {
+            self.next_number += self.layout.step;
+            if self.next_number > self.layout.largest {
+                self.next_number = self.layout.start;
+            }
+        }
+        if !self.layout.replace.is_empty() {
+            self.replace();
+        }
+        if !self.layout.eob.is_empty() {
+            self.page.text.extend_from_slice(&self.layout.eob);
+        }
+        self.fits(None);
+        self.page.text.push(b'\n');
+        self.page.lines += 1;
+        if let Some(trace) = &mut self.page.trace {
+            trace.push(TraceLine { line: self.page.lines, form, place: self.place });
+        }
+        self.words = 0;
+        self.numbered = false;
+    }
+
+    /// Puts the number before the block: only now is it known that it has none of its own.
+    fn insert_number(&mut self) {
+        let mut prefix = [b' '; 24];
+        let mut at = prefix.len() - usize::from(self.layout.blanks);
+        let (end, mut rest) = (at, self.next_number);
+        while rest > 0 || end - at < self.layout.width {
+            at -= 1;
+            prefix[at] = b'0' + (rest % 10) as u8;
+            rest /= 10;
+        }
+        if let Some(letter) = self.layout.number_letter {
+            at -= 1;
+            prefix[at] = letter;
+        }
+        let (length, shift) = (self.page.text.len(), prefix.len() - at);
+        self.page.text.extend_from_slice(&prefix[at..]); // as many bytes as are needed
+        self.page.text.copy_within(self.start..length, self.start + shift);
+        self.page.text[self.start..self.start + shift].copy_from_slice(&prefix[at..]);
+    }
+
+    #[cold]
+    fn replace(&mut self) {
+        let rows = std::mem::take(&mut self.layout.replace);
+        _ = rows.iter().try_for_each(|row| self.replace_by(row));
+        self.layout.replace = rows;
+    }
+
+    /// Replaces by one row; `None` when the block has become too long.
+    fn replace_by(&mut self, (old, new, span): &(Vec<u8>, Vec<u8>, Span)) -> Option<()> {
+        {
+            if memchr::memmem::find(&self.page.text[self.start..], old).is_none() {
+                return Some(());
+            }
+            let block = self.page.text.split_off(self.start);
+            let mut from = 0;
+            for at in memchr::memmem::find_iter(&block, old) {
+                self.page.text.extend_from_slice(&block[from..at]);
+                self.page.text.extend_from_slice(new);
+                from = at + old.len();
+                // each row may double the block: the first that makes it too long is the last
+                if !self.fits(Some(*span)) {
+                    return None;
+                }
+            }
+            self.page.text.extend_from_slice(&block[from..]);
+        }
+        Some(())
+    }
+
+    /// Is the open block longer than its control reads?
+    #[inline]
+    pub fn is_too_long(&self) -> bool {
+        self.page.text.len() - self.start > self.layout.longest
+    }
+
+    /// Is the open block, as far as it is made, one that the control reads? The first that is not is kept.
+    #[inline]
+    fn fits(&mut self, replaced: Option<Span>) -> bool {
+        let length = self.page.text.len() - self.start;
+        if length > self.layout.longest && self.too_long.is_none() {
+            self.too_long = Some(TooLong { length, most: self.layout.longest, replaced });
+        }
+        length <= self.layout.longest
+    }
+}
+
+/// `%` and O lines frame a program and are never numbered.
+fn is_frame(block: &[u8]) -> bool {
+    matches!(block, [b'%' | b':', ..]) || matches!(block, [b'O' | b'o', digit, ..] if digit.is_ascii_digit())
+}
+
+#[cold]
+fn too_long(block: TooLong) -> Done {
+    let TooLong { length, most, replaced } = block;
+    let diag = Diag::new(Code::PR027, format!("a block of {length} characters, and the control reads {most}"));
+    Err(Box::new(match replaced {
+        Some(span) => diag
+            .at(span, "this makes it too long")
+            .help("take this Replace out: what it writes is replaced again by the next"),
+        None => diag.help("make several blocks of it, or shorten its comment"),
+    }))
+}

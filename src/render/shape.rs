@@ -1,0 +1,114 @@
+//! What a form is for one job: its letters, its axes, the factors to the program's units, what it prints at all. The job's
+//! head completes it; a turret on the other side turns an axis of it round.
+
+use super::defaults::{cycle_defaults, factor, form_units, no_defaults};
+use super::fault::{Done, fault};
+use super::measure::MEASURES;
+use super::motion::{LAST_VARS, MOVE_VARS};
+use super::options::Options;
+use crate::compile::{LetterTable, Program};
+use crate::cycle::Defaults;
+use crate::diag::Code;
+use crate::lang::{Machine, SequenceId, VarId};
+use crate::toolpath::Units;
+
+/// What does not change while a program is printed.
+#[derive(Debug)]
+pub(super) struct Shape<'p> {
+    pub program: &'p Program,
+    pub options: Options,
+    pub letters: &'p LetterTable,
+    /// Letters of h v d a b c.
+    pub axes: [u8; 6],
+    /// What a position is multiplied with to be printed: 2 for an X that counts diameters.
+    pub scales: [f64; 6],
+    /// How many linear axes there are: four on a wire EDM machine.
+    pub linear: usize,
+    /// The axis along which the tool goes into a hole: Z, the first axis of a lathe.
+    pub depth: usize,
+    /// Factor from the job's lengths to the program's.
+    pub scale: f64,
+    /// Factor from the form's lengths to the program's.
+    pub form_scale: f64,
+    /// Units of the program.
+    pub units: Units,
+    /// What cycles take that name nothing, in program units.
+    pub defaults: Defaults,
+    /// An Upon watches where moves go.
+    pub watches_moves: bool,
+    /// The form prints lengths or times of moves.
+    pub measures: bool,
+    /// Every move sets the position variables; else they are set when a sequence is about to print.
+    pub sets_targets: bool,
+}
+
+impl<'p> Shape<'p> {
+    /// The shape of a form, before the job has said its units.
+    pub fn new(program: &'p Program, options: Options) -> Self {
+        let settings = &program.settings;
+        let ([h, v, d], [h2, v2, _]) = (settings.axes, settings.axes2);
+        let edm = settings.machine == Machine::Edm;
+        let diameter = if settings.by_diameter { 2.0 } else { 1.0 };
+        Shape {
+            program,
+            options,
+            letters: &program.letters[0],
+            axes: if edm { [h, v, h2, v2, b'A', b'B'] } else { [h, v, d, b'A', b'B', b'C'] },
+            scales: [1.0, diameter, 1.0, 1.0, 1.0, 1.0],
+            linear: if edm { 4 } else { 3 },
+            depth: if settings.machine == Machine::Lathe { 0 } else { 2 },
+            scale: 1.0,
+            form_scale: 1.0,
+            units: Units::Inch,
+            defaults: no_defaults(),
+            watches_moves: program.upon_vars.meets(MOVE_VARS),
+            measures: program.printed.with(program.upon_vars).meets(MEASURES),
+            sets_targets: sets_targets(program),
+        }
+    }
+
+    /// The units of the program, for a job in these, and what counts in them.
+    pub fn choose_units(&mut self, job: Units) -> Done {
+        let settings = &self.program.settings;
+        self.units = self.options.units.unwrap_or(job);
+        let form = form_units(settings);
+        if form.is_some_and(|form| form != self.units) && !self.program.printed.has(VarId::Unitmode) {
+            let (program, form) = (self.units.name(), form.map_or("", Units::name));
+            let message = format!("the program would be in {program}, the form is for {form} and prints no [unitmode]");
+            let help = format!(
+                "render with `--units {form}`, or print `G[unitmode]` in StartCode: the machine would move 25.4 times as far or as little"
+            );
+            return fault(Code::PR010, message, help);
+        }
+        self.scale = factor(job, self.units);
+        self.form_scale = factor(form.unwrap_or(Units::Inch), self.units);
+        self.letters = &self.program.letters[usize::from(self.units == Units::Mm)];
+        self.defaults = cycle_defaults(settings, self.units, self.options.sink_as_printed);
+        Ok(())
+    }
+
+    /// The second turret of a lathe works from the other side.
+    pub fn choose_turret(&mut self, turret: Option<f64>) {
+        let side = if self.program.settings.reverse_turret_2 && turret == Some(2.0) { -1.0 } else { 1.0 };
+        self.scales[1] = self.scales[1].abs() * side;
+    }
+
+    /// The depth axis in a set of axes.
+    pub fn depth_bit(&self) -> u8 {
+        1 << self.depth
+    }
+
+    /// The axis of a letter, in a set of axes.
+    pub fn axis_bit(&self, letter: u8) -> u8 {
+        self.axes.iter().position(|&axis| axis == letter).map_or(0, |axis| 1 << axis)
+    }
+}
+
+/// Must every move set the position variables?
+fn sets_targets(program: &Program) -> bool {
+    let moves = [SequenceId::RapidCode, SequenceId::LineCode, SequenceId::CwCode, SequenceId::CcwCode];
+    program.printed.with(program.upon_vars).meets(LAST_VARS)
+        || moves.iter().any(|&id| program.routine(id).is_some())
+        || !program.settings.limits.is_empty()
+        || program.upon_vars.meets(MOVE_VARS)
+}

@@ -2,7 +2,7 @@
 
 use postform::compile::compile;
 use postform::fmt::format;
-use postform::lint::{Changed, Findings, Levels, lint, mend};
+use postform::lint::{Changed, Found, Levels, lint, mend};
 use postform::render::{Options, Renderer};
 use postform::sema::{Checked, Limits, analyse};
 use postform::source::Source;
@@ -15,7 +15,7 @@ fn checked(bytes: &[u8]) -> Checked {
     analyse(Source::from_bytes("form.pf", bytes), Limits::Classic, &mut |_| Err("can't be found".into()))
 }
 
-fn found(form: &Checked) -> Findings {
+fn found(form: &Checked) -> Found {
     lint(form, &Levels::default())
 }
 

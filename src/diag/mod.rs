@@ -1,8 +1,10 @@
 //! Findings as data: raised anywhere, shown by the rim.
 
 mod codes;
+mod findings;
 
 pub use codes::{CODES, Code, CodeRow};
+pub use findings::Findings;
 
 use crate::span::Span;
 

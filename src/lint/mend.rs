@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::{Findings, Levels, lint};
+use super::{Found, Levels, lint};
 use crate::diag::Diag;
 use crate::sema::Checked;
 use crate::span::Span;
@@ -16,7 +16,7 @@ pub struct Mended {
     /// The form.
     pub checked: Checked,
     /// What is found in it now.
-    pub findings: Findings,
+    pub findings: Found,
     /// The files that fixes changed.
     pub changed: Changed,
     /// What was mended. A finding that came up on the way has no place: nobody has seen that text.

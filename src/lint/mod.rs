@@ -22,7 +22,7 @@ use view::View;
 
 /// What was found in a form.
 #[derive(Debug, Default)]
-pub struct Findings {
+pub struct Found {
     /// In the order of the files and of the places in them.
     pub diags: Vec<Diag>,
     /// How many more there are that a comment of the form allows.
@@ -30,7 +30,7 @@ pub struct Findings {
 }
 
 /// All findings of a form: those of reading it and those of the rules.
-pub fn lint(checked: &Checked, levels: &Levels) -> Findings {
+pub fn lint(checked: &Checked, levels: &Levels) -> Found {
     let view = View::new(checked);
     let mut diags = checked.diags.clone();
     for rule in RULES {
@@ -42,7 +42,7 @@ pub fn lint(checked: &Checked, levels: &Levels) -> Findings {
     let suppressed = allow::take_allowed(checked, levels, &mut diags);
     leave_causes(checked, &mut diags);
     sort(&mut diags);
-    Findings { diags, suppressed }
+    Found { diags, suppressed }
 }
 
 /// A form that can print, with what it is warned of.

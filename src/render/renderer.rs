@@ -152,6 +152,11 @@ impl<'p> Renderer<'p> {
         self.out.lines()
     }
 
+    /// Was the end of the job printed?
+    pub(crate) fn is_over(&self) -> bool {
+        self.order == Order::End
+    }
+
     fn take(&mut self, event: Event<'_>) -> Done {
         self.cutting = matches!(
             event,

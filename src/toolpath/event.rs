@@ -70,6 +70,13 @@ pub struct Start {
     pub tool_order: Option<Vec<f64>>,
 }
 
+impl Start {
+    /// The head of a mill's job that says nothing else.
+    pub fn new(units: Units) -> Start {
+        Start { program: None, name: None, units, machine: Default::default(), set: Vec::new(), tool_order: None }
+    }
+}
+
 /// A tool.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[allow(missing_docs)]
@@ -124,7 +131,7 @@ pub enum FeedMode {
 }
 
 /// How an operation's path begins: readers look ahead for it, because a tool change may print the position.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum First {
     /// With a rapid to here.
     Rapid(Axes),
@@ -133,11 +140,12 @@ pub enum First {
     /// With a move that cuts: its target is no place to rapid to.
     Cut,
     /// With no move at all.
+    #[default]
     Nothing,
 }
 
 /// The beginning of an operation: the tool changes where its number does.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct ToolChange {
     /// The operation's name.
     pub name: Option<String>,

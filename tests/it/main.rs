@@ -8,6 +8,7 @@ mod cl;
 mod commands;
 mod cycles;
 mod diff;
+mod examples;
 mod fmt;
 mod golden;
 mod guide;

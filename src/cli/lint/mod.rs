@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::Path;
 
 use postform::diag::{Diag, Severity};
-use postform::lint::{Changed, Findings, lint};
+use postform::lint::{Changed, Found, lint};
 use postform::sema::Checked;
 use postform::source::Source;
 use rayon::prelude::*;
@@ -111,7 +111,7 @@ fn one(mut file: FormFile, args: &LintArgs) -> Result<Linted, String> {
 }
 
 impl Linted {
-    fn new(checked: Checked, found: Findings) -> Linted {
+    fn new(checked: Checked, found: Found) -> Linted {
         let files = if found.diags.is_empty() { Vec::new() } else { checked.files };
         Linted { files, diags: found.diags, suppressed: found.suppressed, story: String::new(), mended: 0 }
     }

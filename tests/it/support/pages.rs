@@ -5,7 +5,7 @@ use std::fs;
 
 use postform::diag::Diag;
 use postform::lang::{CommandId, SequenceId};
-use postform::lint::{Changed, Findings, Levels, lint, mend};
+use postform::lint::{Changed, Found, Levels, lint, mend};
 use postform::sema::{Checked, Limits, analyse};
 use postform::source::Source;
 use postform::syntax::{Form, Head, parse};
@@ -150,7 +150,7 @@ pub fn checked(bytes: &[u8]) -> Checked {
     analyse(Source::from_bytes("form.pf", bytes), Limits::Classic, &mut |_| Err("can't be found".into()))
 }
 
-pub fn found(checked: &Checked) -> Findings {
+pub fn found(checked: &Checked) -> Found {
     lint(checked, &Levels::default())
 }
 

@@ -1,0 +1,16 @@
+//! A job printed and proven in ten lines.
+
+use postform::{Error, Job, NoFiles, Options, Post, Source, Verdict};
+
+const FORM: &str = include_str!("../postforms/haas.pf");
+const JOB: &str = include_str!("../samples/bracket/job.json");
+
+fn main() -> Result<(), Error> {
+    let post = Post::compile(Source::from_text("haas.pf", FORM), &NoFiles)?;
+    let program = post.render(Job::json(JOB), &Options::default())?;
+    match post.verify(Job::json(JOB), program.text())? {
+        Verdict::Different(findings) => println!("wrong: {}", findings[0].message),
+        _ => print!("{}", program.text()),
+    }
+    Ok(())
+}

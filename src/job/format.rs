@@ -1,0 +1,95 @@
+//! Which format a job is in: by its name, else by how it begins.
+
+/// Formats of jobs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Format {
+    /// One JSON document.
+    Json,
+    /// JSON Lines: an item a line.
+    JsonLines,
+    /// An APT CL file.
+    Cl,
+    /// An NC program, whose motions become a job.
+    Nc,
+}
+
+/// What files of each format are called.
+const EXTENSIONS: [(Format, &[&str]); 4] = [
+    (Format::Json, &["json"]),
+    (Format::JsonLines, &["jsonl", "ndjson"]),
+    (Format::Cl, &["cl", "apt", "aptsource", "ncl", "cls", "cldata", "as"]),
+    (Format::Nc, &["nc", "ngc", "tap", "eia", "min", "mpf"]),
+];
+
+/// So many bytes at a job's beginning are looked at.
+const LOOKED_AT: usize = 4096;
+
+impl Format {
+    /// By the name of a file: its extension, also before the version that Creo adds (`op010.ncl.1`).
+    pub fn of_name(name: &str) -> Option<Format> {
+        let name = name.rsplit(['/', '\\']).next()?;
+        let (mut stem, mut extension) = name.rsplit_once('.')?;
+        if !extension.is_empty() && extension.bytes().all(|byte| byte.is_ascii_digit()) {
+            (stem, extension) = stem.rsplit_once('.')?;
+        }
+        let is = |known: &str| !stem.is_empty() && extension.eq_ignore_ascii_case(known);
+        EXTENSIONS.iter().find(|(_, known)| known.iter().any(|known| is(known))).map(|(format, _)| *format)
+    }
+
+    /// By how a job begins: a brace, a word with a slash, or a block of an NC program. `None`: by none of them.
+    pub fn of_content(bytes: &[u8]) -> Option<Format> {
+        let start = bytes.get(..LOOKED_AT).unwrap_or(bytes);
+        let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
+        let mut lines = start.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
+        let first = lines.clone().next()?;
+        if first.starts_with(b"{") {
+            // the head of JSON Lines is an object on a line of its own
+            let head = first[1..].trim_ascii_start().starts_with(b"\"start\"");
+            return Some(if head { Format::JsonLines } else { Format::Json });
+        }
+        lines.find_map(|line| match (line, is_statement(line)) {
+            (_, true) => Some(Format::Cl),
+            ([b'%', ..], _) => Some(Format::Nc),
+            ([letter, digit, ..], _) if letter.is_ascii_alphabetic() && digit.is_ascii_digit() => Some(Format::Nc),
+            _ => None,
+        })
+    }
+}
+
+/// `GOTO/1,2,3`, `TOOL PATH/A`, `PARTNO X`, `$$ a comment`.
+fn is_statement(line: &[u8]) -> bool {
+    let word = line.split(|byte| !byte.is_ascii_alphabetic() && *byte != b' ').next().unwrap_or_default();
+    let after = line.get(word.len());
+    line.starts_with(b"$$")
+        || line.get(..6).is_some_and(|word| word.eq_ignore_ascii_case(b"PARTNO"))
+        || word.len() > 2 && after == Some(&b'/')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_tell_formats() {
+        let of = Format::of_name;
+        assert_eq!(of("a/b.json"), Some(Format::Json));
+        assert_eq!(of("b.JSONL"), Some(Format::JsonLines));
+        assert_eq!(of("op010.ncl.1"), Some(Format::Cl));
+        assert_eq!(of("b.tap"), Some(Format::Nc));
+        assert_eq!([of("b"), of(".json"), of("a.nc/b"), of("b.txt"), of("json")], [None; 5]);
+    }
+
+    #[test]
+    fn beginnings_tell_formats() {
+        let of = |text: &str| Format::of_content(text.as_bytes());
+        assert_eq!(of("\u{feff}\n {\n\"postform\": 1"), Some(Format::Json));
+        assert_eq!(of("{ \"start\":{\"postform\":1}}\n"), Some(Format::JsonLines));
+        assert_eq!(of("$$* Pro/CLfile\nUNITS/MM"), Some(Format::Cl));
+        assert_eq!(of("a remark\nTOOL PATH/A,TOOL,B"), Some(Format::Cl));
+        assert_eq!(of("partno x"), Some(Format::Cl));
+        assert_eq!(of("(a remark)\r\nO1234\r\n"), Some(Format::Nc));
+        assert_eq!(of("%\n"), Some(Format::Nc));
+        assert_eq!([of(""), of("\n\n"), of("hello, world"), of("[1, 2]")], [None; 4]);
+    }
+}

@@ -1,0 +1,275 @@
+//! Jobs: what is to be made, whatever its format. Bytes come in, events go out.
+
+mod format;
+
+pub use format::Format;
+
+use std::cell::Cell;
+use std::fmt;
+use std::io::{self, BufReader, Cursor, Read, Seek};
+use std::rc::Rc;
+
+use crate::cl::{self, Assumed, Dialect, Report, read_cl};
+use crate::control::Control;
+use crate::error::Error;
+use crate::nc::{JobOptions, Settings, Unpointed, read_program};
+use crate::toolpath::json::{read_document, read_lines};
+use crate::toolpath::{Event, Hold, Place, ReadError, Sink, Units};
+
+/// What a CL file or NC program does not say itself. JSON needs none of it.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Reading {
+    /// Who wrote a CL file; else it is told from its first lines.
+    pub dialect: Option<Dialect>,
+    /// Units of a CL file or program that does not say them.
+    pub units: Option<Units>,
+    /// The tool number of a CL file or program that loads none, or of each tool that a CL file names.
+    pub tool: Option<Assumed>,
+    /// Whose rules an NC program follows; else Fanuc's.
+    pub control: Option<&'static Control>,
+    /// What a length without a point means in an NC program of a Fanuc; else it is an error.
+    pub unpointed: Unpointed,
+}
+
+/// What can be read and gone back in.
+trait Again: Read + Seek {}
+impl<T: Read + Seek> Again for T {}
+
+/// What pushes a custom job's events.
+type Maker<'a> = dyn FnMut(&mut dyn Sink) -> Result<(), Error> + 'a;
+
+enum Input<'a> {
+    Bytes(&'a [u8]),
+    File(Box<dyn Again + 'a>),
+    /// `None`: it was read.
+    Stream(Option<Box<dyn Read + 'a>>),
+    Events(Box<Maker<'a>>),
+}
+
+/// A job that can be read: its input and its format. Nothing is read before it is rendered or verified.
+pub struct Job<'a> {
+    input: Input<'a>,
+    format: Format,
+    /// What its text does not say.
+    pub reading: Reading,
+    report: Report,
+    /// Bytes read so far.
+    read: Rc<Cell<u64>>,
+}
+
+impl<'a> Job<'a> {
+    fn new(format: Format, input: Input<'a>) -> Job<'a> {
+        Job { input, format, reading: Reading::default(), report: Report::default(), read: Rc::default() }
+    }
+
+    /// One JSON document (`docs/job.md`).
+    pub fn json(text: &'a (impl AsRef<[u8]> + ?Sized)) -> Job<'a> {
+        Job::bytes(Format::Json, text)
+    }
+
+    /// JSON Lines: an item a line.
+    pub fn json_lines(text: &'a (impl AsRef<[u8]> + ?Sized)) -> Job<'a> {
+        Job::bytes(Format::JsonLines, text)
+    }
+
+    /// An APT CL file.
+    pub fn cl(text: &'a (impl AsRef<[u8]> + ?Sized)) -> Job<'a> {
+        Job::bytes(Format::Cl, text)
+    }
+
+    /// An NC program, for another machine.
+    pub fn nc(text: &'a (impl AsRef<[u8]> + ?Sized)) -> Job<'a> {
+        Job::bytes(Format::Nc, text)
+    }
+
+    /// A job in this format.
+    pub fn bytes(format: Format, text: &'a (impl AsRef<[u8]> + ?Sized)) -> Job<'a> {
+        Job::new(format, Input::Bytes(text.as_ref()))
+    }
+
+    /// A job whose format its name says, or how it begins.
+    ///
+    /// # Errors
+    /// Neither says it.
+    pub fn open(name: &str, text: &'a (impl AsRef<[u8]> + ?Sized)) -> Result<Job<'a>, Error> {
+        let format = Format::of_name(name).or_else(|| Format::of_content(text.as_ref()));
+        let format = format.ok_or_else(|| {
+            Error::usage(
+                "can't tell what the job is, by its name or by how it begins: it is no JSON, CL file or NC program",
+            )
+        })?;
+        Ok(Job::bytes(format, text))
+    }
+
+    /// A job in a file or anything else that can be gone back in. It is read from its beginning, whatever its size.
+    pub fn file(format: Format, file: impl Read + Seek + 'a) -> Job<'a> {
+        Job::new(format, Input::File(Box::new(file)))
+    }
+
+    /// A job that comes as a stream and can be read once: it can be rendered or verified, not both. An NC program is kept
+    /// in memory, because it is run twice; other formats are not.
+    pub fn stream(format: Format, input: impl Read + 'a) -> Job<'a> {
+        Job::new(format, Input::Stream(Some(Box::new(input))))
+    }
+
+    /// A job of another format: `make` pushes its events, anew each time that it is called. Tool changes need no first move:
+    /// it is filled in from the events that follow.
+    ///
+    /// The sink says what is wrong with an event: return it as it is. The last event is [`Event::Finish`].
+    pub fn events(make: impl FnMut(&mut dyn Sink) -> Result<(), Error> + 'a) -> Job<'a> {
+        Job::new(Format::Json, Input::Events(Box::new(make)))
+    }
+
+    /// This job again: to render it first and verify it then.
+    pub fn again(&mut self) -> Job<'_> {
+        let input = match &mut self.input {
+            Input::Bytes(bytes) => Input::Bytes(bytes),
+            Input::File(file) => Input::File(Box::new(file)),
+            Input::Stream(input) => Input::Stream(input.take()),
+            Input::Events(make) => Input::Events(Box::new(make)),
+        };
+        Job { reading: self.reading.clone(), ..Job::new(self.format, input) }
+    }
+
+    /// Its format.
+    pub fn format(&self) -> Format {
+        self.format
+    }
+
+    /// What was noticed when it was read last: warnings, and what a CL file says of itself.
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+
+    /// Takes the report.
+    pub(crate) fn take_report(&mut self) -> Report {
+        std::mem::take(&mut self.report)
+    }
+
+    /// The bytes read so far, counted while the job is read; `None`: they say nothing of the job's size.
+    pub(crate) fn bytes_read(&self) -> Option<Rc<Cell<u64>>> {
+        (!matches!(self.input, Input::Events(_))).then(|| Rc::clone(&self.read))
+    }
+
+    /// Reads it from its beginning and pushes its events. Memory does not grow with the job.
+    ///
+    /// # Errors
+    /// The input fails; the job is wrong, or what the sink was asked to do is. The report has the warnings until then.
+    pub fn read(&mut self, sink: &mut dyn Sink) -> Result<(), Error> {
+        self.report = Report::default();
+        self.read.set(0);
+        let count = Rc::clone(&self.read);
+        let (format, reading, report) = (self.format, &self.reading, &mut self.report);
+        match &mut self.input {
+            Input::Bytes(bytes) => {
+                // all of it is there
+                count.set(bytes.len() as u64);
+                Ok(match format {
+                    Format::Nc => read_nc(Cursor::new(*bytes), reading, report, sink),
+                    _ => read_once(*bytes, format, reading, report, sink),
+                }?)
+            }
+            Input::File(file) => {
+                file.rewind()?;
+                Ok(match format {
+                    Format::Nc => {
+                        let input = BufReader::with_capacity(PROGRAM_BUFFER, Counted { input: file, count });
+                        read_nc(input, reading, report, sink)
+                    }
+                    _ => read_once(Counted { input: file, count }, format, reading, report, sink),
+                }?)
+            }
+            Input::Stream(input) => {
+                let Some(input) = input.take() else {
+                    return Err(Error::usage("a job that comes as a stream can be read once only"));
+                };
+                let mut input = Counted { input, count };
+                Ok(match format {
+                    Format::Nc => {
+                        let mut text = Vec::new();
+                        input.read_to_end(&mut text)?;
+                        read_nc(Cursor::new(text), reading, report, sink)
+                    }
+                    _ => read_once(input, format, reading, report, sink),
+                }?)
+            }
+            Input::Events(make) => make(&mut Ahead(Hold::new(sink))),
+        }
+    }
+}
+
+impl fmt::Debug for Job<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Job").field("format", &self.format).field("reading", &self.reading).finish_non_exhaustive()
+    }
+}
+
+/// Bytes of a program that are read at once.
+const PROGRAM_BUFFER: usize = 128 << 10;
+
+/// Formats that are read from beginning to end.
+fn read_once(
+    input: impl Read,
+    format: Format,
+    reading: &Reading,
+    report: &mut Report,
+    sink: &mut dyn Sink,
+) -> Result<(), ReadError> {
+    match format {
+        Format::JsonLines => read_lines(input, sink),
+        Format::Cl => {
+            let options = cl::Options { dialect: reading.dialect, units: reading.units, tool: reading.tool.clone() };
+            read_cl(input, &options, report, sink)
+        }
+        _ => read_document(input, sink),
+    }
+}
+
+/// An NC program is run twice.
+fn read_nc(
+    input: impl io::BufRead + Seek,
+    reading: &Reading,
+    report: &mut Report,
+    sink: &mut dyn Sink,
+) -> Result<(), ReadError> {
+    let settings = Settings {
+        unpointed: reading.unpointed,
+        units: reading.units.unwrap_or(Units::Mm),
+        ..Settings::new(reading.control.unwrap_or_else(Control::usual))
+    };
+    let tool = reading.tool.as_ref().and_then(Assumed::one);
+    read_program(input, &JobOptions { settings, units: reading.units, tool }, &mut report.warnings, sink)
+}
+
+/// Counts the bytes that are read.
+struct Counted<R> {
+    input: R,
+    count: Rc<Cell<u64>>,
+}
+
+impl<R: Read> Read for Counted<R> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let count = self.input.read(out)?;
+        self.count.set(self.count.get() + count as u64);
+        Ok(count)
+    }
+}
+
+impl<R: Seek> Seek for Counted<R> {
+    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
+        self.input.seek(to)
+    }
+}
+
+/// Fills in the first move of a tool change from the events behind it.
+struct Ahead<'s>(Hold<'s>);
+
+impl Sink for Ahead<'_> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<crate::diag::Diag>> {
+        match event {
+            Event::ToolChange(change) => self.0.tool_change(change.clone(), place),
+            event => self.0.event(event, place),
+        }
+    }
+}

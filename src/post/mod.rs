@@ -1,0 +1,89 @@
+//! The front door: a form that prints, a job that is printed, a program that is proven.
+
+mod growth;
+mod options;
+mod program;
+mod render;
+mod verify;
+
+pub use options::{Options, Proof};
+pub use program::{Part, Program, Rendered};
+pub use verify::Proven;
+
+use std::sync::Arc;
+
+use crate::compile;
+use crate::diag::Findings;
+use crate::error::Error;
+use crate::lint::{Levels, ready};
+use crate::sema::{Limits, analyse};
+use crate::source::Source;
+
+/// Where the forms come from that a form includes with `Call`.
+pub trait Files {
+    /// A form by the name that `Call` gives it, relative to the form that calls.
+    ///
+    /// # Errors
+    /// Why there is none, in words that follow its name: `can't be found`.
+    fn read(&self, name: &str) -> Result<Source, String>;
+}
+
+/// No other forms: a `Call` is an error.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, _: &str) -> Result<Source, String> {
+        Err("can't be found: no other form was given".into())
+    }
+}
+
+impl<F: Fn(&str) -> Result<Source, String>> Files for F {
+    fn read(&self, name: &str) -> Result<Source, String> {
+        self(name)
+    }
+}
+
+/// A form that prints programs: checked, compiled, immutable. A clone shares it, also with other threads.
+#[derive(Clone, Debug)]
+pub struct Post(Arc<Compiled>);
+
+#[derive(Debug)]
+struct Compiled {
+    program: compile::Program,
+    warnings: Findings,
+}
+
+impl Post {
+    /// Checks and compiles a form by the usual limits and levels.
+    ///
+    /// # Errors
+    /// The form has errors: a form with errors makes no post. The error's findings are the errors and warnings.
+    pub fn compile(form: Source, files: &dyn Files) -> Result<Post, Error> {
+        Post::compile_with(form, files, Limits::default(), &Levels::default())
+    }
+
+    /// Checks and compiles a form by a shop's own limits and levels.
+    ///
+    /// # Errors
+    /// The form has errors, or findings that these levels count as errors.
+    pub fn compile_with(form: Source, files: &dyn Files, limits: Limits, levels: &Levels) -> Result<Post, Error> {
+        let checked = analyse(form, limits, &mut |name| files.read(name));
+        let found = ready(&checked, levels);
+        let findings = |diags| Findings { diags, files: checked.files, suppressed: 0 };
+        match found {
+            Ok(ready) => Ok(Post(Arc::new(Compiled { program: ready.program, warnings: findings(ready.warnings) }))),
+            Err(diags) => Err(Error::form(findings(diags))),
+        }
+    }
+
+    /// The form's warnings, and its text.
+    pub fn warnings(&self) -> &Findings {
+        &self.0.warnings
+    }
+
+    /// Its files: the form, then those that it calls. Spans are places in them.
+    pub fn files(&self) -> &[Source] {
+        &self.0.warnings.files
+    }
+}

@@ -1,0 +1,74 @@
+//! What a caller may choose.
+
+use crate::control::Control;
+use crate::error::Error;
+use crate::lang::{Origin, VARIABLES, VarId, did_you_mean};
+use crate::nc::Unpointed;
+use crate::render::{self, Cycles};
+use crate::toolpath::Units;
+
+/// How a job is printed. All of it may stay as it is.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Options {
+    /// The program's number; else the job's.
+    pub program: Option<u32>,
+    /// Units of the program; else those of the job.
+    pub units: Option<Units>,
+    /// Where canned cycles come from: the form's sequences, or single moves.
+    pub cycles: Cycles,
+    /// Values of variables and answers to the form's questions, by the variable's name (`val1`); they go before the job's.
+    pub set: Vec<(String, f64)>,
+    /// How deep a countersink of a diameter and an angle is: by the formula that GENER's manual prints, which is right at 90
+    /// degrees only; else by geometry.
+    pub sink_as_printed: bool,
+    /// A program of over 100 MB may be over 1,000 times as long as its job.
+    pub huge: bool,
+    /// Keep for each line of the program which form line and which item of the job printed it.
+    pub trace: bool,
+}
+
+impl Options {
+    /// As the renderer takes them.
+    pub(super) fn for_renderer(&self) -> Result<render::Options, Error> {
+        let set = self.set.iter().map(|(name, value)| Ok((variable(name).map_err(Error::usage)?, *value)));
+        Ok(render::Options {
+            cycles: self.cycles,
+            units: self.units,
+            program: self.program,
+            set: set.collect::<Result<_, Error>>()?,
+            sink_as_printed: self.sink_as_printed,
+            trace: self.trace,
+        })
+    }
+}
+
+/// A variable that can be set, by its name, with or without brackets.
+fn variable(name: &str) -> Result<VarId, String> {
+    let name = name.trim().trim_matches(['[', ']']);
+    let Some(var) = VarId::parse(name) else {
+        let names = VARIABLES.iter().filter(|v| v.origin == Origin::Job).map(|v| v.name);
+        let hint = did_you_mean(name, names).unwrap_or_else(|| "val1 to val10 are free".into());
+        return Err(format!("`{name}` is no variable; {hint}"));
+    };
+    match var.row().origin {
+        Origin::Computed => Err(format!("[{name}] comes from the toolpath and can't be set")),
+        _ => Ok(var),
+    }
+}
+
+/// How a program is run to be proven. All of it may stay as it is.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Proof {
+    /// By whose rules; else the form's `Control`, else Fanuc's.
+    pub control: Option<&'static Control>,
+    /// Blocks with a slash are left out.
+    pub block_delete: bool,
+    /// How far G73 backs off, and how near the last depth G83 goes back, in the program's units; else as the control does.
+    pub back_off: Option<f64>,
+    /// What a length without a point means on a Fanuc.
+    pub unpointed: Unpointed,
+    /// How near places must be, in the job's units; else 0.0001 inch or 0.002 mm.
+    pub tolerance: Option<f64>,
+}

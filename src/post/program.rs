@@ -1,0 +1,63 @@
+//! What is printed.
+
+use crate::diag::Diag;
+use crate::render::TraceLine;
+
+/// A program, whole.
+#[derive(Clone, Debug)]
+pub struct Program {
+    pub(super) text: String,
+    pub(super) rendered: Rendered,
+    pub(super) trace: Vec<TraceLine>,
+}
+
+impl Program {
+    /// Its text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Its text, to keep.
+    pub fn into_text(self) -> String {
+        self.text
+    }
+
+    /// Warnings and notes of the job and of printing it, each kind once.
+    pub fn notes(&self) -> &[Diag] {
+        &self.rendered.notes
+    }
+
+    /// Which form line and which item of the job printed each line; empty unless [`Options::trace`](super::Options::trace)
+    /// asked for it.
+    pub fn trace(&self) -> &[TraceLine] {
+        &self.trace
+    }
+}
+
+impl AsRef<str> for Program {
+    fn as_ref(&self) -> &str {
+        &self.text
+    }
+}
+
+/// What is said of a program that was written elsewhere.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Rendered {
+    /// Warnings and notes of the job and of printing it, each kind once.
+    pub notes: Vec<Diag>,
+    /// Lines of the program.
+    pub lines: u64,
+}
+
+/// Some lines of a program, as they come.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Part<'a> {
+    /// Their text.
+    pub text: &'a [u8],
+    /// Where each came from, if that was asked for.
+    pub trace: &'a [TraceLine],
+    /// Lines of the program so far.
+    pub lines: u64,
+}

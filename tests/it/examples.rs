@@ -1,0 +1,121 @@
+//! What is written for people who embed postform: the examples as they print, and the promises of the front door.
+
+use std::error::Error as _;
+use std::io::{self, Cursor};
+use std::process::Command;
+
+use postform::{Error, ErrorKind, Format, Job, NoFiles, Options, Post, Source, Verdict};
+
+use crate::support::root;
+
+const FORM: &str = include_str!("../../postforms/fanuc.pf");
+const JOB: &str = include_str!("../../samples/bracket/job.json");
+const EXPECTED: &str = include_str!("../../samples/bracket/expected.fanuc.nc");
+
+fn post() -> Post {
+    Post::compile(Source::from_text("fanuc.pf", FORM), &NoFiles).unwrap()
+}
+
+/// Standard output of an example, built as others build it: without the command line.
+fn printed(example: &str) -> String {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let arguments = ["run", "--quiet", "--offline", "--locked", "--no-default-features", "--example", example];
+    let out = Command::new(cargo).args(arguments).current_dir(root()).output().unwrap();
+    assert!(out.status.success(), "{example}: {}", String::from_utf8_lossy(&out.stderr));
+    String::from_utf8(out.stdout).unwrap()
+}
+
+#[test]
+fn the_examples_print() {
+    assert_eq!(printed("embed"), include_str!("../../samples/bracket/expected.haas.nc"));
+    let holes = printed("reader");
+    assert!(holes.contains("G81 X10. Y20. Z-8. R2. F150.\nN60 X30.\nN70 Y45. Z-12.5\n"), "{holes}");
+    assert_eq!(printed("threads"), "bracket: 99 lines\nholes: 16 lines\nsections: 19 lines\n");
+    assert!(printed("lint_build").starts_with("cargo::rerun-if-changed="));
+}
+
+#[test]
+fn a_post_is_shared_by_threads_and_its_error_is_an_error() {
+    fn shared<T: Send + Sync + 'static>(_: &T) {}
+    fn error<T: std::error::Error>() {}
+    shared(&post());
+    error::<Error>();
+}
+
+#[test]
+fn a_form_with_errors_makes_no_post() {
+    let broken = FORM.replace("EndCode\nM9", "EndCode\nX[hh]");
+    let error = Post::compile(Source::from_text("fanuc.pf", broken), &NoFiles).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Form);
+    let text = error.to_string();
+    assert!(text.starts_with("fanuc.pf:") && text.contains("`hh`"), "{text}");
+    let diag = error.findings().diags.iter().find(|diag| diag.is_error()).unwrap();
+    assert_eq!(error.findings().files[0].slice(diag.labels[0].span), "hh");
+}
+
+#[test]
+fn a_program_is_whole_or_nothing() {
+    let program = post().render(Job::json(JOB), &Options::default()).unwrap();
+    assert_eq!(program.text(), EXPECTED);
+    let mut cut = Vec::new();
+    let error = post().render_to(Job::json(&JOB[..JOB.len() / 2]), &Options::default(), &mut cut).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Job);
+    assert_eq!(error.findings().diags.last().unwrap().code.name(), "PJ007");
+    // events that stop too early are no program, either
+    let error = post().render(Job::events(|_| Ok(())), &Options::default()).unwrap_err();
+    assert!(error.to_string().contains("Event::Finish"), "{error}");
+}
+
+#[test]
+fn inputs_of_all_kinds_are_one_job() {
+    let options = Options::default();
+    let text = |job: Job<'_>| post().render(job, &options).unwrap().into_text();
+    assert_eq!(text(Job::open("bracket.json", JOB).unwrap()), EXPECTED);
+    assert_eq!(text(Job::open("what?", JOB).unwrap()), EXPECTED);
+    assert_eq!(text(Job::stream(Format::Json, JOB.as_bytes())), EXPECTED);
+    let mut file = Job::file(Format::Json, Cursor::new(JOB));
+    assert_eq!(text(file.again()), EXPECTED);
+    assert_eq!(text(file.again()), EXPECTED, "a file is read as often as it is asked for");
+    let mut stream = Job::stream(Format::Json, JOB.as_bytes());
+    text(stream.again());
+    assert_eq!(post().render(stream.again(), &options).unwrap_err().kind(), ErrorKind::Usage);
+    assert_eq!(Job::open("what?", "hello").unwrap_err().kind(), ErrorKind::Usage);
+    // a program as a job makes the same cuts
+    let again = post().render(Job::nc(EXPECTED), &options).unwrap();
+    assert!(!matches!(post().verify(Job::nc(EXPECTED), again.text()).unwrap(), Verdict::Different(_)));
+}
+
+#[test]
+fn a_wrong_digit_is_a_difference_and_a_cut_job_is_an_error() {
+    let post = post();
+    assert!(!matches!(post.verify(Job::json(JOB), EXPECTED).unwrap(), Verdict::Different(_)));
+    let wrong = EXPECTED.replacen("X2.25", "X2.35", 1);
+    let Verdict::Different(findings) = post.verify(Job::json(JOB), wrong).unwrap() else { panic!("a wrong digit") };
+    assert!(findings[0].line > 0 && findings[0].block.contains("X2.35"), "{findings:?}");
+    assert_eq!(post.verify(Job::json(&JOB[..900]), EXPECTED).unwrap_err().kind(), ErrorKind::Job);
+}
+
+#[test]
+fn an_output_that_fails_says_why() {
+    struct Full;
+    impl io::Write for Full {
+        fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+            Err(io::ErrorKind::StorageFull.into())
+        }
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+    let error = post().render_to(Job::json(JOB), &Options::default(), &mut Full).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Output);
+    let source = error.source().unwrap().downcast_ref::<io::Error>().unwrap();
+    assert_eq!(source.kind(), io::ErrorKind::StorageFull);
+}
+
+#[test]
+fn options_are_checked() {
+    let mut options = Options::default();
+    options.set.push(("vall".into(), 1.0));
+    let error = post().render(Job::json(JOB), &options).unwrap_err();
+    assert!(error.to_string().contains("`vall` is no variable"), "{error}");
+}

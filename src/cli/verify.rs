@@ -118,7 +118,7 @@ impl Proof<'_> {
     pub fn run(&self, program: File, reporter: &Reporter) -> Result<Proven, String> {
         let form = self.prepared.map(|prepared| &prepared.program.settings);
         let units = self.prepared.and_then(|prepared| prepared.options.units).unwrap_or(Units::Mm);
-        let control = self.control.settings(form.map(|form| form.control.as_str()), units);
+        let control = self.control.settings(form.and_then(|form| form.control), units);
         let settings = Settings { centers_absolute: form.is_some_and(|form| !form.centre_incremental), ..control };
         let sink_as_printed = self.prepared.is_some_and(|prepared| prepared.options.sink_as_printed);
         let expectation = form.map_or_else(Expectation::default, |form| Expectation::of_form(form, sink_as_printed));

@@ -3,8 +3,9 @@
 use super::letters::LetterTable;
 use super::program::{CycleStyle, Literal, Op, Program, Routine, Upon};
 use super::work;
-use crate::lang::{Group, SequenceId, VarId, VarSet, ends_cycle, group_of, is_cycle_code, moves_by_itself};
-use crate::sema::{Form, Line, Sequence, WordKind};
+use crate::control::{Code, Control, Group, Meaning};
+use crate::lang::{SequenceId, VarId, VarSet};
+use crate::sema::{Form, Line, Sequence, Word, WordKind};
 use crate::span::Span;
 
 /// Compiles a form that was checked without errors.
@@ -50,8 +51,13 @@ pub fn compile(form: &Form) -> Program {
 
 fn speaks_g(program: &Program) -> bool {
     let generated = [SequenceId::RapidCode, SequenceId::LineCode].iter().any(|&id| program.routine(id).is_none());
-    let motion = |code: f64| (0.0..4.0).contains(&code) || (17.0..20.0).contains(&code) || is_cycle_code(code);
-    generated || program.literals.iter().any(|word| word.letter == b'G' && motion(word.value))
+    let motion = |word: &Literal| {
+        let code = Code::of(word.letter, word.value).filter(|_| word.letter == b'G');
+        let meaning = code.and_then(|code| program.settings.codes().meaning(code));
+        let moves = |meaning: Meaning| matches!(meaning.group(), Some(Group::Motion | Group::Plane));
+        meaning.is_some_and(|meaning| moves(meaning) && meaning != Meaning::CycleEnd)
+    };
+    generated || program.literals.iter().any(motion)
 }
 
 /// Do sequences of parts of the path type both M3 or M4 and M5, or does a sequence of moves print the speed?
@@ -79,8 +85,9 @@ fn switches_spindle(program: &Program) -> bool {
         let answers = |op: &Op| match op {
             Op::Literal { index, .. } => {
                 let Literal { letter, value, .. } = program.literals[*index as usize];
-                let spindle = group_of(letter, (value * 10.0).round() as i64) == Some(Group::Spindle);
-                spindle && turns == (value != program.settings.spindle[2])
+                let code = Code::of(letter, value).filter(|_| letter == b'M');
+                let group = code.and_then(|code| program.settings.codes().group(code));
+                group == Some(Group::Spindle) && turns == (value != program.settings.spindle[2])
             }
             _ => false,
         };
@@ -143,7 +150,7 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Routine {
         vars,
         setup_vars: VarSet::default(),
         cancel: false,
-        stays: stays_in_cycle(lines),
+        stays: stays_in_cycle(program.settings.codes(), lines),
         style: CycleStyle::Emulated,
         returns: prints_g98 || vars.has(VarId::Retplane) || vars.has(VarId::Rplane),
         span,
@@ -152,9 +159,10 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Routine {
 }
 
 /// Do these lines leave the control in a motion of its own? The last code that says so counts.
-fn stays_in_cycle(lines: &[Line]) -> bool {
-    let mut codes = lines.iter().flat_map(|line| &line.words).filter_map(|word| word.typed(b'G'));
-    codes.rfind(|&code| moves_by_itself(code) || ends_cycle(code)).is_some_and(moves_by_itself)
+fn stays_in_cycle(control: &Control, lines: &[Line]) -> bool {
+    let mut codes = lines.iter().flat_map(|line| &line.words).filter_map(Word::code);
+    let ends = |code: Code| control.meaning(code).is_some_and(Meaning::ends_cycle);
+    codes.rfind(|&code| control.moves_by_itself(code) || ends(code)).is_some_and(|code| control.moves_by_itself(code))
 }
 
 /// Adds a row to a table and returns its index.

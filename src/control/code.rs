@@ -13,6 +13,16 @@ pub struct Code {
 }
 
 impl Code {
+    /// The G code of a whole number below 6554.
+    pub const fn g(number: u16) -> Code {
+        Code { letter: b'G', tenths: number * 10 }
+    }
+
+    /// The M code of a whole number below 6554.
+    pub const fn m(number: u16) -> Code {
+        Code { letter: b'M', tenths: number * 10 }
+    }
+
     /// The code of a word's letter and value; `None`: it has another letter, a sign, or more than one decimal.
     pub fn of(letter: u8, value: f64) -> Option<Code> {
         let letter = letter.to_ascii_uppercase();

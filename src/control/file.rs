@@ -7,9 +7,11 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::code::Code;
+use super::hole::Hole;
 use super::meaning::Meaning;
+use super::traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, WithoutPoint};
 use super::words::Words;
-use super::{Control, Row, Rows, Rules};
+use super::{Control, Row, Rows};
 
 /// Longest chain of `like`.
 const LONGEST_CHAIN: usize = 8;
@@ -44,10 +46,21 @@ struct File {
     title: Option<String>,
     like: Option<Spanned<String>>,
     rules: Option<Rules>,
+    only: Option<Spanned<String>>,
+    #[serde(default)]
+    numbers: Numbers,
     #[serde(default)]
     text: Text,
     #[serde(default)]
     words: WordsOf,
+    #[serde(default)]
+    start: Start,
+    #[serde(default)]
+    dwell: Dwell,
+    #[serde(default)]
+    stops: Stops,
+    #[serde(default)]
+    arcs: Arcs,
     #[serde(default)]
     tool: Tool,
     #[serde(default)]
@@ -61,6 +74,43 @@ struct Text {
     line: Option<usize>,
     longer: Option<Longer>,
     open_comments: Option<bool>,
+    small_letters: Option<bool>,
+}
+
+/// `[numbers]`.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Numbers {
+    length_without_point: Option<WithoutPoint>,
+}
+
+/// `[start]`: what one program finds of the one before it.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Start {
+    modes: Option<Kept>,
+}
+
+/// `[dwell]`: its words.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Dwell {
+    #[serde(rename = "P")]
+    p: Option<DwellUnit>,
+}
+
+/// `[stops]`: what M0 and M1 leave running.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stops {
+    spindle: Option<Kept>,
+}
+
+/// `[arcs]`.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Arcs {
+    centres: Option<Centres>,
 }
 
 /// What becomes of a block that is longer.
@@ -83,6 +133,7 @@ struct WordsOf {
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Tool {
+    length: Option<ToolLength>,
     without_length: Option<Height>,
 }
 
@@ -100,7 +151,10 @@ enum Height {
 struct RowText {
     is: Spanned<String>,
     words: Option<Spanned<String>>,
+    makes: Option<Spanned<String>>,
+    pitch: Option<Spanned<String>>,
     text: Option<String>,
+    not_run: Option<String>,
 }
 
 /// Where a key of `[codes]` stands for more than one code.
@@ -155,28 +209,8 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
         },
     };
     control.chain.insert(0, file.name.get_ref().clone());
-    control.title = file.title.unwrap_or(control.title);
-    control.rules = file.rules.unwrap_or(control.rules);
-    control.longest_line = file.text.line.or(control.longest_line);
-    control.stops_at_longer = file.text.longer.map_or(control.stops_at_longer, |longer| longer == Longer::Stops);
-    control.open_comments = file.text.open_comments.unwrap_or(control.open_comments);
-    if let Some(words) = &file.words.everywhere {
-        control.everywhere = reader.words(words)?;
-    }
-    if let Some(letter) = &file.words.work {
-        reader.words(letter)?;
-        let [letter] = letter.get_ref().as_bytes() else {
-            return Err(reader.wrong(
-                letter.span().start,
-                "the word of a work offset has one letter",
-                "write it alone, as \"E\"",
-            ));
-        };
-        control.work_letter = Some(*letter);
-    }
-    if let Some(height) = file.tool.without_length {
-        control.height_is_machine = height == Height::Machine;
-    }
+    control.title = file.title.clone().unwrap_or(control.title);
+    reader.traits(&file, &mut control.traits)?;
     reader.rows(&file.codes, &mut control.rows)?;
     control.rows.finish();
     Ok(control)
@@ -189,6 +223,63 @@ struct Reader<'t> {
 }
 
 impl Reader<'_> {
+    /// What the file says of them; the rest stays as in the control that it is like.
+    fn traits(&self, file: &File, traits: &mut Traits) -> Result<(), Wrong> {
+        fn take<T: Copy>(to: &mut T, said: Option<T>) {
+            *to = said.unwrap_or(*to);
+        }
+        take(&mut traits.rules, file.rules);
+        traits.longest_line = file.text.line.or(traits.longest_line);
+        take(&mut traits.stops_at_longer, file.text.longer.map(|longer| longer == Longer::Stops));
+        take(&mut traits.open_comments, file.text.open_comments);
+        take(&mut traits.small_letters, file.text.small_letters);
+        take(&mut traits.without_point, file.numbers.length_without_point);
+        take(&mut traits.dwell, file.dwell.p);
+        take(&mut traits.centres, file.arcs.centres);
+        take(&mut traits.modes_at_start, file.start.modes);
+        take(&mut traits.spindle_at_stop, file.stops.spindle);
+        take(&mut traits.tool_length, file.tool.length);
+        take(&mut traits.height_is_machine, file.tool.without_length.map(|height| height == Height::Machine));
+        if let Some(words) = &file.words.everywhere {
+            traits.everywhere = self.words(words)?;
+        }
+        if let Some(letter) = &file.words.work {
+            traits.work_letter = Some(self.letter(letter)?);
+        }
+        if let Some(only) = &file.only {
+            traits.only = self.codes(only)?;
+        }
+        Ok(())
+    }
+
+    /// Codes with blanks between them.
+    fn codes(&self, text: &Spanned<String>) -> Result<Vec<Code>, Wrong> {
+        let parse = |word: &str| {
+            word.parse()
+                .map_err(|_| self.wrong(text.span().start, format!("`{word}` is no code"), "write G0, G59.1 or M3"))
+        };
+        text.get_ref().split_ascii_whitespace().map(parse).collect()
+    }
+
+    fn letter(&self, text: &Spanned<String>) -> Result<u8, Wrong> {
+        self.words(text)?;
+        match text.get_ref().as_bytes() {
+            [letter] => Ok(*letter),
+            _ => Err(self.wrong(text.span().start, "a word has one letter", "write it alone, as \"E\"")),
+        }
+    }
+
+    /// The holes that a cycle makes.
+    fn holes(&self, text: &Spanned<String>) -> Result<Vec<Hole>, Wrong> {
+        let parse = |word: &str| {
+            Hole::parse(word).ok_or_else(|| {
+                let near = super::nearest(word, Hole::ALL.iter().map(|hole| hole.name()));
+                self.wrong(text.span().start, format!("`{word}` is no hole that a cycle makes"), near)
+            })
+        };
+        text.get_ref().split_ascii_whitespace().map(parse).collect()
+    }
+
     fn rows(&self, codes: &BTreeMap<Spanned<String>, RowText>, rows: &mut Rows) -> Result<(), Wrong> {
         for (key, row) in codes {
             let Some(parsed) = Key::parse(key.get_ref()) else {
@@ -206,8 +297,10 @@ impl Reader<'_> {
                 return Err(self.wrong(row.is.span().start, message, near));
             };
             let words = row.words.as_ref().map_or(Ok(Words::NONE), |words| self.words(words))?;
+            let makes = row.makes.as_ref().map_or(Ok(Vec::new()), |makes| self.holes(makes))?;
+            let pitch = row.pitch.as_ref().map(|letter| self.letter(letter)).transpose()?;
             let (code, text) = (Code { letter: b'G', tenths: 0 }, row.text.clone().unwrap_or_default());
-            let row = Row { code, meaning, words, text };
+            let row = Row { code, meaning, words, makes, pitch, text, not_run: row.not_run.clone() };
             match parsed {
                 Key::One(code) => rows.put(Row { code, ..row }),
                 Key::Number(letter, number) => {

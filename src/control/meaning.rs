@@ -13,31 +13,68 @@ pub enum AxisWords {
     Free,
 }
 
-/// Modal groups: codes of one group exclude each other.
+/// What a code does to the frame in which axis words stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// Axis words of its block stand in another frame, and the axes go where they say: reference points, machine
+    /// coordinates. Without axis words all axes go.
+    Block,
+    /// Axis words after it are increments, until positions are said.
+    Increments,
+    /// Axis words after it in the same body may stand in another frame.
+    Shifts,
+    /// From here on axis positions mean another place.
+    Moves,
+    /// The depth position means another place.
+    MovesDepth,
+}
+
+/// Groups: codes of one group exclude each other in a block, and modal ones in a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[allow(missing_docs)]
 #[repr(u8)]
 pub enum Group {
+    /// G0 to G3, threads, and canned cycles where they are no group of their own.
     Motion,
+    /// G17 G18 G19.
     Plane,
+    /// G90 G91.
     Distance,
+    /// G90.1 G91.1.
     ArcDistance,
+    /// G93 G94 G95.
     FeedMode,
+    /// G20 G21.
     Units,
+    /// G40 G41 G42.
     Compensation,
+    /// G43 G44 G49.
     Length,
+    /// G98 G99.
     Return,
+    /// G54 to G59.
     Work,
+    /// G61 G64.
     Path,
+    /// G96 G97.
     SpeedMode,
+    /// G7 G8.
     Diameter,
+    /// M3 M4 M5.
     Spindle,
+    /// M7 M8 M9.
     Coolant,
+    /// M0 M1 M2 M30.
     Stop,
+    /// Canned cycles and G80, where blocks are read as a Fanuc reads them: beside a motion.
+    Cycle,
+    /// Codes that act in their block alone; no modal group.
+    Once,
+    /// Codes that change nothing which is compared; no modal group.
+    Other,
 }
 
 /// How many groups there are.
-pub const GROUPS: usize = Group::Stop as usize + 1;
+pub const GROUPS: usize = Group::Other as usize + 1;
 
 macro_rules! meanings {
     ($($name:ident $text:literal $group:expr, $axes:ident, $about:literal;)*) => {
@@ -83,6 +120,7 @@ meanings! {
     Thread           "thread"            Some(G::Motion), Target, "cuts in a line that follows the spindle";
     RigidTap         "rigid-tap"         Some(G::Motion), Target, "follows the spindle in, turns it back, and follows it out";
     ThreadCycle      "thread-cycle"      Some(G::Motion), Target, "cuts a thread in passes";
+    Probe            "probe"             Some(G::Motion), Target, "moves until a probe touches";
     Cycle            "cycle"             Some(G::Motion), Target, "makes a hole at each position";
     CycleEnd         "cycle-end"         Some(G::Motion), Free,   "ends a cycle";
     Dwell            "dwell"             None,            Free,   "waits";
@@ -110,6 +148,7 @@ meanings! {
     SideRight        "side-right"        Some(G::Compensation), Free, "the tool is right of its path";
     SideOff          "side-off"          Some(G::Compensation), Free, "the tool's centre is on its path";
     Path             "path"              Some(G::Path), Free,     "how exactly corners are followed";
+    TapMode          "tap-mode"          Some(G::Path), Free,     "moves keep their feed, as a tap needs it";
     ExactStop        "exact-stop"        None, Free,              "the block ends with a stop of the axes";
     Diameter         "diameter"          Some(G::Diameter), Free, "X words are diameters";
     Radius           "radius"            Some(G::Diameter), Free, "X words are radii";
@@ -117,6 +156,9 @@ meanings! {
     Reference        "reference"         None, Waypoint,          "goes to a reference point by way of its axis words";
     SetReference     "set-reference"     None, Free,              "the place becomes a reference point";
     Frame            "frame"             None, Data,              "axis positions mean another place from here on";
+    Preset           "preset"            None, Data,              "its axis words name the place where the tool is";
+    Transform        "transform"         None, Data,              "turns, scales, mirrors or tilts the frame, or reads it as polar";
+    TransformOff     "transform-off"     None, Free,              "takes a turn, a scale or a mirror image away";
     FrameOff         "frame-off"         None, Free,              "takes a frame away";
     Data             "data"              None, Data,              "its words are data, as of an offset table";
     StopProgram      "stop"              Some(G::Stop), Free,     "stops the program until it is started again";
@@ -126,20 +168,70 @@ meanings! {
     SpindleCw        "spindle-cw"        Some(G::Spindle), Free,  "turns the spindle clockwise";
     SpindleCcw       "spindle-ccw"       Some(G::Spindle), Free,  "turns the spindle counter-clockwise";
     SpindleOff       "spindle-off"       Some(G::Spindle), Free,  "stops the spindle";
-    Orient           "orient"            Some(G::Spindle), Free,  "stops the spindle at an angle";
+    SpindleCwCoolant "spindle-cw-coolant" None, Free,             "turns the spindle clockwise, with coolant";
+    SpindleCcwCoolant "spindle-ccw-coolant" None, Free,           "turns the spindle counter-clockwise, with coolant";
+    Orient           "orient"            None, Free,              "stops the spindle at an angle";
     Flood            "flood"             Some(G::Coolant), Free,  "flood coolant on";
     Mist             "mist"              Some(G::Coolant), Free,  "mist coolant on";
     CoolantOff       "coolant-off"       Some(G::Coolant), Free,  "coolant off";
     ToolChange       "tool-change"       None, Free,              "changes the tool";
     ToolNumber       "tool-number"       None, Free,              "says which tool is in";
+    Macro            "macro"             None, Data,              "calls a macro";
+    MacroOn          "macro-on"          None, Data,              "calls a macro at each position";
+    MacroOff         "macro-off"         None, Free,              "ends calls of a macro";
     Call             "call"              None, Free,              "calls a subprogram";
     Return           "return"            None, Free,              "returns from a subprogram";
     Override         "override"          None, Free,              "overrides of feed and speed on or off";
     Harmless         "harmless"          None, Free,              "changes nothing that is compared";
-    NotRun           "not-run"           None, Data,              "is known, and can't be simulated";
+    Unsaid           "unsaid"            None, Free,              "is known, and does what no meaning says";
 }
 
 impl Meaning {
+    /// What it does to the frame of axis words; `None`: nothing.
+    pub const fn frame(self) -> Option<Frame> {
+        use Meaning as M;
+        match self {
+            M::Reference | M::Machine => Some(Frame::Block),
+            M::Increments => Some(Frame::Increments),
+            M::Preset => Some(Frame::Shifts),
+            M::Work | M::Frame | M::FrameOff | M::Data | M::Transform | M::TransformOff => Some(Frame::Moves),
+            M::LengthOn | M::LengthData | M::LengthOff => Some(Frame::MovesDepth),
+            _ => None,
+        }
+    }
+
+    /// Does it start a canned cycle?
+    pub const fn is_cycle(self) -> bool {
+        matches!(self, Meaning::Cycle | Meaning::ThreadCycle)
+    }
+
+    /// Does it call what is written elsewhere: a macro, a subprogram?
+    pub const fn is_call(self) -> bool {
+        matches!(self, Meaning::Macro | Meaning::MacroOn | Meaning::Call)
+    }
+
+    /// Does the control move by itself after it: a cycle, a thread, which it feeds by its pitch?
+    pub const fn moves_by_itself(self) -> bool {
+        self.is_cycle() || matches!(self, Meaning::Thread | Meaning::RigidTap | Meaning::TapMode)
+    }
+
+    /// Does it end what the control does by itself?
+    pub const fn ends_cycle(self) -> bool {
+        use Meaning as M;
+        matches!(self, M::Rapid | M::Line | M::ArcCw | M::ArcCcw | M::CycleEnd | M::MacroOff)
+    }
+
+    /// Does it start the spindle?
+    pub const fn starts_spindle(self) -> bool {
+        use Meaning as M;
+        matches!(self, M::SpindleCw | M::SpindleCcw | M::SpindleCwCoolant | M::SpindleCcwCoolant)
+    }
+
+    /// Does it stop the program, or may it?
+    pub const fn is_stop(self) -> bool {
+        matches!(self, Meaning::StopProgram | Meaning::StopOptional)
+    }
+
     /// The meaning that control files name so.
     pub fn parse(name: &str) -> Option<Meaning> {
         Meaning::ALL.iter().copied().find(|meaning| meaning.name() == name)

@@ -5,30 +5,19 @@
 
 mod code;
 mod file;
+mod hole;
 mod meaning;
+mod traits;
 mod words;
 
 use std::sync::LazyLock;
 
-use serde::Deserialize;
-
 pub use code::{Code, NoCode};
 pub use file::Wrong;
-pub use meaning::{AxisWords, GROUPS, Group, Meaning};
+pub use hole::Hole;
+pub use meaning::{AxisWords, Frame, GROUPS, Group, Meaning};
+pub use traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, WithoutPoint};
 pub use words::Words;
-
-/// By whose rules programs are run: what no table says, as in which order a block acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Rules {
-    /// The usual reading of Fanuc and Haas mills.
-    #[default]
-    Fanuc,
-    /// LinuxCNC 2.9, as its interpreter was observed.
-    Linuxcnc,
-    /// EMC as its manual of about 2005 describes the cycles; else as LinuxCNC.
-    Emc2,
-}
 
 /// A control.
 #[derive(Clone, Debug)]
@@ -37,13 +26,7 @@ pub struct Control {
     chain: Vec<String>,
     /// Its title.
     title: String,
-    rules: Rules,
-    longest_line: Option<usize>,
-    stops_at_longer: bool,
-    open_comments: bool,
-    everywhere: Words,
-    work_letter: Option<u8>,
-    height_is_machine: bool,
+    traits: Traits,
     rows: Rows,
 }
 
@@ -56,8 +39,14 @@ pub struct Row {
     pub meaning: Meaning,
     /// The words that it takes besides axes, F, S and T.
     pub words: Words,
-    /// More about it; why it can't be run.
+    /// The holes that it makes; none: it is no canned cycle.
+    pub makes: Vec<Hole>,
+    /// The letter of the pitch of a tap; its F is then a speed. `None`: the feed says the pitch.
+    pub pitch: Option<u8>,
+    /// More about it.
     pub text: String,
+    /// Why it can't be run, though its meaning is known.
+    pub not_run: Option<String>,
 }
 
 /// The rows of a control, found by code.
@@ -161,9 +150,19 @@ impl Control {
         Some(&CONTROLS[at])
     }
 
-    /// The one of forms and programs that name none: a Fanuc mill.
+    /// The one of programs that name none: a Fanuc mill.
     pub fn usual() -> &'static Control {
         &CONTROLS[0]
+    }
+
+    /// The one of forms that name none: a Fanuc mill that has the common codes of other controls, too. Programs are not
+    /// run by it.
+    pub fn of_no_name() -> &'static Control {
+        static UNION: LazyLock<Control> = LazyLock::new(|| {
+            let text = include_str!("../../controls/of-no-name.toml");
+            Control::read("of-no-name", text).unwrap_or_else(|_| Control::empty())
+        });
+        &UNION
     }
 
     /// Reads the text of a control file; `name` is what messages call it.
@@ -175,23 +174,17 @@ impl Control {
     }
 
     fn empty() -> Control {
-        Control {
-            chain: Vec::new(),
-            title: String::new(),
-            rules: Rules::default(),
-            longest_line: None,
-            stops_at_longer: false,
-            open_comments: false,
-            everywhere: Words::NONE,
-            work_letter: None,
-            height_is_machine: false,
-            rows: Rows::default(),
-        }
+        Control { chain: Vec::new(), title: String::new(), traits: Traits::default(), rows: Rows::default() }
     }
 
     /// Its name, as forms and options write it.
     pub fn name(&self) -> &str {
         self.chain.first().map_or("", String::as_str)
+    }
+
+    /// As messages name it.
+    pub fn shown(&self) -> &str {
+        if std::ptr::eq(self, Control::of_no_name()) { "most controls" } else { self.name() }
     }
 
     /// Its title.
@@ -204,44 +197,20 @@ impl Control {
         self.chain.iter().any(|other| other == name)
     }
 
+    /// What it is besides its codes.
+    pub fn traits(&self) -> &Traits {
+        &self.traits
+    }
+
     /// By whose rules its programs are run.
+    #[inline]
     pub fn rules(&self) -> Rules {
-        self.rules
-    }
-
-    /// Its longest block in characters; `None`: nothing public says.
-    pub fn longest_line(&self) -> Option<usize> {
-        self.longest_line
-    }
-
-    /// Does it stop at a longer block? Of others a sender cuts what is too long.
-    pub fn stops_at_longer(&self) -> bool {
-        self.stops_at_longer
-    }
-
-    /// May a comment go on to the end of its line without its closing mark?
-    pub fn open_comments(&self) -> bool {
-        self.open_comments
-    }
-
-    /// The words that need no code in their block.
-    pub fn everywhere(&self) -> Words {
-        self.everywhere
-    }
-
-    /// The letter of a word that selects a work offset, beside its codes.
-    pub fn work_letter(&self) -> Option<u8> {
-        self.work_letter
-    }
-
-    /// Is a height a place of the machine while no length of a tool counts?
-    pub fn height_is_machine(&self) -> bool {
-        self.height_is_machine
+        self.traits.rules
     }
 
     /// Has it the interpreter of LinuxCNC and its predecessors?
     pub fn is_linuxcnc(&self) -> bool {
-        self.rules != Rules::Fanuc
+        self.traits.rules != Rules::Fanuc
     }
 
     /// What it has of a code: its own row, else that of its number, else that of its letter. `None`: nobody knows.
@@ -254,6 +223,36 @@ impl Control {
                     .find(|row| row.code.letter == code.letter && row.code.tenths / 10 == code.tenths / 10)
             })
             .or_else(|| rows.others.iter().find(|row| row.code.letter == code.letter))
+    }
+
+    /// What a code means on it. `None`: nobody knows.
+    #[inline]
+    pub fn meaning(&self, code: Code) -> Option<Meaning> {
+        self.row(code).map(|row| row.meaning)
+    }
+
+    /// The modal group of a code on it. `None`: the code is of none, or nobody knows it.
+    #[inline]
+    pub fn group(&self, code: Code) -> Option<Group> {
+        self.meaning(code)?.group()
+    }
+
+    /// Does a code call what is written elsewhere? Of those that nobody knows, the machine builder's may: from G100 on.
+    pub fn calls(&self, code: Code) -> bool {
+        match self.meaning(code).filter(|&meaning| meaning != Meaning::Unsaid) {
+            Some(meaning) => meaning.is_call(),
+            None => code >= Code::g(100) && code.letter == b'G',
+        }
+    }
+
+    /// Does it move by itself after a G code: in a cycle, in a thread, which it feeds by its pitch, in what it calls?
+    pub fn moves_by_itself(&self, code: Code) -> bool {
+        code.letter == b'G' && (self.meaning(code).is_some_and(Meaning::moves_by_itself) || self.calls(code))
+    }
+
+    /// Is it known to refuse a code?
+    pub fn refuses(&self, code: Code) -> bool {
+        !self.traits.only.is_empty() && !self.traits.only.contains(&code)
     }
 
     /// Its rows of single codes, in their order.
@@ -279,6 +278,7 @@ mod tests {
             assert_eq!((control.name(), Control::named(name).map(Control::name)), (name, Some(name)));
             assert!(!control.title().is_empty() && control.rows().count() > 30);
         }
+        assert!(Control::of_no_name().is_like("fanuc"));
     }
 
     #[test]

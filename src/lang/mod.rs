@@ -2,22 +2,19 @@
 // meanings name variables as [var]
 #![allow(rustdoc::broken_intra_doc_links)]
 
-mod codes;
 mod commands;
 mod machine;
 mod sequences;
 mod suggest;
 mod variables;
+mod work;
 
-pub use codes::{
-    Frame, GROUPS, Group, NC_CODES, changes_tool, ends_cycle, frame_of, group_of, is_called, is_cycle_code, is_stop,
-    moves_by_itself, work_code,
-};
 pub use commands::{Args, COMMANDS, Command, CommandId};
 pub use machine::{Machine, Machines};
 pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
 pub use suggest::{LONGEST_NAME, did_you_mean, nearest};
 pub use variables::{Origin, Unit, VARIABLES, VarId, VarSet, Variable};
+pub use work::work_code;
 
 /// Where a rule comes from; the reference keeps the mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

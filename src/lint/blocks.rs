@@ -1,6 +1,7 @@
 //! The blocks of a body as a control would read them: which modes hold where each word stands.
 
-use crate::lang::{Origin, VarId, is_called, moves_by_itself};
+use crate::control::{AxisWords, Code, Control, Meaning};
+use crate::lang::{Origin, VarId};
 use crate::sema::{Line, Settings, Word, WordKind};
 
 /// How the tool moves in a block.
@@ -14,7 +15,7 @@ pub enum Motion {
     Line,
     /// G2, G3.
     Arc,
-    /// The control moves by itself: [`moves_by_itself`].
+    /// The control moves by itself: [`Control::moves_by_itself`].
     Cycle,
 }
 
@@ -54,42 +55,46 @@ impl<'a> Block<'a> {
     }
 }
 
-/// Codes whose axis words are a time or a setting: dwell, data, scale, mirror, local zero, rotation.
-const SETS: &[f64] = &[4.0, 10.0, 50.1, 51.0, 51.1, 52.0, 68.0, 68.2, 68.3, 92.0];
-
 /// Does a word call something that does more than the block says: a macro, a subprogram, a code of the builder?
-pub fn calls(word: &Word) -> bool {
-    word.typed(b'G').is_some_and(is_called) || word.is_code(b'M', &[97.0, 98.0, 198.0])
+pub fn calls(control: &Control, word: &Word) -> bool {
+    word.code().is_some_and(|code| control.calls(code))
+}
+
+/// Are the axis words of a block a time or a setting of this code: dwell, data, scale, mirror, local zero, rotation?
+fn sets(meaning: Meaning) -> bool {
+    meaning == Meaning::Dwell || meaning.axes() == AxisWords::Data
 }
 
 /// The blocks of a body; `axis`: which axis a word moves.
 pub fn read<'a>(settings: &Settings, axis: impl Fn(&Word) -> Option<usize>, lines: &'a [Line]) -> Vec<Block<'a>> {
+    let control = settings.codes();
     let mut motion = Motion::Unknown;
     let mut incremental = settings.incremental;
     let mut blocks = Vec::with_capacity(lines.len());
     for line in lines {
-        let (mut reference, mut machine, mut sets) = (false, false, false);
+        let (mut reference, mut machine, mut data) = (false, false, false);
         for word in &line.words {
-            match (word.typed(b'G'), &word.kind) {
-                (Some(code), _) => match code {
-                    0.0 => motion = Motion::Rapid,
-                    1.0 => motion = Motion::Line,
-                    2.0 | 3.0 => motion = Motion::Arc,
-                    28.0 | 30.0 => reference = true,
-                    53.0 => machine = true,
-                    _ if code == settings.inc_abs[0] => incremental = true,
-                    _ if code == settings.inc_abs[1] => incremental = false,
-                    80.0 => motion = Motion::Unknown,
-                    65.0 | 66.0 => (motion, sets) = (Motion::Cycle, true),
-                    _ if SETS.contains(&code) => sets = true,
-                    _ if moves_by_itself(code) => motion = Motion::Cycle,
-                    _ => {}
-                },
-                (None, WordKind::Var(b'G', VarId::Incmode)) => incremental = settings.incremental,
+            if matches!(word.kind, WordKind::Var(b'G', VarId::Incmode)) {
+                incremental = settings.incremental;
+            }
+            let Some(code) = word.code().filter(|code| code.letter == b'G') else { continue };
+            let is = |value: f64| Code::of(b'G', value) == Some(code);
+            let meaning = control.meaning(code);
+            match meaning {
+                _ if is(settings.inc_abs[0]) => incremental = true,
+                _ if is(settings.inc_abs[1]) => incremental = false,
+                Some(Meaning::Rapid) => motion = Motion::Rapid,
+                Some(Meaning::Line) => motion = Motion::Line,
+                Some(Meaning::ArcCw | Meaning::ArcCcw) => motion = Motion::Arc,
+                Some(Meaning::Reference) => reference = true,
+                Some(Meaning::Machine) => machine = true,
+                Some(Meaning::CycleEnd) => motion = Motion::Unknown,
+                _ if control.moves_by_itself(code) => motion = Motion::Cycle,
                 _ => {}
             }
+            data |= meaning.is_some_and(sets);
         }
-        let words = line.words.iter().filter(|_| !sets);
+        let words = line.words.iter().filter(|_| !data);
         let axis_words = words.filter_map(|word| Some((word, axis(word)?))).collect();
         blocks.push(Block { line, axis_words, motion, incremental, reference, machine });
     }

@@ -1,7 +1,8 @@
 //! A form as rules look at it: its bodies in one list, what its letters print, what it is for.
 
 use crate::compile::LetterTable;
-use crate::lang::{CommandId, Machine, SequenceId, VarId, VarSet, is_cycle_code, moves_by_itself};
+use crate::control::{Code, Control, Meaning, Traits};
+use crate::lang::{CommandId, Machine, SequenceId, VarId, VarSet};
 use crate::sema::{Checked, Form, Line, Sequence, Settings, UnitChoice, Word, before_remark};
 use crate::span::Span;
 use crate::syntax::{self, Piece, SequenceNode, Statement};
@@ -57,18 +58,22 @@ pub struct Body<'a> {
     pub lines: &'a [Line],
     /// The sequence itself; none for an Upon.
     pub sequence: Option<&'a Sequence>,
+    /// The control whose codes it has.
+    codes: &'static Control,
 }
 
 impl<'a> View<'a> {
     /// A view of a form.
     pub fn new(checked: &'a Checked) -> View<'a> {
         let form = &checked.form;
+        let codes = form.settings.codes();
         let sequences = form.sequences.values().map(|sequence| Body {
             purpose: Purpose::Sequence(sequence.id),
             index: 0,
             span: sequence.span,
             lines: &sequence.lines,
             sequence: Some(sequence),
+            codes,
         });
         let upons = form.upons.iter().map(|upon| Body {
             purpose: Purpose::Upon(upon.var, upon.every),
@@ -76,6 +81,7 @@ impl<'a> View<'a> {
             span: upon.span,
             lines: &upon.lines,
             sequence: None,
+            codes,
         });
         let bodies: Vec<Body> =
             sequences.chain(upons).enumerate().map(|(index, body)| Body { index, ..body }).collect();
@@ -134,9 +140,19 @@ impl<'a> View<'a> {
         self.settings.machine == Machine::Mill
     }
 
-    /// Is the form for one of these controls?
-    pub fn is_for(&self, controls: &[&str]) -> bool {
-        controls.contains(&self.settings.control.as_str())
+    /// What the form's control is.
+    pub fn traits(&self) -> &'static Traits {
+        self.settings.control().traits()
+    }
+
+    /// What a word says as typed: the meaning of its code on the form's control.
+    pub fn meaning(&self, word: &Word) -> Option<Meaning> {
+        self.settings.codes().meaning(word.code()?)
+    }
+
+    /// Does a word start a cycle of the control?
+    pub fn starts_cycle(&self, word: &Word) -> bool {
+        self.meaning(word).is_some_and(Meaning::is_cycle)
     }
 
     /// Has the machine no depth: do its own rapids and lines leave it out, and does nothing else say it? A torch, a beam.
@@ -148,8 +164,8 @@ impl<'a> View<'a> {
     }
 
     /// Does a cycle of the control work one place and is over, as G74 to G76 of a lathe do?
-    pub fn works_once(&self, code: f64) -> bool {
-        !self.is_mill() && [74.0, 75.0, 76.0].contains(&code)
+    pub fn works_once(&self, code: Code) -> bool {
+        !self.is_mill() && (Code::g(74)..=Code::g(76)).contains(&code)
     }
 
     /// Do the form's own lengths count millimetres?
@@ -278,19 +294,25 @@ impl<'a> Body<'a> {
     }
 
     /// The word that starts a cycle of the control, if it has one, with the code.
-    pub fn cycle_word(&self) -> Option<(&'a Word, f64)> {
-        self.words().find_map(|word| word.typed(b'G').filter(|&code| is_cycle_code(code)).map(|code| (word, code)))
+    pub fn cycle_word(&self) -> Option<(&'a Word, Code)> {
+        let starts = |code: &Code| self.codes.meaning(*code).is_some_and(Meaning::is_cycle);
+        self.words().find_map(|word| Some((word, word.code().filter(starts)?)))
+    }
+
+    /// The first word whose code means this, as typed.
+    pub fn meaning(&self, is: impl Fn(Meaning) -> bool) -> Option<&'a Word> {
+        self.words().find(|word| word.code().and_then(|code| self.codes.meaning(code)).is_some_and(&is))
     }
 
     /// Does the control move by itself somewhere in it, as in its cycles?
     pub fn moves_by_itself(&self) -> bool {
-        self.words().any(|word| word.typed(b'G').is_some_and(moves_by_itself))
+        self.words().any(|word| word.code().is_some_and(|code| self.codes.moves_by_itself(code)))
     }
 
     /// Does a cycle of the control print one of these when it begins? All lines count up to the end of its block, or all
     /// where there is none.
     pub fn begins_with(&self, vars: &[VarId]) -> bool {
-        let starts = |word: &Word| word.typed(b'G').is_some_and(is_cycle_code);
+        let starts = |word: &Word| word.code().and_then(|code| self.codes.meaning(code)).is_some_and(Meaning::is_cycle);
         let cycle = self.lines.iter().position(|line| line.words.iter().any(starts));
         let mut words = self.lines[..cycle.map_or(self.lines.len(), |at| at + 1)].iter().flat_map(|line| &line.words);
         words.any(|word| word.printed_var().is_some_and(|var| vars.contains(&var)))

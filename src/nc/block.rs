@@ -7,7 +7,7 @@ use super::flow::Flow;
 use super::machine::{NO_MOTION, Settings};
 use super::parameters::{Parameters, Target};
 use super::scan::{Kind, tokens, tokens_from};
-use crate::control::{Control, Row};
+use crate::control::{Control, GROUPS, Row};
 use crate::diag::Code;
 
 /// Most G codes and M codes of a block that are kept.
@@ -23,7 +23,7 @@ pub struct Block {
     /// Bit i: its value was written as a number without a point.
     pub whole: u32,
     /// G codes by group.
-    g: [Option<&'static Row>; 16],
+    g: [Option<&'static Row>; GROUPS],
     /// A G code is there.
     has_g: bool,
     /// One besides motions and cycles is.
@@ -112,13 +112,13 @@ impl Block {
     /// What the control can't read, or refuses before it does anything.
     pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, settings: &Settings) -> Done {
         let control = settings.control;
-        self.open_comments = control.open_comments();
+        self.open_comments = control.traits().open_comments;
         self.given = 0;
         self.whole = 0;
         self.m_count = 0;
         self.is_empty = true;
         if self.has_g {
-            self.g = [None; 16];
+            self.g = [None; GROUPS];
             (self.has_g, self.has_modes, self.takes_axes) = (false, false, false);
         }
         self.polar = [None; 2];
@@ -377,7 +377,7 @@ impl Block {
         }
         used |=
             self.m().iter().filter_map(|&code| m_code(control, code)).fold(0, |words, row| words | row.words.bits());
-        used |= control.everywhere().bits();
+        used |= control.traits().everywhere.bits();
         let unused = self.given & CHECKED & !used;
         if unused != 0 {
             let letter = char::from(b'A' + unused.trailing_zeros() as u8);
@@ -385,7 +385,7 @@ impl Block {
             return refuse(Code::PN005, message, format!("take the {letter} out, or write its code in this block"));
         }
         let spindle = self.m().iter().any(|m| matches!(m, 3..=5 | 19))
-            || [Group::Motion, Group::SpindleMode, Group::FeedMode]
+            || [Group::Motion, Group::SpeedMode, Group::FeedMode]
                 .iter()
                 .any(|&group| matches!(self.g(group), Some(330 | 331 | 760 | 950 | 960 | 970)));
         if self.spindle && !spindle {

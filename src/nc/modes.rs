@@ -99,7 +99,7 @@ impl Machine {
             }
             self.speed = speed;
         }
-        match block.g(Group::SpindleMode) {
+        match block.g(Group::SpeedMode) {
             Some(960) => out.push(Action::SurfaceSpeed(Some(block.get(b'D').unwrap_or(0.0)))),
             Some(970) => out.push(Action::SurfaceSpeed(None)),
             _ => {}
@@ -282,7 +282,7 @@ impl Machine {
 
     pub(super) fn work_offset(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(code) = block.g(Group::Work) else {
-            if let Some(fixture) = self.control.work_letter().and_then(|letter| block.get(letter)) {
+            if let Some(fixture) = self.control.traits().work_letter.and_then(|letter| block.get(letter)) {
                 out.push(Action::Work(fixture));
             }
             return Ok(());

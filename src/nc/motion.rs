@@ -28,7 +28,7 @@ impl Machine {
             if self.absolute {
                 *place = value;
                 self.at_machine &= !(1 << axis);
-                if axis == 2 && self.control.height_is_machine() && !self.length_on() {
+                if axis == 2 && self.control.traits().height_is_machine && !self.length_on() {
                     self.at_machine |= 0b100; // without its length offset, a FADAL's Z is the machine's
                 }
             } else {

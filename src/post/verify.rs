@@ -63,7 +63,7 @@ impl Proof {
     /// How the control runs a program that this form printed.
     fn settings(&self, form: Option<&compile::Program>, units: Units) -> Settings {
         let form = form.map(|form| &form.settings);
-        let of_form = form.and_then(|form| Control::named(&form.control));
+        let of_form = form.and_then(|form| form.control);
         let control = self.control.or(of_form).unwrap_or_else(Control::usual);
         Settings {
             units,

@@ -11,10 +11,10 @@ use super::numbers::{as_number, quantised};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
 use crate::compile::Routine;
+use crate::control::Group;
 use crate::diag::Code;
-use crate::lang::{Group, Machine, SequenceId, VarId, VarSet};
-use crate::sema;
-use crate::sema::ArcCentre;
+use crate::lang::{Machine, SequenceId, VarId, VarSet};
+use crate::sema::{self, ArcCentre};
 use crate::toolpath::{Arc, Axes, Direction, Plane, Units};
 
 /// The axes of a plane in the order that makes counter-clockwise positive, the axis across it, the plane's code.
@@ -219,7 +219,7 @@ impl Renderer<'_> {
             let says = |axis: usize| CENTRE_OF[axis].iter().any(|&var| routine.vars.has(var));
             let planes = [Plane::Xy, Plane::Xz, Plane::Yz].map(plane_axes);
             let own = planes.into_iter().find(|plane| plane.0 == axes).map(|plane| plane.2);
-            let elsewhere = self.says_code(routine, b'G', |code| (17.0..20.0).contains(&code) && Some(code) != own);
+            let elsewhere = self.says_code(routine, b'G', |code| self.is_plane(code) && Some(code) != own);
             return !elsewhere && (routine.vars.has(VarId::Arcrad) || axes.iter().all(|&axis| says(axis)));
         }
         match &self.shape.program.settings.centre {
@@ -307,7 +307,7 @@ impl Renderer<'_> {
         };
         let code = if ccw { &settings.ccw } else { &settings.cw };
         if restate && self.motion_in_force(code) {
-            self.registers.forget_group(crate::lang::Group::Motion);
+            self.registers.forget_group(Group::Motion);
         }
         if self.last_move == LastMove::Rapid && !settings.force.is_empty() {
             self.force();
@@ -359,7 +359,7 @@ impl Renderer<'_> {
         }
         if !self.differs(&piece.target, 0x3f) {
             // a whole circle has no axis words: controls want its code said again
-            self.registers.forget_group(crate::lang::Group::Motion);
+            self.registers.forget_group(Group::Motion);
         }
         self.motion_word(code)?;
         let mut axes = AxisUnits::default();

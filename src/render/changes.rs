@@ -4,8 +4,9 @@ use super::fault::{Done, fault};
 use super::numbers::tenths;
 use super::renderer::Renderer;
 use crate::compile::WorkWord;
+use crate::control::Group;
 use crate::diag::Code;
-use crate::lang::{Group, Machine, Origin, Unit, VARIABLES, VarId, VarSet, did_you_mean, work_code};
+use crate::lang::{Machine, Origin, Unit, VARIABLES, VarId, VarSet, did_you_mean, work_code};
 use crate::sema;
 use crate::toolpath::{Coolant, FeedMode, Spindle, SpindleTurn};
 
@@ -87,11 +88,11 @@ impl Renderer<'_> {
 
     /// A code of this group was printed.
     pub(super) fn served_code(&mut self, group: Group, value: f64) {
-        self.switched |= !matches!(group, Group::Motion | Group::ReturnPlane);
+        self.switched |= !matches!(group, Group::Motion | Group::Return);
         match group {
             Group::Work => match self.shape.program.work_word {
                 None => self.served.work = Some(value),
-                Some(word) if word.shares_its_codes() => self.served.work = None,
+                Some(word) if word.shares_its_codes => self.served.work = None,
                 // G56 of an Okuma is a length
                 Some(_) => {}
             },
@@ -236,14 +237,14 @@ impl Renderer<'_> {
     /// The work offset as the form prints it.
     fn work_block(&mut self, work: f64) -> Done {
         match self.shape.program.work_word {
-            Some(WorkWord { code, letter }) => {
+            Some(WorkWord { code, letter, .. }) => {
                 if let Some(code) = code {
-                    self.code_word(&sema::Code::plain(b'G', code))?;
+                    self.code_word(&sema::Code::plain(b'G', code.value()))?;
                 }
                 self.letter_word(letter, work)?;
                 self.forget_axes();
             }
-            None if group_is_not_work(work) => {
+            None if self.is_no_work(work) => {
                 let message = format!("the work offset changes to {work}, and the form nowhere prints [work]");
                 return fault(Code::PR017, message, "print `G[work]` in the tool changes, or add `Upon [work]`");
             }
@@ -260,6 +261,11 @@ impl Renderer<'_> {
         self.set_work(work)
     }
 
+    /// Is it no code of a work offset of the form's control?
+    fn is_no_work(&self, work: f64) -> bool {
+        self.group_of(b'G', tenths(work)) != Some(Group::Work)
+    }
+
     /// A fixture number below 50, or a code: see [`work_code`].
     pub(super) fn set_work(&mut self, work: f64) -> Done {
         let first = self.shape.program.settings.work;
@@ -268,7 +274,7 @@ impl Renderer<'_> {
             return fault(Code::PR017, message, "give the number of the fixture, from 1, or a code from 54 to 59");
         };
         if self.shape.program.work_word.is_none()
-            && group_is_not_work(code)
+            && self.is_no_work(code)
             && self.shape.program.settings.machine == Machine::Mill
         {
             let message = format!("the work offset {work} would be G{code}, which is none");
@@ -380,10 +386,6 @@ impl Renderer<'_> {
         }
         self.attention = true;
     }
-}
-
-fn group_is_not_work(work: f64) -> bool {
-    crate::lang::group_of(b'G', tenths(work)) != Some(Group::Work)
 }
 
 /// A variable that a job may set.

@@ -5,10 +5,9 @@ use super::motion::MOVED;
 use super::numbers::tenths;
 use super::renderer::Renderer;
 use crate::compile::Op;
-use crate::control;
-use crate::control::{Control, Meaning};
+use crate::control::{self, Frame, Group, Meaning};
 use crate::diag::Code;
-use crate::lang::{Frame, Group, Machine, VarId, changes_tool, frame_of, group_of, is_called, is_stop};
+use crate::lang::{Machine, VarId};
 
 /// Which axis words of a body stand in another frame than the job's positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,23 +28,53 @@ impl Shift {
 }
 
 impl Renderer<'_> {
+    /// What the form's control has of a code, given in tenths.
+    pub(super) fn code_row(&self, letter: u8, tenths: i64) -> Option<&'static control::Row> {
+        let tenths = u16::try_from(tenths).ok()?;
+        self.shape.program.settings.codes().row(control::Code { letter, tenths })
+    }
+
+    /// What a code, given in tenths, means on the form's control. `None`: nobody knows.
+    pub(super) fn meaning_of(&self, letter: u8, tenths: i64) -> Option<Meaning> {
+        self.code_row(letter, tenths).map(|row| row.meaning)
+    }
+
+    /// Does a G code start a cycle of the form's control?
+    pub(super) fn is_cycle(&self, value: f64) -> bool {
+        self.meaning_of(b'G', tenths(value)).is_some_and(Meaning::is_cycle)
+    }
+
+    /// Does a G code say the plane of arcs?
+    pub(super) fn is_plane(&self, value: f64) -> bool {
+        self.group_of(b'G', tenths(value)) == Some(Group::Plane)
+    }
+
+    /// The modal group of a code, given in tenths.
+    pub(super) fn group_of(&self, letter: u8, tenths: i64) -> Option<Group> {
+        self.meaning_of(letter, tenths)?.group()
+    }
+
     /// What a printed G or M code does to the registers.
     pub(super) fn printed_code(&mut self, letter: u8, value: f64) {
         let tenths = tenths(value);
         let lathe = self.shape.program.settings.machine == Machine::Lathe;
+        let row = self.code_row(letter, tenths);
+        let meaning = row.map(|row| row.meaning);
         if letter == b'M' {
-            if is_stop(tenths) || self.shape.program.settings.stop_code.contains(&value) {
+            if meaning.is_some_and(Meaning::is_stop) || self.shape.program.settings.stop_code.contains(&value) {
                 self.stopped();
-            } else if changes_tool(tenths) || (960..=980).contains(&tenths) || tenths == 1980 {
-                self.forget_axes(); // a changer, and what M96 to M98 and M198 call, go where they like
+            } else if meaning.is_some_and(|meaning| meaning.is_call() || meaning == Meaning::ToolChange) {
+                self.forget_axes(); // a changer, and what is called, go where they like
                 self.forget_motion();
             }
         }
         if letter == b'G' || letter == b'g' {
-            match frame_of(tenths) {
+            match meaning.and_then(Meaning::frame) {
                 Some(Frame::Block) => {
                     self.shifted = self.shifted.max_of(Shift::Block);
-                    if tenths != 530 && !self.line_prints(|renderer, letter, _| renderer.shape.axis_bit(letter) != 0) {
+                    if meaning != Some(Meaning::Machine)
+                        && !self.line_prints(|renderer, letter, _| renderer.shape.axis_bit(letter) != 0)
+                    {
                         self.forget_axes();
                     }
                 }
@@ -54,11 +83,15 @@ impl Renderer<'_> {
                 Some(Frame::Shifts) => self.shifted = Shift::Body,
                 // on a lathe increments have letters of their own
                 Some(Frame::Increments) if lathe => self.shifted = Shift::Body,
-                Some(Frame::Moves) if self.registers.group(Group::Work) != Some(tenths) => self.forget_axes(),
+                // the same offset again; of G54.1 the P says which
+                Some(Frame::Moves)
+                    if self.registers.group(Group::Work) == Some(tenths)
+                        && row.is_some_and(|row| row.words == control::Words::NONE) => {}
+                Some(Frame::Moves) => self.forget_axes(),
                 Some(Frame::MovesDepth) => self.depth_moved = true,
-                None if group_of(letter, tenths).is_none() && !self.is_harmless(value) => {
+                None if !self.is_harmless(value, meaning) => {
                     self.forget_axes();
-                    if is_called(value) {
+                    if self.calls(value) {
                         self.forget_motion();
                     }
                 }
@@ -71,7 +104,7 @@ impl Renderer<'_> {
             self.served.feed_type = Some(value);
             self.switched = true;
         }
-        match group_of(letter, tenths) {
+        match meaning.and_then(Meaning::group) {
             Some(group) => {
                 match group {
                     Group::Plane => self.plane = value,
@@ -92,14 +125,17 @@ impl Renderer<'_> {
 
     /// May positions be kept after a G code without a modal group? Where the form's control runs it, where the form's
     /// commands name it, in a cycle, whose end forgets them, and beside axis words, which say where it goes.
-    fn is_harmless(&self, value: f64) -> bool {
-        let control = Control::named(&self.shape.program.settings.control).unwrap_or_else(Control::usual);
-        let row = control::Code::of(b'G', value).and_then(|code| control.row(code));
-        let known = row.is_some_and(|row| row.meaning != Meaning::NotRun);
+    fn is_harmless(&self, value: f64, meaning: Option<Meaning>) -> bool {
+        let known = meaning.is_some_and(|meaning| meaning != Meaning::Unsaid && !meaning.is_call());
         known
             || self.shape.program.settings.names_code(value)
             || self.cycle.is_some()
-            || !is_called(value) && self.line_prints(|renderer, letter, _| renderer.shape.axis_bit(letter) != 0)
+            || !self.calls(value) && self.line_prints(|renderer, letter, _| renderer.shape.axis_bit(letter) != 0)
+    }
+
+    /// Does a G code call a macro, or what the builder of the machine wrote?
+    fn calls(&self, value: f64) -> bool {
+        control::Code::of(b'G', value).is_some_and(|code| self.shape.program.settings.codes().calls(code))
     }
 
     /// Do axis words that are printed now stand in another frame than the job's positions?
@@ -141,7 +177,7 @@ impl Renderer<'_> {
         }
         if letter == b'G' || letter == b'M' {
             self.printed_code(letter, value);
-            if let Some(group) = group_of(letter, tenths(value)) {
+            if let Some(group) = self.group_of(letter, tenths(value)) {
                 self.registers.forget_group(group);
             }
         }
@@ -235,13 +271,13 @@ impl Renderer<'_> {
 
     /// What a text switches is what the job wants from there on; what its feeds count is not.
     fn is_the_jobs(&mut self, letter: u8, value: f64) {
-        let var = match group_of(letter, tenths(value)) {
+        let var = match self.group_of(letter, tenths(value)) {
             Some(Group::Spindle) => VarId::Direct,
             Some(Group::Coolant) => VarId::Cool,
             Some(Group::Work) => match self.shape.program.work_word {
                 None => VarId::Work,
                 // G54 is none of the offsets that have a word of their own: nobody knows its number
-                Some(word) if word.shares_its_codes() => return self.vars.put(VarId::Work, None),
+                Some(word) if word.shares_its_codes => return self.vars.put(VarId::Work, None),
                 Some(_) => return,
             },
             Some(Group::SpeedMode) => VarId::Speedtype,
@@ -252,6 +288,6 @@ impl Renderer<'_> {
 
     /// Is this a code of other units than the program's?
     fn changes_units(&self, letter: u8, value: f64) -> bool {
-        group_of(letter, tenths(value)) == Some(Group::Units) && self.vars.get(VarId::Unitmode) != Some(value)
+        self.group_of(letter, tenths(value)) == Some(Group::Units) && self.vars.get(VarId::Unitmode) != Some(value)
     }
 }

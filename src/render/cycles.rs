@@ -6,9 +6,10 @@ use super::options::Cycles;
 use super::renderer::Renderer;
 use super::vars::Vars;
 use crate::compile::{CycleStyle, Routine};
+use crate::control::Group;
 use crate::cycle::{Plan, check};
 use crate::diag::Code;
-use crate::lang::{Group, Machine, SequenceId, VarId};
+use crate::lang::{Machine, SequenceId, VarId};
 use crate::sema::kind_of_remark;
 use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole, Peck, Place, SpindleTurn};
 

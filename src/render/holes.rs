@@ -206,7 +206,7 @@ impl Renderer<'_> {
                 cycle.in_force = routine.stays;
             }
             // after a cycle of the control the last height printed is its bottom
-            let cycled = self.says_code(routine, b'G', is_cycle);
+            let cycled = self.says_code(routine, b'G', |code| self.is_cycle(code));
             let exit = match self.stays_at_clearance(routine, heights) {
                 true => (heights.clear, true),
                 false => (heights.return_plane, false),
@@ -268,7 +268,7 @@ impl Renderer<'_> {
         let cycle = routine.ops.clone().rfind(|&i| match self.shape.program.ops[i] {
             Op::Literal { index, .. } => {
                 let literal = &self.shape.program.literals[index as usize];
-                literal.letter == b'G' && is_cycle(literal.value)
+                literal.letter == b'G' && self.is_cycle(literal.value)
             }
             _ => false,
         });
@@ -321,7 +321,7 @@ impl Renderer<'_> {
                 _ => false,
             })
         };
-        typed(&|letter, value| letter == b'G' && is_cycle(value))
+        typed(&|letter, value| letter == b'G' && self.is_cycle(value))
             && !typed(&|letter, value| matches!(letter, b'K' | b'L') && value == 0.0)
     }
 
@@ -332,7 +332,7 @@ impl Renderer<'_> {
             return Ok(());
         }
         let in_force = self.cycle.as_ref().is_some_and(|cycle| cycle.in_force);
-        match in_force && (routine.cancel || self.says_code(routine, b'G', is_cycle)) {
+        match in_force && (routine.cancel || self.says_code(routine, b'G', |code| self.is_cycle(code))) {
             // positions in a form of increments are right if the sequence says G90
             true if self.shape.program.settings.incremental => Ok(()),
             true => self.check_distance(),
@@ -439,9 +439,4 @@ impl Renderer<'_> {
         }
         Ok(())
     }
-}
-
-/// A code that starts a cycle of a control.
-fn is_cycle(code: f64) -> bool {
-    (73.0..90.0).contains(&code) && code != 80.0
 }

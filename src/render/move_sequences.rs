@@ -11,7 +11,7 @@ use crate::sema;
 impl Renderer<'_> {
     /// The plane's code as a block of its own, before what prints none and needs it.
     pub(super) fn plane_block(&mut self, plane: f64, routine: &Routine) -> Done {
-        if self.plane == plane || self.says_code(routine, b'G', |code| (17.0..20.0).contains(&code)) {
+        if self.plane == plane || self.says_code(routine, b'G', |code| self.is_plane(code)) {
             return Ok(());
         }
         self.enter_plane(plane)

@@ -3,7 +3,6 @@
 use super::fault::Done;
 use super::numbers::{as_number, units_of, unprintable};
 use crate::compile::{Letter, LetterTable};
-use crate::control::Control;
 use crate::diag::{Code, Diag};
 use crate::number::{LetterFormat, write_number};
 use crate::sema::{Replacement, Settings};
@@ -59,13 +58,13 @@ impl Layout {
         let width = format.int.count;
         let bytes = |row: &Replacement| (row.old.clone().into_bytes(), row.new.clone().into_bytes(), row.span);
         // what a sender cuts is no reason to print nothing
-        let control = Control::named(&settings.control).filter(|control| control.stops_at_longer());
+        let control = settings.control().traits();
         Layout {
             blanks: settings.blanks,
             leading_zeros: settings.leading_zeros,
             columns: settings.columns.clone(),
             replace: settings.replace.iter().map(bytes).collect(),
-            longest: control.and_then(Control::longest_line).unwrap_or(LONGEST),
+            longest: control.longest_line.filter(|_| control.stops_at_longer).unwrap_or(LONGEST),
             eob: settings.eob.clone().into_bytes(),
             number_letter: settings.numbers.letter,
             start: settings.numbers.start,

@@ -1,6 +1,6 @@
 //! What was last printed: a register for each letter, one for each modal group of codes.
 
-use crate::lang::{GROUPS, Group};
+use crate::control::{GROUPS, Group};
 
 /// What a letter last printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

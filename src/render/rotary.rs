@@ -3,8 +3,9 @@
 use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
 use crate::compile::{Op, Routine};
+use crate::control::Group;
 use crate::diag::Code;
-use crate::lang::{Group, SequenceId, VarId};
+use crate::lang::{SequenceId, VarId};
 use crate::toolpath::Axes;
 
 /// The rotary axes among the six, where three are linear.

@@ -4,8 +4,9 @@ use super::fault::{Done, fault_at};
 use super::numbers::tenths;
 use super::renderer::Renderer;
 use crate::compile::{LetterKind, Op, Routine};
+use crate::control::Group;
 use crate::diag::Code;
-use crate::lang::{Group, Origin, VarId, group_of};
+use crate::lang::{Origin, VarId};
 use crate::toolpath::Axes;
 
 impl Renderer<'_> {
@@ -29,13 +30,13 @@ impl Renderer<'_> {
             }
             _ => false,
         };
-        self.says_code(routine, b'G', |code| group_of(b'G', tenths(code)) == Some(Group::Motion))
+        self.says_code(routine, b'G', |code| self.group_of(b'G', tenths(code)) == Some(Group::Motion))
             || routine.ops.clone().any(by_variable)
     }
 
     /// Does a sequence print a motion code, or one of no group, which may move by itself?
     pub(super) fn says_own_motion(&self, routine: &Routine) -> bool {
-        let own = |code: f64| matches!(group_of(b'G', tenths(code)), None | Some(Group::Motion));
+        let own = |code: f64| matches!(self.group_of(b'G', tenths(code)), None | Some(Group::Motion));
         self.says_motion(routine) || self.says_code(routine, b'G', own)
     }
 

@@ -3,9 +3,9 @@
 use super::fault::{Done, fault};
 use super::numbers::{quantised, tenths};
 use super::renderer::{LastMove, Renderer};
-use crate::control::Control;
+use crate::control::Meaning;
 use crate::diag::{Code, steers};
-use crate::lang::{Machine, SequenceId, VarId, is_stop};
+use crate::lang::{Machine, SequenceId, VarId};
 use crate::sema;
 use crate::toolpath::{EdmAction, Section, StopKind};
 
@@ -142,7 +142,11 @@ impl Renderer<'_> {
             Some(routine) => {
                 self.set_here()?;
                 self.run_with_upons(routine)?;
-                if !routine.vars.has(VarId::Stop) && !self.says_code(routine, b'M', |code| is_stop(tenths(code))) {
+                if !routine.vars.has(VarId::Stop)
+                    && !self.says_code(routine, b'M', |code| {
+                        self.meaning_of(b'M', tenths(code)).is_some_and(Meaning::is_stop)
+                    })
+                {
                     self.stopped(); // by words of its own
                 }
             }
@@ -203,7 +207,7 @@ impl Renderer<'_> {
         let number =
             settings.numbers.letter.map_or(0, |letter| usize::from(self.shape.letters[letter].format.int.count) + 2);
         let others = number + settings.eob.len() + settings.comment.iter().map(String::len).sum::<usize>();
-        let longest = Control::named(&settings.control).and_then(Control::longest_line);
+        let longest = settings.control().traits().longest_line;
         longest.map_or(usize::MAX, |longest| longest.saturating_sub(others).max(1))
     }
 

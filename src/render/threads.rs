@@ -5,6 +5,7 @@ use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
 use super::words::Mode;
 use crate::compile::{Op, Routine};
+use crate::control::Group;
 use crate::cycle::thread_passes;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
@@ -261,7 +262,7 @@ impl Renderer<'_> {
             }
             self.position = end;
             if program.settings.thread_full {
-                self.registers.forget_group(crate::lang::Group::Motion);
+                self.registers.forget_group(Group::Motion);
                 let mut clear = end;
                 clear.values[1] = here.values[1];
                 self.rapid_to(&clear)?;

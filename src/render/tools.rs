@@ -3,6 +3,7 @@
 use super::changes::settable;
 use super::fault::{Done, fault, fault_at};
 use super::renderer::{LastMove, Renderer};
+use crate::control::Group;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId, VarSet};
 use crate::toolpath::{Axes, Coolant, FeedMode, First, Tool, ToolChange};
@@ -151,7 +152,7 @@ impl Renderer<'_> {
         if let Some(target) = target {
             self.move_to(&Axes { given: target.given & self.placed, ..target });
         }
-        self.registers.forget_group(crate::lang::Group::Motion);
+        self.registers.forget_group(Group::Motion);
         self.last_move = LastMove::None;
         if program.settings.restart_depth {
             self.registers.forget(self.shape.letters[self.shape.axes[self.shape.depth]].printed);

@@ -9,7 +9,7 @@ use super::numbers::{as_number, quantised, tenths};
 use super::renderer::Renderer;
 use crate::compile::{Letter, LetterKind, Op, Routine};
 use crate::diag::Code;
-use crate::lang::{VarId, VarSet, group_of};
+use crate::lang::{VarId, VarSet};
 use crate::number::quantise;
 
 /// Which words of a line print.
@@ -235,7 +235,7 @@ impl Renderer<'_> {
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => {
                 let tenths = tenths(value);
-                group_of(info.printed, tenths).is_some_and(|group| self.registers.group(group) == Some(tenths))
+                self.group_of(info.printed, tenths).is_some_and(|group| self.registers.group(group) == Some(tenths))
             }
             _ => self.registers.holds(info.printed, units, info.format.dec.count),
         }
@@ -247,7 +247,7 @@ impl Renderer<'_> {
         let tenths = tenths(value);
         settings.modality
             && settings.modal_codes.contains(&value)
-            && group_of(letter, tenths).is_some_and(|group| self.registers.group(group) == Some(tenths))
+            && self.group_of(letter, tenths).is_some_and(|group| self.registers.group(group) == Some(tenths))
     }
 
     /// The value a variable prints, or none where its word is optional.

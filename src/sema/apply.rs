@@ -2,6 +2,7 @@
 
 use super::args::{Arguments, Read, bad, centre, choice, code, number, numbers, prompt, wants, whole};
 use super::settings::{ArcCentre, DwellWord, Replacement, Settings, TravelLimit};
+use crate::control::Control;
 use crate::lang::{Args, CommandId};
 use crate::span::Span;
 use crate::syntax::Spanned;
@@ -17,7 +18,7 @@ impl Settings {
         match id {
             C::Name => self.name = args.text(),
             C::Machine | C::Units => _ = choice(&args)?, // read ahead of all others: defaults depend on them
-            C::Control => self.control = choice(&args)?.to_owned(),
+            C::Control => self.control = Control::named(choice(&args)?),
             C::Rapid => self.rapid = args.g_codes(1, 1)?.remove(0),
             C::Feed => self.feed = args.g_codes(1, 1)?.remove(0),
             C::CW => self.cw = args.turn(&mut self.spindle[0])?,

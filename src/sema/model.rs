@@ -3,6 +3,7 @@
 use indexmap::IndexMap;
 
 use super::settings::Settings;
+use crate::control::Code;
 use crate::lang::{SequenceId, VarId};
 use crate::number::LetterFormat;
 use crate::span::Span;
@@ -127,6 +128,11 @@ impl Word {
             WordKind::Var(_, var) | WordKind::Value(var) => Some(var),
             _ => None,
         }
+    }
+
+    /// The G or M code that is typed in it; behind the slash of block delete, too.
+    pub fn code(&self) -> Option<Code> {
+        b"GM".iter().find_map(|&letter| Code::of(letter, self.typed(letter)?))
     }
 
     /// Is it one of these codes, as typed?

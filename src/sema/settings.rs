@@ -1,5 +1,6 @@
 //! What the commands of a form say, with the defaults of language.md section 3.
 
+use crate::control::Control;
 use crate::lang::{Machine, VarId};
 use crate::span::Span;
 
@@ -107,7 +108,8 @@ pub struct Settings {
     pub name: String,
     pub machine: Machine,
     pub units: UnitChoice,
-    pub control: String,
+    /// The control that the form names.
+    pub control: Option<&'static Control>,
     pub rapid: Code,
     pub feed: Code,
     pub cw: Code,
@@ -198,6 +200,16 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The control that the form is for; that of forms that name none is much like a Fanuc.
+    pub fn control(&self) -> &'static Control {
+        self.control.unwrap_or_else(Control::of_no_name)
+    }
+
+    /// The control whose codes the form has. Codes of lathes have other meanings, which are told by the form's commands.
+    pub fn codes(&self) -> &'static Control {
+        if self.machine == Machine::Mill { self.control() } else { Control::of_no_name() }
+    }
+
     /// Do the form's commands name this G code, so that what it does is known?
     pub fn names_code(&self, value: f64) -> bool {
         let codes = [Some(&self.rapid), Some(&self.feed), Some(&self.cw), Some(&self.ccw), Some(&self.dwell.code)];
@@ -217,7 +229,7 @@ impl Settings {
             name: String::new(),
             machine,
             units,
-            control: "fanuc".into(),
+            control: None,
             rapid: Code::plain(b'G', 0.0),
             feed: Code::plain(b'G', 1.0),
             cw: Code::plain(b'G', 2.0),

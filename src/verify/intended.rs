@@ -2,6 +2,7 @@
 
 use super::comparer::Intent;
 use super::cut::{Cut, DEPTH, Place, Rapid, State, What};
+use crate::control;
 use crate::cycle::{Defaults, Plan, Step, Steps, check, plan};
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, work_code};
@@ -60,7 +61,7 @@ impl Expectation {
             first_work: settings.work,
             work: Some(settings.work_default),
             registers: Some([settings.lcomp, settings.dcomp]),
-            tools: settings.control != "grbl",
+            tools: !settings.control().refuses(control::Code::m(6)),
             units_due: settings.units == UnitChoice::Both,
         }
     }

@@ -68,7 +68,7 @@ impl<R: BufRead + Seek> Program<R> {
                 rotation: Some(Rotation::Stop),
                 speed: Some(0.0),
                 coolant: Some(Cooling::Off),
-                work: settings.control.work_letter().is_none().then_some(54.0),
+                work: settings.control.traits().work_letter.is_none().then_some(54.0),
                 ..State::default()
             },
             mode: FeedMode::PerMinute,

@@ -7,6 +7,7 @@ use std::io::Cursor;
 
 use crate::support::{check, root};
 use postform::compile::compile;
+use postform::control::Control;
 use postform::nc::{JobOptions, Settings, read_program};
 use postform::render::{Cycles, Options, Renderer};
 use postform::sema::Checked;
@@ -38,7 +39,7 @@ fn rendered(form: &Checked, job: Job<'_>, cycles: Cycles) -> String {
 /// Runs a program as the form's control would, and compares.
 fn verified(form: &Checked, program: &str, job: Job<'_>) -> Verdict {
     let compiled = compile(&form.form);
-    let settings = Settings::new(control(&compiled.settings.control));
+    let settings = Settings::new(compiled.settings.control.unwrap_or_else(Control::usual));
     let expectation = Expectation::of_form(&compiled.settings, false);
     let mut comparer = Comparer::new(Cursor::new(program.to_owned()), settings, expectation, None);
     let read = job(&mut comparer);

@@ -58,8 +58,8 @@ impl NoPoint {
 
 impl ControlArgs {
     /// As the library has it; `form` is the form's own control.
-    pub fn settings(&self, form: Option<&str>, units: Units) -> Settings {
-        let control = self.control.or_else(|| Control::named(form?)).unwrap_or_else(Control::usual);
+    pub fn settings(&self, form: Option<&'static Control>, units: Units) -> Settings {
+        let control = self.control.or(form).unwrap_or_else(Control::usual);
         let unpointed = self.no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
         Settings {
             units,

@@ -118,7 +118,7 @@ fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Resu
     // a program that does not say its units counts in those of --units, or millimetres
     let said = || units_of(&old.program).or_else(|| units_of(&new.program));
     let units = args.options.units.map(|units| units.units()).or_else(said).unwrap_or(Units::Mm);
-    let settings = [old, new].map(|side| args.control.settings(side.control.as_deref(), units));
+    let settings = [old, new].map(|side| args.control.settings(side.control, units));
     let tolerance = if args.tolerance > 0.0 { args.tolerance } else { 1e-6 };
     let inputs = [old, new].map(|side| Cursor::new(side.program.bytes()));
     let [a, b] = inputs;

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use postform::control::Control;
 use postform::diff::Program;
 use postform::render::TraceLine;
 use postform::source::Source;
@@ -22,7 +23,7 @@ pub struct Side {
     /// Its text.
     pub program: Program,
     /// The control of the form that printed it.
-    pub control: Option<String>,
+    pub control: Option<&'static Control>,
     /// Where its lines come from, and the form's text.
     pub trace: Option<(Trace, Vec<Source>)>,
 }
@@ -113,7 +114,7 @@ fn side(form: &Path, mut file: File, lines: Vec<TraceLine>, prepared: Prepared) 
     Ok(Side {
         name: format!("the program of {}", files::name(form)),
         program: program(form, bytes)?,
-        control: Some(prepared.program.settings.control.clone()),
+        control: prepared.program.settings.control,
         trace: Some((Trace::new(lines), prepared.files)),
     })
 }

@@ -1,5 +1,6 @@
 //! PF441: at the end, and before a tool is changed, the tool goes up first. `G91 G0 Z0` goes nowhere.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::blocks::{Block, calls};
@@ -11,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         return;
     }
     for body in view.these(&[SequenceId::ToolChange, SequenceId::EndCode]) {
-        let blocks: Vec<&Block> = view.blocks(body).iter().take_while(|block| is_said(block)).collect();
+        let blocks: Vec<&Block> = view.blocks(body).iter().take_while(|block| is_said(view, block)).collect();
         let lifts = blocks.iter().position(|block| height(block).is_some_and(|word| no_lift(block, word).is_none()));
         let fault = blocks[..lifts.unwrap_or(blocks.len())].iter().find_map(|block| {
             let no_lift = height(block).and_then(|word| Some((word, no_lift(block, word)?)));
@@ -34,9 +35,11 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 
 /// Is it said here where the tool goes? Not from a tool change on, which takes it up; nor in a macro, by a code of the
 /// builder, or with all axes home.
-fn is_said(block: &Block) -> bool {
+fn is_said(view: &View, block: &Block) -> bool {
     let leaves = |word: &Word| {
-        calls(word) || word.is_code(b'M', &[6.0]) || matches!(word.printed_var(), Some(VarId::Tool | VarId::Comp))
+        calls(view.settings.codes(), word)
+            || view.meaning(word) == Some(Meaning::ToolChange)
+            || matches!(word.printed_var(), Some(VarId::Tool | VarId::Comp))
     };
     !(block.line.words.iter().any(leaves) || block.reference && block.axis_words.is_empty())
 }

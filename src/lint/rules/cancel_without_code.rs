@@ -1,5 +1,6 @@
 //! PF410: a Cancel without G80 ends no cycle.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::View;
@@ -7,7 +8,7 @@ use crate::lint::view::View;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(cancel) = view.body(SequenceId::Cancel) else { return };
     // on most controls a motion code ends a cycle, too
-    if cancel.code(b'G', &[80.0, 0.0, 1.0, 67.0]).is_none() {
+    if cancel.meaning(Meaning::ends_cycle).is_none() {
         diags
             .push(Diag::new(Code::PF410, "Cancel does not cancel").at(cancel.span, "no G80").help("print `G80` in it"));
     }

@@ -1,5 +1,6 @@
 //! PF429: a tool change that does not say which tool, or only gets it ready.
 
+use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::blocks::calls;
@@ -10,6 +11,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.is_flat() {
         return; // a torch or a beam
     }
+    let control = view.settings.control();
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
         // on a lathe [comp] is station and offset register
         let says = |word: &&Word| matches!(word.printed_var(), Some(VarId::Tool | VarId::Comp));
@@ -27,10 +29,11 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             }
             continue;
         };
-        let selects = view.printed_letter(word) == Some(b'T') && view.is_mill() && !view.is_for(&["grbl"]);
+        let selects =
+            view.printed_letter(word) == Some(b'T') && view.is_mill() && !control.refuses(control::Code::m(6));
         // a macro that changes it, as `G65 P9020 T[tool]`, or a code of the builder, as `G100 T[tool]`
-        let by_macro = body.lines[body.line_of(word)].words.iter().any(calls);
-        if selects && !by_macro && body.code(b'M', &[6.0]).is_none() {
+        let by_macro = body.lines[body.line_of(word)].words.iter().any(|word| calls(view.settings.codes(), word));
+        if selects && !by_macro && body.meaning(|meaning| meaning == Meaning::ToolChange).is_none() {
             diags.push(
                 Diag::new(Code::PF429, format!("{} selects a tool and does not change it", body.name()))
                     .at(word.span, "no M6")

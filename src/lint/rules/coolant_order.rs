@@ -1,5 +1,6 @@
 //! PF428: coolant that runs while the tool changes, or before the spindle turns.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
 use crate::lint::view::View;
@@ -9,9 +10,12 @@ use super::spindle_before_change::{changes, starts_spindle};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (body, change) in changes(view) {
-        let spindle = body.lines.iter().position(|line| line.words.iter().any(starts_spindle));
+        let spindle = body.lines.iter().position(|line| line.words.iter().any(|word| starts_spindle(view, word)));
         let ready = spindle.map_or(change, |spindle| spindle.max(change));
-        let on = |word: &&Word| word.is_code(b'M', &[7.0, 8.0]) || word.printed_var() == Some(VarId::Cool);
+        let on = |word: &&Word| {
+            matches!(view.meaning(word), Some(Meaning::Flood | Meaning::Mist))
+                || word.printed_var() == Some(VarId::Cool)
+        };
         let mut lines = body.lines[..ready].iter().flat_map(|line| &line.words);
         if let Some(word) = lines.find(on) {
             diags.push(

@@ -1,5 +1,6 @@
 //! PF409: a cycle of the control stays in force until it is cancelled: the next move would be a hole.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::View;
@@ -10,10 +11,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some((word, code)) = body.cycle_word() else { continue };
         let uncounted = sequence.count.is_none() && sequence.lines.len() > 1; // another rule's
-        if view.works_once(code) || sequence.cancel.is_some() || uncounted || body.code(b'G', &[80.0]).is_some() {
+        if view.works_once(code)
+            || sequence.cancel.is_some()
+            || uncounted
+            || body.meaning(|meaning| meaning == Meaning::CycleEnd).is_some()
+        {
             continue;
         }
-        let mut diag = Diag::new(Code::PF409, format!("{} leaves G{code} in force", body.name()))
+        let mut diag = Diag::new(Code::PF409, format!("{} leaves {code} in force", body.name()))
             .at(word.span, "the next position would be a hole, too")
             .help("end it with `End Cancel`, and print G80 in a sequence `Cancel`");
         let end = view.node(sequence.span).and_then(|node| node.end.as_ref());

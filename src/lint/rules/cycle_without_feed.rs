@@ -12,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let Some((word, code)) = body.cycle_word() else { continue };
         if !body.begins_with(&[VarId::Frate, VarId::Plunge, VarId::Pitch]) {
             diags.push(
-                Diag::new(Code::PF412, format!("G{code} has no feed"))
+                Diag::new(Code::PF412, format!("{code} has no feed"))
                     .at(word.span, "the control would drill at the feed of the move before")
                     .help("print the feed of the cycle, as `F[frate]`"),
             );

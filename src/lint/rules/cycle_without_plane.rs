@@ -12,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let Some((word, code)) = body.cycle_word() else { continue };
         if !body.begins_with(&[VarId::Vclear, VarId::Rplane]) {
             diags.push(
-                Diag::new(Code::PF411, format!("G{code} has no R plane"))
+                Diag::new(Code::PF411, format!("{code} has no R plane"))
                     .at(word.span, "the control would take that of the cycle before")
                     .help("print the clearance plane, as `R[vclear]`"),
             );

@@ -1,7 +1,7 @@
 //! PF406: a cycle that does not print the position drills every hole at one place.
 
 use crate::diag::{Code, Diag};
-use crate::lang::{VarId, is_cycle_code};
+use crate::lang::VarId;
 use crate::lint::view::View;
 use crate::sema::{Line, Word};
 
@@ -18,15 +18,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let drills = |line: &&Line| {
                 let words = &line.words;
                 let depth = words.iter().any(|word| word.letter().and_then(|letter| view.axis(letter)) == Some(2));
-                words.iter().any(|word| word.typed(b'G').is_some_and(is_cycle_code))
-                    && depth
-                    && !words.iter().any(waits)
+                words.iter().any(|word| view.starts_cycle(word)) && depth && !words.iter().any(waits)
             };
             let cycle = body.cycle_word().filter(|_| body.lines.iter().any(|line| drills(&line)));
             let placed = body.begins_with(&[VarId::H]) && body.begins_with(&[VarId::V]);
             if let (Some((word, code)), false) = (cycle, placed) {
                 diags.push(
-                    Diag::new(Code::PF406, format!("{} starts G{code} without the position", body.name()))
+                    Diag::new(Code::PF406, format!("{} starts {code} without the position", body.name()))
                         .at(word.span, "a hole where the tool is, and the first one again")
                         .help("print `X[h] Y[v]` in the block of the cycle"),
                 );

@@ -1,5 +1,6 @@
 //! PF311: P counts milliseconds on some controls and seconds on others.
 
+use crate::control::DwellUnit;
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, VarId};
 use crate::lint::view::View;
@@ -13,22 +14,21 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let command = view.command(CommandId::Dwell).or(view.command(CommandId::Control)).map(|command| command.line.span);
     let place = if settings.dwell.letter == b'P' { command } else { cycle.map(|word| word.span) };
     let Some(place) = place else { return };
-    let wanted = match settings.control.as_str() {
-        "fanuc" | "fadal" => true,
-        "linuxcnc" | "emc2" | "grbl" => false,
-        // with a point seconds, without one milliseconds
-        "haas" => {
+    let wanted = match view.traits().dwell {
+        DwellUnit::Ms => true,
+        DwellUnit::S => false,
+        DwellUnit::ByPoint => {
             let format = view.letters[b'P'].format;
             format.dec.count == 0 || format.point == Point::Implied
         }
-        _ => return,
+        DwellUnit::Unknown => return,
     };
     if settings.dwell.milliseconds == wanted {
         return;
     }
     let (unit, times) = if wanted { ("ms", "a thousandth of") } else { ("s", "a thousand times") };
     diags.push(
-        Diag::new(Code::PF311, format!("P of a dwell is in {unit} on {}", settings.control))
+        Diag::new(Code::PF311, format!("P of a dwell is in {unit} on {}", settings.control().shown()))
             .at(place, format!("this would dwell {times} the time"))
             .help(format!("write `Dwell G4 P {unit}`")),
     );

@@ -1,5 +1,6 @@
 //! PF317: a control counts ten-thousandths of an inch, but thousandths of a millimetre.
 
+use crate::control::WithoutPoint;
 use crate::diag::{Code, Diag};
 use crate::lang::Unit;
 use crate::lint::view::View;
@@ -7,7 +8,7 @@ use crate::sema::{UnitChoice, Word};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let settings = view.settings;
-    if settings.units == UnitChoice::Inch || !view.is_for(&["fanuc", "haas"]) {
+    if settings.units == UnitChoice::Inch || view.traits().without_point != WithoutPoint::LeastIncrement {
         return;
     }
     for (&letter, (format, span)) in &view.form.formats {

@@ -1,16 +1,17 @@
 //! PF425: G43 without H takes no offset, or the last one.
 
+use crate::control::{Meaning, ToolLength};
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    if view.is_for(&["linuxcnc", "emc2", "grbl"]) {
-        return; // G43 alone is the tool in the spindle; grbl has none of it
+    if matches!(view.traits().tool_length, ToolLength::Code | ToolLength::None) {
+        return; // G43 alone is the tool in the spindle, or there are no registers
     }
     let lines = view.bodies.iter().flat_map(|body| body.lines.iter().map(move |line| (body, line)));
     for (body, line) in lines {
-        let Some(word) = line.words.iter().find(|word| word.is_code(b'G', &[43.0, 44.0])) else { continue };
+        let Some(word) = line.words.iter().find(|word| view.meaning(word) == Some(Meaning::LengthOn)) else { continue };
         // `H#518`: a register of a macro
         let by_macro = |word: &Word| matches!(&word.kind, WordKind::Text(text) if text.starts_with("H#"));
         if !line.words.iter().any(|word| view.printed_letter(word) == Some(b'H') || by_macro(word)) {

@@ -1,17 +1,16 @@
 //! PF437: the length of a tool is not told to the control, or that of another one.
 
+use crate::control::{Meaning, ToolLength};
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::view::{Purpose, View};
 use crate::sema::{Word, WordKind};
 
-/// Codes that turn a length offset on.
-const ON: &[f64] = &[43.0, 43.1, 43.2, 43.3, 43.4, 43.5, 44.0];
-
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    if !view.is_mill() || view.is_for(&["grbl"]) || view.is_flat() {
-        return; // Grbl has no registers: its zero is that of the tool
+    if !view.is_mill() || view.traits().tool_length == ToolLength::None || view.is_flat() {
+        return; // without registers the zero is that of the tool
     }
+    let on = |word: &Word| matches!(view.meaning(word), Some(Meaning::LengthOn | Meaning::LengthData));
     let is_register = |word: &&Word| view.printed_letter(word) == Some(b'H');
     let first = view.body(SequenceId::FirstToolChange).filter(|body| !body.lines.is_empty());
     // words of a conversational control have the length in their tool call
@@ -19,9 +18,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     // what turns the part comes later, and only sometimes
     let later = [SequenceId::Index, SequenceId::Unwind].map(Purpose::Sequence);
     let mut words = view.bodies.iter().filter(|body| !later.contains(&body.purpose)).flat_map(|body| body.words());
-    let says = words.any(|word| word.is_code(b'G', ON) || is_register(&word));
+    let says = words.any(|word| on(word) || is_register(&word));
     if let (Some(body), false) = (first, says) {
-        let better = if view.is_for(&["fadal"]) { "H[lcomp]" } else { "G43 H[lcomp]" };
+        let better = if view.traits().tool_length == ToolLength::Register { "H[lcomp]" } else { "G43 H[lcomp]" };
         diags.push(
             Diag::new(Code::PF437, "the program never says the length of a tool")
                 .at(body.span, "every tool goes as deep as the spindle nose would")
@@ -41,7 +40,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         // a fixture's number, unless the block turns a length on
         let fixture = |word: &Word| {
             let words = &body.lines[body.line_of(word)].words;
-            word.printed_var() == Some(VarId::Work) && !words.iter().any(|word| word.is_code(b'G', ON))
+            word.printed_var() == Some(VarId::Work) && !words.iter().any(on)
         };
         // H0 takes the offset off
         let other = |word: &&Word| is_register(word) && !own(word) && !fixture(word) && word.typed(b'H') != Some(0.0);

@@ -1,12 +1,13 @@
 //! PF404: a cycle of the control in a sequence of several lines would drill each hole again with every line.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some((word, code)) = body.cycle_word() else { continue };
-        let ends = view.works_once(code) || body.code(b'G', &[80.0]).is_some();
+        let ends = view.works_once(code) || body.meaning(|meaning| meaning == Meaning::CycleEnd).is_some();
         if ends || sequence.count.is_some() || sequence.lines.len() < 2 {
             continue;
         }
@@ -14,7 +15,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let (what, help) = match (below.iter().any(|block| !block.axis_words.is_empty()), sequence.cancel) {
             (true, _) => {
                 let help = format!("write `{} 1`, if the first line is for the first hole only", body.name());
-                (format!("G{code} drills again at each position below it"), help)
+                (format!("{code} drills again at each position below it"), help)
             }
             (false, Some(_)) => continue, // Cancel ends it
             (false, None) => (

@@ -1,5 +1,6 @@
 //! PF507: whether positions are absolute is what the control was last told, by another program or by hand.
 
+use crate::control::Kept;
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::view::View;
@@ -7,7 +8,7 @@ use crate::lint::view::View;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
     // other controls begin each program in a state of their own
-    if !view.is_mill() || view.settings.incremental || !view.is_for(&["fanuc", "haas", "linuxcnc", "emc2"]) {
+    if !view.is_mill() || view.settings.incremental || view.traits().modes_at_start != Kept::Kept {
         return;
     }
     let [_, positions] = view.settings.inc_abs;

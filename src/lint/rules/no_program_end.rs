@@ -1,12 +1,13 @@
 //! PF014: a program that does not end runs on into what lies behind it.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(end) = view.body(SequenceId::EndCode) else { return };
-    if end.code(b'M', &[2.0, 30.0, 99.0]).is_none() {
+    if end.meaning(|meaning| matches!(meaning, Meaning::End | Meaning::Return)).is_none() {
         diags.push(
             Diag::new(Code::PF014, "EndCode does not end the program")
                 .at(end.span, "no M30, M2 or M99")

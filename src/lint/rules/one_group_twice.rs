@@ -1,20 +1,20 @@
 //! PF505: of two codes of one group a control takes the last, or alarms.
 
+use crate::control::{Group, Meaning};
 use crate::diag::{Code, Diag};
-use crate::lang::{Group, group_of, is_cycle_code};
 use crate::lint::view::View;
-use crate::sema::{Line, Word, WordKind};
+use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for line in view.bodies.iter().flat_map(|body| body.lines) {
-        let in_cycle = starts_cycle(line);
+        let in_cycle = line.words.iter().any(|word| view.starts_cycle(word));
         // the first code of each group
         let mut firsts: Vec<(&Word, Group)> = Vec::new();
         for word in &line.words {
             let group = match word.kind {
                 // G80 with a motion code is common; with a cycle it ends that one
-                WordKind::Literal(b'G', _, 80.0) if !in_cycle => None,
-                WordKind::Literal(letter @ (b'G' | b'M'), _, value) => group_of(letter, (value * 10.0).round() as i64),
+                WordKind::Literal(..) if !in_cycle && view.meaning(word) == Some(Meaning::CycleEnd) => None,
+                WordKind::Literal(..) => view.meaning(word).and_then(Meaning::group),
                 _ => None,
             };
             let Some(group) = group else { continue };
@@ -22,7 +22,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 firsts.push((word, group));
                 continue;
             };
-            let is_coolant = |word: &Word| word.is_code(b'M', &[7.0, 8.0]);
+            let is_coolant = |word: &Word| matches!(view.meaning(word), Some(Meaning::Mist | Meaning::Flood));
             if is_coolant(word) && is_coolant(first) {
                 continue; // mist with flood is meant
             }
@@ -34,8 +34,4 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             );
         }
     }
-}
-
-fn starts_cycle(line: &Line) -> bool {
-    line.words.iter().any(|word| word.typed(b'G').is_some_and(is_cycle_code))
 }

@@ -1,9 +1,10 @@
 //! PF314: `X[v]`: the position of one axis under the letter of another.
 
+use crate::control::Centres;
 use crate::diag::{Code, Diag};
-use crate::lang::{VarId, is_cycle_code};
+use crate::lang::VarId;
 use crate::lint::view::View;
-use crate::sema::{Word, WordKind};
+use crate::sema::WordKind;
 
 /// The variables of each axis.
 const OF_AXIS: [[VarId; 3]; 3] = [
@@ -56,7 +57,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         // where centres count from the start of the arc, a position is none
         let axis = [VarId::Hctr, VarId::Vctr].iter().position(|&own| own == var);
-        let counts = view.settings.centre_incremental && view.is_for(&["fanuc", "haas", "linuxcnc", "emc2", "grbl"]);
+        let counts = view.settings.centre_incremental && view.traits().centres == Centres::Incremental;
         if let Some(axis) = axis.filter(|_| counts) {
             let own = letter_of(axis).unwrap_or(letter);
             diags.push(
@@ -70,7 +71,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
     }
     // R is the plane, the depth axis the bottom of a cycle of the control
-    for line in view.bodies.iter().flat_map(|body| body.lines).filter(|line| line.words.iter().any(starts_cycle)) {
+    for line in view
+        .bodies
+        .iter()
+        .flat_map(|body| body.lines)
+        .filter(|line| line.words.iter().any(|word| view.starts_cycle(word)))
+    {
         for word in &line.words {
             let WordKind::Var(letter, var) = word.kind else { continue };
             let better = match (view.axis(letter), letter, var) {
@@ -85,8 +91,4 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             );
         }
     }
-}
-
-fn starts_cycle(word: &Word) -> bool {
-    word.typed(b'G').is_some_and(is_cycle_code)
 }

@@ -1,5 +1,6 @@
 //! PF440: `G0 Z0` goes to the zero of the part, most often its upper face: no place to change a tool or turn a part.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::blocks::Motion;
@@ -8,12 +9,12 @@ use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
-    if !view.is_mill() || view.is_for(&["fadal"]) {
-        return; // without an offset Z0 is home on a Fadal
+    if !view.is_mill() || view.traits().height_is_machine {
+        return; // without an offset Z0 is home
     }
     for body in view.these(&[S::ToolChange, S::EndCode, S::Index, S::Unwind]) {
         let rapid = |motion| matches!(motion, Motion::Rapid | Motion::Unknown);
-        let offset_off = |word: &Word| word.is_code(b'G', &[49.0]);
+        let offset_off = |word: &Word| view.meaning(word) == Some(Meaning::LengthOff);
         let blocks = view.blocks(body).iter();
         // with G49 it is the zero of the machine, or near it
         let blocks = blocks.filter(|block| block.in_part() && !block.incremental && rapid(block.motion));

@@ -14,7 +14,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 None => (word, "no peck", "the control would go down in one, or by the peck of the cycle before"),
             };
             diags.push(
-                Diag::new(Code::PF413, format!("G{code} has {message}"))
+                Diag::new(Code::PF413, format!("{code} has {message}"))
                     .at(at.span, what)
                     .help("print the job's, as `Q[vbite]`"),
             );

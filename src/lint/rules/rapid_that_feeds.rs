@@ -1,5 +1,6 @@
 //! PF435: RapidCode with G1 or a feed: every rapid would take the time of a cut.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::View;
@@ -8,8 +9,11 @@ use crate::sema::{Word, WordKind};
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(body) = view.body(SequenceId::RapidCode) else { return };
     let feed = view.settings.feed_code;
-    let feeds = |word: &&Word| word.is_code(b'G', &[1.0, 2.0, 3.0]) || word.letter() == Some(feed);
-    let says = |word: &Word| word.is_code(b'G', &[0.0]) || matches!(word.kind, WordKind::Text(_));
+    let feeds = |word: &&Word| {
+        matches!(view.meaning(word), Some(Meaning::Line | Meaning::ArcCw | Meaning::ArcCcw))
+            || word.letter() == Some(feed)
+    };
+    let says = |word: &Word| view.meaning(word) == Some(Meaning::Rapid) || matches!(word.kind, WordKind::Text(_));
     let (span, label) = match (body.words().find(feeds), body.lines.first()) {
         (Some(word), _) => (word.span, "no rapid"),
         (None, Some(line)) if !body.words().any(says) => (line.span, "no G0: after a cut this is a cut"),

@@ -1,7 +1,8 @@
 //! PF415: `G0 Z[d]` in a cycle rapids to the bottom of a hole that is not there yet.
 
+use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, VarId, group_of};
+use crate::lang::{SequenceId, VarId};
 use crate::lint::blocks::Motion;
 use crate::lint::view::{View, serves};
 
@@ -16,10 +17,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             // what holds where the cycle begins is what its last line left: most often the way out, a rapid
             let rapid = matches!(block.motion, Motion::Rapid | Motion::Unknown);
             // a code that nobody here knows, with its plane: a cycle of this control
-            let unknown = |code: f64| code >= 70.0 && group_of(b'G', (code * 10.0).round() as i64).is_none();
+            let codes = view.settings.codes();
+            let unknown = |code: control::Code| {
+                let known = codes.meaning(code).is_some_and(|meaning| meaning != Meaning::Unsaid);
+                code >= control::Code::g(70) && code.letter == b'G' && !known
+            };
             let words_of = &block.line.words;
             let has_plane = words_of.iter().any(|word| word.printed_var() == Some(VarId::Vclear));
-            if has_plane && words_of.iter().any(|word| word.typed(b'G').is_some_and(unknown)) {
+            if has_plane && words_of.iter().any(|word| word.code().is_some_and(unknown)) {
                 break;
             }
             if let (true, true, Some((word, _))) = (rapid, block.in_part(), down) {

@@ -5,8 +5,8 @@ use crate::lint::view::View;
 use crate::span::Span;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    if !view.is_for(&["fanuc", "haas", "fadal"]) {
-        return; // the others take both
+    if view.traits().small_letters {
+        return; // it takes both
     }
     for word in view.words() {
         let Some(letter) = word.letter().filter(u8::is_ascii_lowercase) else { continue };

@@ -1,5 +1,6 @@
 //! PF427: a spindle that is started before the tool changes.
 
+use crate::control::{Kept, Meaning};
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::view::{Body, View};
@@ -8,7 +9,7 @@ use crate::sema::Word;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (body, change) in changes(view) {
         let mut lines = body.lines[..change].iter().flat_map(|line| &line.words);
-        if let Some(word) = lines.find(|word| starts_spindle(word)) {
+        if let Some(word) = lines.find(|word| starts_spindle(view, word)) {
             diags.push(
                 Diag::new(Code::PF427, format!("{} starts the spindle before it changes the tool", body.name()))
                     .at(word.span, "the old tool turns")
@@ -24,18 +25,21 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// A tool change or a stop of the program after the spindle was started, which nothing starts again. LinuxCNC and Grbl leave
+/// A tool change or a stop of the program after the spindle was started, which nothing starts again. Some controls leave
 /// it turning at a stop.
 fn stopped_again<'a>(view: &View<'a>, body: &Body<'a>) -> Option<&'a Word> {
-    let keeps = view.is_for(&["linuxcnc", "emc2", "grbl"]);
-    let stops = |word: &&Word| word.is_code(b'M', &[5.0, 6.0]) || !keeps && word.is_code(b'M', &[0.0, 1.0]);
-    let start = body.lines.iter().rposition(|line| line.words.iter().any(starts_spindle))?;
+    let keeps = view.traits().spindle_at_stop == Kept::Kept;
+    let stops = |word: &&Word| {
+        let own = |meaning| matches!(meaning, Meaning::SpindleOff | Meaning::ToolChange);
+        view.meaning(word).is_some_and(|meaning| own(meaning) || !keeps && meaning.is_stop())
+    };
+    let start = body.lines.iter().rposition(|line| line.words.iter().any(|word| starts_spindle(view, word)))?;
     body.lines[start + 1..].iter().flat_map(|line| &line.words).find(stops)
 }
 
 /// Does a word start the spindle?
-pub(super) fn starts_spindle(word: &Word) -> bool {
-    word.is_code(b'M', &[3.0, 4.0, 13.0, 14.0]) || word.printed_var() == Some(VarId::Direct)
+pub(super) fn starts_spindle(view: &View, word: &Word) -> bool {
+    view.meaning(word).is_some_and(Meaning::starts_spindle) || word.printed_var() == Some(VarId::Direct)
 }
 
 /// The tool changes with the line in which the tool changes.
@@ -44,7 +48,7 @@ pub(super) fn changes<'a>(view: &View<'a>) -> Vec<(Body<'a>, usize)> {
     let bodies = view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]);
     bodies
         .filter_map(|body| {
-            let change = line(&body, &|word| word.is_code(b'M', &[6.0]));
+            let change = line(&body, &|word| view.meaning(word) == Some(Meaning::ToolChange));
             Some((
                 body,
                 change

@@ -1,5 +1,6 @@
 //! PF017: a subprogram that does not return runs into the next program.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::View;
@@ -9,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(end) = view.body(SequenceId::SubEnd) else { return };
     // words that are no codes are the control's own, as `RET` or `endsub`
     let own = end.words().any(|word| matches!(word.kind, WordKind::Text(_)));
-    if end.code(b'M', &[99.0, 17.0]).is_none() && !own {
+    if end.meaning(|meaning| meaning == Meaning::Return).is_none() && !own {
         diags.push(
             Diag::new(Code::PF017, "SubEnd does not return")
                 .at(end.span, "no M99")

@@ -1,5 +1,6 @@
 //! PF419: a tap that is fed out while the spindle still turns the way it cut tears the thread out.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::blocks::Motion;
@@ -8,7 +9,11 @@ use crate::lint::view::{Body, View};
 use super::spindle_before_change::starts_spindle;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for (id, back) in [(SequenceId::Tap, [4.0, 14.0]), (SequenceId::LTap, [3.0, 13.0])] {
+    use Meaning as M;
+    for (id, back) in [
+        (SequenceId::Tap, [M::SpindleCcw, M::SpindleCcwCoolant]),
+        (SequenceId::LTap, [M::SpindleCw, M::SpindleCwCoolant]),
+    ] {
         for body in view.cycles_for(&[id]).filter(|body| !body.moves_by_itself()) {
             diags.extend(tears(view, &body, back));
         }
@@ -16,11 +21,11 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 }
 
 /// The move that tears the thread, if there is one: out at rapid, or before a code of `back` has turned the spindle.
-fn tears(view: &View, body: &Body, back: [f64; 2]) -> Option<Diag> {
+fn tears(view: &View, body: &Body, back: [Meaning; 2]) -> Option<Diag> {
     let (mut cut, mut reversed) = (false, false);
     for block in view.blocks(*body) {
-        if cut && let Some(word) = block.line.words.iter().find(|word| starts_spindle(word)) {
-            reversed = word.typed(b'M').is_none_or(|code| back.contains(&code));
+        if cut && let Some(word) = block.line.words.iter().find(|word| starts_spindle(view, word)) {
+            reversed = view.meaning(word).is_none_or(|code| back.contains(&code));
         }
         let words = &block.axis_words;
         let Some((word, _)) = words.iter().find(|(_, axis)| *axis == 2) else { continue };
@@ -29,9 +34,10 @@ fn tears(view: &View, body: &Body, back: [f64; 2]) -> Option<Diag> {
                 cut = true;
                 continue;
             }
-            (Motion::Line | Motion::Rapid, _) if cut && !reversed => {
-                ("with the spindle turning as it cut", format!("reverse the spindle at the bottom with M{}", back[0]))
-            }
+            (Motion::Line | Motion::Rapid, _) if cut && !reversed => (
+                "with the spindle turning as it cut",
+                format!("reverse the spindle at the bottom: it {}", back[0].about()),
+            ),
             (Motion::Rapid, _) if cut => ("at rapid", "feed out: `G1 Z[vclear]`".to_owned()),
             // out of the thread
             _ if cut => return None,

@@ -1,19 +1,23 @@
 //! PF309: on Fanuc and Haas `X1` is a ten-thousandth of an inch, or a micron.
 
+use crate::control::{self, Hole, Meaning, Row, WithoutPoint};
 use crate::diag::{Code, Diag};
-use crate::lang::is_cycle_code;
 use crate::lint::view::View;
 use crate::sema::{Line, Word, WordKind};
 use crate::span::Span;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    if !view.is_for(&["fanuc", "haas"]) {
+    if view.traits().without_point != WithoutPoint::LeastIncrement {
         return;
     }
     // in the block of a cycle K counts how often, J of a tap how much faster it comes out; G5.1 has a mode in R
     let counting = |line: &Line| {
-        let has = |asked: &dyn Fn(f64) -> bool| line.words.iter().any(|word| word.typed(b'G').is_some_and(asked));
-        [has(&is_cycle_code), has(&|code| code == 74.0 || code.trunc() == 84.0), has(&|code| code == 5.1)]
+        let codes = view.settings.codes();
+        let has = |asked: &dyn Fn(control::Code) -> bool| line.words.iter().filter_map(Word::code).any(asked);
+        let taps = |row: &Row| row.makes.iter().any(|hole| matches!(hole, Hole::Tap | Hole::LeftTap));
+        let cycle = has(&|code| codes.meaning(code).is_some_and(Meaning::is_cycle));
+        let tap = has(&|code| codes.row(code).is_some_and(taps));
+        [cycle, tap, has(&|code| code.to_string() == "G5.1")]
     };
     let counts = |[cycle, tap, mode]: [bool; 3], word: &Word| match word.letter() {
         Some(b'K') => cycle,

@@ -1,5 +1,6 @@
 //! PF430: a work offset as typed is that of every job.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::view::{Purpose, View};
@@ -9,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     // a safety line in StartCode is overridden before the first move
     let bodies = view.bodies.iter().filter(|body| body.purpose != Purpose::Sequence(SequenceId::StartCode));
     for body in bodies {
-        let is_work = |word: &&Word| word.typed(b'G').is_some_and(|code| (54.0..60.0).contains(&code));
+        let is_work = |word: &&Word| view.meaning(word) == Some(Meaning::Work);
         let (Some(word), false) = (body.words().find(is_work), body.prints(VarId::Work)) else { continue };
         diags.push(
             Diag::new(Code::PF430, format!("{} goes by one work offset, whatever the job says", body.name()))

@@ -1,5 +1,6 @@
 //! PF015: no control reads what stands behind the end of the program.
 
+use crate::control::Meaning;
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::View;
@@ -9,7 +10,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(end) = view.body(SequenceId::EndCode) else { return };
     // the reader stops at a `%`, the control at M30
     let is_end = |word: &Word| {
-        word.is_code(b'M', &[2.0, 30.0, 99.0]) || matches!(&word.kind, WordKind::Text(text) if text == "%")
+        matches!(view.meaning(word), Some(Meaning::End | Meaning::Return))
+            || matches!(&word.kind, WordKind::Text(text) if text == "%")
     };
     let Some(last) = end.lines.iter().position(|line| line.words.iter().any(is_end)) else { return };
     let is_word = |word: &&Word| match &word.kind {

@@ -15,8 +15,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         for word in &line.words {
             let WordKind::Var(letter, var) = word.kind else { continue };
             let unit = var.row().unit;
-            // with its pitch in Q, a Fadal taps at F turns
-            if var == VarId::Speed && view.is_for(&["fadal"]) && *taps.get_or_insert_with(|| taps_by_pitch(line)) {
+            // a tap whose pitch has a word of its own has its turns in F
+            if var == VarId::Speed && *taps.get_or_insert_with(|| taps_by_pitch(view, line)) {
                 continue;
             }
             let wrong = match letter {
@@ -46,11 +46,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Is it a block of G84.1, G84.2 or G74.1 with a pitch?
-fn taps_by_pitch(line: &Line) -> bool {
+/// Is it a block of a tap whose pitch has a word of its own, with a pitch?
+fn taps_by_pitch(view: &View, line: &Line) -> bool {
     let words = &line.words;
-    let taps = words.iter().any(|word| word.is_code(b'G', &[84.1, 84.2, 74.1]));
-    taps && words.iter().any(|word| word.printed_var() == Some(VarId::Pitch))
+    let codes = view.settings.codes();
+    let taps = |code| codes.row(code).is_some_and(|row| row.pitch.is_some());
+    words.iter().filter_map(Word::code).any(taps) && words.iter().any(|word| word.printed_var() == Some(VarId::Pitch))
 }
 
 /// `F[pitch]` while feeds count per minute: a tap would go in at a hundredth of its feed.

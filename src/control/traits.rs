@@ -1,0 +1,126 @@
+//! What a control is besides its codes. What no file says is unknown, and nobody goes by it.
+
+use serde::Deserialize;
+
+use super::code::Code;
+use super::words::Words;
+
+/// By whose rules programs are run: what no table says, as in which order a block acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Rules {
+    /// The usual reading of Fanuc and Haas mills.
+    #[default]
+    Fanuc,
+    /// LinuxCNC 2.9, as its interpreter was observed.
+    Linuxcnc,
+    /// EMC as its manual of about 2005 describes the cycles; else as LinuxCNC.
+    Emc2,
+}
+
+/// What a length without a point counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WithoutPoint {
+    /// Nothing public says.
+    #[default]
+    Unknown,
+    /// Inches or millimetres.
+    Units,
+    /// The smallest unit of the control: 0.0001 inch, 0.001 mm.
+    LeastIncrement,
+}
+
+/// What P of a dwell counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DwellUnit {
+    /// Nothing public says.
+    #[default]
+    Unknown,
+    /// Milliseconds.
+    Ms,
+    /// Seconds.
+    S,
+    /// Seconds where it has a point, milliseconds where it has none.
+    ByPoint,
+}
+
+/// How the length of a tool is turned on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+pub enum ToolLength {
+    /// By a code with its register.
+    #[default]
+    #[serde(rename = "G43 H")]
+    CodeAndRegister,
+    /// By the code alone, for the tool in the spindle; a register may stand beside it.
+    #[serde(rename = "G43")]
+    Code,
+    /// By the register alone; a code may stand beside it.
+    #[serde(rename = "H")]
+    Register,
+    /// It has no registers of lengths.
+    #[serde(rename = "none")]
+    None,
+}
+
+/// From where I, J and K of an arc count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Centres {
+    /// Nothing public says.
+    #[default]
+    Unknown,
+    /// From the start of the arc.
+    Incremental,
+    /// From the origin.
+    Absolute,
+}
+
+/// What is left as it is, where a control may also put it back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kept {
+    /// Nothing public says.
+    #[default]
+    Unknown,
+    /// It stays.
+    Kept,
+    /// It is put back, or stops.
+    Lost,
+}
+
+/// What a control is besides its codes.
+#[derive(Clone, Debug, Default)]
+pub struct Traits {
+    /// By whose rules its programs are run.
+    pub rules: Rules,
+    /// Its longest block in characters; `None`: nothing public says.
+    pub longest_line: Option<usize>,
+    /// It stops at a longer block. Of others a sender cuts what is too long.
+    pub stops_at_longer: bool,
+    /// A comment may go on to the end of its line without its closing mark.
+    pub open_comments: bool,
+    /// It reads words with small letters.
+    pub small_letters: bool,
+    /// What a length without a point counts.
+    pub without_point: WithoutPoint,
+    /// What P of a dwell counts.
+    pub dwell: DwellUnit,
+    /// From where I, J and K count.
+    pub centres: Centres,
+    /// The modes that one program leaves on, as G91, at the start of the next one.
+    pub modes_at_start: Kept,
+    /// The spindle at M0 and M1.
+    pub spindle_at_stop: Kept,
+    /// How the length of a tool is turned on.
+    pub tool_length: ToolLength,
+    /// A height is a place of the machine while no length of a tool counts.
+    pub height_is_machine: bool,
+    /// The words that need no code in their block.
+    pub everywhere: Words,
+    /// The letter of a word that selects a work offset, beside its codes.
+    pub work_letter: Option<u8>,
+    /// All its codes, where they are known: it refuses others. Empty: they are not.
+    pub only: Vec<Code>,
+}

@@ -1,7 +1,8 @@
 //! A reader of one's own: points in a table become holes, events go straight to the form.
 
 use postform::toolpath::{
-    Axes, CycleKind, CycleSpec, Event, Hole, Place, Sink, Spindle, SpindleTurn, Start, Tool, ToolChange, Units,
+    Axes, CycleKind, CycleSpec, Event, Hole, Place, ReadError, Sink, Spindle, SpindleTurn, Start, Tool, ToolChange,
+    Units,
 };
 use postform::{Error, Job, NoFiles, Options, Post, Source};
 
@@ -16,28 +17,28 @@ fn main() -> Result<(), Error> {
 }
 
 /// Pushes the events of a job that drills the table's holes.
-fn holes(table: &str, sink: &mut dyn Sink) -> Result<(), Error> {
+fn holes(table: &str, sink: &mut dyn Sink) -> Result<(), ReadError> {
     let line = |number| Place { line: number, column: 1, ..Place::default() };
     let start = Start { program: Some(100.0), ..Start::new(Units::Mm) };
-    sink.event(Event::Start(&start), line(1))?;
+    sink.push(Event::Start(&start), line(1))?;
     let change = ToolChange {
         tool: Some(Tool { number: 5.0, diameter: Some(6.0), ..Tool::default() }),
         spindle: Some(Spindle { speed: Some(2400.0), turn: Some(SpindleTurn::Cw), ..Spindle::default() }),
         work: Some(54.0),
         ..ToolChange::default() // its first move is filled in from the events that follow
     };
-    sink.event(Event::ToolChange(&change), line(1))?;
-    sink.event(
+    sink.push(Event::ToolChange(&change), line(1))?;
+    sink.push(
         Event::CycleBegin(&CycleSpec { clear: Some(2.0), feed: Some(150.0), ..CycleSpec::new(CycleKind::Drill) }),
         line(2),
     )?;
     for (row, number) in table.lines().skip(1).zip(2..) {
         let numbers: Vec<f64> = row.split(';').filter_map(|cell| cell.parse().ok()).collect();
         if let [x, y, depth] = numbers[..] {
-            sink.event(Event::Hole(Hole { at: Axes::new(&[x, y, 0.0]), depth: Some(depth) }), line(number))?;
+            sink.push(Event::Hole(Hole { at: Axes::new(&[x, y, 0.0]), depth: Some(depth) }), line(number))?;
         }
     }
-    sink.event(Event::CycleEnd, line(2))?;
-    sink.event(Event::Finish, line(2))?;
+    sink.push(Event::CycleEnd, line(2))?;
+    sink.push(Event::Finish, line(2))?;
     Ok(())
 }

@@ -3,7 +3,6 @@
 use std::{error, fmt, io};
 
 use crate::diag::{Code, Diag, Findings};
-use crate::toolpath::ReadError;
 
 /// What an error is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,15 +93,6 @@ impl From<Box<Diag>> for Error {
 impl From<io::Error> for Error {
     fn from(error: io::Error) -> Error {
         Error::io(ErrorKind::Input, error)
-    }
-}
-
-impl From<ReadError> for Error {
-    fn from(error: ReadError) -> Error {
-        match error {
-            ReadError::Io(error) => error.into(),
-            ReadError::Job(diag) => diag.into(),
-        }
     }
 }
 

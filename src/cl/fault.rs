@@ -1,11 +1,12 @@
 //! What is wrong with a statement.
 
 use crate::diag::{Code, Diag};
+use crate::toolpath::Stop;
 
-/// What a statement comes to: done, or what is wrong with it.
-pub(super) type Done<T = ()> = Result<T, Box<Diag>>;
+/// What a statement comes to: done, or why nothing goes on.
+pub(super) type Done<T = ()> = Result<T, Stop>;
 
 /// A fault; the reader adds the place.
 pub(super) fn fault<T>(code: Code, message: impl Into<String>, help: impl Into<String>) -> Done<T> {
-    Err(Box::new(Diag::new(code, message).help(help)))
+    Err(Diag::new(code, message).help(help).into())
 }

@@ -112,7 +112,7 @@ impl<'s> Job<'s> {
             Waiting::Text(text) => Event::Text(text),
             Waiting::Stop => Event::Stop(StopKind::Program),
         };
-        self.hold.event(event, place)
+        self.hold.push(event, place)
     }
 
     /// An event that is no hole: the sink leaves its cycle for it.
@@ -127,7 +127,7 @@ impl<'s> Job<'s> {
         if self.change.is_some() || !self.started || self.operations == 0 {
             self.release()?;
         }
-        self.hold.event(event, self.notes.place)
+        self.hold.push(event, self.notes.place)
     }
 
     /// The sink goes into a cycle.
@@ -164,7 +164,7 @@ impl<'s> Job<'s> {
                 set: Vec::new(),
                 tool_order: None,
             };
-            self.hold.event(Event::Start(&start), self.notes.place)?;
+            self.hold.push(Event::Start(&start), self.notes.place)?;
             self.started = true;
         }
         if self.change.is_none() && self.operations == 0 {

@@ -13,8 +13,8 @@ use super::report::Report;
 use super::state::{Arcs, Cycle, Feeds, Motion, State};
 use super::texts::{Insert, lone_insert, text};
 use super::words::{Word, plain_goto, words};
-use crate::diag::{Code, Diag};
-use crate::toolpath::{Place, ReadError, Sink};
+use crate::diag::Code;
+use crate::toolpath::{Place, ReadError, Sink, Stop};
 
 /// Lines within which the system that wrote a file shows.
 const HEAD: usize = 50;
@@ -63,11 +63,11 @@ pub fn read_cl(input: impl Read, options: &Options, report: &mut Report, sink: &
         }
         let line = if number == 1 { line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line) } else { line };
         let read = reader.line(line);
-        read.map_err(|diag| reader.placed(diag))?;
+        read.map_err(|stop| reader.placed(stop))?;
     }
     let end = reader.finish();
     reader.state.job.notes.tell_unknown();
-    end.map_err(|diag| reader.placed(diag))
+    end.map_err(|stop| reader.placed(stop))
 }
 
 impl Reader<'_> {
@@ -186,9 +186,8 @@ impl Reader<'_> {
         self.state.job.finish()
     }
 
-    fn placed(&self, mut diag: Box<Diag>) -> ReadError {
-        diag.place.get_or_insert_with(|| self.state.job.notes.place.to_string());
-        ReadError::Job(diag)
+    fn placed(&self, stop: Stop) -> ReadError {
+        stop.placed(|| self.state.job.notes.place.to_string()).into()
     }
 }
 

@@ -32,7 +32,7 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     let warnings: Vec<Diag> = report.warnings.iter().cloned().map(placed).collect();
     say(&Reporter::new(colour).text(&warnings, &[]));
     match read {
-        Ok(()) => {
+        Ok(()) | Err(ReadError::Stopped) => {
             let text = describe(&files::name(path), &summary, &report);
             output::standard_output(|out| out.write_all(text.as_bytes()))?;
             Ok(Ending::Clean)

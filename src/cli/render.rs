@@ -3,10 +3,10 @@
 use std::io;
 use std::path::Path;
 
-use postform::diag::{Code, Diag, Severity};
+use postform::diag::{Diag, Severity};
 use postform::render::{Options, Renderer, TraceLine};
 use postform::source::Source;
-use postform::toolpath::{Event, Place, ReadError, Sink};
+use postform::toolpath::{Event, Flow, Place, ReadError, Sink, Stop, flow};
 
 use super::Ending;
 use super::args::RenderArgs;
@@ -73,7 +73,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         return output_failed(path.unwrap_or(&args.output), &error);
     }
     match read {
-        Ok(()) => {}
+        Ok(()) | Err(ReadError::Stopped) => {}
         Err(ReadError::Io(error)) => return Err(io_message("read", &args.job, &error)),
         Err(ReadError::Job(mut diag)) => {
             let ending = Ending::of(&diag);
@@ -164,14 +164,14 @@ struct Writer<'p> {
 }
 
 impl Sink for Writer<'_> {
-    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         self.renderer.event(event, place)?;
         let length = self.renderer.text().len();
         if length < CHUNK {
-            return Ok(());
+            return Flow::Continue(());
         }
-        self.growth.print(length, place)?;
-        self.drain().map_err(|()| Box::new(Diag::new(Code::PJ001, "the output can't be written")))
+        flow(self.growth.print(length, place))?;
+        flow(self.drain().map_err(|()| Stop::Enough))
     }
 }
 

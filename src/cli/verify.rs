@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::{Seek, Write};
 use std::path::Path;
 
-use postform::diag::{Code, Diag, Severity};
+use postform::diag::{Diag, Severity};
 use postform::nc::Settings;
 use postform::render::{Options, Renderer, TraceLine};
-use postform::toolpath::{Event, Place, ReadError, Sink, Units};
+use postform::toolpath::{Event, Flow, Place, ReadError, Sink, Stop, Units, flow};
 use postform::verify::{Comparer, Counts, Expectation, Finding, Verdict};
 
 use super::args::{ControlArgs, From, ReadArgs, VerifyArgs};
@@ -134,6 +134,7 @@ impl Proof<'_> {
         let verdict = comparer.comparer.verdict().map_err(|error| io_message("read", Path::new(&self.name), &error))?;
         let job = files::name(self.job.path);
         if let Err(error) = read
+            && !matches!(error, ReadError::Stopped)
             && !matches!(verdict, Verdict::Different(_))
         {
             let ReadError::Job(mut diag) = error else {
@@ -192,7 +193,7 @@ struct Started<R> {
 }
 
 impl<R: std::io::BufRead + Seek> Sink for Started<R> {
-    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         if let (Event::Start(start), true) = (&event, self.known) {
             self.comparer.begin_in(start.units);
         }
@@ -269,7 +270,7 @@ fn spooled(
         return Err(fail(error));
     }
     match read {
-        Ok(()) => {}
+        Ok(()) | Err(ReadError::Stopped) => {}
         Err(ReadError::Io(error)) => return Err(io_message("read", job.path, &error)),
         Err(ReadError::Job(mut diag)) => {
             let ending = Ending::of(&diag);
@@ -308,16 +309,16 @@ impl Printed<'_> {
 }
 
 impl Sink for Printed<'_> {
-    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         self.renderer.event(event, place)?;
         let length = self.renderer.text().len();
         if length >= CHUNK {
-            self.growth.print(length, place)?;
+            flow(self.growth.print(length, place))?;
             self.drain();
         }
         match &self.failure {
-            Some(error) => Err(Box::new(Diag::new(Code::PJ001, error.to_string()))),
-            None => Ok(()),
+            Some(_) => Flow::Break(Stop::Enough),
+            None => Flow::Continue(()),
         }
     }
 }
@@ -339,12 +340,11 @@ fn printed_by(job: &Job, prepared: &Prepared, line: u64) -> Result<Option<TraceL
         }
     }
     impl Sink for Finder<'_> {
-        fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+        fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
             let done = self.renderer.event(event, place);
             self.look();
             match self.found {
-                // far enough
-                Some(_) => Err(Box::new(Diag::new(Code::PV001, "found"))),
+                Some(_) => Flow::Break(Stop::Enough),
                 None => done,
             }
         }

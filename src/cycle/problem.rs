@@ -1,6 +1,7 @@
 //! Why a cycle can't be made.
 
 use crate::diag::{Code, Diag};
+use crate::toolpath::Stop;
 
 /// A problem of a cycle; its code has a name, as `cycle.depth.missing`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,5 +24,11 @@ impl Problem {
 impl From<Problem> for Box<Diag> {
     fn from(problem: Problem) -> Box<Diag> {
         Box::new(Diag::new(problem.code, problem.message).help(problem.help))
+    }
+}
+
+impl From<Problem> for Stop {
+    fn from(problem: Problem) -> Stop {
+        Stop::Wrong(problem.into())
     }
 }

@@ -14,7 +14,7 @@ use crate::control::Control;
 use crate::error::Error;
 use crate::nc::{JobOptions, Settings, Unpointed, read_program};
 use crate::toolpath::json::{read_document, read_lines};
-use crate::toolpath::{Event, Hold, Place, ReadError, Sink, Units};
+use crate::toolpath::{Event, Flow, Hold, Place, ReadError, Sink, Units, flow};
 
 /// What a CL file or NC program does not say itself. JSON needs none of it.
 #[derive(Clone, Debug, Default)]
@@ -37,7 +37,7 @@ trait Again: Read + Seek {}
 impl<T: Read + Seek> Again for T {}
 
 /// What pushes a custom job's events.
-type Maker<'a> = dyn FnMut(&mut dyn Sink) -> Result<(), Error> + 'a;
+type Maker<'a> = dyn FnMut(&mut dyn Sink) -> Result<(), ReadError> + 'a;
 
 enum Input<'a> {
     Bytes(&'a [u8]),
@@ -116,8 +116,8 @@ impl<'a> Job<'a> {
     /// A job of another format: `make` pushes its events, anew each time that it is called. Tool changes need no first move:
     /// it is filled in from the events that follow.
     ///
-    /// The sink says what is wrong with an event: return it as it is. The last event is [`Event::Finish`].
-    pub fn events(make: impl FnMut(&mut dyn Sink) -> Result<(), Error> + 'a) -> Job<'a> {
+    /// [`Sink::push`] pushes an event; what it answers is passed on with `?`. The last event is [`Event::Finish`].
+    pub fn events(make: impl FnMut(&mut dyn Sink) -> Result<(), ReadError> + 'a) -> Job<'a> {
         Job::new(Format::Json, Input::Events(Box::new(make)))
     }
 
@@ -157,42 +157,49 @@ impl<'a> Job<'a> {
     /// # Errors
     /// The input fails; the job is wrong, or what the sink was asked to do is. The report has the warnings until then.
     pub fn read(&mut self, sink: &mut dyn Sink) -> Result<(), Error> {
+        if matches!(self.input, Input::Stream(None)) {
+            return Err(Error::usage("a job that comes as a stream can be read once only"));
+        }
         self.report = Report::default();
         self.read.set(0);
+        match self.read_on(sink) {
+            Ok(()) | Err(ReadError::Stopped) => Ok(()),
+            Err(ReadError::Io(error)) => Err(error.into()),
+            Err(ReadError::Job(diag)) => Err(diag.into()),
+        }
+    }
+
+    fn read_on(&mut self, sink: &mut dyn Sink) -> Result<(), ReadError> {
         let count = Rc::clone(&self.read);
         let (format, reading, report) = (self.format, &self.reading, &mut self.report);
         match &mut self.input {
             Input::Bytes(bytes) => {
                 // all of it is there
                 count.set(bytes.len() as u64);
-                Ok(match format {
+                match format {
                     Format::Nc => read_nc(Cursor::new(*bytes), reading, report, sink),
                     _ => read_once(*bytes, format, reading, report, sink),
-                }?)
+                }
             }
-            Input::File(file) => {
-                file.rewind()?;
-                Ok(match format {
-                    Format::Nc => {
-                        let input = BufReader::with_capacity(PROGRAM_BUFFER, Counted { input: file, count });
-                        read_nc(input, reading, report, sink)
-                    }
-                    _ => read_once(Counted { input: file, count }, format, reading, report, sink),
-                }?)
+            Input::File(input) => {
+                input.rewind()?;
+                let input = Counted { input, count };
+                match format {
+                    Format::Nc => read_nc(BufReader::with_capacity(PROGRAM_BUFFER, input), reading, report, sink),
+                    _ => read_once(input, format, reading, report, sink),
+                }
             }
             Input::Stream(input) => {
-                let Some(input) = input.take() else {
-                    return Err(Error::usage("a job that comes as a stream can be read once only"));
-                };
+                let Some(input) = input.take() else { return Ok(()) };
                 let mut input = Counted { input, count };
-                Ok(match format {
+                match format {
                     Format::Nc => {
                         let mut text = Vec::new();
                         input.read_to_end(&mut text)?;
                         read_nc(Cursor::new(text), reading, report, sink)
                     }
                     _ => read_once(input, format, reading, report, sink),
-                }?)
+                }
             }
             Input::Events(make) => make(&mut Ahead(Hold::new(sink))),
         }
@@ -266,9 +273,9 @@ impl<R: Seek> Seek for Counted<R> {
 struct Ahead<'s>(Hold<'s>);
 
 impl Sink for Ahead<'_> {
-    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<crate::diag::Diag>> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         match event {
-            Event::ToolChange(change) => self.0.tool_change(change.clone(), place),
+            Event::ToolChange(change) => flow(self.0.tool_change(change.clone(), place)),
             event => self.0.event(event, place),
         }
     }

@@ -10,7 +10,7 @@ use crate::diag::{Code, Diag};
 use crate::error::{Error, ErrorKind};
 use crate::job::Job;
 use crate::render::Renderer;
-use crate::toolpath::{Event, Place, Sink};
+use crate::toolpath::{Event, Flow, Place, Sink, Stop, flow};
 
 /// How much text waits before it is passed on.
 const CHUNK: usize = 64 * 1024;
@@ -105,17 +105,17 @@ impl Printer<'_, '_> {
 
 impl Sink for Printer<'_, '_> {
     #[inline]
-    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         self.renderer.event(event, place)?;
         let length = self.renderer.text().len();
         if length < CHUNK {
-            return Ok(());
+            return Flow::Continue(());
         }
-        self.growth.print(length, place)?;
+        flow(self.growth.print(length, place))?;
         self.drain();
         match &self.failure {
-            Some(error) => Err(Box::new(Diag::new(Code::PJ001, error.to_string()))),
-            None => Ok(()),
+            Some(_) => Flow::Break(Stop::Enough),
+            None => Flow::Continue(()),
         }
     }
 }

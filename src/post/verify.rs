@@ -10,7 +10,7 @@ use crate::diag::Diag;
 use crate::error::{Error, ErrorKind};
 use crate::job::Job;
 use crate::nc::Settings;
-use crate::toolpath::{Event, Place, Sink, Units};
+use crate::toolpath::{Event, Flow, Place, Sink, Units};
 use crate::verify::{Comparer, Counts, Expectation, Verdict};
 
 /// How a proof came out.
@@ -93,7 +93,7 @@ fn prove(
     let (counts, warnings) = (comparer.counts(), comparer.warnings());
     let verdict = comparer.verdict().map_err(|error| Error::io(ErrorKind::Program, error))?;
     match (read, &verdict) {
-        // the comparison stopped the reader: the rest of the job was not looked at
+        // what the program does before it is a difference already
         (Err(_), Verdict::Different(_)) | (Ok(()), _) => Ok(Proven { verdict, counts, warnings }),
         (Err(error), _) => Err(error),
     }
@@ -106,7 +106,7 @@ struct Started<R> {
 }
 
 impl<R: BufRead + Seek> Sink for Started<R> {
-    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         if let (Event::Start(start), true) = (&event, self.of_job) {
             self.comparer.begin_in(start.units);
         }

@@ -11,7 +11,7 @@ use super::vars::Vars;
 use crate::compile::Program;
 use crate::cycle::Steps;
 use crate::diag::Diag;
-use crate::toolpath::{Axes, Event, FeedMode, Order, Place, Section, Sink};
+use crate::toolpath::{Axes, Event, FeedMode, Flow, Order, Place, Section, Sink, Stop, flow};
 
 /// What kind of move printed last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -197,12 +197,9 @@ impl<'p> Renderer<'p> {
 
 impl Sink for Renderer<'_> {
     #[inline]
-    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         self.out.place = place;
         let done = self.order.follow(&event).and_then(|()| self.take(event)).and_then(|()| self.out.blocks_fit());
-        done.map_err(|mut diag| {
-            diag.place.get_or_insert_with(|| place.to_string());
-            diag
-        })
+        flow(done.map_err(|diag| Stop::from(diag).placed(|| place.to_string())))
     }
 }

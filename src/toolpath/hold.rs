@@ -1,7 +1,7 @@
 //! Holds a tool change until the path's first move is known, because the tool change may print its position.
 
 use super::event::{Axes, CycleSpec, Event, First, Spindle, ToolChange};
-use super::{Place, Sink};
+use super::{Flow, Place, Sink, Stop, flow};
 use crate::diag::{Code, Diag};
 use crate::lang::Machine;
 
@@ -64,7 +64,7 @@ impl<'s> Hold<'s> {
     ///
     /// # Errors
     /// Those of the sink for what was held before.
-    pub fn tool_change(&mut self, change: ToolChange, place: Place) -> Result<(), Box<Diag>> {
+    pub fn tool_change(&mut self, change: ToolChange, place: Place) -> Result<(), Stop> {
         self.release(First::Nothing)?;
         let tool = change.tool.as_ref().map(|tool| tool.number);
         self.changes = tool.is_some() && tool != self.tool;
@@ -74,11 +74,11 @@ impl<'s> Hold<'s> {
     }
 
     /// The tool changes now. `first` is the first move, where no rapid before it told a place.
-    fn release(&mut self, first: First) -> Result<(), Box<Diag>> {
+    fn release(&mut self, first: First) -> Result<(), Stop> {
         let said = std::mem::take(&mut self.first);
         if let Some((mut change, place)) = self.change.take() {
             change.first = if said.given == 0 { first } else { First::Rapid(said) };
-            self.sink.event(Event::ToolChange(&change), place)?;
+            self.sink.push(Event::ToolChange(&change), place)?;
         }
         for (waiting, place) in self.waiting.drain(..) {
             let event = match &waiting {
@@ -88,7 +88,7 @@ impl<'s> Hold<'s> {
                 Waiting::Set(name, value) => Event::Set(name, *value),
                 Waiting::Cycle(spec) => Event::CycleBegin(spec),
             };
-            self.sink.event(event, place)?;
+            self.sink.push(event, place)?;
         }
         Ok(())
     }
@@ -119,12 +119,12 @@ impl<'s> Hold<'s> {
     }
 
     #[cold]
-    fn held(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+    fn held(&mut self, event: Event<'_>, place: Place) -> Result<(), Stop> {
         let waiting = match event {
             // rapids before it told places of the offset before: they are gone to in that one
             Event::Work(_) if self.first.given != 0 && !self.is_way() => {
                 self.release(First::Nothing)?;
-                return self.sink.event(event, place);
+                return self.sink.push(event, place);
             }
             Event::Work(work) => {
                 if self.first.given != 0 {
@@ -156,7 +156,7 @@ impl<'s> Hold<'s> {
                 self.reaches(&to);
                 if self.axes & !self.first.given == 0 || to.given & !self.axes != 0 {
                     self.release(First::Nothing)?;
-                    return self.sink.event(event, place);
+                    return self.sink.push(event, place);
                 }
                 Waiting::Plain(Event::Rapid(to))
             }
@@ -173,22 +173,22 @@ impl<'s> Hold<'s> {
                     self.forget_ways(); // the tool change goes over the hole at once
                 }
                 self.release(spec.map_or(First::Cut, |spec| First::Hole(spec, hole)))?;
-                return self.sink.event(event, place);
+                return self.sink.push(event, place);
             }
             Event::Thread(thread) => {
                 if self.first.given != 0 {
                     self.reaches(&Axes { given: thread.from.given & self.axes & !self.first.given, ..thread.from });
                 }
                 self.release(First::Rapid(thread.from))?;
-                return self.sink.event(event, place);
+                return self.sink.push(event, place);
             }
             Event::Line { .. } | Event::Arc { .. } | Event::Infeed { .. } | Event::Outfeed { .. } => {
                 self.release(First::Cut)?;
-                return self.sink.event(event, place);
+                return self.sink.push(event, place);
             }
             Event::SubCall(_) if self.first.given != 0 => {
                 self.release(First::Nothing)?;
-                return self.sink.event(event, place);
+                return self.sink.push(event, place);
             }
             Event::SubCall(call) => {
                 // the tool change goes to the call's place, so in the call's work offset; the operation's comes after
@@ -199,15 +199,15 @@ impl<'s> Hold<'s> {
                     .map(|(change, _)| std::mem::replace(&mut change.work, call.work));
                 let lost = own == Some(None); // the offset that is in force is the renderer's to know
                 self.release(if call.at.given == 0 || lost { First::Nothing } else { First::Rapid(call.at) })?;
-                self.sink.event(event, place)?;
+                self.sink.push(event, place)?;
                 return match own.flatten() {
-                    Some(work) => self.sink.event(Event::Work(work), place),
+                    Some(work) => self.sink.push(Event::Work(work), place),
                     None => Ok(()),
                 };
             }
             Event::Start(_) | Event::ToolChange(_) | Event::SubStart(_) | Event::SubEnd | Event::Finish => {
                 self.release(First::Nothing)?;
-                return self.sink.event(event, place);
+                return self.sink.push(event, place);
             }
             Event::CycleBegin(spec) => Waiting::Cycle(Box::new(spec.clone())),
             Event::Comment(text) => Waiting::Comment(text.to_owned()),
@@ -232,10 +232,8 @@ impl<'s> Hold<'s> {
             Event::Coolant(coolant) => Waiting::Plain(Event::Coolant(coolant)),
         };
         if self.waiting.len() == MOST_HELD {
-            return Err(Box::new(
-                Diag::new(Code::PJ005, format!("more than {MOST_HELD} items before the operation's first move"))
-                    .help("put the first rapid before them"),
-            ));
+            let message = format!("more than {MOST_HELD} items before the operation's first move");
+            return Err(Diag::new(Code::PJ005, message).help("put the first rapid before them").into());
         }
         self.waiting.push((waiting, place));
         Ok(())
@@ -244,9 +242,9 @@ impl<'s> Hold<'s> {
 
 impl Sink for Hold<'_> {
     #[inline]
-    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         if self.change.is_some() {
-            return self.held(event, place);
+            return flow(self.held(event, place));
         }
         if let Event::Start(start) = event {
             (self.axes, self.depth) = match start.machine {

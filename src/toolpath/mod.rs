@@ -7,6 +7,7 @@ mod kind;
 mod order;
 mod place;
 mod read;
+mod sink;
 mod summary;
 
 pub mod json;
@@ -21,18 +22,8 @@ pub use kind::CycleKind;
 pub use order::{Order, impossible};
 pub use place::Place;
 pub use read::ReadError;
+pub use sink::{Flow, Sink, Stop, flow};
 pub use summary::Summary;
-
-use crate::diag::Diag;
-
-/// Something that consumes events: the renderer, a summary, a check.
-pub trait Sink {
-    /// Takes one event with its place in the input.
-    ///
-    /// # Errors
-    /// What is wrong with the event; nothing may be pushed after it.
-    fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>>;
-}
 
 /// A number as a key; zero has one sign.
 pub(crate) fn key(number: f64) -> u64 {

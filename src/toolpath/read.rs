@@ -1,5 +1,6 @@
 //! Why reading a job ends early.
 
+use super::Stop;
 use crate::diag::Diag;
 
 /// Why a job was not read to its end.
@@ -9,10 +10,27 @@ pub enum ReadError {
     Io(std::io::Error),
     /// The job is wrong, or what its events asked for is.
     Job(Box<Diag>),
+    /// The sink has seen enough: no error.
+    Stopped,
 }
 
 impl From<Box<Diag>> for ReadError {
     fn from(diag: Box<Diag>) -> Self {
         ReadError::Job(diag)
+    }
+}
+
+impl From<Stop> for ReadError {
+    fn from(stop: Stop) -> Self {
+        match stop {
+            Stop::Enough => ReadError::Stopped,
+            Stop::Wrong(diag) => ReadError::Job(diag),
+        }
+    }
+}
+
+impl From<std::io::Error> for ReadError {
+    fn from(error: std::io::Error) -> Self {
+        ReadError::Io(error)
     }
 }

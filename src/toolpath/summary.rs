@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::CycleKind;
 use super::event::{Axes, Event, Start, Units};
 use super::order::{Order, impossible};
-use super::{Place, Sink, key};
+use super::{Flow, Place, Sink, flow, key};
 use crate::diag::Diag;
 
 /// Counts a job's events; `postform check` prints it.
@@ -63,7 +63,13 @@ impl Summary {
 }
 
 impl Sink for Summary {
-    fn event(&mut self, event: Event<'_>, _: Place) -> Result<(), Box<Diag>> {
+    fn event(&mut self, event: Event<'_>, _: Place) -> Flow {
+        flow(self.count(event))
+    }
+}
+
+impl Summary {
+    fn count(&mut self, event: Event<'_>) -> Result<(), Box<Diag>> {
         self.order.follow(&event)?;
         match event {
             Event::Start(start) => self.start(start),

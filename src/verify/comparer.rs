@@ -9,7 +9,7 @@ use super::program::Program;
 use super::way::Way;
 use crate::diag::{Code, Diag};
 use crate::nc::{RunError, Settings};
-use crate::toolpath::{self, Event, Sink, StopKind, Units};
+use crate::toolpath::{self, Event, Flow, Sink, Stop, StopKind, Units};
 
 /// What the job's side tells of.
 pub(super) trait Intent {
@@ -159,17 +159,23 @@ impl<R: BufRead + Seek> Comparer<R> {
 }
 
 impl<R: BufRead + Seek> Sink for Comparer<R> {
-    /// An error when a difference is found: [`Comparer::verdict`] tells it; nothing more need be pushed.
-    fn event(&mut self, event: Event<'_>, place: toolpath::Place) -> Result<(), Box<Diag>> {
+    /// Has seen enough when a difference is found, or when the program can't be read: [`Comparer::verdict`] tells.
+    fn event(&mut self, event: Event<'_>, place: toolpath::Place) -> Flow {
         self.sides.place = place;
-        self.job.event(event, &mut self.sides).map_err(|mut diag| {
-            diag.place.get_or_insert_with(|| place.to_string());
-            diag
-        })
+        let Err(diag) = self.job.event(event, &mut self.sides) else { return Flow::Continue(()) };
+        if self.sides.is_decided() {
+            return Flow::Break(Stop::Enough);
+        }
+        Flow::Break(Stop::from(diag).placed(|| place.to_string()))
     }
 }
 
 impl<R: BufRead + Seek> Sides<R> {
+    /// Is the verdict known before the end of the job?
+    fn is_decided(&self) -> bool {
+        !self.findings.is_empty() || self.failure.is_some()
+    }
+
     /// A difference ends the comparison: what comes after it is moved against each other anyway.
     pub fn differs<T>(&mut self, code: Code, line: u64, message: String, help: &'static str) -> Result<T, Box<Diag>> {
         let block = if line > 0 { self.program.text() } else { String::new() };

@@ -51,7 +51,7 @@ fn events_do_not_allocate() {
     let deep = CycleSpec { step: Some(0.1), kind: CycleKind::Deep, ..drill.clone() };
     let mut round = |i: u32| {
         let x = f64::from(i % 300) * 0.013;
-        let mut push = |event: Event<'_>| renderer.event(event, Place::default()).unwrap();
+        let mut push = |event: Event<'_>| renderer.push(event, Place::default()).unwrap();
         push(Event::Line { to: Axes::new(&[x, 1.5, -0.1]), feed: Some(5.0 + f64::from(i % 7)) });
         push(Event::Line { to: Axes::new(&[x, 0.5, -0.1]), feed: None });
         let to = Axes::new(&[x + 1.0, 0.5]);

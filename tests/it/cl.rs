@@ -34,7 +34,7 @@ fn read(text: &str, options: Options) -> Vec<String> {
         Err(ReadError::Job(diag)) => {
             vec![format!("{} {} at {}", diag.code.name(), diag.message, diag.place.unwrap_or_default())]
         }
-        Err(ReadError::Io(error)) => panic!("{error}"),
+        Err(other) => panic!("{other:?}"),
     }
 }
 

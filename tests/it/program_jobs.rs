@@ -25,7 +25,7 @@ fn printed(program: &str) -> Result<(String, Vec<String>), String> {
             Ok((text, warnings.into_iter().map(|diag| diag.message).collect()))
         }
         Err(ReadError::Job(diag)) => Err(diag.code.name().into()),
-        Err(ReadError::Io(error)) => panic!("{error}"),
+        Err(other) => panic!("{other:?}"),
     }
 }
 

@@ -85,10 +85,10 @@ proptest! {
         let whole = render_checked(&checked, document.as_bytes(), false, Options::default()).unwrap().text;
         struct Taking<'p>(Renderer<'p>, Vec<u8>);
         impl postform::toolpath::Sink for Taking<'_> {
-            fn event(&mut self, event: postform::toolpath::Event<'_>, place: postform::toolpath::Place) -> Result<(), Box<postform::diag::Diag>> {
+            fn event(&mut self, event: postform::toolpath::Event<'_>, place: postform::toolpath::Place) -> postform::toolpath::Flow {
                 self.0.event(event, place)?;
                 self.1.append(self.0.text());
-                Ok(())
+                postform::toolpath::Flow::Continue(())
             }
         }
         let mut taking = Taking(Renderer::new(&program, Options::default()), Vec::new());

@@ -2,7 +2,7 @@
 //! as a machine would.
 
 use crate::support;
-use crate::support::{job, mill, path_lines, program};
+use crate::support::{job, mill, path_lines, program, wrong};
 use postform::compile::compile;
 use postform::render::{Options, Renderer};
 use postform::toolpath::json::read_lines;
@@ -740,11 +740,11 @@ fn events_that_can_not_be_are_faults_of_postform() {
     _ = read_lines(head.as_bytes(), &mut renderer); // cut off: it has no end
     let hole = || Event::Hole(Hole { at: Axes::new(&[1.0, 1.0, 0.0]), depth: None });
     let place = Place { line: 7, column: 1, ..Place::default() };
-    let error = renderer.event(hole(), place).unwrap_err();
+    let error = wrong(renderer.event(hole(), place));
     assert_eq!((error.code.name(), error.place.as_deref()), ("PX001", Some("7:1")));
-    renderer.event(Event::Finish, place).unwrap();
-    assert_eq!(renderer.event(Event::Rapid(Axes::new(&[0.0; 3])), place).unwrap_err().code.name(), "PX001");
-    assert_eq!(Summary::default().event(hole(), place).unwrap_err().code.name(), "PX001");
+    renderer.push(Event::Finish, place).unwrap();
+    assert_eq!(wrong(renderer.event(Event::Rapid(Axes::new(&[0.0; 3])), place)).code.name(), "PX001");
+    assert_eq!(wrong(Summary::default().event(hole(), place)).code.name(), "PX001");
 }
 
 /// A bore that is to stop at an angle does, whichever it is: out without it the tool would score the wall.

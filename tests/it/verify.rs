@@ -5,7 +5,7 @@ use crate::support::control;
 use std::fs;
 use std::io::Cursor;
 
-use crate::support::{check, root};
+use crate::support::{check, root, wrong};
 use postform::compile::compile;
 use postform::control::Control;
 use postform::nc::{JobOptions, Settings, read_program};
@@ -472,7 +472,7 @@ fn a_hole_outside_a_cycle_is_a_fault_of_postform() {
     let settings = Settings::new(control("fanuc"));
     let mut comparer = Comparer::new(Cursor::new(String::new()), settings, Expectation::default(), None);
     let hole = postform::toolpath::Hole { at: postform::toolpath::Axes::new(&[1.0, 1.0, 0.0]), depth: None };
-    let error = comparer.event(postform::toolpath::Event::Hole(hole), Default::default()).unwrap_err();
+    let error = wrong(comparer.event(postform::toolpath::Event::Hole(hole), Default::default()));
     assert_eq!(error.code.name(), "PX001");
 }
 

@@ -45,7 +45,7 @@ pub fn printed(checked: &Checked, job: Option<&Path>) -> Result<Result<String, S
         }
     };
     match read {
-        Ok(()) => Ok(Ok(String::from_utf8_lossy(renderer.text()).into_owned())),
+        Ok(()) | Err(ReadError::Stopped) => Ok(Ok(String::from_utf8_lossy(renderer.text()).into_owned())),
         Err(ReadError::Job(diag)) => Ok(Err(format!("{}: {}", diag.code.name(), diag.message))),
         Err(ReadError::Io(error)) => Err(error.to_string()),
     }

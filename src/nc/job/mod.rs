@@ -11,7 +11,7 @@ use std::io::{BufRead, Seek};
 use super::machine::Settings;
 use super::simulator::{RunError, Simulator};
 use crate::diag::{Code, Diag};
-use crate::toolpath::{ReadError, Sink, Units};
+use crate::toolpath::{ReadError, Sink, Stop, Units};
 use reader::Reader;
 use survey::survey;
 
@@ -65,11 +65,14 @@ fn refused(error: RunError) -> ReadError {
     }
 }
 
+/// What pushing events returns.
+type Done = Result<(), Stop>;
+
 /// Something that no job can say.
-fn unsaid<T>(line: u64, message: impl Into<String>, help: &str) -> Result<T, Box<Diag>> {
+fn unsaid<T, E: From<Box<Diag>>>(line: u64, message: impl Into<String>, help: &str) -> Result<T, E> {
     let mut diag = Diag::new(Code::PN036, message).help(help);
     diag.place = Some(format!("{line}:1"));
-    Err(Box::new(diag))
+    Err(Box::new(diag).into())
 }
 
 /// Something that is said otherwise, or left out.

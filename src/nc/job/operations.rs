@@ -2,13 +2,12 @@
 
 use super::reader::Reader;
 use super::switches::Switches;
-use super::unsaid;
-use crate::diag::Diag;
+use super::{Done, unsaid};
 use crate::nc::action::Rotation;
 use crate::toolpath::{Coolant, Event, First, Tool, ToolChange};
 
 impl Reader<'_> {
-    pub(super) fn begin_operation(&mut self, first: First) -> Result<(), Box<Diag>> {
+    pub(super) fn begin_operation(&mut self, first: First) -> Done {
         let Some(number) = self.tool.or(self.options.tool) else {
             return unsaid(
                 self.place.line,
@@ -51,7 +50,7 @@ impl Reader<'_> {
         self.place.operation == 0 || self.changes > 0 && self.said == Switches::default()
     }
 
-    pub(super) fn tool_change(&mut self, number: f64) -> Result<(), Box<Diag>> {
+    pub(super) fn tool_change(&mut self, number: f64) -> Done {
         self.end_cycle()?;
         if self.side.is_some() || self.turning.is_some() {
             return unsaid(

@@ -3,7 +3,7 @@
 use super::cycles::{hole_of, is_same, spec_of};
 use super::survey::Survey;
 use super::switches::Switches;
-use super::{JobOptions, unsaid, warning};
+use super::{Done, JobOptions, unsaid, warning};
 use crate::diag::{Code, Diag};
 use crate::lang::Machine;
 use crate::nc::action::{Action, Drilling, Item, Position, Rotation, Turn};
@@ -73,7 +73,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Takes an action; `block` is the text of its line.
-    pub fn take(&mut self, item: &Item, block: &[u8]) -> Result<(), Box<Diag>> {
+    pub fn take(&mut self, item: &Item, block: &[u8]) -> Done {
         self.place.line = item.line;
         self.place.column = 1;
         if item.by_cycle {
@@ -172,17 +172,17 @@ impl<'a> Reader<'a> {
     }
 
     /// The program is over.
-    pub fn finish(&mut self) -> Result<(), Box<Diag>> {
+    pub fn finish(&mut self) -> Done {
         self.end_cycle()?;
         self.start()?;
         self.push(Event::Finish)
     }
 
-    pub(super) fn push(&mut self, event: Event<'_>) -> Result<(), Box<Diag>> {
-        self.sink.event(event, self.place)
+    pub(super) fn push(&mut self, event: Event<'_>) -> Done {
+        self.sink.push(event, self.place)
     }
 
-    fn start(&mut self) -> Result<(), Box<Diag>> {
+    fn start(&mut self) -> Done {
         if std::mem::replace(&mut self.started, true) {
             return Ok(());
         }
@@ -190,7 +190,7 @@ impl<'a> Reader<'a> {
             let mut diag = Diag::new(Code::PL005, "the program does not say its units: it has no G20 or G21")
                 .help("say them with `--assume-units inch` or `mm`");
             diag.place = Some("1:1".into());
-            return Err(Box::new(diag));
+            return Err(diag.into());
         };
         let start = Start {
             program: self.survey.program,
@@ -210,7 +210,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Before a move: the operation that it begins, and what was switched.
-    fn move_begins(&mut self, first: First) -> Result<(), Box<Diag>> {
+    fn move_begins(&mut self, first: First) -> Done {
         self.start()?;
         if std::mem::take(&mut self.operation) {
             self.begin_operation(first)?;
@@ -218,7 +218,7 @@ impl<'a> Reader<'a> {
         self.switch()
     }
 
-    fn rapid(&mut self, to: &Position, machine: u8) -> Result<(), Box<Diag>> {
+    fn rapid(&mut self, to: &Position, machine: u8) -> Done {
         self.end_cycle()?;
         let machine = machine & 0b111;
         // a place of the machine: a form goes there by itself, before a tool change and at the end
@@ -245,7 +245,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A straight move, a rapid without a feed; the first after G41, G42 or G40 turns compensation on or off.
-    fn moves(&mut self, to: Axes, feed: Option<f64>) -> Result<(), Box<Diag>> {
+    fn moves(&mut self, to: Axes, feed: Option<f64>) -> Done {
         let rapid = feed.is_none();
         match (self.turning.take(), feed) {
             (Some(Some(side)), feed) => self.push(Event::Infeed { infeed: &Infeed { to, side, rapid }, feed }),
@@ -256,7 +256,7 @@ impl<'a> Reader<'a> {
     }
 
     /// To the reference point in the middle of a tool's work: as high as the program ever goes.
-    fn homeward(&mut self, line: u64, to: Position) -> Result<(), Box<Diag>> {
+    fn homeward(&mut self, line: u64, to: Position) -> Done {
         let message = "the way to the reference point has no place in a job";
         let help = "it becomes a rapid to the highest Z that the program says: look whether that clears the clamps";
         if !self.warnings.iter().any(|w| w.message == message) {
@@ -274,7 +274,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Before a cut, the tool must stand where a job knows it.
-    fn cut_begins(&mut self) -> Result<(), Box<Diag>> {
+    fn cut_begins(&mut self) -> Done {
         self.end_cycle()?;
         if self.home.is_some() || self.known & 0b111 != 0b111 {
             let help = "write a rapid with X, Y and Z before it";
@@ -285,7 +285,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn arc(&mut self, turn: &Turn) -> Result<(), Box<Diag>> {
+    fn arc(&mut self, turn: &Turn) -> Done {
         self.cut_begins()?;
         if self.turning.take().is_some() {
             let help = "turn it on and off by straight moves";
@@ -303,7 +303,7 @@ impl<'a> Reader<'a> {
         self.push(Event::Arc { arc: &arc, feed: Some(turn.feed) })
     }
 
-    fn hole(&mut self, hole: &Drilling) -> Result<(), Box<Diag>> {
+    fn hole(&mut self, hole: &Drilling) -> Done {
         if hole.plane != Plane::Xy {
             let help = "program its moves: a job's cycles go along Z";
             return unsaid(self.place.line, "a canned cycle outside G17", help);
@@ -339,7 +339,7 @@ impl<'a> Reader<'a> {
         self.push(Event::Hole(point))
     }
 
-    pub(super) fn end_cycle(&mut self) -> Result<(), Box<Diag>> {
+    pub(super) fn end_cycle(&mut self) -> Done {
         if self.cycle.take().is_none() {
             return Ok(());
         }
@@ -348,7 +348,7 @@ impl<'a> Reader<'a> {
     }
 
     /// What is done where the tool stands.
-    fn between(&mut self, event: Event<'_>) -> Result<(), Box<Diag>> {
+    fn between(&mut self, event: Event<'_>) -> Done {
         self.end_cycle()?;
         if self.operation && (self.place.operation == 0 || self.tool_is_new()) {
             // the tool change of the form has its own stops and waits
@@ -365,7 +365,7 @@ impl<'a> Reader<'a> {
         self.push(event)
     }
 
-    fn compensation(&mut self, side: Option<Side>) -> Result<(), Box<Diag>> {
+    fn compensation(&mut self, side: Option<Side>) -> Done {
         if side == self.side && self.turning.is_none() {
             return Ok(());
         }
@@ -374,7 +374,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn comment(&mut self, text: &str) -> Result<(), Box<Diag>> {
+    fn comment(&mut self, text: &str) -> Done {
         const MOST: usize = 200;
         if text.is_empty() {
             return Ok(());

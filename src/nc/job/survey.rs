@@ -74,14 +74,14 @@ pub(super) fn survey(
                 Action::Units(now) => {
                     if moved && units.is_some_and(|units| units != *now) {
                         let help = "run it in one unit: a job has one";
-                        return Ok(unsaid(item.line, "the program changes its units after its first move", help)?);
+                        return unsaid(item.line, "the program changes its units after its first move", help);
                     }
                     units = Some(*now);
                 }
                 Action::Length(None) => length = false,
                 Action::Length(Some(register)) if *register < 0.0 => {
                     let help = "give the tool a register with the other sign, and G43";
-                    return Ok(unsaid(item.line, "G44, a length offset that is taken off", help)?);
+                    return unsaid(item.line, "G44, a length offset that is taken off", help);
                 }
                 Action::Tool(_) => survey.registers.push(Registers::default()),
                 Action::Length(Some(register)) => {

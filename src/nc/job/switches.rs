@@ -1,8 +1,7 @@
 //! What is switched on a machine: spindle, coolant, work offset. A job says it with the move after.
 
 use super::reader::Reader;
-use super::warning;
-use crate::diag::Diag;
+use super::{Done, warning};
 use crate::nc::action::{Cooling, Rotation};
 use crate::toolpath::{Coolant, Event, Spindle, SpindleTurn};
 
@@ -51,7 +50,7 @@ impl Reader<'_> {
     }
 
     /// What was switched since the last move.
-    pub(super) fn switch(&mut self) -> Result<(), Box<Diag>> {
+    pub(super) fn switch(&mut self) -> Done {
         if self.said == self.wanted {
             return Ok(());
         }

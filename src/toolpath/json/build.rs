@@ -5,11 +5,11 @@ use std::collections::{HashMap, HashSet};
 use super::convert::{arc_of, call_of, fault, not_negative, positive, spec_of, spindle_of, thread_of, tool_of, whole};
 use super::objects::{CycleObject, EndWord, ItemObject, JobHead, Object, OperationHead, SubprogramHead};
 use super::values::Number;
-use crate::diag::{Code, Diag};
+use crate::diag::Code;
 use crate::toolpath::event::*;
-use crate::toolpath::{Hold, LastDwell, Place, Sink, key};
+use crate::toolpath::{Hold, LastDwell, Place, Sink, Stop, key};
 
-type Done = Result<(), Box<Diag>>;
+type Done = Result<(), Stop>;
 
 /// Tools that a message names.
 const MOST_NAMED: usize = 20;
@@ -50,7 +50,7 @@ impl<'s> Builder<'s> {
     }
 
     fn push(&mut self, event: Event<'_>) -> Done {
-        self.hold.event(event, self.place)
+        self.hold.push(event, self.place)
     }
 
     /// The head of the job.

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use serde::de;
 
 use crate::diag::{Code, Diag};
-use crate::toolpath::ReadError;
+use crate::toolpath::{ReadError, Stop};
 
 /// A step of the path inside the document.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ pub struct Context {
     /// Where the last point began.
     pub point_at: Cell<(u64, u32)>,
     path: RefCell<Vec<Step>>,
-    failure: RefCell<Option<Box<Diag>>>,
+    failure: RefCell<Option<Stop>>,
 }
 
 impl Context {
@@ -41,18 +41,18 @@ impl Context {
 
     /// Keeps a failure of ours and returns an error that carries it through serde.
     pub fn fail<E: de::Error>(&self, diag: Diag) -> E {
-        self.fail_with(Box::new(diag))
+        self.fail_with(diag.into())
     }
 
-    /// The same for a failure that is boxed already.
-    pub fn fail_with<E: de::Error>(&self, diag: Box<Diag>) -> E {
-        *self.failure.borrow_mut() = Some(diag);
+    /// The same for what a sink answered.
+    pub fn fail_with<E: de::Error>(&self, stop: Stop) -> E {
+        *self.failure.borrow_mut() = Some(stop);
         E::custom("stopped")
     }
 
     /// The same for a failure that the input ends with.
     pub fn fail_reading(&self, diag: Diag) -> std::io::Error {
-        *self.failure.borrow_mut() = Some(Box::new(diag));
+        *self.failure.borrow_mut() = Some(diag.into());
         std::io::Error::other("stopped")
     }
 
@@ -75,13 +75,13 @@ impl Context {
         if failure.is_none() && error.is_io() {
             return ReadError::Io(error.into());
         }
-        let mut diag = failure.unwrap_or_else(|| Box::new(of_serde(&error)));
-        if diag.place.is_none() {
+        let stop = failure.unwrap_or_else(|| of_serde(&error).into());
+        let place = || {
             let path = self.path();
             let comma = if path.is_empty() { "" } else { ", " };
-            diag.place = Some(format!("{line}:{column}{comma}{path}"));
-        }
-        ReadError::Job(diag)
+            format!("{line}:{column}{comma}{path}")
+        };
+        stop.placed(place).into()
     }
 }
 

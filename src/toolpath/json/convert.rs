@@ -7,8 +7,12 @@ use crate::toolpath::CycleKind;
 use crate::toolpath::event::*;
 
 /// A fault in the job; the reader adds the place.
-pub(super) fn fault<T>(code: Code, message: impl Into<String>, help: impl Into<String>) -> Result<T, Box<Diag>> {
-    Err(Box::new(Diag::new(code, message).help(help)))
+pub(super) fn fault<T, E: From<Box<Diag>>>(
+    code: Code,
+    message: impl Into<String>,
+    help: impl Into<String>,
+) -> Result<T, E> {
+    Err(Box::new(Diag::new(code, message).help(help)).into())
 }
 
 pub(super) fn positive(name: &str, Number(value): Number) -> Result<f64, Box<Diag>> {

@@ -13,7 +13,7 @@ use super::position::PointSeed;
 use super::strings::{Strings, too_long};
 use super::values::Point;
 use crate::diag::{Code, Diag};
-use crate::toolpath::{ReadError, Sink};
+use crate::toolpath::{ReadError, Sink, Stop};
 
 /// Most points of a cycle that wait for keys behind them; more are passed on as they come.
 const MOST_WAITING: usize = 4096;
@@ -38,7 +38,7 @@ pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadEr
     let mut deserializer = serde_json::Deserializer::from_reader(reader);
     let read = JobSeed(&job, Part::Job).deserialize(&mut deserializer).and_then(|()| {
         deserializer.end()?;
-        job.builder.borrow_mut().finish().map_err(|diag| context.fail_with(diag))
+        job.builder.borrow_mut().finish().map_err(|stop| context.fail_with(stop))
     });
     read.map_err(|error| {
         let (line, column) = context.at.get();
@@ -108,8 +108,8 @@ struct Job<'a, 's> {
 }
 
 impl<'s> Job<'_, 's> {
-    fn build<E: serde::de::Error>(&self, f: impl FnOnce(&mut Builder<'s>) -> Result<(), Box<Diag>>) -> Result<(), E> {
-        f(&mut self.builder.borrow_mut()).map_err(|diag| self.context.fail_with(diag))
+    fn build<E: serde::de::Error>(&self, f: impl FnOnce(&mut Builder<'s>) -> Result<(), Stop>) -> Result<(), E> {
+        f(&mut self.builder.borrow_mut()).map_err(|stop| self.context.fail_with(stop))
     }
 
     fn misplaced<E: serde::de::Error>(&self, list: &str, object: &str, key: &str) -> E {

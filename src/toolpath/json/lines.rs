@@ -14,7 +14,7 @@ use super::objects::{
 use super::strings::{self, Strings};
 use super::values::Point;
 use crate::diag::{Code, Diag};
-use crate::toolpath::{Hole, ReadError, Sink};
+use crate::toolpath::{Hole, ReadError, Sink, Stop};
 
 /// Longest line; a longer one is a file of another kind.
 const LONGEST: usize = 4 << 20;
@@ -42,7 +42,7 @@ pub fn read_lines(mut input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadE
                     if to >= LONGEST {
                         let diag = Diag::new(Code::PJ001, "a line longer than 4 MB").help("write one item a line");
                         lines.builder.place.line = number + 1;
-                        return Err(lines.placed(Box::new(diag)));
+                        return Err(lines.placed(diag));
                     }
                     buffer.resize(to * 2, 0);
                 }
@@ -62,7 +62,7 @@ pub fn read_lines(mut input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadE
         if number == 1 {
             line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
             if let Some(diag) = not_utf_8(line) {
-                return Err(lines.placed(Box::new(diag)));
+                return Err(lines.placed(diag));
             }
         }
         lines.line(line)?;
@@ -92,7 +92,7 @@ impl Lines<'_, '_> {
                     self.builder.simple_move(simple.to, simple.feed, kind == Kind::Rapid)
                 }
             };
-            return done.map_err(|diag| self.placed(diag));
+            return done.map_err(|stop| self.placed(stop));
         }
         self.other(line)
     }
@@ -103,16 +103,16 @@ impl Lines<'_, '_> {
         }
         if self.ended {
             let diag = Diag::new(Code::PJ008, "something stands after the end of the job");
-            return Err(self.placed(Box::new(diag.help("`{\"end\": true}` is the last line"))));
+            return Err(self.placed(diag.help("`{\"end\": true}` is the last line")));
         }
         if line.len() > strings::LONGEST && !Strings::default().take(line) {
-            return Err(self.placed(Box::new(strings::too_long())));
+            return Err(self.placed(strings::too_long()));
         }
         let number = self.builder.place.line;
         let mut deserializer = serde_json::Deserializer::from_slice(line);
         let read = LineSeed { context: self.context }.deserialize(&mut deserializer);
         match read.and_then(|line| deserializer.end().map(|()| line)) {
-            Ok(line) => self.take(line).map_err(|diag| self.placed(diag)),
+            Ok(line) => self.take(line).map_err(|stop| self.placed(stop)),
             Err(error) => {
                 let column = u32::try_from(error.column()).unwrap_or(u32::MAX).max(1);
                 let mut place = self.builder.place;
@@ -133,7 +133,7 @@ impl Lines<'_, '_> {
         }
     }
 
-    fn take(&mut self, line: Line) -> Result<(), Box<Diag>> {
+    fn take(&mut self, line: Line) -> Result<(), Stop> {
         let is_start = matches!(line, Line::Start(_));
         if is_start == self.started {
             let (message, help) = if is_start {
@@ -141,7 +141,7 @@ impl Lines<'_, '_> {
             } else {
                 ("the job does not begin with its start", "write {\"start\": {\"postform\": 1}} as the first line")
             };
-            return Err(Box::new(Diag::new(Code::PJ005, message).help(help)));
+            return Err(Diag::new(Code::PJ005, message).help(help).into());
         }
         match line {
             Line::Start(head) => {
@@ -184,13 +184,12 @@ impl Lines<'_, '_> {
             Diag::new(Code::PJ007, "the job stops without its end")
                 .help("write it again: its last line is {\"end\": true}, a job cut short must not become a program")
         };
-        Err(self.placed(Box::new(diag)))
+        Err(self.placed(diag))
     }
 
     #[cold]
-    fn placed(&self, mut diag: Box<Diag>) -> ReadError {
-        diag.place.get_or_insert_with(|| self.builder.place.to_string());
-        ReadError::Job(diag)
+    fn placed(&self, stop: impl Into<Stop>) -> ReadError {
+        stop.into().placed(|| self.builder.place.to_string()).into()
     }
 }
 

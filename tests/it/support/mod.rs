@@ -14,8 +14,8 @@ use postform::diag::Diag;
 use postform::render::{Options, Renderer, TraceLine};
 use postform::sema::{Checked, Limits, analyse};
 use postform::source::Source;
-use postform::toolpath::ReadError;
 use postform::toolpath::json::{read_document, read_lines};
+use postform::toolpath::{Flow, ReadError, Stop};
 
 /// A control that ships; for a name that is none, the usual one.
 pub fn control(name: &str) -> &'static Control {
@@ -37,6 +37,14 @@ pub fn check_file(path: &Path) -> Checked {
     analyse(Source::from_bytes(path.to_string_lossy(), &fs::read(path).unwrap()), Limits::Classic, &mut |name| {
         fs::read(folder.join(name)).map(|bytes| Source::from_bytes(name, &bytes)).map_err(|e| e.to_string())
     })
+}
+
+/// What is wrong, where a sink takes no more events.
+pub fn wrong(flow: Flow) -> Box<Diag> {
+    match flow {
+        Flow::Break(Stop::Wrong(diag)) => diag,
+        other => panic!("{other:?}"),
+    }
 }
 
 /// What a job prints.
@@ -71,7 +79,7 @@ pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) 
             notes: renderer.notes().to_vec(),
         }),
         Err(ReadError::Job(diag)) => Err(diag),
-        Err(ReadError::Io(error)) => panic!("{error}"),
+        Err(other) => panic!("{other:?}"),
     }
 }
 

@@ -187,7 +187,7 @@ impl Reader<'_> {
     }
 
     fn placed(&self, stop: Stop) -> ReadError {
-        stop.placed(|| self.state.job.notes.place.to_string()).into()
+        stop.placed(|| self.state.job.notes.place.into()).into()
     }
 }
 

@@ -1,7 +1,7 @@
 //! What is said about a file besides its events: who wrote it, warnings, facts.
 
 use super::dialect::Dialect;
-use crate::diag::{Code, Diag};
+use crate::diag::{Code, Diag, Location};
 use crate::toolpath::Place;
 
 /// What was noticed besides the events.
@@ -65,9 +65,7 @@ impl<'r> Notes<'r> {
         let message = message.into();
         let warnings = &mut self.report.warnings;
         if warnings.len() < MOST_FACTS && !warnings.iter().any(|w| w.code == code && w.message == message) {
-            let mut diag = Diag::new(code, message).help(help);
-            diag.place = Some(place.to_string());
-            warnings.push(diag);
+            warnings.push(Diag::new(code, message).help(help).place(place));
         }
     }
 
@@ -93,9 +91,8 @@ impl<'r> Notes<'r> {
         for (name, line, count) in std::mem::take(&mut self.report.unknown) {
             let times = if count == 1 { String::new() } else { format!(", {count} times") };
             let message = format!("`{name}` is not known and nothing is done for it{times}");
-            let mut diag = Diag::new(Code::PL003, message).help("look whether it moves or switches anything");
-            diag.place = Some(line.to_string());
-            self.report.warnings.push(diag);
+            let diag = Diag::new(Code::PL003, message).help("look whether it moves or switches anything");
+            self.report.warnings.push(diag.place(Location::line(line)));
         }
     }
 }

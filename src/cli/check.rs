@@ -25,8 +25,7 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     let mut summary = Summary::default();
     let (read, report) = files::read_job(files::open(path)?, from, &args.read, &mut summary);
     let placed = |mut diag: Diag| {
-        let place = diag.place.take().filter(|p| !p.is_empty()).map_or(String::new(), |p| format!(":{p}"));
-        diag.place = Some(format!("{}{place}", files::name(path)));
+        diag.place.get_or_insert_default().file = Some(files::name(path));
         diag
     };
     let warnings: Vec<Diag> = report.warnings.iter().cloned().map(placed).collect();

@@ -134,10 +134,7 @@ fn keep_inputs(args: &RenderArgs, inputs: &[Identity]) -> Result<(), String> {
 
 /// The job's name before a place in it.
 pub fn place_in(job: &str, diag: &mut Diag) {
-    diag.place = Some(match diag.place.take() {
-        Some(place) if !place.is_empty() => format!("{job}:{place}"),
-        _ => job.to_owned(),
-    });
+    diag.place.get_or_insert_default().file = Some(job.to_owned());
 }
 
 /// Who closes standard output has seen enough; what was named must be whole.

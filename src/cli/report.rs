@@ -74,7 +74,7 @@ impl SourceCode for Text<'_> {
 /// A finding with the text it is about.
 struct Shown<'a> {
     diag: &'a Diag,
-    place: Option<Cow<'a, str>>,
+    place: Option<String>,
     source: Option<&'a Text<'a>>,
     file: u32,
 }
@@ -149,11 +149,11 @@ impl Reporter {
         let mut all = String::new();
         for diag in drawn(diags) {
             let file = diag.labels.first().map_or(0, |label| label.span.file);
-            let mut place = diag.place.as_deref().map(Cow::Borrowed);
+            let mut place = diag.place.as_ref().map(|place| place.to_string());
             let mut source = diag.labels.first().and_then(|_| texts.get(file as usize));
             if let Some(text) = source.filter(|text| too_long_to_draw(diag, text.source, file)) {
                 let (line, column) = text.source.line_column(diag.labels[0].span.start);
-                place.get_or_insert_with(|| format!("{}:{line}:{column}", text.source.name).into());
+                place.get_or_insert_with(|| format!("{}:{line}:{column}", text.source.name));
                 source = None;
             }
             let start = all.len();

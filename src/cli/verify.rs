@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{Seek, Write};
 use std::path::Path;
 
-use postform::diag::{Diag, Severity};
+use postform::diag::{Diag, Location, Severity};
 use postform::nc::Settings;
 use postform::render::{Options, Renderer, TraceLine};
 use postform::toolpath::{Event, Flow, Place, ReadError, Sink, Stop, Units, flow};
@@ -156,7 +156,7 @@ impl Proof<'_> {
     }
 
     fn place_in_program(&self, diag: &mut Diag) {
-        diag.place = Some(format!("{}:{}", self.name, diag.place.take().unwrap_or_default()));
+        diag.place.get_or_insert_default().file = Some(self.name.clone());
     }
 
     /// Findings from three sides: the job's item, the form's line, the program's block.
@@ -174,7 +174,8 @@ impl Proof<'_> {
             };
             let mut diag = Diag::new(finding.code, &finding.message).help(finding.help);
             diag.message += &postform::diag::escaped_lines(&block);
-            diag.place = Some(place.map(|place| place.to_string()).unwrap_or_default());
+            diag.place = Some(place.map(Location::from).unwrap_or_default());
+            diag.place.get_or_insert_default().program_line = Some(finding.line).filter(|line| *line > 0);
             render::place_in(&job, &mut diag);
             if let Some(span) = traced.and_then(|line| line.form) {
                 diag = diag.at(span, "prints this block");

@@ -44,7 +44,8 @@ impl Diag {
             let (line, column) = source.line_column(label.span.start);
             Some(format!("{}:{line}:{column}", source.name))
         });
-        let place = in_form.or_else(|| self.place.clone()).filter(|place| !place.is_empty());
+        let place =
+            in_form.or_else(|| self.place.as_ref().map(|place| place.to_string())).filter(|place| !place.is_empty());
         let place = place.map(|place| place + ": ").unwrap_or_default();
         let help = self.help.as_ref().map(|help| format!(" ({help})")).unwrap_or_default();
         format!("{place}{} {}: {}{help}", self.severity.name(), self.code.name(), self.message)

@@ -2,9 +2,11 @@
 
 mod codes;
 mod findings;
+mod location;
 
 pub use codes::{CODES, Code, CodeRow};
 pub use findings::Findings;
+pub use location::Location;
 
 use crate::span::Span;
 
@@ -61,8 +63,8 @@ pub struct Diag {
     pub message: String,
     /// The places in the form, the main one first.
     pub labels: Vec<Label>,
-    /// The place in the job, as `job.json:12:9, operations[0].path[3]`.
-    pub place: Option<String>,
+    /// The place in the job or in the program.
+    pub place: Option<Location>,
     /// What to type instead.
     pub help: Option<String>,
     /// The same as an edit.
@@ -88,6 +90,12 @@ impl Diag {
     /// Adds a place in the form; the first one added is the main one.
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push(Label { span, text: shown(text.into()) });
+        self
+    }
+
+    /// Adds the place in the job or in the program.
+    pub fn place(mut self, place: impl Into<Location>) -> Self {
+        self.place = Some(place.into());
         self
     }
 

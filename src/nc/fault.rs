@@ -1,6 +1,6 @@
 //! What is wrong with a block.
 
-use crate::diag::{Code, Diag};
+use crate::diag::{Code, Diag, Location};
 
 /// Why a block is refused, before it is known which block it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,9 +34,8 @@ impl Fault {
         let block = String::from_utf8_lossy(text);
         let block = block.trim();
         let message = if block.is_empty() { self.message } else { format!("{}, in `{block}`", self.message) };
-        let mut diag = Diag::new(self.code, message).help(self.help);
-        diag.place = Some(format!("{line}:{}", self.column.unwrap_or(0) + 1));
-        diag
+        let column = u32::try_from(self.column.unwrap_or(0)).unwrap_or(u32::MAX).saturating_add(1);
+        Diag::new(self.code, message).help(self.help).place(Location::at(line, column))
     }
 }
 

@@ -33,9 +33,7 @@ impl Growth {
         let (program, job) = (self.printed / 1_000_000, read.div_ceil(1000));
         let message = format!("{program} MB of program from {job} KB of job, and more to come");
         let help = "look at steps, pecks and counts here; `--huge` prints it all the same";
-        let mut diag = Diag::new(Code::PR028, message).help(help);
-        diag.place = Some(place.to_string());
-        Err(Box::new(diag))
+        Err(Box::new(Diag::new(Code::PR028, message).help(help).place(place)))
     }
 }
 

@@ -160,7 +160,7 @@ impl Printer {
     pub fn note(&mut self, code: Code, message: String, help: &str) {
         if !self.notes.iter().any(|n| n.code == code && n.message == message) && self.notes.len() < 100 {
             let mut diag = Diag::new(code, message).help(help);
-            diag.place = Some(self.place.to_string());
+            diag.place = Some(self.place.into());
             self.notes.push(diag);
         }
     }

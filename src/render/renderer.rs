@@ -200,6 +200,6 @@ impl Sink for Renderer<'_> {
     fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         self.out.place = place;
         let done = self.order.follow(&event).and_then(|()| self.take(event)).and_then(|()| self.out.blocks_fit());
-        flow(done.map_err(|diag| Stop::from(diag).placed(|| place.to_string())))
+        flow(done.map_err(|diag| Stop::from(diag).placed(|| place.into())))
     }
 }

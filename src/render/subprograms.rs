@@ -479,7 +479,7 @@ fn undefined<T>(number: f64) -> Done<T> {
 /// A fault at another place than the current one.
 fn at<T>(place: Place, done: Done<T>) -> Done<T> {
     done.map_err(|mut diag: Box<Diag>| {
-        diag.place = Some(place.to_string());
+        diag.place = Some(place.into());
         diag
     })
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::diag::Location;
+
 /// Where an event stands in its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Place {
@@ -37,16 +39,16 @@ impl Place {
     }
 }
 
+impl From<Place> for Location {
+    fn from(place: Place) -> Location {
+        let line = if place.line > 0 { Location::at(place.line, place.column.max(1)) } else { Location::default() };
+        line.step(place.path())
+    }
+}
+
 impl fmt::Display for Place {
     /// `12:9, operations[0].path[3]`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.line > 0 {
-            write!(f, "{}:{}", self.line, self.column.max(1))?;
-        }
-        let path = self.path();
-        if !path.is_empty() {
-            write!(f, "{}{path}", if self.line > 0 { ", " } else { "" })?;
-        }
-        Ok(())
+        Location::from(*self).fmt(f)
     }
 }

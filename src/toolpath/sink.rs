@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::event::Event;
 use super::place::Place;
-use crate::diag::Diag;
+use crate::diag::{Diag, Location};
 
 /// Why a sink takes no more events.
 #[derive(Debug)]
@@ -29,7 +29,7 @@ impl From<Diag> for Stop {
 
 impl Stop {
     /// The finding, if there is one, with the place where it was found unless it has one.
-    pub(crate) fn placed(mut self, place: impl FnOnce() -> String) -> Stop {
+    pub(crate) fn placed(mut self, place: impl FnOnce() -> Location) -> Stop {
         if let Stop::Wrong(diag) = &mut self {
             diag.place.get_or_insert_with(place);
         }

@@ -166,7 +166,7 @@ impl<R: BufRead + Seek> Sink for Comparer<R> {
         if self.sides.is_decided() {
             return Flow::Break(Stop::Enough);
         }
-        Flow::Break(Stop::from(diag).placed(|| place.to_string()))
+        Flow::Break(Stop::from(diag).placed(|| place.into()))
     }
 }
 

@@ -4,6 +4,7 @@
 use crate::support;
 use crate::support::{job, mill, path_lines, program, wrong};
 use postform::compile::compile;
+use postform::diag::Location;
 use postform::render::{Options, Renderer};
 use postform::toolpath::json::read_lines;
 use postform::toolpath::{Axes, Event, Hole, Place, Sink, Summary, Units};
@@ -741,7 +742,7 @@ fn events_that_can_not_be_are_faults_of_postform() {
     let hole = || Event::Hole(Hole { at: Axes::new(&[1.0, 1.0, 0.0]), depth: None });
     let place = Place { line: 7, column: 1, ..Place::default() };
     let error = wrong(renderer.event(hole(), place));
-    assert_eq!((error.code.name(), error.place.as_deref()), ("PX001", Some("7:1")));
+    assert_eq!((error.code.name(), error.place), ("PX001", Some(Location::at(7, 1))));
     renderer.push(Event::Finish, place).unwrap();
     assert_eq!(wrong(renderer.event(Event::Rapid(Axes::new(&[0.0; 3])), place)).code.name(), "PX001");
     assert_eq!(wrong(Summary::default().event(hole(), place)).code.name(), "PX001");

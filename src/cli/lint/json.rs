@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use postform::diag::Diag;
+use postform::diag::{Diag, Location};
 use postform::source::Source;
 use postform::span::Span;
 
@@ -26,6 +26,14 @@ pub fn report(linted: &[Linted], counts: Counts) -> Value {
 
 fn findings(form: &Linted) -> impl Iterator<Item = Value> + '_ {
     form.diags.iter().map(|diag| finding(diag, &form.files))
+}
+
+/// A place in a job or a program.
+fn location(place: &Location) -> Value {
+    json!({
+        "file": place.file, "line": place.line, "column": place.column, "step": place.step,
+        "program_line": place.program_line,
+    })
 }
 
 fn finding(diag: &Diag, files: &[Source]) -> Value {
@@ -53,7 +61,8 @@ fn finding(diag: &Diag, files: &[Source]) -> Value {
         "message": diag.message,
         "at": diag.labels.first().map_or(Value::Null, |label| place(label.span)),
         "labels": labels,
-        "job": diag.place,
+        "job": diag.place.as_ref().map(Location::to_string),
+        "place": diag.place.as_ref().map(location),
         "help": diag.help,
         "fix": fix,
     })

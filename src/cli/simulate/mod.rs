@@ -90,7 +90,7 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
 
 /// The program's name before the place.
 pub fn place(diag: &mut Diag, program: &str) {
-    diag.place = Some(format!("{program}:{}", diag.place.take().unwrap_or_default()));
+    diag.place.get_or_insert_default().file = Some(program.to_owned());
 }
 
 /// `false`: whoever read it has seen enough.

@@ -10,7 +10,7 @@ use std::io::{BufRead, Seek};
 
 use super::machine::Settings;
 use super::simulator::{RunError, Simulator};
-use crate::diag::{Code, Diag};
+use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{ReadError, Sink, Stop, Units};
 use reader::Reader;
 use survey::survey;
@@ -70,14 +70,10 @@ type Done = Result<(), Stop>;
 
 /// Something that no job can say.
 fn unsaid<T, E: From<Box<Diag>>>(line: u64, message: impl Into<String>, help: &str) -> Result<T, E> {
-    let mut diag = Diag::new(Code::PN036, message).help(help);
-    diag.place = Some(format!("{line}:1"));
-    Err(Box::new(diag).into())
+    Err(Box::new(Diag::new(Code::PN036, message).help(help).place(Location::at(line, 1))).into())
 }
 
 /// Something that is said otherwise, or left out.
 fn warning(line: u64, message: impl Into<String>, help: &str) -> Diag {
-    let mut diag = Diag::new(Code::PN035, message).help(help);
-    diag.place = Some(format!("{line}:1"));
-    diag
+    Diag::new(Code::PN035, message).help(help).place(Location::at(line, 1))
 }

@@ -4,7 +4,7 @@ use super::cycles::{hole_of, is_same, spec_of};
 use super::survey::Survey;
 use super::switches::Switches;
 use super::{Done, JobOptions, unsaid, warning};
-use crate::diag::{Code, Diag};
+use crate::diag::{Code, Diag, Location};
 use crate::lang::Machine;
 use crate::nc::action::{Action, Drilling, Item, Position, Rotation, Turn};
 use crate::toolpath::{Arc, Axes, CycleSpec, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Start};
@@ -189,7 +189,7 @@ impl<'a> Reader<'a> {
         let Some(units) = self.survey.units else {
             let mut diag = Diag::new(Code::PL005, "the program does not say its units: it has no G20 or G21")
                 .help("say them with `--assume-units inch` or `mm`");
-            diag.place = Some("1:1".into());
+            diag.place = Some(Location::at(1, 1));
             return Err(diag.into());
         };
         let start = Start {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde::de;
 
-use crate::diag::{Code, Diag};
+use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{ReadError, Stop};
 
 /// A step of the path inside the document.
@@ -76,12 +76,7 @@ impl Context {
             return ReadError::Io(error.into());
         }
         let stop = failure.unwrap_or_else(|| of_serde(&error).into());
-        let place = || {
-            let path = self.path();
-            let comma = if path.is_empty() { "" } else { ", " };
-            format!("{line}:{column}{comma}{path}")
-        };
-        stop.placed(place).into()
+        stop.placed(|| Location::at(line, column).step(self.path())).into()
     }
 }
 

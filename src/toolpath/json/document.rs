@@ -12,7 +12,7 @@ use super::objects::{CycleObject, ItemObject, JobHead, KeySeed, Object, Operatio
 use super::position::PointSeed;
 use super::strings::{Strings, too_long};
 use super::values::Point;
-use crate::diag::{Code, Diag};
+use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{ReadError, Sink, Stop};
 
 /// Most points of a cycle that wait for keys behind them; more are passed on as they come.
@@ -31,7 +31,7 @@ pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadEr
         return Err(ReadError::Job(Box::new(Diag::new(Code::PJ007, "the job is empty").help("write a job file"))));
     }
     if let Some(mut diag) = not_utf_8(&reader.buffer[..reader.to]) {
-        diag.place = Some("1:1".into());
+        diag.place = Some(Location::at(1, 1));
         return Err(ReadError::Job(Box::new(diag)));
     }
     let job = Job { context: &context, builder: RefCell::new(Builder::new(sink)) };

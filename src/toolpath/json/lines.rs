@@ -13,7 +13,7 @@ use super::objects::{
 };
 use super::strings::{self, Strings};
 use super::values::Point;
-use crate::diag::{Code, Diag};
+use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{Hole, ReadError, Sink, Stop};
 
 /// Longest line; a longer one is a file of another kind.
@@ -125,8 +125,7 @@ impl Lines<'_, '_> {
                     }
                     let key = self.context.path();
                     let steps = [place.path(), key].into_iter().filter(|step| !step.is_empty()).collect::<Vec<_>>();
-                    let comma = if steps.is_empty() { "" } else { ", " };
-                    diag.place = Some(format!("{number}:{column}{comma}{}", steps.join(".")));
+                    diag.place = Some(Location::at(number, column).step(steps.join(".")));
                 }
                 Err(failure)
             }
@@ -189,7 +188,7 @@ impl Lines<'_, '_> {
 
     #[cold]
     fn placed(&self, stop: impl Into<Stop>) -> ReadError {
-        stop.into().placed(|| self.builder.place.to_string()).into()
+        stop.into().placed(|| self.builder.place.into()).into()
     }
 }
 

@@ -52,7 +52,7 @@ impl Error {
     }
 
     /// The system says no to this.
-    pub(crate) fn io(kind: ErrorKind, error: io::Error) -> Error {
+    pub(crate) fn of_io(kind: ErrorKind, error: io::Error) -> Error {
         Error::new(kind, Findings::default(), String::new(), Some(error))
     }
 
@@ -75,6 +75,11 @@ impl Error {
         &self.0.findings
     }
 
+    /// Why the input or the output failed, where it did.
+    pub fn io(&self) -> Option<&io::Error> {
+        self.0.source.as_ref()
+    }
+
     /// The findings, to keep.
     pub fn into_findings(self) -> Findings {
         self.0.findings
@@ -92,7 +97,7 @@ impl From<Box<Diag>> for Error {
 /// The job can't be read.
 impl From<io::Error> for Error {
     fn from(error: io::Error) -> Error {
-        Error::io(ErrorKind::Input, error)
+        Error::of_io(ErrorKind::Input, error)
     }
 }
 

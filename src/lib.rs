@@ -48,6 +48,8 @@ pub mod nc;
 pub mod number;
 pub mod post;
 pub mod render;
+#[cfg(feature = "json")]
+pub mod report;
 pub mod sema;
 pub mod source;
 pub mod span;
@@ -59,6 +61,6 @@ pub mod verify;
 pub use diag::{Diag, Findings};
 pub use error::{Error, ErrorKind};
 pub use job::{Format, Job, Reading};
-pub use post::{Files, NoFiles, Options, Post, Program, Proof};
+pub use post::{Files, NoFiles, Options, Part, Post, Program, Prompt, Proof, Proven, Rendered};
 pub use source::Source;
 pub use verify::Verdict;

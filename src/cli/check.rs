@@ -6,11 +6,12 @@ use std::io::Write as _;
 use postform::cl::{Dialect, Report};
 use postform::diag::Diag;
 use postform::toolpath::json::schema;
-use postform::toolpath::{ReadError, Summary, Units};
+use postform::toolpath::{Summary, Units};
 
 use super::args::CheckArgs;
-use super::files::{self, io_message};
+use super::files;
 use super::report::Reporter;
+use super::report::stopped;
 use super::say::say;
 use super::{Ending, output};
 
@@ -21,9 +22,10 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
         output::standard_output(|out| out.write_all(text.as_bytes()))?;
         return Ok(Ending::Clean);
     };
-    let from = files::job_format(path, &args.read)?;
     let mut summary = Summary::default();
-    let (read, report) = files::read_job(files::open(path)?, from, &args.read, &mut summary);
+    let mut job = files::job(path, &args.read, false)?;
+    let read = job.read(&mut summary);
+    let report = job.report();
     let placed = |mut diag: Diag| {
         diag.place.get_or_insert_default().file = Some(files::name(path));
         diag
@@ -31,17 +33,12 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     let warnings: Vec<Diag> = report.warnings.iter().cloned().map(placed).collect();
     say(&Reporter::new(colour).text(&warnings, &[]));
     match read {
-        Ok(()) | Err(ReadError::Stopped) => {
-            let text = describe(&files::name(path), &summary, &report);
+        Ok(()) => {
+            let text = describe(&files::name(path), &summary, report);
             output::standard_output(|out| out.write_all(text.as_bytes()))?;
             Ok(Ending::Clean)
         }
-        Err(ReadError::Io(error)) => Err(io_message("read", path, &error)),
-        Err(ReadError::Job(diag)) => {
-            let ending = Ending::of(&diag);
-            say(&Reporter::new(colour).text(&[placed(*diag)], &[]));
-            Ok(ending)
-        }
+        Err(error) => stopped(error, path, &Reporter::new(colour), &[]),
     }
 }
 

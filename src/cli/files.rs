@@ -4,15 +4,11 @@ use std::fs::File;
 use std::io::{self, BufReader, Read, Seek};
 use std::path::Path;
 
-use postform::cl::{Assumed, Options, Report, read_cl};
-use postform::control::Control;
 use postform::diag::escaped;
-use postform::nc::{JobOptions, Settings, Unpointed, read_program};
 use postform::sema::MOST_TEXT;
-use postform::toolpath::json::{read_document, read_lines};
-use postform::toolpath::{ReadError, Sink, Units};
+use postform::{Format, Job};
 
-use super::args::{From, NoPoint, ReadArgs, UnitsArg};
+use super::args::{From, ReadArgs};
 use super::spool::Spool;
 
 /// Largest form: a longer file is none.
@@ -89,14 +85,6 @@ impl Again {
         self.file.rewind().map_err(|error| io_message("read", Path::new("the program"), &error))?;
         Ok(self.file)
     }
-
-    /// From its beginning; only one reader at a time.
-    pub fn read(&self) -> Result<Box<dyn Read>, String> {
-        let fail = |error: io::Error| io_message("read", Path::new("the job"), &error);
-        let mut file = self.file.try_clone().map_err(fail)?;
-        file.rewind().map_err(fail)?;
-        Ok(Box::new(file))
-    }
 }
 
 /// Bytes of a program that are read at once.
@@ -118,88 +106,49 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
-/// What CL files are called.
-const CL: [&str; 7] = ["cl", "apt", "aptsource", "ncl", "cls", "cldata", "as"];
-
-/// What NC programs are called.
-const NC: [&str; 6] = ["nc", "ngc", "tap", "eia", "min", "mpf"];
-
 /// The format of a job: as said, else by its extension.
-pub fn job_format(path: &Path, args: &ReadArgs) -> Result<From, String> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
-    let from = format_of(path, args.from, &extension)?;
-    if from != From::Cl && args.dialect.is_some() {
+fn job_format(path: &Path, args: &ReadArgs) -> Result<Format, String> {
+    let from = format_of(path, args.from)?;
+    if from != Format::Cl && args.dialect.is_some() {
         return Err(format!("error: --dialect is for CL files, which {} is not", name(path)));
     }
-    if !matches!(from, From::Cl | From::Nc) && (args.assume_units.is_some() || args.assume_tool.is_some()) {
+    if !matches!(from, Format::Cl | Format::Nc) && (args.assume_units.is_some() || args.assume_tool.is_some()) {
         return Err(format!("error: --assume-.. is for CL files and NC programs, which {} is not", name(path)));
     }
-    if from != From::Nc && (args.job_control.is_some() || args.job_no_point.is_some()) {
+    if from != Format::Nc && (args.job_control.is_some() || args.job_no_point.is_some()) {
         return Err(format!("error: --job-.. is for NC programs, which {} is not", name(path)));
     }
-    if from == From::Nc && args.assume_tool.as_ref().is_some_and(|tool| tool.one().is_none()) {
+    if from == Format::Nc && args.assume_tool.as_ref().is_some_and(|tool| tool.one().is_none()) {
         return Err(format!("error: --assume-tool takes one number for an NC program, which {} is", name(path)));
     }
     Ok(from)
 }
 
-fn format_of(path: &Path, from: Option<From>, extension: &str) -> Result<From, String> {
-    // Creo numbers its versions: op010.ncl.1
-    let version = extension.bytes().all(|b| b.is_ascii_digit()) && !extension.is_empty();
-    let stem = path.file_stem().map(Path::new).and_then(Path::extension).and_then(|e| e.to_str()).unwrap_or("");
-    let extension = if version { stem.to_ascii_lowercase() } else { extension.to_owned() };
-    match (from, extension.as_str()) {
-        (Some(from), _) => Ok(from),
-        (None, "jsonl" | "ndjson") => Ok(From::Jsonl),
-        (None, "json") => Ok(From::Json),
-        (None, extension) if CL.contains(&extension) => Ok(From::Cl),
-        (None, extension) if NC.contains(&extension) => Ok(From::Nc),
-        (None, _) if path == Path::new("-") => Ok(From::Json),
-        (None, _) => Err(format!(
+fn format_of(path: &Path, from: Option<From>) -> Result<Format, String> {
+    let by_name = || Format::of_name(&path.to_string_lossy());
+    match from.map(From::format).or_else(by_name) {
+        Some(format) => Ok(format),
+        None if path == Path::new("-") => Ok(Format::Json),
+        None => Err(format!(
             "error: can't tell what {} is by its name: say it with --from json, jsonl, cl or nc",
             name(path)
         )),
     }
 }
 
-/// An NC program as a job: it is run twice, so it is copied.
-fn read_nc(
-    mut input: Box<dyn Read>,
-    args: &ReadArgs,
-    report: &mut Report,
-    sink: &mut dyn Sink,
-) -> Result<(), ReadError> {
-    let mut spool = Spool::new().map_err(ReadError::Io)?;
-    io::copy(&mut input, &mut spool).map_err(ReadError::Io)?;
-    let copy = spool.into_file().map_err(ReadError::Io)?;
-    let control = args.job_control.unwrap_or_else(Control::usual);
-    let unpointed = args.job_no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
-    let units = args.assume_units.map(UnitsArg::units);
-    let settings = Settings { unpointed, units: units.unwrap_or(Units::Mm), ..Settings::new(control) };
-    let options = JobOptions { settings, units, tool: args.assume_tool.as_ref().and_then(Assumed::one) };
-    read_program(buffered(copy), &options, &mut report.warnings, sink)
+/// Is the format of a job known, and are the options for it?
+pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {
+    job_format(path, args).map(|_| ())
 }
 
-/// Reads a job into a sink. The report is that of a CL file.
-pub fn read_job(
-    input: Box<dyn Read>,
-    from: From,
-    args: &ReadArgs,
-    sink: &mut dyn Sink,
-) -> (Result<(), ReadError>, Report) {
-    let mut report = Report::default();
-    let read = match from {
-        From::Json => read_document(input, sink),
-        From::Jsonl => read_lines(input, sink),
-        From::Cl => {
-            let options = Options {
-                dialect: args.dialect,
-                units: args.assume_units.map(|units| units.units()),
-                tool: args.assume_tool.clone(),
-            };
-            read_cl(input, &options, &mut report, sink)
-        }
-        From::Nc => read_nc(input, args, &mut report, sink),
+/// A job; `again`: it is read more than once, so what can't be gone back in is copied into a file.
+pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, String> {
+    let format = job_format(path, args)?;
+    // a program is run twice
+    let mut job = match again || format == Format::Nc {
+        true => Job::file(format, Again::open(path)?.file),
+        false => Job::stream(format, open(path)?),
     };
-    (read, report)
+    job.reading = args.reading();
+    Ok(job)
 }

@@ -1,12 +1,13 @@
 //! Forms from files, with those that they call.
 
+use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use postform::lint::Changed;
 use postform::sema::{Checked, Limits, analyse};
-use postform::source::Source;
+use postform::{Files, Source};
 
 use super::args::LimitsArg;
 use super::files::{self, io_message};
@@ -19,57 +20,65 @@ pub struct FormFile {
     bytes: Vec<u8>,
     limits: Limits,
     /// Where the files are that it calls, by their names in messages.
-    called: HashMap<String, PathBuf>,
+    called: RefCell<HashMap<String, PathBuf>>,
 }
 
 impl FormFile {
     /// Reads a form. `Err` is a message: the file can't be read.
     pub fn read(path: &Path, limits: LimitsArg) -> Result<FormFile, String> {
-        let limits = match limits {
-            LimitsArg::Classic => Limits::Classic,
-            LimitsArg::Extended => Limits::Extended,
-        };
-        Ok(FormFile { path: path.to_path_buf(), bytes: files::read_form(path)?, limits, called: HashMap::new() })
+        let limits = limits.limits();
+        Ok(FormFile { path: path.to_path_buf(), bytes: files::read_form(path)?, limits, called: RefCell::default() })
+    }
+
+    /// The form's text.
+    pub fn source(&self) -> Source {
+        Source::from_bytes(files::name(&self.path), &self.bytes)
     }
 
     /// Analyses the form, with other text for the files that were changed.
-    pub fn analyse(&mut self, changed: &Changed) -> Checked {
-        let name = files::name(&self.path);
-        let source = match changed.get(&name) {
-            Some(text) => Source::from_text(name, text),
-            None => Source::from_bytes(name, &self.bytes),
+    pub fn analyse(&self, changed: &Changed) -> Checked {
+        let form = self.source();
+        let source = match changed.get(&form.name) {
+            Some(text) => Source::from_text(form.name, text),
+            None => form,
         };
-        let (path, places) = (&self.path, &mut self.called);
         analyse(source, self.limits, &mut |name| {
-            let (place, bytes) = called(path, name)?;
-            let name = files::name(&place);
-            places.insert(name.clone(), place);
-            Ok(match changed.get(&name) {
-                Some(text) => Source::from_text(name, text),
-                None => Source::from_bytes(name, &bytes),
+            let source = self.read(name)?;
+            Ok(match changed.get(&source.name) {
+                Some(text) => Source::from_text(source.name, text),
+                None => source,
             })
         })
     }
 
     /// Where a file of the form is, by its name in messages.
-    pub fn place(&self, name: &str) -> &Path {
-        self.called.get(name).unwrap_or(&self.path)
+    pub fn place(&self, name: &str) -> PathBuf {
+        self.called.borrow().get(name).unwrap_or(&self.path).clone()
     }
 
     /// The form and the files that it calls, as far as they were read.
-    pub fn paths(&self) -> impl Iterator<Item = &Path> {
-        std::iter::once(self.path.as_path()).chain(self.called.values().map(PathBuf::as_path))
+    pub fn paths(&self) -> Vec<PathBuf> {
+        std::iter::once(&self.path).chain(self.called.borrow().values()).cloned().collect()
     }
 
     /// The files that it calls, as far as they were read, whatever links lead to them.
-    fn calls(&mut self) -> Vec<PathBuf> {
+    fn calls(&self) -> Vec<PathBuf> {
         // most forms call none, and need not be read twice for that
         let calls =
             |line: &[u8]| line.trim_ascii_start().get(..4).is_some_and(|word| word.eq_ignore_ascii_case(b"Call"));
         if self.bytes.split(|&byte| byte == b'\n').any(calls) {
             self.analyse(&Changed::new());
         }
-        self.called.values().filter_map(|place| place.canonicalize().ok()).collect()
+        self.called.borrow().values().filter_map(|place| place.canonicalize().ok()).collect()
+    }
+}
+
+impl Files for FormFile {
+    fn read(&self, name: &str) -> Result<Source, String> {
+        let (place, bytes) = called(&self.path, name)?;
+        let name = files::name(&place);
+        self.called.borrow_mut().insert(name.clone(), place);
+        Ok(Source::from_bytes(name, &bytes))
     }
 }
 
@@ -101,7 +110,7 @@ pub fn wholes(mut files: Vec<FormFile>) -> Vec<FormFile> {
     let real = |file: &FormFile| file.path.canonicalize().unwrap_or_else(|_| file.path.clone());
     let mut seen = HashSet::new();
     files.retain(|file| seen.insert(real(file)));
-    let calls: Vec<(PathBuf, Vec<PathBuf>)> = files.iter_mut().map(|file| (real(file), file.calls())).collect();
+    let calls: Vec<(PathBuf, Vec<PathBuf>)> = files.iter().map(|file| (real(file), file.calls())).collect();
     let mut callers: HashMap<&Path, Vec<usize>> = HashMap::new();
     for (at, (_, parts)) in calls.iter().enumerate() {
         parts.iter().for_each(|part| callers.entry(part).or_default().push(at));

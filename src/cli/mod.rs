@@ -9,7 +9,6 @@ mod explain;
 mod files;
 mod fmt;
 mod forms;
-mod huge;
 mod identity;
 mod lint;
 mod new;

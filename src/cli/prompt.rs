@@ -2,47 +2,36 @@
 
 use std::io::{self, BufRead, IsTerminal};
 
-use postform::compile::Program;
-use postform::lang::{Origin, VARIABLES, VarId, did_you_mean};
+use postform::{Options, Post};
 
 use super::say::{message, say};
 
-/// Reads `VAR=VALUE` options.
-pub fn answers(options: &[String]) -> Result<Vec<(VarId, f64)>, String> {
-    options.iter().map(|option| answer(option)).collect()
+/// Takes `VAR=VALUE` options.
+pub fn answers(given: &[String], options: &mut Options) -> Result<(), String> {
+    given.iter().try_for_each(|option| answer(option, options).map_err(|why| format!("error: `--set {option}`: {why}")))
 }
 
-fn answer(option: &str) -> Result<(VarId, f64), String> {
+fn answer(option: &str, options: &mut Options) -> Result<(), String> {
     let Some((name, value)) = option.split_once('=') else {
-        return Err(format!("error: `--set {option}`: write a variable and its value, as --set val1=2.5"));
+        return Err("write a variable and its value, as --set val1=2.5".into());
     };
-    let name = name.trim().trim_matches(['[', ']']);
-    let Some(var) = VarId::parse(name) else {
-        let names = VARIABLES.iter().filter(|v| v.origin == Origin::Job).map(|v| v.name);
-        let hint = did_you_mean(name, names).unwrap_or_else(|| "val1 to val10 are free".into());
-        return Err(format!("error: `--set {option}`: `{name}` is no variable; {hint}"));
-    };
-    if var.row().origin == Origin::Computed {
-        return Err(format!("error: `--set {option}`: [{name}] comes from the toolpath and can't be set"));
-    }
-    match value.trim().parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok((var, number)),
-        _ => Err(format!("error: `--set {option}`: `{value}` is no number")),
-    }
+    let number = value.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    options.set_value(name, number.unwrap_or_default()).map_err(|error| error.to_string())?;
+    number.map(|_| ()).ok_or_else(|| format!("`{value}` is no number"))
 }
 
 /// Asks for what has no answer yet, when there is someone to ask. `busy`: standard input is the job.
-pub fn ask(program: &Program, answers: &mut Vec<(VarId, f64)>, busy: bool) -> io::Result<()> {
+pub fn ask(post: &Post, options: &mut Options, busy: bool) -> io::Result<()> {
     if busy || !io::stdin().is_terminal() || !io::stderr().is_terminal() {
         return Ok(());
     }
-    for prompt in &program.settings.prompts {
-        if answers.iter().any(|(var, _)| *var == prompt.var) {
+    for prompt in post.prompts() {
+        if options.set.iter().any(|(name, _)| name == prompt.variable) {
             continue;
         }
         loop {
             let default = prompt.default.map_or(String::new(), |value| format!(" [{value}]"));
-            say(&format!("{}{default}: ", postform::diag::escaped(&prompt.text)));
+            say(&format!("{}{default}: ", postform::diag::escaped(prompt.text)));
             let mut line = String::new();
             if io::stdin().lock().read_line(&mut line)? == 0 {
                 break;
@@ -50,7 +39,7 @@ pub fn ask(program: &Program, answers: &mut Vec<(VarId, f64)>, busy: bool) -> io
             match (line.trim(), line.trim().parse::<f64>()) {
                 ("", _) if prompt.default.is_some() => break,
                 (_, Ok(value)) if value.is_finite() => {
-                    answers.push((prompt.var, value));
+                    options.set.push((prompt.variable.to_owned(), value));
                     break;
                 }
                 _ => message("write a number"),

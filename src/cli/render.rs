@@ -3,31 +3,27 @@
 use std::io;
 use std::path::Path;
 
-use postform::diag::{Diag, Severity};
-use postform::render::{Options, Renderer, TraceLine};
+use postform::diag::Severity;
+use postform::render::TraceLine;
 use postform::source::Source;
-use postform::toolpath::{Event, Flow, Place, ReadError, Sink, Stop, flow};
+use postform::{ErrorKind, Part};
 
 use super::Ending;
 use super::args::RenderArgs;
 use super::config::Config;
-use super::files::{self, Again, io_message};
-use super::huge::Growth;
+use super::files::{self, io_message};
 use super::identity::Identity;
 use super::output::Target;
 use super::prepare::prepare;
 use super::progress::Progress;
-use super::report::Reporter;
+use super::report::{Reporter, place_in, stopped};
 use super::say::{message, say};
-use super::verify::{Job, Proof};
-
-/// How much text waits before it is written.
-const CHUNK: usize = 64 * 1024;
+use super::verify::Proof;
 
 /// Renders a job to its output.
 pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
-    let from = files::job_format(&args.job, &args.read)?;
+    files::check_format(&args.job, &args.read)?;
     let config = Config::near(&args.job)?;
     let form = args.form.clone().or(config.form);
     let Some(form) = form else {
@@ -37,76 +33,61 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let Some(prepared) = prepare(&form, &args.options, &args.job, &reporter)? else {
         return Ok(Ending::Findings);
     };
-    let options = Options { trace: args.trace.is_some(), ..prepared.options.clone() };
     let inputs = prepared.inputs.iter().chain(&config.path).chain([&args.job]);
     keep_inputs(args, &inputs.filter_map(|path| Identity::of_input(path)).collect::<Vec<_>>())?;
-    let job = match args.verify {
-        true => Some(Job { again: Again::open(&args.job)?, from, read: &args.read, path: &args.job }),
-        false => None,
-    };
-    let input = match &job {
-        Some(job) => job.again.read()?,
-        None => files::open(&args.job)?,
-    };
-    let growth = Growth::new(args.options.huge);
-    let input = growth.of(input);
-    let mut writer = Writer {
-        renderer: Renderer::new(&prepared.program, options),
+    let mut job = files::job(&args.job, &args.read, args.verify)?;
+    let mut output = Output {
         target: Target::open(&args.output, args.stream)?,
         trace: args.trace.as_deref().map(|path| Target::open(path, false)).transpose()?,
-        files: &prepared.files,
-        growth,
-        failure: None,
-        progress: Some(Progress::new()),
+        files: prepared.post.files(),
+        trace_failed: false,
     };
-    let (read, report) = files::read_job(input, from, &args.read, &mut writer);
-    writer.progress = None;
-    let mut notes = report.warnings;
-    notes.extend_from_slice(writer.renderer.notes());
+    let mut options = prepared.options.clone();
+    options.trace = args.trace.is_some();
+    let mut progress = Progress::new();
+    let printed = prepared.post.render_parts(job.again(), &options, &mut |part| {
+        progress.lines(part.lines);
+        output.write(&part)
+    });
+    drop(progress);
+    let mut notes = match &printed {
+        Ok(rendered) => rendered.notes.clone(),
+        Err(error) => error.findings().diags.iter().filter(|diag| !diag.is_error()).cloned().collect(),
+    };
     let name = files::name(&args.job);
     notes.iter_mut().for_each(|diag| place_in(&name, diag));
     let denied = args.options.denies_warnings() && notes.iter().any(|diag| diag.severity == Severity::Warning);
     notes.retain(|diag| args.options.shows(diag));
-    say(&reporter.text(&notes, &prepared.files));
-    if let Some((is_trace, error)) = writer.failure.take() {
-        let path = if is_trace { args.trace.as_deref() } else { None };
-        return output_failed(path.unwrap_or(&args.output), &error);
-    }
-    match read {
-        Ok(()) | Err(ReadError::Stopped) => {}
-        Err(ReadError::Io(error)) => return Err(io_message("read", &args.job, &error)),
-        Err(ReadError::Job(mut diag)) => {
-            let ending = Ending::of(&diag);
-            place_in(&name, &mut diag);
-            say(&reporter.text(&[*diag], &prepared.files));
-            return Ok(ending);
-        }
+    say(&reporter.text(&notes, prepared.post.files()));
+    if let Err(error) = printed {
+        return match (error.kind(), error.io()) {
+            (ErrorKind::Output, Some(error)) => output.failed(args, error),
+            _ => stopped(error, &args.job, &reporter, prepared.post.files()),
+        };
     }
     if denied {
         message("nothing was printed: --deny warnings");
         return Ok(Ending::Findings);
     }
-    let Some(job) = job else { return writer.finish(args) };
-    if writer.drain().is_err() {
-        return writer.finish(args);
+    if !args.verify {
+        return output.finish(args);
     }
-    let program = writer.target.written().map_err(|error| io_message("write", &args.output, &error))?;
+    let program = output.target.written().map_err(|error| io_message("write", &args.output, &error))?;
     let Some(program) = program else { return Err("error: a program that is streamed can't be verified".into()) };
     let proof = Proof {
-        job: &job,
+        job: &args.job,
         prepared: Some(&prepared),
         traced: true,
-        control: &args.control,
-        tolerance: None,
+        proof: args.control.proof(None),
         name: "the program".into(),
         quiet: args.options.quiet,
     };
-    let proven = proof.run(program, &reporter)?;
+    let proven = proof.run(&mut job, program, &reporter)?;
     if !args.options.quiet || proven.ending != Ending::Clean {
         say(&proven.text.unwrap_or_default());
     }
     match proven.ending {
-        Ending::Clean => writer.finish(args),
+        Ending::Clean => output.finish(args),
         ending => {
             message("nothing was printed");
             Ok(ending)
@@ -132,11 +113,6 @@ fn keep_inputs(args: &RenderArgs, inputs: &[Identity]) -> Result<(), String> {
     Ok(())
 }
 
-/// The job's name before a place in it.
-pub fn place_in(job: &str, diag: &mut Diag) {
-    diag.place.get_or_insert_default().file = Some(job.to_owned());
-}
-
 /// Who closes standard output has seen enough; what was named must be whole.
 fn output_failed(path: &Path, error: &io::Error) -> Result<Ending, String> {
     match error.kind() {
@@ -149,61 +125,33 @@ fn output_failed(path: &Path, error: &io::Error) -> Result<Ending, String> {
     }
 }
 
-/// Between reader and output: renders, and writes as text comes.
-struct Writer<'p> {
-    renderer: Renderer<'p>,
+/// Where the program goes, and its source map.
+struct Output<'p> {
     target: Target,
     trace: Option<Target>,
     files: &'p [Source],
-    growth: Growth,
-    failure: Option<(bool, io::Error)>,
-    progress: Option<Progress>,
+    /// It was the source map that could not be written.
+    trace_failed: bool,
 }
 
-impl Sink for Writer<'_> {
-    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
-        self.renderer.event(event, place)?;
-        let length = self.renderer.text().len();
-        if length < CHUNK {
-            return Flow::Continue(());
+impl Output<'_> {
+    fn write(&mut self, part: &Part<'_>) -> io::Result<()> {
+        self.target.write(part.text)?;
+        let Some(target) = &mut self.trace else { return Ok(()) };
+        let mut text = Vec::new();
+        for line in part.trace {
+            trace_line(line, self.files, &mut text);
         }
-        flow(self.growth.print(length, place))?;
-        flow(self.drain().map_err(|()| Stop::Enough))
-    }
-}
-
-impl Writer<'_> {
-    /// Writes what waits. `Err`: it failed, and `failure` says how.
-    fn drain(&mut self) -> Result<(), ()> {
-        if let Some(progress) = &mut self.progress {
-            progress.lines(self.renderer.lines());
-        }
-        let text = self.renderer.text();
-        if let Err(error) = self.target.write(text) {
-            self.failure = Some((false, error));
-            return Err(());
-        }
-        text.clear();
-        if let (Some(lines), Some(target)) = (self.renderer.trace(), &mut self.trace) {
-            let mut text = Vec::new();
-            for line in lines.drain(..) {
-                trace_line(&line, self.files, &mut text);
-            }
-            if let Err(error) = target.write(&text) {
-                self.failure = Some((true, error));
-                return Err(());
-            }
-        }
-        Ok(())
+        target.write(&text).inspect_err(|_| self.trace_failed = true)
     }
 
-    /// The job was read to its end.
-    fn finish(mut self, args: &RenderArgs) -> Result<Ending, String> {
-        if self.drain().is_err() {
-            let (is_trace, error) = self.failure.unwrap_or_else(|| (false, io::Error::other("unknown")));
-            let path = if is_trace { args.trace.as_deref() } else { None };
-            return output_failed(path.unwrap_or(&args.output), &error);
-        }
+    fn failed(&self, args: &RenderArgs, error: &io::Error) -> Result<Ending, String> {
+        let path = args.trace.as_deref().filter(|_| self.trace_failed);
+        output_failed(path.unwrap_or(&args.output), error)
+    }
+
+    /// The program is complete.
+    fn finish(self, args: &RenderArgs) -> Result<Ending, String> {
         // the map first: a program without its map is whole, a map without its program is not
         if let (Some(trace), Some(path)) = (self.trace, &args.trace)
             && let Err(error) = trace.complete()

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::fmt;
+use std::path::Path;
 
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents,
@@ -10,6 +11,11 @@ use miette::{
 
 use postform::diag::{Diag, Severity, steers};
 use postform::source::Source;
+use postform::{Error, ErrorKind};
+
+use super::Ending;
+use super::files::{io_message, name};
+use super::say::say;
 
 /// A form file as miette asks for it: found by our line index, so that thousands of findings cost no more each.
 struct Text<'a> {
@@ -199,28 +205,40 @@ fn too_long_to_draw(diag: &Diag, source: &Source, file: u32) -> bool {
     })
 }
 
+/// Shows why a job was not read or printed to its end. `files` are those of the form.
+///
+/// # Errors
+/// A message: the job can't be read, or what was asked for makes no sense.
+pub fn stopped(error: Error, job: &Path, reporter: &Reporter, files: &[Source]) -> Result<Ending, String> {
+    if let Some(error) = error.io() {
+        return Err(io_message("read", job, error));
+    }
+    let ending = match error.kind() {
+        ErrorKind::Usage => return Err(format!("error: {error}")),
+        ErrorKind::Fault => Ending::Broken,
+        _ => Ending::Findings,
+    };
+    let mut errors: Vec<Diag> = error.into_findings().diags.into_iter().filter(Diag::is_error).collect();
+    errors.iter_mut().for_each(|diag| place_in(&name(job), diag));
+    say(&reporter.text(&errors, files));
+    Ok(ending)
+}
+
+/// The name of the job or program in a place of it.
+pub fn place_in(file: &str, diag: &mut Diag) {
+    diag.place.get_or_insert_default().file = Some(file.to_owned());
+}
+
 /// Findings of a form that a run shows.
 const MOST: usize = 10;
 
 /// Findings of a form in a line each, the first ten; `form`: what lint is asked for the others with.
 pub fn brief(diags: &[Diag], files: &[Source], form: &str) -> String {
-    let mut text: String = diags.iter().take(MOST).map(|diag| line(diag, files)).collect();
+    let mut text: String = diags.iter().take(MOST).map(|diag| diag.line(files) + "\n").collect();
     if diags.len() > MOST {
         text += &format!("and {} more: postform lint {form}\n", diags.len() - MOST);
     }
     text
-}
-
-/// `form.pf:13:6: warning PF426: .. (print `G43` before it)`.
-fn line(diag: &Diag, files: &[Source]) -> String {
-    let place = diag.labels.first().and_then(|label| {
-        let source = files.get(label.span.file as usize)?;
-        let (line, column) = source.line_column(label.span.start);
-        Some(format!("{}:{line}:{column}: ", source.name))
-    });
-    let help = diag.help.as_ref().map(|help| format!(" ({help})")).unwrap_or_default();
-    let (place, severity) = (place.unwrap_or_default(), diag.severity.name());
-    format!("{place}{severity} {}: {}{help}\n", diag.code.name(), diag.message)
 }
 
 /// `1 error`, `2 errors`.

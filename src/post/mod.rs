@@ -2,18 +2,22 @@
 
 mod growth;
 mod options;
+mod origin;
 mod program;
 mod render;
+mod sample;
 mod verify;
 
 pub use options::{Options, Proof};
 pub use program::{Part, Program, Rendered};
+pub use sample::sample_program;
 pub use verify::Proven;
 
 use std::sync::Arc;
 
 use crate::compile;
-use crate::diag::Findings;
+use crate::control::Control;
+use crate::diag::{Diag, Findings};
 use crate::error::Error;
 use crate::lint::{Levels, ready};
 use crate::sema::{Limits, analyse};
@@ -44,6 +48,18 @@ impl<F: Fn(&str) -> Result<Source, String>> Files for F {
     }
 }
 
+/// A question of a form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Prompt<'a> {
+    /// The variable that its answer sets.
+    pub variable: &'static str,
+    /// What is asked.
+    pub text: &'a str,
+    /// What holds without an answer.
+    pub default: Option<f64>,
+}
+
 /// A form that prints programs: checked, compiled, immutable. A clone shares it, also with other threads.
 #[derive(Clone, Debug)]
 pub struct Post(Arc<Compiled>);
@@ -70,11 +86,26 @@ impl Post {
     pub fn compile_with(form: Source, files: &dyn Files, limits: Limits, levels: &Levels) -> Result<Post, Error> {
         let checked = analyse(form, limits, &mut |name| files.read(name));
         let found = ready(&checked, levels);
-        let findings = |diags| Findings { diags, files: checked.files, suppressed: 0 };
         match found {
-            Ok(ready) => Ok(Post(Arc::new(Compiled { program: ready.program, warnings: findings(ready.warnings) }))),
-            Err(diags) => Err(Error::form(findings(diags))),
+            Ok(ready) => Ok(Post::of(ready.program, ready.warnings, &checked.files)),
+            Err(diags) => Err(Error::form(Findings { diags, files: checked.files, suppressed: 0 })),
         }
+    }
+
+    fn of(program: compile::Program, warnings: Vec<Diag>, files: &[Source]) -> Post {
+        let warnings = Findings { diags: warnings, files: files.to_vec(), suppressed: 0 };
+        Post(Arc::new(Compiled { program, warnings }))
+    }
+
+    /// The control that the form names.
+    pub fn control(&self) -> Option<&'static Control> {
+        self.0.program.settings.control
+    }
+
+    /// What the form asks before it prints: the answers are [`Options::set`].
+    pub fn prompts(&self) -> impl Iterator<Item = Prompt<'_>> {
+        let prompts = self.0.program.settings.prompts.iter();
+        prompts.map(|prompt| Prompt { variable: prompt.var.row().name, text: &prompt.text, default: prompt.default })
     }
 
     /// The form's warnings, and its text.

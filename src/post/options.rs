@@ -29,6 +29,16 @@ pub struct Options {
 }
 
 impl Options {
+    /// Sets a variable, or answers a question, by the variable's name: `val1` or `[val1]`.
+    ///
+    /// # Errors
+    /// There is no such variable, or it comes from the toolpath.
+    pub fn set_value(&mut self, name: &str, value: f64) -> Result<(), Error> {
+        let var = variable(name).map_err(Error::usage)?;
+        self.set.push((var.row().name.to_owned(), value));
+        Ok(())
+    }
+
     /// As the renderer takes them.
     pub(super) fn for_renderer(&self) -> Result<render::Options, Error> {
         let set = self.set.iter().map(|(name, value)| Ok((variable(name).map_err(Error::usage)?, *value)));

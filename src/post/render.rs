@@ -63,7 +63,7 @@ impl Post {
             printer.drain();
         }
         if let Some(error) = printer.failure {
-            read = Err(Error::io(ErrorKind::Output, error));
+            read = Err(Error::of_io(ErrorKind::Output, error));
         }
         let mut notes = job.take_report().warnings;
         notes.extend_from_slice(printer.renderer.notes());

@@ -91,11 +91,11 @@ fn prove(
     let read = job.read(&mut comparer);
     let mut comparer = comparer.comparer;
     let (counts, warnings) = (comparer.counts(), comparer.warnings());
-    let verdict = comparer.verdict().map_err(|error| Error::io(ErrorKind::Program, error))?;
+    let verdict = comparer.verdict().map_err(|error| Error::of_io(ErrorKind::Program, error))?;
     match (read, &verdict) {
         // what the program does before it is a difference already
         (Err(_), Verdict::Different(_)) | (Ok(()), _) => Ok(Proven { verdict, counts, warnings }),
-        (Err(error), _) => Err(error),
+        (Err(error), _) => Err(error.after(warnings, &[])),
     }
 }
 

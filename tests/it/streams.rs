@@ -134,7 +134,7 @@ fn errors_name_the_folder_for_temporary_files() {
     for (line, what) in [
         ("render job.json --form form.pf", "can't write standard output: a temporary file in /no/such (TMPDIR)"),
         ("simulate - < a.nc", "can't read standard input: a temporary file in /no/such (TMPDIR)"),
-        ("check a.nc", "can't read a.nc: a temporary file in /no/such (TMPDIR)"),
+        ("check - --from nc < a.nc", "can't read standard input: a temporary file in /no/such (TMPDIR)"),
         ("verify job.json --form form.pf", "can't write the program: a temporary file in /no/such (TMPDIR)"),
     ] {
         let output = shell(&folder, &format!("TMPDIR=/no/such exec \"$0\" {line}"));

@@ -3,6 +3,7 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
+use postform::Proof;
 use postform::control::{self, Control};
 use postform::nc::{Settings, Unpointed};
 use postform::toolpath::Units;
@@ -57,6 +58,17 @@ impl NoPoint {
 }
 
 impl ControlArgs {
+    /// How a program is run to be proven.
+    pub fn proof(&self, tolerance: Option<f64>) -> Proof {
+        let mut proof = Proof::default();
+        proof.control = self.control;
+        proof.block_delete = self.block_delete;
+        proof.back_off = self.back_off;
+        proof.unpointed = self.no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
+        proof.tolerance = tolerance;
+        proof
+    }
+
     /// As the library has it; `form` is the form's own control.
     pub fn settings(&self, form: Option<&'static Control>, units: Units) -> Settings {
         let control = self.control.or(form).unwrap_or_else(Control::usual);

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use postform::sema::Limits;
+
 /// Classic or extended limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum LimitsArg {
@@ -12,6 +14,16 @@ pub enum LimitsArg {
     Classic,
     /// The same as warnings
     Extended,
+}
+
+impl LimitsArg {
+    /// As the library has it.
+    pub fn limits(self) -> Limits {
+        match self {
+            LimitsArg::Classic => Limits::Classic,
+            LimitsArg::Extended => Limits::Extended,
+        }
+    }
 }
 
 /// How findings are shown.

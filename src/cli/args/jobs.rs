@@ -6,9 +6,12 @@ use clap::{Args, ValueEnum};
 
 use postform::cl::{Assumed, Dialect};
 use postform::diag::{Diag, Severity};
+use postform::render::Cycles;
 use postform::toolpath::Units;
+use postform::{Format, Options, Reading};
 
 use postform::control::Control;
+use postform::nc::Unpointed;
 
 use super::{ControlArgs, LimitsArg, NoPoint, control_parser};
 
@@ -46,6 +49,31 @@ pub struct ReadArgs {
     /// What a length without a point means in a job that is an NC program [default: it is an error]
     #[arg(long, value_name = "MEANING")]
     pub job_no_point: Option<NoPoint>,
+}
+
+impl From {
+    /// As the library has it.
+    pub fn format(self) -> Format {
+        match self {
+            From::Json => Format::Json,
+            From::Jsonl => Format::JsonLines,
+            From::Cl => Format::Cl,
+            From::Nc => Format::Nc,
+        }
+    }
+}
+
+impl ReadArgs {
+    /// As the library has them.
+    pub fn reading(&self) -> Reading {
+        let mut reading = Reading::default();
+        reading.dialect = self.dialect;
+        reading.units = self.assume_units.map(UnitsArg::units);
+        reading.tool = self.assume_tool.clone();
+        reading.control = self.job_control;
+        reading.unpointed = self.job_no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
+        reading
+    }
 }
 
 /// Where cycles come from.
@@ -125,6 +153,17 @@ pub enum DenyArg {
 }
 
 impl RenderOptions {
+    /// As the library has them, without the values of variables.
+    pub fn options(&self) -> Options {
+        let mut options = Options::default();
+        options.program = self.program;
+        options.units = self.units.map(UnitsArg::units);
+        options.cycles = if self.cycles == CyclesArg::Emulated { Cycles::Emulated } else { Cycles::Form };
+        options.sink_as_printed = self.csink_depth == SinkArg::Printed;
+        options.huge = self.huge;
+        options
+    }
+
     /// Does a warning keep a program from being printed?
     pub fn denies_warnings(&self) -> bool {
         self.deny == Some(DenyArg::Warnings)

@@ -10,7 +10,7 @@ use clap::{Args, Parser, Subcommand};
 use super::colour::Colour;
 pub use controls::{ControlArgs, NoPoint, control_parser};
 pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, NewControl};
-pub use jobs::{CheckArgs, CyclesArg, From, ReadArgs, RenderArgs, RenderOptions, SinkArg, UnitsArg};
+pub use jobs::{CheckArgs, From, ReadArgs, RenderArgs, RenderOptions, UnitsArg};
 pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, VerifyArgs};
 
 /// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.

@@ -14,9 +14,9 @@ use postform::verify::{Motions, NoMotion, compare_motions};
 
 use super::args::{DiffArgs, DiffFormat, Layout};
 use super::colour::Colour;
-use super::report::Reporter;
+use super::report::{Reporter, place_in};
 use super::say::say;
-use super::{Ending, output, simulate};
+use super::{Ending, output};
 use sides::{Side, sides};
 
 /// Compares two programs.
@@ -125,7 +125,7 @@ fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Resu
     match compare_motions(a, b, settings, units, tolerance) {
         Ok(found) => Ok(Outcome::Compared(found)),
         Err(NoMotion(which, RunError::Refused(mut diag, _))) => {
-            simulate::place(&mut diag, if which == 0 { &old.name } else { &new.name });
+            place_in(if which == 0 { &old.name } else { &new.name }, &mut diag);
             say(&reporter.text(&[*diag], &[]));
             Ok(Outcome::Refused)
         }

@@ -11,10 +11,10 @@ use postform::source::Source;
 use postform::trace::Trace;
 
 use super::super::args::DiffArgs;
-use super::super::files::{self, Again, io_message};
+use super::super::files::{self, io_message};
 use super::super::prepare::{Prepared, prepare};
 use super::super::report::Reporter;
-use super::super::verify::{Job, rendered_with_trace};
+use super::super::verify::rendered;
 
 /// A program, and what is known of it.
 pub struct Side {
@@ -96,13 +96,12 @@ fn printed<const N: usize, P: AsRef<Path>>(
     args: &DiffArgs,
     reporter: &Reporter,
 ) -> Result<Option<[Side; N]>, String> {
-    let from = files::job_format(job, &args.read)?;
-    let job = Job { again: Again::open(job)?, from, read: &args.read, path: job };
+    let mut input = files::job(job, &args.read, true)?;
     let mut sides = Vec::with_capacity(N);
     for form in &forms {
         let form = form.as_ref();
-        let Some(prepared) = prepare(form, &args.options, job.path, reporter)? else { return Ok(None) };
-        let Some((file, lines)) = rendered_with_trace(&job, &prepared, reporter)? else { return Ok(None) };
+        let Some(prepared) = prepare(form, &args.options, job, reporter)? else { return Ok(None) };
+        let Ok((file, lines)) = rendered(&mut input, job, &prepared, true, reporter)? else { return Ok(None) };
         sides.push(side(form, file, lines, prepared)?);
     }
     Ok(sides.try_into().ok())
@@ -114,7 +113,7 @@ fn side(form: &Path, mut file: File, lines: Vec<TraceLine>, prepared: Prepared) 
     Ok(Side {
         name: format!("the program of {}", files::name(form)),
         program: program(form, bytes)?,
-        control: prepared.program.settings.control,
-        trace: Some((Trace::new(lines), prepared.files)),
+        control: prepared.post.control(),
+        trace: Some((Trace::new(lines), prepared.post.files().to_vec())),
     })
 }

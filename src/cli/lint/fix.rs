@@ -4,23 +4,24 @@ use std::path::Path;
 
 use postform::diag::{Diag, escaped_lines};
 use postform::lint::{Changed, Levels, Mended, lint, mend};
+use postform::post::sample_program;
 use postform::sema::Checked;
 use similar::TextDiff;
 
-use super::super::args::LintArgs;
+use super::super::args::{LintArgs, ReadArgs};
 use super::super::files;
 use super::super::forms::FormFile;
 use super::super::output;
-use super::{Linted, sample};
+use super::Linted;
 
 /// Mends a form: safe fixes with `--fix`, all with `--fix --unsafe-fixes`. What unsafe ones change in a program is shown
 /// before anything is written; where nothing can be shown, they are not made.
-pub fn run(file: &mut FormFile, levels: &Levels, args: &LintArgs) -> Result<Linted, String> {
+pub fn run(file: &FormFile, levels: &Levels, args: &LintArgs) -> Result<Linted, String> {
     if file.path == Path::new("-") {
         return Err("error: fixes change files, and standard input is none".into());
     }
     let original = file.analyse(&Changed::new());
-    let mut mended = |unsafe_too| mend(levels, unsafe_too, &mut |changed| file.analyse(changed));
+    let mended = |unsafe_too| mend(levels, unsafe_too, &mut |changed| file.analyse(changed));
     let safe = mended(false);
     let (mended, story) = match args.unsafe_fixes {
         true => chosen(&original, safe, mended(true), args)?,
@@ -31,7 +32,7 @@ pub fn run(file: &mut FormFile, levels: &Levels, args: &LintArgs) -> Result<Lint
         return Ok(Linted { story, ..Linted::new(original, found) });
     }
     for (name, text) in &mended.changed {
-        output::write_whole(file.place(name), text.as_bytes())?;
+        output::write_whole(&file.place(name), text.as_bytes())?;
     }
     Ok(Linted { story, mended: mended.made.len(), ..Linted::new(mended.checked, mended.findings) })
 }
@@ -42,8 +43,11 @@ fn chosen(original: &Checked, safe: Mended, all: Mended, args: &LintArgs) -> Res
     if unseen.is_empty() {
         return Ok((safe, String::new()));
     }
-    let (old, new) =
-        (sample::printed(original, args.job.as_deref())?, sample::printed(&all.checked, args.job.as_deref())?);
+    let printed = |form: &Checked| {
+        let job = args.job.as_deref().map(|path| files::job(path, &ReadArgs::default(), false)).transpose()?;
+        sample_program(form, job).map_err(|error| error.to_string())
+    };
+    let (old, new) = (printed(original)?, printed(&all.checked)?);
     let done = match (&new, args.fix) {
         (Err(_), _) => "not made",
         (_, true) => "made",

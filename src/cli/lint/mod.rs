@@ -1,18 +1,14 @@
 //! `postform lint`.
 
 mod fix;
-mod github;
-pub mod json;
-mod sample;
-mod sarif;
 
 use std::io::Write;
 use std::path::Path;
 
-use postform::diag::{Diag, Severity};
+use postform::diag::{Findings, Severity};
 use postform::lint::{Changed, Found, lint};
+use postform::report;
 use postform::sema::Checked;
-use postform::source::Source;
 use rayon::prelude::*;
 
 use super::args::{Format, LintArgs};
@@ -23,33 +19,14 @@ use super::report::{Reporter, count};
 use super::say::{message, say};
 use super::{Ending, output};
 
-/// What was found in a form.
+/// What was found in a form, and what was done about it.
 pub struct Linted {
-    /// The form, and those that it calls; none where nothing was found.
-    pub files: Vec<Source>,
-    /// What was found.
-    pub diags: Vec<Diag>,
-    /// How many findings its comments allow.
-    suppressed: usize,
+    /// What was found; without the form's text where that is nothing.
+    findings: Findings,
     /// What was done to its files.
     story: String,
     /// How many fixes were made.
     mended: usize,
-}
-
-/// How many findings there are of each severity.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Counts {
-    /// Errors.
-    pub errors: usize,
-    /// Warnings.
-    pub warnings: usize,
-    /// Notes.
-    pub notes: usize,
-    /// Findings that comments of the forms allow.
-    pub suppressed: usize,
-    /// Forms that could not be read.
-    pub unread: usize,
 }
 
 /// Every finding of every form.
@@ -67,7 +44,8 @@ pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
         false => files.into_par_iter().map(|file| one(file, args)).collect(),
     };
     let linted: Vec<Linted> = results.into_iter().filter_map(|result| result.map_err(&mut said).ok()).collect();
-    let counts = Counts { unread, ..counts(&linted) };
+    let all = || linted.iter().map(|form| &form.findings);
+    let number = |severity| all().map(|form| form.count(severity)).sum::<usize>();
     let mut text = String::new();
     for form in &linted {
         match args.format {
@@ -78,16 +56,16 @@ pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     match args.format {
         Format::Pretty => {
             let reporter = Reporter::new(colour.on_stdout());
-            let shown = linted.par_iter().map(|form| reporter.text(&form.diags, &form.files));
+            let shown = linted.par_iter().map(|form| reporter.text(&form.findings.diags, &form.findings.files));
             text.extend(shown.collect::<Vec<_>>());
-            text += &summary(&linted, counts, args);
+            text += &summary(&linted, unread, args);
         }
-        Format::Json => text = output::json(&json::report(&linted, counts)),
-        Format::Github => linted.iter().for_each(|form| text += &github::annotations(form)),
-        Format::Sarif => text = output::json(&sarif::log(&linted, unread == 0)),
+        Format::Json => text = output::json(&report::json(all(), unread)),
+        Format::Github => all().for_each(|form| text += &report::github(form)),
+        Format::Sarif => text = output::json(&report::sarif(all(), unread == 0)),
     }
     output::standard_output(|out| out.write_all(text.as_bytes()))?;
-    Ok(match (unread, counts.errors + counts.warnings) {
+    Ok(match (unread, number(Severity::Error) + number(Severity::Warning)) {
         (0, 0) => Ending::Clean,
         (0, _) => Ending::Findings,
         _ => Ending::Failed,
@@ -100,10 +78,10 @@ fn read(path: &Path, args: &LintArgs) -> Result<FormFile, String> {
 }
 
 /// One form: mended if that is asked for, and looked at.
-fn one(mut file: FormFile, args: &LintArgs) -> Result<Linted, String> {
+fn one(file: FormFile, args: &LintArgs) -> Result<Linted, String> {
     let levels = Config::near(&file.path)?.levels;
     if args.fix || args.unsafe_fixes {
-        return fix::run(&mut file, &levels, args);
+        return fix::run(&file, &levels, args);
     }
     let checked = file.analyse(&Changed::new());
     let found = lint(&checked, &levels);
@@ -113,44 +91,34 @@ fn one(mut file: FormFile, args: &LintArgs) -> Result<Linted, String> {
 impl Linted {
     fn new(checked: Checked, found: Found) -> Linted {
         let files = if found.diags.is_empty() { Vec::new() } else { checked.files };
-        Linted { files, diags: found.diags, suppressed: found.suppressed, story: String::new(), mended: 0 }
+        let findings = Findings { files, diags: found.diags, suppressed: found.suppressed };
+        Linted { findings, story: String::new(), mended: 0 }
     }
-}
-
-fn counts(linted: &[Linted]) -> Counts {
-    let mut counts = Counts::default();
-    for form in linted {
-        counts.suppressed += form.suppressed;
-        for diag in &form.diags {
-            match diag.severity {
-                Severity::Error => counts.errors += 1,
-                Severity::Warning => counts.warnings += 1,
-                Severity::Note => counts.notes += 1,
-            }
-        }
-    }
-    counts
 }
 
 /// The last lines for people.
-fn summary(linted: &[Linted], counts: Counts, args: &LintArgs) -> String {
+fn summary(linted: &[Linted], unread: usize, args: &LintArgs) -> String {
     if linted.is_empty() {
         return String::new(); // nothing was read, which was said
     }
-    let (errors, warnings) = (count(counts.errors, "error"), count(counts.warnings, "warning"));
-    let mut text = format!("{errors}, {warnings}, {}", count(counts.notes, "note"));
-    if counts.unread > 0 {
-        text += &format!("; {} not read", count(counts.unread, "form"));
+    let all = [Severity::Error, Severity::Warning, Severity::Note].map(|severity| {
+        let number = linted.iter().map(|form| form.findings.count(severity)).sum();
+        count(number, severity.name())
+    });
+    let mut text = all.join(", ");
+    if unread > 0 {
+        text += &format!("; {} not read", count(unread, "form"));
     }
-    if counts.suppressed > 0 {
-        text += &format!("; {} more allowed by comments", counts.suppressed);
+    let suppressed: usize = linted.iter().map(|form| form.findings.suppressed).sum();
+    if suppressed > 0 {
+        text += &format!("; {suppressed} more allowed by comments");
     }
     let mended: usize = linted.iter().map(|form| form.mended).sum();
     if args.fix {
         text += &format!("; {mended} mended");
     }
     text.push('\n');
-    let fixes = || linted.iter().flat_map(|form| &form.diags).filter_map(|diag| diag.fix.as_ref());
+    let fixes = || linted.iter().flat_map(|form| &form.findings.diags).filter_map(|diag| diag.fix.as_ref());
     let safe = fixes().filter(|fix| fix.safe).count();
     let others = fixes().count() - safe;
     if safe > 0 && !args.fix {

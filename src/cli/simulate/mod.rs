@@ -7,14 +7,13 @@ mod text;
 use std::io::{self, Write};
 use std::path::Path;
 
-use postform::diag::Diag;
 use postform::nc::{RunError, Simulator, Tally};
 use postform::toolpath::{Direction, Plane, StopKind};
 
 use super::Ending;
 use super::args::{ControlArgs, MotionFormat, SimulateArgs};
 use super::files::{self, io_message};
-use super::report::Reporter;
+use super::report::{Reporter, place_in};
 use super::say::{message, say};
 
 /// How much text waits before it is written.
@@ -77,20 +76,15 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     drop(out);
     let reporter = Reporter::new(colour);
     let name = files::name(&args.program);
-    warnings.iter_mut().for_each(|diag| place(diag, &name));
+    warnings.iter_mut().for_each(|diag| place_in(&name, diag));
     say(&reporter.text(&warnings, &[]));
     if left_out > 0 {
         message(&format!("and {left_out} more warnings"));
     }
     let Some((mut diag, _)) = refused else { return Ok(Ending::Clean) };
-    place(&mut diag, &name);
+    place_in(&name, &mut diag);
     say(&reporter.text(&[*diag], &[]));
     Ok(Ending::Findings)
-}
-
-/// The program's name before the place.
-pub fn place(diag: &mut Diag, program: &str) {
-    diag.place.get_or_insert_default().file = Some(program.to_owned());
 }
 
 /// `false`: whoever read it has seen enough.

@@ -2,30 +2,25 @@
 
 use serde_json::{Value, json};
 
-use postform::diag::{Diag, Location};
-use postform::source::Source;
-use postform::span::Span;
+use crate::diag::{Diag, Findings, Location, Severity};
+use crate::source::Source;
+use crate::span::Span;
 
-use super::{Counts, Linted};
-
-/// The whole report.
-pub fn report(linted: &[Linted], counts: Counts) -> Value {
-    let findings: Vec<Value> = linted.iter().flat_map(findings).collect();
+/// The whole report; `unread`: forms that could not be read.
+pub fn report<'a>(forms: impl Iterator<Item = &'a Findings> + Clone, unread: usize) -> Value {
+    let all = forms.clone().flat_map(|form| form.diags.iter().map(|diag| finding(diag, &form.files)));
+    let count = |severity| forms.clone().map(|form| form.count(severity)).sum::<usize>();
     json!({
         "version": 1,
-        "findings": findings,
+        "findings": all.collect::<Vec<Value>>(),
         "summary": {
-            "errors": counts.errors,
-            "warnings": counts.warnings,
-            "notes": counts.notes,
-            "suppressed": counts.suppressed,
-            "unread": counts.unread,
+            "errors": count(Severity::Error),
+            "warnings": count(Severity::Warning),
+            "notes": count(Severity::Note),
+            "suppressed": forms.clone().map(|form| form.suppressed).sum::<usize>(),
+            "unread": unread,
         },
     })
-}
-
-fn findings(form: &Linted) -> impl Iterator<Item = Value> + '_ {
-    form.diags.iter().map(|diag| finding(diag, &form.files))
 }
 
 /// A place in a job or a program.

@@ -1,11 +1,9 @@
 //! Findings as annotations of GitHub's workflows: a line each, which the site shows beside the form's line.
 
-use postform::diag::Severity;
-
-use super::Linted;
+use crate::diag::{Findings, Severity};
 
 /// One line a finding.
-pub fn annotations(form: &Linted) -> String {
+pub fn annotations(form: &Findings) -> String {
     let mut text = String::new();
     for diag in &form.diags {
         let kind = match diag.severity {

@@ -2,14 +2,12 @@
 
 use serde_json::{Value, json};
 
-use postform::diag::{CODES, CodeRow, Diag, Severity};
-use postform::source::Source;
-use postform::span::Span;
-
-use super::Linted;
+use crate::diag::{CODES, CodeRow, Diag, Findings, Severity};
+use crate::source::Source;
+use crate::span::Span;
 
 /// The whole log; `all_read`: no form was left out.
-pub fn log(linted: &[Linted], all_read: bool) -> Value {
+pub fn log<'a>(forms: impl Iterator<Item = &'a Findings>, all_read: bool) -> Value {
     let rules: Vec<&CodeRow> = CODES.iter().filter(|row| row.name.starts_with("PF")).collect();
     let described: Vec<Value> = rules
         .iter()
@@ -22,8 +20,9 @@ pub fn log(linted: &[Linted], all_read: bool) -> Value {
             })
         })
         .collect();
-    let results: Vec<Value> =
-        linted.iter().flat_map(|form| form.diags.iter().map(|diag| result(diag, &form.files, &rules))).collect();
+    let of_form =
+        |form: &Findings| -> Vec<Value> { form.diags.iter().map(|diag| result(diag, &form.files, &rules)).collect() };
+    let results: Vec<Value> = forms.flat_map(of_form).collect();
     json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",

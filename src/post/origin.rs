@@ -1,0 +1,56 @@
+//! Which form line and which item of the job printed a block.
+
+use super::Post;
+use super::options::Options;
+use crate::error::Error;
+use crate::job::Job;
+use crate::render::{Renderer, TraceLine};
+use crate::toolpath::{Event, Flow, Place, Sink, Stop};
+
+impl Post {
+    /// Where lines of a program come from, by printing it once more: `lines` count from 1, and `None` is a line that it has
+    /// not. The job is read as far as it is needed.
+    ///
+    /// # Errors
+    /// The job can't be read, or an option makes no sense.
+    pub fn origins(&self, mut job: Job<'_>, options: &Options, lines: &[u64]) -> Result<Vec<Option<TraceLine>>, Error> {
+        let options = Options { trace: true, ..options.clone() };
+        let renderer = Renderer::new(&self.0.program, options.for_renderer()?);
+        let found = vec![None; lines.len()];
+        let mut finder = Finder { renderer, lines, missing: lines.len(), found };
+        // an event that can't be printed ends it: what is known until then is what was asked for
+        let _ = job.read(&mut finder);
+        finder.look();
+        Ok(finder.found)
+    }
+}
+
+struct Finder<'p> {
+    renderer: Renderer<'p>,
+    lines: &'p [u64],
+    missing: usize,
+    found: Vec<Option<TraceLine>>,
+}
+
+impl Finder<'_> {
+    fn look(&mut self) {
+        self.renderer.text().clear();
+        let Some(printed) = self.renderer.trace() else { return };
+        for traced in printed.drain(..) {
+            for (line, found) in self.lines.iter().zip(&mut self.found) {
+                if *line == traced.line && found.is_none() {
+                    *found = Some(traced);
+                    self.missing -= 1;
+                }
+            }
+        }
+    }
+}
+
+impl Sink for Finder<'_> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+        self.renderer.event(event, place)?;
+        self.look();
+        if self.missing == 0 { Flow::Break(Stop::Enough) } else { Flow::Continue(()) }
+    }
+}

@@ -1,0 +1,44 @@
+//! What fixes change in a program: a form's program of a job before and after them.
+
+use super::Post;
+use super::options::Options;
+use crate::compile::compile;
+use crate::error::{Error, ErrorKind};
+use crate::job::Job;
+use crate::lang::Machine;
+use crate::sema::Checked;
+
+/// A whole part for each type of machine: what most sequences print is in it.
+fn built_in(machine: Machine) -> &'static str {
+    match machine {
+        Machine::Mill => include_str!("../../samples/bracket/job.json"),
+        Machine::Lathe => include_str!("../../samples/lathe-part/job.json"),
+        Machine::Edm => include_str!("../../samples/wire/job.json"),
+    }
+}
+
+/// What a form prints for a job, the built-in one where none is given; the inner `Err`: why it prints nothing. Blocks have no
+/// numbers, so that one block more is not another number in all that follow.
+///
+/// # Errors
+/// The job can't be read.
+pub fn sample_program(checked: &Checked, job: Option<Job<'_>>) -> Result<Result<String, String>, Error> {
+    if let Some(error) = checked.diags.iter().find(|diag| diag.is_error()) {
+        return Ok(Err(format!("{}: {}", error.code.name(), error.message)));
+    }
+    let mut form = checked.form.clone();
+    form.settings.numbers.letter = None;
+    let machine = form.settings.machine;
+    let post = Post::of(compile(&form), Vec::new(), &checked.files);
+    // questions are answered, so that something is printed
+    let mut options = Options { program: Some(1), ..Options::default() };
+    options.set = post.prompts().map(|ask| (ask.variable.to_owned(), ask.default.unwrap_or(1.0))).collect();
+    match post.render(job.unwrap_or_else(|| Job::json(built_in(machine))), &options) {
+        Ok(program) => Ok(Ok(program.into_text())),
+        Err(error) if matches!(error.kind(), ErrorKind::Job | ErrorKind::Fault) => {
+            let diag = error.findings().diags.iter().find(|diag| diag.is_error());
+            Ok(Err(diag.map_or_else(|| error.to_string(), |diag| format!("{}: {}", diag.code.name(), diag.message))))
+        }
+        Err(error) => Err(error),
+    }
+}

@@ -41,6 +41,8 @@ pub mod diff;
 pub mod error;
 pub mod explain;
 pub mod fmt;
+#[cfg(feature = "freecad")]
+pub mod freecad;
 pub mod job;
 pub mod lang;
 pub mod lint;

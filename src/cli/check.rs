@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::io::Write as _;
 
+use postform::Format;
 use postform::cl::{Dialect, Report};
 use postform::diag::Diag;
 use postform::toolpath::json::schema;
@@ -34,7 +35,7 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     say(&Reporter::new(colour).text(&warnings, &[]));
     match read {
         Ok(()) => {
-            let text = describe(&files::name(path), &summary, report);
+            let text = describe(&files::name(path), job.format(), &summary, report);
             output::standard_output(|out| out.write_all(text.as_bytes()))?;
             Ok(Ending::Clean)
         }
@@ -43,7 +44,7 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
 }
 
 /// The summary as a machinist reads it.
-fn describe(name: &str, summary: &Summary, report: &Report) -> String {
+fn describe(name: &str, format: Format, summary: &Summary, report: &Report) -> String {
     let mut text = String::new();
     let unit = summary.units.map_or("", Units::name);
     _ = writeln!(text, "{name}: in order");
@@ -53,7 +54,7 @@ fn describe(name: &str, summary: &Summary, report: &Report) -> String {
     if let Some(program) = summary.program {
         _ = writeln!(text, "  program     {program}");
     }
-    if !report.facts.is_empty() || report.dialect.is_some() || !report.why.is_empty() {
+    if format == Format::Cl && !(report.facts.is_empty() && report.dialect.is_none() && report.why.is_empty()) {
         let system = report.dialect.unwrap_or(Dialect::Gener).title();
         let why = if report.why.is_empty() { "nothing says who wrote it" } else { &report.why };
         _ = writeln!(text, "  written by  {system}: {}", postform::diag::escaped(why));

@@ -112,6 +112,9 @@ fn job_format(path: &Path, args: &ReadArgs) -> Result<Format, String> {
     if from != Format::Cl && args.dialect.is_some() {
         return Err(format!("error: --dialect is for CL files, which {} is not", name(path)));
     }
+    if from != Format::Freecad && args.job_name.is_some() {
+        return Err(format!("error: --job is for FreeCAD documents, which {} is not", name(path)));
+    }
     if !matches!(from, Format::Cl | Format::Nc) && (args.assume_units.is_some() || args.assume_tool.is_some()) {
         return Err(format!("error: --assume-.. is for CL files and NC programs, which {} is not", name(path)));
     }
@@ -130,7 +133,7 @@ fn format_of(path: &Path, from: Option<From>) -> Result<Format, String> {
         Some(format) => Ok(format),
         None if path == Path::new("-") => Ok(Format::Json),
         None => Err(format!(
-            "error: can't tell what {} is by its name: say it with --from json, jsonl, cl or nc",
+            "error: can't tell what {} is by its name: say it with --from json, jsonl, cl, nc or freecad",
             name(path)
         )),
     }
@@ -144,8 +147,8 @@ pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {
 /// A job; `again`: it is read more than once, so what can't be gone back in is copied into a file.
 pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, String> {
     let format = job_format(path, args)?;
-    // a program is run twice
-    let mut job = match again || format == Format::Nc {
+    // a program is run twice, and an archive is read from its end
+    let mut job = match again || matches!(format, Format::Nc | Format::Freecad) {
         true => Job::file(format, Again::open(path)?.file),
         false => Job::stream(format, open(path)?),
     };

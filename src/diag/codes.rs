@@ -17,7 +17,7 @@ pub struct CodeRow {
 
 macro_rules! codes {
     ($($name:ident $severity:ident $title:literal)*) => {
-        /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PC` canned cycle, `PR` rendering, `PN` NC program, `PV` verify,
+        /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PD` FreeCAD document, `PC` canned cycle, `PR` rendering, `PN` NC program, `PV` verify,
         /// `PX` postform itself.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u16)]
@@ -164,6 +164,12 @@ codes! {
     PJ008 Error "something after the end of the job"
     PJ009 Error "the job has no operations"
     PJ010 Error "a number there twice"
+    // PD: the FreeCAD document
+    PD001 Error "a file that is no FreeCAD document"
+    PD002 Error "a document without the job that is asked for"
+    PD003 Error "a command of a path that no job can say"
+    PD004 Error "a document that leaves out what a program needs"
+    PD005 Warning "something of a document that is left out"
     // PL: the CL file
     PL001 Error "a statement that can't be read"
     PL002 Error "an unknown minor word"

@@ -12,14 +12,17 @@ pub enum Format {
     Cl,
     /// An NC program, whose motions become a job.
     Nc,
+    /// A FreeCAD document.
+    Freecad,
 }
 
 /// What files of each format are called.
-const EXTENSIONS: [(Format, &[&str]); 4] = [
+const EXTENSIONS: [(Format, &[&str]); 5] = [
     (Format::Json, &["json"]),
     (Format::JsonLines, &["jsonl", "ndjson"]),
     (Format::Cl, &["cl", "apt", "aptsource", "ncl", "cls", "cldata", "as"]),
     (Format::Nc, &["nc", "ngc", "tap", "eia", "min", "mpf"]),
+    (Format::Freecad, &["fcstd"]),
 ];
 
 /// So many bytes at a job's beginning are looked at.
@@ -37,9 +40,12 @@ impl Format {
         EXTENSIONS.iter().find(|(_, known)| known.iter().any(|known| is(known))).map(|(format, _)| *format)
     }
 
-    /// By how a job begins: a brace, a word with a slash, or a block of an NC program. `None`: by none of them.
+    /// By how a job begins: as a zip archive, with a brace, a word with a slash, or a block of an NC program. `None`: by none of them.
     pub fn of_content(bytes: &[u8]) -> Option<Format> {
         let start = bytes.get(..LOOKED_AT).unwrap_or(bytes);
+        if start.starts_with(b"PK\x03\x04") {
+            return Some(Format::Freecad); // the only job that is a zip archive
+        }
         let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
         let mut lines = start.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
         let first = lines.clone().next()?;
@@ -90,6 +96,7 @@ mod tests {
         assert_eq!(of("partno x"), Some(Format::Cl));
         assert_eq!(of("(a remark)\r\nO1234\r\n"), Some(Format::Nc));
         assert_eq!(of("%\n"), Some(Format::Nc));
+        assert_eq!(of("PK\u{3}\u{4}.."), Some(Format::Freecad));
         assert_eq!([of(""), of("\n\n"), of("hello, world"), of("[1, 2]")], [None; 4]);
     }
 }

@@ -28,6 +28,8 @@ pub struct Reading {
     pub tool: Option<Assumed>,
     /// Whose rules an NC program follows; else Fanuc's.
     pub control: Option<&'static Control>,
+    /// The name or label of the job of a FreeCAD document that has several.
+    pub job: Option<String>,
     /// What a length without a point means in an NC program of a Fanuc; else it is an error.
     pub unpointed: Unpointed,
 }
@@ -108,7 +110,7 @@ impl<'a> Job<'a> {
     }
 
     /// A job that comes as a stream and can be read once: it can be rendered or verified, not both. An NC program is kept
-    /// in memory, because it is run twice; other formats are not.
+    /// in memory, because it is run twice, and a FreeCAD document, because an archive is read from its end.
     pub fn stream(format: Format, input: impl Read + 'a) -> Job<'a> {
         Job::new(format, Input::Stream(Some(Box::new(input))))
     }
@@ -178,6 +180,7 @@ impl<'a> Job<'a> {
                 count.set(bytes.len() as u64);
                 match format {
                     Format::Nc => read_nc(Cursor::new(*bytes), reading, report, sink),
+                    Format::Freecad => read_document_of_freecad(Cursor::new(*bytes), reading, report, sink),
                     _ => read_once(*bytes, format, reading, report, sink),
                 }
             }
@@ -186,6 +189,10 @@ impl<'a> Job<'a> {
                 let input = Counted { input, count };
                 match format {
                     Format::Nc => read_nc(BufReader::with_capacity(PROGRAM_BUFFER, input), reading, report, sink),
+                    Format::Freecad => {
+                        let input = BufReader::with_capacity(PROGRAM_BUFFER, input);
+                        read_document_of_freecad(input, reading, report, sink)
+                    }
                     _ => read_once(input, format, reading, report, sink),
                 }
             }
@@ -193,10 +200,14 @@ impl<'a> Job<'a> {
                 let Some(input) = input.take() else { return Ok(()) };
                 let mut input = Counted { input, count };
                 match format {
-                    Format::Nc => {
+                    Format::Nc | Format::Freecad => {
                         let mut text = Vec::new();
                         input.read_to_end(&mut text)?;
-                        read_nc(Cursor::new(text), reading, report, sink)
+                        let text = Cursor::new(text);
+                        match format {
+                            Format::Nc => read_nc(text, reading, report, sink),
+                            _ => read_document_of_freecad(text, reading, report, sink),
+                        }
                     }
                     _ => read_once(input, format, reading, report, sink),
                 }
@@ -247,6 +258,35 @@ fn read_nc(
     };
     let tool = reading.tool.as_ref().and_then(Assumed::one);
     read_program(input, &JobOptions { settings, units: reading.units, tool }, &mut report.warnings, sink)
+}
+
+/// A document of FreeCAD: an archive is gone about in.
+#[cfg(feature = "freecad")]
+fn read_document_of_freecad(
+    input: impl Read + Seek,
+    reading: &Reading,
+    report: &mut Report,
+    sink: &mut dyn Sink,
+) -> Result<(), ReadError> {
+    use crate::freecad::{self, read_freecad};
+    let mut own = freecad::Report::default();
+    let read = read_freecad(input, &freecad::Options { job: reading.job.clone() }, &mut own, sink);
+    report.facts.extend(own.facts);
+    report.warnings.extend(own.warnings);
+    read
+}
+
+/// A document of FreeCAD, which this build can't read.
+#[cfg(not(feature = "freecad"))]
+fn read_document_of_freecad(
+    _: impl Read + Seek,
+    _: &Reading,
+    _: &mut Report,
+    _: &mut dyn Sink,
+) -> Result<(), ReadError> {
+    let diag = crate::diag::Diag::new(crate::diag::Code::PD001, "this build of postform reads no FreeCAD documents")
+        .help("build it with the feature `freecad`");
+    Err(ReadError::Job(Box::new(diag)))
 }
 
 /// Counts the bytes that are read.

@@ -10,6 +10,7 @@ mod cycles;
 mod diff;
 mod examples;
 mod fmt;
+mod freecad;
 mod golden;
 mod guide;
 mod increments;

@@ -26,6 +26,8 @@ pub enum From {
     Cl,
     /// An NC program
     Nc,
+    /// A FreeCAD document
+    Freecad,
 }
 
 /// How a job is read.
@@ -34,6 +36,9 @@ pub struct ReadArgs {
     /// The job's format [default: by its extension]
     #[arg(long, value_name = "FORMAT")]
     pub from: Option<From>,
+    /// Which job of a FreeCAD document that has several, by its name or label
+    #[arg(long = "job", value_name = "NAME")]
+    pub job_name: Option<String>,
     /// Who wrote a CL file: gener, catia, creo, nx, solidworks, makino, ncl [default: by its first lines]
     #[arg(long, value_name = "SYSTEM", value_parser = Dialect::parse)]
     pub dialect: Option<Dialect>,
@@ -59,6 +64,7 @@ impl From {
             From::Jsonl => Format::JsonLines,
             From::Cl => Format::Cl,
             From::Nc => Format::Nc,
+            From::Freecad => Format::Freecad,
         }
     }
 }
@@ -71,6 +77,7 @@ impl ReadArgs {
         reading.units = self.assume_units.map(UnitsArg::units);
         reading.tool = self.assume_tool.clone();
         reading.control = self.job_control;
+        reading.job = self.job_name.clone();
         reading.unpointed = self.job_no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
         reading
     }

@@ -1,0 +1,88 @@
+//! The zip archive of a document. What it unpacks to has a bound: an archive of a few kilobytes can hold terabytes.
+
+use std::io::{BufRead, BufReader, Read, Seek};
+
+use zip::ZipArchive;
+use zip::result::ZipError;
+
+use crate::diag::{Code, Diag};
+use crate::toolpath::ReadError;
+
+/// Largest `Document.xml`, in bytes: one of a thousand objects has three million.
+pub(super) const LARGEST_DOCUMENT: u64 = 64 << 20;
+/// Largest path of one operation, in bytes: twenty million moves.
+const LARGEST_PATH: u64 = 1 << 30;
+
+/// A document's archive.
+pub(super) struct Archive<R> {
+    zip: ZipArchive<R>,
+}
+
+impl<R: Read + Seek> Archive<R> {
+    /// Reads the archive's directory.
+    pub fn open(input: R) -> Result<Archive<R>, ReadError> {
+        match ZipArchive::new(input) {
+            Ok(zip) => Ok(Archive { zip }),
+            Err(error) => Err(refused("the file", &error)),
+        }
+    }
+
+    /// A whole member as text.
+    pub fn whole(&mut self, name: &str, most: u64) -> Result<String, ReadError> {
+        let mut text = String::new();
+        match self.bounded(name, most)?.read_to_string(&mut text) {
+            Ok(_) => Ok(text),
+            Err(error) => Err(unpacked(name, &error)),
+        }
+    }
+
+    /// A path, to be read a line at a time. An operation without one has no moves.
+    pub fn member(&mut self, name: &Option<String>) -> Result<Option<impl BufRead + use<'_, R>>, ReadError> {
+        match name {
+            Some(name) => Ok(Some(BufReader::new(self.bounded(name, LARGEST_PATH)?))),
+            None => Ok(None),
+        }
+    }
+
+    fn bounded(&mut self, name: &str, most: u64) -> Result<impl Read + use<'_, R>, ReadError> {
+        match self.zip.by_name(name) {
+            Ok(member) => Ok(Bounded { inner: member, left: most }),
+            Err(error) => Err(refused(name, &error)),
+        }
+    }
+}
+
+/// A reader that fails where more comes than may come.
+struct Bounded<R> {
+    inner: R,
+    left: u64,
+}
+
+impl<R: Read> Read for Bounded<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let count = self.inner.read(buffer)?;
+        match self.left.checked_sub(count as u64) {
+            Some(left) => self.left = left,
+            None => return Err(std::io::Error::new(std::io::ErrorKind::FileTooLarge, "it unpacks to too much")),
+        }
+        Ok(count)
+    }
+}
+
+/// Why a member could not be opened.
+fn refused(what: &str, error: &ZipError) -> ReadError {
+    ReadError::Job(match error {
+        ZipError::FileNotFound => no_document(format!("the archive has no `{what}`")),
+        error => no_document(format!("{what} can't be unpacked: {error}")),
+    })
+}
+
+/// Why a member could not be read to its end.
+pub(super) fn unpacked(name: &str, error: &std::io::Error) -> ReadError {
+    ReadError::Job(no_document(format!("`{name}` can't be unpacked: {error}")))
+}
+
+fn no_document(message: String) -> Box<Diag> {
+    let help = "give a document that FreeCAD has saved (.FCStd); open it there and save it again";
+    Box::new(Diag::new(Code::PD001, message).help(help))
+}

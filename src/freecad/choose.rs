@@ -1,0 +1,65 @@
+//! Which job of a document is meant.
+
+use super::document::{Document, Object};
+use super::{Report, wrong};
+use crate::diag::{Code, Diag};
+
+/// The job that is read.
+pub(super) struct Job<'d> {
+    /// The name that the user sees.
+    pub label: String,
+    /// Its properties.
+    pub object: &'d Object,
+}
+
+/// Is an object a job? By its class; where 1.1 has dropped the classes of a document of 0.20, by its properties.
+fn is_job(object: &Object) -> bool {
+    let properties = ["Operations", "Fixtures", "PostProcessor"];
+    object
+        .class()
+        .map_or_else(|| properties.iter().all(|name| object.get(name).is_some()), |class| class == "ObjectJob")
+}
+
+/// The job of that name or label; without one the only job that the document has.
+pub(super) fn job<'d>(document: &'d Document, asked: Option<&str>, report: &mut Report) -> Result<Job<'d>, Box<Diag>> {
+    let jobs: Vec<(&str, &str, &Object)> = document
+        .objects
+        .iter()
+        .filter(|(_, object)| is_job(object))
+        .map(|(name, object)| (name.as_str(), object.text("Label").unwrap_or(name), object))
+        .collect();
+    let list: Vec<String> = jobs
+        .iter()
+        .map(|(name, label, _)| if name == label { format!("`{name}`") } else { format!("`{name}` ({label})") })
+        .collect();
+    let list = list.join(", ");
+    let found: Vec<&(&str, &str, &Object)> = match asked {
+        // names are unique, labels need not be
+        Some(asked) => match jobs.iter().find(|(name, ..)| *name == asked) {
+            Some(job) => vec![job],
+            None => jobs.iter().filter(|(_, label, _)| *label == asked).collect(),
+        },
+        None => jobs.iter().collect(),
+    };
+    let &[&(name, label, object)] = found.as_slice() else {
+        return match (asked, found.len()) {
+            _ if jobs.is_empty() => {
+                let help = "make a job in FreeCAD's CAM (Path) workbench, and save the document";
+                wrong(Code::PD002, "the document has no CAM job", help)
+            }
+            (Some(asked), 0) => {
+                wrong(Code::PD002, format!("the document has no job `{asked}`"), format!("it has {list}"))
+            }
+            _ => {
+                let help = format!("say which with `--job NAME`: {list}");
+                wrong(Code::PD002, format!("the document has {} jobs of that kind", found.len()), help)
+            }
+        };
+    };
+    let version = document.version.split('R').next().unwrap_or_default();
+    report.facts.push(format!("saved by FreeCAD {version}"));
+    let shown = if name == label { String::new() } else { format!(" ({name})") };
+    let others = if jobs.len() > 1 { format!(", of the jobs {list}") } else { String::new() };
+    report.facts.push(format!("the job {label}{shown}{others}"));
+    Ok(Job { label: label.to_owned(), object })
+}

@@ -1,0 +1,181 @@
+//! The text of a path: one command a line, its name first.
+
+use std::io::{BufRead, Read};
+
+use super::archive::unpacked;
+use crate::control;
+use crate::diag::{Code, Diag};
+use crate::toolpath::{ReadError, Stop};
+
+/// Longest line of a path, in bytes.
+const LONGEST: u64 = 64 << 10;
+
+/// What G98 and G99 choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Return {
+    /// To the height before the cycle: G98.
+    Before,
+    /// To the R plane: G99.
+    Clearance,
+}
+
+/// One line of a path.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Command {
+    /// A comment, without its parentheses.
+    Comment(String),
+    /// A code and its words.
+    Code(control::Code, Words),
+}
+
+/// The words of a command: capital letters, each once.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Words {
+    values: Vec<(u8, f64)>,
+    /// The mode of return that FreeCAD 1.2 notes behind the words.
+    pub returns: Option<Return>,
+}
+
+impl Words {
+    /// The value of a letter.
+    pub fn get(&self, letter: u8) -> Option<f64> {
+        self.values.iter().find(|(own, _)| *own == letter).map(|(_, value)| *value)
+    }
+
+    /// The first letter that is there and not among these.
+    pub fn beyond(&self, known: &[u8]) -> Option<char> {
+        self.values.iter().map(|(letter, _)| *letter).find(|letter| !known.contains(letter)).map(char::from)
+    }
+}
+
+/// Gives each command of a path with its line, from 1.
+pub(super) fn each(
+    path: Option<impl BufRead>,
+    mut take: impl FnMut(u64, &Command) -> Result<(), Stop>,
+) -> Result<(), ReadError> {
+    let Some(mut path) = path else { return Ok(()) };
+    let mut line = Vec::new();
+    let mut number = 0;
+    loop {
+        line.clear();
+        let count = match path.by_ref().take(LONGEST).read_until(b'\n', &mut line) {
+            Ok(count) => count as u64,
+            Err(error) => return Err(unpacked("a path", &error)),
+        };
+        if count == 0 {
+            return Ok(());
+        }
+        number += 1;
+        let text = String::from_utf8_lossy(&line);
+        if count == LONGEST {
+            return Err(ReadError::Job(unread(&text)));
+        }
+        if let Some(command) = parse(text.trim()).ok_or_else(|| unread(&text))? {
+            take(number, &command)?;
+        }
+    }
+}
+
+fn unread(text: &str) -> Box<Diag> {
+    let help = "postform reads what FreeCAD saves: a command and words such as `G1 X1.000000`";
+    let message = format!("a line of a path that can't be read: {}", text.trim());
+    Box::new(Diag::new(Code::PD003, message).help(help))
+}
+
+/// A line; `Some(None)` for an empty one, `None` for one that can't be read.
+fn parse(line: &str) -> Option<Option<Command>> {
+    if line.is_empty() {
+        return Some(None);
+    }
+    // FreeCAD drops inner parentheses, and not all of them: the comment reaches to the last
+    if let Some(rest) = line.strip_prefix('(') {
+        let text = rest.rfind(')').map_or(rest, |end| &rest[..end]);
+        return Some(Some(Command::Comment(text.trim().to_owned())));
+    }
+    let (words, notes) = line.split_once(';').unwrap_or((line, ""));
+    let mut tokens = words.split_ascii_whitespace();
+    let (letter, value) = word(tokens.next()?)?;
+    let code = control::Code::of(letter, value)?;
+    let mut words = Words { returns: returns(notes)?, ..Words::default() };
+    for token in tokens {
+        let (letter, value) = word(token)?;
+        if words.get(letter).is_some() {
+            return None;
+        }
+        words.values.push((letter, value));
+    }
+    Some(Some(Command::Code(code, words)))
+}
+
+/// A letter and a finite number.
+fn word(token: &str) -> Option<(u8, f64)> {
+    let letter = *token.as_bytes().first()?;
+    let value: f64 = token.get(1..)?.parse().ok()?;
+    (letter.is_ascii_uppercase() && value.is_finite()).then_some((letter, value))
+}
+
+/// The notes `RetractMode:'G98' operation:'tapping' depth:1.5` of FreeCAD 1.2; `None` for one that is not known.
+fn returns(notes: &str) -> Option<Option<Return>> {
+    let mut returns = None;
+    for note in notes.split_ascii_whitespace() {
+        match note.split_once(':')? {
+            ("RetractMode", "'G98'") => returns = Some(Return::Before),
+            ("RetractMode", "'G99'") => returns = Some(Return::Clearance),
+            ("operation" | "depth", _) => {}
+            _ => return None,
+        }
+    }
+    Some(returns)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn code(line: &str) -> (String, Words) {
+        match parse(line) {
+            Some(Some(Command::Code(code, words))) => (code.to_string(), words),
+            other => panic!("{line}: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_line_is_a_code_and_its_words() {
+        let (name, words) = code("G01 F11.666667 X-5.000000");
+        assert_eq!(
+            (name.as_str(), words.get(b'F'), words.get(b'X'), words.get(b'Y')),
+            ("G1", Some(11.666667), Some(-5.0), None)
+        );
+        assert_eq!(words.beyond(b"F"), Some('X'));
+        let (_, words) = code("G84 F1.25 S300 ; RetractMode:'G98' operation:'tapping' depth:1.500000");
+        assert_eq!(words.returns, Some(Return::Before));
+        assert_eq!(parse(""), Some(None));
+    }
+
+    #[test]
+    fn a_comment_reaches_to_its_last_parenthesis() {
+        for (line, text) in
+            [("(Slot 8 wide))", "Slot 8 wide)"), ("(TC: 1/4\" X5)", "TC: 1/4\" X5"), ("()", ""), ("(open", "open")]
+        {
+            assert_eq!(parse(line), Some(Some(Command::Comment(text.into()))), "{line}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_command_is_refused() {
+        for line in [
+            "X1",
+            "G1 x1",
+            "G1 X",
+            "G1 X1 X2",
+            "G1 Xnan",
+            "G1 Xinf",
+            "G1 X1e999",
+            "hello",
+            "G81 Z1 ; spin:'fast'",
+            "G1 X1 (c)",
+        ] {
+            assert_eq!(parse(line), None, "{line}");
+        }
+    }
+}

@@ -1,0 +1,358 @@
+//! The commands of one operation's path as events.
+
+use super::command::{Command, Return, Words};
+use super::cycles::{Cycle, Drilling, kind_of};
+use super::order::{Kind, Operation, Step};
+use super::wrong;
+use crate::diag::{Code, Location};
+use crate::toolpath::{
+    Arc, Axes, Coolant, CycleKind, Direction, Event, FeedMode, First, Hold, Infeed, Place, Plane, Side, Sink, Spindle,
+    SpindleTurn, Stop, StopKind, ToolChange,
+};
+
+type Done<T = ()> = Result<T, Stop>;
+
+/// Letters of the six axes.
+const AXES: &[u8; 6] = b"XYZABC";
+
+/// A step that is being read. Each begins anew: nothing is known of where the step before left the tool.
+pub(super) struct Convert<'a, 'h, 's> {
+    label: &'a str,
+    /// Comments and stops have none.
+    operation: Option<&'a Operation>,
+    hold: &'h mut Hold<'s>,
+    place: Place,
+    position: [Option<f64>; 6],
+    feed: Option<f64>,
+    returns: Return,
+    plane: Plane,
+    cycle: Option<Cycle>,
+    side: Option<Side>,
+    /// Compensation that the next move turns on (its side) or off.
+    turning: Option<Option<Side>>,
+    spindle: (Option<f64>, SpindleTurn),
+}
+
+impl<'a, 'h, 's> Convert<'a, 'h, 's> {
+    /// Begins a step.
+    pub fn begin(step: &'a Step, place: Place, hold: &'h mut Hold<'s>) -> Done<Convert<'a, 'h, 's>> {
+        let operation = match &step.kind {
+            Kind::Operation(operation, _) => Some(operation.as_ref()),
+            _ => None,
+        };
+        let spindle = operation.map_or((None, SpindleTurn::Off), |operation| {
+            let controller = &operation.controller;
+            (Some(controller.speed).filter(|_| controller.turn != SpindleTurn::Off), controller.turn)
+        });
+        match &step.kind {
+            Kind::Operation(operation, work) => {
+                let change = ToolChange {
+                    name: Some(step.label.clone()),
+                    tool: Some(operation.controller.tool.clone()),
+                    spindle: Some(Spindle { speed: spindle.0, turn: Some(spindle.1), ..Spindle::default() }),
+                    coolant: Some(operation.coolant),
+                    work: Some(*work),
+                    feed: None,
+                    plunge: None,
+                    feed_mode: Some(FeedMode::PerMinute),
+                    comment: Some(step.label.clone()),
+                    set: Vec::new(),
+                    first: First::Nothing,
+                };
+                hold.tool_change(change, place)?;
+                if let Some(comment) = &operation.comment {
+                    hold.push(Event::Comment(comment), place)?;
+                }
+            }
+            Kind::Comment(text) => hold.push(Event::Comment(text), place)?,
+            Kind::Stop(kind) => hold.push(Event::Stop(*kind), place)?,
+        }
+        Ok(Convert {
+            label: &step.label,
+            operation,
+            hold,
+            place,
+            position: [None; 6],
+            feed: None,
+            returns: Return::Before,
+            plane: Plane::Xy,
+            cycle: None,
+            side: None,
+            turning: None,
+            spindle,
+        })
+    }
+
+    /// Takes the command on a line of the path.
+    pub fn take(&mut self, line: u64, command: &Command) -> Done {
+        self.place.item = line;
+        let taken = match command {
+            Command::Comment(text) => self.comment(text),
+            Command::Code(code, words) => self.code(code.letter, code.tenths, words).map_err(|mut stop| {
+                if let Stop::Wrong(diag) = &mut stop {
+                    diag.message = format!("{code}: {}", diag.message);
+                }
+                stop
+            }),
+        };
+        // what the sink refuses has its place
+        let (place, label) = (self.place, self.label);
+        taken.map_err(|stop| {
+            stop.placed(|| Location::default().step(format!("{place}, operation `{label}`, line {line} of its path")))
+        })
+    }
+
+    /// The path is over.
+    pub fn end(&mut self) -> Done {
+        self.end_cycle()?;
+        if self.side.is_some() || self.turning.is_some() {
+            let message = format!("the operation {} ends under cutter compensation", self.label);
+            return wrong(Code::PD003, message, "end it with G40 and a move");
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, event: Event<'_>) -> Done {
+        self.hold.push(event, self.place)
+    }
+
+    fn code(&mut self, letter: u8, tenths: u16, words: &Words) -> Done {
+        match (letter, tenths) {
+            (b'G', 0) => {
+                self.only(words, b"XYZABCF")?; // F of a rapid is the machine's affair
+                self.rapid(words)
+            }
+            (b'G', 10) => {
+                self.only(words, b"XYZABCF")?;
+                self.line(words)
+            }
+            (b'G', 20) => self.arc(words, Direction::Cw),
+            (b'G', 30) => self.arc(words, Direction::Ccw),
+            (b'G', 40) => {
+                self.only(words, b"P")?;
+                match words.get(b'P').filter(|seconds| *seconds >= 0.0) {
+                    Some(seconds) => self.between(Event::Dwell(seconds)),
+                    None => wrong(Code::PD003, "a dwell without its seconds P", "write it as `G4 P0.5`"),
+                }
+            }
+            (b'G', 170 | 180 | 190) => {
+                self.plane = [Plane::Xy, Plane::Xz, Plane::Yz][usize::from(tenths / 10 - 17)];
+                self.only(words, b"")
+            }
+            (b'G', 400 | 410 | 420) => {
+                self.only(words, b"D")?; // the register is the tool's
+                self.compensation([None, Some(Side::Left), Some(Side::Right)][usize::from(tenths / 10 - 40)])
+            }
+            (b'G', 800) => {
+                self.only(words, b"")?;
+                self.end_cycle()
+            }
+            (b'G', 900) => self.only(words, b""), // places are absolute
+            (b'G', 980) => self.returns(Return::Before, words),
+            (b'G', 990) => self.returns(Return::Clearance, words),
+            (b'G', tenths) if kind_of(tenths).is_some() => match kind_of(tenths) {
+                Some(kind) => self.hole(kind, words),
+                None => Ok(()),
+            },
+            (b'M', 0) => self.between(Event::Stop(StopKind::Program)),
+            (b'M', 10) => self.between(Event::Stop(StopKind::Optional)),
+            (b'M', 30 | 40 | 50) => {
+                self.only(words, b"S")?;
+                let turn = [SpindleTurn::Cw, SpindleTurn::Ccw, SpindleTurn::Off][usize::from(tenths / 10 - 3)];
+                self.spin(words.get(b'S').filter(|speed| *speed > 0.0).or(self.spindle.0), turn)
+            }
+            (b'M', 70 | 80 | 90) => {
+                self.only(words, b"")?;
+                let coolant = [Coolant::Mist, Coolant::On, Coolant::Off][usize::from(tenths / 10 - 7)];
+                self.between(Event::Coolant(coolant))
+            }
+            _ => {
+                let help =
+                    "postform reads moves, cycles, dwells, stops, spindle and coolant of a path: take the command out";
+                wrong(Code::PD003, "a command that no job can say", help)
+            }
+        }
+    }
+
+    /// A word that would be lost is an error.
+    fn only(&self, words: &Words, known: &[u8]) -> Done {
+        match words.beyond(known) {
+            Some(letter) => {
+                let help = "take the word out of the path; postform leaves no word out";
+                wrong(Code::PD003, format!("a word {letter} that no job can say"), help)
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn comment(&mut self, text: &str) -> Done {
+        // a path begins with its operation's name, which FreeCAD has stripped of parentheses
+        let bare = |text: &str| text.replace(['(', ')', ' '], "");
+        if text.is_empty() || self.place.item == 1 && bare(text) == bare(self.label) {
+            return Ok(());
+        }
+        self.between(Event::Comment(text))
+    }
+
+    /// What is done where the tool stands.
+    fn between(&mut self, event: Event<'_>) -> Done {
+        self.end_cycle()?;
+        self.push(event)
+    }
+
+    fn returns(&mut self, returns: Return, words: &Words) -> Done {
+        self.returns = returns;
+        self.only(words, b"")
+    }
+
+    fn spin(&mut self, speed: Option<f64>, turn: SpindleTurn) -> Done {
+        if turn != SpindleTurn::Off && speed.is_none() {
+            return wrong(Code::PD004, "the spindle turns without a speed", "write it as `M3 S1000`");
+        }
+        self.spindle = (speed, turn);
+        self.between(Event::Spindle(Spindle { speed, turn: Some(turn), ..Spindle::default() }))
+    }
+
+    /// The axes that a command says; the tool is there afterwards.
+    fn target(&mut self, words: &Words) -> Axes {
+        let mut to = Axes::default();
+        for (axis, letter) in AXES.iter().enumerate() {
+            if let Some(value) = words.get(*letter) {
+                to.set(axis, value);
+                self.position[axis] = Some(value);
+            }
+        }
+        to
+    }
+
+    fn rapid(&mut self, words: &Words) -> Done {
+        let to = self.target(words);
+        if to.given == 0 {
+            return Ok(());
+        }
+        if let Some(cycle) = &mut self.cycle {
+            cycle.pending.push((to, self.position, self.place));
+            return Ok(());
+        }
+        match self.turning.take() {
+            Some(Some(side)) => self.push(Event::Infeed { infeed: &Infeed { to, side, rapid: true }, feed: None }),
+            Some(None) => self.push(Event::Outfeed { to, feed: None, rapid: true }),
+            None => self.push(Event::Rapid(to)),
+        }
+    }
+
+    /// The feed of a cut, in millimetres a minute; the last one where the command has none.
+    fn feed(&mut self, words: &Words) -> Done<Option<f64>> {
+        let Some(operation) = self.operation else { return Ok(None) };
+        if let Some(feed) = words.get(b'F') {
+            self.feed = Some(operation.controller.feed(feed));
+        }
+        match self.feed.filter(|feed| *feed > 0.0) {
+            Some(feed) => Ok(Some(feed)),
+            None => {
+                let help = format!("give {} its feeds in FreeCAD and make the path again", operation.controller.label);
+                wrong(Code::PD004, "a cut without a feed", help)
+            }
+        }
+    }
+
+    fn line(&mut self, words: &Words) -> Done {
+        self.end_cycle()?;
+        let to = self.target(words);
+        if to.given == 0 {
+            return self.feed(words).map(drop);
+        }
+        let feed = self.feed(words)?;
+        match self.turning.take() {
+            Some(Some(side)) => self.push(Event::Infeed { infeed: &Infeed { to, side, rapid: false }, feed }),
+            Some(None) => self.push(Event::Outfeed { to, feed, rapid: false }),
+            None => self.push(Event::Line { to, feed }),
+        }
+    }
+
+    fn arc(&mut self, words: &Words, direction: Direction) -> Done {
+        self.end_cycle()?;
+        self.only(words, b"XYZIJKF")?;
+        if self.turning.is_some() {
+            let help = "turn it on and off by straight moves";
+            return wrong(Code::PD003, "cutter compensation is switched on an arc", help);
+        }
+        let (first, second, third) = match self.plane {
+            Plane::Xy => (0, 1, 2),
+            Plane::Xz => (0, 2, 1),
+            Plane::Yz => (1, 2, 0),
+        };
+        let offset = |axis: usize| words.get(b"IJK"[axis]).unwrap_or(0.0);
+        if offset(third) != 0.0 || (offset(first), offset(second)) == (0.0, 0.0) {
+            let help = "say the centre by I and J from the start of the arc (in G17)";
+            return wrong(Code::PD003, "an arc whose centre is not in its plane", help);
+        }
+        let mut center = Axes::default();
+        for axis in [first, second] {
+            let Some(from) = self.position[axis] else {
+                return wrong(
+                    Code::PD003,
+                    "an arc from a place that the path does not say",
+                    "begin the path with a rapid",
+                );
+            };
+            center.set(axis, from + offset(axis));
+        }
+        self.target(words);
+        let mut to = Axes::default();
+        for axis in 0..3 {
+            if let Some(value) = self.position[axis] {
+                to.set(axis, value);
+            }
+        }
+        let feed = self.feed(words)?;
+        let arc = Arc { to, center: Some(center), radius: None, direction, plane: self.plane, turns: 0 };
+        self.push(Event::Arc { arc: &arc, feed })
+    }
+
+    fn compensation(&mut self, side: Option<Side>) -> Done {
+        self.end_cycle()?;
+        if side != self.side || self.turning.is_some() {
+            self.turning = Some(side).filter(|_| side != self.side || side.is_some());
+            self.side = side;
+        }
+        Ok(())
+    }
+
+    fn hole(&mut self, kind: CycleKind, words: &Words) -> Done {
+        let Some(operation) = self.operation else { return Ok(()) };
+        if self.plane != Plane::Xy {
+            return wrong(Code::PD003, "a cycle outside G17", "drill along Z");
+        }
+        let drilling = Drilling::read(kind, words, &self.position, self.returns, operation)?;
+        let hole = match self.cycle.as_mut().and_then(|cycle| cycle.add(&drilling)) {
+            Some(hole) => hole,
+            None => {
+                self.end_cycle()?;
+                if let Some(turn) = kind.inwards().filter(|turn| (drilling.speed, *turn) != self.spindle) {
+                    self.spin(drilling.speed, turn)?;
+                }
+                let (cycle, spec, hole) = Cycle::begin(drilling, operation.top);
+                self.place.point = 0;
+                self.push(Event::CycleBegin(&spec))?;
+                self.cycle = Some(cycle);
+                hole
+            }
+        };
+        self.place.point += 1;
+        self.push(Event::Hole(hole))?;
+        self.position[..3].copy_from_slice(&[Some(drilling.at[0]), Some(drilling.at[1]), Some(drilling.level)]);
+        Ok(())
+    }
+
+    /// A cycle that is open ends, and the rapids after its last hole are made.
+    fn end_cycle(&mut self) -> Done {
+        let Some(cycle) = self.cycle.take() else { return Ok(()) };
+        self.place.point = 0;
+        self.push(Event::CycleEnd)?;
+        for (to, _, place) in cycle.pending {
+            self.hold.push(Event::Rapid(to), place)?;
+        }
+        Ok(())
+    }
+}

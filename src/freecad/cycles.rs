@@ -1,0 +1,155 @@
+//! Canned cycles of a path. Every hole has a command of its own and rapids before it; together they are one cycle.
+
+use super::command::{Return, Words};
+use super::order::Operation;
+use super::wrong;
+use crate::diag::{Code, Diag};
+use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole, Place};
+
+/// Heights that differ by less are the same: paths have six decimals.
+const SAME: f64 = 1e-6;
+
+/// Which kind of cycle a G code is, by its tenths.
+pub(super) fn kind_of(tenths: u16) -> Option<CycleKind> {
+    Some(match tenths {
+        730 => CycleKind::Chipbreak,
+        740 => CycleKind::LTap,
+        810 => CycleKind::Drill,
+        820 => CycleKind::Face,
+        830 => CycleKind::Deep,
+        840 => CycleKind::Tap,
+        850 => CycleKind::Ream,
+        _ => return None,
+    })
+}
+
+/// One hole as its command says it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drilling {
+    kind: CycleKind,
+    /// Where it is, in X and Y.
+    pub at: [f64; 2],
+    bottom: f64,
+    /// The R plane.
+    r: f64,
+    /// The height to which the cycle returns.
+    pub level: f64,
+    peck: Option<f64>,
+    dwell: Option<f64>,
+    /// Millimetres a minute.
+    feed: f64,
+    /// Revolutions a minute, of a tap.
+    pub speed: Option<f64>,
+}
+
+impl Drilling {
+    /// Reads a command that comes at this position.
+    pub fn read(
+        kind: CycleKind,
+        words: &Words,
+        position: &[Option<f64>; 6],
+        returns: Return,
+        operation: &Operation,
+    ) -> Result<Drilling, Box<Diag>> {
+        let help = "let FreeCAD make the operation's path again";
+        if let Some(letter) = words.beyond(if kind.is_tap() { b"XYZRFSPQ" } else { b"XYZRFPQ" }) {
+            return wrong(
+                Code::PD003,
+                format!("a cycle with a word {letter}"),
+                "no cycle of FreeCAD has one: take it out",
+            );
+        }
+        let [Some(x), Some(y), Some(bottom), Some(r)] =
+            [words.get(b'X').or(position[0]), words.get(b'Y').or(position[1]), words.get(b'Z'), words.get(b'R')]
+        else {
+            return wrong(Code::PD003, "a cycle that does not say X, Y, Z and R", help);
+        };
+        let level = match (words.returns.unwrap_or(returns), position[2]) {
+            (Return::Clearance, _) => r,
+            (Return::Before, Some(z)) => z.max(r),
+            (Return::Before, None) => return wrong(Code::PD003, "a cycle with G98 and no height before it", help),
+        };
+        if bottom > r {
+            return wrong(Code::PD003, format!("a cycle whose bottom Z{bottom} is above its R{r}"), help);
+        }
+        let Some(f) = words.get(b'F').filter(|f| *f > 0.0) else {
+            let help = format!("give {} a feed in FreeCAD", operation.controller.label);
+            return wrong(Code::PD004, "a cycle without a feed", help);
+        };
+        // of a tap F is the pitch; read as a feed it would break the tap
+        let (feed, speed) = match (kind.is_tap(), words.get(b'S').filter(|s| *s > 0.0)) {
+            (false, _) => (operation.controller.feed(f), None),
+            (true, Some(speed)) => (f * speed, Some(speed)),
+            (true, None) => {
+                let help = "make it with FreeCAD 1.1's Tapping: there F is the pitch and S the speed";
+                return wrong(Code::PD003, "a tap without a speed S: its F may be a feed or a pitch", help);
+            }
+        };
+        let above = |letter| words.get(letter).filter(|value| *value > 0.0);
+        let pecks = matches!(kind, CycleKind::Deep | CycleKind::Chipbreak);
+        if pecks && above(b'Q').is_none() {
+            return wrong(Code::PD003, "a peck cycle without its step Q", "give the operation a peck depth");
+        }
+        let peck = above(b'Q').filter(|_| pecks || kind.is_tap());
+        Ok(Drilling { kind, at: [x, y], bottom, r, level, peck, dwell: words.get(b'P'), feed, speed })
+    }
+
+    /// The cycle that begins with this hole. The point of a hole is its top, where the operation begins to cut: FreeCAD
+    /// says one for all holes of an operation.
+    fn spec(&self, top: f64) -> CycleSpec {
+        let mut spec = CycleSpec::new(self.kind);
+        spec.clear = Some(self.r - top);
+        spec.depth = Some(top - self.bottom);
+        spec.return_height = Some(self.level - top);
+        spec.feed = Some(self.feed);
+        spec.step = self.peck;
+        if self.kind.is_tap() && self.peck.is_some() {
+            spec.mode = Some(CycleKind::Chipbreak);
+        }
+        spec.dwell = self.dwell.filter(|&seconds| seconds > 0.0 || self.kind == CycleKind::Face);
+        spec
+    }
+
+    fn hole(&self, top: f64, first: &Drilling) -> Hole {
+        let at = Axes::new(&[self.at[0], self.at[1], top]);
+        Hole { at, depth: (self.bottom != first.bottom).then_some(top - self.bottom) }
+    }
+}
+
+/// A cycle to which holes are added.
+#[derive(Debug)]
+pub(super) struct Cycle {
+    first: Drilling,
+    last: [f64; 2],
+    top: f64,
+    /// Rapids since its last hole, with the places they lead to: its own, unless they say something else.
+    pub pending: Vec<(Axes, [Option<f64>; 6], Place)>,
+}
+
+impl Cycle {
+    /// Begins a cycle.
+    pub fn begin(first: Drilling, top: Option<f64>) -> (Cycle, CycleSpec, Hole) {
+        let top = top.filter(|top| (first.bottom..=first.r).contains(top)).unwrap_or(first.r);
+        let cycle = Cycle { first, last: first.at, top, pending: Vec::new() };
+        (cycle, first.spec(top), first.hole(top, &first))
+    }
+
+    /// One more hole, if it is of this cycle: with the same words, and rapids that only lead to it. A rapid to a greater
+    /// height than the cycle returns to avoids something.
+    pub fn add(&mut self, next: &Drilling) -> Option<Hole> {
+        let key = |d: &Drilling| (d.kind, [d.r, d.level, d.feed], [d.peck, d.dwell, d.speed]);
+        let leads = |position: &[Option<f64>; 6]| {
+            let at = [position[0], position[1]];
+            let over = |place: [f64; 2]| at == place.map(Some);
+            position[2].is_some_and(|z| (z - self.first.level).abs() <= SAME) && (over(self.last) || over(next.at))
+        };
+        let is_same = key(&self.first) == key(next)
+            && next.bottom <= self.top
+            && self.pending.iter().all(|(_, position, _)| leads(position));
+        is_same.then(|| {
+            self.pending.clear();
+            self.last = next.at;
+            next.hole(self.top, &self.first)
+        })
+    }
+}

@@ -1,0 +1,277 @@
+//! `Document.xml`: the objects of a document and those of their properties that a toolpath needs.
+
+use indexmap::IndexMap;
+use quick_xml::Reader;
+use quick_xml::events::{BytesStart, Event};
+
+use super::wrong;
+use crate::diag::{Code, Diag};
+
+/// A value of a property.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Value {
+    /// A float or an integer.
+    Number(f64),
+    /// Yes or no.
+    Yes(bool),
+    /// Text, or the chosen value of an enumeration.
+    Text(String),
+    /// Texts in order.
+    Texts(Vec<String>),
+    /// The name of another object; empty for none.
+    Link(String),
+    /// Names of other objects in order.
+    Links(Vec<String>),
+    /// The archive's member that holds a path.
+    Path(String),
+    /// A class of FreeCAD's Python code, without its module.
+    Class(String),
+    /// A tool as documents before 0.19 hold it.
+    Tool(OldTool),
+}
+
+/// A tool inside a property, as documents before 0.19 hold it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct OldTool {
+    /// Its name.
+    pub name: String,
+    /// Millimetres.
+    pub diameter: Option<f64>,
+    /// Corner radius, millimetres.
+    pub corner: Option<f64>,
+}
+
+/// An object: its properties by name.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Object {
+    properties: IndexMap<String, Value>,
+}
+
+impl Object {
+    /// A property, if the object has it.
+    pub fn get(&self, name: &str) -> Option<&Value> {
+        self.properties.get(name)
+    }
+
+    /// A number.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        match self.get(name) {
+            Some(Value::Number(number)) => Some(*number),
+            _ => None,
+        }
+    }
+
+    /// A text, or the chosen value of an enumeration.
+    pub fn text(&self, name: &str) -> Option<&str> {
+        match self.get(name) {
+            Some(Value::Text(text)) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// Yes or no.
+    pub fn yes(&self, name: &str) -> Option<bool> {
+        match self.get(name) {
+            Some(Value::Yes(yes)) => Some(*yes),
+            _ => None,
+        }
+    }
+
+    /// The name of another object. Of a list (a path array of 1.1) the first counts.
+    pub fn link(&self, name: &str) -> Option<&str> {
+        match self.get(name) {
+            Some(Value::Link(link)) => Some(link.as_str()),
+            Some(Value::Links(links)) => links.first().map(String::as_str),
+            _ => None,
+        }
+        .filter(|link| !link.is_empty())
+    }
+
+    /// Names of other objects.
+    pub fn links(&self, name: &str) -> &[String] {
+        match self.get(name) {
+            Some(Value::Links(links)) => links,
+            _ => &[],
+        }
+    }
+
+    /// Texts.
+    pub fn texts(&self, name: &str) -> &[String] {
+        match self.get(name) {
+            Some(Value::Texts(texts)) => texts,
+            _ => &[],
+        }
+    }
+
+    /// The class of its Python code. It is lost where 1.1 has saved a document of 0.20 without the old modules.
+    pub fn class(&self) -> Option<&str> {
+        match self.get("Proxy") {
+            Some(Value::Class(class)) => Some(class),
+            _ => None,
+        }
+    }
+}
+
+/// A document.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Document {
+    /// FreeCAD's version, as `0.20R` or `1.1R20260725 (Git shallow)`.
+    pub version: String,
+    /// Its objects by name, in order.
+    pub objects: IndexMap<String, Object>,
+}
+
+impl Document {
+    /// Reads `Document.xml`.
+    pub fn parse(text: &str) -> Result<Document, Box<Diag>> {
+        let mut reader = Reader::from_str(text);
+        let mut document = Document::default();
+        let mut at = Cursor::default();
+        let mut root = false;
+        loop {
+            let event = match reader.read_event() {
+                Ok(event) => event,
+                Err(error) => return broken(format!("byte {}: {error}", reader.error_position())),
+            };
+            match event {
+                Event::Start(tag) => {
+                    root |= tag.name().as_ref() == "Document";
+                    at.tag(&tag, &mut document)?;
+                }
+                Event::Empty(tag) => {
+                    root |= tag.name().as_ref() == "Document";
+                    at.tag(&tag, &mut document)?;
+                    at.end(tag.name().as_ref(), &mut document);
+                }
+                Event::End(tag) => at.end(tag.name().as_ref(), &mut document),
+                // FreeCAD writes none, and what it could stand for has no bound
+                Event::DocType(_) => return broken("it declares entities"),
+                Event::Eof if root && !at.data && at.object.is_none() => return Ok(document),
+                Event::Eof => return broken("it is cut short, or is another file"),
+                _ => {}
+            }
+        }
+    }
+
+    /// The value of a property that an operation has itself or through what it dresses up (FreeCAD's `opProperty`).
+    pub fn inherited<'a>(&'a self, name: &str, property: &str) -> Option<&'a Value> {
+        let mut object = self.objects.get(name)?;
+        // as many steps as there are objects: a circle of bases ends
+        for _ in 0..=self.objects.len() {
+            if let Some(value) = object.get(property) {
+                return Some(value);
+            }
+            object = self.objects.get(object.link("Base")?)?;
+        }
+        None
+    }
+}
+
+/// Where the reader stands.
+#[derive(Default)]
+struct Cursor {
+    /// In the part that has the values, not the list of objects.
+    data: bool,
+    object: Option<(String, Object)>,
+    property: Option<String>,
+    value: Option<Value>,
+    /// The index of an enumeration, and its values so far.
+    chosen: Option<(usize, usize)>,
+}
+
+impl Cursor {
+    fn tag(&mut self, tag: &BytesStart<'_>, document: &mut Document) -> Result<(), Box<Diag>> {
+        match tag.name().as_ref() {
+            "Document" => document.version = attribute(tag, "ProgramVersion")?.unwrap_or_default(),
+            "ObjectData" => self.data = true,
+            "Object" if self.data => {
+                self.object = attribute(tag, "name")?.map(|name| (name, Object::default()));
+            }
+            "Property" if self.object.is_some() => {
+                (self.property, self.value, self.chosen) = (attribute(tag, "name")?, None, None);
+            }
+            element if self.property.is_some() => self.element(element, tag)?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn element(&mut self, element: &str, tag: &BytesStart<'_>) -> Result<(), Box<Diag>> {
+        let value = |name: &str| attribute(tag, name).map(Option::unwrap_or_default);
+        match (element, &mut self.value) {
+            ("Float", None) => self.value = number(&value("value")?).map(Value::Number),
+            ("Integer", None) => {
+                let index = number(&value("value")?);
+                if attribute(tag, "CustomEnum")?.is_some() {
+                    self.chosen = index.map(|index| (index as usize, 0));
+                } else {
+                    self.value = index.map(Value::Number);
+                }
+            }
+            ("Enum", _) => {
+                if let Some((chosen, count)) = &mut self.chosen {
+                    if chosen == count {
+                        self.value = Some(Value::Text(value("value")?));
+                    }
+                    *count += 1;
+                }
+            }
+            ("Bool", None) => self.value = Some(Value::Yes(value("value")? == "true")),
+            ("String", None) => self.value = Some(Value::Text(value("value")?)),
+            ("StringList", None) => self.value = Some(Value::Texts(Vec::new())),
+            ("String", Some(Value::Texts(texts))) => texts.push(value("value")?),
+            ("Link", None) => self.value = attribute(tag, "value")?.map(Value::Link),
+            ("LinkList", None) => self.value = Some(Value::Links(Vec::new())),
+            ("Link", Some(Value::Links(links))) => links.push(value("value")?),
+            ("Path", None) => self.value = Some(Value::Path(value("file")?)),
+            ("Python", None) => self.value = Some(Value::Class(value("class")?)),
+            ("Tool", None) => {
+                let (diameter, corner) = (number(&value("diameter")?), number(&value("corner")?));
+                self.value = Some(Value::Tool(OldTool { name: value("name")?, diameter, corner }));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, element: &str, document: &mut Document) {
+        match element {
+            "Property" => {
+                if let (Some((_, object)), Some(name), Some(value)) =
+                    (&mut self.object, self.property.take(), self.value.take())
+                {
+                    object.properties.insert(name, value);
+                }
+            }
+            "Object" => {
+                if let Some((name, object)) = self.object.take() {
+                    document.objects.insert(name, object);
+                }
+            }
+            "ObjectData" => self.data = false,
+            _ => {}
+        }
+    }
+}
+
+/// A finite number.
+fn number(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+/// An attribute's text.
+fn attribute(tag: &BytesStart<'_>, name: &str) -> Result<Option<String>, Box<Diag>> {
+    match tag.try_get_attribute(name) {
+        Ok(None) => Ok(None),
+        Ok(Some(attribute)) => match attribute.normalized_value(quick_xml::XmlVersion::Implicit1_0) {
+            Ok(text) => Ok(Some(text.into_owned())),
+            Err(error) => broken(format!("the attribute {name}: {error}")),
+        },
+        Err(error) => broken(format!("the attributes of an element: {error}")),
+    }
+}
+
+fn broken<T>(what: impl std::fmt::Display) -> Result<T, Box<Diag>> {
+    let help = "open the document in FreeCAD and save it again";
+    wrong(Code::PD001, format!("Document.xml can't be read: {what}"), help)
+}

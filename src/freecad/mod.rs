@@ -1,0 +1,80 @@
+//! FreeCAD documents as toolpaths: the job of a saved `.FCStd`, read without FreeCAD.
+//!
+//! A document is a zip archive. `Document.xml` names all objects; each operation's path is a text member of its own.
+//! Lengths are millimetres, feeds millimetres a second, angles degrees, whatever unit the user sees. Documents of 0.20
+//! ("Path") and 1.1 ("CAM") differ in class names and in when they repeat a tool change; where they do, it is said.
+
+mod archive;
+mod choose;
+mod command;
+mod convert;
+mod cycles;
+mod document;
+mod order;
+mod tools;
+
+use std::io::{Read, Seek};
+
+use crate::diag::{Code, Diag};
+use crate::toolpath::{Event, Hold, Place, ReadError, Sink, Start, Units};
+use archive::Archive;
+use convert::Convert;
+use document::Document;
+
+/// Which job of a document is read.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// The job's name or label, where the document has several.
+    pub job: Option<String>,
+}
+
+/// What a document says besides its toolpath.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// Facts for whoever looks at the job: FreeCAD's version, the job, its order.
+    pub facts: Vec<String>,
+    /// What is left out or read in a way that the document does not say.
+    pub warnings: Vec<Diag>,
+}
+
+/// Reads the job of a document.
+///
+/// # Errors
+/// The input fails or is no FreeCAD document; the job is not said clearly (none, several); an operation holds what no
+/// job can say, or lacks what a program needs: a tool, a speed, a feed.
+pub fn read_freecad(
+    input: impl Read + Seek,
+    options: &Options,
+    report: &mut Report,
+    sink: &mut dyn Sink,
+) -> Result<(), ReadError> {
+    let mut archive = Archive::open(input)?;
+    let document = Document::parse(&archive.whole("Document.xml", archive::LARGEST_DOCUMENT)?)?;
+    let job = choose::job(&document, options.job.as_deref(), report)?;
+    let steps = order::steps(&document, &job, report)?;
+    let mut hold = Hold::new(sink);
+    let start = Start {
+        program: None,
+        name: Some(job.label.clone()),
+        units: Units::Mm,
+        machine: crate::lang::Machine::Mill,
+        set: Vec::new(),
+        tool_order: Some(order::tools(&steps)),
+    };
+    hold.push(Event::Start(&start), Place::default())?;
+    let mut place = Place::default();
+    for step in &steps {
+        place.operation += 1;
+        let mut convert = Convert::begin(step, place, &mut hold)?;
+        let path = archive.member(&step.path)?;
+        command::each(path, |line, command| convert.take(line, command))?;
+        convert.end()?;
+    }
+    hold.push(Event::Finish, Place::default())?;
+    Ok(())
+}
+
+/// An error of a document.
+fn wrong<T, E: From<Box<Diag>>>(code: Code, message: impl Into<String>, help: impl Into<String>) -> Result<T, E> {
+    Err(Box::new(Diag::new(code, message).help(help)).into())
+}

@@ -1,38 +1,167 @@
-//! From toolpath events to NC blocks (render.md): modality, tool changes, arcs, canned cycles.
+//! From toolpath events to NC blocks (render.md): what a form is ([`shape`]), what the job asks for ([`want`]), what the
+//! control holds ([`said`]), what is printed ([`printer`]), and the functions that make one of the other.
 
-mod arcs;
-mod centres;
-mod changes;
-mod codes;
-mod compensation;
-mod cycles;
+mod before;
+mod body;
+mod cycle;
 mod defaults;
 mod fault;
-mod generated;
-mod geometry;
-mod holes;
-mod measure;
-mod motion;
-mod move_sequences;
-mod move_words;
+mod moves;
 mod numbers;
 mod options;
 mod printer;
-mod registers;
-mod renderer;
-mod rotary;
-mod says;
-mod sections;
+mod prints;
+mod program;
+mod said;
+mod settle;
 mod shape;
-mod start;
-mod subprograms;
-mod threads;
-mod tools;
+mod targets;
 mod upon;
 mod vars;
+mod want;
 mod words;
+
+use crate::compile::Program;
+use crate::diag::Diag;
+use crate::lang::VarId;
+use crate::toolpath::{Event, Flow, Order, Place, Section, Sink, Stop, flow};
+use cycle::open::Drilling;
+use fault::Done;
+use moves::{arc, compensation, line, rapid, rotary, threads};
+use printer::Printer;
+use program::table::Subprograms;
+use program::{calls, comments, finish, sections, start, stops, subprograms, text, tools, variables};
+use said::Said;
+use shape::Shape;
+use want::Want;
 
 pub use defaults::cycle_defaults;
 pub use options::{Cycles, Options};
 pub use printer::TraceLine;
-pub use renderer::Renderer;
+
+/// Prints the blocks of one program. Push the events of a job, and take the text as it comes.
+pub struct Renderer<'p> {
+    shape: Shape<'p>,
+    want: Want,
+    said: Said,
+    out: Printer,
+    /// The open cycle.
+    drill: Drilling,
+    /// The parts of the path that are open, the last one begun at the end.
+    sections: Vec<Section>,
+    subs: Subprograms,
+    /// Where the stream of events stands.
+    order: Order,
+    /// Parts of an arc; kept so that an arc allocates nothing.
+    parts: Vec<f64>,
+}
+
+impl<'p> Renderer<'p> {
+    /// Renders with this form.
+    pub fn new(program: &'p Program, options: Options) -> Self {
+        let shape = Shape::new(program, options);
+        let want = Want::new(&shape);
+        let mut said = Said::new(program.upons.len());
+        for var in [VarId::Work, VarId::Cool, VarId::Speedtype, VarId::Feedtype] {
+            said.conditions.put(var, want.get(var)); // a control begins with what the form takes for granted
+        }
+        Renderer {
+            out: Printer::new(&program.settings, shape.letters, shape.options.trace),
+            shape,
+            want,
+            said,
+            drill: Drilling::default(),
+            sections: Vec::new(),
+            subs: Subprograms::default(),
+            order: Order::default(),
+            parts: Vec::new(),
+        }
+    }
+
+    /// The text printed so far and not yet taken: take it with `drain` or `clear` when it suits.
+    pub fn text(&mut self) -> &mut Vec<u8> {
+        &mut subprograms::main_page(&self.shape, &mut self.out, &mut self.subs).text
+    }
+
+    /// The source map of lines not yet taken.
+    pub fn trace(&mut self) -> Option<&mut Vec<TraceLine>> {
+        subprograms::main_page(&self.shape, &mut self.out, &mut self.subs).trace.as_mut()
+    }
+
+    /// Warnings and notes so far: each kind of remark once.
+    pub fn notes(&self) -> &[Diag] {
+        self.out.notes()
+    }
+
+    /// Program lines printed so far.
+    pub fn lines(&self) -> u64 {
+        self.out.lines()
+    }
+
+    /// Was the end of the job printed?
+    pub(crate) fn is_over(&self) -> bool {
+        self.order == Order::End
+    }
+
+    /// Which function serves an event. An open cycle ends before everything that is neither one of its holes nor a word
+    /// about what follows.
+    fn take(&mut self, event: Event<'_>) -> Done {
+        let Renderer { shape, want, said, out, drill, sections, subs, parts, .. } = self;
+        let goes_on = matches!(event, Event::Hole(_) | Event::Feed(_) | Event::Tilt(_) | Event::SubStart(_));
+        if drill.open.is_some() && !goes_on {
+            cycle::close_cycle(shape, want, said, out, drill)?;
+        }
+        want.cutting = matches!(
+            event,
+            Event::Line { .. } | Event::Arc { .. } | Event::Infeed { .. } | Event::Outfeed { rapid: false, .. }
+        );
+        match event {
+            Event::Rapid(to) => rapid::rapid(&to, shape, want, said, out),
+            Event::Line { to, feed } => line::line(&to, feed, shape, want, said, out),
+            Event::Arc { arc, feed } => arc::arc(arc, feed, shape, want, said, out, parts),
+            Event::Infeed { infeed, feed } => compensation::infeed(infeed, feed, shape, want, said, out),
+            Event::Outfeed { to, feed, rapid } => compensation::outfeed(&to, feed, rapid, shape, want, said, out),
+            Event::Thread(thread) => threads::cut_thread(thread, shape, want, said, out),
+            Event::Tilt(axis) => rotary::tilt(axis),
+            Event::CycleBegin(spec) => cycle::cycle_begin(spec, shape, want, said, out, drill),
+            Event::Hole(hole) => cycle::hole::hole(&hole, shape, want, said, out, drill),
+            Event::CycleEnd => Ok(()),
+            Event::Feed(feed) => {
+                want.set_feed(feed, shape);
+                Ok(())
+            }
+            Event::Work(work) => want.set_work(work, shape),
+            Event::Spindle(spindle) => want.set_spindle(&spindle, shape),
+            Event::Coolant(coolant) => {
+                want.set_coolant(coolant, shape);
+                Ok(())
+            }
+            Event::Set(name, value) => variables::set_named(name, value, shape, want, out),
+            Event::Start(start) => start::start(start, shape, want, said, out, subs),
+            Event::ToolChange(change) => tools::tool_change(change, shape, want, said, out, subs, sections),
+            Event::Begin(section) => sections::begin_section(section, shape, want, said, out, sections),
+            Event::End(section) => sections::end_section(section, shape, want, said, out, sections),
+            Event::Edm(action) => sections::edm(action, shape, want, said, out),
+            Event::Dwell(seconds) => stops::dwell(seconds, shape, want, said, out),
+            Event::Stop(kind) => stops::stop(kind, shape, want, said, out),
+            Event::Comment(text) => {
+                comments::comment_block(text, shape, out);
+                Ok(())
+            }
+            Event::Text(text) => text::verbatim(text, shape, want, said, out),
+            Event::SubStart(number) => subprograms::sub_start(number, shape, want, said, out, subs),
+            Event::SubEnd => subprograms::sub_end(shape, want, said, out, subs, sections),
+            Event::SubCall(call) => calls::sub_call(call, shape, want, said, out, subs),
+            Event::Finish => finish::finish(shape, want, said, out, subs, sections),
+        }
+    }
+}
+
+impl Sink for Renderer<'_> {
+    #[inline]
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+        self.out.place = place;
+        let done = self.order.follow(&event).and_then(|()| self.take(event)).and_then(|()| self.out.blocks_fit());
+        flow(done.map_err(|diag| Stop::from(diag).placed(|| place.into())))
+    }
+}

@@ -3,14 +3,21 @@
 
 use super::defaults::{cycle_defaults, factor, form_units, no_defaults};
 use super::fault::{Done, fault};
-use super::measure::MEASURES;
-use super::motion::{LAST_VARS, MOVE_VARS};
+use super::numbers::tenths;
 use super::options::Options;
+use super::vars::{LAST_VARS, MEASURES, MOVE_VARS};
 use crate::compile::{LetterTable, Program};
+use crate::control::{self, Group, Meaning};
 use crate::cycle::Defaults;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::toolpath::Units;
+
+/// The rotary axes among the six, where three are linear.
+pub const ROTARY: std::ops::Range<usize> = 3..6;
+
+/// The rotary axes, in a set of axes.
+pub const ROTARY_BITS: u8 = 0b111_000;
 
 /// What does not change while a program is printed.
 #[derive(Debug)]
@@ -96,6 +103,42 @@ impl<'p> Shape<'p> {
     /// The depth axis in a set of axes.
     pub fn depth_bit(&self) -> u8 {
         1 << self.depth
+    }
+
+    /// What the form's control has of a code.
+    pub fn code_row(&self, letter: u8, value: f64) -> Option<&control::Row> {
+        let tenths = u16::try_from(tenths(value)).ok()?;
+        self.program.settings.codes().row(control::Code { letter, tenths })
+    }
+
+    /// What a code means on the form's control. `None`: nobody knows.
+    pub fn meaning_of(&self, letter: u8, value: f64) -> Option<Meaning> {
+        self.code_row(letter, value).map(|row| row.meaning)
+    }
+
+    /// The modal group of a code.
+    pub fn group_of(&self, letter: u8, value: f64) -> Option<Group> {
+        self.meaning_of(letter, value)?.group()
+    }
+
+    /// Does a G code start a cycle of the form's control?
+    pub fn is_cycle(&self, value: f64) -> bool {
+        self.meaning_of(b'G', value).is_some_and(Meaning::is_cycle)
+    }
+
+    /// Does a G code say the plane of arcs?
+    pub fn is_plane(&self, value: f64) -> bool {
+        self.group_of(b'G', value) == Some(Group::Plane)
+    }
+
+    /// Does a G code call a macro, or what the builder of the machine wrote?
+    pub fn calls(&self, value: f64) -> bool {
+        control::Code::of(b'G', value).is_some_and(|code| self.program.settings.codes().calls(code))
+    }
+
+    /// The rotary axes of this machine.
+    pub fn rotary(&self) -> std::ops::Range<usize> {
+        if self.linear == ROTARY.start { ROTARY } else { 0..0 }
     }
 
     /// The axis of a letter, in a set of axes.

@@ -1,119 +1,120 @@
 //! Upon sequences: printed when a variable changes, before what uses it.
 
+use super::before::way_before;
+use super::body::run_all;
 use super::fault::{Done, fault_at};
-use super::motion::{MOVED, NOW};
-use super::renderer::Renderer;
+use super::printer::Printer;
+use super::prints::prints_axis_words;
+use super::said::Said;
+use super::shape::Shape;
+use super::vars::{MOVED, NOW};
+use super::want::Want;
 use crate::compile::{LetterKind, Op, Routine, Upon};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
 
-impl Renderer<'_> {
-    /// Is an Upon sequence due before these variables are used? `moving`: one that prints words of axes.
-    pub(super) fn upon_is_due(&self, used: VarSet, moving: bool) -> bool {
-        self.shape.program.upon_vars.meets(used)
-            && self.shape.program.upons.iter().zip(&self.upon_used).any(|(upon, before)| {
-                let Some(value) = self.vars.get(upon.var).filter(|_| used.has(upon.var)) else { return false };
-                is_due(upon, *before, value) && (!moving || self.names_axes(&upon.routine, false))
-            })
-    }
-
-    /// Another work offset together with another view: Index takes the tool away and goes over the new place, so the
-    /// offset's code is all that is left of an Upon sequence that does the same.
-    pub(super) fn index_serves_work(&self) -> bool {
-        let retracts =
-            self.shape.program.routine(SequenceId::Index).is_some_and(|routine| self.names_axes(routine, true));
-        let only_moves = |upon: &Upon| {
-            upon.routine.ops.clone().all(|i| match self.shape.program.ops[i] {
-                Op::Line { .. } => true,
-                Op::Var { letter, var, .. } => {
-                    var == VarId::Work || self.shape.letters[letter].kind == LetterKind::Axis
-                }
-                Op::Literal { index, .. } => {
-                    let kind = self.shape.letters[self.shape.program.literals[index as usize].letter].kind;
-                    matches!(kind, LetterKind::Axis | LetterKind::GCode)
-                }
-                Op::Remark { .. } => true,
-                Op::Value { .. } | Op::Text { .. } => false,
-            })
-        };
-        retracts && self.shape.program.upons.iter().filter(|upon| upon.var == VarId::Work).all(only_moves)
-    }
-
-    /// A tool change prints what it uses: an Upon that moves would do so with the tool that goes.
-    pub(super) fn upons_of_change(&mut self, routine: &Routine) {
-        for (i, upon) in self.shape.program.upons.iter().enumerate() {
-            if routine.vars.has(upon.var) && self.names_axes(&upon.routine, false) {
-                self.upon_used[i] = self.vars.get(upon.var).or(self.upon_used[i]);
-            }
-        }
-    }
-
-    /// A variable's value was printed otherwise: no Upon is due for it.
-    pub(super) fn served_upons(&mut self, var: VarId, value: f64) {
-        for (upon, used) in self.shape.program.upons.iter().zip(&mut self.upon_used) {
-            if upon.var == var && !upon.every {
-                *used = Some(value);
-            }
-        }
-    }
-
-    /// Runs a sequence after the Upon sequences of the variables that it prints.
-    pub(super) fn run_with_upons(&mut self, routine: &Routine) -> Done {
-        self.upons(routine.vars)?;
-        self.run_block(routine)
-    }
-
-    /// Before these variables are used: prints the Upon sequences that are due. Their bodies trigger none.
-    pub(super) fn upons(&mut self, used: VarSet) -> Done {
-        let program = self.shape.program;
-        if !program.upon_vars.meets(used) {
-            return Ok(());
-        }
-        for (i, upon) in program.upons.iter().enumerate() {
-            if !used.has(upon.var) {
-                continue;
-            }
-            let Some(value) = self.vars.get(upon.var) else { continue };
-            let before = self.upon_used[i].replace(value);
-            if is_due(upon, before, value) {
-                let moves = self.names_axes(&upon.routine, false);
-                if moves && self.compensated {
-                    let message = format!("Upon [{}] moves the tool under cutter compensation", upon.var.name());
-                    let help = "end the compensation with an `outfeed` before the change";
-                    return fault_at(Code::PR006, message, help, Some(upon.routine.span));
-                }
-                let placed = std::mem::take(&mut self.placed);
-                self.way_before(&upon.routine)?;
-                self.run_block(&upon.routine)?;
-                self.stands_where_it_was_put();
-                self.placed |= placed;
-                if self.names_axes(&upon.routine, true) {
-                    self.moved_by = Some(upon.routine.span);
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-impl Renderer<'_> {
-    /// Increments count from the position that the sequence printed: nothing is left to go along its axes.
-    fn stands_where_it_was_put(&mut self) {
-        if !self.shape.program.settings.incremental {
-            return;
-        }
-        for (axis, (now, moved)) in NOW.into_iter().zip(MOVED).enumerate() {
-            if self.placed & 1 << axis != 0
-                && let Some(value) = self.vars.get(now)
-            {
-                self.position.set(axis, value / self.shape.scales[axis]);
-                self.vars.set(moved, 0.0);
-            }
-        }
-    }
-}
-
 /// The first use only sets the baseline, unless it prints at every use.
 fn is_due(upon: &Upon, before: Option<f64>, value: f64) -> bool {
     upon.every || before.is_some_and(|before| before != value)
+}
+
+/// Is an Upon sequence due before these variables are used? `moving`: one that prints words of axes.
+pub fn upon_is_due(used: VarSet, moving: bool, shape: &Shape, want: &Want, said: &Said) -> bool {
+    shape.program.upon_vars.meets(used)
+        && shape.program.upons.iter().zip(&said.upon_used).any(|(upon, before)| {
+            let Some(value) = want.get(upon.var).filter(|_| used.has(upon.var)) else { return false };
+            is_due(upon, *before, value) && (!moving || prints_axis_words(&upon.routine, false, shape))
+        })
+}
+
+/// Another work offset together with another view: Index takes the tool away and goes over the new place, so the
+/// offset's code is all that is left of an Upon sequence that does the same.
+pub fn index_replaces_work_upon(shape: &Shape) -> bool {
+    let retracts =
+        shape.program.routine(SequenceId::Index).is_some_and(|routine| prints_axis_words(routine, true, shape));
+    let only_moves = |upon: &Upon| {
+        upon.routine.ops.clone().all(|i| match shape.program.ops[i] {
+            Op::Line { .. } => true,
+            Op::Var { letter, var, .. } => var == VarId::Work || shape.letters[letter].kind == LetterKind::Axis,
+            Op::Literal { index, .. } => {
+                let kind = shape.letters[shape.program.literals[index as usize].letter].kind;
+                matches!(kind, LetterKind::Axis | LetterKind::GCode)
+            }
+            Op::Remark { .. } => true,
+            Op::Value { .. } | Op::Text { .. } => false,
+        })
+    };
+    retracts && shape.program.upons.iter().filter(|upon| upon.var == VarId::Work).all(only_moves)
+}
+
+/// A tool change prints what it uses: an Upon that moves would do so with the tool that goes.
+pub fn upons_of_change(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said) {
+    for (i, upon) in shape.program.upons.iter().enumerate() {
+        if routine.vars.has(upon.var) && prints_axis_words(&upon.routine, false, shape) {
+            said.upon_used[i] = want.get(upon.var).or(said.upon_used[i]);
+        }
+    }
+}
+
+/// A variable's value was printed otherwise: no Upon is due for it.
+pub fn upons_are_printed(var: VarId, value: f64, shape: &Shape, said: &mut Said) {
+    for (upon, used) in shape.program.upons.iter().zip(&mut said.upon_used) {
+        if upon.var == var && !upon.every {
+            *used = Some(value);
+        }
+    }
+}
+
+/// Runs a sequence after the Upon sequences of the variables that it prints.
+pub fn run_with_upons(routine: &Routine, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    upons(routine.vars, shape, want, said, out)?;
+    run_all(routine, shape, want, said, out)
+}
+
+/// Before these variables are used: prints the Upon sequences that are due. Their bodies trigger none.
+pub fn upons(used: VarSet, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    let program = shape.program;
+    if !program.upon_vars.meets(used) {
+        return Ok(());
+    }
+    for (i, upon) in program.upons.iter().enumerate() {
+        if !used.has(upon.var) {
+            continue;
+        }
+        let Some(value) = want.get(upon.var) else { continue };
+        let before = said.upon_used[i].replace(value);
+        if is_due(upon, before, value) {
+            let moves = prints_axis_words(&upon.routine, false, shape);
+            if moves && want.compensated {
+                let message = format!("Upon [{}] moves the tool under cutter compensation", upon.var.name());
+                let help = "end the compensation with an `outfeed` before the change";
+                return fault_at(Code::PR006, message, help, Some(upon.routine.span));
+            }
+            let placed = std::mem::take(&mut said.stand.placed);
+            way_before(&upon.routine, shape, want, said, out)?;
+            run_all(&upon.routine, shape, want, said, out)?;
+            stands_where_it_was_put(shape, want, said);
+            said.stand.placed |= placed;
+            if prints_axis_words(&upon.routine, true, shape) {
+                said.stand.moved_by = Some(upon.routine.span);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Increments count from the position that the sequence printed: nothing is left to go along its axes.
+fn stands_where_it_was_put(shape: &Shape, want: &mut Want, said: &mut Said) {
+    if !shape.program.settings.incremental {
+        return;
+    }
+    for (axis, (now, moved)) in NOW.into_iter().zip(MOVED).enumerate() {
+        if said.stand.placed & 1 << axis != 0
+            && let Some(value) = want.get(now)
+        {
+            said.stand.position.set(axis, value / shape.scales[axis]);
+            said.stand.aims(1 << axis);
+            want.set(moved, 0.0);
+        }
+    }
 }

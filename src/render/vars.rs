@@ -1,6 +1,26 @@
-//! The values of variables, by slot.
+//! The values of variables, by slot; and which of them belong together.
 
 use crate::lang::{VARIABLES, VarId, VarSet};
+
+/// The variables of where the linear axes go.
+pub const NOW: [VarId; 3] = [VarId::H, VarId::V, VarId::D];
+
+/// The variables of how far they go.
+pub const MOVED: [VarId; 3] = [VarId::Hdist, VarId::Vdist, VarId::Ddist];
+
+/// Variables that a generated move uses.
+pub const MOVE_VARS: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::D, VarId::Frate, VarId::Rotangle]);
+
+/// Variables that remember the position before a move.
+pub const LAST_VARS: VarSet =
+    VarSet::of(&[VarId::Lasth, VarId::Lastv, VarId::Lastd, VarId::Hdist, VarId::Vdist, VarId::Ddist]);
+
+/// The variables of the tool's place.
+pub const PLACE: [VarId; 6] = [VarId::H, VarId::V, VarId::D, VarId::Lasth, VarId::Lastv, VarId::Lastd];
+
+/// Variables that need the length of each move.
+pub const MEASURES: VarSet =
+    VarSet::of(&[VarId::Movelength, VarId::Movetime, VarId::Totalcutdist, VarId::Totalcuttime, VarId::Invtime]);
 
 /// One value for each variable that has one.
 #[derive(Clone, Debug)]

@@ -1,0 +1,123 @@
+//! What is printed before a sequence of moves that does not print it: the plane, the motion, the feed.
+
+use super::fault::{Done, fault_at};
+use super::printer::Printer;
+use super::prints::{moves_without_motion, prints_angle, prints_axis, prints_code, prints_motion, words_of};
+use super::said::Said;
+use super::shape::Shape;
+use super::want::Want;
+use super::words::{code_word, feed_word};
+use crate::compile::Routine;
+use crate::diag::Code;
+use crate::lang::{Machine, VarId};
+use crate::sema;
+use crate::toolpath::Axes;
+
+/// The plane's code as a block of its own, before what prints none and needs it.
+pub fn plane_block(
+    plane: f64,
+    routine: &Routine,
+    shape: &Shape,
+    want: &Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
+    if said.is_in_plane(plane) || prints_code(routine, b'G', |code| shape.is_plane(code), shape) {
+        return Ok(());
+    }
+    enter_plane(plane, shape, want, said, out)
+}
+
+/// The plane's code as a block of its own, where the control is in another; only mills have planes.
+pub fn enter_plane(plane: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    if !said.is_in_plane(plane) && shape.program.settings.machine == Machine::Mill {
+        code_word(&sema::Code::plain(b'G', plane), shape, want, said, out)?;
+        out.end_block();
+    }
+    Ok(())
+}
+
+/// The motion code, before a sequence of moves that prints none where the control is in another motion: a cut would
+/// be a rapid. Whether it was printed.
+fn motion_before(
+    code: &sema::Code,
+    routine: &Routine,
+    shape: &Shape,
+    want: &Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done<bool> {
+    let lacks = !said.motion_in_force(code) && shape.program.speaks_g && !prints_motion(routine, shape);
+    if lacks {
+        code_word(code, shape, want, said, out)?;
+    }
+    Ok(lacks)
+}
+
+/// The motion code as a block of its own, before a sequence of rapids that prints none.
+pub fn motion_block(
+    code: &sema::Code,
+    routine: &Routine,
+    shape: &Shape,
+    want: &Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
+    motion_before(code, routine, shape, want, said, out)?;
+    out.end_block();
+    Ok(())
+}
+
+/// The motion before a sequence that goes to a place and says none: a cut's is a cut, every other way a rapid.
+pub fn way_before(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    let program = shape.program;
+    let code = if want.cutting { &program.settings.feed } else { &program.settings.rapid };
+    let known = said.is_in_motion(code);
+    if known || !program.speaks_g || !moves_without_motion(routine, shape) {
+        return Ok(());
+    }
+    code_word(code, shape, want, said, out)?;
+    if want.cutting && !want.inverse_time() {
+        feed_word(shape, want, said, out)?;
+    }
+    out.end_block();
+    Ok(())
+}
+
+/// Motion code and feed as a block of their own, before a sequence that lacks one of them; arcs say their code.
+pub fn feed_block(
+    code: &sema::Code,
+    routine: &Routine,
+    shape: &Shape,
+    want: &Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
+    let begun =
+        code.value == shape.program.settings.feed.value && motion_before(code, routine, shape, want, said, out)?;
+    let says_feed = routine.vars.has(VarId::Frate);
+    if !says_feed && want.inverse_time() {
+        let message = "in inverse time each move says its feed, and the sequence does not print [frate]";
+        return fault_at(Code::PR017, message, "add `F[frate]` to the sequence", Some(routine.span));
+    }
+    // a Grbl refuses G1 before any feed
+    if !says_feed || begun && !want.inverse_time() {
+        feed_word(shape, want, said, out)?;
+    }
+    out.end_block();
+    Ok(())
+}
+
+/// A motion sequence must print every axis that moves: a word that the form leaves out is a move that is lost.
+pub fn check_prints(routine: &Routine, target: &Axes, shape: &Shape, said: &Said) -> Done {
+    let moves = |axis: usize| target.get(axis).is_some() && target.get(axis) != said.stand.position.get(axis);
+    let lost = (0..shape.linear).find(|&axis| moves(axis) && !prints_axis(routine, axis, shape));
+    let turns = said.turned_axes(target, shape).find(|&axis| !prints_angle(routine, axis, shape));
+    let word = match (lost, turns) {
+        (Some(axis), _) => format!("[{}]", words_of(axis, shape)[0].name()),
+        (None, Some(axis)) => format!("{}[rotangle]", char::from(shape.axes[axis])),
+        (None, None) => return Ok(()),
+    };
+    let message = format!("this move changes {word}, which the sequence does not print");
+    fault_at(Code::PR017, message, format!("add the word of {word} to the sequence"), Some(routine.span))
+}

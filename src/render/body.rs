@@ -1,0 +1,397 @@
+//! One run of a sequence: its operations, word by word. What holds only during it begins and ends here.
+
+use std::ops::Range;
+
+use super::fault::{Done, fault};
+use super::numbers::quantised;
+use super::printer::Printer;
+use super::said::{Line, Said};
+use super::shape::Shape;
+use super::vars::MOVED;
+use super::want::Want;
+use super::words::check_feed;
+use crate::compile::{Letter, LetterKind, Op, Routine};
+use crate::diag::Code;
+use crate::lang::{Origin, SequenceId, VarId, VarSet};
+use crate::number::quantise;
+
+/// Which words of a line print.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Every word: ordinary sequences, the first hole of a machine cycle.
+    All,
+    /// A motion sequence: codes and variables only when changed.
+    Motion,
+    /// The sequence of an arc: as a motion sequence, but centre words always print.
+    ArcMotion,
+    /// A later hole of a machine cycle: variables that changed, or both position words.
+    NextHole {
+        /// Nothing changed: print the position.
+        position: bool,
+    },
+    /// A hole of an emulated or advanced cycle.
+    Hole,
+}
+
+/// Variables that no control keeps from arc to arc.
+const ARC_WORDS: VarSet = VarSet::of(&[
+    VarId::Ival,
+    VarId::Jval,
+    VarId::Kval,
+    VarId::Arcrad,
+    VarId::Hctr,
+    VarId::Vctr,
+    VarId::Startang,
+    VarId::Endang,
+    VarId::Sweep,
+]);
+
+/// Variables whose value is how far an axis moves.
+const INCREMENTS: VarSet = VarSet::of(&MOVED);
+
+/// Variables whose value is a position of the axis that prints them; a dwell or a distance is none.
+const POSITIONS: VarSet = VarSet::of(&[
+    VarId::H,
+    VarId::V,
+    VarId::D,
+    VarId::H2,
+    VarId::V2,
+    VarId::Lasth,
+    VarId::Lastv,
+    VarId::Lastd,
+    VarId::Rotangle,
+    VarId::Lastrotangle,
+    VarId::Rplane,
+    VarId::Vclear,
+    VarId::Pointd,
+]);
+
+/// Variables of feeds, pecks and dwells: rounded to nothing, they would stop the machine, never end, or not be.
+const FEEDS: VarSet = VarSet::of(&[VarId::Frate, VarId::Plunge, VarId::Pitch, VarId::Vbite, VarId::Dwell]);
+
+/// Runs a whole sequence in which every word prints.
+pub fn run_all(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    run(routine.ops.clone(), Mode::All, shape, want, said, out)
+}
+
+/// Runs the operations of a sequence; each line is a block.
+pub fn run(ops: Range<usize>, mode: Mode, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    said.begin_sequence();
+    go_on(ops, mode, shape, want, said, out)
+}
+
+/// Runs further operations of the same sequence.
+pub fn go_on(ops: Range<usize>, mode: Mode, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    let begin = ops.start;
+    let mut body = Body { shape, want, said, out, mode, line: begin, drops: false };
+    for i in ops {
+        match shape.program.ops[i] {
+            Op::Line { droppable } => {
+                body.end_line();
+                (body.line, body.drops) = (i, droppable);
+            }
+            op => body.operation(op).map_err(|diag| Box::new(diag.at(shape.program.spans[i], "printed from here")))?,
+        }
+    }
+    body.end_line();
+    // looked at before the next move: until then another sequence may put it right
+    if said.take_switched() {
+        said.differs |= said.distance_is_wrong(shape) || !said.lacks(want, shape).is_empty();
+    }
+    Ok(())
+}
+
+/// A sequence while it runs.
+struct Body<'r, 'p> {
+    shape: &'r Shape<'p>,
+    want: &'r Want,
+    said: &'r mut Said,
+    out: &'r mut Printer,
+    mode: Mode,
+    /// Where the operations of the line begin that is printed.
+    line: usize,
+    /// A cycle may drop the unchanged words of the line.
+    drops: bool,
+}
+
+impl Body<'_, '_> {
+    /// Ends a line of the sequence.
+    fn end_line(&mut self) {
+        self.said.end_line(self.shape);
+        if self.out.has_words() {
+            let number = self.shape.program.settings.number_last || Some(self.line) != last_line(self.shape);
+            self.out.finish(number, Some(self.shape.program.spans[self.line]));
+        }
+    }
+
+    /// The line whose words are printed. A block that is too long is refused at its end, whatever it says.
+    fn line(&self) -> Line {
+        if self.out.is_too_long() { Line::NONE } else { Line::at(self.line) }
+    }
+
+    fn operation(&mut self, op: Op) -> Done {
+        let next_hole = matches!(self.mode, Mode::NextHole { .. });
+        match op {
+            Op::Line { .. } => {}
+            Op::Var { letter, var, glued } => self.var_word(letter, var, glued)?,
+            Op::Literal { index, glued } => self.literal_word(index as usize, glued),
+            Op::Value { .. } | Op::Remark { .. } | Op::Text { .. } if next_hole => {}
+            Op::Value { var, glued } => self.bare_word(var, glued)?,
+            Op::Remark { var, glued } => self.remark(var, glued)?,
+            Op::Text { index, glued } => {
+                let text = &self.shape.program.texts[index as usize];
+                self.out.text(text, glued);
+                if let Some(word) = text.strip_prefix('/') {
+                    self.said.may_be_skipped(word, self.line(), self.want, self.shape);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn var_word(&mut self, letter: u8, var: VarId, glued: bool) -> Done {
+        let (shape, settings) = (self.shape, &self.shape.program.settings);
+        let info = &shape.letters[letter];
+        if var == VarId::Tparams
+            && let Some((_, digits)) = shape.letters.packed.iter().find(|(l, _)| *l == letter)
+        {
+            return self.packed_word(info, digits, glued);
+        }
+        if self.mode == Mode::ArcMotion && ARC_WORDS.has(var) && self.want.get(var).is_none() {
+            return Ok(()); // the centre along the axis across the plane
+        }
+        let Some(value) = self.value_of(var, letter)? else { return Ok(()) };
+        if info.kind == LetterKind::Axis && settings.incremental && POSITIONS.has(var) {
+            self.check_position_word(letter, var)?;
+        }
+        if var == VarId::Work
+            && shape.program.work_word.is_some_and(|word| word.letter == letter)
+            && !self.said.conditions.holds(VarId::Work, value)
+        {
+            self.said.forget_axes(shape); // the positions behind it count in the new offset
+        }
+        let units = quantised(info, value)?;
+        if FEEDS.has(var) {
+            check_feed(info, var, value, units, self.out)?;
+        }
+        if self.drops_word(letter, var, value, units) {
+            return Ok(());
+        }
+        self.out.letter(info, units, glued)?;
+        match info.kind {
+            LetterKind::GCode | LetterKind::MCode => {
+                self.said.code(info.printed, value, self.line(), self.want, shape);
+            }
+            LetterKind::Axis => {
+                let is_position = POSITIONS.has(var);
+                if is_position {
+                    self.said.stand.placed |= shape.axis_bit(letter);
+                }
+                if self.said.is_elsewhere(shape) || !is_position {
+                    self.said.forget(info);
+                } else {
+                    self.said.word(info, units);
+                }
+            }
+            LetterKind::Other => self.said.word(info, units),
+        }
+        match var {
+            VarId::D => self.said.set_depth_moved(false),
+            // another length register alone moves the depth as G43 does
+            VarId::Lcomp if !self.line().prints(shape, |_, var| var == Some(VarId::D)) => {
+                self.said.set_depth_moved(true);
+            }
+            _ => {}
+        }
+        self.said.condition_word(letter, var, value, shape);
+        if Some(info.printed) == settings.numbers.letter || var == VarId::Block {
+            self.out.prints_number();
+        }
+        Ok(())
+    }
+
+    /// May the word of a variable be left out, because the control holds it already?
+    fn drops_word(&self, letter: u8, var: VarId, value: f64, units: i64) -> bool {
+        let settings = &self.shape.program.settings;
+        let info = &self.shape.letters[letter];
+        match self.mode {
+            Mode::All => false,
+            Mode::Motion | Mode::ArcMotion => {
+                let arc_word = self.mode == Mode::ArcMotion && (ARC_WORDS.has(var) || b"IJKR".contains(&info.printed));
+                !arc_word
+                    && match info.kind {
+                        LetterKind::GCode | LetterKind::MCode => self.said.code_drops(info.printed, value, self.shape),
+                        // an increment is no position: it may go when it is none
+                        _ if INCREMENTS.has(var) => units == 0,
+                        _ => info.modal && self.said.holds(info, units),
+                    }
+                    && !(self.want.inverse_time() && letter == settings.feed_code)
+            }
+            Mode::NextHole { position } => {
+                let is_position = matches!(var, VarId::H | VarId::V);
+                settings.modality && !(position && is_position) && self.said.holds_value(info, units, value, self.shape)
+            }
+            Mode::Hole => self.drops && self.said.holds_value(info, units, value, self.shape),
+        }
+    }
+
+    /// A word of packed parameters: as the form has them, or as the job sets them, in as many digits.
+    fn packed_word(&mut self, info: &Letter, digits: &str, glued: bool) -> Done {
+        let text = match self.want.get(VarId::Tparams) {
+            Some(value) => format!("{value:0width$}", width = digits.len()),
+            None => digits.to_owned(),
+        };
+        if text.len() != digits.len() || !text.bytes().all(|digit| digit.is_ascii_digit()) {
+            let message = format!("[tparams] is {text}, its word has {} digits", digits.len());
+            return fault(Code::PR002, message, "give a whole number of that many digits");
+        }
+        let word = self.out.word(glued);
+        word.push(info.printed);
+        word.extend_from_slice(text.as_bytes());
+        Ok(())
+    }
+
+    /// The value a variable prints, or none where its word is optional.
+    fn value_of(&self, var: VarId, letter: u8) -> Done<Option<f64>> {
+        if let Some(value) = self.known_value(var, letter) {
+            return Ok(Some(value));
+        }
+        match var {
+            // revolutions are their own limit
+            VarId::Maxrpm if self.want.get(VarId::Speedtype) == Some(self.shape.program.settings.speed_type[1]) => {
+                return Ok(self.want.get(VarId::Speed));
+            }
+            VarId::Block => return Ok(Some(self.out.number() as f64)),
+            // a two-axis job has no upper guide
+            VarId::H2 | VarId::V2 if self.shape.linear == 4 => return Ok(None),
+            // a cycle without dwell drops the word
+            VarId::Dwell if self.want.in_cycle => return Ok(None),
+            _ => {}
+        }
+        no_value(var)
+    }
+
+    fn known_value(&self, var: VarId, letter: u8) -> Option<f64> {
+        let stand = &self.said.stand;
+        match var {
+            VarId::Rotangle | VarId::Lastrotangle => {
+                let axis = self.shape.rotary().find(|&axis| self.shape.axes[axis] == letter);
+                axis.and_then(|axis| stand.angles.printed(var, axis)).or(self.want.get(var))
+            }
+            _ => {
+                let increment = MOVED.iter().position(|&moved| moved == var);
+                self.want.get(var).filter(|_| !increment.is_some_and(|axis| stand.is_astray(axis)))
+            }
+        }
+    }
+
+    /// A value without a letter, which the control reads.
+    fn bare_word(&mut self, var: VarId, glued: bool) -> Done {
+        let Some(value) = self.value_of(var, b' ')? else { return Ok(()) };
+        self.out.bare(value, &self.shape.letters.bare, glued)?;
+        if var == VarId::Block {
+            self.out.prints_number();
+        }
+        self.said.condition_word(b' ', var, value, self.shape);
+        Ok(())
+    }
+
+    /// A value in a comment, which says what is known.
+    fn remark(&mut self, var: VarId, glued: bool) -> Done {
+        match self.value_of(var, b' ') {
+            Ok(Some(value)) => self.out.bare(value, &self.shape.letters.bare, glued),
+            Ok(None) => Ok(()),
+            Err(_) => {
+                self.out.word(glued).push(b'-');
+                Ok(())
+            }
+        }
+    }
+
+    /// A word as typed; its value goes into the registers.
+    fn literal_word(&mut self, index: usize, glued: bool) {
+        let shape = self.shape;
+        let literal = &shape.program.literals[index];
+        let info = &shape.letters[literal.letter];
+        let is_code = matches!(info.kind, LetterKind::GCode | LetterKind::MCode);
+        let drop = match self.mode {
+            Mode::All | Mode::Hole => false,
+            Mode::Motion | Mode::ArcMotion => is_code && self.said.code_drops(info.printed, literal.value, shape),
+            Mode::NextHole { .. } => true,
+        };
+        if drop {
+            return;
+        }
+        let word = self.out.word(glued);
+        if info.printed == literal.letter && !info.dummy {
+            word.extend_from_slice(literal.text.as_bytes());
+        } else {
+            if !info.dummy {
+                word.push(info.printed);
+            }
+            word.extend_from_slice(&literal.text.as_bytes()[1..]);
+        }
+        match info.kind {
+            LetterKind::GCode | LetterKind::MCode => {
+                self.said.code(info.printed, literal.value, self.line(), self.want, shape);
+            }
+            // a literal position may stand in another frame
+            LetterKind::Axis => {
+                self.said.forget(info);
+                self.said.displaced(shape.axis_bit(literal.letter), shape);
+            }
+            LetterKind::Other => match quantise(literal.value, info.format.dec.count) {
+                Some(units) => self.said.word(info, units),
+                None => self.said.forget(info),
+            },
+        }
+        if Some(info.printed) == shape.program.settings.numbers.letter {
+            self.out.prints_number();
+        }
+        self.said.speed_word(literal.letter, Some(literal.value), shape);
+    }
+
+    /// In a form of increments a position is read as one, unless the control was told otherwise.
+    #[cold]
+    fn check_position_word(&self, letter: u8, var: VarId) -> Done {
+        let [increments, _] = self.shape.program.settings.inc_abs;
+        if !self.said.is_in_distance(increments) {
+            return Ok(());
+        }
+        let message =
+            format!("{}[{}] is a position, and the control is in G{increments}", char::from(letter), var.name());
+        fault(Code::PR017, message, "print G90 before it, or the increment, as [hdist]")
+    }
+}
+
+/// The error of a variable that has no value.
+#[cold]
+fn no_value<T>(var: VarId) -> Done<T> {
+    let help = match var {
+        VarId::Nexttool => "list the tools ahead under `tool_order`: a stream can't look for them".to_owned(),
+        VarId::Program => "give the job a `program`, or say it with `--program NUMBER`".to_owned(),
+        VarId::H | VarId::V | VarId::D => "begin the operation with a rapid that gives all coordinates".to_owned(),
+        _ if MOVED.contains(&var) => {
+            "nobody knows where the tool is: print its position in the sequence that moved it, or changed the offset"
+                .to_owned()
+        }
+        _ if var.row().origin == Origin::Job => {
+            format!("give it with `--set {}=VALUE` or under \"set\" in the job", var.name())
+        }
+        _ => format!("it stands for: {}; let the job say it, or take the word out of the form", var.row().meaning),
+    };
+    fault(Code::PR001, format!("[{}] has no value here", var.name()), help)
+}
+
+/// The last line of EndCode that may have a block number: `%` is none.
+fn last_line(shape: &Shape) -> Option<usize> {
+    let routine = shape.program.routine(SequenceId::EndCode)?;
+    let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
+    routine.ops.clone().rev().filter(is_line).find(|&line| !is_percent(line, shape))
+}
+
+/// Is the line that begins here a `%`?
+pub fn is_percent(line: usize, shape: &Shape) -> bool {
+    matches!(shape.program.ops.get(line + 1), Some(Op::Text { index, .. })
+        if shape.program.texts[*index as usize].starts_with('%'))
+}

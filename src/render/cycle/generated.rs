@@ -1,0 +1,128 @@
+//! A hole as single moves: the steps of a planned cycle, one block each.
+
+use super::open::{Drilling, left_hole, turning};
+use super::planned::{Planned, hole_variables};
+use crate::cycle::{Step, plan};
+use crate::diag::Code;
+use crate::lang::VarId;
+use crate::render::fault::{Done, fault};
+use crate::render::moves::line::line_to;
+use crate::render::moves::rapid_blocks::{rapid_block, split_rapid};
+use crate::render::printer::Printer;
+use crate::render::said::Said;
+use crate::render::settle::settle;
+use crate::render::shape::Shape;
+use crate::render::targets::set_targets;
+use crate::render::want::Want;
+use crate::render::words::{code_word, dwell_block, letter_word, parameter_word};
+use crate::sema;
+
+/// A hole as single moves.
+pub fn generated_hole(
+    hole: &Planned,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    drill: &mut Drilling,
+) -> Done {
+    let Some(cycle) = &drill.open else { return Ok(()) };
+    let top = hole.heights.return_plane - hole.heights.point;
+    plan(&cycle.spec, &hole.planes, top, &shape.defaults, &mut drill.steps)?;
+    let steps = std::mem::take(&mut drill.steps);
+    let done = make_steps(&steps.list, hole, shape, want, said, out, drill);
+    drill.steps = steps;
+    done
+}
+
+fn make_steps(
+    steps: &[Step],
+    hole: &Planned,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    drill: &mut Drilling,
+) -> Done {
+    set_targets(&hole.target, shape, want, said)?;
+    if said.is_unsettled(want) {
+        settle(shape, want, said, out)?;
+    }
+    hole_variables(hole, shape, want, drill);
+    split_rapid(&hole.target, shape, want, said, out)?;
+    said.forget(&shape.letters[shape.program.settings.feed_code]);
+    let direct = want.get(VarId::Direct);
+    let mut sped_up = false;
+    for step in steps {
+        let mut to = hole.target;
+        match *step {
+            Step::Rapid(height) => {
+                to.values[shape.depth] = hole.heights.point + height;
+                set_targets(&to, shape, want, said)?;
+                split_rapid(&to, shape, want, said, out)?;
+            }
+            Step::RapidAside(height, x, y) => {
+                to.values[0] += x;
+                to.values[1] += y;
+                to.values[shape.depth] = hole.heights.point + height;
+                set_targets(&to, shape, want, said)?;
+                rapid_block(&to, None, shape, want, said, out)?; // off the wall and up in one: up alone would score it
+            }
+            Step::Feed(height, feed) => {
+                to.values[shape.depth] = hole.heights.point + height;
+                want.keep_feed(Some(feed), shape);
+                set_targets(&to, shape, want, said)?;
+                line_to(&to, shape, want, said, out)?;
+            }
+            Step::Dwell(seconds) => dwell_block(seconds, shape, want, said, out)?,
+            Step::SpindleStop => spindle_block(shape.program.settings.spindle[2], None, shape, want, said, out)?,
+            Step::SpindleStart => {
+                let speed = std::mem::take(&mut sped_up).then_some(1.0);
+                spindle_block(turning(direct, shape)?, speed, shape, want, said, out)?;
+            }
+            Step::SpindleReverse(ratio) => {
+                let [cw, ccw, _] = shape.program.settings.spindle;
+                let code = if turning(direct, shape)? == cw { ccw } else { cw };
+                sped_up = ratio != 1.0;
+                spindle_block(code, sped_up.then_some(ratio), shape, want, said, out)?;
+            }
+            Step::Orient(_) if shape.depth == 0 => {
+                let message = "a turned hole has no wall that the tool could leave at an angle of the spindle";
+                return fault(Code::PR008, message, "leave `orient` and `offset` out");
+            }
+            Step::Orient(angle) => {
+                let (code, letter) = &shape.program.settings.orient;
+                code_word(code, shape, want, said, out)?;
+                parameter_word(*letter, angle, shape, said, out)?;
+                out.end_block();
+            }
+            Step::ProgramStop => {
+                code_word(&sema::Code::plain(b'M', shape.program.settings.stop_code[0]), shape, want, said, out)?;
+                out.end_block();
+            }
+        }
+    }
+    let exit = said.stand.position.values[shape.depth];
+    left_hole(&hole.target, Some((exit, true)), shape, said, drill)
+}
+
+/// A direction, and where the speed changes with the feed, this many times the spindle's speed.
+fn spindle_block(
+    code: f64,
+    times: Option<f64>,
+    shape: &Shape,
+    want: &Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
+    if let Some(times) = times {
+        let Some(speed) = want.get(VarId::Speed) else {
+            let help = "give the operation a spindle speed, or take `ratio` out";
+            return fault(Code::PC009, "a tap that comes out faster must turn faster, and its speed is unknown", help);
+        };
+        letter_word(shape.program.settings.speed_code, speed * times, shape, said, out)?;
+    }
+    code_word(&sema::Code::plain(b'M', code), shape, want, said, out)?;
+    out.end_block();
+    Ok(())
+}

@@ -1,0 +1,155 @@
+//! One hole: where it is, how the tool comes there, and what prints it.
+
+use super::choose::scaled;
+use super::generated::generated_hole;
+use super::open::{Drilling, leave_cycle};
+use super::planned::{Heights, Planned};
+use super::sequence::sequence_hole;
+use crate::compile::Routine;
+use crate::cycle::Plan;
+use crate::diag::Code;
+use crate::lang::{SequenceId, VarId};
+use crate::render::fault::{Done, fault};
+use crate::render::moves::rapid_blocks::split_rapid;
+use crate::render::moves::rotary::turn_to;
+use crate::render::moves::travel::{in_travel, unwound};
+use crate::render::printer::Printer;
+use crate::render::prints::prints_axis;
+use crate::render::said::Said;
+use crate::render::settle::settle;
+use crate::render::shape::{ROTARY_BITS, Shape};
+use crate::render::targets::{check_limits, set_targets};
+use crate::render::want::Want;
+use crate::toolpath::{Axes, CycleKind, CycleSpec, FeedMode, Hole, impossible};
+
+/// The first point of a cycle must say how high it is.
+fn no_height<T>() -> Done<T> {
+    fault(
+        Code::PR006,
+        "the cycle's first point has no height",
+        "give its third coordinate, the top of the hole, as [1, 1, 0]",
+    )
+}
+
+/// A hole of the open cycle.
+pub fn hole(
+    hole: &Hole,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    drill: &mut Drilling,
+) -> Done {
+    if !shape.program.printed.has(VarId::Lasthole) {
+        return make_hole(hole, shape, want, said, out, drill);
+    }
+    let place = out.place;
+    let Some(cycle) = &mut drill.open else { return impossible("a hole outside a cycle") };
+    match cycle.held.replace((*hole, place)) {
+        Some((before, at)) => {
+            out.place = at;
+            let made = make_hole(&before, shape, want, said, out, drill);
+            out.place = place;
+            made
+        }
+        None => Ok(()),
+    }
+}
+
+/// Prints a hole.
+pub fn make_hole(
+    hole: &Hole,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    drill: &mut Drilling,
+) -> Done {
+    let program = shape.program;
+    let (scale, rpm) = (shape.scale, want.get(VarId::Speed));
+    let per_rev = want.feed_mode() == FeedMode::PerRev;
+    let point = hole.at.get(shape.depth).map(|d| d * scale);
+    let Some(cycle) = &mut drill.open else { return impossible("a hole outside a cycle") };
+    let mut planes = Plan::of(&cycle.spec, hole.depth.map(|d| d * scale), &shape.defaults, rpm)?;
+    if per_rev {
+        planes.lead = Some(planes.feed);
+    }
+    let starts = cycle.spec.starts.unwrap_or(1.0).max(1.0) as u32;
+    let Some(point) = point.or(cycle.point) else { return no_height() };
+    cycle.point = Some(point);
+    let clear = point + planes.clear;
+    let first = *cycle.return_plane.get_or_insert(point + cycle.spec.return_height.unwrap_or(planes.clear));
+    let heights = Heights { point, clear, bottom: point + planes.bottom, return_plane: first.max(clear) };
+    let routine = cycle.sequence.and_then(|id| program.routine(id));
+    let mut target = said.stand.target(&hole.at, shape);
+    if hole.at.given & ROTARY_BITS != 0 {
+        if said.turns(&unwound(&target, hole.at.given, shape, said), shape) {
+            leave_cycle(shape, want, said, out, drill)?; // before an axis is unwound
+        }
+        target = in_travel(&target, hole.at.given, true, shape, want, said, out)?;
+    }
+    target.set(shape.depth, heights.bottom);
+    if !shape.program.settings.limits.is_empty() {
+        check_limits(&target, shape)?;
+    }
+    target.set(shape.depth, heights.return_plane);
+    for axis in (0..2).filter(|&axis| axis != shape.depth) {
+        if target.get(axis).is_none() {
+            return fault(Code::PR006, "the hole's position is unknown", "give both coordinates of the first point");
+        }
+    }
+    let lost = routine.is_some_and(|routine| sequence_loses(routine, &target, shape, said));
+    if said.turns(&target, shape) || lost {
+        // no cycle turns the part: the control leaves it, and begins it again there
+        leave_cycle(shape, want, said, out, drill)?;
+        set_targets(&target, shape, want, said)?;
+        if said.is_unsettled(want) {
+            settle(shape, want, said, out)?;
+        }
+        match program.routine(SequenceId::Index).filter(|_| said.turns(&target, shape)) {
+            Some(_) => turn_to(&target, shape, want, said, out)?,
+            None => split_rapid(&target, shape, want, said, out)?,
+        }
+    }
+    said.stand.moved_by = None; // every hole is approached by rapids
+    let mut planned = Planned { target, planes, heights };
+    match routine {
+        Some(routine) => {
+            for start in 0..starts {
+                planned.heights = heights.of_start(start, starts, &planned.planes)?;
+                planned.target.set(shape.depth, planned.heights.return_plane);
+                sequence_hole(routine, &planned, shape, want, said, out, drill)?;
+            }
+        }
+        None => generated_hole(&planned, shape, want, said, out, drill)?,
+    }
+    if let Some(cycle) = &mut drill.open {
+        cycle.holes += 1;
+        // a manual cycle stays where it stopped
+        cycle.left = (cycle.spec.kind != CycleKind::Manual).then_some(heights.return_plane);
+    }
+    Ok(())
+}
+
+/// Does a hole lie at a place across the tool that its sequence does not print, as on a lathe?
+fn sequence_loses(routine: &Routine, target: &Axes, shape: &Shape, said: &Said) -> bool {
+    let mut across = (0..2).filter(|&axis| axis != shape.depth);
+    across.any(|axis| target.get(axis) != said.stand.position.get(axis) && !prints_axis(routine, axis, shape))
+}
+
+/// The planes of a cycle at a hole.
+fn planes_at(spec: &CycleSpec, hole: &Hole, shape: &Shape, want: &Want) -> Done<Plan> {
+    let depth = hole.depth.map(|d| d * shape.scale);
+    Ok(Plan::of(spec, depth, &shape.defaults, want.get(VarId::Speed))?)
+}
+
+/// Where the tool is before the first hole of a cycle: over it, at the return plane. For tool changes.
+pub fn hole_position(spec: &CycleSpec, hole: &Hole, shape: &Shape, want: &Want, said: &Said) -> Done<Axes> {
+    let spec = scaled(spec, shape);
+    let planes = planes_at(&spec, hole, shape, want)?;
+    let mut target = said.stand.target(&hole.at, shape);
+    let Some(point) = hole.at.get(shape.depth) else { return no_height() };
+    let point = point * shape.scale;
+    target.set(shape.depth, point + spec.return_height.unwrap_or(planes.clear).max(planes.clear));
+    Ok(target)
+}

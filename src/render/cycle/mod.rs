@@ -1,0 +1,123 @@
+//! Canned cycles: begin and end.
+
+mod choose;
+mod generated;
+pub mod hole;
+pub mod open;
+mod planned;
+mod remarks;
+mod sequence;
+
+use crate::cycle::check;
+use crate::diag::Code;
+use crate::lang::{Machine, VarId};
+use crate::render::fault::{Done, fault};
+use crate::render::printer::Printer;
+use crate::render::said::Said;
+use crate::render::shape::Shape;
+use crate::render::vars::Vars;
+use crate::render::want::Want;
+use crate::toolpath::{CycleSpec, SpindleTurn};
+use choose::{choose_sequence, scaled};
+use hole::make_hole;
+use open::{ActiveCycle, Drilling, is_rigid, leave_cycle, turning};
+use remarks::warn_of;
+
+/// A cycle begins; nothing is printed before its first hole.
+pub fn cycle_begin(
+    spec: &CycleSpec,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    drill: &mut Drilling,
+) -> Done {
+    said.stand.left_hole = None; // its holes come by rapids
+    if shape.program.settings.machine == Machine::Edm {
+        return fault(Code::PR008, "a wire EDM machine has no canned cycles", "take the cycle out of the job");
+    }
+    if want.compensated {
+        let message = "cutter compensation is on, and no control allows a cycle then";
+        return fault(Code::PC041, message, "end the compensation with an `outfeed` before the cycle");
+    }
+    if want.inverse_time() {
+        let message = "a canned cycle in an operation whose feeds are inverse time";
+        return fault(Code::PR006, message, "give the holes an operation of their own with feeds per minute");
+    }
+    check(spec)?;
+    let spec = scaled(spec, shape);
+    let sequence = choose_sequence(&spec, shape, out)?;
+    warn_of(&spec, sequence, shape, want, out);
+    let turned = turn_for_tap(&spec, shape, want, said)?;
+    want.in_cycle = true;
+    drill.open = Some(ActiveCycle {
+        spec,
+        sequence,
+        holes: 0,
+        in_force: false,
+        setup: Vars::default(),
+        last: None,
+        exit_known: false,
+        point: None,
+        return_plane: None,
+        initial_level: 0.0,
+        held: None,
+        feed: want.feed(),
+        left: None,
+        turned,
+    });
+    Ok(())
+}
+
+/// A tap goes in turning its own way: a floating one needs the spindle to, with a rigid one the control turns it.
+/// The direction that comes back after the cycle, if it is another.
+fn turn_for_tap(spec: &CycleSpec, shape: &Shape, want: &mut Want, said: &mut Said) -> Done<Option<f64>> {
+    let [cw, ccw, off] = shape.program.settings.spindle;
+    let inwards = match spec.kind.inwards() {
+        Some(SpindleTurn::Ccw) => ccw,
+        Some(_) => cw,
+        None => return Ok(None),
+    };
+    let (rigid, before) = (is_rigid(spec, shape), want.get(VarId::Direct));
+    if before == Some(off) && !rigid {
+        turning(before, shape)?;
+    }
+    if before.is_none_or(|code| code == inwards || ![cw, ccw].contains(&code)) {
+        return Ok(None);
+    }
+    if !rigid && shape.program.switches_spindle {
+        let message = "the tap goes in turning the other way, and the form's own sequences turn the spindle";
+        return fault(Code::PR006, message, "say the direction of the spindle in the job, or take the other tap");
+    }
+    want.set(VarId::Direct, inwards);
+    if rigid {
+        said.conditions.put(VarId::Direct, Some(inwards));
+    }
+    want.changed = true;
+    Ok(before)
+}
+
+/// Ends the open cycle, if any: the hole that waits, Cancel, and what is known afterwards.
+pub fn close_cycle(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer, drill: &mut Drilling) -> Done {
+    let Some(cycle) = &mut drill.open else { return Ok(()) };
+    if let Some((hole, place)) = cycle.held.take() {
+        let now = std::mem::replace(&mut out.place, place);
+        want.set(VarId::Lasthole, 1.0);
+        make_hole(&hole, shape, want, said, out, drill)?;
+        want.set(VarId::Lasthole, 0.0);
+        out.place = now;
+    }
+    leave_cycle(shape, want, said, out, drill)?;
+    let Some(cycle) = drill.open.take() else { return Ok(()) };
+    want.in_cycle = false;
+    let stands = said.stand.position.get(shape.depth);
+    let as_left = |height: f64| cycle.exit_known && stands.is_some_and(|at| (at - height).abs() < 1e-9);
+    said.stand.left_hole = cycle.left.filter(|&height| !as_left(height)).map(|height| (said.stand.position, height));
+    want.keep_feed(cycle.feed, shape);
+    if let Some(direct) = cycle.turned {
+        want.set(VarId::Direct, direct);
+        want.changed = true;
+    }
+    want.put(VarId::Dwell, None);
+    Ok(())
+}

@@ -1,0 +1,59 @@
+//! What a cycle leaves out or contradicts, without being wrong.
+
+use crate::diag::Code;
+use crate::lang::{SequenceId, VarId};
+use crate::render::printer::Printer;
+use crate::render::shape::Shape;
+use crate::render::want::Want;
+use crate::toolpath::{CycleKind, CycleSpec};
+
+/// What a cycle leaves out or contradicts, without being wrong.
+pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, want: &Want, out: &mut Printer) {
+    let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak);
+    if pecks && spec.step.or(shape.defaults.step).is_none() && spec.pecks.is_empty() {
+        let message = format!("`{}` has no step and goes down in one peck", spec.kind.name());
+        out.note(Code::PC060, message, "give the cycle a `step`, or the form a `CycleStep`");
+    }
+    let clear = spec.clear.unwrap_or(shape.defaults.clear);
+    if let Some(height) = spec.return_height.filter(|&height| height < clear) {
+        let message = format!("the return plane, {height} above the point, is below the clearance, {clear}");
+        out.note(Code::PC053, message, "the clearance is used: give `return` above `clear`, or leave it out");
+    }
+    let [cw, ccw, _] = shape.program.settings.spindle;
+    let needed = if spec.kind == CycleKind::LTap { ccw } else { cw };
+    if spec.kind.is_tap() && want.get(VarId::Direct).is_some_and(|code| code != needed && [cw, ccw].contains(&code)) {
+        let (name, turns) = (spec.kind.name(), cw + ccw - needed);
+        let message = format!("a `{name}` with the spindle in M{turns}: it is turned for the tap");
+        out.note(Code::PC054, message, "say the direction of the spindle in the job, or take the other tap");
+    }
+    if spec.back.is_some()
+        && sequence
+            .and_then(|id| shape.program.routine(id))
+            .is_some_and(|routine| !routine.vars.has(VarId::Sclear) && !routine.vars.has(VarId::Vleave))
+    {
+        let message = "the distance that pecks go back, `back`, is the control's own setting here";
+        out.note(Code::PR021, message.into(), "set it at the control, or print [vleave] in the cycle");
+    }
+    let printed =
+        sequence.and_then(|id| shape.program.routine(id)).is_some_and(|routine| routine.vars.has(VarId::Vbite));
+    if spec.kind.is_tap() && spec.mode.is_none() && spec.step.is_some() && !printed {
+        let message = "`step` without effect: this tap goes down in one";
+        out.note(Code::PC061, message.into(), "say how it pecks with `mode`, or take `step` out");
+    }
+    if spec.ratio.is_some() && (spec.norevr || spec.rapout) {
+        let message = "`ratio` without effect: this tap does not feed out";
+        out.note(Code::PC057, message.into(), "take `ratio` out");
+    }
+    if shape.options.sink_as_printed && spec.kind == CycleKind::Csink && spec.angle.is_some_and(|angle| angle > 90.0) {
+        let message = "the printed formula makes this countersink too deep";
+        out.note(Code::PC059, message.into(), "render without `--csink-depth printed`");
+    }
+    if spec.min_step.is_some() && spec.decr.is_none() && shape.program.settings.cycle_min_step == 0.0 {
+        let message = "`min_step` without effect: the steps do not shrink";
+        out.note(Code::PC055, message.into(), "take it out, or give `decr`");
+    }
+    if let (Some(mode), true) = (spec.mode, sequence.is_some()) {
+        let message = format!("how the tap pecks, here `{}`, is the control's own setting", mode.name());
+        out.note(Code::PR021, message, "set the control to it: no word of a form says which");
+    }
+}

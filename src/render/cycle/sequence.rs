@@ -1,0 +1,301 @@
+//! A hole by a sequence of the form.
+
+use super::open::{Drilling, cancel, leave_cycle, left_hole};
+use super::planned::{Heights, Planned, SAME, hole_variables};
+use crate::compile::{CycleStyle, LetterKind, Op, Routine};
+use crate::diag::Code;
+use crate::lang::{VarId, VarSet};
+use crate::render::before::{motion_block, plane_block};
+use crate::render::body::{Mode, go_on, run};
+use crate::render::fault::Done;
+use crate::render::moves::rapid_blocks::{is_below, raise, split_rapid};
+use crate::render::numbers::quantised;
+use crate::render::printer::Printer;
+use crate::render::prints::{prints_axis_words, prints_code, prints_own_motion};
+use crate::render::said::Said;
+use crate::render::settle::{check_distance, settle};
+use crate::render::shape::Shape;
+use crate::render::targets::set_targets;
+use crate::render::upon::{upon_is_due, upons};
+use crate::render::want::Want;
+use crate::toolpath::Axes;
+
+/// A hole by a sequence of the form.
+pub fn sequence_hole(
+    routine: &Routine,
+    hole: &Planned,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    drill: &mut Drilling,
+) -> Done {
+    set_targets(&hole.target, shape, want, said)?;
+    settle_before_hole(routine, shape, want, said, out, drill)?; // with [d] at the return plane: an Upon must not go down the hole
+    hole_variables(hole, shape, want, drill);
+    want.set(VarId::D, hole.heights.return_plane);
+    let used = routine.vars.without(VarSet::of(&[VarId::D]));
+    if upon_is_due(used, false, shape, want, said) {
+        leave_cycle(shape, want, said, out, drill)?; // else the control takes its words for those of a hole
+        settle_between_holes(hole, shape, want, said, out, drill)?;
+    }
+    upons(used, shape, want, said, out)?;
+    upon_bottom(routine, hole, shape, want, said, out, drill)?;
+    plane_block(17.0, routine, shape, want, said, out)?; // else the control drills along another axis
+    want.set(VarId::D, hole.heights.bottom);
+    if matches!(routine.style, CycleStyle::Emulated) {
+        raise_to(&hole.target, shape, want, said, out, drill)?;
+        if !drill.open.as_ref().is_some_and(|cycle| cycle.in_force) {
+            settle_between_holes(hole, shape, want, said, out, drill)?; // what Cancel switched is put back
+        }
+        want.set(VarId::D, hole.heights.bottom);
+        said.forget_letters();
+        way_to_hole(routine, shape, want, said, out)?;
+        run(routine.ops.clone(), Mode::Hole, shape, want, said, out)?;
+        if let Some(cycle) = &mut drill.open {
+            cycle.in_force = routine.stays;
+        }
+        // after a cycle of the control the last height printed is its bottom
+        let cycled = prints_code(routine, b'G', |code| shape.is_cycle(code), shape);
+        let exit = match stays_at_clearance(routine, hole.heights, shape) {
+            true => (hole.heights.clear, true),
+            false => (hole.heights.return_plane, false),
+        };
+        return left_hole(&hole.target, cycled.then_some(exit), shape, said, drill);
+    }
+    let starts = starts_cycle(routine, hole.heights, shape, want, drill);
+    if starts {
+        cancel(shape, want, said, out, drill)?;
+        settle_between_holes(hole, shape, want, said, out, drill)?; // what Cancel switched is put back
+        approach(&hole.target, shape, want, said, out)?;
+        want.set(VarId::D, hole.heights.bottom);
+        warn_of_return(routine, hole.heights, out);
+        let snapshot = want.values().clone();
+        if let Some(cycle) = &mut drill.open {
+            cycle.setup = snapshot;
+            cycle.initial_level = hole.heights.return_plane;
+            cycle.in_force = true;
+        }
+    }
+    match routine.style {
+        CycleStyle::Advanced => {
+            said.forget_letters();
+            if starts {
+                run(routine.ops.start..routine.repeat, Mode::All, shape, want, said, out)?;
+                if !drills_at_once(routine, shape) {
+                    said.forget_letters(); // the first hole needs its lines whole
+                }
+            }
+            let rest = routine.repeat..routine.ops.end;
+            match starts {
+                true => go_on(rest, Mode::Hole, shape, want, said, out)?,
+                false => run(rest, Mode::Hole, shape, want, said, out)?,
+            }
+        }
+        CycleStyle::Machine if !starts => {
+            let position = !changes_position(routine, shape, want, said)?;
+            run(routine.ops.clone(), Mode::NextHole { position }, shape, want, said, out)?;
+        }
+        _ => run(routine.ops.clone(), Mode::All, shape, want, said, out)?,
+    }
+    let initial = drill.open.as_ref().map_or(hole.heights.return_plane, |cycle| cycle.initial_level);
+    // with [retplane] the code says whether it returns: G98 where the job goes higher, else G99
+    let higher = hole.heights.return_plane > hole.heights.clear + SAME;
+    let returns = routine.returns && (higher || !routine.vars.has(VarId::Retplane));
+    let exit = if returns { initial.max(hole.heights.clear) } else { hole.heights.clear };
+    // without a code that says it, the control's own setting decides whether it returns
+    let stays = prints_code(routine, b'G', |code| code == shape.program.settings.return_plane[0], shape);
+    let low = hole.heights.return_plane <= hole.heights.clear + SAME;
+    let known = routine.returns || stays || low && initial <= hole.heights.clear + SAME;
+    left_hole(&hole.target, Some((exit, known)), shape, said, drill)
+}
+
+/// Does an emulated sequence leave the tool at the clearance for certain: G99, and no axis behind the control's cycle?
+fn stays_at_clearance(routine: &Routine, heights: Heights, shape: &Shape) -> bool {
+    let code = shape.program.settings.return_plane[0];
+    let chosen = routine.vars.has(VarId::Retplane) && heights.return_plane <= heights.clear + SAME;
+    if !chosen && !prints_code(routine, b'G', |value| value == code, shape) {
+        return false;
+    }
+    let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
+    let cycle = routine.ops.clone().rfind(|&i| match shape.program.ops[i] {
+        Op::Literal { index, .. } => {
+            let literal = &shape.program.literals[index as usize];
+            literal.letter == b'G' && shape.is_cycle(literal.value)
+        }
+        _ => false,
+    });
+    let Some(end) = cycle.and_then(|cycle| (cycle..routine.ops.end).find(is_line)) else { return true };
+    !prints_axis_words(&Routine { ops: end..routine.ops.end, ..routine.clone() }, false, shape)
+}
+
+/// An Upon of the hole's bottom, unless it would take the tool there.
+fn upon_bottom(
+    routine: &Routine,
+    hole: &Planned,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    drill: &mut Drilling,
+) -> Done {
+    const BOTTOM: VarSet = VarSet::of(&[VarId::D]);
+    want.set(VarId::D, hole.heights.bottom);
+    if !routine.vars.has(VarId::D)
+        || !upon_is_due(BOTTOM, false, shape, want, said)
+        || upon_is_due(BOTTOM, true, shape, want, said)
+    {
+        return Ok(());
+    }
+    leave_cycle(shape, want, said, out, drill)?; // else the control takes its words for those of a hole
+    settle_between_holes(hole, shape, want, said, out, drill)?;
+    want.set(VarId::D, hole.heights.bottom);
+    upons(BOTTOM, shape, want, said, out)
+}
+
+/// The way to a hole of an emulated cycle is a rapid, also where its first block with axis words says no motion.
+fn way_to_hole(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    let program = shape.program;
+    let is_line = |i: &usize| matches!(program.ops[*i], Op::Line { .. });
+    let moves = |i: usize| {
+        let letter = match program.ops[i] {
+            Op::Var { letter, .. } => letter,
+            Op::Literal { index, .. } => program.literals[index as usize].letter,
+            _ => return false,
+        };
+        shape.letters[letter].kind == LetterKind::Axis
+    };
+    let Some(first) = routine.ops.clone().find(|&i| moves(i)) else { return Ok(()) };
+    let end = (first..routine.ops.end).find(is_line).unwrap_or(routine.ops.end);
+    let begin = Routine { ops: routine.ops.start..end, ..routine.clone() };
+    if !prints_own_motion(&begin, shape) {
+        motion_block(&program.settings.rapid, &begin, shape, want, said, out)?;
+    }
+    Ok(())
+}
+
+/// Do the first lines of a counted cycle drill a hole themselves? K0 and L0 keep the control from it.
+fn drills_at_once(routine: &Routine, shape: &Shape) -> bool {
+    let typed = |asked: &dyn Fn(u8, f64) -> bool| {
+        (routine.ops.start..routine.repeat).any(|i| match shape.program.ops[i] {
+            Op::Literal { index, .. } => {
+                let literal = &shape.program.literals[index as usize];
+                asked(literal.letter, literal.value)
+            }
+            _ => false,
+        })
+    };
+    typed(&|letter, value| letter == b'G' && shape.is_cycle(value))
+        && !typed(&|letter, value| matches!(letter, b'K' | b'L') && value == 0.0)
+}
+
+/// What stands between holes. While the control is in its cycle nothing may come there: it would be taken for a hole, and
+/// what differs from the job is what the sequence itself switched, as `G95` for a tap. It waits for Cancel.
+fn settle_before_hole(
+    routine: &Routine,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    drill: &Drilling,
+) -> Done {
+    if !said.is_unsettled(want) {
+        return Ok(());
+    }
+    let in_force = drill.open.as_ref().is_some_and(|cycle| cycle.in_force);
+    match in_force && (routine.cancel || prints_code(routine, b'G', |code| shape.is_cycle(code), shape)) {
+        // positions in a form of increments are right if the sequence says G90
+        true if shape.program.settings.incremental => Ok(()),
+        true => check_distance(shape, said),
+        false => settle(shape, want, said, out),
+    }
+}
+
+/// The control has left its cycle before a hole: what stands between moves, with the hole's own values after it.
+fn settle_between_holes(
+    hole: &Planned,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    drill: &Drilling,
+) -> Done {
+    set_targets(&hole.target, shape, want, said)?;
+    if said.is_unsettled(want) {
+        settle(shape, want, said, out)?;
+    }
+    hole_variables(hole, shape, want, drill);
+    want.set(VarId::D, hole.heights.return_plane);
+    Ok(())
+}
+
+/// Must the whole cycle be printed at this hole?
+fn starts_cycle(routine: &Routine, heights: Heights, shape: &Shape, want: &Want, drill: &Drilling) -> bool {
+    let Some(cycle) = &drill.open else { return true };
+    if !cycle.in_force {
+        return true;
+    }
+    // the control would rapid there through the material
+    let level = cycle.last.and_then(|last| last.get(shape.depth));
+    if level.is_none_or(|level| heights.clear > level + SAME) {
+        return true;
+    }
+    routine.style == CycleStyle::Advanced && routine.setup_vars.iter().any(|var| cycle.setup.get(var) != want.get(var))
+}
+
+/// Does a word of the position change at this hole? A block without one would drill on no control, or only on some.
+fn changes_position(routine: &Routine, shape: &Shape, want: &Want, said: &Said) -> Done<bool> {
+    for i in routine.ops.clone() {
+        let crate::compile::Op::Var { letter, var, .. } = shape.program.ops[i] else { continue };
+        let (info, Some(value)) = (&shape.letters[letter], want.get(var)) else { continue };
+        if info.kind != LetterKind::Axis {
+            continue;
+        }
+        let units = quantised(info, value)?;
+        if !said.holds(info, units) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// Before a control's cycle: the tool goes to the return plane, up first or down last.
+fn approach(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    if !said.differs_from(target, shape.depth_bit(), shape) {
+        return Ok(());
+    }
+    if is_below(target, shape, said) {
+        raise(target, shape, want, said, out)
+    } else {
+        split_rapid(target, shape, want, said, out)
+    }
+}
+
+/// An emulated cycle's first line may go across: the tool must not be below the return plane then.
+fn raise_to(
+    target: &Axes,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    drill: &mut Drilling,
+) -> Done {
+    let below = is_below(target, shape, said) && said.differs_from(target, shape.depth_bit(), shape);
+    let across = (0..2).any(|axis| axis != shape.depth && said.stand.position.get(axis) != target.get(axis));
+    if !below || !across {
+        return Ok(());
+    }
+    cancel(shape, want, said, out, drill)?; // else the control takes the rapid for a hole
+    raise(target, shape, want, said, out)
+}
+
+fn warn_of_return(routine: &Routine, heights: Heights, out: &mut Printer) {
+    if heights.return_plane > heights.clear + SAME && !routine.returns {
+        let message = format!("the job returns to {}, the cycle stays at {}", heights.return_plane, heights.clear);
+        out.note(
+            Code::PR013,
+            message,
+            "print `G[retplane]` in the cycle, so that the control knows where to return to",
+        );
+    }
+}

@@ -1,0 +1,194 @@
+//! Arcs: what the form can print of them.
+
+use std::f64::consts::PI;
+
+use super::centres::{CENTRE_OF, as_printed_back, centre_letter};
+use super::geometry::{Piece, PlaneArc};
+use super::line::line_to;
+use super::measure::measured;
+use super::pieces::{chords, ends_meet, pieces};
+use super::reach::reach;
+use crate::diag::Code;
+use crate::lang::{Machine, SequenceId, VarId};
+use crate::render::fault::{Done, fault};
+use crate::render::printer::Printer;
+use crate::render::prints::prints_code;
+use crate::render::said::Said;
+use crate::render::settle::{settle_here, stands_at_cut};
+use crate::render::shape::Shape;
+use crate::render::targets::{check_limits, set_targets};
+use crate::render::upon::upons;
+use crate::render::vars::MOVE_VARS;
+use crate::render::want::Want;
+use crate::sema::ArcCentre;
+use crate::toolpath::{Arc, Axes, Direction, Plane, Units};
+
+/// The axes of a plane in the order that makes counter-clockwise positive, the axis across it, the plane's code.
+fn plane_axes(plane: Plane) -> ([usize; 2], usize, f64) {
+    match plane {
+        Plane::Xy => ([0, 1], 2, 17.0),
+        Plane::Xz => ([2, 0], 1, 18.0),
+        Plane::Yz => ([1, 2], 0, 19.0),
+    }
+}
+
+/// An arc of the path.
+pub fn arc(
+    arc: &Arc,
+    feed: Option<f64>,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    parts: &mut Vec<f64>,
+) -> Done {
+    let mut target = reach(&arc.to, false, shape, want, said, out)?;
+    want.take_feed(feed, shape)?;
+    let (axes, across, code) = plane_axes(arc.plane);
+    if want.compensated && arc.plane != Plane::Xy && shape.program.settings.machine == Machine::Mill {
+        let help = "end the compensation with an `outfeed` before";
+        return fault(Code::PR006, "an arc in another plane under cutter compensation", help);
+    }
+    let Some(from) = in_plane(&said.stand.position, axes) else {
+        let help = "begin with a rapid that gives all coordinates";
+        return fault(Code::PR005, "the arc begins at an unknown position", help);
+    };
+    let Some(to) = in_plane(&target, axes) else {
+        return fault(Code::PR005, "the arc ends at an unknown position", "give both coordinates of its plane");
+    };
+    let ccw = arc.direction == Direction::Ccw;
+    let centre = centre_of(arc, axes, from, to, ccw, shape)?;
+    let coarse = check_radii(axes, from, to, centre, shape)?;
+    target.given |= said.stand.position.given;
+    if said.is_unsettled(want) {
+        settle_here(true, shape, want, said, out)?;
+    }
+    stands_at_cut(said)?;
+    set_targets(&target, shape, want, said)?;
+    if shape.watches_moves {
+        upons(MOVE_VARS, shape, want, said, out)?;
+    }
+    if said.differs_from(&said.stand.position, 1 << axes[0] | 1 << axes[1], shape)
+        && !shape.program.settings.incremental
+    {
+        // the control must begin where its centre is counted from
+        let here = said.stand.position;
+        set_targets(&here, shape, want, said)?;
+        line_to(&here, shape, want, said, out)?;
+        set_targets(&target, shape, want, said)?;
+    }
+    let curve = PlaneArc::new(from, to, centre, ccw, arc.turns);
+    let climbs = differs_by(&target, across, said);
+    if shape.measures {
+        let rise = target.values[across] - said.stand.position.values[across];
+        measured((curve.radius * curve.sweep.abs()).hypot(if climbs { rise } else { 0.0 }), true, want);
+    }
+    if !shape.program.settings.limits.is_empty() {
+        check_arc(&curve, axes, &target, shape)?;
+    }
+    let settings = &shape.program.settings;
+    let plane = settings.planes.iter().find(|plane| plane.value == code);
+    let scale = shape.form_scale;
+    let printable = curve.radius >= settings.min_radius * scale
+        && curve.radius <= settings.max_radius * scale
+        && (settings.helical && shape.linear == 3 || !climbs)
+        && (3..6).all(|axis| !differs_by(&target, axis, said));
+    let shrinks = ends_meet(&target, axes, shape, said) && curve.sweep.abs() < PI;
+    if let Some(differ) = coarse {
+        let message = format!("the arc is printed as lines: in the form's digits its radii differ by {differ:.4}");
+        out.note(Code::PR024, message, "give the axes and centre words more decimals");
+    }
+    match plane {
+        Some(plane) if printable && !shrinks && coarse.is_none() => match has_centre_words(axes, ccw, shape) {
+            true => pieces(&Piece { axes, plane, arc: curve, target }, across, shape, want, said, out, parts),
+            false => {
+                note_lines(axes, ccw, shape, out);
+                chords((&curve, axes), &target, shape, want, said, out, parts)
+            }
+        },
+        _ => chords((&curve, axes), &target, shape, want, said, out, parts),
+    }
+}
+
+/// Travel limits where the arc reaches farthest.
+fn check_arc(arc: &PlaneArc, axes: [usize; 2], target: &Axes, shape: &Shape) -> Done {
+    let mut parts = Vec::new();
+    arc.quadrant_parts(&mut parts);
+    for part in parts {
+        let (mut at, point) = (*target, arc.point(part));
+        (at.values[axes[0]], at.values[axes[1]]) = (point[0], point[1]);
+        check_limits(&at, shape)?;
+    }
+    Ok(())
+}
+
+fn in_plane(position: &Axes, axes: [usize; 2]) -> Option<[f64; 2]> {
+    Some([position.get(axes[0])?, position.get(axes[1])?])
+}
+
+/// Does the target move along this axis at all?
+fn differs_by(target: &Axes, axis: usize, said: &Said) -> bool {
+    target.get(axis).is_some() && target.get(axis) != said.stand.position.get(axis)
+}
+
+fn centre_of(arc: &Arc, axes: [usize; 2], from: [f64; 2], to: [f64; 2], ccw: bool, shape: &Shape) -> Done<[f64; 2]> {
+    if let Some(centre) = &arc.center {
+        return match (centre.get(axes[0]), centre.get(axes[1])) {
+            (Some(a), Some(b)) => Ok([a * shape.scale, b * shape.scale]),
+            _ => fault(Code::PR005, "the arc's centre lacks a coordinate of its plane", "give both"),
+        };
+    }
+    let radius = arc.radius.unwrap_or(0.0) * shape.scale;
+    match PlaneArc::centre_by_radius(from, to, radius, ccw) {
+        Some(centre) => Ok(centre),
+        None => fault(
+            Code::PR005,
+            format!("no arc of radius {} joins the ends", radius.abs()),
+            "the ends are one point, or farther apart than the diameter: give the `center`",
+        ),
+    }
+}
+
+/// Controls alarm, or cut something else, when start and end have different radii: the job's is an error. Whether
+/// the form's digits make it so: then lines say it better.
+fn check_radii(axes: [usize; 2], from: [f64; 2], to: [f64; 2], centre: [f64; 2], shape: &Shape) -> Done<Option<f64>> {
+    let allowed = if shape.units == Units::Mm { 0.01 } else { 0.0005 } + 1e-9;
+    let radius = |point: [f64; 2]| (point[0] - centre[0]).hypot(point[1] - centre[1]);
+    let (start, end) = (radius(from), radius(to));
+    if (start - end).abs() > allowed {
+        let message = format!("the arc's radius is {start:.6} at its start and {end:.6} at its end");
+        return fault(Code::PR005, message, "look at the centre: both ends must be equally far from it");
+    }
+    let mut radii = [0.0; 2];
+    for (radius, point) in radii.iter_mut().zip([from, to]) {
+        let a = as_printed_back(axes[0], point[0], shape)? - as_printed_back(axes[0], centre[0], shape)?;
+        let b = as_printed_back(axes[1], point[1], shape)? - as_printed_back(axes[1], centre[1], shape)?;
+        *radius = a.hypot(b);
+    }
+    let differ = (radii[0] - radii[1]).abs();
+    Ok((differ > allowed).then_some(differ))
+}
+
+fn has_centre_words(axes: [usize; 2], ccw: bool, shape: &Shape) -> bool {
+    if let Some(routine) = shape.program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
+        let says = |axis: usize| CENTRE_OF[axis].iter().any(|&var| routine.vars.has(var));
+        let planes = [Plane::Xy, Plane::Xz, Plane::Yz].map(plane_axes);
+        let own = planes.into_iter().find(|plane| plane.0 == axes).map(|plane| plane.2);
+        let elsewhere = prints_code(routine, b'G', |code| shape.is_plane(code) && Some(code) != own, shape);
+        return !elsewhere && (routine.vars.has(VarId::Arcrad) || axes.iter().all(|&axis| says(axis)));
+    }
+    match &shape.program.settings.centre {
+        ArcCentre::Radius(_) => true,
+        ArcCentre::Letters(letters) => axes.iter().all(|&axis| centre_letter(letters, axis, shape).is_some()),
+    }
+}
+
+/// Says once that a sequence can't print an arc which it is there for.
+fn note_lines(axes: [usize; 2], ccw: bool, shape: &Shape, out: &mut Printer) {
+    let id = if ccw { SequenceId::CcwCode } else { SequenceId::CwCode };
+    if shape.program.routine(id).is_some() && !out.notes().iter().any(|note| note.code == Code::PR024) {
+        let [first, second] = axes.map(|axis| ["[ival]", "[jval]", "[kval]"][axis]);
+        let message = format!("the arc is printed as lines: {} does not print {first} and {second}", id.name());
+        out.note(Code::PR024, message, "print both, or the radius as [arcrad]");
+    }
+}

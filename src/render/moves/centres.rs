@@ -1,0 +1,220 @@
+//! Centres of arcs: by the words of the form, by the radius, as values of variables.
+
+use std::f64::consts::PI;
+
+use super::geometry::{Piece, PlaneArc};
+use crate::compile::{Op, Routine};
+use crate::diag::Code;
+use crate::lang::{SequenceId, VarId, VarSet};
+use crate::render::fault::{Done, fault};
+use crate::render::numbers::{as_number, quantised};
+use crate::render::printer::Printer;
+use crate::render::prints::prints_code;
+use crate::render::said::Said;
+use crate::render::shape::Shape;
+use crate::render::want::Want;
+use crate::sema;
+use crate::sema::{ArcCentre, Settings};
+use crate::toolpath::{Axes, Units};
+
+/// Variables that say where an arc's centre is.
+pub const CENTRES: VarSet = VarSet::of(&[VarId::Ival, VarId::Jval, VarId::Kval, VarId::Hctr, VarId::Vctr]);
+
+/// The variables of the centre along each axis.
+pub const CENTRE_OF: [&[VarId]; 3] = [&[VarId::Ival, VarId::Hctr], &[VarId::Jval, VarId::Vctr], &[VarId::Kval]];
+
+/// A value as the axis prints it.
+pub fn as_printed_back(axis: usize, value: f64, shape: &Shape) -> Done<f64> {
+    let info = &shape.letters[shape.axes[axis]];
+    let scale = shape.scales[axis];
+    let units = quantised(info, value * scale)?;
+    let number = as_number(units, info.format.dec.count) / scale;
+    Ok(if info.reversed { -number } else { number })
+}
+
+/// The letter of the centre word along an axis.
+pub fn centre_letter(letters: &[u8], axis: usize, shape: &Shape) -> Option<u8> {
+    let natural = match shape.axes[axis] {
+        b'X' | b'U' => b'I',
+        b'Y' | b'V' => b'J',
+        _ => b'K',
+    };
+    let named = letters.iter().all(|l| b"IJK".contains(l));
+    if named { letters.contains(&natural).then_some(natural) } else { letters.get(axis).copied() }
+}
+
+/// Divides an arc that radius words say badly. Near half a turn the last digit of the radius moves the centre far:
+/// more and shorter parts say the same arc to the digits of the form.
+pub fn divide_for_radius(whole: &Piece, across: usize, parts: &mut Vec<f64>, shape: &Shape, said: &Said) -> Done {
+    const MOST_PARTS: usize = 8; // of each piece that the form would say
+    let (most, step) = ((parts.len() + 1) * MOST_PARTS, parts.len() + 1);
+    let allowed = if shape.units == Units::Mm { 0.005 } else { 0.0002 };
+    let from = said.stand.position;
+    while parts.len() + 1 < most {
+        let (mut here, mut done, mut worst) = (from, 0.0, 0.0f64);
+        for part in parts.iter().copied().chain([1.0]) {
+            let piece = whole.part(&from, done, part, across);
+            worst = worst.max(centre_moves(&piece, &here, shape)?);
+            (here, done) = (piece.target, part);
+        }
+        if worst <= allowed {
+            return Ok(());
+        }
+        let count = parts.len() + 1 + step.div_ceil(2);
+        parts.clear();
+        parts.extend((1..count).map(|i| i as f64 / count as f64));
+    }
+    Ok(())
+}
+
+/// How far the control's centre of a piece that begins `here` is from the arc's, where a radius says it.
+fn centre_moves(piece: &Piece, here: &Axes, shape: &Shape) -> Done<f64> {
+    let ccw = piece.arc.sweep > 0.0;
+    let Some(letter) = radius_letter(piece, ccw, shape) else { return Ok(0.0) };
+    let mut ends = [[0.0; 2]; 2];
+    for (end, position) in ends.iter_mut().zip([here, &piece.target]) {
+        for (value, &axis) in end.iter_mut().zip(&piece.axes) {
+            *value = as_printed_back(axis, position.values[axis], shape)?;
+        }
+    }
+    let info = &shape.letters[letter];
+    let radius = as_number(quantised(info, piece.arc.radius)?, info.format.dec.count).abs();
+    let longer = piece.arc.sweep.abs() > PI + 1e-9;
+    let centre = PlaneArc::centre_by_radius(ends[0], ends[1], if longer { -radius } else { radius }, ccw);
+    Ok(centre.map_or(f64::INFINITY, |[a, b]| (a - piece.arc.centre[0]).hypot(b - piece.arc.centre[1])))
+}
+
+/// The letter of a piece's radius, where that is what says its centre.
+fn radius_letter(piece: &Piece, ccw: bool, shape: &Shape) -> Option<u8> {
+    let program = shape.program;
+    match program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
+        Some(routine) if routine.vars.meets(CENTRES) => None,
+        Some(routine) => routine.ops.clone().find_map(|i| match program.ops[i] {
+            Op::Var { letter, var: VarId::Arcrad, .. } => Some(letter),
+            _ => None,
+        }),
+        None => match centre_by(&program.settings, piece.arc.sweep.abs()) {
+            ArcCentre::Radius(letter) => Some(*letter),
+            ArcCentre::Letters(_) => None,
+        },
+    }
+}
+
+/// `RevSigns` of an axis is one of its centre word too, and turns the arc round: in blocks that are generated and in the
+/// form's own.
+pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, ccw: bool, shape: &Shape) -> Done {
+    const VALUES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
+    let settings = &shape.program.settings;
+    let reversed = |axis: usize| shape.letters[shape.axes[axis]].reversed;
+    let centre = |axis: usize| match (routine, centre_by(settings, piece.arc.sweep.abs())) {
+        (Some(routine), _) => routine.ops.clone().find_map(|i| match shape.program.ops[i] {
+            Op::Var { letter, var, .. } if var == VALUES[axis] => Some(letter),
+            _ => None,
+        }),
+        (None, ArcCentre::Letters(letters)) => centre_letter(letters, axis, shape),
+        (None, ArcCentre::Radius(_)) => None,
+    };
+    // both centre words the other way round: some controls count from the centre to the start
+    let other = |axis: &usize| centre(*axis).is_some_and(|letter| shape.letters[letter].reversed != reversed(*axis));
+    let others = piece.axes.iter().copied().filter(other).count();
+    if others == 1 || others == 2 && !settings.centre_incremental {
+        let axis = piece.axes.into_iter().find(other).map_or(' ', |axis| char::from(shape.axes[axis]));
+        let message = format!("{axis} and its word of the arc's centre have different signs");
+        return fault(Code::PR017, message, "reverse both, as `RevSigns X I`, or none");
+    }
+    let mirrored = reversed(piece.axes[0]) != reversed(piece.axes[1]);
+    let own = if ccw != mirrored { 3.0 } else { 2.0 };
+    let typed = |value: f64| routine.is_some_and(|routine| prints_code(routine, b'G', |code| code == value, shape));
+    let wrong = match routine {
+        Some(_) => typed(5.0 - own) && !typed(own),
+        None => code.value == 5.0 - own,
+    };
+    if wrong && (0..shape.linear).any(reversed) {
+        let message = match mirrored {
+            true => "one axis of the arc's plane has the other sign, and the arc would turn the other way",
+            false => "no axis of the arc's plane has the other sign alone, and the arc would turn the other way",
+        };
+        let help = "exchange the codes, `CW G3` and `CCW G2`, where one axis of the plane is reversed; leave other planes out of `ArcPlane`";
+        return fault(Code::PR017, message, help);
+    }
+    Ok(())
+}
+
+/// The centre as the form counts it: from the printed start, or absolute.
+pub fn centre_values(piece: &Piece, shape: &Shape, said: &Said) -> Done<[f64; 2]> {
+    let mut values = piece.arc.centre;
+    let mirrored = |axis: usize| shape.scales[axis] < 0.0;
+    if shape.program.settings.centre_incremental {
+        for (value, &axis) in values.iter_mut().zip(&piece.axes) {
+            // the control starts where it was told to, not where the job exactly was
+            *value -= as_printed_back(axis, said.stand.position.values[axis], shape)?;
+        }
+    }
+    for (value, &axis) in values.iter_mut().zip(&piece.axes) {
+        *value = if mirrored(axis) { -*value } else { *value };
+    }
+    Ok(values)
+}
+
+pub fn centre_words(piece: &Piece, centre: &[f64; 2], shape: &Shape, out: &mut Printer) -> Done {
+    let sweep = piece.arc.sweep.abs();
+    match centre_by(&shape.program.settings, sweep) {
+        ArcCentre::Radius(letter) => {
+            let radius = if sweep > PI + 1e-9 { -piece.arc.radius } else { piece.arc.radius };
+            arc_word(*letter, radius, shape, out)
+        }
+        ArcCentre::Letters(letters) => {
+            // in the order of the axes: I J, I K, J K
+            let mut order = [0, 1];
+            if piece.axes[0] > piece.axes[1] {
+                order = [1, 0];
+            }
+            for i in order {
+                if let Some(letter) = centre_letter(letters, piece.axes[i], shape) {
+                    arc_word(letter, centre[i], shape, out)?;
+                }
+            }
+            Ok(())
+        }
+    }
+}
+
+/// A centre word: always printed, and no register keeps it.
+pub fn arc_word(letter: u8, value: f64, shape: &Shape, out: &mut Printer) -> Done {
+    let info = &shape.letters[letter];
+    let units = quantised(info, value)?;
+    out.letter(info, units, false)
+}
+
+pub fn set_arc_variables(piece: &Piece, centre: &[f64; 2], shape: &Shape, want: &mut Want) {
+    const VALUES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
+    const CENTRES: [Option<VarId>; 3] = [Some(VarId::Hctr), Some(VarId::Vctr), None];
+    for var in VALUES.into_iter().chain(CENTRES.into_iter().flatten()) {
+        want.put(var, None);
+    }
+    for (i, &axis) in piece.axes.iter().enumerate() {
+        want.set(VALUES[axis], centre[i]);
+        if let Some(var) = CENTRES[axis] {
+            want.set(var, piece.arc.centre[i] * shape.scales[axis].signum());
+        }
+    }
+    let degrees = |angle: f64| (angle.to_degrees() % 360.0 + 360.0) % 360.0;
+    // a turret on the other side sees them in a mirror
+    let way = if piece.axes.iter().any(|&axis| shape.scales[axis] < 0.0) { -1.0 } else { 1.0 };
+    let (start, sweep) = (piece.arc.start * way, piece.arc.sweep * way);
+    want.set(VarId::Arcrad, piece.arc.radius);
+    want.set(VarId::Startang, degrees(start));
+    want.set(VarId::Endang, degrees(start + sweep));
+    want.set(VarId::Sweep, sweep.to_degrees());
+}
+
+/// How the form says the centre of an arc that turns so far.
+fn centre_by(settings: &Settings, sweep: f64) -> &ArcCentre {
+    let over = sweep > PI + 1e-9;
+    let full = sweep > 2.0 * PI - 1e-9;
+    match (&settings.centre_full, &settings.centre_over_180) {
+        (Some(words), _) if full => words,
+        (_, Some(words)) if over && !full => words,
+        _ => &settings.centre,
+    }
+}

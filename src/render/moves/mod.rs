@@ -1,0 +1,15 @@
+//! Moves of the path, one kind a file.
+
+pub mod arc;
+mod centres;
+pub mod compensation;
+mod geometry;
+pub mod line;
+pub mod measure;
+mod pieces;
+pub mod rapid;
+pub mod rapid_blocks;
+pub mod reach;
+pub mod rotary;
+pub mod threads;
+pub mod travel;

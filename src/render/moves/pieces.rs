@@ -1,0 +1,235 @@
+//! Arcs as blocks: in whole, in parts, or as chords.
+
+use std::f64::consts::PI;
+
+use super::centres::{
+    CENTRE_OF, CENTRES, as_printed_back, centre_values, centre_words, check_signs, divide_for_radius, set_arc_variables,
+};
+use super::geometry::{Piece, PlaneArc};
+use super::line::line_to;
+use crate::compile::Routine;
+use crate::diag::Code;
+use crate::lang::{Machine, SequenceId, VarId};
+use crate::render::before::{check_prints, feed_block, plane_block};
+use crate::render::body::{Mode, run};
+use crate::render::fault::{Done, fault, fault_at};
+use crate::render::printer::Printer;
+use crate::render::prints::{prints_axis, prints_own_motion};
+use crate::render::said::{LastMove, Said};
+use crate::render::shape::Shape;
+use crate::render::targets::set_targets;
+use crate::render::upon::upons;
+use crate::render::want::Want;
+use crate::render::words::{AxisUnits, axis_units, axis_words, feed_word, motion_word};
+use crate::sema;
+use crate::sema::ArcCentre;
+use crate::toolpath::Axes;
+
+/// Does a sequence say where an arc ends by its centre and the angle there?
+fn ends_by_angle(routine: &Routine, axes: [usize; 2]) -> bool {
+    let angle = routine.vars.has(VarId::Endang) || routine.vars.has(VarId::Sweep);
+    angle && axes.iter().all(|&axis| CENTRE_OF[axis].iter().any(|&var| routine.vars.has(var)))
+}
+
+/// Prints an arc in as many parts as the form needs.
+pub fn pieces(
+    whole: &Piece,
+    across: usize,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    parts: &mut Vec<f64>,
+) -> Done {
+    let settings = &shape.program.settings;
+    let arc = &whole.arc;
+    let turn = 2.0 * PI;
+    parts.clear();
+    if settings.by_quadrants {
+        arc.quadrant_parts(parts);
+    } else {
+        let sequence = if arc.sweep > 0.0 { SequenceId::CcwCode } else { SequenceId::CwCode };
+        let routine = shape.program.routine(sequence);
+        // a sequence that prints the radius and no centre can't say more than half a turn
+        let radius_only = match routine {
+            Some(routine) => routine.vars.has(VarId::Arcrad) && !routine.vars.meets(CENTRES),
+            None => matches!(settings.centre, ArcCentre::Radius(_)),
+        };
+        let full = arc.sweep.abs() > turn - 1e-9;
+        let most = if !radius_only || (routine.is_none() && full && settings.centre_full.is_some()) {
+            turn
+        } else if routine.is_none() && settings.centre_over_180.is_some() && !full {
+            turn - 1e-6
+        } else {
+            PI
+        };
+        // radius words can't say a full circle, and over 180 degrees only when the form has a way
+        arc.equal_parts(most, parts);
+        divide_for_radius(whole, across, parts, shape, said)?;
+    }
+    parts.push(1.0);
+    let (from, mut done) = (said.stand.position, 0.0);
+    let whole_feed = want.feed();
+    for &part in parts.iter() {
+        share_of_time(whole_feed, part - done, shape, want);
+        print_piece(&whole.part(&from, done, part, across), shape, want, said, out)?;
+        done = part;
+    }
+    share_of_time(whole_feed, 1.0, shape, want);
+    Ok(())
+}
+
+/// In inverse time a part of a move has a part of its time.
+fn share_of_time(whole: Option<f64>, part: f64, shape: &Shape, want: &mut Want) {
+    if want.inverse_time() {
+        want.keep_feed(whole.map(|feed| feed / part), shape);
+    }
+}
+
+/// Prints one arc block or the form's sequence for it.
+fn print_piece(piece: &Piece, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    let program = shape.program;
+    let settings = &program.settings;
+    if ends_meet(&piece.target, piece.axes, shape, said) && piece.arc.sweep.abs() < PI {
+        set_targets(&piece.target, shape, want, said)?;
+        return line_to(&piece.target, shape, want, said, out); // as an arc it would be a full circle
+    }
+    // a turret on the other side sees the arc in a mirror
+    let ccw = (piece.arc.sweep > 0.0) != piece.axes.iter().any(|&axis| shape.scales[axis] < 0.0);
+    let centre = centre_values(piece, shape, said)?;
+    set_targets(&piece.target, shape, want, said)?;
+    set_arc_variables(piece, &centre, shape, want);
+    let kind = if ccw { LastMove::Ccw } else { LastMove::Cw };
+    let restate = match said.last_move {
+        LastMove::Line => !settings.arc_with_line,
+        last => last == kind && !settings.arc_with_same,
+    };
+    let code = if ccw { &settings.ccw } else { &settings.cw };
+    if restate && said.motion_in_force(code) {
+        said.say_motion_again();
+    }
+    if said.last_move == LastMove::Rapid && !settings.force.is_empty() {
+        said.force(shape);
+    }
+    let routine = program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode });
+    check_signs(piece, routine, code, ccw, shape)?;
+    if let Some(routine) = routine {
+        let [a, b] = piece.axes;
+        let polar =
+            ends_by_angle(routine, piece.axes) && !(prints_axis(routine, a, shape) && prints_axis(routine, b, shape));
+        let by_angle = if polar { 1 << a | 1 << b } else { 0 };
+        check_prints(routine, &Axes { given: piece.target.given & !by_angle, ..piece.target }, shape, said)?;
+        upons(routine.vars, shape, want, said, out)?;
+        plane_block(piece.plane.value, routine, shape, want, said, out)?;
+        check_arc_code(routine, code, shape, said)?;
+        feed_block(code, routine, shape, want, said, out)?;
+        run(routine.ops.clone(), Mode::ArcMotion, shape, want, said, out)?;
+        if polar {
+            // the control knows where it is, and the letters of these axes say something older
+            for axis in piece.axes {
+                said.forget(&shape.letters[shape.axes[axis]]);
+            }
+            said.say_motion_again(); // G12 is a motion that no group knows
+        }
+    } else {
+        arc_block(piece, (code, ccw), &centre, shape, want, said, out)?;
+    }
+    said.stand.position = piece.target;
+    said.last_move = kind;
+    Ok(())
+}
+
+/// Do both ends print alike? A short arc would then become a full circle.
+pub fn ends_meet(target: &Axes, axes: [usize; 2], shape: &Shape, said: &Said) -> bool {
+    axes.iter().all(|&axis| {
+        let printed = |value: f64| as_printed_back(axis, value, shape).ok();
+        printed(target.values[axis]) == printed(said.stand.position.values[axis])
+    })
+}
+
+/// A sequence of arcs must print a code of its own: an arc code in a block before it would have no end.
+fn check_arc_code(routine: &Routine, code: &sema::Code, shape: &Shape, said: &Said) -> Done {
+    if !shape.program.speaks_g || said.motion_in_force(code) || prints_own_motion(routine, shape) {
+        return Ok(());
+    }
+    let message = format!("the sequence prints no G{}, and the control is in another motion", code.value);
+    fault_at(Code::PR017, message, format!("begin its block with G{}", code.value), Some(routine.span))
+}
+
+/// The generated block: plane, motion code, axes, centre, direction, feed.
+fn arc_block(
+    piece: &Piece,
+    (code, ccw): (&sema::Code, bool),
+    centre: &[f64; 2],
+    shape: &Shape,
+    want: &Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
+    let settings = &shape.program.settings;
+    if shape.program.settings.machine == Machine::Mill {
+        motion_word(piece.plane, shape, want, said, out)?; // a lathe and a wire have but one
+    }
+    if !said.differs_from(&piece.target, 0x3f, shape) {
+        // a whole circle has no axis words: controls want its code said again
+        said.say_motion_again();
+    }
+    motion_word(code, shape, want, said, out)?;
+    let mut axes = AxisUnits::default();
+    axis_units(&piece.target, &mut axes, shape, said)?;
+    axis_words(&piece.target, &axes, shape, said, out)?;
+    if let Some(word) = &settings.second_circle {
+        out.end_block();
+        out.text(word, false);
+    }
+    centre_words(piece, centre, shape, out)?;
+    if let Some([cw, ccw_word]) = &settings.circle_direction {
+        let word = if ccw { ccw_word } else { cw };
+        out.text(word, false);
+    }
+    feed_word(shape, want, said, out)?;
+    out.end_block();
+    Ok(())
+}
+
+/// An arc that the form can't print, as lines within its tolerance.
+pub fn chords(
+    (arc, axes): (&PlaneArc, [usize; 2]),
+    target: &Axes,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    parts: &mut Vec<f64>,
+) -> Done {
+    let mut from = said.stand.position;
+    for axis in said.turned_axes(target, shape) {
+        match said.stand.angle(axis) {
+            Some(angle) => from.set(axis, angle),
+            None => {
+                return fault(Code::PR005, "the arc turns from an unknown angle", "begin with a rapid that says it");
+            }
+        }
+    }
+    parts.clear();
+    arc.equal_parts(arc.chord_angle(shape.program.settings.tolerance * shape.form_scale), parts);
+    let (whole_feed, share) = (want.feed(), 1.0 / (parts.len() + 1) as f64);
+    share_of_time(whole_feed, share, shape, want);
+    for &part in parts.iter() {
+        let mut to = *target;
+        for axis in 0..6 {
+            if from.given & 1 << axis != 0 {
+                to.values[axis] = from.values[axis] + (target.values[axis] - from.values[axis]) * part;
+            }
+        }
+        let point = arc.point(part);
+        to.values[axes[0]] = point[0];
+        to.values[axes[1]] = point[1];
+        set_targets(&to, shape, want, said)?;
+        line_to(&to, shape, want, said, out)?;
+    }
+    set_targets(target, shape, want, said)?;
+    line_to(target, shape, want, said, out)?;
+    share_of_time(whole_feed, 1.0, shape, want);
+    Ok(())
+}

@@ -1,0 +1,52 @@
+//! Where an item of the path goes, and from where a cut begins.
+
+use super::rapid_blocks::split_rapid;
+use super::travel::in_travel;
+use crate::diag::Code;
+use crate::lang::VarId;
+use crate::render::fault::{Done, fault};
+use crate::render::printer::Printer;
+use crate::render::said::Said;
+use crate::render::shape::{ROTARY_BITS, Shape};
+use crate::render::targets::set_targets;
+use crate::render::want::Want;
+use crate::toolpath::Axes;
+
+/// Where an item of the path goes, in the travel of the machine; `free`: out of the part. An open cycle ends before it.
+#[inline]
+pub fn reach(to: &Axes, free: bool, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done<Axes> {
+    if said.stand.left_hole.is_some() {
+        stand_as_left(free, shape, want, said, out)?;
+    }
+    let target = said.stand.target(to, shape);
+    if to.given & ROTARY_BITS != 0 { in_travel(&target, to.given, free, shape, want, said, out) } else { Ok(target) }
+}
+
+/// After a cycle that left the tool at another height than the job: a cut begins at the job's.
+#[cold]
+fn stand_as_left(free: bool, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    let Some((at, height)) = said.stand.left_hole.take() else { return Ok(()) };
+    // only where nothing moved the tool or the frame since
+    if free || at != said.stand.position || said.lacks(want, shape).has(VarId::Work) {
+        return Ok(());
+    }
+    let mut to = said.stand.position;
+    to.set(shape.depth, height);
+    to.given = shape.depth_bit();
+    set_targets(&to, shape, want, said)?;
+    split_rapid(&to, shape, want, said, out)
+}
+
+/// A new tool comes from where nobody knows: its first cut must have a beginning.
+#[cold]
+pub fn begins_somewhere(target: &Axes, shape: &Shape, said: &mut Said) -> Done {
+    // the upper guides of a wire follow the lower ones
+    let axes = if shape.linear == 4 { 2 } else { shape.linear };
+    let unknown = target.given & !said.stand.position.given & ((1 << axes) - 1);
+    said.stand.fresh_tool = false;
+    if unknown == 0 || shape.program.settings.incremental {
+        return Ok(());
+    }
+    let help = "begin it with a rapid to the beginning of its first cut";
+    fault(Code::PR012, "the operation begins with a cut from where nobody knows", help)
+}

@@ -1,0 +1,303 @@
+//! Threads on a lathe: the control's cycle, a cycle of one pass each, or passes made here.
+
+use super::rapid_blocks::rapid_to;
+use crate::compile::{Op, Routine};
+use crate::cycle::thread_passes;
+use crate::diag::Code;
+use crate::lang::{Machine, SequenceId, VarId};
+use crate::render::body::{Mode, go_on, run};
+use crate::render::fault::{Done, fault, fault_at};
+use crate::render::printer::Printer;
+use crate::render::said::{LastMove, Said};
+use crate::render::settle::settle;
+use crate::render::shape::Shape;
+use crate::render::targets::set_targets;
+use crate::render::upon::{run_with_upons, upons};
+use crate::render::want::Want;
+use crate::render::words::{axis_word, code_word, letter_word};
+use crate::sema;
+use crate::toolpath::{Axes, Thread};
+
+/// A thread in program units, radii as radii.
+struct Cut {
+    /// End along the axis.
+    end: f64,
+    /// Radius of the crest at the end.
+    crest: f64,
+    /// Which way the passes go: -1 to the centre, 1 away from it.
+    inward: f64,
+    passes: Vec<f64>,
+    lead: f64,
+    /// How much the crest's radius falls from the start to the end, for each unit of length.
+    slope: f64,
+}
+
+impl Cut {
+    /// Radius at the begin of a pass less radius at its end.
+    fn taper(&self, begin: f64) -> f64 {
+        self.slope * (begin - self.end).abs()
+    }
+}
+
+/// A thread of the path. AutoThread goes before CanThread, both before passes made here.
+pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    let program = shape.program;
+    if program.settings.machine != Machine::Lathe {
+        return fault(Code::PR008, "threads are for lathes", "mill the thread by its moves, or tap it");
+    }
+    if !want.get(VarId::Direct).is_some_and(|code| code != program.settings.spindle[2]) {
+        return fault(Code::PR006, "the spindle does not turn", "give the operation a spindle with a direction");
+    }
+    if want.compensated {
+        let help = "end the compensation with an `outfeed` before";
+        return fault(Code::PR006, "a thread under cutter compensation", help);
+    }
+    if want.get(VarId::Speedtype) == Some(program.settings.speed_type[0]) {
+        let message = "a thread at constant surface speed: each pass turns otherwise, and begins elsewhere".to_owned();
+        out.note(Code::PR029, message, "give its operation a spindle with \"mode\": \"rpm\"");
+    }
+    if program.settings.incremental {
+        let help = "thread with a form of positions";
+        return fault(Code::PR008, "a thread's words are positions, and the form prints increments", help);
+    }
+    let cut = planned(thread, shape, said)?;
+    if said.stand.position.get(1).is_none() {
+        let help = "begin with a rapid to beside the thread, which says how far it is from the axis";
+        return fault(Code::PR001, "the radius at which the passes of the thread begin is unknown", help);
+    }
+    let from = said.stand.target(&thread.from, shape).values[1];
+    let beside = said.stand.position.values[1];
+    let wrong = [from, cut.crest].iter().any(|crest| (beside - crest) * cut.inward > 1e-9);
+    if wrong {
+        let (kind, place) = if cut.inward > 0.0 { ("inner", "outside") } else { ("outer", "inside") };
+        let message = format!("the tool is {place} the crest of an {kind} thread, at the radius {beside}");
+        return fault(Code::PR006, message, "rapid to the other side of the crest first");
+    }
+    let starts = thread.starts.unwrap_or(1.0);
+    let begin = said.stand.target(&thread.from, shape).values[0];
+    thread_variables(thread, &cut, shape, want);
+    let cycle = program.routine(SequenceId::AutoThread).or(program.routine(SequenceId::CanThread));
+    if let Some(routine) = cycle {
+        check_thread_words(thread, &cut, routine, shape, want)?;
+    } else if thread.chamfer.is_some_and(|length| length != 0.0) {
+        let help = "leave the chamfer out, or give the form an AutoThread that prints [chams]";
+        return fault(Code::PR017, "passes made of single moves have no chamfer", help);
+    }
+    for start in 0..starts as u32 {
+        // each start begins one pitch further back
+        let back = f64::from(start) * thread.pitch * shape.scale;
+        let begin = begin + back * if begin >= cut.end { 1.0 } else { -1.0 };
+        want.set(VarId::Taper, cut.taper(begin));
+        let mut at = said.stand.position;
+        at.set(0, begin);
+        set_targets(&at, shape, want, said)?;
+        if said.is_unsettled(want) {
+            settle(shape, want, said, out)?;
+        }
+        rapid_to(&at, shape, want, said, out)?;
+        let here = said.stand.position;
+        match (program.routine(SequenceId::AutoThread), program.routine(SequenceId::CanThread)) {
+            (Some(routine), _) => {
+                pass_variables(&cut, cut.passes[cut.passes.len() - 1], shape, want, said)?;
+                run_with_upons(routine, shape, want, said, out)?;
+            }
+            (None, Some(routine)) => canned_passes(routine, &cut, shape, want, said, out)?,
+            (None, None) => own_passes(&cut, &here, shape, want, said, out)?,
+        }
+        if cycle.is_some_and(|routine| routine.cancel)
+            && let Some(cancel) = program.routine(SequenceId::Cancel)
+        {
+            run_with_upons(cancel, shape, want, said, out)?; // else the rapid behind it would be a pass
+        }
+        said.forget_words();
+        said.stand.position = here;
+        said.last_move = LastMove::None;
+    }
+    let feed = want.feed();
+    want.keep_feed(feed, shape);
+    Ok(())
+}
+
+fn planned(thread: &Thread, shape: &Shape, said: &Said) -> Done<Cut> {
+    let from = said.stand.target(&thread.from, shape);
+    let to = said.stand.target(&thread.to, shape);
+    let (Some(start), Some(end)) = (from.get(1), to.get(0)) else {
+        return fault(
+            Code::PR006,
+            "the thread's start or end is unknown",
+            "give both coordinates of `from`, and z of `to`",
+        );
+    };
+    let Some(begin) = from.get(0).filter(|&begin| begin != end) else {
+        return fault(Code::PR006, "the thread has no length", "give `from` and `to` different z");
+    };
+    let taper = thread.taper.map(|taper| taper * shape.scale);
+    let crest = if thread.to.given & 0b10 != 0 { to.values[1] } else { start - taper.unwrap_or(0.0) };
+    let falls = start - crest;
+    if let Some(taper) = taper.filter(|taper| (taper - falls).abs() > 1e-9) {
+        let message = format!("the thread's ends differ by {falls} in radius, its `taper` is {taper}");
+        return fault(Code::PR006, message, "give x of `to`, or `taper`, or both alike");
+    }
+    let depth = thread.depth.abs() * shape.scale;
+    let first = thread.first_depth.map(|d| d * shape.scale);
+    let least = thread.min_depth.unwrap_or(0.0) * shape.scale;
+    let passes = thread_passes(depth, first, thread.passes.map(|n| n as usize), least)?;
+    Ok(Cut {
+        end,
+        crest,
+        inward: if thread.depth < 0.0 { 1.0 } else { -1.0 },
+        passes,
+        lead: thread.pitch * thread.starts.unwrap_or(1.0) * shape.scale,
+        slope: falls / (begin - end).abs() * shape.scales[1].signum(),
+    })
+}
+
+fn thread_variables(thread: &Thread, cut: &Cut, shape: &Shape, want: &mut Want) {
+    let first = cut.passes[0];
+    let depth = thread.depth.abs() * shape.scale;
+    let angle = thread.angle.unwrap_or(60.0);
+    want.set(VarId::Pitch, thread.pitch * shape.scale);
+    want.set(VarId::Frate, cut.lead);
+    want.set(VarId::Depth, depth);
+    want.set(VarId::Peck1, first);
+    want.set(VarId::Vbite, thread.min_depth.unwrap_or(0.0) * shape.scale);
+    want.set(VarId::Vleave, 0.0);
+    want.set(VarId::Passes, thread.passes.unwrap_or(cut.passes.len() as f64));
+    want.set(VarId::Chams, thread.chamfer.unwrap_or(0.0));
+    want.set(VarId::Tipang, angle);
+    want.set(VarId::Startang, angle / 2.0);
+}
+
+/// What the thread asks for must be in the cycle's words, or stand in its packed parameters.
+fn check_thread_words(thread: &Thread, cut: &Cut, routine: &Routine, shape: &Shape, want: &Want) -> Done {
+    let packed = packed_parameters(routine, shape, want);
+    let in_packed = |digits: std::ops::Range<usize>, value: f64| {
+        packed.as_deref().and_then(|text| text.get(digits)?.parse().ok()) == Some(value)
+    };
+    let prints = |vars: &[VarId]| vars.iter().any(|&var| routine.vars.has(var));
+    let starts = thread.starts.unwrap_or(1.0);
+    let auto = shape.program.routine(SequenceId::AutoThread).is_some();
+    let missing = [
+        (cut.slope != 0.0 && !prints(&[VarId::Taper]), "the taper: [taper]"),
+        (starts > 1.0 && !prints(&[VarId::Frate]), "the lead of several starts: [frate]"),
+        (!prints(&[VarId::Frate, VarId::Pitch]), "the lead: [frate]"),
+        (auto && thread.min_depth.is_some() && !prints(&[VarId::Vbite]), "the least cut: [vbite]"),
+        (
+            auto && thread.first_depth.is_some() && !prints(&[VarId::Peck1, VarId::Inidep, VarId::Passes]),
+            "the first cut: [peck1]",
+        ),
+        (
+            thread.angle.is_some_and(|angle| !in_packed(4..6, angle)) && !prints(&[VarId::Tipang, VarId::Startang]),
+            "the angle of the tip: [tipang]",
+        ),
+        (
+            thread.chamfer.is_some_and(|length| !in_packed(2..4, length)) && !prints(&[VarId::Chams]),
+            "the chamfer: [chams]",
+        ),
+    ];
+    match missing.iter().find(|(lost, _)| *lost) {
+        None => Ok(()),
+        Some((_, what)) => {
+            let message = format!("the thread cycle does not print {what}");
+            let help = "add the word, or say it in the packed parameters: `--set tparams=010029` is 1 finishing pass, no chamfer, 29 degrees";
+            fault_at(Code::PR017, message, help, Some(routine.span))
+        }
+    }
+}
+
+/// The digits of a packed `[tparams]` word: finishing passes, chamfer, angle, two each.
+fn packed_parameters(routine: &Routine, shape: &Shape, want: &Want) -> Option<String> {
+    let letter = routine.ops.clone().find_map(|i| match shape.program.ops[i] {
+        Op::Var { letter, var: VarId::Tparams, .. } => Some(letter),
+        _ => None,
+    })?;
+    match want.get(VarId::Tparams) {
+        Some(set) => Some(format!("{set:06}")),
+        None => shape.letters.packed.iter().find(|(packed, _)| *packed == letter).map(|(_, digits)| digits.clone()),
+    }
+}
+
+/// The end of a pass as the position variables.
+fn pass_variables(cut: &Cut, depth: f64, shape: &Shape, want: &mut Want, said: &mut Said) -> Done<Axes> {
+    let mut end = said.stand.position;
+    end.set(0, cut.end);
+    end.set(1, cut.crest + cut.inward * depth);
+    set_targets(&end, shape, want, said)?;
+    Ok(end)
+}
+
+/// CanThread: its first lines once, the others at every pass.
+fn canned_passes(
+    routine: &Routine,
+    cut: &Cut,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
+    upons(routine.vars, shape, want, said, out)?;
+    for (i, &depth) in cut.passes.iter().enumerate() {
+        pass_variables(cut, depth, shape, want, said)?;
+        said.forget_letters();
+        if i == 0 {
+            run(routine.ops.start..routine.repeat, Mode::All, shape, want, said, out)?;
+        }
+        let rest = routine.repeat..routine.ops.end;
+        match i {
+            0 => go_on(rest, Mode::Hole, shape, want, said, out)?,
+            _ => run(rest, Mode::Hole, shape, want, said, out)?,
+        }
+    }
+    Ok(())
+}
+
+/// Passes with the code of the `Thread` command.
+fn own_passes(cut: &Cut, here: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    let program = shape.program;
+    let Some(code) = &program.settings.thread else {
+        let help = "add AutoThread, CanThread or the line `Thread G33` to the form";
+        return fault(Code::PR008, "the form has no way to thread", help);
+    };
+    for (i, &depth) in cut.passes.iter().enumerate() {
+        let end = pass_variables(cut, depth, shape, want, said)?;
+        if program.settings.thread_full {
+            let mut start = *here;
+            start.set(1, end.values[1] + cut.taper(here.values[0]) * shape.scales[1].signum());
+            rapid_to(&start, shape, want, said, out)?;
+        }
+        if i == 0 || program.settings.thread_full {
+            thread_block(code, (here, &end), cut, shape, want, said, out)?;
+        } else {
+            axis_word(1, &end, shape, said, out)?;
+            out.end_block();
+        }
+        said.stand.position = end;
+        if program.settings.thread_full {
+            said.say_motion_again();
+            let mut clear = end;
+            clear.values[1] = here.values[1];
+            rapid_to(&clear, shape, want, said, out)?;
+            rapid_to(here, shape, want, said, out)?;
+        }
+    }
+    Ok(())
+}
+
+/// Code, radius, length, taper, lead.
+fn thread_block(
+    code: &sema::Code,
+    (here, end): (&Axes, &Axes),
+    cut: &Cut,
+    shape: &Shape,
+    want: &Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
+    code_word(code, shape, want, said, out)?;
+    axis_word(1, end, shape, said, out)?;
+    axis_word(0, end, shape, said, out)?;
+    letter_word(b'I', cut.taper(here.values[0]), shape, said, out)?;
+    letter_word(shape.program.settings.feed_code, cut.lead, shape, said, out)?;
+    out.end_block();
+    Ok(())
+}

@@ -1,0 +1,91 @@
+//! What a sequence prints: codes, axes, angles.
+
+use super::shape::Shape;
+use crate::compile::{LetterKind, Op, Routine};
+use crate::control::Group;
+use crate::lang::{Origin, VarId};
+
+/// Does a sequence print a code of this letter as typed that answers this?
+pub fn prints_code(routine: &Routine, letter: u8, asked: impl Fn(f64) -> bool, shape: &Shape) -> bool {
+    routine.ops.clone().any(|i| match shape.program.ops[i] {
+        Op::Literal { index, .. } => {
+            let literal = &shape.program.literals[index as usize];
+            shape.letters[literal.letter].printed == letter && asked(literal.value)
+        }
+        _ => false,
+    })
+}
+
+/// Does a sequence print its motion code: as typed, or by a variable?
+pub fn prints_motion(routine: &Routine, shape: &Shape) -> bool {
+    let by_variable = |i: usize| match shape.program.ops[i] {
+        Op::Var { letter, var, .. } => {
+            shape.letters[letter].kind == LetterKind::GCode && (var == VarId::Direct || var.row().origin == Origin::Job)
+        }
+        _ => false,
+    };
+    prints_code(routine, b'G', |code| shape.group_of(b'G', code) == Some(Group::Motion), shape)
+        || routine.ops.clone().any(by_variable)
+}
+
+/// Does a sequence print a motion code, or one of no group, which may move by itself?
+pub fn prints_own_motion(routine: &Routine, shape: &Shape) -> bool {
+    let own = |code: f64| matches!(shape.group_of(b'G', code), None | Some(Group::Motion));
+    prints_motion(routine, shape) || prints_code(routine, b'G', own, shape)
+}
+
+/// Does a sequence come to words of axes before it says a motion? A block with a code of no group, as G28, goes by
+/// itself.
+pub fn moves_without_motion(routine: &Routine, shape: &Shape) -> bool {
+    let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
+    let mut start = routine.ops.start;
+    while start < routine.ops.end {
+        let end = (start + 1..routine.ops.end).find(is_line).unwrap_or(routine.ops.end);
+        let line = Routine { ops: start..end, ..routine.clone() };
+        if prints_motion(&line, shape) {
+            return false;
+        }
+        if prints_axis_words(&line, false, shape) && !prints_own_motion(&line, shape) {
+            return true;
+        }
+        start = end;
+    }
+    false
+}
+
+/// The variables that say where a linear axis goes.
+pub fn words_of(axis: usize, shape: &Shape) -> &'static [VarId] {
+    match (axis, shape.linear) {
+        (0, _) => &[VarId::H, VarId::Hdist],
+        (1, _) => &[VarId::V, VarId::Vdist],
+        (2, 4) => &[VarId::H2],
+        (3, 4) => &[VarId::V2],
+        (2, _) => &[VarId::D, VarId::Ddist],
+        _ => &[],
+    }
+}
+
+/// Does a sequence print where a linear axis goes?
+pub fn prints_axis(routine: &Routine, axis: usize, shape: &Shape) -> bool {
+    words_of(axis, shape).iter().any(|&var| routine.vars.has(var))
+}
+
+/// Does a sequence print words of axes? `typed`: with numbers of its own, so that the tool leaves its place.
+pub fn prints_axis_words(routine: &Routine, typed: bool, shape: &Shape) -> bool {
+    routine.ops.clone().any(|i| {
+        let letter = match shape.program.ops[i] {
+            Op::Var { letter, .. } if !typed => letter,
+            Op::Literal { index, .. } => shape.program.literals[index as usize].letter,
+            _ => return false,
+        };
+        shape.letters[letter].kind == LetterKind::Axis
+    })
+}
+
+/// Does a sequence print the angle of a rotary axis?
+pub fn prints_angle(routine: &Routine, axis: usize, shape: &Shape) -> bool {
+    routine.ops.clone().any(|i| {
+        matches!(shape.program.ops[i], Op::Var { letter, var: VarId::Rotangle | VarId::Lastrotangle, .. }
+            if letter == shape.axes[axis] || !shape.axes.contains(&letter))
+    })
+}

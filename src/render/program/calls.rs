@@ -1,0 +1,201 @@
+//! Calls of subprograms.
+
+use super::subprograms::{forget_where, plain_cutting};
+use super::table::{Called, Subprograms};
+use crate::compile::Routine;
+use crate::diag::{Code, Diag};
+use crate::lang::{SequenceId, VarId, VarSet};
+use crate::render::before::way_before;
+use crate::render::body::run_all;
+use crate::render::fault::{Done, fault};
+use crate::render::moves::rapid_blocks::rapid_to;
+use crate::render::moves::reach::reach;
+use crate::render::moves::rotary::turn_to;
+use crate::render::printer::Printer;
+use crate::render::prints::prints_axis;
+use crate::render::said::{CONDITIONS, Conditions, Said};
+use crate::render::settle::{knows_after_stop, only_work_waits, print_conditions, settle, work_before};
+use crate::render::shape::Shape;
+use crate::render::targets::set_targets;
+use crate::render::upon::upons;
+use crate::render::want::Want;
+use crate::toolpath::{Axes, Call, FeedMode, Place};
+
+fn undefined<T>(number: f64) -> Done<T> {
+    fault(Code::PR008, format!("the job has no subprogram {number}"), "add it to `subprograms`, before the operations")
+}
+
+/// A fault at another place than the current one.
+fn at<T>(place: Place, done: Done<T>) -> Done<T> {
+    done.map_err(|mut diag: Box<Diag>| {
+        diag.place = Some(place.into());
+        diag
+    })
+}
+
+/// A call: nothing is known before and after it, because the subprogram moves the tool.
+pub fn sub_call(
+    call: &Call,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    subs: &mut Subprograms,
+) -> Done {
+    let from = subs.open;
+    let mut unknown = VarSet::default();
+    for var in CONDITIONS.into_iter().filter(|&var| want.get(var).is_none()) {
+        unknown.insert(var);
+    }
+    // a call of the main program needs no look at the end: its subprogram is known here, and so is what that calls
+    if let Some(from) = from {
+        subs.calls.push(Called { from, to: call.sub, place: out.place, unknown });
+    }
+    let Some(routine) = shape.program.routine(SequenceId::SubCall) else {
+        return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
+    };
+    if want.feed_mode() != FeedMode::PerMinute {
+        let help = "call it from an operation whose feeds are per minute";
+        return fault(Code::PR008, "a subprogram's feeds are per minute, and the caller's are not", help);
+    }
+    if said.stand.angles.is_wound() {
+        let help = "make the call before an axis is unwound, or turn it back first";
+        return fault(Code::PR008, "a call after a rotary axis was unwound: its angles would mean others", help);
+    }
+    let called = subs.index(call.sub);
+    let (printed, first_block) = match called.map(|i| &subs.defined[i]) {
+        Some(sub) => (sub.printed, sub.first_block),
+        // inside a subprogram a later one may be called; whether it comes is checked at the end
+        None if from.is_some() && !shape.program.settings.renumber_subs => (call.sub, None),
+        None if from.is_some() => {
+            let help = "put the called subprogram before this one, or set `RenumSubs? N`";
+            return fault(Code::PR008, format!("subprogram {} is not known yet", call.sub), help);
+        }
+        None => return undefined(call.sub),
+    };
+    let work = want.get(VarId::Work);
+    if call.work.is_some() && work.is_none() {
+        let help = "give the subprogram its own `work` before the call";
+        return fault(Code::PR008, "a call in another work offset from one that is not known here", help);
+    }
+    if let Some(work) = call.work {
+        want.set_work(work, shape)?;
+    }
+    let place = go_to_call(call, routine, shape, want, said, out)?;
+    want.set(VarId::Sub, printed);
+    want.set(VarId::Times, call.times);
+    want.put(VarId::Subline, first_block);
+    let leaves = called.is_none_or(|i| subs.defined[i].calls_ahead || !subs.defined[i].left.is_nothing());
+    if call.times > 1.0 && called.is_some_and(|i| subs.defined[i].left.turned) {
+        let help = "turn it back at the end of the subprogram, or call it once for each angle";
+        return fault(Code::PR008, "a subprogram that leaves the part turned is called several times", help);
+    }
+    // a sequence that does not print how often is printed as often; so is one whose next run must begin as the first
+    let together = routine.vars.has(VarId::Times) && !(leaves && call.times > 1.0);
+    let calls = if together { 1 } else { call.times as u32 };
+    if !together {
+        want.set(VarId::Times, 1.0);
+    }
+    for run in 0..calls {
+        set_targets(&place, shape, want, said)?;
+        if run > 0 && leaves {
+            knows_after_stop(shape, want, said)?;
+            print_conditions(shape, want, said, out)?;
+        }
+        upons(routine.vars, shape, want, said, out)?;
+        way_before(routine, shape, want, said, out)?;
+        said.forget_words();
+        run_all(routine, shape, want, said, out)?;
+        after_call(called, want, said, subs);
+    }
+    // the call's work offset is the call's alone: what follows is in the operation's again
+    want.put(VarId::Work, work);
+    want.changed = true;
+    Ok(())
+}
+
+/// What the call needs before it: changes that its sequence does not print, and the place it is called at.
+/// Returns the place.
+fn go_to_call(
+    call: &Call,
+    routine: &Routine,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done<Axes> {
+    plain_cutting(shape, want, said, out)?;
+    let target = reach(&call.at, true, shape, want, said, out)?;
+    set_targets(&target, shape, want, said)?;
+    if said.is_unsettled(want) && !(routine.vars.has(VarId::Work) && only_work_waits(shape, want, said)) {
+        settle(shape, want, said, out)?;
+    }
+    let at = Axes { given: call.at.given, ..target };
+    // all of it: a part alone would go down before it goes across
+    if (0..6).any(|axis| at.get(axis).is_some() && !prints_axis(routine, axis, shape)) {
+        if routine.vars.has(VarId::Work) {
+            upons(VarSet::of(&[VarId::Work]), shape, want, said, out)?;
+            work_before(shape, want, said, out)?;
+        }
+        if said.turns(&at, shape) {
+            turn_to(&at, shape, want, said, out)?
+        } else {
+            rapid_to(&at, shape, want, said, out)?
+        }
+    }
+    set_targets(&target, shape, want, said)?;
+    Ok(target)
+}
+
+/// The subprogram moved the tool, and changed what it says it changed.
+fn after_call(called: Option<usize>, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
+    said.stand.fresh_tool = false;
+    forget_where(want, said);
+    let known = called.map(|i| &subs.defined[i]).filter(|sub| !sub.calls_ahead);
+    match known {
+        Some(sub) => {
+            said.stand.left_at = sub.left.height;
+            if sub.left.stops {
+                for var in [VarId::Speed, VarId::Direct, VarId::Cool] {
+                    said.conditions.put(var, None);
+                }
+            }
+            said.sub_stopped = said.sub_stopped.map(|stopped| stopped || sub.left.stops);
+            said.conditions = said.conditions.then(&sub.left.conditions);
+            for (used, left) in said.upon_used.iter_mut().zip(&sub.left.upon_used) {
+                *used = left.filter(|value| !value.is_nan()).or(*used);
+            }
+        }
+        None => {
+            said.conditions = Conditions::default();
+            if let Some(open) = subs.open {
+                subs.defined[open].calls_ahead = true;
+            }
+        }
+    }
+}
+
+/// Every call has its subprogram, and none comes back to itself.
+pub fn check_calls(subs: &Subprograms) -> Done {
+    let ends = subs.ending();
+    for call in &subs.calls {
+        let Some(to) = subs.index(call.to) else { return at(call.place, undefined(call.to)) };
+        if subs.defined[to].left.conditions.known().meets(call.unknown) {
+            let message = format!("subprogram {} changes what its caller does not know and can't put back", call.to);
+            let help = "say spindle, coolant and work offset in the calling subprogram before the call";
+            return at(call.place, fault(Code::PR008, message, help));
+        }
+        // a later one that stops: its caller went on without a look at it
+        let unknown = [VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(|var| call.unknown.has(var));
+        if to > call.from && unknown && subs.defined[to].left.stops {
+            let message = format!("subprogram {} stops, and its caller does not know its spindle and coolant", call.to);
+            let help = "say spindle and coolant in the calling subprogram before the call";
+            return at(call.place, fault(Code::PR008, message, help));
+        }
+        if !ends[to] {
+            let message = format!("subprogram {} calls itself, directly or through others", call.to);
+            return at(call.place, fault(Code::PR008, message, "a control would run it for ever: take the call out"));
+        }
+    }
+    Ok(())
+}

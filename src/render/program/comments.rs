@@ -1,0 +1,61 @@
+//! Comments, in the marks of the form.
+
+use crate::diag::Code;
+use crate::render::printer::Printer;
+use crate::render::shape::Shape;
+
+/// A text in lines of at most so many characters, broken at blanks where it has them.
+fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
+    let mut rest = Some(text);
+    std::iter::from_fn(move || {
+        let text = rest.take()?;
+        let Some((end, _)) = text.char_indices().nth(most) else { return Some(text) };
+        let blank = if text[end..].starts_with(' ') { Some(end) } else { text[..end].rfind(' ') };
+        let (line, later) = text.split_at(blank.filter(|&at| at > 0).unwrap_or(end));
+        rest = Some(later.trim_start_matches(' ')).filter(|later| !later.is_empty());
+        Some(line)
+    })
+}
+
+/// A comment, in as many blocks as the control's line asks for.
+pub fn comment_block(text: &str, shape: &Shape, out: &mut Printer) {
+    let room = comment_room(shape);
+    for (i, line) in wrapped(text, room).enumerate() {
+        if i == 1 {
+            let message = "a comment is longer than the control's line, and goes on in the next";
+            out.note(Code::PR026, message.into(), "shorten it, if it is to stand in one block");
+        }
+        comment_line(line, shape, out);
+    }
+}
+
+/// How many characters of a comment a block has room for, beside its marks, number and end.
+fn comment_room(shape: &Shape) -> usize {
+    let settings = &shape.program.settings;
+    let number = settings.numbers.letter.map_or(0, |letter| usize::from(shape.letters[letter].format.int.count) + 2);
+    let others = number + settings.eob.len() + settings.comment.iter().map(String::len).sum::<usize>();
+    let longest = settings.control().traits().longest_line;
+    longest.map_or(usize::MAX, |longest| longest.saturating_sub(others).max(1))
+}
+
+fn comment_line(text: &str, shape: &Shape, out: &mut Printer) {
+    let settings = &shape.program.settings;
+    let [open, close] = &settings.comment;
+    let block = out.word(false);
+    block.extend_from_slice(open.as_bytes());
+    for c in text.chars() {
+        let c = if settings.upper_comments { c.to_ascii_uppercase() } else { c };
+        block.push(match c {
+            // a mark inside would end the comment early and let the rest move the machine
+            '(' if close.contains(')') => b'[',
+            ')' if close.contains(')') => b']',
+            c if close.contains(c) && !c.is_alphanumeric() => b'_',
+            '%' => b'_', // ends the program for many controls
+            ' '..='~' => c as u8,
+            '\t' => b' ',
+            _ => b'?',
+        });
+    }
+    block.extend_from_slice(close.as_bytes());
+    out.end_block();
+}

@@ -1,0 +1,62 @@
+//! The end of a program.
+
+use super::calls::check_calls;
+use super::sections::check_sections_closed;
+use super::start::begin_main;
+use super::subprograms::{append_waiting, has_waiting};
+use super::table::Subprograms;
+use crate::compile::{Op, Routine};
+use crate::diag::Code;
+use crate::lang::SequenceId;
+use crate::render::body::{Mode, go_on, is_percent, run};
+use crate::render::fault::{Done, fault};
+use crate::render::printer::Printer;
+use crate::render::said::Said;
+use crate::render::settle::check_distance_of;
+use crate::render::shape::Shape;
+use crate::render::targets::set_here;
+use crate::render::upon::{run_with_upons, upons};
+use crate::render::want::Want;
+use crate::toolpath::Section;
+
+/// The end of the job: EndCode.
+pub fn finish(
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    subs: &mut Subprograms,
+    sections: &[Section],
+) -> Done {
+    check_sections_closed(sections)?;
+    if want.compensated {
+        let message = "cutter compensation is still on at the end of the program";
+        out.note(Code::PR023, message.into(), "end it with an `outfeed`");
+    }
+    if let Some(order) = &want.tool_order
+        && want.tool_changes != order.len()
+    {
+        let message = format!("`tool_order` lists {} tools, the job used {}", order.len(), want.tool_changes);
+        return fault(Code::PJ005, message, "list the tools in the order of their use, each change once");
+    }
+    begin_main(shape, want, said, out, subs)?;
+    check_calls(subs)?;
+    set_here(shape, want, said)?;
+    let Some(routine) = shape.program.routine(SequenceId::EndCode) else { return Ok(()) };
+    check_distance_of(routine, shape, said)?;
+    if !has_waiting(subs) {
+        return run_with_upons(routine, shape, want, said, out);
+    }
+    // subprograms stand after the main program, before the `%` that ends the tape
+    let percent = closing_percent(routine, shape);
+    upons(routine.vars, shape, want, said, out)?;
+    run(routine.ops.start..percent, Mode::All, shape, want, said, out)?;
+    append_waiting(out, subs);
+    go_on(percent..routine.ops.end, Mode::All, shape, want, said, out)
+}
+
+/// Where the `%` at the end of EndCode begins; its end, when there is none.
+fn closing_percent(routine: &Routine, shape: &Shape) -> usize {
+    let mut lines = routine.ops.clone().rev().filter(|&i| matches!(shape.program.ops[i], Op::Line { .. }));
+    lines.next().filter(|&line| is_percent(line, shape)).unwrap_or(routine.ops.end)
+}

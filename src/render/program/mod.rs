@@ -1,0 +1,13 @@
+//! The program around the path: its beginning and end, operations, parts of a path, text, subprograms.
+
+pub mod calls;
+pub mod comments;
+pub mod finish;
+pub mod sections;
+pub mod start;
+pub mod stops;
+pub mod subprograms;
+pub mod table;
+pub mod text;
+pub mod tools;
+pub mod variables;

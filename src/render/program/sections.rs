@@ -1,0 +1,140 @@
+//! Named parts of a path, and what a wire EDM machine does between moves.
+
+use crate::diag::Code;
+use crate::lang::{Machine, SequenceId};
+use crate::render::before::way_before;
+use crate::render::fault::{Done, fault};
+use crate::render::printer::Printer;
+use crate::render::prints::prints_axis_words;
+use crate::render::said::{LastMove, Said};
+use crate::render::shape::Shape;
+use crate::render::targets::set_here;
+use crate::render::upon::run_with_upons;
+use crate::render::want::Want;
+use crate::toolpath::{EdmAction, Section};
+
+/// The sequences before and after each part.
+fn sequences(section: Section) -> (SequenceId, SequenceId) {
+    use SequenceId as S;
+    match section {
+        Section::Leadin => (S::BeginLeadin, S::EndLeadin),
+        Section::Leadout => (S::BeginLeadout, S::EndLeadout),
+        Section::Plunge => (S::BeginPlunge, S::EndPlunge),
+        Section::Retract => (S::BeginRetract, S::EndRetract),
+        Section::SideStep => (S::BeginSideStep, S::EndSideStep),
+        Section::ZLevel => (S::BeginZLevel, S::EndZLevel),
+        Section::Row => (S::BeginRow, S::EndRow),
+    }
+}
+
+fn part(section: Section) -> &'static str {
+    match section {
+        Section::Leadin => "lead-in",
+        Section::Leadout => "lead-out",
+        Section::Plunge => "plunge",
+        Section::Retract => "retract",
+        Section::SideStep => "side step",
+        Section::ZLevel => "Z level",
+        Section::Row => "row",
+    }
+}
+
+/// A part begins.
+pub fn begin_section(
+    section: Section,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    sections: &mut Vec<Section>,
+) -> Done {
+    let (begin, _) = sequences(section);
+    check_section(begin, shape)?;
+    sections.push(section);
+    run_section(begin, shape, want, said, out)
+}
+
+/// The part that began last ends.
+pub fn end_section(
+    section: Section,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    sections: &mut Vec<Section>,
+) -> Done {
+    let (begin, end) = sequences(section);
+    check_section(begin, shape)?;
+    match sections.pop() {
+        Some(open) if open == section => run_section(end, shape, want, said, out),
+        Some(open) => fault(
+            Code::PJ005,
+            format!("a {} ends inside a {}", part(section), part(open)),
+            "end the parts in the reverse order of their beginnings",
+        ),
+        None => fault(
+            Code::PJ005,
+            format!("a {} ends that did not begin", part(section)),
+            "begin it first, or take the end out",
+        ),
+    }
+}
+
+fn run_section(id: SequenceId, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    match shape.program.routine(id) {
+        Some(routine) => {
+            set_here(shape, want, said)?;
+            // an arc's code would want a centre; among cuts it stays a cut
+            if matches!(said.last_move, LastMove::Cw | LastMove::Ccw) {
+                want.cutting = true;
+                way_before(routine, shape, want, said, out)?;
+            }
+            run_with_upons(routine, shape, want, said, out)?;
+            if prints_axis_words(routine, true, shape) {
+                said.stand.moved_by = Some(routine.span);
+            }
+            Ok(())
+        }
+        None => Ok(()),
+    }
+}
+
+fn check_section(id: SequenceId, shape: &Shape) -> Done {
+    let machine = shape.program.settings.machine;
+    if id.row().machines.has(machine) {
+        return Ok(());
+    }
+    let message = format!("a {} has no such part of a path", machine.name());
+    fault(Code::PR008, message, format!("{} is for {}", id.name(), id.row().machines))
+}
+
+/// Parts must be closed where an operation ends.
+pub fn check_sections_closed(sections: &[Section]) -> Done {
+    match sections.last() {
+        None => Ok(()),
+        Some(&open) => {
+            fault(Code::PJ005, format!("a {} is still open here", part(open)), "end it before the operation ends")
+        }
+    }
+}
+
+/// What a wire EDM machine does between moves: the form must have a sequence for it.
+pub fn edm(action: EdmAction, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    let machine = shape.program.settings.machine;
+    if machine != Machine::Edm {
+        let message = format!("a {} has no wire", machine.name());
+        return fault(Code::PR008, message, "take the item out, or render it for a wire EDM machine");
+    }
+    let (id, what) = match action {
+        EdmAction::Thread => (SequenceId::EdmThread, "threads the wire"),
+        EdmAction::Cut => (SequenceId::EdmCut, "cuts the wire"),
+        EdmAction::PreDrill => (SequenceId::EdmPreDrillThread, "drills a start hole"),
+        EdmAction::Submerge => (SequenceId::SubmergeTank, "fills the tank"),
+    };
+    if shape.program.routine(id).is_none() {
+        let message = format!("the job {what} here, and the form has no {}", id.name());
+        let help = format!("add the sequence `{}` with what the machine needs, to its `End`", id.name());
+        return fault(Code::PR008, message, help);
+    }
+    run_section(id, shape, want, said, out)
+}

@@ -1,0 +1,111 @@
+//! The beginning of a program.
+
+use super::table::Subprograms;
+use super::variables::{set_named, set_variable};
+use crate::compile::Op;
+use crate::diag::Code;
+use crate::lang::{SequenceId, VarId};
+use crate::render::body::{Mode, is_percent, run};
+use crate::render::fault::{Done, fault};
+use crate::render::printer::Printer;
+use crate::render::said::Said;
+use crate::render::shape::Shape;
+use crate::render::upon::{run_with_upons, upons};
+use crate::render::vars::PLACE;
+use crate::render::want::Want;
+use crate::toolpath::{Start, Units};
+
+/// The job's head: units, checks, Mod text, StartCode.
+pub fn start(
+    start: &Start,
+    shape: &mut Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    subs: &mut Subprograms,
+) -> Done {
+    let program = shape.program;
+    let settings = &program.settings;
+    if start.machine != settings.machine {
+        let message = format!("the job is for a {}, the form for a {}", start.machine.name(), settings.machine.name());
+        return fault(Code::PR008, message, "take a form for this machine");
+    }
+    shape.choose_units(start.units)?;
+    want.set(VarId::Unitmode, settings.inch_mm[usize::from(shape.units == Units::Mm)]);
+    out.set_letters(settings, shape.letters);
+    want.tool_order.clone_from(&start.tool_order);
+    if let Some(first) = start.tool_order.as_ref().and_then(|order| order.first()) {
+        want.set(VarId::Tool1, *first);
+    }
+    want.put(VarId::Program, shape.options.program.map(f64::from).or(start.program));
+    answers(start, shape, want, out)?;
+    for text in &settings.mod_text {
+        out.text(text, false);
+        out.end_block();
+    }
+    if let Some(routine) = program.routine(SequenceId::StartCode) {
+        upons(routine.vars, shape, want, said, out)?;
+        // with subprograms first only the leading `%` comes now
+        let now = if settings.subs_first { start_code_rest(shape) } else { routine.ops.end };
+        run(routine.ops.start..now, Mode::All, shape, want, said, out)?;
+        subs.start_waits = settings.subs_first;
+    }
+    Ok(())
+}
+
+/// Values from the job and the caller; every prompt needs an answer.
+pub fn answers(start: &Start, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
+    for (name, value) in &start.set {
+        set_named(name, *value, shape, want, out)?;
+    }
+    for (var, value) in shape.options.set.clone() {
+        set_variable(var, value, want, out);
+    }
+    for prompt in &shape.program.settings.prompts {
+        if want.get(prompt.var).is_some() {
+            continue;
+        }
+        let Some(default) = prompt.default else {
+            let name = prompt.var.name();
+            let diag = crate::diag::Diag::new(Code::PR015, format!("[{name}] is asked for: {}", prompt.text))
+                .at(prompt.span, "asked for here")
+                .help(format!("answer with `--set {name}=VALUE`"));
+            return Err(Box::new(diag));
+        };
+        want.set(prompt.var, default);
+    }
+    want.most_rpm = want.get(VarId::Maxrpm);
+    Ok(())
+}
+
+/// Where StartCode is divided when subprograms come first: after its leading `%` line.
+fn start_code_rest(shape: &Shape) -> usize {
+    let Some(routine) = shape.program.routine(SequenceId::StartCode) else { return 0 };
+    let ops = &shape.program.ops;
+    let mut lines = routine.ops.clone().filter(|&i| matches!(ops[i], Op::Line { .. }));
+    match lines.next() {
+        Some(first) if is_percent(first, shape) => lines.next().unwrap_or(routine.ops.end),
+        _ => routine.ops.start,
+    }
+}
+
+/// The main program begins: what waited of StartCode, and Between.
+pub fn begin_main(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer, subs: &mut Subprograms) -> Done {
+    if !std::mem::take(&mut subs.start_waits) {
+        return Ok(());
+    }
+    let program = shape.program;
+    if !subs.defined.is_empty()
+        && let Some(routine) = program.routine(SequenceId::Between)
+    {
+        run_with_upons(routine, shape, want, said, out)?;
+    }
+    if let Some(routine) = program.routine(SequenceId::StartCode) {
+        said.forget_words();
+        let rest = start_code_rest(shape);
+        run(rest..routine.ops.end, Mode::All, shape, want, said, out)?;
+    }
+    said.forget_place();
+    want.forget(&PLACE);
+    Ok(())
+}

@@ -1,0 +1,54 @@
+//! Dwells and stops.
+
+use crate::control::Meaning;
+use crate::lang::{SequenceId, VarId};
+use crate::render::fault::Done;
+use crate::render::printer::Printer;
+use crate::render::prints::prints_code;
+use crate::render::said::Said;
+use crate::render::settle::settle_here;
+use crate::render::shape::Shape;
+use crate::render::targets::set_here;
+use crate::render::upon::{run_with_upons, upon_is_due};
+use crate::render::want::Want;
+use crate::render::words::{code_word, dwell_block};
+use crate::sema;
+use crate::toolpath::StopKind;
+
+/// A dwell in seconds.
+pub fn dwell(seconds: f64, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    settle_between_moves(shape, want, said, out)?;
+    dwell_block(seconds, shape, want, said, out)
+}
+
+/// A program stop or an optional one.
+pub fn stop(kind: StopKind, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    settle_between_moves(shape, want, said, out)?;
+    let [program, optional] = shape.program.settings.stop_code;
+    let code = if kind == StopKind::Program { program } else { optional };
+    want.set(VarId::Stop, code);
+    match shape.program.routine(SequenceId::Stop) {
+        Some(routine) => {
+            set_here(shape, want, said)?;
+            run_with_upons(routine, shape, want, said, out)?;
+            if !routine.vars.has(VarId::Stop)
+                && !prints_code(routine, b'M', |code| shape.meaning_of(b'M', code).is_some_and(Meaning::is_stop), shape)
+            {
+                said.stopped(want, shape); // by words of its own
+            }
+        }
+        None => {
+            code_word(&sema::Code::plain(b'M', code), shape, want, said, out)?;
+            out.end_block();
+        }
+    }
+    Ok(())
+}
+
+/// Changes of spindle and coolant come before a dwell or stop too.
+pub fn settle_between_moves(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    // where nobody knows the place, what would move the tool waits for the next rapid
+    let lost =
+        said.stand.position.given & 0b11 != 0b11 && upon_is_due(said.lacks(want, shape), true, shape, want, said);
+    if said.is_unsettled(want) && !lost { settle_here(false, shape, want, said, out) } else { Ok(()) }
+}

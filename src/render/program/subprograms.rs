@@ -1,0 +1,165 @@
+//! Subprograms begin and end.
+
+use super::sections::check_sections_closed;
+use super::table::{Defined, Left, State, Subprograms};
+use crate::diag::Code;
+use crate::lang::{SequenceId, VarId};
+use crate::render::before::enter_plane;
+use crate::render::fault::{Done, fault};
+use crate::render::printer::{Page, Printer};
+use crate::render::said::{CONDITIONS, Said};
+use crate::render::settle::settle_here;
+use crate::render::shape::Shape;
+use crate::render::upon::run_with_upons;
+use crate::render::vars::PLACE;
+use crate::render::want::Want;
+use crate::toolpath::{Section, key};
+
+/// A subprogram begins.
+pub fn sub_start(
+    number: f64,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    subs: &mut Subprograms,
+) -> Done {
+    let settings = &shape.program.settings;
+    if settings.machine != crate::lang::Machine::Mill {
+        return fault(Code::PR008, "subprograms are for mills", "put the moves into the operations");
+    }
+    if subs.index(number).is_some() {
+        return fault(
+            Code::PJ010,
+            format!("two subprograms have the number {number}"),
+            "give each a number of its own",
+        );
+    }
+    let Some(routine) = shape.program.routine(SequenceId::SubStart) else {
+        return fault(Code::PR008, "the form has no SubStart", "add SubStart, SubEnd and SubCall to the form");
+    };
+    let program = want.get(VarId::Program);
+    if !settings.renumber_subs && program == Some(number) {
+        let message = format!("the subprogram {number} has the number of the program itself");
+        return fault(Code::PJ010, message, "give one of them another number");
+    }
+    let last = subs.defined.last().map_or(0.0, |sub| sub.printed);
+    let next = if program == Some(last + 1.0) { last + 2.0 } else { last + 1.0 };
+    let printed = if settings.renumber_subs { next } else { number };
+    let first_block = settings.numbers.letter.map(|_| out.number() as f64);
+    let left = Left::default();
+    let index = subs.defined.len();
+    subs.by_number.insert(key(number), index);
+    subs.defined.push(Defined { printed, first_block, left, calls_ahead: false });
+    subs.open = Some(index);
+    if !settings.subs_first {
+        aside(out, subs);
+    }
+    leave_main(shape, want, said, subs);
+    want.set(VarId::Sub, printed);
+    run_with_upons(routine, shape, want, said, out)
+}
+
+/// In a subprogram nothing is known but what it says itself.
+fn leave_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
+    let nothing_served = nothing_served(shape);
+    subs.main = Some(Box::new(State {
+        vars: want.values().clone(),
+        conditions: std::mem::take(&mut said.conditions),
+        upon_used: std::mem::replace(&mut said.upon_used, nothing_served),
+        angles: said.stand.angles.clone(),
+        feed: want.feed(),
+    }));
+    want.forget(&CONDITIONS);
+    forget_where(want, said);
+    said.sub_stopped = Some(false);
+    want.keep_feed(None, shape);
+}
+
+/// For Upon sequences: whatever a subprogram says of these is a change, because its caller may have said anything.
+fn nothing_served(shape: &Shape) -> Vec<Option<f64>> {
+    shape.program.upons.iter().map(|upon| CONDITIONS.contains(&upon.var).then_some(f64::NAN)).collect()
+}
+
+/// The main program goes on as if the subprogram had not been written, because only calls run it.
+fn back_to_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
+    let turned = said.stand.angles.is_known();
+    let height = said.stand.position.get(shape.depth).or(said.stand.left_at);
+    forget_where(want, said);
+    let Some(main) = subs.main.take() else { return };
+    let upon_used = std::mem::replace(&mut said.upon_used, main.upon_used);
+    let stops = said.sub_stopped.take() == Some(true);
+    let left = Left { conditions: said.conditions, upon_used, turned, stops, height };
+    want.restore(main.vars);
+    (said.conditions, said.stand.angles) = (main.conditions, main.angles);
+    want.keep_feed(main.feed, shape);
+    if let Some(sub) = subs.open.take().and_then(|open| subs.defined.get_mut(open)) {
+        sub.left = left;
+    }
+}
+
+/// The open subprogram ends.
+pub fn sub_end(
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    subs: &mut Subprograms,
+    sections: &[Section],
+) -> Done {
+    check_sections_closed(sections)?;
+    if said.is_unsettled(want) {
+        settle_here(false, shape, want, said, out)?;
+    }
+    plain_cutting(shape, want, said, out)?;
+    if subs.main.as_ref().is_some_and(|main| !main.angles.wound_as(&said.stand.angles)) {
+        let help = "unwind in the main program: a call would leave the axis turned otherwise than the next expects";
+        return fault(Code::PR008, "a rotary axis was unwound inside a subprogram", help);
+    }
+    match shape.program.routine(SequenceId::SubEnd) {
+        Some(routine) => run_with_upons(routine, shape, want, said, out)?,
+        None => return fault(Code::PR008, "the form has no SubEnd", "add SubEnd to the form"),
+    }
+    if !shape.program.settings.subs_first {
+        aside(out, subs);
+    }
+    back_to_main(shape, want, said, subs);
+    Ok(())
+}
+
+/// Subprograms begin and end in the first plane, without cutter compensation.
+pub fn plain_cutting(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    if want.compensated {
+        let help = "end the compensation with an `outfeed` before";
+        return fault(Code::PR006, "cutter compensation is on at the border of a subprogram", help);
+    }
+    enter_plane(17.0, shape, want, said, out)
+}
+
+/// Changes places with the text aside.
+pub fn aside(out: &mut Printer, subs: &mut Subprograms) {
+    out.turn_to(&mut subs.waiting);
+}
+
+/// Subprograms that stand after the main program: appended now.
+pub fn append_waiting(out: &mut Printer, subs: &mut Subprograms) {
+    out.append(std::mem::take(&mut subs.waiting));
+}
+
+/// Is there text aside, so that the end of the program must wait for it?
+pub fn has_waiting(subs: &Subprograms) -> bool {
+    !subs.waiting.text.is_empty()
+}
+
+/// What is printed outside subprograms, while one is written aside.
+pub fn main_page<'r>(shape: &Shape, out: &'r mut Printer, subs: &'r mut Subprograms) -> &'r mut Page {
+    let is_aside = subs.open.is_some() && !shape.program.settings.subs_first;
+    if is_aside { &mut subs.waiting } else { out.page() }
+}
+
+/// Nobody knows where the tool and the part are.
+pub fn forget_where(want: &mut Want, said: &mut Said) {
+    said.forget_where();
+    want.forget(&[VarId::Rotangle, VarId::Lastrotangle, VarId::Rotaxdir]);
+    want.forget(&PLACE);
+}

@@ -1,0 +1,107 @@
+//! What is known of the job's subprograms: where they stand, their numbers, and who calls whom.
+
+use std::collections::HashMap;
+
+use crate::lang::VarSet;
+use crate::render::printer::Page;
+use crate::render::said::{Angles, Conditions};
+use crate::render::vars::Vars;
+use crate::toolpath::{Place, key};
+
+/// What is known of the job's subprograms.
+#[derive(Debug, Default)]
+pub struct Subprograms {
+    pub defined: Vec<Defined>,
+    /// Where each number is in `defined`.
+    pub by_number: HashMap<u64, usize>,
+    /// The calls inside subprograms.
+    pub calls: Vec<Called>,
+    /// The one that is open, as an index of `defined`.
+    pub open: Option<usize>,
+    /// Subprograms that stand after the main program wait here.
+    pub waiting: Page,
+    /// The rest of StartCode is still to be printed: subprograms come first.
+    pub start_waits: bool,
+    /// What is so in the main program, while a subprogram is written.
+    pub main: Option<Box<State>>,
+}
+
+impl Subprograms {
+    /// The subprogram of a number, as an index of `defined`.
+    pub fn index(&self, number: f64) -> Option<usize> {
+        self.by_number.get(&key(number)).copied()
+    }
+
+    /// Which subprograms end: those all of whose calls do. Each of the others is in a circle, or leads into one.
+    pub fn ending(&self) -> Vec<bool> {
+        let mut open = vec![0_usize; self.defined.len()];
+        let mut callers = vec![Vec::new(); self.defined.len()];
+        for call in &self.calls {
+            if let Some(to) = self.index(call.to) {
+                open[call.from] += 1;
+                callers[to].push(call.from);
+            }
+        }
+        let mut done: Vec<usize> = (0..open.len()).filter(|&sub| open[sub] == 0).collect();
+        let mut ends = vec![false; open.len()];
+        while let Some(sub) = done.pop() {
+            ends[sub] = true;
+            for &caller in &callers[sub] {
+                open[caller] -= 1;
+                if open[caller] == 0 {
+                    done.push(caller);
+                }
+            }
+        }
+        ends
+    }
+}
+
+/// What a subprogram's own items must not change for the program around it.
+#[derive(Debug)]
+pub struct State {
+    pub vars: Vars,
+    pub conditions: Conditions,
+    pub upon_used: Vec<Option<f64>>,
+    pub angles: Angles,
+    pub feed: Option<f64>,
+}
+
+/// What a subprogram leaves behind for its caller.
+#[derive(Debug, Default)]
+pub struct Left {
+    pub conditions: Conditions,
+    pub upon_used: Vec<Option<f64>>,
+    /// A rotary axis turned.
+    pub turned: bool,
+    /// It stopped: spindle and coolant may stand, whoever calls it.
+    pub stops: bool,
+    /// The height at which it leaves the tool.
+    pub height: Option<f64>,
+}
+
+impl Left {
+    /// Nothing that its next run would find otherwise.
+    pub fn is_nothing(&self) -> bool {
+        self.conditions.known().is_empty() && !self.stops
+    }
+}
+
+#[derive(Debug)]
+pub struct Defined {
+    pub printed: f64,
+    pub first_block: Option<f64>,
+    pub left: Left,
+    /// It calls one that comes later: what that one leaves is not known here.
+    pub calls_ahead: bool,
+}
+
+#[derive(Debug)]
+pub struct Called {
+    /// The calling subprogram, as an index of `defined`.
+    pub from: usize,
+    pub to: f64,
+    pub place: Place,
+    /// What the caller does not know of spindle, coolant and work offset, so that it can't put it back.
+    pub unknown: VarSet,
+}

@@ -1,0 +1,220 @@
+//! Operations: tool changes, and what a new operation with the same tool changes.
+
+use super::comments::comment_block;
+use super::sections::check_sections_closed;
+use super::start::begin_main;
+use super::table::Subprograms;
+use super::variables::set_named;
+use crate::diag::Code;
+use crate::lang::{Machine, SequenceId, VarId, VarSet};
+use crate::render::cycle::hole::hole_position;
+use crate::render::fault::{Done, fault, fault_at};
+use crate::render::moves::rotary::change_turns;
+use crate::render::printer::Printer;
+use crate::render::said::{LastMove, Said};
+use crate::render::settle::{check_distance_of, speed_mode_before, work_before};
+use crate::render::shape::Shape;
+use crate::render::targets::set_targets;
+use crate::render::upon::{run_with_upons, upons_of_change};
+use crate::render::want::Want;
+use crate::toolpath::{Axes, Coolant, FeedMode, First, Section, Tool, ToolChange};
+
+/// The position variables of a tool change.
+const POSITION: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::D]);
+
+/// An operation begins.
+pub fn tool_change(
+    change: &ToolChange,
+    shape: &mut Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    subs: &mut Subprograms,
+    sections: &[Section],
+) -> Done {
+    check_sections_closed(sections)?;
+    begin_main(shape, want, said, out, subs)?;
+    let number = change.tool.as_ref().map(|tool| tool.number);
+    let changes = number.is_some() && number != want.tool;
+    if number.is_none() && want.tool.is_none() && shape.program.settings.machine != Machine::Edm {
+        let help = "load a tool before the first motion, or give a CL file one with `--assume-tool`";
+        return fault(Code::PJ006, "the operation has no tool", help);
+    }
+    set_conditions(change, changes, shape, want, out)?;
+    if let Some(comment) = &change.comment {
+        comment_block(comment, shape, out);
+    }
+    match &change.tool {
+        Some(tool) if changes => change_tool(tool, &change.first, shape, want, said, out)?,
+        Some(tool) => same_registers(tool, want)?,
+        None => {}
+    }
+    Ok(())
+}
+
+/// The tool that is in keeps its offset registers: no sequence would print others.
+fn same_registers(tool: &Tool, want: &Want) -> Done {
+    let registers = [(VarId::Lcomp, tool.length_offset, "length"), (VarId::Dcomp, tool.diameter_offset, "diameter")];
+    for (var, register, name) in registers {
+        if register.is_some() && register != want.get(var) {
+            let message = format!("tool {} is in, and its {name} offset register changes", tool.number);
+            return fault(Code::PR017, message, "give it a number of its own, or keep the register");
+        }
+    }
+    Ok(())
+}
+
+/// Spindle, coolant, work offset and feeds of the operation.
+fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
+    if new_tool {
+        for var in [VarId::Speed, VarId::Direct] {
+            want.put(var, None);
+        }
+        want.put(VarId::Maxrpm, want.most_rpm);
+        want.set(VarId::Speedtype, shape.program.settings.speed_type[1]);
+    }
+    if change.spindle.is_some_and(|spindle| spindle.speed.is_some() && spindle.css.is_none()) {
+        want.set(VarId::Speedtype, shape.program.settings.speed_type[1]); // revolutions, unless it says otherwise
+    }
+    if let Some(spindle) = &change.spindle {
+        want.set_spindle(spindle, shape)?;
+    }
+    match change.coolant {
+        Some(coolant) => want.set_coolant(coolant, shape),
+        None if new_tool => want.set_coolant(Coolant::Off, shape),
+        None => {}
+    }
+    if let Some(work) = change.work {
+        want.set_work(work, shape)?;
+    }
+    if let (Some(tool), Machine::Lathe) = (&change.tool, shape.program.settings.machine) {
+        want.set(VarId::Comp, turret_word(tool, shape)?);
+    }
+    for (name, value) in &change.set {
+        set_named(name, *value, shape, want, out)?;
+    }
+    want.set_feed_mode(change.feed_mode.unwrap_or(FeedMode::PerMinute), shape);
+    want.keep_feed(None, shape);
+    if let Some(feed) = change.feed {
+        want.set_feed(feed, shape);
+    }
+    let plunge = change.plunge.or(change.feed).map(|feed| feed * shape.scale);
+    want.put(VarId::Plunge, plunge);
+    want.changed = true;
+    Ok(())
+}
+
+fn change_tool(
+    tool: &Tool,
+    first: &First,
+    shape: &mut Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
+    let program = shape.program;
+    if want.compensated {
+        let help = "end the compensation with an `outfeed` before";
+        return fault(Code::PR006, "the tool changes under cutter compensation", help);
+    }
+    let is_first = want.tool.is_none();
+    tool_variables(tool, shape, want)?;
+    want.tool = Some(tool.number);
+    said.stand.fresh_tool = true;
+    want.tool_changes += 1;
+    let id = if is_first { SequenceId::FirstToolChange } else { SequenceId::ToolChange };
+    let routine = program.routine(id);
+    let first_target = match first {
+        First::Rapid(to) => Some((said.stand.target(to, shape), to.given)),
+        First::Hole(spec, hole) => {
+            Some((hole_position(spec, hole, shape, want, said)?, hole.at.given | shape.depth_bit()))
+        }
+        First::Cut | First::Nothing => None,
+    };
+    let target = match (first_target, routine) {
+        (Some((target, given)), Some(routine)) => Some(change_turns(routine, &target, given, shape, want, said, out)?),
+        _ => None,
+    };
+    // another tool has no last position that a first rapid could keep
+    said.forget_tool();
+    want.forget(&[VarId::H, VarId::V, VarId::D]);
+    let Some(routine) = routine else { return Ok(()) };
+    match &target {
+        Some(target) => set_targets(target, shape, want, said)?,
+        None if routine.vars.meets(POSITION) => {
+            let at = program.spans[routine.ops.clone()].first().copied();
+            let help = "begin the operation with a rapid to above its first cut";
+            return match first {
+                First::Cut => {
+                    let message = "the operation begins with a cut, and the tool change would rapid to its end";
+                    fault_at(Code::PR012, message, help, at)
+                }
+                _ => fault_at(Code::PR012, "the operation has no move for the tool change to print", help, at),
+            };
+        }
+        None => {}
+    }
+    if routine.vars.meets(POSITION) && !routine.vars.has(VarId::Work) {
+        work_before(shape, want, said, out)?; // the position counts from it
+    }
+    if routine.vars.has(VarId::Speed) && !routine.vars.has(VarId::Speedtype) {
+        speed_mode_before(shape, want, said, out)?; // else a surface speed would be revolutions
+    }
+    check_distance_of(routine, shape, said)?;
+    said.stand.placed = 0;
+    said.stand.moved_by = None;
+    upons_of_change(routine, shape, want, said);
+    run_with_upons(routine, shape, want, said, out)?;
+    if let Some(target) = target {
+        said.stand.move_to(&Axes { given: target.given & said.stand.placed, ..target });
+    }
+    said.say_motion_again();
+    said.last_move = LastMove::None;
+    if program.settings.restart_depth {
+        said.forget(&shape.letters[shape.axes[shape.depth]]);
+    }
+    said.force(shape);
+    Ok(())
+}
+
+/// `[comp]`, the T word of a lathe: station and offset register in two digits each. A job's number that holds both
+/// stays as it is.
+fn turret_word(tool: &Tool, shape: &Shape) -> Done<f64> {
+    const STATIONS: f64 = 100.0;
+    let whole = tool.number >= STATIONS;
+    let register = match tool.length_offset {
+        None if whole => return Ok(tool.number),
+        own => own.unwrap_or(tool.number + shape.program.settings.lcomp),
+    };
+    let other = whole && register != tool.number % STATIONS && register != tool.number;
+    if shape.program.printed.has(VarId::Comp) && (other || !whole && register >= STATIONS) {
+        let message =
+            format!("tool {} with the offset register {register} has no T word of two and two digits", tool.number);
+        let help = "give it a register below 100, and a number from 100 on only if it holds the register";
+        return fault(Code::PR017, message, help);
+    }
+    Ok(if whole { tool.number } else { tool.number * STATIONS + register })
+}
+
+fn tool_variables(tool: &Tool, shape: &mut Shape, want: &mut Want) -> Done {
+    let settings = &shape.program.settings;
+    want.put(VarId::Lasttool, want.tool);
+    if want.tool.is_none() {
+        want.set(VarId::Tool1, tool.number);
+    }
+    want.set(VarId::Tool, tool.number);
+    want.put(VarId::Toold, tool.diameter.map(|d| d * shape.scale));
+    want.set(VarId::Lcomp, tool.length_offset.unwrap_or(tool.number + settings.lcomp));
+    want.set(VarId::Dcomp, tool.diameter_offset.unwrap_or(tool.number + settings.dcomp));
+    want.put(VarId::Turret, tool.turret);
+    shape.choose_turret(tool.turret);
+    if let Some(order) = &want.tool_order {
+        if order.get(want.tool_changes) != Some(&tool.number) {
+            let message = format!("tool {} comes next, `tool_order` says otherwise", tool.number);
+            return fault(Code::PJ005, message, "list the tools in the order of their use");
+        }
+        let next = order.get(want.tool_changes + 1).or_else(|| order.first()).copied();
+        want.put(VarId::Nexttool, next);
+    }
+    Ok(())
+}

@@ -1,0 +1,71 @@
+//! Conditions: work offset, spindle, coolant and feed mode, as the program printed them last.
+
+use crate::lang::{VarId, VarSet};
+
+/// The variables of the conditions.
+pub const CONDITIONS: [VarId; 7] =
+    [VarId::Work, VarId::Speed, VarId::Direct, VarId::Cool, VarId::Feedtype, VarId::Speedtype, VarId::Maxrpm];
+
+/// The values that the program printed last; `None`: unknown.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Conditions {
+    /// In the order of [`CONDITIONS`].
+    values: [Option<f64>; CONDITIONS.len()],
+}
+
+impl Conditions {
+    /// Each condition with its value.
+    pub fn each(&self) -> impl Iterator<Item = (VarId, Option<f64>)> {
+        CONDITIONS.into_iter().zip(self.values)
+    }
+
+    /// The value that was printed.
+    pub fn get(&self, var: VarId) -> Option<f64> {
+        index(var).and_then(|at| self.values[at])
+    }
+
+    /// A value was printed, or is unknown from here. Whether the variable is a condition.
+    pub fn put(&mut self, var: VarId, value: Option<f64>) -> bool {
+        let at = index(var);
+        if let Some(at) = at {
+            self.values[at] = value;
+        }
+        at.is_some()
+    }
+
+    /// Is this the value that was printed?
+    pub fn holds(&self, var: VarId, value: f64) -> bool {
+        self.get(var) == Some(value)
+    }
+
+    /// The conditions that were printed.
+    pub fn known(&self) -> VarSet {
+        let mut known = VarSet::default();
+        for (var, _) in self.each().filter(|(_, value)| value.is_some()) {
+            known.insert(var);
+        }
+        known
+    }
+
+    /// What holds after a subprogram that printed `later`.
+    pub fn then(&self, later: &Conditions) -> Conditions {
+        let mut values = self.values;
+        for (value, later) in values.iter_mut().zip(later.values) {
+            *value = later.or(*value);
+        }
+        Conditions { values }
+    }
+}
+
+fn index(var: VarId) -> Option<usize> {
+    Some(match var {
+        VarId::Work => 0,
+        VarId::Speed => 1,
+        VarId::Direct => 2,
+        VarId::Cool => 3,
+        VarId::Feedtype => 4,
+        VarId::Speedtype => 5,
+        VarId::Maxrpm => 6,
+        _ => return None,
+    })
+}

@@ -1,0 +1,16 @@
+//! What the control holds now, by what the program printed: letters, modal groups, conditions, the frame of axis words, and
+//! where the tool stands. Everything that may have changed the machine behind our back makes it unknown here.
+
+mod angles;
+mod codes;
+mod conditions;
+mod lacks;
+mod line;
+mod registers;
+mod stand;
+mod state;
+
+pub use angles::Angles;
+pub use conditions::{CONDITIONS, Conditions};
+pub use line::Line;
+pub use state::{LastMove, Said};

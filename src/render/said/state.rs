@@ -1,0 +1,293 @@
+//! What is known of the control, and how it becomes known and unknown.
+
+use super::conditions::Conditions;
+use super::line::Shift;
+use super::registers::Registers;
+use super::stand::Stand;
+use crate::compile::{Letter, LetterKind};
+use crate::control::Group;
+use crate::lang::{Machine, VarId};
+use crate::number::quantise;
+use crate::render::numbers::tenths;
+use crate::render::shape::Shape;
+use crate::render::want::Want;
+use crate::sema;
+use crate::toolpath::Axes;
+
+/// What kind of move printed last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LastMove {
+    /// None that counts.
+    None,
+    /// A rapid.
+    Rapid,
+    /// A line.
+    Line,
+    /// A clockwise arc.
+    Cw,
+    /// A counter-clockwise arc.
+    Ccw,
+}
+
+/// What the control holds now.
+#[derive(Clone, Debug)]
+pub struct Said {
+    pub(super) registers: Registers,
+    /// Work offset, spindle, coolant, feed mode.
+    pub conditions: Conditions,
+    /// Where the tool stands.
+    pub stand: Stand,
+    /// The value of each Upon's variable when it was used last.
+    pub upon_used: Vec<Option<f64>>,
+    /// The plane that the control is in: what was printed last, also before a tool change.
+    pub(super) plane: f64,
+    /// The distance code that the control is in, in tenths: what was printed last, also before a tool change.
+    pub(super) distance: Option<i64>,
+    /// The motion that the control is in, in tenths of its code: also where the next move says it again.
+    pub(super) motion: Option<i64>,
+    /// What kind of move printed last.
+    pub last_move: LastMove,
+    /// In which frame the axis words of the running sequence stand.
+    pub(super) shift: Shift,
+    /// The open block changed the frame of the depth axis.
+    pub(super) depth_moved: bool,
+    /// A code or value that switches something was printed, and nobody looked yet whether the job wants it so.
+    pub(super) switched: bool,
+    /// The control may not hold what the job wants: the next move must look.
+    pub differs: bool,
+    /// In a subprogram: whether it stopped, or called one that does.
+    pub sub_stopped: Option<bool>,
+}
+
+impl Said {
+    /// Nothing was printed yet; so many Upon sequences watch.
+    pub fn new(upons: usize) -> Said {
+        Said {
+            registers: Registers::default(),
+            conditions: Conditions::default(),
+            stand: Stand::default(),
+            upon_used: vec![None; upons],
+            plane: 17.0,
+            distance: None,
+            motion: None,
+            last_move: LastMove::None,
+            shift: Shift::None,
+            depth_moved: false,
+            switched: false,
+            differs: false,
+            sub_stopped: None,
+        }
+    }
+
+    // ---- letters and groups
+
+    /// A letter printed this.
+    #[inline]
+    pub fn word(&mut self, info: &Letter, units: i64) {
+        self.registers.set(info.printed, units, info.format.dec.count);
+    }
+
+    /// Is this what the letter printed last?
+    #[inline]
+    pub fn holds(&self, info: &Letter, units: i64) -> bool {
+        self.registers.holds(info.printed, units, info.format.dec.count)
+    }
+
+    /// What the letter printed last, with its decimals.
+    pub fn register(&self, info: &Letter) -> Option<(i64, u8)> {
+        self.registers.get(info.printed)
+    }
+
+    /// Does the control hold this value of a letter already, a code in its modal group?
+    pub fn holds_value(&self, info: &Letter, units: i64, value: f64, shape: &Shape) -> bool {
+        match info.kind {
+            LetterKind::GCode | LetterKind::MCode => self.holds_code(info.printed, value, shape),
+            _ => self.holds(info, units),
+        }
+    }
+
+    /// Is this code in force in its modal group?
+    pub fn holds_code(&self, letter: u8, value: f64, shape: &Shape) -> bool {
+        shape.group_of(letter, value).is_some_and(|group| self.registers.group(group) == Some(tenths(value)))
+    }
+
+    /// May a motion block drop this code?
+    pub fn code_drops(&self, letter: u8, value: f64, shape: &Shape) -> bool {
+        let settings = &shape.program.settings;
+        settings.modality && settings.modal_codes.contains(&value) && self.holds_code(letter, value, shape)
+    }
+
+    /// Is this motion code the one in force, so that the next move need not say it?
+    pub fn motion_in_force(&self, code: &sema::Code) -> bool {
+        self.registers.group(Group::Motion) == Some(tenths(code.value))
+    }
+
+    /// Is the control in this motion, also where the next move says it again?
+    pub fn is_in_motion(&self, code: &sema::Code) -> bool {
+        self.motion == Some(tenths(code.value))
+    }
+
+    /// Is the control in this plane?
+    pub fn is_in_plane(&self, plane: f64) -> bool {
+        self.plane == plane
+    }
+
+    /// Is the control in this code of distances?
+    pub fn is_in_distance(&self, code: f64) -> bool {
+        self.distance == Some(tenths(code))
+    }
+
+    /// Would the control read generated positions as increments, or the other way round?
+    pub fn distance_is_wrong(&self, shape: &Shape) -> bool {
+        let settings = &shape.program.settings;
+        let wrong = settings.inc_abs[usize::from(settings.incremental)];
+        self.is_in_distance(wrong) && settings.machine != Machine::Lathe
+    }
+
+    /// Does a target differ on one of these axes from what was printed?
+    pub fn differs_from(&self, target: &Axes, axes: u8, shape: &Shape) -> bool {
+        (0..6).any(|axis| {
+            let bit = 1 << axis;
+            if axes & target.given & bit == 0 {
+                return false;
+            }
+            let info = &shape.letters[shape.axes[axis]];
+            let value = target.values[axis] * shape.scales[axis];
+            quantise(if info.reversed { -value } else { value }, info.format.dec.count)
+                .is_none_or(|units| !self.holds(info, units))
+        })
+    }
+
+    /// May the control lack what the job wants, so that something must be done before the next move?
+    #[inline]
+    pub fn is_unsettled(&self, want: &Want) -> bool {
+        want.changed || self.differs
+    }
+
+    // ---- what becomes unknown
+
+    /// The letter's value is unknown.
+    #[inline]
+    pub fn forget(&mut self, info: &Letter) {
+        self.registers.forget(info.printed);
+    }
+
+    /// The letters of `Force` print again.
+    pub fn force(&mut self, shape: &Shape) {
+        for &letter in &shape.program.settings.force {
+            self.forget(&shape.letters[letter]);
+        }
+    }
+
+    /// The letter of the depth axis says its next position again.
+    pub fn forget_depth(&mut self, shape: &Shape) {
+        self.forget(&shape.letters[shape.axes[shape.depth]]);
+    }
+
+    /// No letter is known; codes stay.
+    pub fn forget_letters(&mut self) {
+        self.registers.forget_letters();
+    }
+
+    /// Neither letters nor modal groups are known.
+    pub fn forget_words(&mut self) {
+        self.registers.forget_all();
+    }
+
+    /// The next move says its motion code again; the control is still in that motion.
+    pub fn say_motion_again(&mut self) {
+        self.registers.forget_group(Group::Motion);
+    }
+
+    /// Which motion the control is in is unknown, as after a macro.
+    pub fn forget_motion(&mut self) {
+        self.say_motion_again();
+        self.motion = None;
+    }
+
+    /// These axes are somewhere else now. Positions stay what the job means by them; increments need to know more.
+    pub fn displaced(&mut self, axes: u8, shape: &Shape) {
+        self.stand.placed &= !axes;
+        if shape.program.settings.incremental {
+            self.stand.position.given &= !axes;
+            self.stand.astray |= axes;
+        }
+    }
+
+    /// Where the axes are is unknown.
+    pub fn forget_axes(&mut self, shape: &Shape) {
+        self.displaced(0x3f, shape);
+        for letter in shape.axes.into_iter().chain(shape.program.settings.axes2) {
+            self.forget(&shape.letters[letter]);
+        }
+    }
+
+    /// Nobody knows where the tool is, nor how it came there.
+    pub fn forget_place(&mut self) {
+        self.stand.forget_position();
+        self.motion = None;
+        self.last_move = LastMove::None;
+    }
+
+    /// Nobody knows anything of letters, modal groups, the tool and the part, as where a subprogram begins or ends.
+    pub fn forget_where(&mut self) {
+        self.forget_words();
+        self.stand.angles.forget();
+        self.forget_place();
+    }
+
+    /// Another tool: speed, direction and the spindle's limit are the next one's; no letter keeps its value.
+    pub fn forget_tool(&mut self) {
+        self.stand.angles.keep(&self.stand.position);
+        self.stand.forget_position();
+        self.forget_words();
+        for var in [VarId::Speed, VarId::Direct, VarId::Maxrpm] {
+            self.conditions.put(var, None);
+        }
+    }
+
+    // ---- one sequence
+
+    /// A sequence begins: its axis words stand in the job's frame.
+    pub fn begin_sequence(&mut self) {
+        self.shift = Shift::None;
+    }
+
+    /// A line of a sequence ends.
+    pub fn end_line(&mut self, shape: &Shape) {
+        if self.shift == Shift::Block {
+            self.shift = Shift::None;
+        }
+        if std::mem::take(&mut self.depth_moved) {
+            self.forget_depth(shape);
+        }
+    }
+
+    /// The frame of the depth axis changed in the open block, or its position was printed since.
+    pub fn set_depth_moved(&mut self, moved: bool) {
+        self.depth_moved = moved;
+    }
+
+    /// Do axis words that are printed now stand in another frame than the job's positions?
+    pub fn is_elsewhere(&self, shape: &Shape) -> bool {
+        self.shift != Shift::None || !shape.program.settings.incremental && self.distance_is_wrong(shape)
+    }
+
+    /// Was something switched since this was last asked?
+    pub fn take_switched(&mut self) -> bool {
+        std::mem::take(&mut self.switched)
+    }
+
+    // ---- the part
+
+    /// The rotary axes that a target turns.
+    pub fn turned_axes(&self, target: &Axes, shape: &Shape) -> impl Iterator<Item = usize> {
+        shape.rotary().filter(move |&axis| target.get(axis).is_some() && target.get(axis) != self.stand.angle(axis))
+    }
+
+    /// Does a target turn the part?
+    #[inline]
+    pub fn turns(&self, target: &Axes, shape: &Shape) -> bool {
+        self.turned_axes(target, shape).next().is_some()
+    }
+}

@@ -1,0 +1,235 @@
+//! What the control lacks is printed: conditions that no sequence prints, each as a block of its own.
+
+use super::fault::{Done, fault, fault_at};
+use super::printer::Printer;
+use super::said::Said;
+use super::shape::Shape;
+use super::targets::set_targets;
+use super::upon::{upons, upons_are_printed};
+use super::want::{Want, is_no_work};
+use super::words::{code_word, letter_word};
+use crate::compile::{LetterKind, Op, Routine, WorkWord};
+use crate::diag::Code;
+use crate::lang::{VarId, VarSet};
+use crate::sema;
+
+/// What stands between events and the next move.
+#[cold]
+pub fn settle(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    knows_after_stop(shape, want, said)?;
+    print_lacking(shape, want, said, out)
+}
+
+/// What stands before something that is done where the tool is. `cuts`: an Upon that moves the tool would leave out
+/// a part of the cut.
+#[cold]
+pub fn settle_here(cuts: bool, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    for var in [VarId::H, VarId::V, VarId::D] {
+        want.put(var, None);
+    }
+    let here = said.stand.position;
+    set_targets(&here, shape, want, said)?;
+    if cuts {
+        knows_after_stop(shape, want, said)?;
+    }
+    print_lacking(shape, want, said, out)?;
+    if cuts { stands_at_cut(said) } else { Ok(()) }
+}
+
+/// Changes that wait are printed.
+pub fn print_lacking(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    (want.changed, said.differs) = (false, false);
+    print_conditions(shape, want, said, out)?;
+    check_distance(shape, said)
+}
+
+/// Changes that nothing printed yet, each as a block of its own.
+pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    upons(said.lacks(want, shape), shape, want, said, out)?;
+    if let Some(work) = want.get(VarId::Work)
+        && said.conditions.get(VarId::Work) != Some(work)
+    {
+        work_block(work, shape, want, said, out)?;
+    }
+    if let Some(max) = want.get(VarId::Maxrpm)
+        && said.conditions.get(VarId::Maxrpm) != Some(max)
+    {
+        let message = format!("the spindle is limited to {max} from here, and nothing prints it");
+        let help = "the form prints [maxrpm] at a tool change: give the limit there, for the whole time of the tool";
+        return fault(Code::PR017, message, help);
+    }
+    check_own_limit(shape, want, said)?;
+    print_spindle(shape, want, said, out)?;
+    if let Some(cool) = want.get(VarId::Cool)
+        && said.conditions.get(VarId::Cool) != Some(cool)
+    {
+        code_word(&sema::Code::plain(b'M', cool), shape, want, said, out)?;
+        out.end_block();
+        said.conditions.put(VarId::Cool, Some(cool));
+    }
+    if let Some(feed_type) = want.get(VarId::Feedtype)
+        && said.conditions.get(VarId::Feedtype) != Some(feed_type)
+    {
+        code_word(&sema::Code::plain(b'G', feed_type), shape, want, said, out)?;
+        out.end_block();
+        said.conditions.put(VarId::Feedtype, Some(feed_type));
+    }
+    Ok(())
+}
+
+/// Speed and direction of the spindle that nothing printed yet, unless the form's own sequences say when it turns.
+fn print_spindle(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    let settings = &shape.program.settings;
+    let [cw, ccw, off] = settings.spindle;
+    if shape.program.switches_spindle {
+        return Ok(());
+    }
+    let speed = want.get(VarId::Speed);
+    let direct = want.get(VarId::Direct);
+    let turns = direct.is_some_and(|code| code == cw || code == ccw);
+    let speed_type = want.get(VarId::Speedtype);
+    let other_mode = said.conditions.get(VarId::Speedtype) != speed_type;
+    if direct != Some(off)
+        && (turns || speed.is_some())
+        && (said.conditions.get(VarId::Direct) != direct || said.conditions.get(VarId::Speed) != speed || other_mode)
+    {
+        if let Some(mode) = speed_type.filter(|_| other_mode) {
+            code_word(&sema::Code::plain(b'G', mode), shape, want, said, out)?;
+            said.conditions.put(VarId::Speedtype, Some(mode));
+        }
+        if let Some(speed) = speed {
+            letter_word(settings.speed_code, speed, shape, said, out)?;
+            said.conditions.put(VarId::Speed, Some(speed));
+        }
+        if let Some(direct) = direct {
+            code_word(&sema::Code::plain(b'M', direct), shape, want, said, out)?;
+        }
+        out.end_block();
+    } else if direct == Some(off) && said.conditions.get(VarId::Direct) != Some(off) {
+        code_word(&sema::Code::plain(b'M', off), shape, want, said, out)?;
+        out.end_block();
+    }
+    Ok(())
+}
+
+/// A tool without a limit of its own printed its revolutions as one: it holds for no more, and for no surface speed.
+fn check_own_limit(shape: &Shape, want: &Want, said: &Said) -> Done {
+    let Some(limit) = said.conditions.get(VarId::Maxrpm).filter(|_| want.get(VarId::Maxrpm).is_none()) else {
+        return Ok(());
+    };
+    let surface = want.get(VarId::Speedtype) == Some(shape.program.settings.speed_type[0]);
+    if !surface && want.get(VarId::Speed).is_none_or(|speed| speed <= limit) {
+        return Ok(());
+    }
+    let message = format!("the tool change limited the spindle to its first speed, {limit}");
+    fault(Code::PR017, message, "give the operation's spindle its `max`")
+}
+
+/// The work offset, where something that does not print it is about to print a position.
+pub fn work_before(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    match want.get(VarId::Work) {
+        Some(work) if said.conditions.get(VarId::Work) != Some(work) => {
+            work_block(work, shape, want, said, out)?;
+            upons_are_printed(VarId::Work, work, shape, said);
+            Ok(())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What the speed counts, where something that does not print it is about to print the speed.
+pub fn speed_mode_before(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    let Some(mode) = want.get(VarId::Speedtype).filter(|mode| said.conditions.get(VarId::Speedtype) != Some(*mode))
+    else {
+        return Ok(());
+    };
+    code_word(&sema::Code::plain(b'G', mode), shape, want, said, out)?;
+    out.end_block();
+    said.conditions.put(VarId::Speedtype, Some(mode));
+    Ok(())
+}
+
+/// The work offset as the form prints it.
+fn work_block(work: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    match shape.program.work_word {
+        Some(WorkWord { code, letter, .. }) => {
+            if let Some(code) = code {
+                code_word(&sema::Code::plain(b'G', code.value()), shape, want, said, out)?;
+            }
+            letter_word(letter, work, shape, said, out)?;
+            said.forget_axes(shape);
+        }
+        None if is_no_work(work, shape) => {
+            let message = format!("the work offset changes to {work}, and the form nowhere prints [work]");
+            return fault(Code::PR017, message, "print `G[work]` in the tool changes, or add `Upon [work]`");
+        }
+        None => code_word(&sema::Code::plain(b'G', work), shape, want, said, out)?,
+    }
+    out.end_block();
+    said.conditions.put(VarId::Work, Some(work));
+    Ok(())
+}
+
+/// Is the work offset all that nothing printed yet?
+pub fn only_work_waits(shape: &Shape, want: &Want, said: &Said) -> bool {
+    said.lacks(want, shape).without(VarSet::of(&[VarId::Work])).is_empty()
+}
+
+/// In a subprogram, a move after a stop needs a spindle that it knows: its caller may have said any.
+pub fn knows_after_stop(shape: &Shape, want: &Want, said: &Said) -> Done {
+    let unknown = |var: VarId| want.get(var).is_none();
+    let by_form = shape.program.switches_spindle; // then nothing is said again
+    if said.sub_stopped != Some(true) || by_form || ![VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(unknown)
+    {
+        return Ok(());
+    }
+    let help = "give it its own `spindle` and `coolant` before the stop";
+    fault(Code::PR008, "the subprogram goes on after a stop, and nobody knows its spindle and coolant here", help)
+}
+
+/// Positions are not printed where they would be read as increments, nor the other way round.
+pub fn check_distance(shape: &Shape, said: &Said) -> Done {
+    if said.distance_is_wrong(shape) {
+        let [increments, positions] = shape.program.settings.inc_abs;
+        let (now, needed, read) = match shape.program.settings.incremental {
+            true => (positions, increments, "increments as positions"),
+            false => (increments, positions, "positions as increments"),
+        };
+        let message = format!("the control is in G{now} here, and would read {read}");
+        let help = format!("print G{needed} in the sequence that printed G{now}, after the words that need it");
+        return fault(Code::PR017, message, help);
+    }
+    Ok(())
+}
+
+/// A sequence that prints words of axes before a G90 or G91 of its own prints them in the mode that is in force.
+pub fn check_distance_of(routine: &Routine, shape: &Shape, said: &Said) -> Done {
+    for i in routine.ops.clone() {
+        let letter = match shape.program.ops[i] {
+            Op::Var { letter, .. } => letter,
+            Op::Literal { index, .. } => {
+                let literal = &shape.program.literals[index as usize];
+                if literal.letter == b'G' && shape.program.settings.inc_abs.contains(&literal.value) {
+                    return Ok(());
+                }
+                literal.letter
+            }
+            _ => continue,
+        };
+        if shape.letters[letter].kind == LetterKind::Axis && !shape.program.settings.incremental {
+            return check_distance(shape, said);
+        }
+    }
+    Ok(())
+}
+
+/// A cut begins where the path says, not where a sequence took the tool.
+pub fn stands_at_cut(said: &Said) -> Done {
+    match said.stand.moved_by {
+        Some(span) => {
+            let message = "this sequence takes the tool away, and the path goes on with a cut";
+            fault_at(Code::PR012, message, "put a rapid to the beginning of the cut before it", Some(span))
+        }
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,276 @@
+//! What the job asks for now: the values of variables, the feed, the conditions, the tool. Only its events write here.
+
+use super::fault::{Done, fault};
+use super::shape::Shape;
+use super::vars::Vars;
+use crate::control::Group;
+use crate::diag::Code;
+use crate::lang::{Machine, Origin, Unit, VARIABLES, VarId, did_you_mean, work_code};
+use crate::number::quantise;
+use crate::toolpath::{Coolant, FeedMode, Spindle, SpindleTurn};
+
+/// What the job asks for now.
+#[derive(Clone, Debug)]
+pub struct Want {
+    vars: Vars,
+    /// A condition or a variable changed: the next move must look whether it is printed.
+    pub changed: bool,
+    /// The feed of moves, in program units.
+    feed: Option<f64>,
+    /// The feed of moves in units of its letter.
+    feed_units: Option<i64>,
+    /// What feeds count.
+    feed_mode: FeedMode,
+    /// The tool that is in.
+    pub tool: Option<f64>,
+    /// The tools of the job in the order of their use, where it says it.
+    pub tool_order: Option<Vec<f64>>,
+    /// Tool changes so far.
+    pub tool_changes: usize,
+    /// The spindle's limit that a prompt gave.
+    pub most_rpm: Option<f64>,
+    /// Cutter compensation is on.
+    pub compensated: bool,
+    /// The item that is printed cuts.
+    pub cutting: bool,
+    /// A canned cycle is open.
+    pub in_cycle: bool,
+}
+
+impl Want {
+    /// What holds before the job says anything: values that the form's commands give.
+    pub fn new(shape: &Shape) -> Want {
+        let settings = &shape.program.settings;
+        let mut want = Want {
+            vars: Vars::default(),
+            changed: true,
+            feed: None,
+            feed_units: None,
+            feed_mode: FeedMode::PerMinute,
+            tool: None,
+            tool_order: None,
+            tool_changes: 0,
+            most_rpm: None,
+            compensated: false,
+            cutting: false,
+            in_cycle: false,
+        };
+        want.set(VarId::Incmode, settings.inc_abs[usize::from(!settings.incremental)]);
+        want.set(VarId::Coolantoff, settings.coolant[1]);
+        want.set(VarId::Flush, settings.flush[1]);
+        want.set(VarId::Speedtype, settings.speed_type[1]);
+        // a form that counts its offsets from 1 counts the default code so too
+        let default = settings.work_default;
+        let work = if default < 50.0 { default } else { work_code(settings.work, default).unwrap_or(default) };
+        want.set(VarId::Work, work);
+        want.set(VarId::Cool, settings.coolant[1]);
+        want.set(VarId::Lasthole, 0.0);
+        want.set_feed_mode(FeedMode::PerMinute, shape);
+        want
+    }
+
+    /// The value of a variable, if it has one.
+    #[inline]
+    pub fn get(&self, var: VarId) -> Option<f64> {
+        self.vars.get(var)
+    }
+
+    /// Gives a variable a value.
+    #[inline]
+    pub fn set(&mut self, var: VarId, value: f64) {
+        self.vars.set(var, value);
+    }
+
+    /// Gives a variable a value, or takes it away.
+    pub fn put(&mut self, var: VarId, value: Option<f64>) {
+        self.vars.put(var, value);
+    }
+
+    /// Adds to the value of a variable.
+    pub fn add(&mut self, var: VarId, value: f64) {
+        let sum = self.get(var).unwrap_or(0.0) + value;
+        self.set(var, sum);
+    }
+
+    /// These have no value.
+    pub fn forget(&mut self, vars: &[VarId]) {
+        for &var in vars {
+            self.vars.put(var, None);
+        }
+    }
+
+    /// All values.
+    pub fn values(&self) -> &Vars {
+        &self.vars
+    }
+
+    /// All values again, as they once were.
+    pub fn restore(&mut self, vars: Vars) {
+        self.vars = vars;
+    }
+
+    /// A condition: the next move must look whether it is printed.
+    pub fn set_condition(&mut self, var: VarId, value: f64) {
+        self.vars.set(var, value);
+        self.changed = true;
+    }
+
+    // ---- feeds
+
+    /// The feed of moves, in program units.
+    #[inline]
+    pub fn feed(&self) -> Option<f64> {
+        self.feed
+    }
+
+    /// The feed of moves in units of its letter.
+    #[inline]
+    pub fn feed_units(&self) -> Option<i64> {
+        self.feed_units
+    }
+
+    /// What feeds count.
+    pub fn feed_mode(&self) -> FeedMode {
+        self.feed_mode
+    }
+
+    /// Inverse time: every feed block says its own.
+    #[inline]
+    pub fn inverse_time(&self) -> bool {
+        self.feed_mode == FeedMode::InverseTime
+    }
+
+    /// The feed of a move: its own, which the next ones keep.
+    #[inline]
+    pub fn take_feed(&mut self, feed: Option<f64>, shape: &Shape) -> Done {
+        if let Some(feed) = feed {
+            self.set_feed(feed, shape);
+        }
+        if self.feed.is_none() {
+            return fault(Code::PR011, "the move has no feed", "give a `feed` here, or one for the whole operation");
+        }
+        Ok(())
+    }
+
+    /// A feed of the job, for the moves that follow.
+    #[inline]
+    pub fn set_feed(&mut self, feed: f64, shape: &Shape) {
+        let feed = if self.inverse_time() { feed } else { feed * shape.scale };
+        self.keep_feed(Some(feed), shape);
+    }
+
+    /// A feed in program units, for the moves that follow.
+    pub fn keep_feed(&mut self, feed: Option<f64>, shape: &Shape) {
+        let info = &shape.letters[shape.program.settings.feed_code];
+        self.feed = feed;
+        self.feed_units = feed.and_then(|feed| quantise(feed, info.format.dec.count));
+        self.vars.put(VarId::Frate, feed);
+    }
+
+    /// What the feeds that follow count.
+    pub fn set_feed_mode(&mut self, mode: FeedMode, shape: &Shape) {
+        let [minute, rev, inverse] = shape.program.settings.feed_type;
+        self.feed_mode = mode;
+        let code = match mode {
+            FeedMode::PerMinute => minute,
+            FeedMode::PerRev => rev,
+            FeedMode::InverseTime => inverse,
+        };
+        self.set_condition(VarId::Feedtype, code);
+    }
+
+    // ---- conditions
+
+    /// A fixture number below 50, or a code: see [`work_code`].
+    pub fn set_work(&mut self, work: f64, shape: &Shape) -> Done {
+        let settings = &shape.program.settings;
+        let first = settings.work;
+        let Some(code) = work_code(first, work) else {
+            let message = format!("the work offset {work} is a code, and this form counts its offsets from {first}");
+            return fault(Code::PR017, message, "give the number of the fixture, from 1, or a code from 54 to 59");
+        };
+        if shape.program.work_word.is_none() && is_no_work(code, shape) && settings.machine == Machine::Mill {
+            let message = format!("the work offset {work} would be G{code}, which is none");
+            return fault(Code::PR017, message, "give the code itself, as 59.1, or a fixture number from 1 to 6");
+        }
+        self.set_condition(VarId::Work, code);
+        Ok(())
+    }
+
+    /// Speed, direction, limit, and what the speed counts.
+    pub fn set_spindle(&mut self, spindle: &Spindle, shape: &Shape) -> Done {
+        let settings = &shape.program.settings;
+        if let Some(css) = spindle.css {
+            self.set(VarId::Speedtype, settings.speed_type[usize::from(!css)]);
+        }
+        if let Some(speed) = spindle.speed {
+            let surface = self.get(VarId::Speedtype) == Some(settings.speed_type[0]);
+            self.set(VarId::Speed, if surface { speed * surface_scale(shape) } else { speed });
+        }
+        if let Some(turn) = spindle.turn {
+            let code = match turn {
+                SpindleTurn::Cw => settings.spindle[0],
+                SpindleTurn::Ccw => settings.spindle[1],
+                SpindleTurn::Off => settings.spindle[2],
+            };
+            self.set(VarId::Direct, code);
+        }
+        if let Some(max) = spindle.max {
+            self.set(VarId::Maxrpm, max);
+            if !shape.program.printed.has(VarId::Maxrpm) {
+                let message = format!("the spindle is limited to {max}, and the form nowhere prints [maxrpm]");
+                return fault(Code::PR017, message, "print it, as `G50 S[maxrpm]`, before the spindle starts");
+            }
+        }
+        self.changed = true;
+        Ok(())
+    }
+
+    /// Coolant on, off, or mist.
+    pub fn set_coolant(&mut self, coolant: Coolant, shape: &Shape) {
+        let [on, off, mist] = shape.program.settings.coolant;
+        let code = match coolant {
+            Coolant::On => on,
+            Coolant::Mist => mist,
+            Coolant::Off => off,
+        };
+        self.set_condition(VarId::Cool, code);
+    }
+}
+
+/// Factor from the job's surface speed to the program's: feet a minute with inches, metres with millimetres.
+fn surface_scale(shape: &Shape) -> f64 {
+    const METRES_A_FOOT: f64 = 0.3048;
+    match shape.scale {
+        scale if scale > 1.0 => METRES_A_FOOT,
+        scale if scale < 1.0 => 1.0 / METRES_A_FOOT,
+        _ => 1.0,
+    }
+}
+
+/// Is this no code of a work offset of the form's control?
+pub fn is_no_work(code: f64, shape: &Shape) -> bool {
+    shape.group_of(b'G', code) != Some(Group::Work)
+}
+
+/// A variable's value in program units.
+pub fn in_program_units(var: VarId, value: f64, shape: &Shape) -> f64 {
+    if matches!(var.row().unit, Unit::Length | Unit::Feed) { value * shape.scale } else { value }
+}
+
+/// A variable that a job may set.
+pub fn settable(name: &str) -> Done<VarId> {
+    let jobs = || VARIABLES.iter().filter(|v| v.origin == Origin::Job).map(|v| v.name);
+    match VarId::parse(name.trim_matches(['[', ']'])) {
+        Some(var) if var.row().origin == Origin::Job => Ok(var),
+        Some(var) => fault(
+            Code::PR016,
+            format!("[{}] comes from the toolpath and can't be set", var.name()),
+            "take it out; val1 to val10 are free",
+        ),
+        None => {
+            let help = did_you_mean(name, jobs()).unwrap_or_else(|| "val1 to val10 are free".into());
+            fault(Code::PR016, format!("`{name}` is no variable"), help)
+        }
+    }
+}

@@ -23,7 +23,7 @@ pub fn commands() -> String {
     );
     text += "| command | takes | without it | does | standing |\n| --- | --- | --- | --- | --- |\n";
     for row in COMMANDS {
-        let default = if row.default.is_empty() { "-".to_owned() } else { format!("`{}`", row.default) };
+        let default = if row.without.is_nothing() { "-".to_owned() } else { format!("`{}`", row.without) };
         let times = if row.repeats { ", as often as needed" } else { "" };
         text += &format!(
             "| `{}` | {}{times} | {default} | {} | {} |\n",

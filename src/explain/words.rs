@@ -1,7 +1,7 @@
 //! Commands, variables, sequences and kinds of cycles in words.
 
 use super::examples::{self, Example};
-use crate::lang::{Args, Command, CommandId, Machines, Origin, SequenceId, Standing, Unit, VarId};
+use crate::lang::{Args, Command, CommandId, Machine, Machines, Origin, SequenceId, Standing, Unit, UnitChoice, VarId};
 use crate::toolpath::CycleKind;
 
 /// A kind of cycle that jobs ask for.
@@ -57,11 +57,14 @@ pub fn takes(args: Args) -> String {
     match args {
         Args::Text => "text, to the end of the line".into(),
         Args::Switch => "Y or N".into(),
-        Args::Codes(least, most) => range(least, most, "code", "codes"),
+        Args::Codes(_, least, most) | Args::Motion(least, most) => range(least, most, "code", "codes"),
         Args::Letters(least, most) => range(least, most, "letter", "letters"),
-        Args::Numbers(least, most) => range(least, most, "number", "numbers"),
+        Args::Whole(least, most) => range(least, most, "whole number", "whole numbers"),
+        Args::Number => "one number".into(),
+        Args::Length => "one number, not negative".into(),
+        Args::LengthAboveZero => "one number above zero".into(),
         Args::Choice(words) => format!("one of {}", words.join(", ")),
-        Args::Words(what) => what.to_owned(),
+        Args::Words(_, _, what) => what.to_owned(),
     }
 }
 
@@ -104,7 +107,7 @@ fn page(head: &str, lines: &[(&str, String)], example: Option<Example>) -> Strin
 /// A command.
 pub fn command(id: CommandId) -> String {
     let row = id.row();
-    let without = if row.default.is_empty() { "nothing".to_owned() } else { row.default.to_owned() };
+    let without = if row.without.is_nothing() { "nothing".to_owned() } else { row.without.to_string() };
     let times = if row.repeats { "as often as needed" } else { "once" };
     let lines = [
         ("does", row.meaning.to_owned()),
@@ -116,36 +119,15 @@ pub fn command(id: CommandId) -> String {
     page(&format!("{} (command)", row.name), &lines, examples::command(row.name).or_else(|| as_it_would_be(row)))
 }
 
-/// What commands could say that no form gives and that have no default to show.
-const SAID: &[(&str, &str)] = &[
-    ("Force", "X Y Z"),
-    ("Spaces", "8"),
-    ("Replace", "\"M8 \" \"M88 \""),
-    ("Dummy", "Q"),
-    ("Each", "val1 \"Height of the vise\" 2.5"),
-    ("Ask", "val1 \"Height of the vise\" 2.5"),
-    ("VRapid", "G0"),
-    ("CycleStep", "0.1"),
-    ("CycleBack", "deep 0.05"),
-    ("CycleDwellAt", "steps"),
-    ("RevSigns", "Z"),
-    ("CircDir", "DR- DR+"),
-    ("CycleSinkClear", "0.1"),
-    ("Thread", "G33"),
-    ("Call", "common.inc"),
-    ("CallMe", "common.inc"),
-];
-
 /// A command that no form gives, with what it could say.
 fn as_it_would_be(row: &Command) -> Option<Example> {
-    let default = row.default.split(';').next().filter(|default| !default.is_empty());
-    let said = SAID.iter().find(|(name, _)| *name == row.name).map(|(_, value)| *value);
-    let value = said.or(match row.args {
+    let default = Some(row.without.arguments(Machine::Mill, UnitChoice::Inch)).filter(|default| !default.is_empty());
+    let value = row.example.or(match row.args {
         Args::Switch => Some(if default == Some("Y") { "N" } else { "Y" }),
         Args::Text => Some("text"),
         Args::Choice(words) => words.last().copied(),
-        Args::Words(what) => what.rsplit('`').nth(1),
-        Args::Codes(..) | Args::Letters(..) | Args::Numbers(..) => default,
+        Args::Words(_, _, what) => what.rsplit('`').nth(1),
+        _ => default,
     })?;
     Some(Example { text: format!("{} {value}", row.name), form: "as a form would say it" })
 }

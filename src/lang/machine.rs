@@ -28,6 +28,26 @@ impl Machine {
     }
 }
 
+/// Which lengths a form is written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum UnitChoice {
+    /// Inches.
+    #[default]
+    Inch,
+    /// Millimetres.
+    Mm,
+    /// Serves both; its own lengths are inches.
+    Both,
+}
+
+impl UnitChoice {
+    /// Reads a name in any case.
+    pub fn parse(name: &str) -> Option<UnitChoice> {
+        let names = [("inch", UnitChoice::Inch), ("mm", UnitChoice::Mm), ("both", UnitChoice::Both)];
+        names.into_iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, units)| units)
+    }
+}
+
 /// A set of machine types, as the manual gives one for each sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Machines {

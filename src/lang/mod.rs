@@ -9,8 +9,9 @@ mod suggest;
 mod variables;
 mod work;
 
-pub use commands::{Args, COMMANDS, Command, CommandId};
-pub use machine::{Machine, Machines};
+pub(crate) use commands::command_rows;
+pub use commands::{Args, COMMANDS, Command, CommandId, Used, Without};
+pub use machine::{Machine, Machines, UnitChoice};
 pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
 pub use suggest::{LONGEST_NAME, did_you_mean, nearest};
 pub use variables::{Origin, Unit, VARIABLES, VarId, VarSet, Variable};

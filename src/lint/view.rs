@@ -2,8 +2,8 @@
 
 use crate::compile::LetterTable;
 use crate::control::{Code, Control, Meaning, Traits};
-use crate::lang::{CommandId, Machine, SequenceId, VarId, VarSet};
-use crate::sema::{Checked, Form, Line, Sequence, Settings, UnitChoice, Word, before_remark};
+use crate::lang::{CommandId, Machine, SequenceId, UnitChoice, VarId, VarSet};
+use crate::sema::{Checked, Form, Line, Sequence, Settings, Word, before_remark};
 use crate::span::Span;
 use crate::syntax::{self, Piece, SequenceNode, Statement};
 use crate::toolpath::CycleKind;

@@ -1,7 +1,8 @@
 //! What a form gives to cycles that name nothing, and the factors between units.
 
 use crate::cycle::Defaults;
-use crate::sema::{Settings, UnitChoice};
+use crate::lang::UnitChoice;
+use crate::sema::Settings;
 use crate::toolpath::Units;
 
 /// Millimetres in an inch.
@@ -27,32 +28,26 @@ pub fn no_defaults() -> Defaults {
     }
 }
 
-/// What holds where neither cycle nor form says it: in inches and in millimetres.
-const CLEAR: [f64; 2] = [0.1, 3.0];
-const BACK: [f64; 2] = [0.05, 1.0];
-const JOG: [f64; 2] = [0.02, 0.5];
-
 /// What a form gives where a cycle names nothing, in these units.
 pub fn cycle_defaults(settings: &Settings, units: Units, sink_as_printed: bool) -> Defaults {
     let scale = factor(form_units(settings).unwrap_or(Units::Inch), units);
     let length = |value: f64| value * scale;
-    // what a form for both units says is inches; what it leaves to the default is the job's own
-    let own = form_units(settings).unwrap_or(units);
-    let or = |said: Option<f64>, default: [f64; 2]| {
-        said.map_or_else(|| default[usize::from(own == Units::Mm)] * factor(own, units), length)
-    };
+    // what a form for both units says is inches; what it leaves out is what a form for the job's units has
+    let of_job = if units == Units::Mm { UnitChoice::Mm } else { UnitChoice::Inch };
+    let usual = Settings::new(settings.machine, of_job);
+    let or = |said: Option<f64>, usual: Option<f64>| said.map(length).or(usual).unwrap_or_default();
     Defaults {
-        clear: or(settings.cycle_clear, CLEAR),
+        clear: or(settings.cycle_clear, usual.cycle_clear),
         step: settings.cycle_step.map(length),
         min_step: length(settings.cycle_min_step),
-        back_deep: or(settings.cycle_back_deep, BACK),
-        back_chipbreak: or(settings.cycle_back_chipbreak, BACK),
-        back_thru: or(settings.cycle_back_thru, BACK),
+        back_deep: or(settings.cycle_back_deep, usual.cycle_back_deep),
+        back_chipbreak: or(settings.cycle_back_chipbreak, usual.cycle_back_chipbreak),
+        back_thru: or(settings.cycle_back_thru, usual.cycle_back_thru),
         dwell: settings.cycle_dwell,
         dwell_at_steps: settings.cycle_dwell_steps,
         dwell_at_retracts: settings.cycle_dwell_retracts,
         orient: settings.cycle_orient,
-        jog: or(settings.cycle_jog, JOG),
+        jog: or(settings.cycle_jog, usual.cycle_jog),
         sink_clear: settings.cycle_sink_clear.map(length),
         sink_as_printed,
         rigid: false,

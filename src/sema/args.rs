@@ -1,7 +1,7 @@
 //! Arguments of commands: reading them.
 
-use super::settings::{ArcCentre, Code, Prompt, SequenceNumbers};
-use crate::lang::{Args, CommandId, VarId};
+use super::settings::Code;
+use crate::lang::{Args, CommandId};
 use crate::span::Span;
 use crate::syntax::Spanned;
 
@@ -25,65 +25,76 @@ pub fn bad<T>(arg: Option<&Spanned>, message: impl Into<String>) -> Read<T> {
 pub struct Arguments<'a> {
     pub id: CommandId,
     pub all: &'a [Spanned],
+    /// The whole command.
+    pub span: Span,
+    /// Somebody typed them, so that codes are printed as they stand here.
+    pub typed: bool,
 }
 
 impl Arguments<'_> {
-    pub fn count(&self, least: usize, most: usize, what: &str) -> Read<()> {
-        let given = self.all.len();
-        if (least..=most).contains(&given) {
-            return Ok(());
+    fn name(&self) -> &'static str {
+        self.id.name()
+    }
+
+    /// Are there as many as the command takes?
+    pub fn check(&self) -> Read<()> {
+        let (takes, given) = (self.id.row().args, self.all.len());
+        if given == 0 && !matches!(self.id, CommandId::Name | CommandId::Eob) {
+            return bad(None, format!("{} needs {}", self.name(), wants(self.id)));
         }
-        let wanted = if least == most { least.to_string() } else { format!("{least} to {most}") };
-        bad(self.all.get(most), format!("{} takes {wanted} {what}, here are {given}", self.id.name()))
+        let Some((least, most)) = takes.count().filter(|&(least, most)| !(least..=most).contains(&given)) else {
+            return Ok(());
+        };
+        let what = match takes {
+            Args::Codes(..) => "codes".into(),
+            Args::Motion(1, 2) => "codes: of arcs, and of the spindle, as `G2 M3`".into(),
+            Args::Motion(..) => "G codes".into(),
+            Args::Switch => "argument, Y or N".into(),
+            Args::Choice(_) => "word".into(),
+            Args::Words(_, _, what) => format!("words ({what})"),
+            _ if most == 1 => "number".into(),
+            _ => "numbers".to_owned(),
+        };
+        bad(self.all.get(most), format!("{} takes {} {what}, here are {given}", self.name(), range(least, most)))
     }
 
     pub fn switch(&self) -> Read<bool> {
-        self.count(1, 1, "argument, Y or N")?;
         match self.all[0].text.to_ascii_uppercase().as_str() {
             "Y" | "YES" => Ok(true),
             "N" | "NO" => Ok(false),
-            _ => bad(self.all.first(), format!("{} is Y or N", self.id.name())),
+            _ => bad(self.all.first(), format!("{} is Y or N", self.name())),
         }
     }
 
-    pub fn codes(&self, least: usize, most: usize, letter: u8) -> Read<Vec<Code>> {
-        self.count(least, most, "codes")?;
-        self.all.iter().map(|arg| code(arg, letter)).collect()
-    }
-
-    /// G codes: an M code moves nothing, whatever its number.
-    pub fn g_codes(&self, least: usize, most: usize) -> Read<Vec<Code>> {
-        let codes = self.codes(least, most, b'G')?;
+    /// Codes. The first of a motion word moves the tool, as no M code does, whatever its number.
+    pub fn codes(&self) -> Read<Vec<Code>> {
+        let takes = self.id.row().args;
+        let letter = if let Args::Codes(letter, ..) = takes { letter } else { 'G' };
+        let codes: Vec<Code> = self.all.iter().map(|arg| self.code(arg, letter)).collect::<Read<_>>()?;
         match codes.iter().zip(self.all).find(|(code, _)| !code.letter.eq_ignore_ascii_case(&b'G')) {
-            None => Ok(codes),
-            Some((_, arg)) => bad(Some(arg), format!("`{}` is no G code, and only a G code moves the tool", arg.text)),
-        }
-    }
-
-    /// The G code of an arc and, if it is given, the M code of the spindle that turns the same way.
-    pub fn turn(&self, spindle: &mut f64) -> Read<Code> {
-        self.count(1, 2, "codes: of arcs, and of the spindle, as `G2 M3`")?;
-        let arc = Arguments { id: self.id, all: &self.all[..1] }.g_codes(1, 1)?.remove(0);
-        if let Some(second) = self.all.get(1) {
-            let turn = code(second, b'M')?;
-            if !turn.letter.eq_ignore_ascii_case(&b'M') {
-                return bad(Some(second), format!("`{}` is no M code of the spindle", second.text));
+            Some((_, arg)) if matches!(takes, Args::Motion(..)) => {
+                bad(Some(arg), format!("`{}` is no G code, and only a G code moves the tool", arg.text))
             }
-            *spindle = turn.value;
+            _ => Ok(codes),
         }
-        Ok(arc)
     }
 
-    /// So many values, the later ones optional: those not given keep what they are.
-    pub fn values<const N: usize>(&self, into: &mut [f64; N], least: usize, letter: u8) -> Read<()> {
-        for (slot, code) in into.iter_mut().zip(self.codes(least, N, letter)?) {
-            *slot = code.value;
+    /// `G0`, `0`, `M19`: with its letter or without.
+    pub fn code(&self, arg: &Spanned, letter: char) -> Read<Code> {
+        let first = arg.text.bytes().next().unwrap_or(b' ');
+        let (given, digits) =
+            if first.is_ascii_alphabetic() { (Some(first), &arg.text[1..]) } else { (None, arg.text.as_str()) };
+        match digits.parse::<f64>() {
+            Ok(value) if value >= 0.0 && digits.bytes().all(|b| b.is_ascii_digit() || b == b'.') => {
+                let text = given.filter(|_| self.typed).map(|_| arg.text.clone());
+                Ok(Code { letter: given.unwrap_or(letter as u8), text, value })
+            }
+            _ => bad(Some(arg), format!("`{}` is no code, as `{letter}0` is", arg.text)),
         }
-        Ok(())
     }
 
     /// Letters, apart or together: `X Y Z` or `XYZ`.
-    pub fn letters(&self, least: usize, most: usize) -> Read<Vec<u8>> {
+    pub fn letters(&self) -> Read<Vec<u8>> {
         let mut letters = Vec::new();
         for arg in self.all {
             if !arg.text.bytes().all(|b| b.is_ascii_alphabetic()) {
@@ -91,30 +102,52 @@ impl Arguments<'_> {
             }
             letters.extend(arg.text.bytes());
         }
-        if letters.len() < least || letters.len() > most {
-            let wanted = if least == most { least.to_string() } else { format!("{least} to {most}") };
+        let (least, most) = match self.id.row().args {
+            Args::Letters(least, most) => (least.into(), most.into()),
+            _ => (1, 1),
+        };
+        if !(least..=most).contains(&letters.len()) {
             let plural = if most == 1 { "letter" } else { "letters" };
-            return bad(None, format!("{} takes {wanted} {plural}, here are {}", self.id.name(), letters.len()));
+            let (takes, given) = (range(least, most), letters.len());
+            return bad(None, format!("{} takes {takes} {plural}, here are {given}", self.name()));
         }
         Ok(letters)
     }
 
-    pub fn letter(&self) -> Read<u8> {
-        Ok(self.letters(1, 1)?[0])
+    /// One letter among other words.
+    pub fn letter(&self, arg: &Spanned) -> Read<u8> {
+        match arg.text.as_bytes() {
+            [letter] if letter.is_ascii_alphabetic() => Ok(*letter),
+            _ => bad(Some(arg), format!("`{}` is no letter", arg.text)),
+        }
     }
 
+    /// A number as the command takes it.
     pub fn number(&self) -> Read<f64> {
-        self.count(1, 1, "number")?;
-        number(&self.all[0])
+        let takes = self.id.row().args;
+        match takes {
+            Args::Number => number(&self.all[0]),
+            Args::LengthAboveZero if self.length(&self.all[0])? == 0.0 => {
+                bad(self.all.first(), format!("{} must be above zero", self.name()))
+            }
+            _ => self.length(&self.all[0]),
+        }
     }
 
     /// A length that is not negative.
-    pub fn length(&self) -> Read<f64> {
-        let value = self.number()?;
-        if value < 0.0 {
-            return bad(self.all.first(), format!("{} can't be negative", self.id.name()));
+    pub fn length(&self, arg: &Spanned) -> Read<f64> {
+        match number(arg)? {
+            value if value < 0.0 => bad(Some(arg), format!("{} can't be negative", self.name())),
+            value => Ok(value),
         }
-        Ok(value)
+    }
+
+    /// The word of a choice, as the table writes it.
+    pub fn choice(&self) -> Read<&'static str> {
+        match choice_of(self.id, &self.all[0].text) {
+            Some(word) => Ok(word),
+            None => bad(self.all.first(), format!("{} needs {}", self.name(), wants(self.id))),
+        }
     }
 
     pub fn text(&self) -> String {
@@ -122,69 +155,11 @@ impl Arguments<'_> {
     }
 }
 
+/// A number of the decimal system: no exponent, no infinity.
 pub fn number(arg: &Spanned) -> Read<f64> {
     match arg.text.parse::<f64>() {
         Ok(value) if value.is_finite() && arg.text.bytes().all(|b| !b.is_ascii_alphabetic()) => Ok(value),
         _ => bad(Some(arg), format!("`{}` is no number", arg.text)),
-    }
-}
-
-/// `G0`, `0`, `M19`: with its letter or without.
-pub fn code(arg: &Spanned, letter: u8) -> Read<Code> {
-    let first = arg.text.bytes().next().unwrap_or(b' ');
-    let (given, digits) =
-        if first.is_ascii_alphabetic() { (Some(first), &arg.text[1..]) } else { (None, arg.text.as_str()) };
-    match digits.parse::<f64>() {
-        Ok(value) if value >= 0.0 && digits.bytes().all(|b| b.is_ascii_digit() || b == b'.') => {
-            Ok(Code { letter: given.unwrap_or(letter), text: given.map(|_| arg.text.clone()), value })
-        }
-        _ => bad(Some(arg), format!("`{}` is no code, as `{}{}` is", arg.text, char::from(letter), 0)),
-    }
-}
-
-/// `I J K`, `IJK`, `R`, `R-`.
-pub fn centre(args: &Arguments) -> Read<ArcCentre> {
-    let given: String = args.all.iter().map(|a| a.text.trim_matches('-')).collect();
-    match given.as_bytes() {
-        [r @ (b'R' | b'r')] => Ok(ArcCentre::Radius(*r)),
-        letters if (1..=3).contains(&letters.len()) && letters.iter().all(u8::is_ascii_alphabetic) => {
-            Ok(ArcCentre::Letters(letters.to_vec()))
-        }
-        _ => bad(args.all.first(), format!("{} takes centre letters as `I J K`, or `R`", args.id.name())),
-    }
-}
-
-/// What a command wants, for a message.
-pub fn wants(id: CommandId) -> String {
-    match id.row().args {
-        Args::Text => "text".into(),
-        Args::Switch => "Y or N".into(),
-        Args::Codes(a, b) if a == b && a == 1 => "a code".into(),
-        Args::Codes(a, b) if a == b => format!("{a} codes"),
-        Args::Codes(a, b) => format!("{a} to {b} codes"),
-        Args::Letters(1, 1) => "a letter".into(),
-        Args::Letters(a, b) if a == b => format!("{a} letters"),
-        Args::Letters(..) => "letters".into(),
-        Args::Numbers(1, 1) => "a number".into(),
-        Args::Numbers(..) => "numbers".into(),
-        Args::Choice(words) => format!("one of {}", words.join(", ")),
-        Args::Words(what) => what.into(),
-    }
-}
-
-/// The word of a choice, as the table writes it.
-pub fn choice_of(id: CommandId, text: &str) -> Option<&'static str> {
-    match id.row().args {
-        Args::Choice(words) => words.iter().find(|w| w.eq_ignore_ascii_case(text)).copied(),
-        _ => None,
-    }
-}
-
-pub fn choice(args: &Arguments) -> Read<&'static str> {
-    args.count(1, 1, "word")?;
-    match choice_of(args.id, &args.all[0].text) {
-        Some(word) => Ok(word),
-        None => bad(args.all.first(), format!("{} needs {}", args.id.name(), wants(args.id))),
     }
 }
 
@@ -195,33 +170,32 @@ pub fn whole(arg: &Spanned, least: i64, most: i64) -> Read<i64> {
     }
 }
 
-/// `N 10 10`, `None`, `None 100 10`: with None, start and step are those of `[block]`.
-pub fn numbers(args: &Arguments) -> Read<SequenceNumbers> {
-    args.count(1, 3, "words: letter, start, step")?;
-    let letter = match &args.all[0].text {
-        none if none.eq_ignore_ascii_case("None") => None,
-        letter if letter.len() == 1 && letter.as_bytes()[0].is_ascii_alphabetic() => Some(letter.as_bytes()[0]),
-        _ => return bad(args.all.first(), "Sequence#s begins with a letter, or is None"),
-    };
-    let start = args.all.get(1).map_or(Ok(10), |a| whole(a, 0, 99_999_999))?;
-    let step = args.all.get(2).map_or(Ok(10), |a| whole(a, 1, 99_999_999))?;
-    Ok(SequenceNumbers { letter, start, step })
+fn range(least: usize, most: usize) -> String {
+    if least == most { least.to_string() } else { format!("{least} to {most}") }
 }
 
-/// `Ask val1 "Fixture height" 2.5`.
-pub fn prompt(args: &Arguments, span: Span) -> Read<Prompt> {
-    args.count(1, 3, "words: variable, prompt in quotes, default")?;
-    let name = args.all[0].text.trim_matches(['[', ']', '<', '>']);
-    let Some(var) = VarId::parse(name) else {
-        return bad(args.all.first(), format!("`{name}` is no variable"));
+/// What a command wants, for a message.
+fn wants(id: CommandId) -> String {
+    let many = |least: u8, most: u8, one: &str, many: &str| match (least, most) {
+        (1, 1) => one.to_owned(),
+        _ => format!("{} {many}", range(least.into(), most.into())),
     };
-    if var.row().origin == crate::lang::Origin::Computed {
-        return bad(
-            args.all.first(),
-            format!("[{name}] comes from the toolpath and can't be asked for: use val1 to val10"),
-        );
+    match id.row().args {
+        Args::Text => "text".into(),
+        Args::Switch => "Y or N".into(),
+        Args::Codes(_, least, most) | Args::Motion(least, most) => many(least, most, "a code", "codes"),
+        Args::Letters(least, most) => many(least, most, "a letter", "letters"),
+        Args::Whole(least, most) => many(least, most, "a number", "numbers"),
+        Args::Number | Args::Length | Args::LengthAboveZero => "a number".into(),
+        Args::Choice(words) => format!("one of {}", words.join(", ")),
+        Args::Words(_, _, what) => what.into(),
     }
-    let text = args.all.get(1).map_or_else(|| var.row().meaning.to_owned(), |a| a.text.clone());
-    let default = args.all.get(2).map(number).transpose()?;
-    Ok(Prompt { var, text, default, span })
+}
+
+/// The word of a choice, as the table writes it.
+pub fn choice_of(id: CommandId, text: &str) -> Option<&'static str> {
+    match id.row().args {
+        Args::Choice(words) => words.iter().find(|w| w.eq_ignore_ascii_case(text)).copied(),
+        _ => None,
+    }
 }

@@ -5,9 +5,9 @@ use std::collections::HashSet;
 use super::args::choice_of;
 use super::limits::Limits;
 use super::model::Form;
-use super::settings::{Settings, UnitChoice};
+use super::settings::Settings;
 use crate::diag::{Code, Diag};
-use crate::lang::{CommandId, Machine, SEQUENCES, SequenceId};
+use crate::lang::{CommandId, Machine, SEQUENCES, SequenceId, UnitChoice};
 use crate::source::Source;
 use crate::span::Span;
 use crate::syntax::{self, Head};
@@ -85,11 +85,7 @@ impl Analysis {
             })
         };
         let machine = find(CommandId::Machine).and_then(Machine::parse).unwrap_or_default();
-        let units = match find(CommandId::Units) {
-            Some("mm") => UnitChoice::Mm,
-            Some("both") => UnitChoice::Both,
-            _ => UnitChoice::Inch,
-        };
+        let units = find(CommandId::Units).and_then(UnitChoice::parse).unwrap_or_default();
         self.form.settings = Settings::new(machine, units);
     }
 

@@ -1,6 +1,5 @@
 //! From the tree to a checked form: names, arguments, formats, limits.
 
-mod apply;
 mod args;
 mod called;
 mod check;
@@ -10,13 +9,13 @@ mod messages;
 mod model;
 mod sequences;
 mod settings;
+mod special;
 mod statements;
+mod store;
 mod words;
 
 pub use check::{Checked, analyse};
 pub use limits::{Limits, MOST_LINES, MOST_TEXT, MOST_WORDS};
 pub use model::{Form, Line, Sequence, Upon, Word, WordKind, kind_of_remark};
-pub use settings::{
-    ArcCentre, Code, DwellWord, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit, UnitChoice,
-};
+pub use settings::{ArcCentre, Code, DwellWord, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit};
 pub use words::before_remark;

@@ -2,6 +2,7 @@
 
 use indexmap::map::Entry;
 
+use super::args::Arguments;
 use super::check::Analysis;
 use super::messages::{duplicate_sequence, is_word, no_name_line, unknown_name};
 use super::model::{Line, Sequence, Upon};
@@ -176,9 +177,8 @@ impl Analysis {
         };
         let args: Vec<Spanned> = args.iter().map(spanned).collect();
         let span = args.iter().fold(first.span, |all, arg| all.to(arg.span));
-        // tried on fresh settings: those of the form grow with its commands
-        let (machine, units) = (self.form.settings.machine, self.form.settings.units);
-        if Settings::new(machine, units).apply(id, &args, span).is_ok() {
+        // tried on settings of their own: those of the form grow with its commands
+        if Settings::blank().apply(&Arguments { id, all: &args, span, typed: true }).is_ok() {
             let diag = Diag::new(Code::PF003, format!("a command inside a sequence: {}", id.name()));
             self.report(diag.at(span, "this would be printed").help("move it above the first sequence"));
         }

@@ -2,6 +2,7 @@
 
 use indexmap::map::Entry;
 
+use super::args::Arguments;
 use super::check::Analysis;
 use super::messages::{bad_format, duplicate_format, is_word, no_name_line, unknown_name};
 use super::words::invisible;
@@ -65,18 +66,18 @@ impl Analysis {
         if let Some((arg, c)) = printed_control(id, &statement.args) {
             self.report(invisible(c, arg.span));
         }
-        if let Err(bad) = self.form.settings.apply(id, &statement.args, statement.line.span) {
+        let args = Arguments { id, all: &statement.args, span: statement.line.span, typed: true };
+        if let Err(bad) = self.form.settings.apply(&args) {
             let at = bad.span.unwrap_or(statement.line.span);
             let mut diag = Diag::new(Code::PF302, bad.message).at(at, "here");
             if let Tail::Lost(lost) = &statement.line.tail {
                 diag = diag.at(lost.span, "two blanks before this make it a comment");
             }
-            let default = id.row().default;
-            diag.help = Some(if default.is_empty() {
-                format!("{}: {}", id.name(), id.row().meaning)
-            } else {
-                format!("{}: {} (without the command: {default})", id.name(), id.row().meaning)
-            });
+            let without = match id.row().without.to_string() {
+                nothing if nothing.is_empty() => nothing,
+                without => format!(" (without the command: {without})"),
+            };
+            diag.help = Some(format!("{}: {}{without}", id.name(), id.row().meaning));
             self.report(diag);
         }
     }

@@ -5,10 +5,10 @@ use super::cut::{Cut, DEPTH, Place, Rapid, State, What};
 use crate::control;
 use crate::cycle::{Defaults, Plan, Step, Steps, check, plan};
 use crate::diag::{Code, Diag};
-use crate::lang::{Machine, work_code};
+use crate::lang::{Machine, UnitChoice, work_code};
 use crate::nc::{Rotation, Turn};
 use crate::render::cycle_defaults;
-use crate::sema::{Settings, UnitChoice};
+use crate::sema::Settings;
 use crate::toolpath::{
     Arc, Axes, CycleKind, CycleSpec, Direction, Event, FeedMode, Hole, Order, Plane, Side, Spindle, SpindleTurn, Start,
     StopKind, ToolChange, Units, impossible,

@@ -76,6 +76,61 @@ fn everything_is_explained() {
     assert!(explain("None").unwrap().contains("prints no block"));
 }
 
+/// What a form has without a command is what the reference and `explain` say: said in so many words, it changes nothing.
+#[test]
+fn defaults_are_those_of_the_reference() {
+    let page = fs::read_to_string(root().join("docs/commands.md")).unwrap();
+    let rows: Vec<Vec<&str>> = page.lines().skip_while(|l| !l.starts_with("| ---")).skip(1).map(cells).collect();
+    assert_eq!(rows.len(), COMMANDS.len());
+    for row in &rows {
+        let nothing = if row[2] == "-" { "nothing" } else { row[2] };
+        assert!(explain(row[0]).unwrap().contains(&format!("without   {nothing}\n")), "{row:?}");
+    }
+    for (machine, units) in ["Mill", "Lathe", "EDM"].iter().flat_map(|m| ["inch", "mm", "both"].map(|u| (*m, u))) {
+        let head = format!("Machine {machine}\nUnits {units}\n");
+        let said: String = rows.iter().flat_map(|row| commands_of(row[0], row[2], machine, units)).collect();
+        assert!(said.contains("Rapid G0\n") && said.lines().count() > 55, "{said}");
+        let settings = |text: &str| {
+            let form = support::check(text);
+            let wrong: Vec<_> = form.diags.iter().filter(|diag| diag.code == postform::diag::Code::PF302).collect();
+            assert!(wrong.is_empty(), "{machine} {units}: {wrong:?}");
+            without_typed(&format!("{:?}", form.form.settings)).replace(", ", ",\n")
+        };
+        same_lines(&settings(&head), &settings(&format!("{head}{said}")), &format!("{machine} {units}"));
+    }
+}
+
+/// The cells of a table's row, without the marks of code.
+fn cells(line: &str) -> Vec<&str> {
+    line.trim_matches('|').split(" | ").map(|cell| cell.trim().trim_matches('`')).collect()
+}
+
+/// What a cell of defaults says, as a form's lines: `X; lathe Z`, `inch deep 1, thru 1; mm deep 2, thru 2`.
+fn commands_of(name: &str, cell: &str, machine: &str, units: &str) -> Vec<String> {
+    // those are told in words, and depend on other commands
+    if ["Machine", "Units", "Control", "ModalLetters", "CycleSinkClear"].contains(&name) || cell == "-" {
+        return vec![];
+    }
+    let columns: Vec<&str> = cell.split("; ").collect();
+    let of = |column: &str| columns.iter().find_map(|said| said.strip_prefix(column)?.strip_prefix(' '));
+    let usual = columns[0];
+    let others = ["inch ", "mm "].iter().any(|column| usual.starts_with(column));
+    let arguments = of(&machine.to_lowercase()).or(of(units)).or((!others).then_some(usual)).unwrap_or("");
+    arguments.split(", ").filter(|said| !said.is_empty()).map(|said| format!("{name} {said}\n")).collect()
+}
+
+/// Settings in words, but for how codes were typed.
+fn without_typed(settings: &str) -> String {
+    let mut parts = settings.split("text: Some(");
+    let first = parts.next().unwrap_or("").to_owned();
+    parts.fold(first, |all, part| all + "text: None" + part.split_once(')').unwrap().1)
+}
+
+fn same_lines(left: &str, right: &str, what: &str) {
+    let differing: Vec<_> = left.lines().zip(right.lines()).filter(|(left, right)| left != right).collect();
+    assert!(left == right, "{what}: {differing:#?}");
+}
+
 #[test]
 fn near_misses_are_suggested() {
     assert_eq!(explain("vlcear").unwrap_err(), "did you mean `vclear`?");

@@ -11,10 +11,11 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (id, statement) in view.commands() {
         let row = id.row();
         // which plane is whose depends on the machine
-        if !matches!(row.args, Args::Codes(..)) || id == CommandId::ArcPlane {
+        if !matches!(row.args, Args::Codes(..) | Args::Motion(..)) || id == CommandId::ArcPlane {
             continue;
         }
-        let usual = codes(row.default.split(';').next().unwrap_or("").split(' '));
+        let usual = row.without.arguments(view.settings.machine, view.settings.units);
+        let usual_codes = codes(usual.split(' '));
         // the spindle's code behind an arc's is none of a motion
         let motion = MOTION.contains(&id);
         let args = if motion { &statement.args[..statement.args.len().min(1)] } else { &statement.args[..] };
@@ -23,8 +24,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             continue; // what is no code is told as such
         }
         let swapped = match motion {
-            true => said != usual && said.iter().all(|code| (0.0..4.0).contains(code)),
-            false => said != usual && sorted(&said) == sorted(&usual),
+            true => said != usual_codes && said.iter().all(|code| (0.0..4.0).contains(code)),
+            false => said != usual_codes && sorted(&said) == sorted(&usual_codes),
         };
         if swapped {
             let what = row.meaning.rsplit_once(": ").map_or("", |(_, order)| order);
@@ -32,7 +33,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF211, format!("{} has its codes in another order than any control", row.name))
                     .at(statement.line.span, "each would do the work of another")
-                    .help(format!("write `{} {}`{order}", row.name, row.default.split(';').next().unwrap_or(""))),
+                    .help(format!("write `{} {usual}`{order}", row.name)),
             );
         }
     }

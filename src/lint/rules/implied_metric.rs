@@ -2,9 +2,9 @@
 
 use crate::control::WithoutPoint;
 use crate::diag::{Code, Diag};
-use crate::lang::Unit;
+use crate::lang::{Unit, UnitChoice};
 use crate::lint::view::View;
-use crate::sema::{UnitChoice, Word};
+use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let settings = view.settings;

@@ -1,8 +1,8 @@
 //! PF315: a unit code as typed, in a form for other units.
 
 use crate::diag::{Code, Diag};
+use crate::lang::UnitChoice;
 use crate::lint::view::View;
-use crate::sema::UnitChoice;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let [inch, mm] = view.settings.inch_mm;

@@ -1,9 +1,8 @@
 //! PF316: a form for both units whose programs do not say which.
 
 use crate::diag::{Code, Diag};
-use crate::lang::{CommandId, VarId};
+use crate::lang::{CommandId, UnitChoice, VarId};
 use crate::lint::view::View;
-use crate::sema::UnitChoice;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(units) = view.command(CommandId::Units).filter(|_| view.settings.units == UnitChoice::Both) else {

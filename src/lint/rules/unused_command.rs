@@ -1,7 +1,7 @@
 //! PF011: a command whose setting nothing in this form asks for.
 
 use crate::diag::{Code, Diag};
-use crate::lang::{CommandId, SequenceId, VarId};
+use crate::lang::{CommandId, SequenceId, Used, VarId};
 use crate::lint::view::View;
 use crate::sema::ArcCentre;
 use crate::syntax::Statement;
@@ -18,40 +18,38 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 }
 
 /// Why a command changes nothing; `None`: it may change something.
-fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<&'static str> {
-    use CommandId as C;
-    use SequenceId as S;
+fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<String> {
     let settings = view.settings;
-    let has = |id: SequenceId| view.form.sequences.contains_key(&id);
+    let has = |id: &SequenceId| view.form.sequences.contains_key(id);
     let prints = |var: VarId| view.printed().has(var);
-    let (unused, why) = match id {
-        C::First | C::Last => (settings.numbers.letter.is_none(), "no blocks are numbered"),
-        C::ModalLetters | C::ModalGs | C::Force => (!settings.modality, "every word is printed under `Modality? N`"),
-        C::Flush => (!prints(VarId::Flush), "nothing prints [flush]"),
-        C::LComp => (!prints(VarId::Lcomp), "nothing prints [lcomp]"),
-        C::InchMm => (!prints(VarId::Unitmode), "nothing prints [unitmode]"),
-        C::ReturnPlane => {
-            (!prints(VarId::Retplane) && !view.has_cycles(), "nothing prints [retplane], and no cycle asks for it")
+    let (unused, why) = match id.row().used {
+        Used::Always => return None,
+        Used::Printed(var) => (!prints(var), format!("nothing prints [{}]", var.name())),
+        Used::Cycles(var) => {
+            let why = format!("nothing prints [{}], and no cycle asks for it", var.name());
+            (!prints(var) && !view.has_cycles(), why)
         }
-        C::RigidTap => (!has(S::Tap) && !has(S::LTap), "the form has no Tap and no LTap"),
-        C::ThreadPasses => (settings.thread.is_none(), "there is no Thread command"),
-        C::Thread => (has(S::AutoThread) || has(S::CanThread), "a sequence serves all threads"),
-        C::SubsFirst | C::RenumSubs => (!has(S::SubStart), "the form has no SubStart"),
-        C::CtrCode | C::CtrCode180 | C::CtrCode360 | C::CtrIncremental | C::CircDir | C::SecondCircle => {
-            let variables = [VarId::Ival, VarId::Jval, VarId::Kval];
-            let asks = id == C::CtrIncremental && variables.into_iter().any(prints);
-            (has(S::CwCode) && has(S::CcwCode) && !asks, "sequences print all arcs")
+        Used::With(ids) => {
+            let names: Vec<_> = ids.iter().map(|id| id.name()).collect();
+            (!ids.iter().any(has), format!("the form has no {}", names.join(" and no ")))
         }
-        C::CDCCode => (has(S::InFeed), "InFeed prints the compensation"),
-        C::Rename | C::Dummy | C::RevSigns => {
-            let letters = statement.args.iter().map(|arg| arg.text.bytes());
-            let asked: Vec<u8> = match id {
-                C::Rename => letters.flatten().take(1).collect(),
-                _ => letters.flatten().collect(),
-            };
-            (!asked.iter().any(|&letter| is_printed(view, letter)), "nothing prints this letter")
+        Used::Unless(ids, why) => (ids.iter().any(has), why.to_owned()),
+        Used::Arcs => {
+            let centres = [VarId::Ival, VarId::Jval, VarId::Kval];
+            let asks = id == CommandId::CtrIncremental && centres.into_iter().any(prints);
+            let served = [SequenceId::CwCode, SequenceId::CcwCode].iter().all(has);
+            (served && !asks, "sequences print all arcs".to_owned())
         }
-        _ => return None,
+        Used::Numbered => (settings.numbers.letter.is_none(), "no blocks are numbered".to_owned()),
+        Used::Modal => (!settings.modality, "every word is printed under `Modality? N`".to_owned()),
+        Used::Threads => (settings.thread.is_none(), "there is no Thread command".to_owned()),
+        Used::Letter => {
+            let letters = statement.args.iter().flat_map(|arg| arg.text.bytes());
+            // the second letter of Rename is the one that is printed instead
+            let most = if id == CommandId::Rename { 1 } else { usize::MAX };
+            let printed = letters.take(most).any(|letter| is_printed(view, letter));
+            (!printed, "nothing prints this letter".to_owned())
+        }
     };
     unused.then_some(why)
 }

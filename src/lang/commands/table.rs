@@ -1,0 +1,235 @@
+//! The rows of all commands. `lang` makes the vocabulary of them, `sema` the settings.
+
+/// Hands the rows to a macro:
+///
+/// `Id "Name" (what it takes) once|many (what holds without it) Standing {field of the settings} "meaning";`
+///
+/// The field is `{name: Type}`, which declares it, `{= place}`, a place in one that is there, `{=> method}`, a method of the
+/// settings that stores the arguments, or `{}`, nothing. Behind it may stand `if (where it is used)` and `eg "arguments"`,
+/// an example for a command that no form of the repository gives.
+macro_rules! command_rows {
+    ($then:ident) => {
+        $then! {
+            // the form and its machine
+            Name "Name" (Text) once (of("")) Ours {name: String}
+                "the post's name";
+            Machine "Machine" (Choice(&["Mill", "Lathe", "EDM"])) once (of("Mill")) Ours {=> known_word}
+                "what the form is for; decides which sequences and variables it may use";
+            Units "Units" (Choice(&["inch", "mm", "both"])) once (of("inch")) Ours {=> known_word}
+                "units of the form's own lengths; a job in other units needs a printed [unitmode]";
+            Control "Control" (Choice(&["fanuc", "haas", "fadal", "linuxcnc", "emc2", "grbl"]))
+                once (of("").told("much like fanuc")) Ours {control: Option<&'static Control>}
+                "the control that the programs are checked for";
+            // codes
+            Rapid "Rapid" (Motion(1, 1)) once (of("G0")) Doc {rapid: Code}
+                "motion word of generated rapids";
+            Feed "Feed" (Motion(1, 1)) once (of("G1")) Doc {feed: Code}
+                "motion word of generated feed moves";
+            CW "CW" (Motion(1, 2)) once (of("G2")) Ours {=> clockwise}
+                "motion word of generated clockwise arcs; an M code behind it is [direct]'s";
+            CCW "CCW" (Motion(1, 2)) once (of("G3")) Ours {=> counter_clockwise}
+                "motion word of generated counter-clockwise arcs; an M code behind it is [direct]'s";
+            FeedCode "FeedCode" (Letters(1, 1)) once (of("F")) Doc {feed_code: u8}
+                "letter of generated feed words";
+            SpeedCode "SpeedCode" (Letters(1, 1)) once (of("S")) Doc {speed_code: u8}
+                "letter of generated speed words";
+            FeedType "FeedType" (Codes('G', 2, 3)) once (of("94 95 93").lathe("98 99 93")) Ours {feed_type: [f64; 3]}
+                "values of [feedtype]: per minute, per revolution, inverse time";
+            SpeedType "SpeedType" (Codes('G', 2, 2)) once (of("96 97")) Ours {speed_type: [f64; 2]}
+                "values of [speedtype]: constant surface speed, revolutions";
+            Spindle "Spindle" (Codes('M', 3, 3)) once (of("3 4 5")) Ours {spindle: [f64; 3]}
+                "values of [direct]: clockwise, counter-clockwise, off";
+            Coolant "Coolant" (Codes('M', 2, 3)) once (of("8 9 7")) Doc {coolant: [f64; 3]}
+                "values of [cool] and [coolantoff]: on, off, mist";
+            Flush "Flush" (Codes('M', 2, 3)) once (of("8 9 7")) Ours {flush: [f64; 3]} if (Printed(V::Flush))
+                "values of [flush]: on, off, mist";
+            CDC "CDC" (Codes('G', 3, 3)) once (of("41 42 40")) Ours {cdc: [f64; 3]}
+                "values of [side]: left, right, off";
+            CDCCode "CDCCode" (Letters(1, 1))
+                once (of("D")) Ours {cdc_code: u8} if (Unless(&[S::InFeed], "InFeed prints the compensation"))
+                "offset letter of generated compensation moves";
+            Dwell "Dwell" (Words(2, 3, "code letter unit, as `G4 P s` or `G4 P ms`"))
+                once (of("G4 P s")) Ours {dwell: DwellWord}
+                "generated dwell block, and the unit of [dwell]: seconds or milliseconds";
+            Orient "Orient" (Words(2, 2, "code and letter, as `M19 R`")) once (of("M19 R")) Ours {orient: (Code, u8)}
+                "spindle orientation";
+            StopCode "StopCode" (Codes('M', 2, 2)) once (of("0 1")) Ours {stop_code: [f64; 2]}
+                "values of [stop]: program stop, optional stop";
+            LComp "LComp" (Number) once (of("0")) Ours {lcomp: f64} if (Printed(V::Lcomp))
+                "[lcomp] is the tool's own register, else tool number + this";
+            DComp "DComp" (Number) once (of("0")) Ours {dcomp: f64}
+                "[dcomp] is the tool's own register, else tool number + this";
+            Work "Work" (Codes('G', 1, 1)) once (of("54")) Ours {work: f64}
+                "[work] of fixture 1; later fixtures count up from it";
+            WorkDefault "WorkDefault" (Codes('G', 1, 1)) once (of("54")) Ours {work_default: f64}
+                "[work] when a job names none";
+            IncAbs "Inc/Abs" (Codes('G', 2, 2)) once (of("91 90")) Ours {inc_abs: [f64; 2]}
+                "values of [incmode]";
+            InchMm "Inch/MM" (Codes('G', 2, 2)) once (of("20 21")) Ours {inch_mm: [f64; 2]} if (Printed(V::Unitmode))
+                "values of [unitmode]";
+            ReturnPlane "ReturnPlane" (Codes('G', 2, 2))
+                once (of("99 98")) Ours {return_plane: [f64; 2]} if (Cycles(V::Retplane))
+                "values of [retplane]: R level, initial level";
+            // axes
+            HCode "HCode" (Letters(1, 1)) once (of("X").lathe("Z")) Ours {= axes[0]}
+                "letter of the first axis in generated moves";
+            VCode "VCode" (Letters(1, 1)) once (of("Y").lathe("X")) Ours {= axes[1]}
+                "letter of the second axis in generated moves";
+            DCode "DCode" (Letters(1, 1)) once (of("Z").lathe("Y")) Ours {= axes[2]}
+                "letter of the depth axis in generated moves";
+            HCode2 "HCode2" (Letters(1, 1)) once (of("U")) Ours {= axes2[0]}
+                "letter of the upper guide's first axis";
+            VCode2 "VCode2" (Letters(1, 1)) once (of("V")) Ours {= axes2[1]}
+                "letter of the upper guide's second axis";
+            DCode2 "DCode2" (Letters(1, 1)) once (of("W")) Ours {= axes2[2]}
+                "letter of the second depth axis";
+            ByDiameter "ByDiameter?" (Switch) once (of("N").lathe("Y")) Ours {by_diameter: bool}
+                "X as a diameter";
+            RevSigns "RevSigns" (Letters(1, 15)) many (of("")) Ours {rev_signs: Vec<u8>} if (Letter) eg "Z"
+                "letters printed with the sign reversed";
+            Incremental "Incremental?" (Switch) once (of("N")) Ours {incremental: bool}
+                "generated moves in increments";
+            // arcs
+            CtrCode "CtrCode" (Words(1, 3, "letters, `I J K` or `R`"))
+                once (of("I J K").lathe("K I")) Ours {centre: ArcCentre} if (Arcs)
+                "arc centre words";
+            CtrCode180 "CtrCode>180" (Words(1, 3, "letters, `I J K` or `R`"))
+                once (of("")) Ours {centre_over_180: Option<ArcCentre>} if (Arcs)
+                "centre words of arcs over 180 degrees; `R` prints the radius negative";
+            CtrCode360 "CtrCode360" (Words(1, 3, "letters, `I J K`"))
+                once (of("")) Ours {=> centre_of_circles} if (Arcs)
+                "centre words of full circles";
+            CtrIncremental "CtrIncremental?" (Switch) once (of("Y")) Ours {centre_incremental: bool} if (Arcs)
+                "arc centres relative to the start, else absolute";
+            ByQuadrants "ByQuadrants?" (Switch) once (of("N")) Doc {by_quadrants: bool}
+                "split arcs at the quadrant lines";
+            ArcPlane "ArcPlane" (Motion(1, 3)) once (of("17 18 19")) Ours {planes: Vec<Code>}
+                "plane words; an arc outside the planes given is linearised";
+            Helical "Helical?" (Switch) once (of("Y")) Ours {helical: bool}
+                "arcs may move along the tool axis, else they are linearised";
+            MinRad "MinRad" (Length) once (of("0.0005").mm("0.01")) Ours {min_radius: f64}
+                "smaller arcs are linearised";
+            MaxRad "MaxRad" (Length) once (of("999").mm("25000")) Ours {max_radius: f64}
+                "larger arcs are linearised";
+            Tolerance "Tolerance" (LengthAboveZero) once (of("0.0005").mm("0.01")) Ours {tolerance: f64}
+                "how far lines may leave a linearised arc";
+            ArcWithLine "ArcWithLine?" (Switch) once (of("Y")) Ours {arc_with_line: bool}
+                "an arc after a line need not restate its motion code";
+            ArcWithSame "ArcWithSame?" (Switch) once (of("Y")) Ours {arc_with_same: bool}
+                "an arc after a like arc need not restate its motion code";
+            CircDir "CircDir" (Words(2, 2, "two words, clockwise and counter-clockwise, as `DR- DR+`"))
+                once (of("")) Ours {circle_direction: Option<[String; 2]>} if (Arcs) eg "DR- DR+"
+                "direction word at the end of an arc block";
+            SecondCircle "2ndCircleCode" (Words(1, 9, "one word, as `M99`"))
+                once (of("")) Doc {second_circle: Option<String>} if (Arcs)
+                "word that opens a second arc line, which holds the centre";
+            // words that change nothing
+            Modality "Modality?" (Switch) once (of("Y")) Ours {modality: bool}
+                "drop words that change nothing";
+            ModalLetters "ModalLetters" (Letters(1, 26))
+                once (of("").told("axes, F and S")) Ours {modal_letters: Option<Vec<u8>>} if (Modal) eg "X Y Z F S"
+                "letters that may be dropped";
+            ModalGs "ModalGs" (Codes('G', 1, 15))
+                once (of("0 1 2 3 17 18 19")) Ours {modal_codes: Vec<f64>} if (Modal)
+                "codes that may be dropped";
+            Force "Force" (Letters(1, 15)) once (of("")) Ours {force: Vec<u8>} if (Modal) eg "X Y Z"
+                "letters printed again after every tool change and every change from rapid to feed";
+            // blocks and their text
+            SequenceNumbers "Sequence#s" (Words(1, 3, "letter start step, as `N 10 10`, or `None`"))
+                once (of("None")) Ours {numbers: SequenceNumbers}
+                "block numbers";
+            First "First#?" (Switch) once (of("Y")) Ours {number_first: bool} if (Numbered)
+                "number the first block";
+            Last "Last#?" (Switch) once (of("Y")) Ours {number_last: bool} if (Numbered)
+                "number the last block";
+            SpacesSwitch "Spaces?" (Switch) once (of("Y")) Ours {blanks: bool}
+                "a blank between words";
+            Spaces "Spaces" (Whole(1, 15)) once (of("")) Ours {columns: Vec<usize>} eg "8"
+                "fixed columns: one width for all, or the column of each word";
+            LeadingZeros "Leading0s?" (Switch) once (of("N")) Ours {leading_zeros: bool}
+                "0.5 for .5";
+            Eob "EOB" (Text) once (of("")) Ours {eob: String}
+                "text at the end of every block";
+            Comment "Comment" (Words(1, 2, "opening mark and, unless empty, closing mark"))
+                once (of("( )")) Ours {comment: [String; 2]}
+                "comment marks";
+            UpperComments "UpperCaseComments?" (Switch) once (of("Y")) Ours {upper_comments: bool}
+                "comments of the job in capitals";
+            Replace "Replace" (Words(2, 2, "old and new text, in quotes where they hold blanks"))
+                many (of("")) Ours {replace: Vec<Replacement>} eg "\"M8 \" \"M88 \""
+                "text replacement in every output block";
+            Rename "Rename" (Letters(2, 2)) many (of("")) Ours {rename: Vec<(u8, u8)>} if (Letter)
+                "prints the first letter as the second";
+            Dummy "Dummy" (Letters(1, 15)) many (of("")) Ours {dummy: Vec<u8>} if (Letter) eg "Q"
+                "prints the value of these letters without the letter";
+            Mod "Mod" (Text) many (of("")) Ours {mod_text: Vec<String>}
+                "text printed once at the start (kept for old files)";
+            // questions and other forms
+            Each "Each" (Words(1, 3, "variable, prompt in quotes, default"))
+                many (of("")) Ours {= prompts} eg "val1 \"Height of the vise\" 2.5"
+                "a prompted variable";
+            Ask "Ask" (Words(1, 3, "variable, prompt in quotes, default"))
+                many (of("")) Ours {= prompts} eg "val1 \"Height of the vise\" 2.5"
+                "a prompted variable";
+            Call "Call" (Text) many (of("")) Ours {} eg "common.inc"
+                "includes another form of the same folder";
+            CallMe "CallMe" (Text) many (of("")) Ours {} eg "common.inc"
+                "includes another form of the same folder";
+            // subprograms, tool changes, limits
+            SubsFirst "Subs1st?" (Switch)
+                once (of("N").told("with a Between Y")) Ours {subs_first: bool} if (With(&[S::SubStart]))
+                "subprograms before the main program";
+            RenumSubs "RenumSubs?" (Switch) once (of("Y")) Ours {renumber_subs: bool} if (With(&[S::SubStart]))
+                "number subprograms from 1";
+            VRapid "VRapid" (Motion(1, 1)) once (of("")) Ours {depth_rapid: Option<Code>} eg "G0"
+                "motion word of the depth part of a rapid, which is then split";
+            ZRestart "ZRestart?" (Switch) once (of("N")) Ours {restart_depth: bool}
+                "the move after a tool change prints the depth again";
+            RevTurret2 "RevTurret2?" (Switch) once (of("N")) Ours {reverse_turret_2: bool}
+                "X reversed while [turret] is 2";
+            Tools "Tools" (Text) many (of("")) Ours {}
+                "of the original desktop product: without effect";
+            Drive "Drive" (Text) many (of("")) Ours {}
+                "of the original desktop product: without effect";
+            WindowSize "WindowSize" (Text) many (of("")) Ours {}
+                "of the original desktop product: without effect";
+            Limits "Limits" (Words(3, 3, "axis letter, least and greatest position, as `X -20 20`"))
+                many (of("")) Ours {limits: Vec<TravelLimit>}
+                "travel of an axis; a rotary one's drives Unwind";
+            // threads and cycles
+            Thread "Thread" (Motion(1, 1))
+                once (of(""))
+                Doc {thread: Option<Code>}
+                if (Unless(&[S::AutoThread, S::CanThread], "a sequence serves all threads")) eg "G33"
+                "print each threading pass with this code";
+            ThreadPasses "ThreadPasses" (Choice(&["x", "full"])) once (of("x")) Ours {=> thread_passes} if (Threads)
+                "later passes print X alone, or approach, cut, clear and return";
+            CycleClear "CycleClear" (Length) once (of("").by_units("0.1", "3")) Ours {cycle_clear: Option<f64>}
+                "clearance of a cycle that names none";
+            CycleStep "CycleStep" (Length) once (of("")) Ours {cycle_step: Option<f64>} eg "0.1"
+                "peck of a cycle that names none";
+            CycleMinStep "CycleMinStep" (Length) once (of("0")) Ours {cycle_min_step: f64}
+                "least peck";
+            CycleBack "CycleBack" (Words(2, 2, "`deep`, `chipbreak` or `thru`, then a length"))
+                many (of("").by_units("deep 0.05, chipbreak 0.05, thru 0.05", "deep 1, chipbreak 1, thru 1"))
+                Ours {=> cycle_back} eg "deep 0.05"
+                "secondary clearance of a cycle that names none";
+            CycleDwell "CycleDwell" (Length) once (of("0.5")) Ours {cycle_dwell: f64}
+                "dwell in seconds of a facing cycle that names none";
+            CycleDwellAt "CycleDwellAt" (Words(1, 2, "`steps`, `retracts` or both"))
+                once (of("")) Ours {=> cycle_dwell_at} eg "steps"
+                "where else than at the bottom a peck cycle dwells";
+            CycleOrient "CycleOrient" (Number) once (of("0")) Ours {cycle_orient: f64}
+                "spindle angle for boring, degrees";
+            CycleJog "CycleJog" (Length) once (of("").by_units("0.02", "0.5")) Ours {cycle_jog: Option<f64>}
+                "jog of a boring tool off the wall";
+            CycleSinkClear "CycleSinkClear" (Length)
+                once (of("").told("the clearance")) Ours {cycle_sink_clear: Option<f64>} eg "0.1"
+                "clearance above the cone of a countersink";
+            RigidTap "RigidTap?" (Switch) once (of("N")) Ours {rigid_tap: bool} if (With(&[S::Tap, S::LTap]))
+                "the Tap sequences are rigid";
+        }
+    };
+}
+
+pub(crate) use command_rows;

@@ -1,0 +1,181 @@
+//! Commands with words of their own.
+
+use super::args::{Arguments, Read, bad, number, whole};
+use super::settings::{ArcCentre, Code, DwellWord, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit};
+use super::store::Setting;
+use crate::lang::{Origin, VarId};
+
+/// `G4 P s`.
+impl Setting for DwellWord {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        let milliseconds = match args.all.get(2) {
+            None => false,
+            Some(unit) if unit.text.eq_ignore_ascii_case("s") => false,
+            Some(unit) if unit.text.eq_ignore_ascii_case("ms") => true,
+            Some(unit) => return bad(Some(unit), "the unit of a dwell is `s` or `ms`"),
+        };
+        *self = DwellWord { code: args.code(&args.all[0], 'G')?, letter: args.letter(&args.all[1])?, milliseconds };
+        Ok(())
+    }
+}
+
+/// `M19 R`.
+impl Setting for (Code, u8) {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = (args.code(&args.all[0], 'M')?, args.letter(&args.all[1])?);
+        Ok(())
+    }
+}
+
+/// `I J K`, `IJK`, `R`, `R-`.
+impl Setting for ArcCentre {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        let given: String = args.all.iter().map(|a| a.text.trim_matches('-')).collect();
+        *self = match given.as_bytes() {
+            [r @ (b'R' | b'r')] => ArcCentre::Radius(*r),
+            letters if (1..=3).contains(&letters.len()) && letters.iter().all(u8::is_ascii_alphabetic) => {
+                ArcCentre::Letters(letters.to_vec())
+            }
+            _ => {
+                let message = format!("{} takes centre letters as `I J K`, or `R`", args.id.name());
+                return bad(args.all.first(), message);
+            }
+        };
+        Ok(())
+    }
+}
+
+/// `N 10 10`, `None`, `None 100 10`: with None, start and step are those of `[block]`.
+impl Setting for SequenceNumbers {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        let letter = match &args.all[0].text {
+            none if none.eq_ignore_ascii_case("None") => None,
+            letter if letter.len() == 1 && letter.as_bytes()[0].is_ascii_alphabetic() => Some(letter.as_bytes()[0]),
+            _ => return bad(args.all.first(), "Sequence#s begins with a letter, or is None"),
+        };
+        let start = args.all.get(1).map_or(Ok(10), |a| whole(a, 0, 99_999_999))?;
+        let step = args.all.get(2).map_or(Ok(10), |a| whole(a, 1, 99_999_999))?;
+        *self = SequenceNumbers { letter, start, step };
+        Ok(())
+    }
+}
+
+/// Two texts, of which the second may be empty.
+impl Setting for [String; 2] {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = [0, 1].map(|i| args.all.get(i).map_or_else(String::new, |arg| arg.text.clone()));
+        Ok(())
+    }
+}
+
+/// `Replace old new`.
+impl Setting for Vec<Replacement> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        if args.all[0].text.is_empty() {
+            return bad(args.all.first(), "the old text is empty");
+        }
+        let [old, new] = [0, 1].map(|i| args.all[i].text.clone());
+        self.push(Replacement { old, new, span: args.span });
+        Ok(())
+    }
+}
+
+/// `X -20 20`.
+impl Setting for Vec<TravelLimit> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        let letter = args.letter(&args.all[0])?;
+        let (least, greatest) = (number(&args.all[1])?, number(&args.all[2])?);
+        if least >= greatest {
+            return bad(Some(&args.all[2]), "the greatest position is not above the least");
+        }
+        self.push(TravelLimit { letter, least, greatest, span: args.span });
+        Ok(())
+    }
+}
+
+/// `Ask val1 "Fixture height" 2.5`.
+impl Setting for Vec<Prompt> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        let name = args.all[0].text.trim_matches(['[', ']', '<', '>']);
+        let Some(var) = VarId::parse(name) else {
+            return bad(args.all.first(), format!("`{name}` is no variable"));
+        };
+        if var.row().origin == Origin::Computed {
+            let message = format!("[{name}] comes from the toolpath and can't be asked for: use val1 to val10");
+            return bad(args.all.first(), message);
+        }
+        let text = args.all.get(1).map_or_else(|| var.row().meaning.to_owned(), |a| a.text.clone());
+        let default = args.all.get(2).map(number).transpose()?;
+        self.push(Prompt { var, text, default, span: args.span });
+        Ok(())
+    }
+}
+
+impl Settings {
+    /// `Machine` and `Units` are read ahead of all others, whose defaults depend on them.
+    pub(super) fn known_word(&mut self, args: &Arguments) -> Read<()> {
+        args.choice().map(|_| ())
+    }
+
+    pub(super) fn clockwise(&mut self, args: &Arguments) -> Read<()> {
+        self.cw = turn(args, &mut self.spindle[0])?;
+        Ok(())
+    }
+
+    pub(super) fn counter_clockwise(&mut self, args: &Arguments) -> Read<()> {
+        self.ccw = turn(args, &mut self.spindle[1])?;
+        Ok(())
+    }
+
+    pub(super) fn centre_of_circles(&mut self, args: &Arguments) -> Read<()> {
+        let mut centre = ArcCentre::default();
+        centre.set(args)?;
+        if let ArcCentre::Radius(_) = centre {
+            return bad(args.all.first(), "a full circle has no radius word: give centre letters");
+        }
+        self.centre_full = Some(centre);
+        Ok(())
+    }
+
+    pub(super) fn thread_passes(&mut self, args: &Arguments) -> Read<()> {
+        self.thread_full = args.choice()? == "full";
+        Ok(())
+    }
+
+    pub(super) fn cycle_back(&mut self, args: &Arguments) -> Read<()> {
+        let length = args.length(&args.all[1])?;
+        let field = match args.all[0].text.to_ascii_lowercase().as_str() {
+            "deep" => &mut self.cycle_back_deep,
+            "chipbreak" => &mut self.cycle_back_chipbreak,
+            "thru" => &mut self.cycle_back_thru,
+            _ => return bad(args.all.first(), "CycleBack is for `deep`, `chipbreak` or `thru`"),
+        };
+        *field = Some(length);
+        Ok(())
+    }
+
+    pub(super) fn cycle_dwell_at(&mut self, args: &Arguments) -> Read<()> {
+        for arg in args.all {
+            match arg.text.to_ascii_lowercase().as_str() {
+                "steps" => self.cycle_dwell_steps = true,
+                "retracts" => self.cycle_dwell_retracts = true,
+                _ => return bad(Some(arg), "CycleDwellAt takes `steps`, `retracts` or both"),
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The G code of an arc and, if it is given, the M code of the spindle that turns the same way.
+fn turn(args: &Arguments, spindle: &mut f64) -> Read<Code> {
+    let (arc, turn) = args.all.split_at(1);
+    let code = Arguments { all: arc, ..*args }.codes()?.swap_remove(0);
+    if let [second] = turn {
+        let turn = args.code(second, 'M')?;
+        if !turn.letter.eq_ignore_ascii_case(&b'M') {
+            return bad(Some(second), format!("`{}` is no M code of the spindle", second.text));
+        }
+        *spindle = turn.value;
+    }
+    Ok(code)
+}

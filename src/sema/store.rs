@@ -1,0 +1,131 @@
+//! Fields of the settings, by their types: how each takes the arguments of its command.
+
+use super::args::{Arguments, Read, bad, whole};
+use super::settings::Code;
+use crate::control::Control;
+use crate::lang::Args;
+
+/// A field that a command sets.
+pub trait Setting {
+    /// Takes the arguments, of which there are as many as the command's row says.
+    fn set(&mut self, args: &Arguments) -> Read<()>;
+}
+
+/// A field that is empty without its command.
+impl<T: Setting + Default> Setting for Option<T> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        let mut value = T::default();
+        value.set(args)?;
+        *self = Some(value);
+        Ok(())
+    }
+}
+
+impl Setting for bool {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = args.switch()?;
+        Ok(())
+    }
+}
+
+/// A control by its name.
+impl Setting for Option<&'static Control> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = Control::named(args.choice()?);
+        Ok(())
+    }
+}
+
+/// Text.
+impl Setting for String {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = args.text();
+        Ok(())
+    }
+}
+
+/// Texts of a command that repeats.
+impl Setting for Vec<String> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        self.push(args.text());
+        Ok(())
+    }
+}
+
+/// A number, or the number of a code.
+impl Setting for f64 {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = match args.id.row().args {
+            Args::Codes(..) => args.codes()?[0].value,
+            _ => args.number()?,
+        };
+        Ok(())
+    }
+}
+
+/// Numbers of codes; later ones that are not given stay as they are.
+impl<const N: usize> Setting for [f64; N] {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        for (slot, code) in self.iter_mut().zip(args.codes()?) {
+            *slot = code.value;
+        }
+        Ok(())
+    }
+}
+
+/// Numbers of codes.
+impl Setting for Vec<f64> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = args.codes()?.iter().map(|code| code.value).collect();
+        Ok(())
+    }
+}
+
+impl Setting for Code {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = args.codes()?.swap_remove(0);
+        Ok(())
+    }
+}
+
+impl Setting for Vec<Code> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = args.codes()?;
+        Ok(())
+    }
+}
+
+impl Setting for u8 {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = args.letters()?[0];
+        Ok(())
+    }
+}
+
+/// Letters; those of a command that repeats add up.
+impl Setting for Vec<u8> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        self.extend(args.letters()?);
+        Ok(())
+    }
+}
+
+/// Pairs of letters of a command that repeats.
+impl Setting for Vec<(u8, u8)> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        let letters = args.letters()?;
+        self.push((letters[0], letters[1]));
+        Ok(())
+    }
+}
+
+/// Columns.
+impl Setting for Vec<usize> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = args.all.iter().map(|arg| whole(arg, 1, 200).map(|n| n as usize)).collect::<Read<_>>()?;
+        if self.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return bad(args.all.first(), "columns must increase");
+        }
+        Ok(())
+    }
+}

@@ -360,7 +360,7 @@ impl Body<'_, '_> {
         }
         let message =
             format!("{}[{}] is a position, and the control is in G{increments}", char::from(letter), var.name());
-        fault(Code::PR017, message, "print G90 before it, or the increment, as [hdist]")
+        fault(Code::PR040, message, "print G90 before it, or the increment, as [hdist]")
     }
 }
 

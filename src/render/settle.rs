@@ -56,7 +56,7 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
     {
         let message = format!("the spindle is limited to {max} from here, and nothing prints it");
         let help = "the form prints [maxrpm] at a tool change: give the limit there, for the whole time of the tool";
-        return fault(Code::PR017, message, help);
+        return fault(Code::PR038, message, help);
     }
     check_own_limit(shape, want, said)?;
     print_spindle(shape, want, said, out)?;
@@ -122,7 +122,7 @@ fn check_own_limit(shape: &Shape, want: &Want, said: &Said) -> Done {
         return Ok(());
     }
     let message = format!("the tool change limited the spindle to its first speed, {limit}");
-    fault(Code::PR017, message, "give the operation's spindle its `max`")
+    fault(Code::PR038, message, "give the operation's spindle its `max`")
 }
 
 /// The work offset, where something that does not print it is about to print a position.
@@ -184,7 +184,7 @@ pub fn knows_after_stop(shape: &Shape, want: &Want, said: &Said) -> Done {
         return Ok(());
     }
     let help = "give it its own `spindle` and `coolant` before the stop";
-    fault(Code::PR008, "the subprogram goes on after a stop, and nobody knows its spindle and coolant here", help)
+    fault(Code::PR033, "the subprogram goes on after a stop, and nobody knows its spindle and coolant here", help)
 }
 
 /// Positions are not printed where they would be read as increments, nor the other way round.
@@ -197,7 +197,7 @@ pub fn check_distance(shape: &Shape, said: &Said) -> Done {
         };
         let message = format!("the control is in G{now} here, and would read {read}");
         let help = format!("print G{needed} in the sequence that printed G{now}, after the words that need it");
-        return fault(Code::PR017, message, help);
+        return fault(Code::PR040, message, help);
     }
     Ok(())
 }

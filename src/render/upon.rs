@@ -88,7 +88,7 @@ pub fn upons(used: VarSet, shape: &Shape, want: &mut Want, said: &mut Said, out:
             if moves && want.compensated {
                 let message = format!("Upon [{}] moves the tool under cutter compensation", upon.var.name());
                 let help = "end the compensation with an `outfeed` before the change";
-                return fault_at(Code::PR006, message, help, Some(upon.routine.span));
+                return fault_at(Code::PR030, message, help, Some(upon.routine.span));
             }
             let placed = std::mem::take(&mut said.stand.placed);
             way_before(&upon.routine, shape, want, said, out)?;

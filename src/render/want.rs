@@ -187,11 +187,11 @@ impl Want {
         let first = settings.work;
         let Some(code) = work_code(first, work) else {
             let message = format!("the work offset {work} is a code, and this form counts its offsets from {first}");
-            return fault(Code::PR017, message, "give the number of the fixture, from 1, or a code from 54 to 59");
+            return fault(Code::PR037, message, "give the number of the fixture, from 1, or a code from 54 to 59");
         };
         if shape.program.work_word.is_none() && is_no_work(code, shape) && settings.machine == Machine::Mill {
             let message = format!("the work offset {work} would be G{code}, which is none");
-            return fault(Code::PR017, message, "give the code itself, as 59.1, or a fixture number from 1 to 6");
+            return fault(Code::PR037, message, "give the code itself, as 59.1, or a fixture number from 1 to 6");
         }
         self.set_condition(VarId::Work, code);
         Ok(())
@@ -219,7 +219,7 @@ impl Want {
             self.set(VarId::Maxrpm, max);
             if !shape.program.printed.has(VarId::Maxrpm) {
                 let message = format!("the spindle is limited to {max}, and the form nowhere prints [maxrpm]");
-                return fault(Code::PR017, message, "print it, as `G50 S[maxrpm]`, before the spindle starts");
+                return fault(Code::PR038, message, "print it, as `G50 S[maxrpm]`, before the spindle starts");
             }
         }
         self.changed = true;

@@ -233,7 +233,7 @@ impl<'s> Hold<'s> {
         };
         if self.waiting.len() == MOST_HELD {
             let message = format!("more than {MOST_HELD} items before the operation's first move");
-            return Err(Diag::new(Code::PJ005, message).help("put the first rapid before them").into());
+            return Err(Diag::new(Code::PJ013, message).help("put the first rapid before them").into());
         }
         self.waiting.push((waiting, place));
         Ok(())

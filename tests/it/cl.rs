@@ -279,14 +279,14 @@ fn nothing_is_lost_between_statements() {
         ("L1) GOTO/1,1,1", "PL001 `L1` stands before GOTO"),
         ("COOLNT/FLOOD,OFF", "PL002 COOLNT"),
         ("LOADTL/2,FOO,7", "PL002 LOADTL"),
-        ("LOADTL/1,OFSETNO,7\nGOTO/1,1,1", "PR017 tool 1 is in"),
+        ("LOADTL/1,OFSETNO,7\nGOTO/1,1,1", "PR039 tool 1 is in"),
         ("CUTCOM/LEFT,ZXPLAN", "PL002 CUTCOM"),
         ("SCALE/2", "PL004 SCALE"),
         ("MODE/INCREM", "PL004 MODE"),
         ("END\nGOTO/1,1,1", "PL001 a statement after"),
         ("GOTO/10,0,10\nINDIRV/1,0,0\nTLON,GOFWD/(CIRCLE/0,0,10,10),ON,(LINE/0,0,10,0,10,10)", "PL004 INDIRV"),
         ("GOTO/10,0,10\nMOVARC/0,0,10,0,0,1,12\nGOTO/0,10,10", "PR005 the CIRCLE has the radius 12"),
-        ("CUTCOM/LEFT\nGOTO/1,0,10\nLOADTL/2\nSPINDL/1,CLW\nRAPID\nGOTO/1,1,1", "PR006 the tool changes"),
+        ("CUTCOM/LEFT\nGOTO/1,0,10\nLOADTL/2\nSPINDL/1,CLW\nRAPID\nGOTO/1,1,1", "PR030 the tool changes"),
         ("CYCLE/TAP,RIGID,DEPTH,1,MMPR,1\nGOTO/1,1,0", "PC021"),
     ] {
         assert!(error(text).starts_with(code), "{text}: {}", error(text));

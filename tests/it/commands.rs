@@ -233,8 +233,8 @@ fn the_next_tool_comes_from_the_list_of_tools() {
     assert_eq!(program(&form, &two(""))[1], "T1 M6 (next -, first 1)");
     let word = form.replace("(next [nexttool], first [tool1])", "H[nexttool]");
     assert!(program(&word, &two(""))[0].starts_with("PR001 [nexttool]"));
-    assert!(program(&form, &two("\"tool_order\":[2,1],"))[0].starts_with("PJ005"));
-    assert!(program(&form, &two("\"tool_order\":[1,2,1],"))[0].starts_with("PJ005"));
+    assert!(program(&form, &two("\"tool_order\":[2,1],"))[0].starts_with("PJ012"));
+    assert!(program(&form, &two("\"tool_order\":[1,2,1],"))[0].starts_with("PJ012"));
 }
 
 #[test]

@@ -37,7 +37,7 @@ fn a_cycle_that_prints_positions_is_printed_as_moves() {
 fn a_control_left_in_the_other_distance_mode_is_an_error() {
     let path = "{\"work\":55},{\"rapid\":[1,0,1]}";
     let leaves = "Upon [work]\nG[work] G91 G28 Z0\nEnd";
-    assert!(path_lines("", leaves, path)[0].starts_with("PR017 the control is in G91"));
+    assert!(path_lines("", leaves, path)[0].starts_with("PR040 the control is in G91"));
     let mends = leaves.replace("Z0\n", "Z0\nG90\n");
     assert_eq!(path_lines("", &mends, path), ["G55 G91 G28 Z0", "G90", "G0 X1. Y0 Z1."]);
 }
@@ -69,7 +69,7 @@ fn a_higher_hole_after_g90_is_not_approached_by_an_increment() {
     let drill = "Drill\nG90 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
     let path = r#"{"cycle":{"kind":"drill","depth":1,"clear":0.1,"feed":5,"points":[[1,1,2],[2,1,5]]}}"#;
     let lines = increments(drill, path);
-    assert!(lines[0].starts_with("PR017"), "{lines:?}");
+    assert!(lines[0].starts_with("PR040"), "{lines:?}");
 }
 
 /// An Upon goes to the position that it prints: what is left of the move counts from there.

@@ -53,7 +53,7 @@ fn a_subprogram_changes_nothing_but_where_it_is_called() {
     // a subprogram in between must know what to put back
     let nested = format!("{},{}", sub(7, "{\"call\":{\"sub\":8}}"), sub(8, inside));
     let form = mill("RenumSubs? N", SUBS);
-    assert!(program(&form, &with_subs(&nested, CALL))[0].starts_with("PR008 subprogram 8 changes"));
+    assert!(program(&form, &with_subs(&nested, CALL))[0].starts_with("PR033 subprogram 8 changes"));
     let own =
         "{\"work\":56},{\"coolant\":\"on\"},{\"spindle\":{\"speed\":700}},{\"call\":{\"sub\":8}},{\"rapid\":[0,0,2]}";
     let nested = format!("{},{}", sub(7, own), sub(8, inside));
@@ -83,14 +83,14 @@ fn calls_are_made_in_the_first_plane_without_compensation() {
     let lines = program(&mill("", SUBS), &with_subs(&sub(7, MOVE), &format!("{arc},{CALL}")));
     assert_eq!(lines[5..7], ["G17", "M98 P1 L3"]);
     let compensated = format!("{{\"infeed\":[1,0],\"side\":\"left\"}},{CALL}");
-    assert!(program(&mill("", SUBS), &with_subs(&sub(7, MOVE), &compensated))[0].starts_with("PR006 cutter"));
+    assert!(program(&mill("", SUBS), &with_subs(&sub(7, MOVE), &compensated))[0].starts_with("PR030 cutter"));
 }
 
 #[test]
 fn calls_that_lead_nowhere_or_in_circles_are_errors() {
     let error = |subs: &str, path: &str| program(&mill("RenumSubs? N", SUBS), &with_subs(subs, path))[0].clone();
-    assert_eq!(error("", CALL), "PR008 the job has no subprogram 7");
-    assert_eq!(error(&sub(7, "{\"call\":{\"sub\":9}}"), CALL), "PR008 the job has no subprogram 9");
+    assert_eq!(error("", CALL), "PR034 the job has no subprogram 7");
+    assert_eq!(error(&sub(7, "{\"call\":{\"sub\":9}}"), CALL), "PR034 the job has no subprogram 9");
     let circle = format!("{},{}", sub(7, "{\"call\":{\"sub\":8}}"), sub(8, "{\"call\":{\"sub\":7}}"));
     assert!(error(&circle, MOVE).contains("calls itself"));
     assert!(error(&sub(7, CALL), MOVE).contains("calls itself"));
@@ -105,8 +105,8 @@ fn calls_that_lead_nowhere_or_in_circles_are_errors() {
 
 #[test]
 fn parts_of_a_path_close_in_order() {
-    assert!(path_lines("", "", "{\"begin\":\"row\"},{\"begin\":\"leadin\"},{\"end\":\"row\"}")[0].starts_with("PJ005"));
-    assert!(path_lines("", "", "{\"end\":\"row\"}")[0].starts_with("PJ005"));
+    assert!(path_lines("", "", "{\"begin\":\"row\"},{\"begin\":\"leadin\"},{\"end\":\"row\"}")[0].starts_with("PJ011"));
+    assert!(path_lines("", "", "{\"end\":\"row\"}")[0].starts_with("PJ011"));
 }
 
 fn lathe(head: &str, sequences: &str) -> String {
@@ -173,7 +173,7 @@ fn more_starts_begin_a_pitch_further_back_and_tapers_are_radii() {
     let lines = turned("Thread G33", "", &cone);
     assert_eq!(lines[1..], ["G33 X.6 Z-1. I.12 F.2", "G0 Z.3 X1.", "G33 X.6 Z-1. I.13 F.2"]);
     let both = taper.replace("\"pitch\"", "\"taper\":0.07,\"pitch\"");
-    assert!(turned("Thread G33", "", &both)[0].starts_with("PR006 the thread's ends differ"));
+    assert!(turned("Thread G33", "", &both)[0].starts_with("PR031 the thread's ends differ"));
     let inner = THREAD.replace("0.08", "-0.08");
     assert_eq!(turned("Thread G33", "", &inner)[1..2], ["G33 X1.08 Z-1. I0 F.1"]);
 }
@@ -193,7 +193,7 @@ fn a_thread_cycle_loses_none_of_its_parameters() {
     );
     assert_eq!(turned("", auto, &set)[1], "G76 P020529");
     let chamfer = THREAD.replace("\"pitch\"", "\"chamfer\":5,\"pitch\"");
-    assert!(turned("Thread G33", "", &chamfer)[0].starts_with("PR017 passes made of single moves"));
+    assert!(turned("Thread G33", "", &chamfer)[0].starts_with("PR031 passes made of single moves"));
 }
 
 #[test]
@@ -207,14 +207,14 @@ fn a_changed_limit_of_the_spindle_is_printed_or_refused() {
             .replace("\"speed\":1000", "\"speed\":100,\"mode\":\"css\",\"max\":2000")
     };
     assert_eq!(program(&form, &text("{\"speed\":90}"))[2..6], ["G50 S2000", "G96 S100 M3", "G0 Z.2 X1.", "S90 M3"]);
-    assert!(program(&form, &text("{\"max\":1500}"))[0].starts_with("PR017 the spindle is limited to 1500"));
+    assert!(program(&form, &text("{\"max\":1500}"))[0].starts_with("PR038 the spindle is limited to 1500"));
 }
 
 #[test]
 fn threads_need_a_lathe_and_a_turning_spindle() {
     assert!(path_lines("", "", THREAD)[0].starts_with("PR008"));
     let stopped = format!("{{\"spindle\":{{\"direction\":\"off\"}}}},{THREAD}");
-    assert!(turned("Thread G33", "", &stopped)[0].starts_with("PR006"));
+    assert!(turned("Thread G33", "", &stopped)[0].starts_with("PR032"));
 }
 
 #[test]
@@ -296,9 +296,9 @@ fn numbers_of_subprograms_are_not_the_programs_own() {
 #[test]
 fn threads_are_approached_from_their_own_side() {
     let inner = THREAD.replace("0.08", "-0.08").replace("[0.2,0.5]", "[0.2,0.4]");
-    assert!(turned("Thread G33", "", &inner)[0].starts_with("PR006 the tool is outside the crest of an inner thread"));
+    assert!(turned("Thread G33", "", &inner)[0].starts_with("PR031 the tool is outside the crest of an inner thread"));
     let outer = THREAD.replace("[0.2,0.5]", "[0.2,0.6]");
-    assert!(turned("Thread G33", "", &outer)[0].starts_with("PR006 the tool is inside the crest of an outer thread"));
+    assert!(turned("Thread G33", "", &outer)[0].starts_with("PR031 the tool is inside the crest of an outer thread"));
 }
 
 /// A wire that stands upright has no words for its upper guide; one that leans has them also where compensation begins.
@@ -330,7 +330,7 @@ fn revolutions_need_no_limit() {
     for later in ["{\"speed\":2000}", "{\"speed\":100,\"mode\":\"css\"}"] {
         let path = format!("{{\"rapid\":[0.2,0.5]}},{{\"spindle\":{later}}},");
         let faster = text.replace("{\"rapid\":[0.2,0.5]},", &path);
-        assert!(program(&form, &faster)[0].starts_with("PR017 the tool change limited"), "{later}");
+        assert!(program(&form, &faster)[0].starts_with("PR038 the tool change limited"), "{later}");
     }
 }
 

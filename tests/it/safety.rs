@@ -94,7 +94,7 @@ fn changes_that_an_upon_serves_are_printed_by_it() {
 fn a_work_offset_without_a_word_is_an_error() {
     let form = mill("Work 1\nWorkDefault 1", "").replace(" G[work]", "");
     let lines = program(&form, &job("{\"work\":2},{\"line\":[1,1,1]}"));
-    assert!(lines[0].starts_with("PR017"), "{lines:?}");
+    assert!(lines[0].starts_with("PR037"), "{lines:?}");
 }
 
 /// A second operation with the same tool prints no tool change, but what it changes.
@@ -378,7 +378,7 @@ fn a_surface_speed_prints_its_code() {
     let css = "{\"spindle\":{\"speed\":100,\"mode\":\"css\"}},{\"line\":[1,0,1]}";
     assert_eq!(path_lines("", "", css), ["G96 S100 M3", "G1 X1. F10."]);
     let limited = "{\"spindle\":{\"speed\":100,\"mode\":\"css\",\"max\":3000}},{\"line\":[1,0,1]}";
-    assert!(path_lines("", "", limited)[0].starts_with("PR017"));
+    assert!(path_lines("", "", limited)[0].starts_with("PR038"));
 }
 
 /// An Upon Every prints where its variable is used, and nowhere else.
@@ -453,8 +453,8 @@ fn text_comes_after_what_goes_before_it() {
     assert_eq!(path_lines("", "", coolant), ["M8", "G1 X1. Y0 Z1. F10.", "G55", "G0 X1. Y0 Z2."]);
     // what would be read otherwise is put back, or refused
     assert_eq!(path_lines("", "", "{\"text\":\"G95\"},{\"line\":[1,0,1]}")[1], "G94");
-    assert!(path_lines("", "", "{\"text\":\"G91\"},{\"line\":[1,0,1]}")[0].starts_with("PR017 the control is in G91"));
-    assert!(path_lines("", "", "{\"text\":\"G22 G21\"}")[0].starts_with("PR017 the text changes the units"));
+    assert!(path_lines("", "", "{\"text\":\"G91\"},{\"line\":[1,0,1]}")[0].starts_with("PR040 the control is in G91"));
+    assert!(path_lines("", "", "{\"text\":\"G22 G21\"}")[0].starts_with("PR035 the text changes the units"));
 }
 
 /// An Upon body that does not print its change does not hide it.
@@ -512,7 +512,7 @@ fn an_arc_sequence_without_its_centre_word_gives_lines() {
 #[test]
 fn fixture_numbers_end_where_work_offsets_do() {
     assert!(
-        path_lines("", "", "{\"work\":7},{\"rapid\":[1,0,1]}")[0].starts_with("PR017 the work offset 7 would be G60")
+        path_lines("", "", "{\"work\":7},{\"rapid\":[1,0,1]}")[0].starts_with("PR037 the work offset 7 would be G60")
     );
     assert_eq!(path_lines("", "", "{\"work\":59.1},{\"rapid\":[1,0,1]}")[0], "G59.1");
 }
@@ -533,7 +533,7 @@ fn a_tap_turns_the_spindle_its_own_way() {
     let rigid = path_lines("RigidTap? Y", ltap, &after);
     assert!(!rigid.contains(&"S1000 M4".to_owned()) && rigid.contains(&"S1000 M3".to_owned()), "{rigid:?}");
     let off = format!("{{\"spindle\":{{\"direction\":\"off\"}}}},{tap}");
-    assert!(path_lines("", ltap, &off)[0].starts_with("PR006 the spindle does not turn"));
+    assert!(path_lines("", ltap, &off)[0].starts_with("PR032 the spindle does not turn"));
 }
 
 /// What a sequence switches off is on again before the next move.
@@ -601,7 +601,7 @@ fn an_upon_stands_outside_the_cycle() {
 fn compensation_has_its_tool_and_height() {
     let second = "{\"tool\":2,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3,1]}]}";
     let text = job("{\"infeed\":[1,0],\"side\":\"left\"}").replace("left\"}]}]}", &format!("left\"}}]}},{second}]}}"));
-    assert!(program(&mill("", ""), &text)[0].starts_with("PR006 the tool changes"));
+    assert!(program(&mill("", ""), &text)[0].starts_with("PR030 the tool changes"));
     let infeed = "InFeed\nG1 G[side] D[dcomp] X[h] Y[v] F[frate]\nEnd";
     let path = "{\"text\":\"G0 Z5\"},{\"infeed\":[1,0],\"side\":\"left\"}";
     assert!(path_lines("", infeed, path)[0].starts_with("PR017 nobody knows the height"));
@@ -688,7 +688,7 @@ fn a_cancel_in_the_middle_of_a_cycle_switches_nothing_for_good() {
     let at = lines.iter().position(|line| line == "G80 M5").unwrap();
     assert_eq!(lines[at..at + 3], ["G80 M5", "S1000 M3", "G0 Z2.1"], "{lines:?}");
     let shifted = program(&form.replace("G80 M5", "G80 G91 G28 Z0"), &job(holes));
-    assert!(shifted[0].starts_with("PR017"), "{shifted:?}");
+    assert!(shifted[0].starts_with("PR040"), "{shifted:?}");
 }
 
 /// Where offsets have a word of their own, another code that selects one makes that word due again.
@@ -724,7 +724,7 @@ fn codes_of_work_offsets_beside_a_word_of_their_own() {
 fn block_delete_leaves_nothing_known() {
     let row = r#"{"begin":"row"},{"rapid":[1,0,1]},{"end":"row"}"#;
     let skipped = |words: &str| path_lines("", &format!("BeginRow\n{words}\nEnd"), row);
-    assert!(skipped("/G91")[0].starts_with("PR017"));
+    assert!(skipped("/G91")[0].starts_with("PR040"));
     assert_eq!(skipped("/G55"), ["/G55", "G54", "G0 X1. Y0 Z1."]);
     assert_eq!(skipped("/M5"), ["/M5", "S1000 M3", "G0 X1."]);
     assert_eq!(skipped("/S500"), ["/S500", "S1000 M3", "G0 X1."]);

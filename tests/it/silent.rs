@@ -116,7 +116,7 @@ fn work_offsets_are_counted_as_the_form_counts() {
     assert_eq!(line("\"work\":56"), "G15 H3");
     assert_eq!(line("\"work\":3"), "G15 H3");
     let error = program(&form, &job("{\"line\":[1,0,1]}").replace("\"work\":54", "\"work\":59.1"));
-    assert_eq!(error, ["PR017 the work offset 59.1 is a code, and this form counts its offsets from 1"]);
+    assert_eq!(error, ["PR037 the work offset 59.1 is a code, and this form counts its offsets from 1"]);
 }
 
 /// A call in another work offset uses it: what an Upon does before it is not left out.
@@ -277,7 +277,7 @@ fn a_stop_in_a_subprogram_is_known_behind_its_call() {
     let at = lines.iter().position(|line| line == "M98 P1").unwrap_or_else(|| panic!("{lines:?}"));
     assert_eq!(lines[at + 1], "S1000 M3");
     let cuts = "{\"rapid\":[0,0,1]},{\"stop\":\"program\"},{\"line\":[0,0,0],\"feed\":5}";
-    assert!(program(&mill("", SUBS), &with_sub(cuts, path))[0].starts_with("PR008"));
+    assert!(program(&mill("", SUBS), &with_sub(cuts, path))[0].starts_with("PR033"));
     let own = format!("{{\"spindle\":{{\"speed\":9,\"direction\":\"cw\"}}}},{{\"coolant\":\"off\"}},{cuts}");
     let lines = program(&mill("", SUBS), &with_sub(&own, path));
     assert!(lines.windows(2).any(|pair| pair == ["M0", "S9 M3"]), "{lines:?}");
@@ -294,7 +294,7 @@ fn a_turret_has_no_other_registers() {
     };
     for (tool, number) in [("{\"number\":1,\"length_offset\":101}", 1), ("{\"number\":101,\"length_offset\":11}", 101)]
     {
-        assert!(post("fanuc-lathe", &text(tool, number))[0].starts_with("PR017"), "{tool}");
+        assert!(post("fanuc-lathe", &text(tool, number))[0].starts_with("PR039"), "{tool}");
     }
     // nobody knows where another tool stands: it does not begin with a cut
     for path in ["{\"line\":[-1,0.5]}", "{\"rapid\":[null,0.5]},{\"line\":[-1]}"] {
@@ -303,7 +303,7 @@ fn a_turret_has_no_other_registers() {
     }
     let bore = "{\"rapid\":[0.1,0]},{\"cycle\":{\"kind\":\"bore\",\"depth\":1,\"clear\":0.1,\"orient\":0,\"offset\":0.02,\"feed\":0.01,\"points\":[[0,0]]}}";
     let job = text("{\"number\":1}", 1).replace("{\"rapid\":[0.1,1]}", bore);
-    assert!(post("haas-lathe", &job)[0].starts_with("PR008"), "{:?}", post("haas-lathe", &job));
+    assert!(post("haas-lathe", &job)[0].starts_with("PR006"), "{:?}", post("haas-lathe", &job));
 }
 
 /// What a macro does, and codes that nobody described, leave no position certain.
@@ -326,13 +326,13 @@ fn after_a_macro_the_place_is_said_again() {
 #[test]
 fn reversed_axes_reverse_their_arcs() {
     let arc = "{\"arc\":{\"to\":[2,0],\"center\":[1,0.5],\"direction\":\"ccw\"}}";
-    assert!(path_lines("RevSigns X", "", arc)[0].starts_with("PR017"));
-    assert!(path_lines("RevSigns X I", "", arc)[0].starts_with("PR017"));
+    assert!(path_lines("RevSigns X", "", arc)[0].starts_with("PR036"));
+    assert!(path_lines("RevSigns X I", "", arc)[0].starts_with("PR036"));
     assert_eq!(path_lines("RevSigns X I\nCW G3\nCCW G2", "", arc), ["G17 G2 X-2. I-1. J.5 F10."]);
     // a control that counts from the centre to the start of the arc
     assert_eq!(path_lines("RevSigns I J", "", arc), ["G17 G3 X2. I-1. J-.5 F10."]);
     let own = "CcwCode\nG3 X[h] Y[v] I[ival] J[jval] F[frate]\nEnd";
-    assert!(path_lines("RevSigns X I", own, arc)[0].starts_with("PR017"));
+    assert!(path_lines("RevSigns X I", own, arc)[0].starts_with("PR036"));
 }
 
 /// An arc of the lower wire guide with a move of the upper one is no helix.
@@ -489,7 +489,7 @@ fn increments_left_on_are_ended_by_the_sequence_itself() {
     let lines = |end: &str| {
         program(&mill("", "EndRow\nG91\nEnd").replace("EndCode\n", &format!("EndCode\n{end}\n")), &job(row))
     };
-    assert!(lines("G0 G53 Z0")[0].starts_with("PR017"), "{:?}", lines("G0 G53 Z0"));
+    assert!(lines("G0 G53 Z0")[0].starts_with("PR040"), "{:?}", lines("G0 G53 Z0"));
     assert!(lines("G90 G0 G53 Z0").contains(&"M30".to_owned()) && lines("M9").contains(&"M30".to_owned()));
 }
 
@@ -548,11 +548,11 @@ fn a_stop_in_a_subprogram_is_one_for_its_next_run() {
         assert_eq!(lines[calls[0] + 1], "S1000 M3", "{lines:?}");
     }
     let dry = format!("{{\"spindle\":{{\"speed\":9,\"direction\":\"cw\"}}}},{cut},{{\"line\":[0,0,-1]}}");
-    assert!(program(&mill("", SUBS), &with_sub(&dry, path))[0].starts_with("PR008"));
+    assert!(program(&mill("", SUBS), &with_sub(&dry, path))[0].starts_with("PR033"));
     let away = format!("{cut},{{\"rapid\":[9,9,1]}}");
     assert!(program(&mill("", SUBS), &with_sub(&away, path)).contains(&"X9. Y9.".to_owned()));
     let on = format!("{away},{{\"line\":[9,9,0]}}");
-    assert!(program(&mill("", SUBS), &with_sub(&on, path))[0].starts_with("PR008"));
+    assert!(program(&mill("", SUBS), &with_sub(&on, path))[0].starts_with("PR033"));
 }
 
 /// From where a subprogram left it the tool goes up first.
@@ -572,15 +572,15 @@ fn behind_a_call_the_tool_goes_up_before_it_crosses() {
 fn reversed_axes_reverse_sides_and_sequences() {
     let infeed = "{\"infeed\":[1,1],\"side\":\"left\"},{\"outfeed\":[3,1]}";
     let head = "RevSigns X I\nCW G3\nCCW G2";
-    assert!(path_lines(head, "", infeed)[0].starts_with("PR017"));
+    assert!(path_lines(head, "", infeed)[0].starts_with("PR036"));
     assert_eq!(path_lines(&format!("{head}\nCDC 42 41 40"), "", infeed)[0], "G1 G42 X-1. Y1. D21 F10.");
     let arc = "{\"arc\":{\"to\":[2,0],\"center\":[1,0.5],\"direction\":\"ccw\"}}";
     let own = |code: &str| format!("CcwCode\n{code} X[h] Y[v] I[ival] J[jval] F[frate]\nEnd");
-    assert!(path_lines("RevSigns X", &own("G2"), arc)[0].starts_with("PR017"));
-    assert!(path_lines("RevSigns X I", &own("G3"), arc)[0].starts_with("PR017"));
+    assert!(path_lines("RevSigns X", &own("G2"), arc)[0].starts_with("PR036"));
+    assert!(path_lines("RevSigns X I", &own("G3"), arc)[0].starts_with("PR036"));
     assert_eq!(path_lines("RevSigns X I", &own("G2"), arc), ["G2 X-2. I-1. J.5 F10."]);
     let yz = "{\"arc\":{\"to\":[0,2,1],\"center\":[null,1,1],\"direction\":\"ccw\",\"plane\":\"yz\"}}";
-    assert!(path_lines(head, "", yz)[0].starts_with("PR017"));
+    assert!(path_lines(head, "", yz)[0].starts_with("PR036"));
     // controls that count from the centre to the start
     assert_eq!(path_lines("RevSigns I J", "", arc), ["G17 G3 X2. I-1. J-.5 F10."]);
 }

@@ -88,7 +88,7 @@ fn make_steps(
             }
             Step::Orient(_) if shape.depth == 0 => {
                 let message = "a turned hole has no wall that the tool could leave at an angle of the spindle";
-                return fault(Code::PR008, message, "leave `orient` and `offset` out");
+                return fault(Code::PR006, message, "leave `orient` and `offset` out");
             }
             Step::Orient(angle) => {
                 let (code, letter) = &shape.program.settings.orient;

@@ -104,7 +104,7 @@ pub fn is_rigid(spec: &CycleSpec, shape: &Shape) -> bool {
 pub fn turning(direct: Option<f64>, shape: &Shape) -> Done<f64> {
     match direct {
         Some(code) if code != shape.program.settings.spindle[2] => Ok(code),
-        _ => fault(Code::PR006, "the spindle does not turn", "give the operation a spindle with a direction"),
+        _ => fault(Code::PR032, "the spindle does not turn", "give the operation a spindle with a direction"),
     }
 }
 

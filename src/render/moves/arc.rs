@@ -47,7 +47,7 @@ pub fn arc(
     let (axes, across, code) = plane_axes(arc.plane);
     if want.compensated && arc.plane != Plane::Xy && shape.program.settings.machine == Machine::Mill {
         let help = "end the compensation with an `outfeed` before";
-        return fault(Code::PR006, "an arc in another plane under cutter compensation", help);
+        return fault(Code::PR030, "an arc in another plane under cutter compensation", help);
     }
     let Some(from) = in_plane(&said.stand.position, axes) else {
         let help = "begin with a rapid that gives all coordinates";

@@ -120,7 +120,7 @@ pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, 
     if others == 1 || others == 2 && !settings.centre_incremental {
         let axis = piece.axes.into_iter().find(other).map_or(' ', |axis| char::from(shape.axes[axis]));
         let message = format!("{axis} and its word of the arc's centre have different signs");
-        return fault(Code::PR017, message, "reverse both, as `RevSigns X I`, or none");
+        return fault(Code::PR036, message, "reverse both, as `RevSigns X I`, or none");
     }
     let mirrored = reversed(piece.axes[0]) != reversed(piece.axes[1]);
     let own = if ccw != mirrored { 3.0 } else { 2.0 };
@@ -135,7 +135,7 @@ pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, 
             false => "no axis of the arc's plane has the other sign alone, and the arc would turn the other way",
         };
         let help = "exchange the codes, `CW G3` and `CCW G2`, where one axis of the plane is reversed; leave other planes out of `ArcPlane`";
-        return fault(Code::PR017, message, help);
+        return fault(Code::PR036, message, help);
     }
     Ok(())
 }

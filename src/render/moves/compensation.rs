@@ -34,7 +34,7 @@ pub fn infeed(
     let reversed = |axis: usize| shape.letters[shape.axes[axis]].reversed;
     if reversed(0) != reversed(1) && left < right {
         let message = "one axis is printed with the other sign, and the offset would be on the other side";
-        return fault(Code::PR017, message, "exchange the codes: `CDC 42 41 40`");
+        return fault(Code::PR036, message, "exchange the codes: `CDC 42 41 40`");
     }
     want.set(VarId::Side, code);
     let switch = Switch { id: SequenceId::InFeed, code, offset: true, feed, rapid: infeed.rapid };

@@ -46,11 +46,11 @@ pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Sa
         return fault(Code::PR008, "threads are for lathes", "mill the thread by its moves, or tap it");
     }
     if !want.get(VarId::Direct).is_some_and(|code| code != program.settings.spindle[2]) {
-        return fault(Code::PR006, "the spindle does not turn", "give the operation a spindle with a direction");
+        return fault(Code::PR032, "the spindle does not turn", "give the operation a spindle with a direction");
     }
     if want.compensated {
         let help = "end the compensation with an `outfeed` before";
-        return fault(Code::PR006, "a thread under cutter compensation", help);
+        return fault(Code::PR030, "a thread under cutter compensation", help);
     }
     if want.get(VarId::Speedtype) == Some(program.settings.speed_type[0]) {
         let message = "a thread at constant surface speed: each pass turns otherwise, and begins elsewhere".to_owned();
@@ -58,7 +58,7 @@ pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Sa
     }
     if program.settings.incremental {
         let help = "thread with a form of positions";
-        return fault(Code::PR008, "a thread's words are positions, and the form prints increments", help);
+        return fault(Code::PR031, "a thread's words are positions, and the form prints increments", help);
     }
     let cut = planned(thread, shape, said)?;
     if said.stand.position.get(1).is_none() {
@@ -71,7 +71,7 @@ pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Sa
     if wrong {
         let (kind, place) = if cut.inward > 0.0 { ("inner", "outside") } else { ("outer", "inside") };
         let message = format!("the tool is {place} the crest of an {kind} thread, at the radius {beside}");
-        return fault(Code::PR006, message, "rapid to the other side of the crest first");
+        return fault(Code::PR031, message, "rapid to the other side of the crest first");
     }
     let starts = thread.starts.unwrap_or(1.0);
     let begin = said.stand.target(&thread.from, shape).values[0];
@@ -81,7 +81,7 @@ pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Sa
         check_thread_words(thread, &cut, routine, shape, want)?;
     } else if thread.chamfer.is_some_and(|length| length != 0.0) {
         let help = "leave the chamfer out, or give the form an AutoThread that prints [chams]";
-        return fault(Code::PR017, "passes made of single moves have no chamfer", help);
+        return fault(Code::PR031, "passes made of single moves have no chamfer", help);
     }
     for start in 0..starts as u32 {
         // each start begins one pitch further back
@@ -123,20 +123,20 @@ fn planned(thread: &Thread, shape: &Shape, said: &Said) -> Done<Cut> {
     let to = said.stand.target(&thread.to, shape);
     let (Some(start), Some(end)) = (from.get(1), to.get(0)) else {
         return fault(
-            Code::PR006,
+            Code::PR031,
             "the thread's start or end is unknown",
             "give both coordinates of `from`, and z of `to`",
         );
     };
     let Some(begin) = from.get(0).filter(|&begin| begin != end) else {
-        return fault(Code::PR006, "the thread has no length", "give `from` and `to` different z");
+        return fault(Code::PR031, "the thread has no length", "give `from` and `to` different z");
     };
     let taper = thread.taper.map(|taper| taper * shape.scale);
     let crest = if thread.to.given & 0b10 != 0 { to.values[1] } else { start - taper.unwrap_or(0.0) };
     let falls = start - crest;
     if let Some(taper) = taper.filter(|taper| (taper - falls).abs() > 1e-9) {
         let message = format!("the thread's ends differ by {falls} in radius, its `taper` is {taper}");
-        return fault(Code::PR006, message, "give x of `to`, or `taper`, or both alike");
+        return fault(Code::PR031, message, "give x of `to`, or `taper`, or both alike");
     }
     let depth = thread.depth.abs() * shape.scale;
     let first = thread.first_depth.map(|d| d * shape.scale);

@@ -87,7 +87,7 @@ pub fn unwind(axis: usize, shape: &Shape, want: &mut Want, said: &mut Said, out:
     };
     if want.compensated {
         let help = "end the compensation with an `outfeed` before";
-        return fault(Code::PR006, "a rotary axis is unwound under cutter compensation", help);
+        return fault(Code::PR030, "a rotary axis is unwound under cutter compensation", help);
     }
     if !prints_angle(routine, axis, shape) {
         let message = format!("{letter} is to be unwound, and Unwind does not print its angle");

@@ -22,7 +22,7 @@ use crate::render::want::Want;
 use crate::toolpath::{Axes, Call, FeedMode, Place};
 
 fn undefined<T>(number: f64) -> Done<T> {
-    fault(Code::PR008, format!("the job has no subprogram {number}"), "add it to `subprograms`, before the operations")
+    fault(Code::PR034, format!("the job has no subprogram {number}"), "add it to `subprograms`, before the operations")
 }
 
 /// A fault at another place than the current one.
@@ -56,11 +56,11 @@ pub fn sub_call(
     };
     if want.feed_mode() != FeedMode::PerMinute {
         let help = "call it from an operation whose feeds are per minute";
-        return fault(Code::PR008, "a subprogram's feeds are per minute, and the caller's are not", help);
+        return fault(Code::PR033, "a subprogram's feeds are per minute, and the caller's are not", help);
     }
     if said.stand.angles.is_wound() {
         let help = "make the call before an axis is unwound, or turn it back first";
-        return fault(Code::PR008, "a call after a rotary axis was unwound: its angles would mean others", help);
+        return fault(Code::PR033, "a call after a rotary axis was unwound: its angles would mean others", help);
     }
     let called = subs.index(call.sub);
     let (printed, first_block) = match called.map(|i| &subs.defined[i]) {
@@ -69,14 +69,14 @@ pub fn sub_call(
         None if from.is_some() && !shape.program.settings.renumber_subs => (call.sub, None),
         None if from.is_some() => {
             let help = "put the called subprogram before this one, or set `RenumSubs? N`";
-            return fault(Code::PR008, format!("subprogram {} is not known yet", call.sub), help);
+            return fault(Code::PR034, format!("subprogram {} is not known yet", call.sub), help);
         }
         None => return undefined(call.sub),
     };
     let work = want.get(VarId::Work);
     if call.work.is_some() && work.is_none() {
         let help = "give the subprogram its own `work` before the call";
-        return fault(Code::PR008, "a call in another work offset from one that is not known here", help);
+        return fault(Code::PR033, "a call in another work offset from one that is not known here", help);
     }
     if let Some(work) = call.work {
         want.set_work(work, shape)?;
@@ -88,7 +88,7 @@ pub fn sub_call(
     let leaves = called.is_none_or(|i| subs.defined[i].calls_ahead || !subs.defined[i].left.is_nothing());
     if call.times > 1.0 && called.is_some_and(|i| subs.defined[i].left.turned) {
         let help = "turn it back at the end of the subprogram, or call it once for each angle";
-        return fault(Code::PR008, "a subprogram that leaves the part turned is called several times", help);
+        return fault(Code::PR033, "a subprogram that leaves the part turned is called several times", help);
     }
     // a sequence that does not print how often is printed as often; so is one whose next run must begin as the first
     let together = routine.vars.has(VarId::Times) && !(leaves && call.times > 1.0);
@@ -183,18 +183,18 @@ pub fn check_calls(subs: &Subprograms) -> Done {
         if subs.defined[to].left.conditions.known().meets(call.unknown) {
             let message = format!("subprogram {} changes what its caller does not know and can't put back", call.to);
             let help = "say spindle, coolant and work offset in the calling subprogram before the call";
-            return at(call.place, fault(Code::PR008, message, help));
+            return at(call.place, fault(Code::PR033, message, help));
         }
         // a later one that stops: its caller went on without a look at it
         let unknown = [VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(|var| call.unknown.has(var));
         if to > call.from && unknown && subs.defined[to].left.stops {
             let message = format!("subprogram {} stops, and its caller does not know its spindle and coolant", call.to);
             let help = "say spindle and coolant in the calling subprogram before the call";
-            return at(call.place, fault(Code::PR008, message, help));
+            return at(call.place, fault(Code::PR033, message, help));
         }
         if !ends[to] {
             let message = format!("subprogram {} calls itself, directly or through others", call.to);
-            return at(call.place, fault(Code::PR008, message, "a control would run it for ever: take the call out"));
+            return at(call.place, fault(Code::PR033, message, "a control would run it for ever: take the call out"));
         }
     }
     Ok(())

@@ -37,7 +37,7 @@ pub fn finish(
         && want.tool_changes != order.len()
     {
         let message = format!("`tool_order` lists {} tools, the job used {}", order.len(), want.tool_changes);
-        return fault(Code::PJ005, message, "list the tools in the order of their use, each change once");
+        return fault(Code::PJ012, message, "list the tools in the order of their use, each change once");
     }
     begin_main(shape, want, said, out, subs)?;
     check_calls(subs)?;

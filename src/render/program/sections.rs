@@ -68,12 +68,12 @@ pub fn end_section(
     match sections.pop() {
         Some(open) if open == section => run_section(end, shape, want, said, out),
         Some(open) => fault(
-            Code::PJ005,
+            Code::PJ011,
             format!("a {} ends inside a {}", part(section), part(open)),
             "end the parts in the reverse order of their beginnings",
         ),
         None => fault(
-            Code::PJ005,
+            Code::PJ011,
             format!("a {} ends that did not begin", part(section)),
             "begin it first, or take the end out",
         ),
@@ -113,7 +113,7 @@ pub fn check_sections_closed(sections: &[Section]) -> Done {
     match sections.last() {
         None => Ok(()),
         Some(&open) => {
-            fault(Code::PJ005, format!("a {} is still open here", part(open)), "end it before the operation ends")
+            fault(Code::PJ011, format!("a {} is still open here", part(open)), "end it before the operation ends")
         }
     }
 }

@@ -114,7 +114,7 @@ pub fn sub_end(
     plain_cutting(shape, want, said, out)?;
     if subs.main.as_ref().is_some_and(|main| !main.angles.wound_as(&said.stand.angles)) {
         let help = "unwind in the main program: a call would leave the axis turned otherwise than the next expects";
-        return fault(Code::PR008, "a rotary axis was unwound inside a subprogram", help);
+        return fault(Code::PR033, "a rotary axis was unwound inside a subprogram", help);
     }
     match shape.program.routine(SequenceId::SubEnd) {
         Some(routine) => run_with_upons(routine, shape, want, said, out)?,
@@ -131,7 +131,7 @@ pub fn sub_end(
 pub fn plain_cutting(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
     if want.compensated {
         let help = "end the compensation with an `outfeed` before";
-        return fault(Code::PR006, "cutter compensation is on at the border of a subprogram", help);
+        return fault(Code::PR030, "cutter compensation is on at the border of a subprogram", help);
     }
     enter_plane(17.0, shape, want, said, out)
 }

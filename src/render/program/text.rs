@@ -14,11 +14,11 @@ use crate::render::want::Want;
 pub fn verbatim(text: &str, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
     if let Some(c) = text.chars().find(|&c| steers(c) && c != '\t') {
         let message = format!("the text holds U+{:04X}, which steers instead of being printed", u32::from(c));
-        return fault(Code::PR008, message, "take it out");
+        return fault(Code::PR035, message, "take it out");
     }
     if text.trim() == "%" {
         let message = "the text is a lone `%`, at which a control takes the program to be over";
-        return fault(Code::PR008, message, "take it out: StartCode and EndCode print it");
+        return fault(Code::PR035, message, "take it out: StartCode and EndCode print it");
     }
     said.stand.fresh_tool = false;
     if text.trim().is_empty() {
@@ -52,7 +52,7 @@ fn text_codes(text: &str, shape: &Shape, want: &mut Want, said: &mut Said) -> Do
                         want.set(VarId::Speed, value);
                     } else if changes_units(letter, value, shape, want) {
                         let message = format!("the text changes the units of the program with G{value}");
-                        return fault_at(Code::PR017, message, "render with `--units`, and take the code out", None);
+                        return fault_at(Code::PR035, message, "render with `--units`, and take the code out", None);
                     } else {
                         said.code(letter, value, Line::NONE, want, shape);
                         is_the_jobs(letter, value, shape, want);

@@ -58,7 +58,7 @@ fn same_registers(tool: &Tool, want: &Want) -> Done {
     for (var, register, name) in registers {
         if register.is_some() && register != want.get(var) {
             let message = format!("tool {} is in, and its {name} offset register changes", tool.number);
-            return fault(Code::PR017, message, "give it a number of its own, or keep the register");
+            return fault(Code::PR039, message, "give it a number of its own, or keep the register");
         }
     }
     Ok(())
@@ -115,7 +115,7 @@ fn change_tool(
     let program = shape.program;
     if want.compensated {
         let help = "end the compensation with an `outfeed` before";
-        return fault(Code::PR006, "the tool changes under cutter compensation", help);
+        return fault(Code::PR030, "the tool changes under cutter compensation", help);
     }
     let is_first = want.tool.is_none();
     tool_variables(tool, shape, want)?;
@@ -191,7 +191,7 @@ fn turret_word(tool: &Tool, shape: &Shape) -> Done<f64> {
         let message =
             format!("tool {} with the offset register {register} has no T word of two and two digits", tool.number);
         let help = "give it a register below 100, and a number from 100 on only if it holds the register";
-        return fault(Code::PR017, message, help);
+        return fault(Code::PR039, message, help);
     }
     Ok(if whole { tool.number } else { tool.number * STATIONS + register })
 }
@@ -211,7 +211,7 @@ fn tool_variables(tool: &Tool, shape: &mut Shape, want: &mut Want) -> Done {
     if let Some(order) = &want.tool_order {
         if order.get(want.tool_changes) != Some(&tool.number) {
             let message = format!("tool {} comes next, `tool_order` says otherwise", tool.number);
-            return fault(Code::PJ005, message, "list the tools in the order of their use");
+            return fault(Code::PJ012, message, "list the tools in the order of their use");
         }
         let next = order.get(want.tool_changes + 1).or_else(|| order.first()).copied();
         want.put(VarId::Nexttool, next);

@@ -85,7 +85,7 @@ impl<'s> Builder<'s> {
         self.leave_cycle("a subprogram")?;
         if self.in_subprogram || self.place.operation > 0 {
             let help = "end it first; subprograms stand one after the other, before the operations";
-            return fault(Code::PJ005, "a subprogram inside another part of the job", help);
+            return fault(Code::PJ011, "a subprogram inside another part of the job", help);
         }
         let Some(number) = head.number else {
             return fault(Code::PJ004, "a subprogram without a number", "give each subprogram a \"number\"");
@@ -101,7 +101,7 @@ impl<'s> Builder<'s> {
     pub fn subprogram_end(&mut self) -> Done {
         self.leave_cycle("the end of a subprogram")?;
         if !self.in_subprogram {
-            return fault(Code::PJ005, "the end of a subprogram that did not begin", "take it out");
+            return fault(Code::PJ011, "the end of a subprogram that did not begin", "take it out");
         }
         self.in_subprogram = false;
         self.push(Event::SubEnd)
@@ -111,7 +111,7 @@ impl<'s> Builder<'s> {
     pub fn operation(&mut self, head: OperationHead) -> Done {
         self.leave_cycle("an operation")?;
         if self.in_subprogram {
-            return fault(Code::PJ005, "an operation inside a subprogram", "end the subprogram first");
+            return fault(Code::PJ011, "an operation inside a subprogram", "end the subprogram first");
         }
         self.place.subprogram = 0;
         self.place.operation += 1;
@@ -295,7 +295,7 @@ impl<'s> Builder<'s> {
     /// A point of the open cycle.
     pub fn hole(&mut self, hole: Hole) -> Done {
         if !self.in_cycle {
-            return fault(Code::PJ005, "a point outside a cycle", "begin the cycle first, as {\"cycle\": {...}}");
+            return fault(Code::PJ011, "a point outside a cycle", "begin the cycle first, as {\"cycle\": {...}}");
         }
         self.place.point += 1;
         self.push(Event::Hole(hole))
@@ -304,7 +304,7 @@ impl<'s> Builder<'s> {
     /// The open cycle ends.
     pub fn cycle_end(&mut self) -> Done {
         if !self.in_cycle {
-            return fault(Code::PJ005, "the end of a cycle that did not begin", "take it out");
+            return fault(Code::PJ011, "the end of a cycle that did not begin", "take it out");
         }
         if self.place.point == 0 {
             return fault(Code::PJ004, "the cycle has no points", "give its points, as \"points\": [[1, 1, 0]]");
@@ -318,7 +318,7 @@ impl<'s> Builder<'s> {
     pub fn finish(&mut self) -> Done {
         self.leave_cycle("the end")?;
         if self.in_subprogram {
-            return fault(Code::PJ005, "the job ends inside a subprogram", "end the subprogram first");
+            return fault(Code::PJ011, "the job ends inside a subprogram", "end the subprogram first");
         }
         if self.place.operation == 0 {
             return fault(Code::PJ009, "the job has no operations", "give at least one operation");
@@ -330,7 +330,7 @@ impl<'s> Builder<'s> {
     fn leave_cycle(&self, what: &str) -> Done {
         if self.in_cycle {
             return fault(
-                Code::PJ005,
+                Code::PJ011,
                 format!("{what} inside a cycle"),
                 "end the cycle first with {\"cycle_end\": true}",
             );

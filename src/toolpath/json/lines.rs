@@ -140,7 +140,7 @@ impl Lines<'_, '_> {
             } else {
                 ("the job does not begin with its start", "write {\"start\": {\"postform\": 1}} as the first line")
             };
-            return Err(Diag::new(Code::PJ005, message).help(help).into());
+            return Err(Diag::new(Code::PJ011, message).help(help).into());
         }
         match line {
             Line::Start(head) => {

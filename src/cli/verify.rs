@@ -110,18 +110,29 @@ impl Proof<'_> {
                 return Ok(Proven { ending: stopped(error, failed, reporter, &[])?, text: None });
             }
         };
-        let ending = if let Verdict::Different(findings) = &proven.verdict {
-            self.show(job, findings, reporter)?;
-            Ending::Findings
-        } else {
-            Ending::Clean
+        let ending = match &proven.verdict {
+            Verdict::Different(findings) => {
+                self.show(job, findings, Severity::Error, reporter)?;
+                Ending::Findings
+            }
+            Verdict::NotProven(unproven) => {
+                self.show(job, &unproven.notes, Severity::Note, reporter)?;
+                Ending::Findings
+            }
+            _ => Ending::Clean,
         };
         let text = sentence(&proven.verdict, &self.name, &files::name(self.job), proven.counts);
         Ok(Proven { ending, text: Some(text) })
     }
 
     /// Findings from three sides: the job's item, the form's line, the program's block.
-    fn show(&self, job: &mut Job<'_>, findings: &[Finding], reporter: &Reporter) -> Result<(), String> {
+    fn show(
+        &self,
+        job: &mut Job<'_>,
+        findings: &[Finding],
+        severity: Severity,
+        reporter: &Reporter,
+    ) -> Result<(), String> {
         let name = files::name(self.job);
         let lines: Vec<u64> = findings.iter().map(|finding| finding.line).collect();
         let origins = match self.prepared.filter(|_| self.traced) {
@@ -136,6 +147,10 @@ impl Proof<'_> {
                 line => format!("\n{}, line {line}: {}", self.name, finding.block),
             };
             let mut diag = Diag::new(finding.code, &finding.message).help(finding.help);
+            diag.severity = severity;
+            if finding.times > 1 {
+                diag.message += &format!(" ({} times)", finding.times);
+            }
             diag.message += &postform::diag::escaped_lines(&block);
             let mut location = place.map(Location::from).unwrap_or_default();
             location.program_line = Some(finding.line).filter(|line| *line > 0);
@@ -158,19 +173,10 @@ fn sentence(verdict: &Verdict, program: &str, job: &str, counts: Counts) -> Stri
     match verdict {
         Verdict::Identical => format!("identical: {program} makes the motions of {job} ({compared})\n"),
         Verdict::Equivalent(other) => {
-            let list = [
-                (other.pecks, "with other pecks", "hole"),
-                (other.ways, "in another order of axes or higher", "way"),
-                (other.arcs, "made of parts", "arc"),
-                (other.parts, "made of parts", "straight cut"),
-                (other.outs, "left at feed farther up", "hole"),
-                (other.entries, "left and entered again", "cut"),
-                (other.slow, "at feed that turn compensation on or off", "rapid"),
-            ];
-            let list: Vec<String> = list
-                .iter()
+            let list: Vec<String> = other
+                .counts()
                 .filter(|(number, ..)| *number > 0)
-                .map(|(number, how, what)| format!("{} {how}", report::count(*number as usize, what)))
+                .map(|(number, what, how)| format!("{} {how}", report::count(number as usize, what)))
                 .collect();
             format!("equivalent: {program} cuts what {job} asks for ({compared}): {}\n", list.join(", "))
         }
@@ -180,6 +186,10 @@ fn sentence(verdict: &Verdict, program: &str, job: &str, counts: Counts) -> Stri
                 report::count(findings.len(), "finding")
             )
         }
+        Verdict::NotProven(unproven) => {
+            format!("not proven: {program} against {job} ({compared}): {}{}\n", unproven.from(), unproven.why)
+        }
+        _ => String::new(),
     }
 }
 

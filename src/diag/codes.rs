@@ -324,6 +324,7 @@ codes! {
     PV021 Error "a moved coordinate frame"
     PV022 Error "units that are not said"
     PV023 Error "other pecks"
+    PV024 Error "other coolant"
     // PX: postform itself
     PX001 Error "an event that can't be"
 }

@@ -84,17 +84,22 @@ fn prove(
     proof: &Proof,
 ) -> Result<Proven, Error> {
     let settings = proof.settings(form, options.units.unwrap_or(Units::Mm));
-    let expectation =
-        form.map_or_else(Expectation::default, |form| Expectation::of_form(&form.settings, options.sink_as_printed));
+    let expectation = form.map_or_else(Expectation::default, |form| {
+        Expectation::of_form(&form.settings, options.sink_as_printed).typed(form)
+    });
+    let assumed = proof.control.is_none() && form.is_some_and(|form| form.settings.control.is_none());
     let comparer = Comparer::new(program, settings, expectation, proof.tolerance);
     let mut comparer = Started { comparer, of_job: form.is_none() || options.units.is_none() };
     let read = job.read(&mut comparer);
     let mut comparer = comparer.comparer;
     let (counts, warnings) = (comparer.counts(), comparer.warnings());
     let verdict = comparer.verdict().map_err(|error| Error::of_io(ErrorKind::Program, error))?;
+    let verdict = if assumed { verdict.assumed(settings.control.name()) } else { verdict };
     match (read, &verdict) {
-        // what the program does before it is a difference already
-        (Err(_), Verdict::Different(_)) | (Ok(()), _) => Ok(Proven { verdict, counts, warnings }),
+        // the comparison stopped the reader: the rest of the job was not looked at
+        (Err(_), Verdict::Different(_) | Verdict::NotProven(_)) | (Ok(()), _) => {
+            Ok(Proven { verdict, counts, warnings })
+        }
         (Err(error), _) => Err(error.after(warnings, &[])),
     }
 }

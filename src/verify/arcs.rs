@@ -2,88 +2,80 @@
 
 use std::io::{BufRead, Seek};
 
-use super::comparer::Sides;
 use super::cut::{ALL, Cut, What, same, shown};
-use crate::diag::{Code, Diag};
+use super::intended::Done;
+use super::state::Sides;
+use super::states;
+use crate::diag::Code;
 use crate::nc::{Turn, axes_of, sweep};
 use crate::toolpath::{Direction, FeedMode};
 
 /// How far parts may leave the circle, in tolerances: centres are rounded too.
 const OFF: f64 = 5.0;
 
-impl<R: BufRead + Seek> Sides<R> {
-    /// The job's arc, as one or in parts; the first was met already.
-    pub(super) fn arc(&mut self, cut: &Cut, turn: &Turn) -> Result<(), Box<Diag>> {
-        let [first, second, across] = axes_of(turn.plane);
-        let radius = (cut.from[first] - turn.center[first]).hypot(cut.from[second] - turn.center[second]);
-        let whole = sweep(&cut.from, turn);
-        // digits turn a small arc by more than a large one
-        let slack_angle = 1e-3 + OFF * self.tolerance / radius;
-        let (mut swept, mut parts) = (0.0, 0);
-        loop {
-            let Some(found) = self.next()? else {
-                let message = format!("the program is over inside the arc to {}", shown(&turn.to, 0b111));
-                return self.differs(Code::PV017, 0, message, "look at the arcs of the form");
-            };
-            if parts > 0 && !self.program.way.is_empty() {
-                let message = "a rapid inside an arc".to_owned();
-                return self.differs(Code::PV001, found.line, message, "look at the arcs of the form");
-            }
-            let end = found.what.end(&found.from);
-            let part = Turn { to: end, turns: 0, ..*turn };
-            // from where the program stands: its digits may close a circle that the job's do not, and the other way
-            let mut angle = sweep(&found.from, &part);
-            let mut bulge = radius * (1.0 - (angle.min(std::f64::consts::TAU) / 2.0).cos());
-            let slack = match found.what {
-                What::Arc(made) => {
-                    if made.plane != turn.plane || made.direction != turn.direction {
-                        let name = if turn.direction == Direction::Cw { "clockwise" } else { "counter-clockwise" };
-                        let message = format!(
-                            "the arc to {} turns the other way, or in another plane: the job's {name}",
-                            shown(&turn.to, 0b111)
-                        );
-                        return self.differs(
-                            Code::PV001,
-                            found.line,
-                            message,
-                            "look at ClockWise, CounterClockWise and ArcPlane",
-                        );
-                    }
-                    angle = sweep(&found.from, &made);
-                    bulge = 0.0;
-                    OFF * self.tolerance
+/// The job's arc, as one or in parts; the first was met already.
+pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -> Done {
+    let (tolerance, chord) = (s.limits.tolerance, s.limits.chord);
+    let [first, second, across] = axes_of(turn.plane);
+    let radius = (cut.from[first] - turn.center[first]).hypot(cut.from[second] - turn.center[second]);
+    let whole = sweep(&cut.from, turn);
+    // digits turn a small arc by more than a large one
+    let slack_angle = 1e-3 + OFF * tolerance / radius;
+    let (mut swept, mut parts) = (0.0, 0);
+    loop {
+        let Some(found) = s.next()? else {
+            let message = format!("the program is over inside the arc to {}", shown(&turn.to, 0b111));
+            return s.differs(Code::PV017, 0, message, "look at the arcs of the form");
+        };
+        if parts > 0 && !s.program.passage.is_plain() {
+            let message = "a rapid, a stop or a dwell inside an arc".to_owned();
+            return s.differs(Code::PV001, found.line, message, "look at the arcs of the form");
+        }
+        let end = found.end();
+        let part = Turn { to: end, turns: 0, ..*turn };
+        // from where the program stands: its digits may close a circle that the job's do not, and the other way
+        let mut angle = sweep(&found.from, &part);
+        let mut bulge = radius * (1.0 - (angle.min(std::f64::consts::TAU) / 2.0).cos());
+        let slack = match found.what {
+            What::Arc(made) => {
+                if made.plane != turn.plane || made.direction != turn.direction {
+                    let name = if turn.direction == Direction::Cw { "clockwise" } else { "counter-clockwise" };
+                    let message = format!(
+                        "the arc to {} turns the other way, or in another plane: the job's {name}",
+                        shown(&turn.to, 0b111)
+                    );
+                    return s.differs(
+                        Code::PV001,
+                        found.line,
+                        message,
+                        "look at ClockWise, CounterClockWise and ArcPlane",
+                    );
                 }
-                _ => self.chord + self.tolerance,
-            };
-            let distance =
-                |at: [f64; 2]| ((at[0] - turn.center[first]).hypot(at[1] - turn.center[second]) - radius).abs();
-            let points = (1..8).map(|part| distance(point_of(&found, turn, angle * f64::from(part) / 8.0)));
-            let off = points.fold(distance([end[first], end[second]]), f64::max).max(bulge);
-            swept += angle;
-            let height = cut.from[across] + (turn.to[across] - cut.from[across]) * (swept / whole).min(1.0);
-            let off = off.max((end[across] - height).abs() * f64::from(u8::from(parts > 0 || swept < whole - 1e-6)));
-            if off > slack || swept > whole + slack_angle {
-                let message = format!(
-                    "a cut goes to {}, not along the job's arc to {}",
-                    shown(&end, 0b111),
-                    shown(&turn.to, 0b111)
-                );
-                return self.differs(
-                    Code::PV001,
-                    found.line,
-                    message,
-                    "look at CtrCode, CtrIncremental? and the radius",
-                );
+                angle = sweep(&found.from, &made);
+                bulge = 0.0;
+                OFF * tolerance
             }
-            let share = if cut.mode == FeedMode::InverseTime { angle / whole } else { 1.0 };
-            let part = Cut { feed: cut.feed.map(|feed| feed / share), ..*cut };
-            self.feeds(&part, &found, false)?;
-            self.program.take();
-            parts += 1;
-            if same(&end, &turn.to, ALL, self.tolerance) && swept > whole - slack_angle {
-                self.equivalences.arcs += u64::from(parts > 1);
-                return Ok(());
-            }
+            _ => chord + tolerance,
+        };
+        let distance = |at: [f64; 2]| ((at[0] - turn.center[first]).hypot(at[1] - turn.center[second]) - radius).abs();
+        let points = (1..8).map(|part| distance(point_of(&found, turn, angle * f64::from(part) / 8.0)));
+        let off = points.fold(distance([end[first], end[second]]), f64::max).max(bulge);
+        swept += angle;
+        let height = cut.from[across] + (turn.to[across] - cut.from[across]) * (swept / whole).min(1.0);
+        let off = off.max((end[across] - height).abs() * f64::from(u8::from(parts > 0 || swept < whole - 1e-6)));
+        if off > slack || swept > whole + slack_angle {
+            let message =
+                format!("a cut goes to {}, not along the job's arc to {}", shown(&end, 0b111), shown(&turn.to, 0b111));
+            return s.differs(Code::PV001, found.line, message, "look at CtrCode, CtrIncremental? and the radius");
+        }
+        let share = if cut.mode == FeedMode::InverseTime { angle / whole } else { 1.0 };
+        let part = Cut { feed: cut.feed.map(|feed| feed / share), ..*cut };
+        states::feeds(s, &part, &found, false);
+        s.program.take();
+        parts += 1;
+        if same(&end, &turn.to, ALL, tolerance) && swept > whole - slack_angle {
+            s.report.allowed.arcs += u64::from(parts > 1);
+            return Ok(());
         }
     }
 }
@@ -99,7 +91,7 @@ fn point_of(found: &Cut, turn: &Turn, angle: f64) -> [f64; 2] {
             [made.center[first] + x * cos - y * sin, made.center[second] + x * sin + y * cos]
         }
         _ => {
-            let end = found.what.end(&found.from);
+            let end = found.end();
             [end[first], end[second]]
         }
     }

@@ -1,6 +1,7 @@
 //! Cuts and the ways to them: what job and program are compared by.
 
-use crate::nc::{Cooling, Rotation, Turn};
+use super::tables::{ANGLE, MOMENT, ORIENTED, ROUNDED};
+use crate::nc::{Cooling, Rotation, Turn, axes_of, sweep};
 use crate::toolpath::{FeedMode, Plane, Side};
 
 /// A place: X Y Z in the job's units and A B C in degrees.
@@ -13,7 +14,31 @@ pub(super) struct Rapid {
     /// Axes whose place only the machine knows.
     pub unknown: u8,
     /// What the spindle does, where it matters.
-    pub rotation: Option<Rotation>,
+    pub spin: Option<Spin>,
+}
+
+/// What the spindle does while the tool moves at rapid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Spin {
+    /// It turns, or stands anyhow.
+    Turns(Rotation),
+    /// It stands at this angle.
+    At(f64),
+    /// It stands at an angle that a parameter of the control says.
+    Oriented,
+}
+
+impl Spin {
+    /// Is it what the job wants? Whichever way a standing spindle was stopped, it stands.
+    pub fn serves(self, wanted: Spin) -> bool {
+        match (wanted, self) {
+            (Spin::At(a), Spin::At(b)) => ((a - b) / 360.0).fract().abs() * 360.0 < ORIENTED,
+            (Spin::At(_) | Spin::Oriented, Spin::Oriented) | (Spin::Oriented, Spin::At(_)) => true,
+            (Spin::Turns(a), Spin::Turns(b)) => a == b,
+            (Spin::Turns(a), _) => a == Rotation::Stop,
+            (_, Spin::Turns(_)) => false,
+        }
+    }
 }
 
 /// What is done where the way ends.
@@ -23,23 +48,15 @@ pub(super) enum What {
     Line { to: Place },
     /// An arc.
     Arc(Turn),
-    /// A dwell in seconds, right behind a cut.
-    Dwell(f64),
 }
 
 impl What {
     /// Where it ends.
-    pub fn end(&self, from: &Place) -> Place {
+    pub fn end(&self) -> Place {
         match self {
             What::Line { to } => *to,
             What::Arc(turn) => turn.to,
-            What::Dwell(_) => *from,
         }
-    }
-
-    /// Does it feed?
-    pub fn feeds(&self) -> bool {
-        matches!(self, What::Line { .. } | What::Arc(_))
     }
 }
 
@@ -61,6 +78,8 @@ pub(super) struct State {
     pub css: bool,
     /// The plane that compensation is in.
     pub plane: Plane,
+    /// The control keeps feed and spindle in step.
+    pub rigid: Option<bool>,
 }
 
 /// A cut.
@@ -79,6 +98,27 @@ pub(super) struct Cut {
     pub line: u64,
 }
 
+impl Cut {
+    /// Where it ends.
+    pub fn end(&self) -> Place {
+        self.what.end()
+    }
+
+    /// Is it so short that the digits of a program may swallow it? No circle is: it comes back to where it began.
+    pub fn is_short(&self, tolerance: f64) -> bool {
+        let end = self.end();
+        let near = same(&self.from, &end, ALL, tolerance) && turn_as_far([&self.from, &self.from], [&self.from, &end]);
+        near && match &self.what {
+            What::Line { .. } => true,
+            What::Arc(turn) => {
+                let [first, second, _] = axes_of(turn.plane);
+                let radius = (self.from[first] - turn.center[first]).hypot(self.from[second] - turn.center[second]);
+                turn.turns == 0 && radius * sweep(&self.from, turn) <= 2.0 * tolerance
+            }
+        }
+    }
+}
+
 /// The axes as bits.
 pub(super) const ALL: u8 = 0b11_1111;
 /// The axis along which holes go, as an index.
@@ -91,13 +131,13 @@ pub(super) fn same(a: &Place, b: &Place, axes: u8, tolerance: f64) -> bool {
     (0..6).filter(|axis| axes & 1 << axis != 0).all(|axis| {
         let difference = a[axis] - b[axis];
         difference.abs() <= tolerance
-            || (axis >= 3 && (difference - 360.0 * (difference / 360.0).round()).abs() <= tolerance.max(0.001))
+            || (axis >= 3 && (difference - 360.0 * (difference / 360.0).round()).abs() <= tolerance.max(ANGLE))
     })
 }
 
 /// Do two cuts turn their angles as far?
 pub(super) fn turn_as_far(a: [&Place; 2], b: [&Place; 2]) -> bool {
-    (3..6).all(|axis| ((a[1][axis] - a[0][axis]) - (b[1][axis] - b[0][axis])).abs() <= 0.002)
+    (3..6).all(|axis| ((a[1][axis] - a[0][axis]) - (b[1][axis] - b[0][axis])).abs() <= 2.0 * ANGLE)
 }
 
 /// Is b on the straight way from a to c?
@@ -107,9 +147,17 @@ pub(super) fn lies_between(a: &Place, b: &Place, c: &Place, tolerance: f64) -> b
         along += (b[axis] - a[axis]) * (c[axis] - a[axis]);
         length += (c[axis] - a[axis]).powi(2);
     }
+    if length == 0.0 {
+        return false;
+    }
     let part = along / length;
     (0.0..=1.0).contains(&part)
         && (0..6).all(|axis| (a[axis] + part * (c[axis] - a[axis]) - b[axis]).abs() <= tolerance)
+}
+
+/// How far apart two places are along their farthest axis.
+pub(super) fn distance(a: &Place, b: &Place) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 /// `X1 Y2.5 Z-0.1`, with angles where there are any.
@@ -134,5 +182,5 @@ pub(super) fn number(value: f64) -> f64 {
 
 /// Two dwells in seconds are one: revolutions as a time are not whole milliseconds.
 pub(super) fn same_dwell(wanted: f64, is: f64) -> bool {
-    (wanted - is).abs() <= (0.01 * wanted).max(0.001)
+    (wanted - is).abs() <= (ROUNDED * wanted).max(MOMENT)
 }

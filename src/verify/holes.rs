@@ -2,145 +2,191 @@
 
 use std::io::{BufRead, Seek};
 
-use super::comparer::Sides;
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell};
-use super::intended::Expected;
-use crate::diag::{Code, Diag};
+use super::intended::{Done, Expected};
+use super::state::Sides;
+use super::states;
+use super::tables::{LEFT, LONGER};
+use crate::diag::Code;
 
-/// How much longer a control's pecks may be than the job's.
-const MOST: f64 = 1.5;
+/// What the program's strokes in a hole came to.
+#[derive(Clone, Copy, Debug)]
+struct Strokes {
+    count: u64,
+    longest: f64,
+    /// Between all of them the tool came out.
+    out: bool,
+    deepest: f64,
+    /// A dwell at the deepest place, before another stroke.
+    dwell: Option<f64>,
+    line: u64,
+}
 
-impl<R: BufRead + Seek> Sides<R> {
-    /// The program's cuts in this hole, of which the first was met already.
-    pub(super) fn compare_pecks(&mut self, hole: &Expected) -> Result<(), Box<Diag>> {
-        let tolerance = self.tolerance;
-        let mut pecks = std::mem::take(&mut self.pecks);
-        let mut deepest = hole.plane;
-        let mut dwell = 0.0;
-        let mut identical = true;
-        let mut count = 0;
-        let mut line = 0;
-        let (mut strokes, mut longest, mut out) = (0, 0.0f64, true);
-        while let Some(found) = self.next()? {
-            // at the bottom, what is not of the same block's cycle is another hole, or another item of the job
-            let same_block = found.by_cycle && found.line == line;
-            let feeds_down = found.what.end(&found.from)[DEPTH] < found.from[DEPTH];
-            let again = count > 0 && deepest <= hole.bottom + tolerance && feeds_down && !same_block;
-            if count > 0 && (!self.stays_in(hole, &found) || again) {
-                break;
-            }
-            line = found.line;
-            let wanted = pecks.get(count);
-            identical &= wanted.is_some_and(|wanted| is_same(wanted, &found, tolerance));
-            count += 1;
-            // a rapid in the hole stays where it was cut
-            let heights = || self.program.way.iter().map(|rapid| rapid.to[DEPTH]);
-            let lowest = heights().fold(f64::INFINITY, f64::min);
-            if count > 1 && lowest < deepest - tolerance {
-                let message = format!(
-                    "a rapid goes to Z{} in the hole at {}, cut to Z{} so far",
-                    number(lowest),
-                    over(&hole.at),
-                    number(deepest)
-                );
-                return self.differs(Code::PV009, line, message, "look at the clearance of the pecks");
-            }
-            match found.what {
-                What::Dwell(seconds) => dwell = seconds,
-                What::Arc(_) => break,
-                What::Line { to } => {
-                    if strokes > 0 && to[DEPTH] < deepest - tolerance {
-                        out &= heights().any(|height| height >= hole.plane - tolerance);
-                    }
-                    let first = pecks[0];
-                    if pecks.iter().all(|peck| peck.feed == first.feed || !peck.what.feeds()) {
-                        self.feeds(&first, &found, hole.is_tap)?;
-                    }
-                    if to[DEPTH] < deepest {
-                        strokes += 1;
-                        longest = longest.max(deepest - to[DEPTH]);
-                        dwell = 0.0;
-                        deepest = to[DEPTH];
-                    }
-                }
-            }
-            self.program.take();
+/// The program's cuts in this hole, of which the first was met already.
+pub(super) fn pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) -> Done {
+    let tolerance = s.limits.tolerance;
+    let pecks = std::mem::take(&mut s.hole.pecks);
+    let start = Strokes { count: 0, longest: 0.0, out: true, deepest: hole.plane, dwell: None, line: 0 };
+    let mut strokes = start;
+    let mut identical = true;
+    let mut count = 0;
+    while let Some(found) = s.next()? {
+        let wanted = pecks.get(count);
+        let is_one = wanted.is_some_and(|wanted| is_same(wanted, &found, tolerance));
+        // at the bottom, what is not of the same block's cycle is another hole, or another item of the job
+        let same_block = found.by_cycle && found.line == strokes.line;
+        // up again at feed goes only a tap
+        let other_item = found.end()[DEPTH] < found.from[DEPTH] || !hole.is_tap;
+        let at_bottom = strokes.deepest <= hole.bottom + tolerance;
+        if count > 0 && (!stays_in(s, hole, &found) || at_bottom && other_item && !same_block && !is_one) {
+            break;
         }
-        self.check_pecks(&pecks, hole, [strokes as f64, longest], out, line)?;
-        let bottom = deepest;
-        if (bottom - hole.bottom).abs() > tolerance {
-            let message = format!(
-                "the hole at {} is cut to Z{}, the job's to Z{}",
-                over(&hole.at),
-                number(bottom),
+        strokes.line = found.line;
+        identical &= is_one;
+        let lowest = s.program.passage.rapids.iter().map(|rapid| rapid.to[DEPTH]).fold(f64::INFINITY, f64::min);
+        // a rapid in the hole stays where it was cut
+        if count > 0 && lowest < strokes.deepest - tolerance {
+            let deepest = strokes.deepest;
+            s.found(Code::PV009, found.line, "look at the clearance of the pecks", || {
+                let (low, cut) = (number(lowest), number(deepest));
+                format!("a rapid goes to Z{low} in the hole at {}, cut to Z{cut} so far", over(&hole.at))
+            });
+        }
+        let What::Line { to } = found.what else { break };
+        stroke(s, &found, hole, &mut strokes, count > 0);
+        peck_state(s, &pecks, &found, hole, [strokes.deepest, to[DEPTH]], count);
+        strokes.deepest = strokes.deepest.min(to[DEPTH]);
+        count += 1;
+        s.program.take();
+    }
+    let Strokes { deepest, line, .. } = strokes;
+    if !hole.custom {
+        check(s, &pecks, hole, &strokes);
+    }
+    if (deepest - hole.bottom).abs() > tolerance {
+        let at = over(&hole.at);
+        if hole.custom {
+            let why = format!(
+                "the custom cycle at {at} goes to Z{} in its first hole, the job to Z{}",
+                number(deepest),
                 number(hole.bottom)
             );
-            return self.differs(Code::PV004, line, message, "print Z[d] at every hole where it changes");
+            return s.unproven(why, "what a custom cycle does, only its form knows", line);
         }
-        let wanted = hole.dwell.unwrap_or(0.0);
-        if !same_dwell(wanted, dwell) {
-            let message = format!("the dwell at the bottom is {} s, the job's {} s", number(dwell), number(wanted));
-            return self.differs(Code::PV010, line, message, "print P[dwell] in the cycle");
-        }
-        identical &= count == pecks.len();
-        self.equivalences.pecks += u64::from(!identical);
-        pecks.clear();
-        self.pecks = pecks;
-        Ok(())
+        s.found(Code::PV004, line, "print Z[d] at every hole where it changes", || {
+            format!("the hole at {at} is cut to Z{}, the job's to Z{}", number(deepest), number(hole.bottom))
+        });
     }
-
-    /// Other pecks are as good, but pecks they must be, out of the hole between them where the job's are.
-    fn check_pecks(
-        &mut self,
-        pecks: &[Cut],
-        hole: &Expected,
-        [strokes, longest]: [f64; 2],
-        out: bool,
-        line: u64,
-    ) -> Result<(), Box<Diag>> {
-        let mut deepest = hole.plane;
-        let (mut wanted, mut wanted_longest) = (0.0, 0.0f64);
-        for peck in pecks {
-            let to = peck.what.end(&peck.from)[DEPTH];
-            if to < deepest {
-                wanted += 1.0;
-                wanted_longest = wanted_longest.max(deepest - to);
-                deepest = to;
-            }
+    if s.hole.waits_inside {
+        let (wanted, is) = (hole.dwell.unwrap_or(0.0), strokes.dwell.unwrap_or(0.0));
+        if !same_dwell(wanted, is) {
+            s.found(Code::PV010, line, "print P[dwell] in the cycle", || {
+                format!("the dwell at the bottom is {} s, the job's {} s", number(is), number(wanted))
+            });
         }
-        let help = "print Q[vbite] with G83 or G73, as the job's kind is";
-        if wanted > 1.0 && (strokes < 2.0 || longest > MOST * wanted_longest) {
-            let message = format!(
-                "the hole at {} is cut {} at once, the job pecks by {}",
-                over(&hole.at),
-                number(longest),
-                number(wanted_longest)
-            );
-            return self.differs(Code::PV023, line, message, help);
-        }
-        if wanted > 1.0 && hole.retracts && !out {
-            let message =
-                format!("between pecks the tool stays in the hole at {}, the job brings it out", over(&hole.at));
-            return self.differs(Code::PV023, line, message, help);
-        }
-        Ok(())
     }
+    identical &= count == pecks.len();
+    s.report.allowed.pecks += u64::from(!identical && !hole.custom);
+    s.hole.pecks = pecks;
+    s.hole.pecks.clear();
+    Ok(())
+}
 
-    /// Is the program's next cut in this hole too?
-    fn stays_in(&self, hole: &Expected, found: &Cut) -> bool {
-        let here = |place: &_| same(&hole.at, place, ACROSS, self.tolerance);
-        let end = found.what.end(&found.from);
-        // behind a change of tool it is another hole at this place
-        self.program.before.is_none()
-            && here(&found.from)
-            && here(&end)
-            && self.program.way.iter().all(|rapid| rapid.unknown == 0 && here(&rapid.to))
+/// Counts a stroke, and the dwell before it.
+fn stroke<R: BufRead + Seek>(s: &Sides<R>, found: &Cut, hole: &Expected, strokes: &mut Strokes, later: bool) {
+    let tolerance = s.limits.tolerance;
+    let to = found.end()[DEPTH];
+    let passage = &s.program.passage;
+    if later {
+        let at_bottom = (found.from[DEPTH] - strokes.deepest).abs() <= tolerance || strokes.dwell.is_none();
+        let waited: f64 = passage.waits.iter().map(|wait| wait.what).sum();
+        strokes.dwell = Some(waited).filter(|waited| at_bottom && *waited > 0.0).or(strokes.dwell);
+    }
+    if strokes.count > 0 && to < strokes.deepest - tolerance {
+        strokes.out &= passage.rapids.iter().any(|rapid| rapid.to[DEPTH] >= hole.plane - tolerance);
+    }
+    if to < strokes.deepest {
+        strokes.count += 1;
+        strokes.longest = strokes.longest.max(strokes.deepest - to);
+        strokes.dwell = None;
     }
 }
 
+/// Spindle, registers and feed of a stroke: those of the job's pecks that cut in the same place.
+fn peck_state<R: BufRead + Seek>(
+    s: &mut Sides<R>,
+    pecks: &[Cut],
+    found: &Cut,
+    hole: &Expected,
+    [deepest, to]: [f64; 2],
+    count: usize,
+) {
+    let tolerance = s.limits.tolerance;
+    let Some(first) = pecks.first() else { return };
+    let up = to > found.from[DEPTH];
+    let cuts = || pecks.iter().filter(|peck| (peck.end()[DEPTH] > peck.from[DEPTH]) == up);
+    // a stroke that cuts nothing new goes with any
+    let top = deepest.max(to);
+    let within = |peck: &&Cut| {
+        let [high, low] = [peck.from[DEPTH].max(peck.end()[DEPTH]), peck.from[DEPTH].min(peck.end()[DEPTH])];
+        to >= deepest || (low < top - tolerance && high > to + tolerance)
+    };
+    let meant = || cuts().filter(within).chain(cuts().take(1)).chain(std::iter::once(first));
+    let is_meant = |peck: &&Cut| match (peck.feed, found.feed) {
+        (Some(wanted), Some(is)) if peck.mode == found.mode => states::is_feed(wanted, is, hole.is_tap),
+        _ => true,
+    };
+    let wanted = cuts().filter(within).find(is_meant).or_else(|| meant().next()).copied().unwrap_or(*first);
+    if count > 0 {
+        states::compare(s, &wanted, found, hole.is_tap);
+        if s.tools {
+            super::ways::moved_with(s, found.line);
+        }
+    }
+    let same_mode = wanted.mode != crate::toolpath::FeedMode::InverseTime;
+    if same_mode {
+        states::feeds(s, &wanted, found, hole.is_tap);
+    }
+}
+
+/// Other pecks are as good, but pecks they must be, out of the hole between them where the job's are.
+fn check<R: BufRead + Seek>(s: &mut Sides<R>, pecks: &[Cut], hole: &Expected, strokes: &Strokes) {
+    let mut deepest = hole.plane;
+    let (mut count, mut longest) = (0, 0.0f64);
+    for peck in pecks {
+        let to = peck.end()[DEPTH];
+        if to < deepest {
+            let length = deepest - to;
+            count += u64::from(length > (LEFT * longest).max(2.0 * s.limits.tolerance));
+            longest = longest.max(length);
+            deepest = to;
+        }
+    }
+    let help = "print Q[vbite] with G83 or G73, as the job's kind is";
+    if count > 1 && (strokes.count < 2 || strokes.longest > LONGER * longest) {
+        let is = number(strokes.longest);
+        s.found(Code::PV023, strokes.line, help, || {
+            format!("the hole at {} is cut {is} at once, the job pecks by {}", over(&hole.at), number(longest))
+        });
+    }
+    if count > 1 && hole.retracts && !strokes.out {
+        s.found(Code::PV023, strokes.line, help, || {
+            format!("between pecks the tool stays in the hole at {}, the job brings it out", over(&hole.at))
+        });
+    }
+}
+
+/// Is the program's next cut in this hole too?
+fn stays_in<R: BufRead + Seek>(s: &Sides<R>, hole: &Expected, found: &Cut) -> bool {
+    let here = |place: &_| same(&hole.at, place, ACROSS, s.limits.tolerance);
+    let passage = &s.program.passage;
+    // behind a change of tool it is another hole at this place
+    !passage.changed()
+        && here(&found.from)
+        && here(&found.end())
+        && passage.rapids.iter().all(|rapid| rapid.unknown == 0 && here(&rapid.to))
+}
+
 fn is_same(wanted: &Cut, found: &Cut, tolerance: f64) -> bool {
-    let ends = |cut: &Cut| cut.what.end(&cut.from);
-    same(&wanted.from, &found.from, ALL, tolerance)
-        && same(&ends(wanted), &ends(found), ALL, tolerance)
-        && matches!(wanted.what, What::Dwell(_)) == matches!(found.what, What::Dwell(_))
+    same(&wanted.from, &found.from, ALL, tolerance) && same(&wanted.end(), &found.end(), ALL, tolerance)
 }

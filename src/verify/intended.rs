@@ -1,71 +1,45 @@
 //! The job's side: events as intended cuts and ways.
 
-use super::comparer::Intent;
-use super::cut::{Cut, DEPTH, Place, Rapid, State, What};
-use crate::control;
-use crate::cycle::{Defaults, Plan, Step, Steps, check, plan};
+use super::cut::{Cut, Place, Rapid, Spin, State, What};
+use super::expectation::Expectation;
+use super::passage::Frame;
+use super::tables::Unmodelled;
+use crate::control::{Control, Group, Meaning};
+use crate::cycle::{Steps, check};
 use crate::diag::{Code, Diag};
-use crate::lang::{Machine, UnitChoice, work_code};
-use crate::nc::{Rotation, Turn};
-use crate::render::cycle_defaults;
-use crate::sema::Settings;
+use crate::lang::{Machine, work_code};
+use crate::nc::{Cooling, Kind, Rotation, Turn, tokens};
 use crate::toolpath::{
-    Arc, Axes, CycleKind, CycleSpec, Direction, Event, FeedMode, Hole, Order, Plane, Side, Spindle, SpindleTurn, Start,
-    StopKind, ToolChange, Units, impossible,
+    Arc, Axes, CycleSpec, Direction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start, StopKind,
+    ToolChange, Units,
 };
 
-/// What the form says of the job's numbers.
-#[derive(Clone, Copy, Debug)]
-pub struct Expectation {
-    /// Cycle defaults in inches and in millimetres.
-    pub defaults: [Defaults; 2],
-    /// How far short lines may leave an arc, in inches and in millimetres.
-    pub chord: [f64; 2],
-    /// Code of the first work offset: 54.
-    pub first_work: f64,
-    /// Work offset that holds before the job names one.
-    pub work: Option<f64>,
-    /// What a tool's number is raised by for its length and diameter registers, where the job names none.
-    pub registers: Option<[f64; 2]>,
-    /// The machine loads tools (M6) and has length offsets.
-    pub tools: bool,
-    /// Only the program says its units.
-    pub units_due: bool,
+/// What the job's side tells, in the order of its motions.
+pub(super) trait Intent {
+    /// Units of the job, and how far lines may leave an arc in them.
+    fn units(&mut self, units: Units, chord: f64);
+    /// A rapid.
+    fn rapid(&mut self, rapid: Rapid) -> Done;
+    /// A cut.
+    fn cut(&mut self, cut: &Cut, hole: Option<&Expected>) -> Done;
+    /// A rapid that may feed, as it turns compensation on or off.
+    fn rapid_or_feed(&mut self, cut: &Cut) -> Done;
+    /// A dwell in seconds; not a number: of any length.
+    fn wait(&mut self, seconds: f64, hole: bool);
+    /// A stop.
+    fn stop(&mut self, kind: StopKind);
+    /// The moves of a hole begin.
+    fn hole_begins(&mut self, hole: &Expected);
+    /// They end.
+    fn hole_ends(&mut self, hole: &Expected) -> Done;
+    /// Another tool or work offset: places are others from here on. `length`: the tool's register.
+    fn changed(&mut self, frame: Frame, length: Option<f64>, tool: bool);
+    /// The job is over.
+    fn finish(&mut self) -> Done;
 }
 
-impl Default for Expectation {
-    /// What holds without a form: nothing is filled in.
-    fn default() -> Self {
-        let defaults = Defaults { rigid: true, ..Defaults::default() };
-        Expectation {
-            defaults: [defaults; 2],
-            chord: [0.001, 0.02],
-            first_work: 54.0,
-            work: None,
-            registers: None,
-            tools: true,
-            units_due: true,
-        }
-    }
-}
-
-impl Expectation {
-    /// What a form fills in.
-    pub fn of_form(settings: &Settings, sink_as_printed: bool) -> Expectation {
-        let defaults = [Units::Inch, Units::Mm]
-            .map(|units| Defaults { rigid: true, ..cycle_defaults(settings, units, sink_as_printed) });
-        let chord = settings.tolerance * if settings.units == UnitChoice::Mm { 1.0 / 25.4 } else { 1.0 };
-        Expectation {
-            defaults,
-            chord: [chord.max(0.001), (chord * 25.4).max(0.02)],
-            first_work: settings.work,
-            work: Some(settings.work_default),
-            registers: Some([settings.lcomp, settings.dcomp]),
-            tools: !settings.control().refuses(control::Code::m(6)),
-            units_due: settings.units == UnitChoice::Both,
-        }
-    }
-}
+/// What goes well, or a finding that ends the comparison.
+pub(super) type Done<T = ()> = Result<T, Box<Diag>>;
 
 /// What a hole must be.
 #[derive(Clone, Copy, Debug)]
@@ -82,41 +56,50 @@ pub(super) struct Expected {
     pub retracts: bool,
     /// A tap: feed and speed are its pitch.
     pub is_tap: bool,
+    /// It may be left at feed farther up than the job does.
+    pub feeds_out: bool,
+    /// Only the form knows its moves.
+    pub custom: bool,
 }
 
 /// An open cycle.
-struct Open {
-    spec: CycleSpec,
-    point: Option<f64>,
-    first_return: Option<f64>,
+pub(super) struct Open {
+    pub spec: CycleSpec,
+    /// The height of the last point.
+    pub point: Option<f64>,
+    pub first_return: Option<f64>,
 }
 
 /// Where the job stands.
 pub(super) struct Job {
-    expectation: Expectation,
+    pub(super) expectation: Expectation,
+    control: &'static Control,
     order: Order,
     pub units: Option<Units>,
-    at: Axes,
-    feed: Option<f64>,
-    mode: FeedMode,
+    pub(super) at: Axes,
+    pub(super) feed: Option<f64>,
+    pub(super) mode: FeedMode,
     pub state: State,
     css: bool,
-    cycle: Option<Open>,
+    pub(super) cycle: Option<Open>,
     diameter: Option<f64>,
-    steps: Steps,
+    pub(super) steps: Steps,
     compensation: bool,
 }
 
 impl Job {
-    pub fn new(expectation: Expectation) -> Job {
+    /// A job for a form and a control.
+    pub fn new(expectation: Expectation, control: &'static Control) -> Job {
+        let work = expectation.work;
         Job {
             expectation,
+            control,
             order: Order::default(),
             units: None,
             at: Axes::default(),
             feed: None,
             mode: FeedMode::PerMinute,
-            state: State { side: Some(None), ..State::default() },
+            state: State { side: Some(None), work, ..State::default() },
             css: false,
             cycle: None,
             diameter: None,
@@ -129,7 +112,7 @@ impl Job {
     ///
     /// # Errors
     /// What can't be proven; what the intent found.
-    pub fn event(&mut self, event: Event<'_>, to: &mut impl Intent) -> Result<(), Box<Diag>> {
+    pub fn event(&mut self, event: Event<'_>, to: &mut impl Intent) -> Done {
         self.order.follow(&event)?;
         match event {
             Event::Start(start) => self.start(start, to),
@@ -166,7 +149,10 @@ impl Job {
                 self.cycle = None;
                 Ok(())
             }
-            Event::Dwell(seconds) => self.dwell(seconds, None, to),
+            Event::Dwell(seconds) => {
+                wait(seconds, false, to);
+                Ok(())
+            }
             Event::Stop(kind) => {
                 to.stop(kind);
                 Ok(())
@@ -176,43 +162,37 @@ impl Job {
                 Ok(())
             }
             Event::Work(work) => {
-                let before = self.state.work;
-                self.work(work);
-                if self.state.work != before {
-                    to.lost(false);
-                }
+                self.work(work, to);
                 Ok(())
             }
             Event::Spindle(spindle) => {
                 self.spindle(&spindle);
                 Ok(())
             }
-            Event::Tilt(_) => unproven("the tool axis changes"),
-            Event::SubStart(_) | Event::SubCall(_) => unproven("the job has subprograms"),
-            Event::Thread(_) => unproven("the job cuts a thread on a lathe"),
-            Event::Edm(_) => unproven("the job is for wire EDM"),
-            Event::Text(_)
-            | Event::Begin(_)
-            | Event::End(_)
-            | Event::Comment(_)
-            | Event::Coolant(_)
-            | Event::Set(..)
-            | Event::SubEnd => Ok(()),
+            Event::Coolant(coolant) => {
+                self.state.coolant = Some(self.expectation.cooling(coolant));
+                Ok(())
+            }
+            Event::Text(text) => self.text(text, to),
+            Event::Tilt(_) => unproven(Unmodelled::Tilted),
+            Event::SubStart(_) | Event::SubCall(_) => unproven(Unmodelled::Subprograms),
+            Event::Thread(_) => unproven(Unmodelled::Threads),
+            Event::Edm(_) => unproven(Unmodelled::Wire),
+            Event::Begin(_) | Event::End(_) | Event::Comment(_) | Event::Set(..) | Event::SubEnd => Ok(()),
             Event::Finish => to.finish(),
         }
     }
 
-    fn start(&mut self, start: &Start, to: &mut impl Intent) -> Result<(), Box<Diag>> {
+    fn start(&mut self, start: &Start, to: &mut impl Intent) -> Done {
         if start.machine != Machine::Mill {
-            return unproven("the job is for a lathe or wire EDM machine");
+            return unproven(Unmodelled::Machine);
         }
         self.units = Some(start.units);
-        self.state.work = self.expectation.work;
         to.units(start.units, self.expectation.chord[usize::from(start.units == Units::Mm)]);
         Ok(())
     }
 
-    fn tool_change(&mut self, change: &ToolChange, to: &mut impl Intent) -> Result<(), Box<Diag>> {
+    fn tool_change(&mut self, change: &ToolChange, to: &mut impl Intent) -> Done {
         if let Some(tool) = change.tool.as_ref().filter(|tool| self.state.tool != Some(tool.number)) {
             self.state.tool = Some(tool.number);
             let [length, diameter] =
@@ -220,26 +200,63 @@ impl Job {
             self.state.length = tool.length_offset.or(length).filter(|_| self.expectation.tools);
             self.diameter = tool.diameter_offset.or(diameter);
             (self.state.speed, self.state.rotation) = (None, None);
+            self.state.coolant = Some(Cooling::Off);
             self.at = Axes { given: self.at.given & !0b111, ..self.at };
-            to.lost(true);
+            self.changed(true, to);
         }
         if let Some(spindle) = &change.spindle {
             self.spindle(spindle);
         }
+        if let Some(coolant) = change.coolant {
+            self.state.coolant = Some(self.expectation.cooling(coolant));
+        }
         if let Some(work) = change.work {
-            let before = self.state.work;
-            self.work(work);
-            if self.state.work != before {
-                to.lost(false);
-            }
+            self.work(work, to);
         }
         self.mode = change.feed_mode.unwrap_or(FeedMode::PerMinute);
         self.feed = change.feed;
         Ok(())
     }
 
-    fn work(&mut self, work: f64) {
-        self.state.work = work_code(self.expectation.first_work, work);
+    fn work(&mut self, work: f64, to: &mut impl Intent) {
+        let work = work_code(self.expectation.first_work, work);
+        if std::mem::replace(&mut self.state.work, work) != work {
+            self.changed(false, to);
+        }
+    }
+
+    fn changed(&self, tool: bool, to: &mut impl Intent) {
+        to.changed(Frame { tool: self.state.tool, work: self.state.work }, self.state.length, tool);
+    }
+
+    /// Text goes into the program as it stands: what its codes switch is what the program switches.
+    fn text(&mut self, text: &str, to: &mut impl Intent) -> Done {
+        let mut axes = false;
+        for token in tokens(text.as_bytes()) {
+            let Kind::Word(letter, number) = token.kind else { continue };
+            axes |= b"XYZABCUVW".contains(&letter);
+            let code = (number.value * 10.0).round();
+            if !matches!(letter, b'G' | b'M') || !(0.0..=9999.0).contains(&code) {
+                if letter == b'S' {
+                    self.state.speed = None;
+                }
+                continue;
+            }
+            let code = crate::control::Code { letter, tenths: code as u16 };
+            let Some(row) = self.control.row(code) else { continue };
+            match (row.meaning, row.meaning.group()) {
+                (Meaning::StopProgram | Meaning::Pallet, _) => to.stop(StopKind::Program),
+                (Meaning::StopOptional, _) => to.stop(StopKind::Optional),
+                (Meaning::Dwell, _) => to.wait(f64::NAN, false),
+                (_, Some(Group::Spindle)) => self.state.rotation = None,
+                (_, Some(Group::Coolant)) => self.state.coolant = None,
+                (_, Some(Group::Motion | Group::Distance | Group::Work | Group::Length | Group::Compensation)) => {
+                    axes = true;
+                }
+                _ => {}
+            }
+        }
+        if axes { unproven(Unmodelled::Text) } else { Ok(()) }
     }
 
     fn spindle(&mut self, spindle: &Spindle) {
@@ -251,12 +268,7 @@ impl Job {
         self.state.speed = spindle.speed.or(self.state.speed).filter(|_| !self.css);
     }
 
-    /// One that does not follow a cut only waits.
-    fn dwell(&mut self, seconds: f64, hole: Option<&Expected>, to: &mut impl Intent) -> Result<(), Box<Diag>> {
-        if seconds > 0.0 && to.way_is_empty() { to.cut(&self.cut(What::Dwell(seconds)), hole) } else { Ok(()) }
-    }
-
-    fn target(&self, to: &Axes) -> Axes {
+    pub(super) fn target(&self, to: &Axes) -> Axes {
         let mut target = self.at;
         for axis in 0..6 {
             if let Some(value) = to.get(axis) {
@@ -266,16 +278,16 @@ impl Job {
         target
     }
 
-    fn rapid_to(&self, to: Place, rotation: Option<Rotation>) -> Rapid {
-        Rapid { to, unknown: !self.at.given & 0b111, rotation }
+    pub(super) fn rapid_to(&self, to: Place, spin: Option<Spin>) -> Rapid {
+        Rapid { to, unknown: !self.at.given & 0b111, spin }
     }
 
-    fn cut(&self, what: What) -> Cut {
+    pub(super) fn cut(&self, what: What) -> Cut {
         Cut {
             from: self.at.values,
             unknown: !self.at.given & 0b111,
             what,
-            feed: if what.feeds() { self.feed } else { None },
+            feed: self.feed,
             mode: self.mode,
             state: self.state,
             by_cycle: false,
@@ -283,22 +295,16 @@ impl Job {
         }
     }
 
-    fn cut_to(&mut self, target: Axes, what: What, to: &mut impl Intent) -> Result<(), Box<Diag>> {
+    fn cut_to(&mut self, target: Axes, what: What, to: &mut impl Intent) -> Done {
         let cut = self.cut(what);
         self.at = target;
-        if what.end(&cut.from) == cut.from && !matches!(what, What::Arc(_)) {
+        if what.end() == cut.from && !matches!(what, What::Arc(_)) {
             return Ok(()); // no length
         }
         to.cut(&cut, None)
     }
 
-    fn compensated(
-        &mut self,
-        to: &Axes,
-        side: Option<Side>,
-        rapid: bool,
-        intent: &mut impl Intent,
-    ) -> Result<(), Box<Diag>> {
+    fn compensated(&mut self, to: &Axes, side: Option<Side>, rapid: bool, intent: &mut impl Intent) -> Done {
         let target = self.target(to);
         self.state.side = Some(side);
         self.state.diameter = self.diameter.filter(|_| side.is_some());
@@ -311,7 +317,7 @@ impl Job {
         self.cut_to(target, What::Line { to: target.values }, intent)
     }
 
-    fn arc(&mut self, arc: &Arc, to: &mut impl Intent) -> Result<(), Box<Diag>> {
+    fn arc(&mut self, arc: &Arc, to: &mut impl Intent) -> Done {
         let target = self.target(&arc.to);
         let from = self.at.values;
         let [first, second, _] = crate::nc::axes_of(arc.plane);
@@ -331,122 +337,31 @@ impl Job {
                 center[first] = from[first] + half[0] - side * height * half[1] / chord;
                 center[second] = from[second] + half[1] + side * height * half[0] / chord;
             }
-            (None, None) => return unproven("an arc has neither centre nor radius"),
+            (None, None) => return unproven(Unmodelled::ArcWithout),
         }
         let (plane, direction): (Plane, Direction) = (arc.plane, arc.direction);
         let turn =
             Turn { to: target.values, center, plane, direction, turns: arc.turns, feed: self.feed.unwrap_or(0.0) };
         self.cut_to(target, What::Arc(turn), to)
     }
-
-    fn hole(&mut self, hole: &Hole, to: &mut impl Intent) -> Result<(), Box<Diag>> {
-        let Some(open) = &mut self.cycle else { return impossible("a hole outside a cycle") };
-        let defaults = self.expectation.defaults[usize::from(self.units == Some(Units::Mm))];
-        let rpm = self.state.speed;
-        let mut planes = Plan::of(&open.spec, hole.depth, &defaults, rpm).map_err(Box::<Diag>::from)?;
-        if self.mode == FeedMode::PerRev {
-            planes.lead = Some(planes.feed);
-        }
-        let Some(point) = hole.at.get(DEPTH).or(open.point) else { return unproven("a hole has no height") };
-        open.point = Some(point);
-        let clear = point + planes.clear;
-        let first = *open.first_return.get_or_insert(point + open.spec.return_height.unwrap_or(planes.clear));
-        let return_plane = first.max(clear);
-        let kind = open.spec.kind;
-        let mode = open.spec.mode;
-        let custom = matches!(kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
-        let mut steps = std::mem::take(&mut self.steps);
-        if custom {
-            return unproven("what a custom cycle does, only its form knows");
-        }
-        plan(&open.spec, &planes, return_plane - point, &defaults, &mut steps).map_err(Box::<Diag>::from)?;
-        let pecks =
-            matches!(kind, CycleKind::Deep | CycleKind::Chipbreak) || (kind.is_tap() && open.spec.mode.is_some());
-        let mut target = self.target(&hole.at);
-        target.set(DEPTH, return_plane);
-        let plane = steps.list.iter().take_while(|step| matches!(step, Step::Rapid(_))).last();
-        let plane = if let Some(Step::Rapid(height)) = plane { point + height } else { clear };
-        let expected = Expected {
-            at: target.values,
-            plane,
-            bottom: point + planes.bottom,
-            dwell: planes.dwell,
-            pecks,
-            retracts: kind == CycleKind::Deep || mode == Some(CycleKind::Deep),
-            is_tap: kind.is_tap(),
-        };
-        let list = std::mem::take(&mut steps.list);
-        let before = self.state;
-        if let (Some(inwards), Some(Rotation::Cw | Rotation::Ccw)) = (kind.inwards(), before.rotation) {
-            self.state.rotation = Some(rotation(inwards)); // whatever the spindle does else
-        }
-        let done = self.steps(&list, point, target, &expected, to);
-        self.state = before;
-        steps.list = list;
-        self.steps = steps;
-        done
-    }
-
-    fn steps(
-        &mut self,
-        steps: &[Step],
-        point: f64,
-        target: Axes,
-        hole: &Expected,
-        to: &mut impl Intent,
-    ) -> Result<(), Box<Diag>> {
-        let (feed, state) = (self.feed, self.state);
-        self.at = target;
-        to.rapid(self.rapid_to(target.values, None))?;
-        to.hole_begins(hole);
-        for step in steps {
-            let mut at = target;
-            match *step {
-                Step::Rapid(height) => {
-                    at.set(DEPTH, point + height);
-                    self.at = at;
-                    to.rapid(self.rapid_to(at.values, self.state.rotation))?;
-                }
-                Step::RapidAside(height, x, y) => {
-                    at.set(DEPTH, point + height);
-                    at.values[0] += x;
-                    at.values[1] += y;
-                    self.at = at;
-                    to.rapid(self.rapid_to(at.values, self.state.rotation))?;
-                }
-                Step::Feed(height, feed) => {
-                    at.set(DEPTH, point + height);
-                    self.feed = Some(feed);
-                    let cut = self.cut(What::Line { to: at.values });
-                    self.at = at;
-                    if cut.from != at.values {
-                        to.cut(&cut, Some(hole))?;
-                    }
-                }
-                Step::Dwell(seconds) => self.dwell(seconds, Some(hole), to)?,
-                Step::SpindleStop | Step::Orient(_) => {
-                    self.state.rotation = self.state.rotation.map(|_| Rotation::Stop);
-                }
-                Step::SpindleStart => self.state = State { tool: self.state.tool, ..state },
-                Step::SpindleReverse(ratio) => {
-                    self.state.rotation = self.state.rotation.map(Rotation::reversed);
-                    self.state.speed = self.state.speed.map(|speed| speed * ratio);
-                }
-                Step::ProgramStop => to.stop(StopKind::Program),
-            }
-        }
-        (self.feed, self.state) = (feed, state);
-        to.hole_ends(hole)
-    }
 }
 
 /// Something whose motions are not known well enough to prove them.
-fn unproven<T>(what: &str) -> Result<T, Box<Diag>> {
-    let message = format!("{what}: its motions can't be proven");
-    Err(Box::new(Diag::new(Code::PV020, message).help("verify proves milling programs without subprograms")))
+pub(super) fn unproven<T>(what: Unmodelled) -> Done<T> {
+    Err(Box::new(
+        Diag::new(Code::PV020, what.why())
+            .help("docs/verify.md lists what is not proven; prove the rest as a job of its own"),
+    ))
 }
 
-fn rotation(turn: SpindleTurn) -> Rotation {
+/// A dwell of no length is none.
+pub(super) fn wait(seconds: f64, hole: bool, to: &mut impl Intent) {
+    if seconds > 0.0 {
+        to.wait(seconds, hole);
+    }
+}
+
+pub(super) fn rotation(turn: SpindleTurn) -> Rotation {
     match turn {
         SpindleTurn::Cw => Rotation::Cw,
         SpindleTurn::Ccw => Rotation::Ccw,

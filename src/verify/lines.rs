@@ -2,79 +2,87 @@
 
 use std::io::{BufRead, Seek};
 
-use super::comparer::Sides;
-use super::cut::{ACROSS, ALL, Cut, DEPTH, Place, What, lies_between, number, over, same, shown, turn_as_far};
-use super::intended::Expected;
-use crate::diag::{Code, Diag};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, What, lies_between, number, over, same, shown, turn_as_far};
+use super::intended::{Done, Expected};
+use super::state::Sides;
+use super::states;
+use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
-impl<R: BufRead + Seek> Sides<R> {
-    /// A straight cut, as one or in parts that lie on it.
-    pub(super) fn line(&mut self, cut: &Cut, first: &Cut, hole: Option<&Expected>) -> Result<(), Box<Diag>> {
-        let end = cut.what.end(&cut.from);
-        let mut found = *first;
-        let mut parts = 1;
-        loop {
-            let to = found.what.end(&found.from);
-            let is_part = !same(&to, &end, ALL, self.tolerance) && lies_between(&cut.from, &to, &end, self.tolerance);
-            if !is_part {
-                break;
-            }
-            self.feeds(&in_parts(cut, &found), &found, hole.is_some_and(|hole| hole.is_tap))?;
-            self.program.take();
-            let next = self.next()?.filter(|next| {
-                matches!(next.what, What::Line { .. })
-                    && self.program.way.is_empty()
-                    && self.program.stops.is_empty()
-                    && lies_between(&to, &next.what.end(&next.from), &end, self.tolerance)
-            });
-            let Some(next) = next else {
-                return self.ends(&cut.from, end, &found, hole);
-            };
-            found = next;
-            parts += 1;
-        }
-        self.ends(&cut.from, end, &found, hole)?;
-        self.feeds(&in_parts(cut, &found), &found, hole.is_some_and(|hole| hole.is_tap))?;
-        self.equivalences.parts += u64::from(parts > 1);
-        self.program.take();
-        Ok(())
-    }
+/// After so many cuts that end elsewhere, one after the other, the program is another one.
+const MOST_SLIPS: u32 = 3;
 
-    /// Both straight cuts end at one place.
-    fn ends(&mut self, from: &Place, end: Place, found: &Cut, hole: Option<&Expected>) -> Result<(), Box<Diag>> {
-        let is = found.what.end(&found.from);
-        let line = found.line;
-        if same(&end, &is, ALL, self.tolerance) {
-            if turn_as_far([from, &end], [&found.from, &is]) {
-                return Ok(());
-            }
-            let message = format!("the part turns the other way, or more often, on the way to {}", shown(&end, ALL));
-            return self.differs(Code::PV001, line, message, "look at the travel of the rotary axis (`Limits`)");
+/// A straight cut, as one or in parts that lie on it.
+pub(super) fn line<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, first: &Cut, hole: Option<&Expected>) -> Done {
+    let tolerance = s.limits.tolerance;
+    let end = cut.end();
+    let is_tap = hole.is_some_and(|hole| hole.is_tap);
+    let mut found = *first;
+    let mut parts = 1;
+    loop {
+        let to = found.end();
+        if same(&to, &end, ALL, tolerance) || !lies_between(&cut.from, &to, &end, tolerance) {
+            break;
         }
-        if hole.is_some() && same(&end, &is, ACROSS, self.tolerance) {
-            // out of the hole at feed, and farther than the job
-            if is[DEPTH] > end[DEPTH] && end[DEPTH] > from[DEPTH] {
-                self.equivalences.outs += 1;
-                return Ok(());
-            }
-            let message = format!(
-                "the hole at {} is cut to Z{}, the job's to Z{}",
-                over(&end),
-                number(is[DEPTH]),
-                number(end[DEPTH])
-            );
-            return self.differs(Code::PV004, line, message, "print Z[d] at every hole where it changes");
-        }
-        let message = format!("a cut goes to {}, the job's to {}", shown(&is, 0b111), shown(&end, 0b111));
-        self.differs(Code::PV001, line, message, "look at what the form prints for this move")
+        states::feeds(s, &in_parts(cut, &found), &found, is_tap);
+        s.program.take();
+        let next = s.next()?.filter(|next| {
+            matches!(next.what, What::Line { .. })
+                && s.program.passage.is_plain()
+                && lies_between(&to, &next.end(), &end, tolerance)
+        });
+        let Some(next) = next else { return ends(s, cut, &found, hole) };
+        found = next;
+        parts += 1;
     }
+    states::feeds(s, &in_parts(cut, &found), &found, is_tap);
+    s.report.allowed.parts += u64::from(parts > 1);
+    ends(s, cut, &found, hole)?;
+    s.program.take();
+    Ok(())
+}
+
+/// Both straight cuts end at one place.
+fn ends<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done {
+    let tolerance = s.limits.tolerance;
+    let (from, end, is, line) = (&cut.from, cut.end(), found.end(), found.line);
+    if same(&end, &is, ALL, tolerance) {
+        if turn_as_far([from, &end], [&found.from, &is]) {
+            s.slips = 0;
+            return Ok(());
+        }
+        let message = format!("the part turns the other way, or more often, on the way to {}", shown(&end, ALL));
+        return s.differs(Code::PV001, line, message, "look at the travel of the rotary axis (`Limits`)");
+    }
+    s.slipped = Some([end, is]);
+    if let Some(hole) = hole
+        && same(&end, &is, ACROSS, tolerance)
+    {
+        // out of the hole at feed, and farther than the job, but not above where the job goes at all
+        let upward = is[DEPTH] > end[DEPTH] && end[DEPTH] > from[DEPTH];
+        if hole.feeds_out && upward && is[DEPTH] <= hole.at[DEPTH] + tolerance {
+            s.report.allowed.outs += 1;
+            return Ok(());
+        }
+        s.found(Code::PV004, line, "print Z[d] at every hole where it changes", || {
+            format!("the hole at {} is cut to Z{}, the job's to Z{}", over(&end), number(is[DEPTH]), number(end[DEPTH]))
+        });
+        return Ok(());
+    }
+    let message = || format!("a cut goes to {}, the job's to {}", shown(&is, 0b111), shown(&end, 0b111));
+    let help = "look at what the form prints for this move";
+    s.slips += 1;
+    if s.slips > MOST_SLIPS {
+        return s.differs(Code::PV001, line, message(), help); // no longer the same cuts
+    }
+    s.found(Code::PV001, line, help, message);
+    Ok(())
 }
 
 /// The cut as one of its parts must be: in inverse time a part has a part of the time.
 fn in_parts(cut: &Cut, part: &Cut) -> Cut {
     let length = |cut: &Cut| {
-        let end = cut.what.end(&cut.from);
+        let end = cut.end();
         (0..6).map(|axis| (end[axis] - cut.from[axis]).powi(2)).sum::<f64>().sqrt()
     };
     let share = length(part) / length(cut);

@@ -1,48 +1,82 @@
-//! The program's side: its cuts, each with the way that leads to it.
+//! The program's side: its cuts, each with what lies before it.
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{Cut, Place, Rapid, State, What};
+use super::cut::{Cut, Place, Rapid, Spin, State, What};
+use super::expectation::Expectation;
 use super::finding::Finding;
+use super::passage::{Frame, Passage};
+use super::recent::Recent;
+use crate::control::{Control, Meaning, Rules};
 use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, Settings, Simulator};
-use crate::toolpath::{FeedMode, StopKind, Units};
+use crate::toolpath::{self, FeedMode, StopKind, Units};
+
+/// What the program has not said yet, and what was told of it.
+#[derive(Clone, Copy, Debug)]
+struct Due {
+    /// Tools need their length offset.
+    lengths: bool,
+    length_told: bool,
+    units: bool,
+}
+
+/// How the numbers of the program become the job's.
+#[derive(Clone, Copy, Debug)]
+struct Scale {
+    /// Units that the program counts in.
+    units: Units,
+    /// Units that places are wanted in.
+    wanted: Units,
+    /// The axes as the form prints them: the job's first is the program's so-and-so-many-th.
+    axes: [u8; 6],
+}
+
+impl Scale {
+    fn factor(self) -> f64 {
+        match (self.units, self.wanted) {
+            (Units::Inch, Units::Mm) => 25.4,
+            (Units::Mm, Units::Inch) => 1.0 / 25.4,
+            _ => 1.0,
+        }
+    }
+
+    fn place(self, to: &Position) -> Place {
+        let factor = self.factor();
+        let mut place = self.axes.map(|axis| to[usize::from(axis)]);
+        place[..3].iter_mut().for_each(|value| *value *= factor);
+        place
+    }
+
+    fn axes(self, bits: u8) -> u8 {
+        if bits == 0 {
+            return 0;
+        }
+        (0..6).filter(|&axis| bits & 1 << self.axes[axis] != 0).map(|axis| 1 << axis).sum()
+    }
+}
 
 /// A program that is run as far as it was asked for.
 pub(super) struct Program<R> {
     simulator: Simulator<R>,
+    control: &'static Control,
     items: Vec<Item>,
     next: usize,
     over: bool,
+    recent: Recent,
     /// Where the tool is.
     at: Place,
     unknown: u8,
     state: State,
+    spin: Spin,
     mode: FeedMode,
     cycle: bool,
-    /// The tool's missing length offset was told.
-    length_told: bool,
-    lengths: bool,
-    linuxcnc: bool,
-    units_said: bool,
-    units: Units,
-    /// Units that places are wanted in.
-    wanted: Units,
-    start: Rapid,
-    /// The way to the cut.
-    pub way: Vec<Rapid>,
-    /// How many of its rapids come before a change of tool or work offset, after which places are others.
-    pub before: Option<usize>,
-    /// Length register and work offset of the rapids on the way whose height is known.
-    pub moved_with: Vec<[Option<f64>; 2]>,
-    /// Stops on the way, and whether the tool stood in a cut.
-    pub stops: Vec<(StopKind, bool)>,
-    /// Dwells on the way.
-    pub waits: Vec<f64>,
-    /// How the spindle was switched on the way.
-    pub turns: Vec<Rotation>,
-    /// Codes on the way that are not simulated: letter, and ten times the number.
-    pub codes: Vec<(u8, u16)>,
+    due: Due,
+    scale: Scale,
+    /// Codes of the coolant that are the form's own: on, off, mist.
+    coolant: [f64; 3],
+    /// What lies before the cut.
+    pub passage: Passage,
     cuts: bool,
     cut: Option<Cut>,
     /// Hazards on the way.
@@ -50,43 +84,37 @@ pub(super) struct Program<R> {
 }
 
 impl<R: BufRead + Seek> Program<R> {
-    /// Runs with these settings; `lengths`: tools need their length offset.
-    ///
-    /// `units_due`: nothing but the program says its units.
-    pub fn new(input: R, settings: Settings, lengths: bool, units_due: bool) -> Program<R> {
+    /// Runs with these settings, and by what a form says of its words.
+    pub fn new(input: R, settings: Settings, expectation: &Expectation) -> Program<R> {
         let settings = Settings { places_unknown: true, bore_shift: -1.0, ..settings };
+        // as switched on
+        let state = State {
+            side: Some(None),
+            rotation: Some(Rotation::Stop),
+            speed: Some(0.0),
+            coolant: Some(Cooling::Off),
+            work: settings.control.traits().work_letter.is_none().then_some(54.0),
+            rigid: taps_by_m29(settings.control).then_some(false),
+            ..State::default()
+        };
+        let start = Rapid { to: [0.0; 6], unknown: 0b111, spin: None };
         Program {
             simulator: Simulator::new(input, settings),
+            control: settings.control,
             items: Vec::new(),
             next: 0,
             over: false,
+            recent: Recent::default(),
             at: [0.0; 6],
             unknown: 0b111,
-            // as switched on
-            state: State {
-                side: Some(None),
-                rotation: Some(Rotation::Stop),
-                speed: Some(0.0),
-                coolant: Some(Cooling::Off),
-                work: settings.control.traits().work_letter.is_none().then_some(54.0),
-                ..State::default()
-            },
+            state,
+            spin: Spin::Turns(Rotation::Stop),
             mode: FeedMode::PerMinute,
             cycle: false,
-            length_told: false,
-            lengths,
-            linuxcnc: settings.control.is_linuxcnc(),
-            units_said: !units_due,
-            units: settings.units,
-            wanted: settings.units,
-            start: Rapid { to: [0.0; 6], unknown: 0b111, rotation: None },
-            way: Vec::new(),
-            before: None,
-            moved_with: Vec::new(),
-            stops: Vec::new(),
-            waits: Vec::new(),
-            turns: Vec::new(),
-            codes: Vec::new(),
+            due: Due { lengths: expectation.tools, length_told: false, units: expectation.units_due },
+            scale: Scale { units: settings.units, wanted: settings.units, axes: expectation.axes },
+            coolant: expectation.coolant,
+            passage: Passage::new(Some(start), Frame { tool: None, work: state.work }),
             cuts: false,
             cut: None,
             hazards: Vec::new(),
@@ -96,12 +124,12 @@ impl<R: BufRead + Seek> Program<R> {
     /// In which units it counts before it says so.
     pub fn begin_in(&mut self, units: Units) {
         self.simulator.begin_in(units);
-        self.units = units;
+        self.scale.units = units;
     }
 
     /// In which units places are wanted.
     pub fn want(&mut self, units: Units) {
-        self.wanted = units;
+        self.scale.wanted = units;
     }
 
     /// The next cut, which stays until it is taken; `None` at the program's end.
@@ -116,7 +144,9 @@ impl<R: BufRead + Seek> Program<R> {
                 }
                 self.items.clear();
                 self.next = 0;
-                self.over = !self.simulator.step(&mut self.items)?;
+                let goes_on = self.simulator.step(&mut self.items);
+                self.recent.keep(self.simulator.line(), self.simulator.text());
+                self.over = !goes_on?;
                 continue;
             }
             let item = self.items[self.next].clone();
@@ -129,24 +159,24 @@ impl<R: BufRead + Seek> Program<R> {
     /// The cut is dealt with.
     pub fn take(&mut self) {
         if let Some(cut) = self.cut.take() {
-            self.at = cut.what.end(&cut.from);
+            self.at = cut.end();
             // a cut may say a height that was unknown
-            self.unknown = self.simulator.machine().at_machine();
-            self.start = Rapid { to: self.at, unknown: self.unknown, rotation: cut.state.rotation };
-            self.way.clear();
-            self.before = None;
-            self.stops.clear();
-            self.waits.clear();
-            self.turns.clear();
-            self.codes.clear();
-            self.moved_with.clear();
+            self.unknown = self.scale.axes(self.simulator.machine().at_machine());
+            self.passage.begin(Rapid { to: self.at, unknown: self.unknown, spin: Some(self.spin) });
             self.cuts = true;
+        }
+    }
+
+    /// The cut counts for nothing: what lies before it lies before the next.
+    pub fn pass_over(&mut self) {
+        if let Some(cut) = self.cut.take() {
+            self.at = cut.end();
         }
     }
 
     /// Where the way began: at the end of the last cut.
     pub fn start(&self) -> Rapid {
-        self.start
+        self.passage.start.unwrap_or(Rapid { to: self.at, unknown: 0b111, spin: None })
     }
 
     /// The text of the line that is being run.
@@ -154,59 +184,59 @@ impl<R: BufRead + Seek> Program<R> {
         String::from_utf8_lossy(self.simulator.text()).trim().to_owned()
     }
 
+    /// The text of a line not long before; else empty.
+    pub fn text_of(&self, line: u64) -> String {
+        if line == 0 { String::new() } else { self.recent.text(line).unwrap_or_default() }
+    }
+
+    /// The block number of a line as written: `N120`.
+    pub fn number_of(&self, line: u64) -> String {
+        let text = self.text_of(line);
+        let digits = text.strip_prefix(['N', 'n']).map_or("", |rest| rest);
+        let digits: String = digits.chars().take_while(char::is_ascii_digit).collect();
+        if digits.is_empty() { digits } else { format!("N{digits}") }
+    }
+
+    /// Is this a reason of ours, and none of the control's: a code that its file does not have, or that is not run?
+    ///
+    /// Of LinuxCNC and what is like it all codes are known: it refuses others itself.
+    pub fn is_unknown(&self, code: Code) -> bool {
+        match code {
+            Code::PN003 => self.control.rules() == Rules::Fanuc,
+            Code::PN016 => true,
+            _ => false,
+        }
+    }
+
+    /// `fanuc has no G201 that we know`, or why a code is not run.
+    pub fn unknown_code(&self, diag: &Diag) -> String {
+        let name = self.control.name();
+        let code = diag.message.split(|c: char| !c.is_ascii_alphanumeric() && c != '.');
+        let is_code = |word: &&str| word.len() > 1 && word[1..].starts_with(|c: char| c.is_ascii_digit());
+        match code.into_iter().find(is_code).filter(|_| diag.code == Code::PN003) {
+            Some(code) => format!("{name} has no {code} that we know"),
+            None => diag.message.clone(),
+        }
+    }
+
     /// Warnings of the simulator.
     pub fn warnings(&mut self) -> Vec<Diag> {
         self.simulator.take_warnings()
     }
 
-    fn scaled(&self, to: &Position) -> Place {
-        let mut place = *to;
-        if self.units != self.wanted {
-            let factor = if self.units == Units::Inch { 25.4 } else { 1.0 / 25.4 };
-            place[..3].iter_mut().for_each(|value| *value *= factor);
-        }
-        place
+    fn frame(&self) -> Frame {
+        Frame { tool: self.state.tool, work: self.state.work }
     }
 
-    fn factor(&self) -> f64 {
-        match (self.units, self.wanted) {
-            (Units::Inch, Units::Mm) => 25.4,
-            (Units::Mm, Units::Inch) => 1.0 / 25.4,
-            _ => 1.0,
-        }
+    fn changed(&mut self) {
+        let frame = self.frame();
+        self.passage.change(frame);
     }
 
     fn take_item(&mut self, item: &Item) {
         let turned = self.state.rotation;
-        let cut = |program: &Self, what: What, feed: Option<f64>| Cut {
-            from: program.at,
-            unknown: program.unknown,
-            what,
-            feed,
-            mode: program.mode,
-            state: program.state,
-            by_cycle: item.by_cycle,
-            line: item.line,
-        };
-        let feed_of = |program: &Self, feed: f64| {
-            Some(if program.mode == FeedMode::InverseTime { feed } else { feed * program.factor() })
-        };
         match &item.action {
-            Action::Rapid { to, machine } => {
-                let to = self.scaled(to);
-                self.unknown = *machine;
-                if *machine & 0b100 == 0 {
-                    let with = [self.state.length, self.state.work];
-                    if to[2] != self.at[2] && self.length_is_due() {
-                        self.without_length(item.line, "the tool goes down, and its length offset is not on");
-                    }
-                    if self.moved_with.last() != Some(&with) {
-                        self.moved_with.push(with);
-                    }
-                }
-                self.at = to;
-                self.way.push(Rapid { to, unknown: *machine, rotation: self.state.rotation });
-            }
+            Action::Rapid { to, machine } => self.rapid(to, *machine, item.line),
             Action::Feed { to, feed, lead } => {
                 // a feed that follows the spindle
                 let feed = match (lead, self.mode, self.state.speed) {
@@ -214,66 +244,43 @@ impl<R: BufRead + Seek> Program<R> {
                     (Some(lead), FeedMode::PerRev, _) => *lead,
                     _ => *feed,
                 };
-                let to = self.scaled(to);
+                let to = self.scale.place(to);
                 if to == self.at && self.unknown == 0 {
                     return; // a move of no length cuts nothing
                 }
-                self.check_length(item.line);
-                self.cut = Some(cut(self, What::Line { to }, feed_of(self, feed)));
+                let rigid = self.state.rigid;
+                if lead.is_some() {
+                    self.state.rigid = rigid.map(|_| true);
+                }
+                self.cuts_now(What::Line { to }, feed, item);
+                self.state.rigid = rigid;
             }
             Action::Arc(turn) => {
                 let mut turn = *turn;
-                turn.to = self.scaled(&turn.to);
-                let factor = self.factor();
+                turn.to = self.scale.place(&turn.to);
+                let factor = self.scale.factor();
                 turn.center.iter_mut().for_each(|value| *value *= factor);
-                self.check_length(item.line);
-                self.cut = Some(cut(self, What::Arc(turn), feed_of(self, turn.feed)));
+                self.cuts_now(What::Arc(turn), turn.feed, item);
             }
-            // one that does not follow a cut only waits
-            Action::Dwell(seconds) if *seconds > 0.0 && self.way.is_empty() => {
-                self.cut = Some(cut(self, What::Dwell(*seconds), None));
+            Action::Dwell(seconds) if *seconds > 0.0 => {
+                let mark = self.passage.mark(*seconds, item.line, toolpath::Place::default());
+                self.passage.waits.push(mark);
             }
-            Action::Dwell(seconds) if *seconds > 0.0 => self.waits.push(*seconds),
-            Action::Stop(kind) => {
-                self.stops.push((*kind, self.cuts && self.way.is_empty() && !item.by_cycle));
-                // a Haas stops the spindle, and no form may count on another control's going on
-                if *kind == StopKind::Program && !item.by_cycle && !self.linuxcnc {
-                    self.state.rotation = Some(Rotation::Stop);
-                }
-                // without tool changes, the operator changes the tool
-                if *kind == StopKind::Program && !self.lengths {
-                    self.before = Some(self.way.len());
-                }
-            }
+            Action::Stop(kind) => self.stop(*kind, item),
             Action::Spindle(rotation, speed) => {
                 self.state.rotation = Some(*rotation);
                 self.state.speed = Some(*speed);
+                self.spin = Spin::Turns(*rotation);
             }
-            Action::Orient(_) => self.state.rotation = Some(Rotation::Stop),
-            Action::Tool(number) => {
-                if self.cycle {
-                    self.hazard(
-                        Code::PV013,
-                        item.line,
-                        "a canned cycle is still in force at a tool change",
-                        "end it with G80",
-                    );
-                }
-                if self.state.tool != Some(*number) {
-                    self.before = Some(self.way.len());
-                }
-                if self.state.tool != Some(*number) {
-                    self.state.length = None;
-                    self.length_told = false;
-                }
-                self.state.tool = Some(*number);
+            Action::Orient(angle) => {
                 self.state.rotation = Some(Rotation::Stop);
-                self.unknown |= 0b100;
+                self.spin = if item.by_cycle { Spin::Oriented } else { Spin::At(*angle) };
             }
+            Action::Tool(number) => self.tool(*number, item.line),
             Action::Length(register) => self.state.length = *register,
             Action::Units(units) => {
-                self.units = *units;
-                self.units_said = true;
+                self.scale.units = *units;
+                self.due.units = false;
             }
             Action::SurfaceSpeed(limit) => self.state.css = limit.is_some(),
             Action::Plane(plane) => self.state.plane = *plane,
@@ -283,49 +290,126 @@ impl<R: BufRead + Seek> Program<R> {
             }
             Action::FeedMode(mode) => self.mode = *mode,
             Action::Work(code) if self.state.work != Some(*code) => {
-                self.before = Some(self.way.len());
                 self.state.work = Some(*code);
+                self.changed();
             }
             Action::Compensation(side) => {
                 self.state.side = Some(side.map(|(side, _)| side));
                 self.state.diameter = side.and_then(|(_, register)| register);
             }
             Action::Hole(_) => self.cycle = true,
-            Action::CycleOff => self.cycle = false,
+            Action::CycleOff => {
+                self.cycle = false;
+                self.state.rigid = self.state.rigid.map(|_| false);
+            }
             Action::End if self.cycle => {
                 self.hazard(Code::PV013, item.line, "a canned cycle is still in force at the end", "end it with G80");
             }
             Action::Coolant(cooling) => self.state.coolant = Some(*cooling),
-            Action::LeftOut(letter, tenths) => self.codes.push((*letter, *tenths)),
+            Action::LeftOut(letter, tenths) => self.left_out(*letter, *tenths),
             _ => {}
         }
         if self.state.rotation != turned {
-            self.turns.extend(self.state.rotation);
+            self.passage.turns.extend(self.state.rotation);
         }
     }
 
-    /// Before a cut: what must have been said.
-    fn check_length(&mut self, line: u64) {
-        if self.length_is_due() {
-            self.without_length(line, "the tool cuts, and its length offset is not on");
+    fn rapid(&mut self, to: &Position, machine: u8, line: u64) {
+        let to = self.scale.place(to);
+        let unknown = self.scale.axes(machine);
+        if unknown == 0 && self.unknown == 0 && to == self.at {
+            return; // nothing moves
         }
-        if !std::mem::replace(&mut self.units_said, true) {
-            let message = "the program cuts before it says its units";
-            self.hazard(
-                Code::PV022,
-                line,
-                message,
-                "print G[unitmode] in StartCode, or give the form, if it is for one unit",
-            );
+        if unknown & 0b100 == 0 {
+            if to[2] != self.at[2] && self.length_is_due() {
+                self.without_length(line, "the tool goes down, and its length offset is not on");
+            }
+            self.units_are_due(line, "the program moves before it says its units");
+            let length = self.state.length;
+            if let Some(leg) = self.passage.leg()
+                && leg.lengths.last() != Some(&length)
+            {
+                leg.lengths.push(length);
+            }
+        }
+        (self.at, self.unknown) = (to, unknown);
+        self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
+    }
+
+    fn cuts_now(&mut self, what: What, feed: f64, item: &Item) {
+        if self.length_is_due() {
+            self.without_length(item.line, "the tool cuts, and its length offset is not on");
+        }
+        self.units_are_due(item.line, "the program cuts before it says its units");
+        let factor = if self.mode == FeedMode::InverseTime { 1.0 } else { self.scale.factor() };
+        self.cut = Some(Cut {
+            from: self.at,
+            unknown: self.unknown,
+            what,
+            feed: Some(feed * factor),
+            mode: self.mode,
+            state: self.state,
+            by_cycle: item.by_cycle,
+            line: item.line,
+        });
+    }
+
+    fn stop(&mut self, kind: StopKind, item: &Item) {
+        let mark = self.passage.mark(kind, item.line, toolpath::Place::default());
+        self.passage.stops.push(mark);
+        // a Haas stops the spindle, and no form may count on another control's going on
+        if kind == StopKind::Program && !item.by_cycle && !self.control.is_linuxcnc() {
+            self.state.rotation = Some(Rotation::Stop);
+            self.state.coolant = Some(Cooling::Off);
+            self.spin = Spin::Turns(Rotation::Stop);
+        }
+    }
+
+    fn tool(&mut self, number: f64, line: u64) {
+        if self.cycle {
+            let message = "a canned cycle is still in force at a tool change";
+            self.hazard(Code::PV013, line, message, "end it with G80");
+        }
+        if self.state.tool != Some(number) {
+            self.state.tool = Some(number);
+            self.state.length = None;
+            self.due.length_told = false;
+            self.changed();
+        }
+        self.state.rotation = Some(Rotation::Stop);
+        self.spin = Spin::Turns(Rotation::Stop);
+        self.unknown |= 0b100;
+    }
+
+    /// A code that is not simulated may be the form's own for coolant, or make the next tap rigid.
+    fn left_out(&mut self, letter: u8, tenths: u16) {
+        self.passage.codes.push((letter, tenths));
+        if letter != b'M' {
+            return;
+        }
+        if tenths == 290 && self.state.rigid.is_some() {
+            self.state.rigid = Some(true);
+        }
+        let [on, off, mist] = self.coolant.map(|code| code * 10.0 == f64::from(tenths));
+        let cooling = [(on, Cooling::Flood), (off, Cooling::Off), (mist, Cooling::Mist)];
+        if let Some((_, cooling)) = cooling.into_iter().find(|(is, _)| *is) {
+            self.state.coolant = Some(cooling);
+        }
+    }
+
+    fn units_are_due(&mut self, line: u64, message: &str) {
+        if std::mem::take(&mut self.due.units) {
+            let help = "print G[unitmode] in StartCode, or give the form, if it is for one unit";
+            self.hazard(Code::PV022, line, message, help);
         }
     }
 
     fn length_is_due(&self) -> bool {
-        self.lengths && self.state.tool.is_some() && self.state.length.is_none()
+        self.due.lengths && self.state.tool.is_some() && self.state.length.is_none()
     }
 
     fn without_length(&mut self, line: u64, message: &str) {
-        if !std::mem::replace(&mut self.length_told, true) {
+        if !std::mem::replace(&mut self.due.length_told, true) {
             self.hazard(Code::PV014, line, message, "print G43 H[lcomp] in the tool change, before the height");
         }
     }
@@ -339,11 +423,19 @@ impl<R: BufRead + Seek> Program<R> {
     }
 
     fn hazard(&mut self, code: Code, line: u64, message: &str, help: &'static str) {
-        // told once: a form makes the same mistake at every tool
-        if self.hazards.iter().any(|told| told.code == code && told.message == message) {
+        // a form makes the same mistake at every tool
+        if let Some(told) = self.hazards.iter_mut().find(|told| told.code == code && told.message == message) {
+            told.times += 1;
             return;
         }
         let block = self.text();
-        self.hazards.push(Finding { code, message: message.into(), help, place: None, line, block });
+        self.hazards.push(Finding { code, message: message.into(), help, place: None, line, block, times: 1 });
     }
+}
+
+/// Does M29 make a tap rigid, and nothing else does? A Haas and a Fadal tap rigidly by G84 alone.
+fn taps_by_m29(control: &Control) -> bool {
+    let m29 = crate::control::Code { letter: b'M', tenths: 290 };
+    let by_itself = control.is_like("haas") || control.is_like("fadal") || control.is_linuxcnc();
+    !by_itself && control.row(m29).is_some_and(|row| row.meaning == Meaning::Harmless && row.text.contains("rigid"))
 }

@@ -3,6 +3,8 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{ALL, Cut, State, What, number, same, same_dwell, shown};
+use super::expectation::Expectation;
+use super::passage::Mark;
 use super::program::Program;
 use super::way::{Compared, Way, compare, leaves_low};
 use crate::nc::{Cooling, RunError, Settings, axes_of};
@@ -44,7 +46,8 @@ pub fn compare_motions<R: BufRead + Seek>(
     tolerance: f64,
 ) -> Result<Motions, NoMotion> {
     let [mut a, mut b] = [(old, settings[0]), (new, settings[1])].map(|(input, settings)| {
-        let mut program = Program::new(input, settings, false, false);
+        let expectation = Expectation { tools: false, units_due: false, ..Expectation::default() };
+        let mut program = Program::new(input, settings, &expectation);
         program.want(units);
         program
     });
@@ -58,16 +61,16 @@ pub fn compare_motions<R: BufRead + Seek>(
         };
         let starts = [a.start(), b.start()];
         for (way, (program, start)) in ways.iter_mut().zip([(&a, starts[0]), (&b, starts[1])]) {
-            way.set(Some(start), &program.way, tolerance);
+            way.set(Some(start), &program.passage.rapids, tolerance);
         }
-        motions.codes += u64::from(a.codes != b.codes);
+        motions.codes += u64::from(a.passage.codes != b.passage.codes);
         let (Some(cut), Some(found)) = (x, y) else {
             // in neither direction: going out higher is another motion, too
             let low = |a: usize, b: usize| leaves_low(&ways[a], &ways[b], tolerance).is_some();
             let same_way = ways[0].is(&ways[1], tolerance);
             let leaves_well = same_way || !low(0, 1) && !low(1, 0);
             // the end stops spindle and coolant, said or not
-            let besides = pauses(&a, &b);
+            let besides = pauses(&a, &b, tolerance);
             if x.is_none() && y.is_none() && leaves_well && besides.is_none() {
                 motions.ways += u64::from(!same_way);
                 return Ok(motions);
@@ -89,7 +92,8 @@ pub fn compare_motions<R: BufRead + Seek>(
             },
         };
         motions.ways += u64::from(matches!(way, Compared::AsGood { .. }));
-        let message = differs(&cut, &found, way, tolerance).or_else(|| pauses(&a, &b)).or_else(|| switching(&a, &b));
+        let message =
+            differs(&cut, &found, way, tolerance).or_else(|| pauses(&a, &b, tolerance)).or_else(|| switching(&a, &b));
         if let Some(message) = message {
             let difference = Some(MotionDifference { message, blocks: blocks(&a, &b) });
             return Ok(Motions { difference, ..motions });
@@ -108,7 +112,7 @@ fn higher(other: Compared) -> Compared {
 }
 
 fn end(cut: &Cut) -> String {
-    shown(&cut.what.end(&cut.from), 0b111)
+    shown(&cut.end(), 0b111)
 }
 
 fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64) -> Option<String> {
@@ -122,10 +126,6 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64) -> Option<Stri
         Compared::Elsewhere(to) => return Some(format!("the rapids about {} go another way", shown(&to, 0b111))),
     }
     match (cut.what, found.what) {
-        (What::Dwell(a), What::Dwell(b)) if !near(a, b) => {
-            return Some(format!("a dwell of {} s, before {} s", number(b), number(a)));
-        }
-        (What::Dwell(_), What::Dwell(_)) => {}
         (What::Arc(a), What::Arc(b)) => {
             let [first, second, _] = axes_of(a.plane);
             let centre = near(a.center[first], b.center[first]) && near(a.center[second], b.center[second]);
@@ -134,9 +134,9 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64) -> Option<Stri
             }
         }
         (What::Line { .. }, What::Line { .. }) => {}
-        _ => return Some("a straight cut, an arc or a dwell became another of them".to_owned()),
+        _ => return Some("a straight cut became an arc, or the other way round".to_owned()),
     }
-    let (a, b) = (cut.what.end(&cut.from), found.what.end(&found.from));
+    let (a, b) = (cut.end(), found.end());
     if !same(&a, &b, ALL, tolerance) {
         return Some(format!("a cut goes to {}, before to {}", shown(&b, 0b111), shown(&a, 0b111)));
     }
@@ -173,31 +173,36 @@ fn state(before: &State, now: &State) -> Option<String> {
     (before.side != now.side).then(|| "cutter compensation is otherwise".to_owned())
 }
 
-/// Stops and dwells on the ways.
-fn pauses<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>) -> Option<String> {
+/// Stops and dwells between two cuts.
+fn pauses<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>, tolerance: f64) -> Option<String> {
     let stop = |kind: StopKind| if kind == StopKind::Program { "M0" } else { "M1" };
     let stops = |program: &Program<R>| -> Vec<String> {
-        program.stops.iter().map(|(kind, _)| stop(*kind).to_owned()).collect()
+        program.passage.stops.iter().map(|made| stop(made.what).to_owned()).collect()
     };
+    let in_cut = |program: &Program<R>, wait: &Mark<f64>| program.passage.in_cut(wait, tolerance);
     let waits = |program: &Program<R>| -> Vec<String> {
-        program.waits.iter().map(|seconds| format!("{} s", number(*seconds))).collect()
+        let place = |wait: &Mark<f64>| if in_cut(program, wait) { " in the cut" } else { "" };
+        program.passage.waits.iter().map(|wait| format!("{} s{}", number(wait.what), place(wait))).collect()
     };
     let (before, now) = (stops(old), stops(new));
     if before != now {
         return Some(format!("stops on the way here: {}, before {}", listed(&now), listed(&before)));
     }
-    let same = old.waits.len() == new.waits.len() && old.waits.iter().zip(&new.waits).all(|(a, b)| same_dwell(*a, *b));
+    let pairs = || old.passage.waits.iter().zip(&new.passage.waits);
+    let same = old.passage.waits.len() == new.passage.waits.len()
+        && pairs().all(|(a, b)| same_dwell(a.what, b.what) && in_cut(old, a) == in_cut(new, b));
     (!same).then(|| format!("dwells on the way here: {}, before {}", listed(&waits(new)), listed(&waits(old))))
 }
 
 /// What the spindle does on the ways.
 fn switching<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>) -> Option<String> {
-    let turns =
-        |program: &Program<R>| -> Vec<String> { program.turns.iter().map(|turn| turn.name().to_owned()).collect() };
+    let turns = |program: &Program<R>| -> Vec<String> {
+        program.passage.turns.iter().map(|turn| turn.name().to_owned()).collect()
+    };
     let (before, now) = (turns(old), turns(new));
     (before != now).then(|| format!("the spindle on the way here: {}, before {}", listed(&now), listed(&before)))
 }
 
 fn listed(names: &[String]) -> String {
-    if names.is_empty() { "none".to_owned() } else { names.join(" ") }
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }

@@ -1,6 +1,6 @@
 //! Ways: rapids from one cut to the next.
 
-use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, lies_between, same};
+use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, same};
 
 /// How a program's way compares with the job's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ impl Way {
                 continue;
             }
             if let [.., before, last] = self.corners.as_slice()
-                && last.rotation == rapid.rotation
+                && last.spin == rapid.spin
                 && (before.unknown | last.unknown | rapid.unknown) == 0
                 && lies_between(&before.to, &last.to, &rapid.to, tolerance)
             {
@@ -92,6 +92,18 @@ pub(super) fn compare(job: &Way, program: &Way, known_start: bool, tolerance: f6
     compare_corners(&job.corners, &program.corners[arrived..], true, tolerance)
 }
 
+/// Does the spindle do at a corner of the program what the job says there, if it says anything?
+fn spins(job: &Rapid, program: &Rapid) -> bool {
+    job.spin.is_none_or(|wanted| program.spin.is_none_or(|is| is.serves(wanted)))
+}
+
+/// Must the spindle stand at an angle at this corner, and does it not, each time that the program comes there?
+fn stands_otherwise(corner: &Rapid, program: &[Rapid], tolerance: f64) -> bool {
+    let stands = matches!(corner.spin, Some(Spin::At(_) | Spin::Oriented));
+    let mut there = program.iter().filter(|other| same(&other.to, &corner.to, ALL, tolerance)).peekable();
+    stands && there.peek().is_some() && !there.any(|other| spins(corner, other))
+}
+
 /// A corner's height: what only the machine knows is high.
 fn height(rapid: &Rapid) -> f64 {
     if rapid.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { rapid.to[DEPTH] }
@@ -109,9 +121,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, toleranc
     if known_start && job.len() == program.len() {
         let pairs = || job.iter().zip(program);
         if pairs().all(|(a, b)| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance)) {
-            let turns =
-                |(a, b): (&Rapid, &Rapid)| a.rotation.is_none_or(|wanted| b.rotation.is_none_or(|is| is == wanted));
-            return if pairs().all(turns) { Compared::Same } else { Compared::Turning };
+            return if pairs().all(|(a, b)| spins(a, b)) { Compared::Same } else { Compared::Turning };
         }
     }
     let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
@@ -124,9 +134,9 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, toleranc
             return Compared::Lower(corner.to, floor);
         }
     }
-    // a spindle that must stand while the tool leaves
-    let turning = |corners: &[Rapid]| corners.get(1).and_then(|corner| corner.rotation);
-    let turns = known_start && turning(job).is_some_and(|wanted| turning(program).is_some_and(|is| is != wanted));
+    // a spindle that must stand while the tool leaves, or stand at its angle
+    let turns = known_start && job.get(1).zip(program.get(1)).is_some_and(|(a, b)| !spins(a, b))
+        || job.iter().any(|corner| stands_otherwise(corner, program, tolerance));
     if known_start && across(job, tolerance).count() == across(program, tolerance).count() {
         let mut pairs = across(job, tolerance).zip(across(program, tolerance));
         let all = pairs.all(|((a, b), (c, d))| {
@@ -162,12 +172,10 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, toleranc
 
 /// Out of a hole whose cycle says how the spindle stands and where it moves: are the job's corners there, with it?
 pub(super) fn leaves_hole(job: &Way, program: &Way, tolerance: f64) -> Option<Compared> {
-    let told = job.corners.iter().skip(1).filter(|corner| corner.rotation.is_some());
+    let told = job.corners.iter().skip(1).filter(|corner| corner.spin.is_some());
     for corner in told {
         match program.corners.iter().skip(1).find(|other| same(&other.to, &corner.to, ALL, tolerance)) {
-            Some(other) if other.rotation.is_some() && other.rotation != corner.rotation => {
-                return Some(Compared::Turning);
-            }
+            Some(other) if !spins(corner, other) => return Some(Compared::Turning),
             Some(_) => {}
             None => return Some(Compared::AsGood { step_by_step: false }),
         }
@@ -196,10 +204,8 @@ mod tests {
     use super::*;
 
     fn way(points: &[[f64; 3]]) -> Way {
-        let rapids: Vec<Rapid> = points
-            .iter()
-            .map(|&[x, y, z]| Rapid { to: [x, y, z, 0.0, 0.0, 0.0], unknown: 0, rotation: None })
-            .collect();
+        let rapids: Vec<Rapid> =
+            points.iter().map(|&[x, y, z]| Rapid { to: [x, y, z, 0.0, 0.0, 0.0], unknown: 0, spin: None }).collect();
         let mut way = Way::default();
         way.set(None, &rapids, 1e-4);
         way

@@ -2,76 +2,177 @@
 
 use std::io::{BufRead, Seek};
 
-use super::comparer::Sides;
-use super::cut::{number, shown};
-use super::way::{Compared, compare, leaves_hole, leaves_low};
-use crate::diag::{Code, Diag};
+use super::cut::{ALL, Rapid, number, same, shown};
+use super::passage::Frame;
+use super::state::Sides;
+use super::way::{Compared, compare as compare_way, leaves_hole, leaves_low};
+use crate::diag::Code;
 
-impl<R: BufRead + Seek> Sides<R> {
-    /// The ways to a cut.
-    pub(super) fn compare_ways(&mut self, line: u64) -> Result<(), Box<Diag>> {
-        let tolerance = self.tolerance;
-        let split = self.program.before.filter(|_| self.lost).unwrap_or(0);
-        if self.lost {
-            self.compare_leaving(split, line)?;
+/// The ways to a cut.
+pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+    let tolerance = s.limits.tolerance;
+    if s.program.passage.rapids.is_empty() && s.job.rapids.is_empty() && !s.job.changed() {
+        return;
+    }
+    moved_with(s, line);
+    let (lost, changed) = (s.job.changed(), s.program.passage.changed());
+    if lost {
+        let leaving = if changed { s.program.passage.leaving().len() } else { 0 };
+        leave(s, leaving, line);
+    }
+    if changed {
+        between(s, line);
+    }
+    let [job, program] = &mut s.ways;
+    let passage = &s.program.passage;
+    // after a change the way begins anywhere
+    let both = lost && changed;
+    job.set(if lost { None } else { s.job.start }, s.job.arriving(), tolerance);
+    program.set(
+        if both { None } else { passage.start },
+        if both { passage.arriving() } else { &passage.rapids },
+        tolerance,
+    );
+    let known = !lost && passage.start.is_some_and(|start| start.unknown == 0);
+    match compare_way(job, program, known, tolerance) {
+        Compared::Same => {}
+        Compared::AsGood { step_by_step } if step_by_step || !s.job.aside => {
+            s.report.allowed.ways += u64::from(known);
         }
-        let [job, program] = &mut self.ways;
-        let rest = &self.program.way[split..];
-        // after a change the way begins anywhere
-        let begin = if self.lost && self.program.before.is_some() { None } else { Some(self.program.start()) };
-        job.set(self.start, &self.way, tolerance);
-        program.set(begin, rest, tolerance);
-        let known = !self.lost && self.program.start().unknown == 0;
-        match compare(job, program, known, tolerance) {
-            Compared::Same => Ok(()),
-            Compared::AsGood { step_by_step } if step_by_step || !self.aside => {
-                self.equivalences.ways += u64::from(known);
-                Ok(())
+        Compared::AsGood { .. } => stays_at_wall(s, line),
+        Compared::Turning => turns_otherwise(s, line),
+        Compared::Lower(to, limit) => {
+            s.found(Code::PV009, line, "print the height before the position, or return to [rplane]", || {
+                format!("a rapid goes to {}, lower than the job's ways here, Z{}", shown(&to, 0b111), number(limit))
+            });
+        }
+        Compared::Elsewhere(to) => {
+            s.found(Code::PV001, line, "look at what the form prints for the rapids here", || {
+                format!("a rapid goes to {}, where the job does not go", shown(&to, 0b111))
+            });
+        }
+    }
+}
+
+fn stays_at_wall<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+    s.found(Code::PV001, line, "print the cycle's orientation and shift, as G76 Q[sleave]", || {
+        "the tool does not leave the wall of the hole as the job says".to_owned()
+    });
+}
+
+fn turns_otherwise<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+    s.found(Code::PV011, line, "look at the spindle codes of the cycle", || {
+        "the spindle does not turn, or stand at its angle, as the job says while the tool leaves".to_owned()
+    });
+}
+
+/// On its way the tool may be moved in the job's frames and with their registers, and in no others.
+pub(super) fn moved_with<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+    let tools = s.tools;
+    let passage = &s.program.passage;
+    let before = (s.frame_before(), s.before.length);
+    let is_frame =
+        |a: &Frame, b: &Frame| a.work.is_none_or(|work| Some(work) == b.work) && (!tools || a.tool == b.tool);
+    let mut wrong = None;
+    for (leg, _) in passage.legs().filter(|(leg, _)| !leg.lengths.is_empty()) {
+        let known: Vec<Option<f64>> = s
+            .job
+            .legs()
+            .filter(|(own, _)| is_frame(&own.frame, &leg.frame))
+            .flat_map(|(own, _)| if own.lengths.is_empty() { vec![None] } else { own.lengths.clone() })
+            .collect();
+        let was = is_frame(&before.0, &leg.frame) && before.0.tool.is_some();
+        if known.is_empty() && !was {
+            wrong = Some((Code::PV012, leg.frame, None));
+            break;
+        }
+        let allowed = |length: &Option<f64>| {
+            (was && *length == before.1) || known.iter().any(|known| known.is_none() || known == length)
+        };
+        if let Some(length) = leg.lengths.iter().find(|length| !allowed(length)).filter(|_| tools) {
+            wrong = Some((Code::PV014, leg.frame, Some(*length)));
+            break;
+        }
+    }
+    let Some((code, frame, length)) = wrong else { return };
+    let text = |name: &str, value: Option<f64>| value.map_or(format!("no {name}"), |v| format!("{name}{}", number(v)));
+    s.found(code, line, "print the offsets before the first height", || match length {
+        Some(length) => {
+            format!("the tool comes to this cut with {} in {}", text("H", length), text("work offset ", frame.work))
+        }
+        None => format!("on the way to this cut the tool moves in {}", text("work offset ", frame.work)),
+    });
+}
+
+/// The way away from the last cut of a tool or work offset, or of the program: so many of the program's rapids.
+fn leave<R: BufRead + Seek>(s: &mut Sides<R>, until: usize, line: u64) -> bool {
+    let tolerance = s.limits.tolerance;
+    let [job, program] = &mut s.ways;
+    if s.job.start.is_none() {
+        return true; // nothing was cut before
+    }
+    let aside = if s.job.changed() { s.job.left_aside } else { s.job.aside };
+    let (own, other) = (s.job.leaving(), &s.program.passage.rapids[..until]);
+    let as_job = goes_as(own, other, tolerance);
+    job.set(s.job.start, own, tolerance);
+    program.set(s.program.passage.start, other, tolerance);
+    match leaves_hole(job, program, tolerance) {
+        Some(Compared::Turning) => turns_otherwise(s, line),
+        Some(_) if aside => stays_at_wall(s, line),
+        _ => {
+            if let Some((to, limit)) = leaves_low(job, program, tolerance) {
+                s.found(Code::PV009, line, "go up first, as high as the job does", || {
+                    format!("after the last cut a rapid goes to {}, below Z{}", shown(&to, 0b111), number(limit))
+                });
             }
-            Compared::AsGood { .. } => self.stays_at_wall(line),
-            Compared::Turning => self.turns_otherwise(line),
-            Compared::Lower(to, limit) => {
-                let message = format!(
-                    "a rapid goes to {}, lower than the job's ways here, Z{}",
-                    shown(&to, 0b111),
-                    number(limit)
-                );
-                self.differs(Code::PV009, line, message, "print the height before the position, or return to [rplane]")
-            }
-            Compared::Elsewhere(to) => {
-                let message = format!("a rapid goes to {}, where the job does not go", shown(&to, 0b111));
-                self.differs(Code::PV001, line, message, "look at what the form prints for this move")
-            }
         }
     }
+    as_job
+}
 
-    fn stays_at_wall(&mut self, line: u64) -> Result<(), Box<Diag>> {
-        let message = "the tool does not leave the wall of the hole as the job says".to_owned();
-        self.differs(Code::PV001, line, message, "print the cycle's orientation and shift, as G76 Q[sleave]")
-    }
+/// Does the program go where the job goes, before it goes to places that only the machine knows?
+fn goes_as(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
+    let known = program.iter().take_while(|rapid| rapid.unknown == 0);
+    let count = known.clone().count();
+    count == job.len() && known.zip(job).all(|(a, b)| same(&a.to, &b.to, ALL, tolerance))
+}
 
-    fn turns_otherwise(&mut self, line: u64) -> Result<(), Box<Diag>> {
-        let message = "the spindle does not turn as the job says while the tool leaves".to_owned();
-        self.differs(Code::PV011, line, message, "look at the spindle codes of the cycle")
+/// Frames between the first and the last: no rapid is lower there than the job's own.
+fn between<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+    let tolerance = s.limits.tolerance;
+    let tools = s.tools;
+    let legs: Vec<_> = s.program.passage.legs().collect();
+    // how a last cut is left is compared for itself
+    let first = usize::from(s.job.start.is_some());
+    let inner = legs.get(first..legs.len() - 1).unwrap_or_default();
+    let mut low = None;
+    for (leg, rapids) in inner.iter().filter(|(leg, _)| !leg.lengths.is_empty()) {
+        let same_frame = |frame: &Frame| frame.work == leg.frame.work && (!tools || frame.tool == leg.frame.tool);
+        let own = s.job.legs().filter(|(own, rapids)| same_frame(&own.frame) && !rapids.is_empty());
+        let floor = own
+            .flat_map(|(_, rapids)| rapids)
+            .filter(|rapid| rapid.unknown & 0b100 == 0)
+            .map(|rapid| rapid.to[2])
+            .reduce(f64::min);
+        let mut lowest = rapids.iter().filter(|rapid| rapid.unknown & 0b100 == 0);
+        let under = |rapid: &&Rapid| floor.is_none_or(|floor| rapid.to[2] < floor - tolerance);
+        low = low.or(lowest.find(under).map(|rapid| (rapid.to, leg.frame.work)));
     }
+    let Some((to, work)) = low else { return };
+    let work = work.map_or(String::new(), |work| format!(" in work offset {}", number(work)));
+    s.found(Code::PV009, line, "print the height before the position, or return to [rplane]", || {
+        format!("a rapid goes to {}{work}, lower than the job's ways there", shown(&to, 0b111))
+    });
+}
 
-    /// The way away from the last cut of a tool or work offset, or of the program.
-    pub(super) fn compare_leaving(&mut self, until: usize, line: u64) -> Result<(), Box<Diag>> {
-        let tolerance = self.tolerance;
-        let [job, program] = &mut self.ways;
-        if self.left_start.is_none() {
-            return Ok(()); // nothing was cut before
-        }
-        job.set(self.left_start, &self.left, tolerance);
-        program.set(Some(self.program.start()), &self.program.way[..until], tolerance);
-        match leaves_hole(job, program, tolerance) {
-            Some(Compared::Turning) => return self.turns_otherwise(line),
-            Some(_) if self.left_aside => return self.stays_at_wall(line),
-            _ => {}
-        }
-        let [job, program] = &mut self.ways;
-        let Some((to, limit)) = leaves_low(job, program, tolerance) else { return Ok(()) };
-        let message = format!("after the last cut a rapid goes to {}, below Z{}", shown(&to, 0b111), number(limit));
-        self.differs(Code::PV009, line, message, "go up first, as high as the job does")
+/// The way after the last cut, to the end of the program.
+pub(super) fn end<R: BufRead + Seek>(s: &mut Sides<R>) {
+    let passage = &s.program.passage;
+    let changed = passage.changed();
+    let until = if s.job.changed() && changed { passage.leaving().len() } else { passage.rapids.len() };
+    if changed {
+        between(s, 0);
     }
+    let as_job = leave(s, until, 0);
+    s.report.allowed.tails += u64::from(!as_job);
 }

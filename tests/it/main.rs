@@ -22,6 +22,7 @@ mod nc_golden;
 mod numbers;
 mod program_commands;
 mod program_jobs;
+mod proofs;
 mod properties;
 mod real_programs;
 mod reference;

@@ -6,7 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 use crate::support::{job, mill, root};
 
-fn postform(arguments: &[&str]) -> Output {
+pub fn postform(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_postform")).args(arguments).current_dir(root()).output().unwrap()
 }
 
@@ -23,7 +23,7 @@ fn fed(arguments: &[&str], input: &[u8]) -> Output {
     child.wait_with_output().unwrap()
 }
 
-fn text(bytes: &[u8]) -> String {
+pub fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 

@@ -16,9 +16,9 @@ use postform::toolpath::json::{read_document, read_lines};
 use postform::verify::{Comparer, Equivalences, Expectation, Verdict};
 
 /// A job for verifying: it pushes its events into a sink.
-type Job<'a> = &'a dyn Fn(&mut dyn Sink) -> bool;
+pub type Job<'a> = &'a dyn Fn(&mut dyn Sink) -> bool;
 
-fn document(text: &str) -> impl Fn(&mut dyn Sink) -> bool {
+pub fn document(text: &str) -> impl Fn(&mut dyn Sink) -> bool {
     move |sink| match read_document(text.as_bytes(), sink) {
         Ok(()) => true,
         Err(error) => {
@@ -28,7 +28,7 @@ fn document(text: &str) -> impl Fn(&mut dyn Sink) -> bool {
     }
 }
 
-fn rendered(form: &Checked, job: Job<'_>, cycles: Cycles) -> String {
+pub fn rendered(form: &Checked, job: Job<'_>, cycles: Cycles) -> String {
     assert!(!form.has_errors(), "{:?}", form.diags);
     let program = compile(&form.form);
     let mut renderer = Renderer::new(&program, Options { cycles, program: Some(1), ..Options::default() });
@@ -37,18 +37,18 @@ fn rendered(form: &Checked, job: Job<'_>, cycles: Cycles) -> String {
 }
 
 /// Runs a program as the form's control would, and compares.
-fn verified(form: &Checked, program: &str, job: Job<'_>) -> Verdict {
+pub fn verified(form: &Checked, program: &str, job: Job<'_>) -> Verdict {
     let compiled = compile(&form.form);
     let settings = Settings::new(compiled.settings.control.unwrap_or_else(Control::usual));
-    let expectation = Expectation::of_form(&compiled.settings, false);
+    let expectation = Expectation::of_form(&compiled.settings, false).typed(&compiled);
     let mut comparer = Comparer::new(Cursor::new(program.to_owned()), settings, expectation, None);
     let read = job(&mut comparer);
     let verdict = comparer.verdict().unwrap();
-    assert!(read || matches!(verdict, Verdict::Different(_)), "the job is read to its end");
+    assert!(read || !verdict.is_proven(), "the job is read to its end");
     verdict
 }
 
-fn post(name: &str) -> String {
+pub fn post(name: &str) -> String {
     fs::read_to_string(root().join("postforms").join(name)).unwrap()
 }
 
@@ -321,7 +321,7 @@ fn becomes_a_job(fanuc: &Checked, text: &str, posts: &[&str]) {
 }
 
 /// A job of one tool in inches.
-fn inches(tool: &str, path: &str) -> String {
+pub fn inches(tool: &str, path: &str) -> String {
     format!(
         r#"{{"postform":1,"program":7,"units":"inch","tools":[{{"number":1,"length_offset":1}},{{"number":2,"diameter_offset":12}}],
         "operations":[{{"tool":{tool},"work":54,"spindle":{{"speed":3000,"direction":"cw"}},"coolant":"flood","feed":20,"path":[{path}]}}]}}"#

@@ -308,6 +308,7 @@ impl<'a> Reader<'a> {
             let help = "program its moves: a job's cycles go along Z";
             return unsaid(self.place.line, "a canned cycle outside G17", help);
         }
+        self.low_approach(hole)?;
         // a rigid tap turns the spindle its own way
         match hole.code {
             840 if !self.turns() => self.wanted.rotation = Some(Rotation::Cw),
@@ -337,6 +338,19 @@ impl<'a> Reader<'a> {
         self.place.point += 1;
         let point = hole_of(hole, &first, self.axes(&hole.at).given);
         self.push(Event::Hole(point))
+    }
+
+    /// A Fanuc goes across below the R plane, and up to it over the hole; a job's cycle goes up first.
+    fn low_approach(&mut self, hole: &Drilling) -> Done {
+        let begun = !self.operation && self.home.is_none() && self.known & 0b111 == 0b111;
+        let across = self.at[..2] != hole.at[..2];
+        if !begun || !across || self.at[2] >= hole.r || self.options.settings.control.is_linuxcnc() {
+            return Ok(());
+        }
+        self.end_cycle()?;
+        let mut to = hole.at;
+        to[2] = self.at[2];
+        self.rapid(&to, 0)
     }
 
     pub(super) fn end_cycle(&mut self) -> Done {

@@ -1,0 +1,135 @@
+//! What a form fills in where its job is silent, and what it says of its own.
+
+use super::tables::CHORDS;
+use crate::compile::{Op, Program};
+use crate::cycle::Defaults;
+use crate::lang::UnitChoice;
+use crate::nc::Cooling;
+use crate::render::cycle_defaults;
+use crate::sema::Settings;
+use crate::toolpath::{Coolant, Units};
+
+/// What the form says of the job's numbers.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Expectation {
+    /// Cycle defaults in inches and in millimetres.
+    pub defaults: [Defaults; 2],
+    /// How far short lines may leave an arc, in inches and in millimetres.
+    pub chord: [f64; 2],
+    /// Code of the first work offset: 54.
+    pub first_work: f64,
+    /// Work offset that holds before the job names one.
+    pub work: Option<f64>,
+    /// What a tool's number is raised by for its length and diameter registers, where the job names none.
+    pub registers: Option<[f64; 2]>,
+    /// The machine loads tools (M6) and has length offsets.
+    pub tools: bool,
+    /// Only the program says its units.
+    pub units_due: bool,
+    /// As which axis of the program each of the job's X Y Z A B C is printed (`Rename`).
+    pub axes: [u8; 6],
+    /// Codes of the coolant: on, off, mist.
+    pub coolant: [f64; 3],
+    /// Taps are rigid where the job does not say; `None`: nothing says.
+    pub rigid_tap: Option<bool>,
+    /// The form types M29, which makes its taps rigid: without it they are not.
+    pub types_m29: bool,
+    /// Feeds that the form types itself.
+    pub feeds: Vec<f64>,
+    /// Speeds that the form types itself.
+    pub speeds: Vec<f64>,
+}
+
+impl Default for Expectation {
+    /// What holds without a form: nothing is filled in.
+    fn default() -> Self {
+        let defaults = Defaults { rigid: true, ..Defaults::default() };
+        Expectation {
+            defaults: [defaults; 2],
+            chord: CHORDS,
+            first_work: 54.0,
+            work: None,
+            registers: None,
+            tools: true,
+            units_due: true,
+            axes: [0, 1, 2, 3, 4, 5],
+            coolant: [8.0, 9.0, 7.0],
+            rigid_tap: None,
+            types_m29: false,
+            feeds: Vec::new(),
+            speeds: Vec::new(),
+        }
+    }
+}
+
+impl Expectation {
+    /// What a form fills in.
+    pub fn of_form(settings: &Settings, sink_as_printed: bool) -> Expectation {
+        let defaults = [Units::Inch, Units::Mm]
+            .map(|units| Defaults { rigid: true, ..cycle_defaults(settings, units, sink_as_printed) });
+        let chord = settings.tolerance * if settings.units == UnitChoice::Mm { 1.0 / 25.4 } else { 1.0 };
+        Expectation {
+            defaults,
+            chord: [chord.max(CHORDS[0]), (chord * 25.4).max(CHORDS[1])],
+            first_work: settings.work,
+            work: Some(settings.work_default),
+            registers: Some([settings.lcomp, settings.dcomp]),
+            tools: !settings.control().refuses(crate::control::Code::m(6)),
+            units_due: settings.units == UnitChoice::Both,
+            axes: rotary_axes(&settings.rename),
+            coolant: settings.coolant,
+            rigid_tap: settings.rigid_tap.then_some(true),
+            ..Expectation::default()
+        }
+    }
+
+    /// The feeds and speeds that its sequences type besides: a cut may have them instead of the job's.
+    #[must_use]
+    pub fn typed(mut self, program: &Program) -> Expectation {
+        let settings = &program.settings;
+        for op in &program.ops {
+            let Op::Literal { index, .. } = op else { continue };
+            let Some(literal) = program.literals.get(*index as usize) else { continue };
+            let list = match literal.letter {
+                letter if letter == settings.feed_code => &mut self.feeds,
+                letter if letter == settings.speed_code => &mut self.speeds,
+                b'M' => {
+                    self.types_m29 |= literal.value == 29.0;
+                    continue;
+                }
+                _ => continue,
+            };
+            if !list.contains(&literal.value) {
+                list.push(literal.value);
+            }
+        }
+        self
+    }
+}
+
+/// As which axis each is printed: only angles change their letters without changing what holes and arcs are.
+fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
+    let mut axes = [0, 1, 2, 3, 4, 5];
+    for (from, to) in rename {
+        let index = |letter: &u8| b"ABC".iter().position(|other| other == letter);
+        if let (Some(from), Some(to)) = (index(from), index(to)) {
+            axes.swap(3 + from, 3 + to);
+        }
+    }
+    axes
+}
+
+impl Expectation {
+    /// What a coolant of the job is in a program: two may have one code, as where a machine has no mist.
+    pub(super) fn cooling(&self, coolant: Coolant) -> Cooling {
+        let [on, off, mist] = self.coolant;
+        let (code, named) = match coolant {
+            Coolant::On => (on, Cooling::Flood),
+            Coolant::Mist => (mist, Cooling::Mist),
+            Coolant::Off => (off, Cooling::Off),
+        };
+        let usual = [(8.0, Cooling::Flood), (7.0, Cooling::Mist), (9.0, Cooling::Off)];
+        usual.into_iter().find(|(usual, _)| *usual == code).map_or(named, |(_, cooling)| cooling)
+    }
+}

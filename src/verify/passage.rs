@@ -1,0 +1,199 @@
+//! What lies between two cuts: rapids, changes of tool and work offset, stops, dwells. Job and program have one each.
+
+use super::cut::{ALL, Rapid, same};
+use crate::nc::Rotation;
+use crate::toolpath::{self, StopKind};
+
+/// In whose coordinates places are said.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Frame {
+    pub tool: Option<f64>,
+    pub work: Option<f64>,
+}
+
+/// The rapids in one frame.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Leg {
+    pub frame: Frame,
+    /// How many rapids come before it.
+    from: usize,
+    /// Length registers in force while the tool moved to heights that are known; of the job, the tool's.
+    pub lengths: Vec<Option<f64>>,
+}
+
+/// Something that is done on the way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Mark<T> {
+    pub what: T,
+    /// How many rapids come before it.
+    at: usize,
+    /// How often the frame was changed before it, since the cut.
+    leg: usize,
+    /// The spindle was started before it, since the cut.
+    pub started: bool,
+    /// The program's line; 0 of a job.
+    pub line: u64,
+    /// The job's item.
+    pub place: toolpath::Place,
+}
+
+/// What lies between the last cut and the next.
+#[derive(Clone, Debug)]
+pub(super) struct Passage {
+    /// Where it begins; `None`: only the machine knows.
+    pub start: Option<Rapid>,
+    pub rapids: Vec<Rapid>,
+    /// At least one.
+    legs: Vec<Leg>,
+    pub stops: Vec<Mark<StopKind>>,
+    /// Dwells in seconds; not a number: of any length.
+    pub waits: Vec<Mark<f64>>,
+    /// How the spindle was switched.
+    pub turns: Vec<Rotation>,
+    /// Codes of the program that are not simulated: letter, and ten times the number.
+    pub codes: Vec<(u8, u16)>,
+    /// The tool was changed.
+    pub new_tool: bool,
+    /// The job's way leaves the axis of its hole.
+    pub aside: bool,
+    /// The same, before the last change of the frame.
+    pub left_aside: bool,
+}
+
+/// More rapids between two cuts than any job has: they would have to be held.
+const MOST: usize = 1 << 18;
+
+impl Passage {
+    /// From a start in a frame.
+    pub fn new(start: Option<Rapid>, frame: Frame) -> Passage {
+        Passage {
+            start,
+            rapids: Vec::new(),
+            legs: vec![Leg { frame, ..Leg::default() }],
+            stops: Vec::new(),
+            waits: Vec::new(),
+            turns: Vec::new(),
+            codes: Vec::new(),
+            new_tool: false,
+            aside: false,
+            left_aside: false,
+        }
+    }
+
+    /// A cut ended: the next passage begins there.
+    pub fn begin(&mut self, start: Rapid) {
+        self.start = Some(start);
+        self.rapids.clear();
+        if self.legs.len() > 1 {
+            self.legs.swap_remove(0);
+            self.legs.truncate(1);
+        }
+        if let Some(leg) = self.legs.first_mut() {
+            leg.from = 0;
+            leg.lengths.clear();
+        }
+        self.stops.clear();
+        self.waits.clear();
+        self.turns.clear();
+        self.codes.clear();
+        (self.new_tool, self.aside, self.left_aside) = (false, false, false);
+    }
+
+    /// Other coordinates from here on.
+    pub fn change(&mut self, frame: Frame) {
+        if let [.., before, last] = self.legs.as_slice()
+            && last.from == self.rapids.len()
+            && before.frame == frame
+        {
+            // there and back again without a move
+            self.legs.pop();
+            if self.legs.len() == 1 {
+                self.aside = std::mem::take(&mut self.left_aside);
+            }
+            return;
+        }
+        if self.legs.len() == 1 {
+            self.left_aside = std::mem::take(&mut self.aside);
+        }
+        self.legs.push(Leg { frame, from: self.rapids.len(), lengths: Vec::new() });
+    }
+
+    /// The frame changes at a mark, as where the operator changes the tool.
+    pub fn split<T>(&mut self, mark: &Mark<T>) {
+        let behind = self.legs.iter().rposition(|leg| leg.from <= mark.at).unwrap_or_default();
+        let leg = Leg { from: mark.at, ..self.legs[behind].clone() };
+        self.legs.insert(behind + 1, leg);
+    }
+
+    /// How many stops come before the first change of the frame.
+    pub fn stops_before_change(&self, kind: StopKind) -> usize {
+        self.stops.iter().filter(|stop| stop.what == kind && stop.leg == 0).count()
+    }
+
+    /// The last leg, which goes on.
+    pub fn leg(&mut self) -> Option<&mut Leg> {
+        self.legs.last_mut()
+    }
+
+    /// Is there more than can be held?
+    pub fn is_too_long(&self) -> bool {
+        self.rapids.len() + self.legs.len() + self.stops.len() + self.waits.len() > MOST
+    }
+
+    /// Was the frame changed?
+    pub fn changed(&self) -> bool {
+        self.legs.len() > 1
+    }
+
+    /// The legs with their rapids.
+    pub fn legs(&self) -> impl DoubleEndedIterator<Item = (&Leg, &[Rapid])> {
+        let ends = self.legs.iter().skip(1).map(|leg| leg.from).chain([self.rapids.len()]);
+        let ends: Vec<usize> = ends.collect();
+        self.legs.iter().zip(ends).map(|(leg, end)| (leg, &self.rapids[leg.from..end]))
+    }
+
+    /// The rapids before the first change of the frame.
+    pub fn leaving(&self) -> &[Rapid] {
+        &self.rapids[..self.legs.get(1).map_or(self.rapids.len(), |leg| leg.from)]
+    }
+
+    /// The rapids after the last change of the frame.
+    pub fn arriving(&self) -> &[Rapid] {
+        &self.rapids[self.legs.last().map_or(0, |leg| leg.from)..]
+    }
+
+    /// Something done here.
+    pub fn mark<T>(&self, what: T, line: u64, place: toolpath::Place) -> Mark<T> {
+        let started = self.turns.iter().any(|turn| *turn != Rotation::Stop);
+        Mark { what, at: self.rapids.len(), leg: self.legs.len() - 1, started, line, place }
+    }
+
+    /// Where the tool is at a mark; `None` before the first place that is known.
+    pub fn standing<T>(&self, mark: &Mark<T>) -> Option<Rapid> {
+        let corner = match mark.at.checked_sub(1) {
+            Some(last) => self.rapids.get(last).copied(),
+            None => self.start,
+        };
+        let moved = mark.leg == 0 || self.legs.get(mark.leg).is_some_and(|leg| leg.from < mark.at);
+        corner.filter(|corner| corner.unknown == 0 && moved)
+    }
+
+    /// Does the tool still stand where the cut ended?
+    pub fn in_cut<T>(&self, mark: &Mark<T>, tolerance: f64) -> bool {
+        let Some(start) = self.start.filter(|_| mark.leg == 0) else { return false };
+        let stays = |rapid: &Rapid| {
+            rapid.unknown == start.unknown && same(&rapid.to, &start.to, ALL & !start.unknown, tolerance)
+        };
+        self.rapids.iter().take(mark.at).all(stays)
+    }
+
+    /// Where the tool is now, if that is known.
+    pub fn here(&self) -> Option<Rapid> {
+        self.rapids.last().copied().or(self.start)
+    }
+
+    /// Does the next cut follow on the last without anything between?
+    pub fn is_plain(&self) -> bool {
+        self.rapids.is_empty() && self.legs.len() == 1 && self.stops.is_empty() && self.waits.is_empty()
+    }
+}

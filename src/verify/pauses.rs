@@ -1,0 +1,144 @@
+//! Stops and dwells between cuts: the job's are made, where the tool may stand, and others only outside cuts.
+
+use std::io::{BufRead, Seek};
+
+use super::cut::{ACROSS, DEPTH, number, same, same_dwell};
+use super::passage::{Mark, Passage};
+use super::report::Counts;
+use super::state::Sides;
+use crate::diag::Code;
+use crate::toolpath::StopKind;
+
+/// Stops and dwells since the last cut.
+pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>) {
+    let passage = &s.program.passage;
+    let nothing = [&s.job, passage].into_iter().all(|side| side.stops.is_empty() && side.waits.is_empty());
+    if nothing && (s.tools || !s.job.new_tool) {
+        return;
+    }
+    stops(s);
+    waits(s);
+}
+
+fn kind_of(kind: StopKind) -> &'static str {
+    if kind == StopKind::Program { "program" } else { "optional" }
+}
+
+/// The program makes the job's stops, in their order, and nowhere lower.
+fn stops<R: BufRead + Seek>(s: &mut Sides<R>) {
+    let tolerance = s.limits.tolerance;
+    let mut others = s.program.passage.stops.clone();
+    operators_change(s, &mut others);
+    let wanted = std::mem::take(&mut s.job.stops);
+    let mut from = 0;
+    for stop in &wanted {
+        let Some(at) = others[from..].iter().position(|other| other.what == stop.what) else {
+            told(s, stop, Code::PV019, 0, "print M0 or M1", || {
+                format!("the job's {} stop is missing", kind_of(stop.what))
+            });
+            continue;
+        };
+        let made = others.remove(from + at);
+        from += at;
+        if let (Some(a), Some(b)) = (s.job.standing(stop), s.program.passage.standing(&made))
+            && b.to[DEPTH] < a.to[DEPTH] - tolerance
+        {
+            let [a, b] = [a, b].map(|corner| number(corner.to[DEPTH]));
+            told(s, stop, Code::PV019, made.line, "retract before the stop", || {
+                format!("the program stops with the tool at Z{b}, the job at Z{a}")
+            });
+        }
+    }
+    for stop in &others {
+        if s.program.passage.in_cut(stop, tolerance) {
+            s.found(Code::PV019, stop.line, "retract before the stop, or take it out", || {
+                "a stop that the job does not have, with the tool in the cut".to_owned()
+            });
+        } else {
+            s.report.allowed.stops += 1;
+        }
+    }
+}
+
+/// A machine without tool changes stops for the next tool: behind the job's stops with the last one.
+fn operators_change<R: BufRead + Seek>(s: &mut Sides<R>, others: &mut Vec<Mark<StopKind>>) {
+    if !s.job.new_tool || s.tools {
+        return;
+    }
+    let before = s.job.stops_before_change(StopKind::Program);
+    let mut stops = others.iter().enumerate().filter(|(_, stop)| stop.what == StopKind::Program);
+    match stops.nth(before).map(|(at, _)| at) {
+        Some(at) => {
+            let stop = others.remove(at);
+            s.program.passage.split(&stop);
+        }
+        None if s.report.counts != Counts::default() => s.found(Code::PV012, 0, "print M0 in the tool change", || {
+            "the program goes on without a stop for the next tool".to_owned()
+        }),
+        None => {}
+    }
+}
+
+/// A difference about an item of the job that came some time ago.
+fn told<R: BufRead + Seek, T>(
+    s: &mut Sides<R>,
+    mark: &Mark<T>,
+    code: Code,
+    line: u64,
+    help: &'static str,
+    message: impl Fn() -> String,
+) {
+    let here = std::mem::replace(&mut s.report.place, mark.place);
+    s.found(code, line, help, message);
+    s.report.place = here;
+}
+
+/// The job's dwells are made; others only where the tool does not stand in a cut, or while the spindle spins up.
+fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
+    let tolerance = s.limits.tolerance;
+    let wanted = std::mem::take(&mut s.job.waits);
+    let mut others = s.program.passage.waits.clone();
+    let is_one = |wanted: f64, is: f64| wanted.is_nan() || same_dwell(wanted, is);
+    for wait in &wanted {
+        let in_cut = s.job.in_cut(wait, tolerance);
+        let serves = |passage: &Passage, other: &Mark<f64>| match (in_cut, passage.in_cut(other, tolerance)) {
+            (true, true) => true,
+            (false, true) => match (s.job.standing(wait), passage.start) {
+                // it stands in the job's place already
+                (Some(a), Some(b)) => same(&a.to, &b.to, ACROSS, tolerance) && b.to[DEPTH] >= a.to[DEPTH] - tolerance,
+                _ => false,
+            },
+            (false, false) => true,
+            (true, false) => false,
+        };
+        let passage = &s.program.passage;
+        let there = others.iter().position(|other| serves(passage, other) && is_one(wait.what, other.what));
+        if let Some(at) = there {
+            others.remove(at);
+            continue;
+        }
+        if wait.what.is_nan() {
+            continue;
+        }
+        let another = others.iter().position(|other| serves(passage, other) && !other.started);
+        let seconds = number(wait.what);
+        match another.map(|at| others.remove(at)) {
+            Some(other) => told(s, wait, Code::PV010, other.line, "look at the unit of the dwell (`Dwell`)", || {
+                format!("the dwell is {} s, the job's {seconds} s", number(other.what))
+            }),
+            None => told(s, wait, Code::PV010, 0, "look at the dwell of the cycle or block", || {
+                format!("the dwell of {seconds} s is missing")
+            }),
+        }
+    }
+    for other in &others {
+        if s.program.passage.in_cut(other, tolerance) && !other.started {
+            let seconds = number(other.what);
+            s.found(Code::PV010, other.line, "take the dwell out, or retract before it", || {
+                format!("a dwell of {seconds} s that the job does not have")
+            });
+        } else {
+            s.report.allowed.dwells += 1;
+        }
+    }
+}

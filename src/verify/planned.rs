@@ -1,0 +1,130 @@
+//! The job's holes: the steps that its cycles plan.
+
+use super::cut::{DEPTH, Spin, What};
+use super::intended::{Done, Expected, Intent, Job, rotation, unproven, wait};
+use super::tables::Unmodelled;
+use crate::cycle::{Plan, Step, plan};
+use crate::diag::Diag;
+use crate::nc::Rotation;
+use crate::toolpath::{Axes, CycleKind, FeedMode, Hole, StopKind, Units, impossible};
+
+impl Job {
+    /// A hole of the open cycle.
+    pub(super) fn hole(&mut self, hole: &Hole, to: &mut impl Intent) -> Done {
+        let Some(open) = &mut self.cycle else { return impossible("a hole outside a cycle") };
+        let defaults = self.expectation.defaults[usize::from(self.units == Some(Units::Mm))];
+        let rpm = self.state.speed;
+        let mut planes = Plan::of(&open.spec, hole.depth, &defaults, rpm).map_err(Box::<Diag>::from)?;
+        if self.mode == FeedMode::PerRev {
+            planes.lead = Some(planes.feed);
+        }
+        let Some(point) = hole.at.get(DEPTH).or(open.point) else { return unproven(Unmodelled::HoleWithout) };
+        open.point = Some(point);
+        let clear = point + planes.clear;
+        let first = *open.first_return.get_or_insert(point + open.spec.return_height.unwrap_or(planes.clear));
+        let return_plane = first.max(clear);
+        let kind = open.spec.kind;
+        let mode = open.spec.mode;
+        let custom = matches!(kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
+        let mut steps = std::mem::take(&mut self.steps);
+        let top = return_plane - point;
+        if custom {
+            // whatever else it does, it goes down to the bottom and comes back
+            steps.list.clear();
+            let feed = Step::Feed(planes.bottom, planes.feed);
+            steps.list.extend([Step::Rapid(planes.clear), feed, Step::Rapid(top)]);
+        } else {
+            plan(&open.spec, &planes, top, &defaults, &mut steps).map_err(Box::<Diag>::from)?;
+        }
+        let pecks = custom
+            || matches!(kind, CycleKind::Deep | CycleKind::Chipbreak)
+            || (kind.is_tap() && open.spec.mode.is_some());
+        let reverses = kind.is_tap() && !open.spec.norevr && !open.spec.rapout;
+        let rigid = open
+            .spec
+            .rigid
+            .or(self.expectation.rigid_tap)
+            .filter(|rigid| reverses && *rigid && self.expectation.types_m29);
+        let mut target = self.target(&hole.at);
+        target.set(DEPTH, return_plane);
+        let plane = steps.list.iter().take_while(|step| matches!(step, Step::Rapid(_))).last();
+        let plane = if let Some(Step::Rapid(height)) = plane { point + height } else { clear };
+        let expected = Expected {
+            at: target.values,
+            plane,
+            bottom: point + planes.bottom,
+            dwell: planes.dwell,
+            pecks,
+            retracts: kind == CycleKind::Deep || mode == Some(CycleKind::Deep),
+            is_tap: kind.is_tap(),
+            feeds_out: kind.is_tap() || kind == CycleKind::Ream,
+            custom,
+        };
+        let list = std::mem::take(&mut steps.list);
+        let before = self.state;
+        self.state.rigid = rigid;
+        if let (Some(inwards), Some(Rotation::Cw | Rotation::Ccw)) = (kind.inwards(), before.rotation) {
+            self.state.rotation = Some(rotation(inwards)); // whatever the spindle does else
+        }
+        let done = self.steps(&list, point, target, &expected, to);
+        self.state = before;
+        steps.list = list;
+        self.steps = steps;
+        done
+    }
+
+    fn steps(&mut self, steps: &[Step], point: f64, target: Axes, hole: &Expected, to: &mut impl Intent) -> Done {
+        let (feed, state) = (self.feed, self.state);
+        // how a tap leaves the spindle outside its hole does not matter
+        let mut spin = self.state.rotation.map(Spin::Turns).filter(|_| !hole.is_tap);
+        self.at = target;
+        to.rapid(self.rapid_to(target.values, None))?;
+        to.hole_begins(hole);
+        for step in steps {
+            let mut at = target;
+            match *step {
+                Step::Rapid(height) => {
+                    at.set(DEPTH, point + height);
+                    self.at = at;
+                    to.rapid(self.rapid_to(at.values, spin))?;
+                }
+                Step::RapidAside(height, x, y) => {
+                    at.set(DEPTH, point + height);
+                    at.values[0] += x;
+                    at.values[1] += y;
+                    self.at = at;
+                    to.rapid(self.rapid_to(at.values, spin))?;
+                }
+                Step::Feed(height, feed) => {
+                    at.set(DEPTH, point + height);
+                    self.feed = Some(feed);
+                    let cut = self.cut(What::Line { to: at.values });
+                    self.at = at;
+                    if cut.from != at.values {
+                        to.cut(&cut, Some(hole))?;
+                    }
+                }
+                Step::Dwell(seconds) => wait(seconds, true, to),
+                Step::SpindleStop | Step::Orient(_) => {
+                    self.state.rotation = self.state.rotation.map(|_| Rotation::Stop);
+                    spin = match *step {
+                        Step::Orient(angle) => Some(Spin::At(angle)),
+                        _ => self.state.rotation.map(Spin::Turns),
+                    };
+                }
+                Step::SpindleStart => {
+                    self.state = state;
+                    spin = state.rotation.map(Spin::Turns).filter(|_| !hole.is_tap);
+                }
+                Step::SpindleReverse(ratio) => {
+                    self.state.rotation = self.state.rotation.map(Rotation::reversed);
+                    self.state.speed = self.state.speed.map(|speed| speed * ratio);
+                    spin = None;
+                }
+                Step::ProgramStop => to.stop(StopKind::Program),
+            }
+        }
+        (self.feed, self.state) = (feed, state);
+        to.hole_ends(hole)
+    }
+}

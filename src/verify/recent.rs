@@ -1,0 +1,33 @@
+//! The last lines of a program as text: findings show blocks that were run a moment ago.
+
+/// How many lines are kept.
+const KEPT: usize = 16;
+
+/// A ring of lines.
+#[derive(Debug, Default)]
+pub(super) struct Recent {
+    lines: Vec<(u64, Vec<u8>)>,
+    next: usize,
+}
+
+impl Recent {
+    /// A line that was run.
+    #[inline]
+    pub fn keep(&mut self, line: u64, text: &[u8]) {
+        if self.lines.len() < KEPT {
+            self.lines.push((line, text.to_vec()));
+            return;
+        }
+        let slot = &mut self.lines[self.next];
+        self.next = (self.next + 1) % KEPT;
+        slot.0 = line;
+        slot.1.clear();
+        slot.1.extend_from_slice(text);
+    }
+
+    /// Its text, if it is still there.
+    pub fn text(&self, line: u64) -> Option<String> {
+        let (_, text) = self.lines.iter().find(|(number, _)| *number == line)?;
+        Some(String::from_utf8_lossy(text).trim().to_owned())
+    }
+}

@@ -1,0 +1,56 @@
+//! What was found and counted so far.
+
+use super::finding::{Equivalences, Finding, Unproven};
+use crate::diag::Code;
+use crate::toolpath;
+
+/// How much was compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Cuts of the job outside holes.
+    pub cuts: u64,
+    /// Holes.
+    pub holes: u64,
+}
+
+/// A difference before it is known whether it was told already.
+pub(super) struct Difference<'a> {
+    pub code: Code,
+    pub help: &'static str,
+    pub message: &'a dyn Fn() -> String,
+    /// The program's line and its text.
+    pub line: u64,
+    pub block: &'a dyn Fn() -> String,
+    pub place: toolpath::Place,
+}
+
+/// Findings, allowances and counts.
+#[derive(Debug, Default)]
+pub(super) struct Report {
+    pub findings: Vec<Finding>,
+    pub allowed: Equivalences,
+    pub counts: Counts,
+    /// The job's item.
+    pub place: toolpath::Place,
+    pub unproven: Option<Unproven>,
+}
+
+impl Report {
+    /// Is the verdict known before the end of the job?
+    pub fn is_decided(&self) -> bool {
+        !self.findings.is_empty() || self.unproven.is_some()
+    }
+
+    /// Adds a difference; one of the same cause is counted with the first.
+    pub fn add(&mut self, difference: &Difference<'_>) {
+        let known = self.findings.iter_mut();
+        let Difference { code, help, line, place, .. } = *difference;
+        match known.into_iter().find(|finding| finding.code == code && finding.help == help) {
+            Some(finding) => finding.times += 1,
+            None => {
+                let (message, block) = ((difference.message)(), (difference.block)());
+                self.findings.push(Finding { code, message, help, place: Some(place), line, block, times: 1 });
+            }
+        }
+    }
+}

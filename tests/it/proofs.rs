@@ -1,0 +1,409 @@
+//! What verify must not say: right programs that are called different, wrong ones that are called right.
+
+use std::fs;
+use std::io::Cursor;
+
+use crate::program_commands::{postform, text};
+use crate::support::{check, control, root};
+use crate::verify::{document, inches, post, rendered, verified};
+use postform::nc::{JobOptions, Settings, read_program};
+use postform::render::Cycles;
+use postform::toolpath::Sink;
+use postform::toolpath::json::read_lines;
+use postform::verify::{Comparer, Equivalences, Expectation, UNPROVEN, Verdict, tolerances};
+
+/// A metric job of two tools.
+fn mm(operations: &str) -> String {
+    format!(
+        r#"{{"postform":1,"program":7,"units":"mm","tools":[{{"number":1,"diameter":6}},{{"number":2,"diameter":5}}],"operations":[{operations}]}}"#
+    )
+}
+
+/// An operation of the first tool.
+fn one(path: &str) -> String {
+    mm(&format!(
+        r#"{{"tool":1,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"coolant":"flood","feed":100,"path":[{path}]}}"#
+    ))
+}
+
+fn of_post(name: &str, job: &str) -> (String, Verdict) {
+    of_form(&post(name), job)
+}
+
+fn of_form(form: &str, job: &str) -> (String, Verdict) {
+    let form = check(form);
+    let job = document(job);
+    let program = rendered(&form, &job, Cycles::Form);
+    let verdict = verified(&form, &program, &job);
+    (program, verdict)
+}
+
+#[track_caller]
+fn is_right(name: &str, (program, verdict): (String, Verdict)) {
+    assert!(verdict.is_proven(), "{name}: {verdict:#?}\n{program}");
+}
+
+/// Programs of the posts that once were called different.
+#[test]
+fn right_programs_are_proven() {
+    let jobs = [
+        (
+            "a cut that vanishes in the digits",
+            one(
+                r#"{"rapid":[10.00004,10.00003,25]},{"rapid":[10.00004,10.00003,5]},{"line":[10,10,5]},{"line":[20,10,5]},{"rapid":[20,10,25]}"#,
+            ),
+        ),
+        (
+            "many short cuts",
+            one(
+                r#"{"rapid":[0,0,25]},{"line":[0,0,0]},{"line":[0.0004,0,0]},{"line":[0.0008,0,0]},{"line":[0.0012,0,0]},{"line":[0.0016,0,0]},{"line":[0.002,0,0]},{"line":[5,0,0]},{"rapid":[5,0,25]}"#,
+            ),
+        ),
+        (
+            "a short cut before a hole",
+            one(
+                r#"{"rapid":[0,0,25]},{"line":[0.00004,0,25]},{"cycle":{"kind":"drill","depth":3,"clear":1,"feed":60,"points":[[1,1,0]]}}"#,
+            ),
+        ),
+        (
+            "a last peck shorter than the tolerance",
+            one(
+                r#"{"rapid":[10,10,25]},{"cycle":{"kind":"deep","depth":9.00161,"clear":3,"return":25,"feed":382.27,"first_step":8,"step":2,"points":[[10,10,0]]}}"#,
+            ),
+        ),
+        (
+            "a first step just short of the depth",
+            one(
+                r#"{"rapid":[0,0,96.1]},{"cycle":{"kind":"deep","clear":4.5,"feed":250.1,"depth":8.1,"step":14,"first_step":12.598,"points":[[22,59,6]]}}"#,
+            ),
+        ),
+        (
+            "an offset that only positions",
+            mm(
+                r#"{"tool":1,"work":55,"spindle":{"speed":1000,"direction":"cw"},"feed":10,"path":[{"rapid":[0,0,20]},{"work":56},{"rapid":[1,1,20]},{"line":[1,2,20]},{"rapid":[1,1,20]}]}"#,
+            ),
+        ),
+        (
+            "a tool that only positions",
+            mm(
+                r#"{"tool":1,"work":54,"spindle":{"speed":1500,"direction":"cw"},"path":[{"rapid":[5,-1,20]}]},{"tool":2,"work":54,"spindle":{"speed":1500,"direction":"cw"},"path":[{"cycle":{"kind":"drill","depth":3,"clear":1,"feed":10,"points":[[1,1,0]]}}]}"#,
+            ),
+        ),
+        (
+            "a dwell after a reamed hole",
+            one(
+                r#"{"rapid":[0,0,25]},{"cycle":{"kind":"face","clear":2,"depth":8,"feed":60,"points":[[0.001,0,0]]}},{"cycle":{"kind":"ream","clear":2,"depth":8,"feed":60,"points":[[-1,1,0]]}},{"dwell":1.5},{"line":[1,0,-1],"feed":32}"#,
+            ),
+        ),
+        (
+            "a dwell between rapids",
+            one(
+                r#"{"rapid":[0,0,20]},{"line":[0,0,-1]},{"dwell":3},{"rapid":[0,0,20]},{"rapid":[1,1,20]},{"dwell":2},{"rapid":[1,1,10]},{"line":[1,1,-1]},{"rapid":[1,1,20]}"#,
+            ),
+        ),
+        (
+            "offsets there and back",
+            mm(
+                r#"{"tool":1,"work":54,"spindle":{"speed":1500,"direction":"ccw"},"coolant":"off","path":[{"cycle":{"kind":"deep","clear":2,"depth":8,"feed":60,"step":3,"return":8,"points":[[10,10,0]]}}]},
+            {"tool":2,"work":55,"spindle":{"speed":1000,"direction":"cw"},"coolant":"flood","path":[{"cycle":{"kind":"chipbreak","clear":1,"depth":8,"feed":60,"step":3,"return":8,"dwell":1,"points":[[0.001,-3.25,0]]}},{"work":56},{"work":55},{"rapid":[0,0,20]},{"cycle":{"kind":"chipbreak","clear":5,"depth":8,"feed":60,"step":3,"dwell":1,"points":[[2.5,0,0]]}}]}"#,
+            ),
+        ),
+        (
+            "a feed up from a deep hole",
+            one(
+                r#"{"rapid":[0,0,25]},{"cycle":{"kind":"deep","depth":9,"clear":1,"feed":317,"step":3,"points":[[1,1,0]]}},{"line":[1,1,8],"feed":726.2},{"rapid":[1,1,25]}"#,
+            ),
+        ),
+        (
+            "a left tap with a return plane",
+            one(
+                r#"{"rapid":[0,0,25]},{"cycle":{"kind":"ltap","depth":9,"clear":2,"return":20,"feed":500,"points":[[1,1,0],[4,1,0]]}},{"rapid":[4,1,25]}"#,
+            ),
+        ),
+        (
+            "a stop, then a short cut",
+            one(
+                r#"{"rapid":[0,0,25]},{"line":[0,0,1]},{"rapid":[0,0,25]},{"stop":"optional"},{"rapid":[3,3,5]},{"line":[3.001,3,5]},{"line":[9,3,5]},{"rapid":[9,3,25]}"#,
+            ),
+        ),
+        ("a stop that is typed", one(r#"{"rapid":[0,0,25]},{"line":[0,0,1]},{"text":"M1"},{"rapid":[0,0,25]}"#)),
+        (
+            "a stop right after the change of tool",
+            mm(
+                r#"{"tool":1,"work":54,"spindle":{"speed":1500,"direction":"cw"},"feed":50,"path":[{"rapid":[0,0,20]},{"line":[0,0,1]},{"rapid":[0,0,20]}]},
+            {"tool":2,"work":54,"spindle":{"speed":1500,"direction":"cw"},"feed":50,"path":[{"rapid":[5,5,20]},{"stop":"program"},{"rapid":[6,6,20]},{"line":[6,6,1]},{"rapid":[6,6,20]}]}"#,
+            ),
+        ),
+        (
+            "mist on a machine without it",
+            one(r#"{"rapid":[0,0,25]},{"coolant":"mist"},{"line":[0,0,1]},{"rapid":[0,0,25]}"#),
+        ),
+    ];
+    let mut wrong = String::new();
+    for (name, job) in &jobs {
+        for post in ["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"] {
+            let (program, verdict) = of_post(post, job);
+            if !verdict.is_proven() {
+                wrong += &format!("{name}, {post}: {verdict:?}\n{program}\n");
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+/// Forms of shops: dwells for the spindle, other letters, a move home before the next tool.
+#[test]
+fn right_programs_of_other_forms_are_proven() {
+    let fanuc = post("fanuc.pf");
+    let path = r#"{"rapid":[0,0,25]},{"line":[0,0,1]},{"line":[9,0,1]},{"rapid":[9,0,25]}"#;
+    let spin_up = fanuc.replacen("S[speed] M[direct]\n", "S[speed] M[direct]\nG4 P3000\n", 2);
+    let (program, verdict) = of_form(&spin_up, &one(path));
+    assert_eq!(verdict, Verdict::Equivalent(Equivalences { dwells: 1, ..Equivalences::default() }), "{program}");
+
+    let typed = fanuc.replacen("EndCode", "LineCode\nG1 X[h] Y[v] Z[d] F300.\nEnd\n\nEndCode", 1);
+    let (program, verdict) = of_form(&typed, &one(path));
+    let feeds = matches!(verdict, Verdict::Equivalent(Equivalences { feeds: 2, .. }));
+    assert!(feeds && program.contains("F300."), "{verdict:?}\n{program}");
+
+    let home =
+        fanuc.replacen("Upon [work]\nG91 G28 Z0\nG90\nG[work] G0 X[h] Y[v]\nEnd", "Upon [work]\nG[work]\nEnd", 1);
+    assert_ne!(home, fanuc);
+    let offsets = mm(
+        r#"{"tool":1,"work":54,"spindle":{"speed":900,"direction":"cw"},"feed":50,"path":[{"rapid":[0,0,20]},{"line":[0,0,1]},{"rapid":[0,0,20]}]},
+        {"tool":2,"work":55,"spindle":{"speed":900,"direction":"cw"},"path":[{"rapid":[5,5,20]},{"cycle":{"kind":"deep","depth":9,"clear":2,"feed":60,"step":4,"points":[[5,5,0]]}}]}"#,
+    );
+    is_right("another offset with another tool", of_form(&home, &offsets));
+
+    let rotary = fs::read_to_string(root().join("postforms/haas-4axis.pf")).unwrap();
+    let renamed = format!("Rename A B\n{rotary}");
+    let turned = one(
+        r#"{"rapid":[0,0,100,0]},{"rapid":[0,0,2,0]},{"line":[9,0,2,0]},{"rapid":[9,0,100,0]},{"rapid":[9,0,100,90]},{"line":[9,0,2,90]},{"rapid":[9,0,100,90]}"#,
+    );
+    let (program, verdict) = of_form(&renamed, &turned);
+    assert!(program.contains("B90."), "{program}");
+    is_right("an axis by another name", (program, verdict));
+}
+
+/// A program as its own job.
+#[test]
+fn programs_are_identical_to_themselves() {
+    let head = "%\nO1\nG20 G17 G40 G49 G80 G90\nT1 M6\nG0 G54 X0. Y-3.9 S1000 M3\nG43 H1 Z1.\n";
+    let bodies = [
+        ("a short cut after a long one", "G1 Z-2.5933 F10.\nY-3.8216\nZ-2.5934\nY-.133\nG0 Z1.\n"),
+        (
+            "a hole that returns to R before one that does not",
+            "G99 G81 X1. Y1. Z-.5 R.1 F10.\nG98 X2. Y1. Z-.6 R.2\nG80\nG0 Z1.\n",
+        ),
+        ("a cycle that begins below its R plane", "Z.05\nG98 G81 X1. Y1. Z-.5 R.1 F10.\nX2.\nG80\nG0 Z1.\n"),
+    ];
+    for (name, body) in bodies {
+        let program = format!("{head}{body}M30\n%\n");
+        let settings = Settings::new(control("fanuc"));
+        let mut comparer = Comparer::new(Cursor::new(program.clone()), settings, Expectation::default(), None);
+        let options = JobOptions { settings, units: None, tool: None };
+        let read = read_program(Cursor::new(program.clone()), &options, &mut Vec::new(), &mut comparer);
+        let verdict = comparer.verdict().unwrap();
+        assert!(verdict.is_proven(), "{name}: {read:?} {verdict:#?}");
+    }
+}
+
+/// Right programs, changed in one place: each once was called identical or equivalent.
+#[test]
+fn wrong_programs_are_different() {
+    let back = r#"{"rapid":[0,0,2]},{"cycle":{"kind":"back","depth":0.5,"rapto":0.9,"clear":0.1,"feed":5,"orient":90,"offset":0.05,"points":[[1,1,0]]}},{"rapid":[null,null,2]},{"line":[3,3,1.9]},{"rapid":[3,3,2]}"#;
+    let bore = r#"{"rapid":[0,0,2]},{"cycle":{"kind":"bore","depth":0.5,"clear":0.1,"feed":5,"orient":90,"offset":0.05,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
+    let deep = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","emulate":true,"depth":1,"clear":0.1,"feed":5,"step":0.4,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
+    let pecks = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","emulate":true,"depth":1,"clear":0.1,"feed":5,"pecks":[{"to":0.4,"feed":5},{"to":0.7,"feed":4},{"to":1,"feed":3}],"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
+    let gap = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"dwell":3},{"rapid":[0,0,2]},{"rapid":[1,1,2]},{"dwell":2},{"rapid":[1,1,1]},{"line":[1,1,-1]},{"rapid":[1,1,2]}"#;
+    let stop = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"line":[2,2,-1]},{"rapid":[2,2,2]},{"stop":"program"},{"rapid":[3,3,2]},{"line":[3,3,1.5]},{"rapid":[3,3,2]}"#;
+    let optional = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"rapid":[0,0,2]},{"stop":"optional"},{"rapid":[3,3,2]},{"line":[3,3,1.5]},{"rapid":[3,3,2]}"#;
+    let tap = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"tap","depth":0.5,"clear":0.2,"feed":150,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
+    let air = r#"{"rapid":[1,1,2]},{"rapid":[2,2,2]}"#;
+    let mutations = [
+        ("fanuc.pf", back, "G1 Z-.5", "G1 Z.5", "PV004"),
+        ("fanuc.pf", back, "G1 Z-.5", "G1 Z-.1", "PV004"),
+        ("haas.pf", bore, "M19 R90.", "M5", "PV011"),
+        ("haas.pf", bore, "M19 R90.", "M19", "PV011"),
+        ("haas.pf", bore, "M19 R90.", "M19 R270.", "PV011"),
+        ("linuxcnc.pf", back, "M19 R90.", "M19 R45.", "PV011"),
+        ("haas.pf", deep, "G1 Z-.7", "M5\nG1 Z-.7", "PV011"),
+        ("haas.pf", deep, "G1 Z-.7", "G43 H5\nG1 Z-.7", "PV014"),
+        ("haas.pf", pecks, "F4.", "F40.", "PV006"),
+        ("haas.pf", pecks, "F3.", "F30.", "PV006"),
+        ("haas.pf", gap, "G4 P2.", "G4 P20.", "PV010"),
+        ("haas.pf", gap, "G4 P2.\n", "(none)\n", "PV010"),
+        ("haas.pf", gap, "G4 P3.\n", "(none)\n", "PV010"),
+        ("haas.pf", stop, "G0 Z2.\nN90 M0\n", "M0\nN90 G0 Z2.\n", "PV019"),
+        ("haas.pf", optional, "M1\n", "(none)\n", "PV019"),
+        ("haas.pf", stop, "M8\n", "M9\n", "PV024"),
+        ("fanuc.pf", tap, "M29 S3000", "S3000", "PV011"),
+        ("fanuc.pf", air, "G20 ", "", "PV022"),
+    ];
+    let mut quiet = String::new();
+    for (name, path, from, to, code) in mutations {
+        let form = check(&post(name));
+        let text = inches("1", path);
+        let job = document(&text);
+        let program = rendered(&form, &job, Cycles::Form);
+        let right = verified(&form, &program, &job);
+        assert!(right.is_proven(), "{name}: {right:?}\n{program}");
+        if !program.contains(from) {
+            quiet += &format!("`{from}` is not in\n{program}");
+            continue;
+        }
+        let changed = program.replacen(from, to, 1);
+        let Verdict::Different(findings) = verified(&form, &changed, &job) else {
+            quiet += &format!("{from} -> {to} is not found\n{changed}");
+            continue;
+        };
+        if findings.iter().all(|finding| finding.code.name() != code) {
+            quiet += &format!("{from} -> {to}: {code} wanted\n{findings:?}\n{changed}");
+        }
+    }
+    assert!(quiet.is_empty(), "{quiet}");
+}
+
+/// A rapid in a work offset in which nothing is cut.
+#[test]
+fn low_rapids_of_other_offsets_are_found() {
+    let job = r#"{"postform":1,"program":1,"units":"inch","tools":[{"number":1,"diameter":0.5}],"operations":[{"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":10,"path":[{"rapid":[0,0,2]},{"work":55},{"rapid":[2,2,2]},{"line":[2,2,-1]},{"rapid":[2,2,2]}]}]}"#;
+    let form = check(&post("grbl.pf"));
+    let job = document(job);
+    let program = rendered(&form, &job, Cycles::Form);
+    assert!(verified(&form, &program, &job).is_proven(), "{program}");
+    let low = program.replacen("G0 G53 Z0\n", "G0 Z-3.\n", 1);
+    assert_ne!(low, program);
+    assert!(matches!(verified(&form, &low, &job), Verdict::Different(_)), "{low}");
+}
+
+/// Identical is identical: what is allowed is counted.
+#[test]
+fn what_is_otherwise_is_counted() {
+    let form = check(&post("haas.pf"));
+    let text = inches(
+        "1",
+        r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"rapid":[0,0,2]},{"rapid":[1,1,2]},{"line":[1,1,-1]},{"rapid":[1,1,2]}"#,
+    );
+    let job = document(&text);
+    let program = rendered(&form, &job, Cycles::Form);
+    assert_eq!(verified(&form, &program, &job), Verdict::Identical, "{program}");
+    let counted = |from: &str, to: &str, expected: Equivalences| {
+        assert!(program.contains(from), "{from}\n{program}");
+        let changed = program.replacen(from, to, 1);
+        assert_eq!(verified(&form, &changed, &job), Verdict::Equivalent(expected), "{changed}");
+    };
+    let none = Equivalences::default;
+    counted("X1. Y1.\n", "Z3.\nX1. Y1.\nZ2.\n", Equivalences { ways: 1, ..none() });
+    counted("X1. Y1.\n", "M1\nX1. Y1.\n", Equivalences { stops: 1, ..none() });
+    counted("X1. Y1.\n", "G4 P1.\nX1. Y1.\n", Equivalences { dwells: 1, ..none() });
+    let (head, tail) = program.rsplit_once("Z2.\n").unwrap();
+    let longer = format!("{head}Z2.\nX5. Y5.\n{tail}");
+    assert_eq!(verified(&form, &longer, &job), Verdict::Equivalent(Equivalences { tails: 1, ..none() }), "{longer}");
+}
+
+/// One cause is one finding, however often it is met.
+#[test]
+fn differences_of_one_cause_are_counted() {
+    let form = check(&post("haas.pf"));
+    let text = inches(
+        "1",
+        r#"{"rapid":[0,0,2]},{"cycle":{"kind":"drill","depth":0.5,"clear":0.1,"feed":5,"points":[[1,1,0],[2,1,0],[3,1,0],[4,1,0]]}},{"rapid":[0,0,2]}"#,
+    );
+    let job = document(&text);
+    let program = rendered(&form, &job, Cycles::Form);
+    let changed = program.replacen("F5.", "F50.", 1).replacen("Z-.5", "Z-.25", 1);
+    let Verdict::Different(findings) = verified(&form, &changed, &job) else { panic!("{changed}") };
+    let told: Vec<(&str, u64)> = findings.iter().map(|finding| (finding.code.name(), finding.times)).collect();
+    assert_eq!(told, [("PV006", 4), ("PV004", 4)], "{findings:#?}");
+}
+
+/// What the file of a control does not know is no difference: nothing is proven from there on.
+#[test]
+fn unknown_codes_are_not_proven() {
+    let form = check(&post("fanuc.pf"));
+    let text = inches("1", r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"rapid":[0,0,2]}"#);
+    let job = document(&text);
+    let program = rendered(&form, &job, Cycles::Form);
+    let changed = program.replacen("G1 Z-1.", "G201 P1\nG1 Z-1.", 1);
+    let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{changed}") };
+    assert_eq!(unproven.why, "fanuc has no G201 that we know");
+    assert!(unproven.from().starts_with("from N") && unproven.line > 0, "{unproven:?}");
+    // LinuxCNC has no other codes than those of its file, and refuses them itself
+    let form = check(&post("linuxcnc.pf"));
+    let program = rendered(&form, &job, Cycles::Form);
+    let changed = program.replacen("G1 Z-1.", "G201 P1\nG1 Z-1.", 1);
+    assert!(matches!(verified(&form, &changed, &job), Verdict::Different(_)), "{changed}");
+}
+
+/// A form that names no control is never different: by whose rules?
+#[test]
+fn forms_without_a_control_are_not_proven() {
+    let run = |more: &[&str]| {
+        let form = "samples/bore-emulated/form.pf";
+        let words = [&["verify", "samples/bore-emulated/job.json", "--form", form], more].concat();
+        let output = postform(&words);
+        (output.status.code(), text(&output.stdout))
+    };
+    let (status, said) = run(&[]);
+    assert!(said.contains("not proven: ") && said.contains("the form names no control"), "{said}");
+    assert_eq!(status, Some(1));
+    assert!(run(&["--control", "fanuc"]).1.starts_with("different: "));
+}
+
+/// Holes of custom cycles: their depth is the job's, or nothing is proven.
+#[test]
+fn custom_cycles_are_holes() {
+    let custom = "Custom1\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd\n\nEndCode";
+    let (before, after) =
+        post("fanuc.pf").split_once("Custom1   Face").map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
+    let form = format!("{before}{}", after.split_once("\n\n").unwrap().1).replacen("EndCode", custom, 1);
+    let job = one(
+        r#"{"rapid":[0,0,25]},{"cycle":{"kind":"custom1","depth":3,"clear":1,"feed":60,"points":[[1,1,0],[2,1,0]]}},{"rapid":[2,1,25]}"#,
+    );
+    let (program, verdict) = of_form(&form, &job);
+    assert!(matches!(verdict, Verdict::Equivalent(Equivalences { custom: 2, .. })), "{verdict:?}\n{program}");
+    let (form, job) = (check(&form), document(&job));
+    let changed = program.replacen("G1 Z-3.", "G1 Z-2.", 1);
+    assert!(matches!(verified(&form, &changed, &job), Verdict::NotProven(_)), "{changed}");
+}
+
+/// The tables of the docs are those of the code.
+#[test]
+fn docs_list_what_is_proven() {
+    let page = fs::read_to_string(root().join("docs/verify.md")).unwrap();
+    for (name, about) in Equivalences::ABOUT {
+        assert!(
+            page.contains(&format!("| {name} | {} |", about.trim())),
+            "docs/verify.md has no `| {name} | {about} |`"
+        );
+    }
+    for [quantity, near] in tolerances() {
+        assert!(page.contains(&format!("| {quantity} | {near} |")), "docs/verify.md has no `| {quantity} | {near} |`");
+    }
+    for why in UNPROVEN {
+        assert!(page.contains(&format!("- {why}\n")), "docs/verify.md has no `- {why}`");
+    }
+}
+
+/// Real programs and paths that were called different.
+#[test]
+fn findings_of_others_stay_found() {
+    let lines = r#"{"start":{"units":"mm","program":1,"tools":[{"number":1,"length_offset":1}]}}
+{"operation":{"tool":1,"work":54,"feed":100,"spindle":{"speed":1500,"direction":"cw"}}}
+{"rapid":[5,-1,20]}
+{"cycle":{"kind":"manual","clear":4}}
+{"point":[1,1,0]}
+{"cycle_end":true}
+{"cycle":{"kind":"drill","depth":3,"clear":1,"feed":10}}
+{"point":[1,1,0]}
+{"cycle_end":true}
+{"end":true}
+"#;
+    let job = |sink: &mut dyn Sink| read_lines(lines.as_bytes(), sink).is_ok();
+    for name in ["fanuc.pf", "haas.pf"] {
+        let form = check(&post(name));
+        let program = rendered(&form, &job, Cycles::Form);
+        let verdict = verified(&form, &program, &job);
+        assert!(verdict.is_proven(), "{name}: {verdict:?}\n{program}");
+    }
+}

@@ -5,6 +5,7 @@
 
 mod arcs;
 mod begin;
+mod beside;
 mod comparer;
 mod cut;
 mod expectation;
@@ -25,6 +26,7 @@ mod tables;
 mod way;
 mod ways;
 
+pub use beside::{Kept, Outcome, Part, prove_beside};
 pub use comparer::Comparer;
 pub use expectation::Expectation;
 pub use finding::{Equivalences, Finding, Unproven, Verdict};

@@ -99,6 +99,10 @@ impl<R: BufRead + Seek> Sides<R> {
                 let message = format!("the control refuses the program: {} ({})", diag.message, diag.code.name());
                 self.differs(Code::PV015, line, message, "see what simulate says of the program")
             }
+            Err(RunError::Io(error)) if error.kind() == std::io::ErrorKind::Unsupported => {
+                let why = "the program calls or repeats parts of itself, and is not a file that can be gone back in";
+                self.unproven(why.into(), "verify the program as a file", 0)
+            }
             Err(RunError::Io(error)) => {
                 let diag = Diag::new(Code::PV015, error.to_string());
                 self.failure = Some(error);

@@ -6,11 +6,13 @@ use std::io::Cursor;
 use crate::program_commands::{postform, text};
 use crate::support::{check, control, root};
 use crate::verify::{document, inches, post, rendered, verified};
+use postform::compile::compile;
+use postform::diag::Diag;
 use postform::nc::{JobOptions, Settings, read_program};
-use postform::render::Cycles;
-use postform::toolpath::Sink;
+use postform::render::{Cycles, Options as RenderOptions, Renderer};
 use postform::toolpath::json::read_lines;
-use postform::verify::{Comparer, Equivalences, Expectation, UNPROVEN, Verdict, tolerances};
+use postform::toolpath::{Event, Place, Sink};
+use postform::verify::{Comparer, Equivalences, Expectation, Kept, Part, UNPROVEN, Verdict, prove_beside, tolerances};
 
 /// A metric job of two tools.
 fn mm(operations: &str) -> String {
@@ -405,5 +407,50 @@ fn findings_of_others_stay_found() {
         let program = rendered(&form, &job, Cycles::Form);
         let verdict = verified(&form, &program, &job);
         assert!(verdict.is_proven(), "{name}: {verdict:?}\n{program}");
+    }
+}
+
+/// Beside the renderer, events and text in small pieces come to the same verdict.
+#[test]
+fn a_proof_beside_the_renderer_is_the_same() {
+    struct Tap<'p> {
+        renderer: Renderer<'p>,
+        parts: Vec<Part>,
+    }
+    impl Sink for Tap<'_> {
+        fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+            self.parts.push(Part::Event(Kept::from(&event), place));
+            self.renderer.event(event, place)?;
+            let text = std::mem::take(self.renderer.text());
+            self.parts.extend(text.chunks(7).map(|piece| Part::Text(piece.to_vec())));
+            Ok(())
+        }
+    }
+    for name in ["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"] {
+        let form = check(&post(name));
+        let compiled = compile(&form.form);
+        let bracket = fs::read_to_string(root().join("samples/bracket/job.json")).unwrap();
+        let job = document(&bracket);
+        let renderer = Renderer::new(&compiled, RenderOptions::default());
+        let mut tap = Tap { renderer, parts: Vec::new() };
+        assert!(job(&mut tap));
+        let text: Vec<u8> = tap
+            .parts
+            .iter()
+            .flat_map(|part| if let Part::Text(text) = part { &text[..] } else { &[] })
+            .copied()
+            .collect();
+        let settings = Settings::new(compiled.settings.control());
+        let expectation = || Expectation::of_form(&compiled.settings, false).typed(&compiled);
+        let beside = |parts: Vec<Part>| prove_beside(parts.into_iter(), settings, expectation(), None, true).unwrap();
+        let outcome = beside(tap.parts.clone());
+        assert!(outcome.verdict.is_proven() && outcome.counts.holes == 20, "{name}: {outcome:?}");
+        assert_eq!(outcome.verdict, verified(&form, std::str::from_utf8(&text).unwrap(), &job), "{name}");
+        // a digit that changes on its way
+        let wrong = |part: Part| match part {
+            Part::Text(text) => Part::Text(text.iter().map(|&byte| if byte == b'5' { b'6' } else { byte }).collect()),
+            event => event,
+        };
+        assert!(!beside(tap.parts.into_iter().map(wrong).collect()).verdict.is_proven());
     }
 }

@@ -237,7 +237,8 @@ impl Machine {
             Some(code) => code,
             // a Fanuc changes the offset in force by H alone, a FADAL turns it on
             None => {
-                if let Some(register) = block.get(b'H').filter(|_| !self.control.is_linuxcnc()) {
+                let counts = self.length_on || self.control.traits().height_is_machine;
+                if let Some(register) = block.get(b'H').filter(|_| counts && !self.control.is_linuxcnc()) {
                     self.length_on = true;
                     out.push(Action::Length(Some(register)));
                 }

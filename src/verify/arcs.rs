@@ -31,6 +31,9 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
             let message = "a rapid, a stop or a dwell inside an arc".to_owned();
             return s.differs(Code::PV001, found.line, message, "look at the arcs of the form");
         }
+        if parts > 0 {
+            states::compare(s, cut, &found, false);
+        }
         let end = found.end();
         let part = Turn { to: end, turns: 0, ..*turn };
         // from where the program stands: its digits may close a circle that the job's do not, and the other way

@@ -131,7 +131,7 @@ pub fn prove_beside(
         if let (Event::Start(start), true) = (kept.event(), of_job) {
             comparer.begin_in(start.units);
         }
-        if comparer.event(kept.event(), place).is_err() {
+        if comparer.event(kept.event(), place).is_break() {
             break;
         }
     }

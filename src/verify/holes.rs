@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell, shown};
 use super::intended::{Done, Expected};
 use super::state::Sides;
 use super::states;
@@ -53,6 +53,15 @@ pub(super) fn pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) -> Don
             });
         }
         let What::Line { to } = found.what else { break };
+        if !same(&hole.at, &to, ACROSS, tolerance) {
+            if hole.custom {
+                let why = format!("the custom cycle at {} leaves the axis of its hole", over(&hole.at));
+                return s.unproven(why, "what a custom cycle does, only its form knows", found.line);
+            }
+            s.found(Code::PV001, found.line, "look at X and Y of the pecks", || {
+                format!("a peck of the hole at {} goes to {}", over(&hole.at), shown(&to, 0b111))
+            });
+        }
         stroke(s, &found, hole, &mut strokes, count > 0);
         peck_state(s, &pecks, &found, hole, [strokes.deepest, to[DEPTH]], count);
         strokes.deepest = strokes.deepest.min(to[DEPTH]);

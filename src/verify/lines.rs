@@ -34,6 +34,7 @@ pub(super) fn line<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, first: &Cut, 
         let Some(next) = next else { return ends(s, cut, &found, hole) };
         found = next;
         parts += 1;
+        states::compare(s, cut, &found, is_tap);
     }
     states::feeds(s, &in_parts(cut, &found), &found, is_tap);
     s.report.allowed.parts += u64::from(parts > 1);

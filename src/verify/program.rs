@@ -71,6 +71,8 @@ pub(super) struct Program<R> {
     spin: Spin,
     mode: FeedMode,
     cycle: bool,
+    /// How the spindle turned before a control's tap, which turns it itself.
+    before_tap: Option<Option<Rotation>>,
     due: Due,
     scale: Scale,
     /// Codes of the coolant that are the form's own: on, off, mist.
@@ -111,6 +113,7 @@ impl<R: BufRead + Seek> Program<R> {
             spin: Spin::Turns(Rotation::Stop),
             mode: FeedMode::PerMinute,
             cycle: false,
+            before_tap: None,
             due: Due { lengths: expectation.tools, length_told: false, units: expectation.units_due },
             scale: Scale { units: settings.units, wanted: settings.units, axes: expectation.axes },
             coolant: expectation.coolant,
@@ -268,6 +271,9 @@ impl<R: BufRead + Seek> Program<R> {
             }
             Action::Stop(kind) => self.stop(*kind, item),
             Action::Spindle(rotation, speed) => {
+                if !item.by_cycle {
+                    self.before_tap = None;
+                }
                 self.state.rotation = Some(*rotation);
                 self.state.speed = Some(*speed);
                 self.spin = Spin::Turns(*rotation);
@@ -297,9 +303,21 @@ impl<R: BufRead + Seek> Program<R> {
                 self.state.side = Some(side.map(|(side, _)| side));
                 self.state.diameter = side.and_then(|(_, register)| register);
             }
-            Action::Hole(_) => self.cycle = true,
+            Action::Hole(hole) => {
+                self.cycle = true;
+                if matches!(hole.code, 740 | 840) {
+                    self.before_tap.get_or_insert(self.state.rotation);
+                }
+            }
             Action::CycleOff => {
                 self.cycle = false;
+                // no code of the program says that it turns now
+                if let Some(before) = self.before_tap.take()
+                    && before != self.state.rotation
+                {
+                    self.state.rotation = Some(Rotation::Stop);
+                    self.spin = Spin::Turns(Rotation::Stop);
+                }
                 self.state.rigid = self.state.rigid.map(|_| false);
             }
             Action::End if self.cycle => {

@@ -21,6 +21,8 @@ pub(super) enum Compared {
 #[derive(Debug, Default)]
 pub(super) struct Way {
     corners: Vec<Rapid>,
+    /// The first corner is the start.
+    begun: bool,
 }
 
 impl Way {
@@ -28,6 +30,7 @@ impl Way {
     pub fn set(&mut self, start: Option<Rapid>, rapids: &[Rapid], tolerance: f64) {
         self.corners.clear();
         self.corners.extend(start);
+        self.begun = start.is_some();
         for rapid in rapids {
             if let Some(last) = self.corners.last()
                 // a whole turn is a move
@@ -70,7 +73,13 @@ impl Way {
 /// unknown (after a tool change), the program comes to the job's first place from anywhere, but not lower than that.
 pub(super) fn compare(job: &Way, program: &Way, known_start: bool, tolerance: f64) -> Compared {
     let Some(first) = job.corners.first().filter(|_| !known_start) else {
-        return compare_corners(&job.corners, &program.corners, known_start, tolerance);
+        return compare_corners(
+            &job.corners,
+            &program.corners,
+            known_start,
+            usize::from(!known_start && program.begun),
+            tolerance,
+        );
     };
     let there = |exactly: u8| {
         program.corners.iter().position(|corner| {
@@ -80,16 +89,19 @@ pub(super) fn compare(job: &Way, program: &Way, known_start: bool, tolerance: f6
         })
     };
     let Some(arrived) = there(ALL).or_else(|| there(ACROSS)) else {
-        return compare_corners(&job.corners, &program.corners, false, tolerance);
+        return compare_corners(&job.corners, &program.corners, false, usize::from(program.begun), tolerance);
     };
     // the beginning is where the last cut ended
-    let low = program.corners[..=arrived].iter().skip(1).find(|corner| height(corner) < first.to[DEPTH] - tolerance);
+    let low = program.corners[..=arrived]
+        .iter()
+        .skip(usize::from(program.begun))
+        .find(|corner| height(corner) < first.to[DEPTH] - tolerance);
     let crosses = across(&program.corners[..=arrived], tolerance)
         .find(|(a, b)| height(a).min(height(b)) < first.to[DEPTH] - tolerance);
     if let Some(corner) = low.or(crosses.map(|(_, b)| b)) {
         return Compared::Lower(corner.to, first.to[DEPTH]);
     }
-    compare_corners(&job.corners, &program.corners[arrived..], true, tolerance)
+    compare_corners(&job.corners, &program.corners[arrived..], true, 0, tolerance)
 }
 
 /// Does the spindle do at a corner of the program what the job says there, if it says anything?
@@ -117,7 +129,8 @@ fn across(corners: &[Rapid], tolerance: f64) -> impl Iterator<Item = (&Rapid, &R
     pairs.filter(move |(a, b)| !same(&a.to, &b.to, ACROSS, tolerance) || turns(a, b))
 }
 
-fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, tolerance: f64) -> Compared {
+/// `start`: so many corners of the program are where its last cut ended.
+fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: usize, tolerance: f64) -> Compared {
     if known_start && job.len() == program.len() {
         let pairs = || job.iter().zip(program);
         if pairs().all(|(a, b)| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance)) {
@@ -127,7 +140,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, toleranc
     let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
     let crossing = across(job, tolerance).map(|(a, b)| height(a).min(height(b))).fold(highest, f64::min);
     // at a place the way may be as low as the job's is there, and elsewhere as low as the job crosses
-    for corner in program.iter().skip(usize::from(!known_start)) {
+    for corner in program.iter().skip(start) {
         let there = job.iter().filter(|other| same(&other.to, &corner.to, ACROSS, tolerance));
         let floor = there.map(|other| other.to[DEPTH]).reduce(f64::min).unwrap_or(crossing);
         if height(corner) < floor - tolerance {

@@ -7,11 +7,10 @@ use crate::program_commands::{postform, text};
 use crate::support::{check, control, root};
 use crate::verify::{document, inches, post, rendered, verified};
 use postform::compile::compile;
-use postform::diag::Diag;
 use postform::nc::{JobOptions, Settings, read_program};
 use postform::render::{Cycles, Options as RenderOptions, Renderer};
 use postform::toolpath::json::read_lines;
-use postform::toolpath::{Event, Place, Sink};
+use postform::toolpath::{Event, Flow, Place, Sink};
 use postform::verify::{Comparer, Equivalences, Expectation, Kept, Part, UNPROVEN, Verdict, prove_beside, tolerances};
 
 /// A metric job of two tools.
@@ -220,6 +219,7 @@ fn wrong_programs_are_different() {
     let stop = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"line":[2,2,-1]},{"rapid":[2,2,2]},{"stop":"program"},{"rapid":[3,3,2]},{"line":[3,3,1.5]},{"rapid":[3,3,2]}"#;
     let optional = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"rapid":[0,0,2]},{"stop":"optional"},{"rapid":[3,3,2]},{"line":[3,3,1.5]},{"rapid":[3,3,2]}"#;
     let tap = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"tap","depth":0.5,"clear":0.2,"feed":150,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
+    let tapped = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"tap","depth":0.5,"clear":0.2,"feed":150,"points":[[1,1,0]]}},{"rapid":[1,1,2]},{"line":[2,1,2]},{"rapid":[2,1,3]}"#;
     let air = r#"{"rapid":[1,1,2]},{"rapid":[2,2,2]}"#;
     let mutations = [
         ("fanuc.pf", back, "G1 Z-.5", "G1 Z.5", "PV004"),
@@ -240,6 +240,11 @@ fn wrong_programs_are_different() {
         ("haas.pf", stop, "M8\n", "M9\n", "PV024"),
         ("fanuc.pf", tap, "M29 S3000", "S3000", "PV011"),
         ("fanuc.pf", air, "G20 ", "", "PV022"),
+        ("haas.pf", deep, "G1 Z-.3", "G1 Y1.2 Z-.3", "PV001"),
+        ("haas.pf", stop, "X2. Y2.\n", "X1. Y1.\nM5\nX2. Y2.\n", "PV011"),
+        ("haas.pf", stop, "G43 H1 Z2. M8", "G43 H1 Z-3. M8\nZ2.", "PV009"),
+        ("fanuc.pf", stop, "G43 H1", "H1", "PV014"),
+        ("haas.pf", tapped, "S3000 M3", "S3000 M5", "PV011"),
     ];
     let mut quiet = String::new();
     for (name, path, from, to, code) in mutations {
@@ -418,12 +423,12 @@ fn a_proof_beside_the_renderer_is_the_same() {
         parts: Vec<Part>,
     }
     impl Sink for Tap<'_> {
-        fn event(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
+        fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
             self.parts.push(Part::Event(Kept::from(&event), place));
             self.renderer.event(event, place)?;
             let text = std::mem::take(self.renderer.text());
             self.parts.extend(text.chunks(7).map(|piece| Part::Text(piece.to_vec())));
-            Ok(())
+            Flow::Continue(())
         }
     }
     for name in ["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"] {

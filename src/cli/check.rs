@@ -35,9 +35,12 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     say(&Reporter::new(colour).text(&warnings, &[]));
     match read {
         Ok(()) => {
+            let unprintable = summary.unprintable();
             let text = describe(&files::name(path), job.format(), &summary, report);
             output::standard_output(|out| out.write_all(text.as_bytes()))?;
-            Ok(Ending::Clean)
+            let unprintable: Vec<Diag> = unprintable.into_iter().map(placed).collect();
+            say(&Reporter::new(colour).text(&unprintable, &[]));
+            Ok(unprintable.first().map_or(Ending::Clean, Ending::of))
         }
         Err(error) => stopped(error, path, &Reporter::new(colour), &[]),
     }
@@ -47,7 +50,7 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
 fn describe(name: &str, format: Format, summary: &Summary, report: &Report) -> String {
     let mut text = String::new();
     let unit = summary.units.map_or("", Units::name);
-    _ = writeln!(text, "{name}: in order");
+    _ = writeln!(text, "{name}: {}", if summary.unprintable().is_empty() { "in order" } else { "can't be printed" });
     if let Some(job) = &summary.name {
         _ = writeln!(text, "  name        {}", postform::diag::escaped(job));
     }
@@ -74,7 +77,7 @@ fn describe(name: &str, format: Format, summary: &Summary, report: &Report) -> S
     let holes: Vec<String> = summary.holes.iter().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
     _ = writeln!(text, "  holes       {}", if holes.is_empty() { "none".into() } else { holes.join(", ") });
     if summary.tilts > 0 {
-        _ = writeln!(text, "  tool axis   changes {} times: a job for five axes", summary.tilts);
+        _ = writeln!(text, "  tool axis   changes {} times", summary.tilts);
     }
     for (axis, extent) in ["h", "v", "d"].iter().zip(&summary.extents) {
         if let Some((least, greatest)) = extent {

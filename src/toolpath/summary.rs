@@ -6,7 +6,7 @@ use super::CycleKind;
 use super::event::{Axes, Event, Start, Units};
 use super::order::{Order, impossible};
 use super::{Flow, Place, Sink, flow, key};
-use crate::diag::Diag;
+use crate::diag::{Code, Diag};
 
 /// Counts a job's events; `postform check` prints it.
 #[derive(Clone, Debug, Default)]
@@ -33,6 +33,12 @@ pub struct Summary {
     pub extents: [Option<(f64, f64)>; 3],
     /// How often the tool axis changes.
     pub tilts: u64,
+    /// Where it changes first.
+    tilted: Option<Place>,
+    /// The first operation with nothing in it.
+    idle: Option<Place>,
+    /// An operation that has nothing in it so far.
+    begun: Option<Place>,
     order: Order,
     kind: Option<(CycleKind, f64)>,
     /// Tools that are in `tools`.
@@ -55,6 +61,23 @@ impl Summary {
         self.extents[axis] = Some((least.min(value), greatest.max(value)));
     }
 
+    /// Why no form can print the job: what rendering would say at the latest.
+    pub fn unprintable(&self) -> Vec<Diag> {
+        let at = |place: Place, code, message: String, help: &str| Diag::new(code, message).help(help).place(place);
+        let tilted = self.tilted.map(|place| {
+            let places = if self.tilts == 1 { "here".into() } else { format!("{} places, the first here", self.tilts) };
+            let message = format!("no form can print this, because the tool is tilted ({places})");
+            let help =
+                "a form has no words for that: post the operations of each tool axis by themselves, each as a setup";
+            at(place, Code::PR008, message, help)
+        });
+        let idle = self.idle.map(|place| {
+            let message = "no form can print this, because the operation has no move".to_owned();
+            at(place, Code::PR012, message, "take the operation out, or give it a move")
+        });
+        tilted.into_iter().chain(idle).collect()
+    }
+
     fn start(&mut self, start: &Start) {
         self.units = Some(start.units);
         self.name.clone_from(&start.name);
@@ -63,17 +86,20 @@ impl Summary {
 }
 
 impl Sink for Summary {
-    fn event(&mut self, event: Event<'_>, _: Place) -> Flow {
-        flow(self.count(event))
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+        flow(self.count(event, place))
     }
 }
 
 impl Summary {
-    fn count(&mut self, event: Event<'_>) -> Result<(), Box<Diag>> {
+    fn count(&mut self, event: Event<'_>, place: Place) -> Result<(), Box<Diag>> {
         self.order.follow(&event)?;
+        let begun = self.begun.take();
         match event {
             Event::Start(start) => self.start(start),
             Event::ToolChange(change) => {
+                self.idle = self.idle.or(begun);
+                self.begun = Some(place).filter(|_| change.tool.is_some());
                 self.operations += 1;
                 if let Some(tool) = &change.tool
                     && self.seen.insert(key(tool.number))
@@ -97,7 +123,11 @@ impl Summary {
                 self.arcs += 1;
                 self.reach(&arc.to);
             }
-            Event::Tilt(_) => self.tilts += 1,
+            Event::Finish => self.idle = self.idle.or(begun),
+            Event::Tilt(_) => {
+                self.tilts += 1;
+                self.tilted.get_or_insert(place);
+            }
             Event::CycleBegin(spec) => {
                 self.kind = Some((spec.kind, spec.deepest().unwrap_or(0.0)));
                 if !self.holes.iter().any(|(kind, _)| *kind == spec.kind) {

@@ -2,11 +2,16 @@
 
 use super::dialect::{Dialect, Sense};
 use super::fault::{Done, fault};
-use super::feed::feed_to_say;
+use super::feed::{approach, feed_to_say};
 use super::state::{Arcs, Heading, PendingArc, State};
 use super::words::{Word, numbers};
 use crate::diag::Code;
-use crate::toolpath::{Arc, Axes, Direction, Event, Plane, Units};
+use crate::toolpath::{Arc, Direction, Event, Plane, Units};
+
+/// Most turns of one helix.
+const MOST_TIMES: f64 = 1_000.0;
+/// Degrees by which ANGLE may differ from the angle between the points of an arc.
+const ANGLE_OFF: f64 = 0.5;
 
 /// Cosine of the angle under which an arc still leaves the motion before it along its tangent: 8 degrees.
 const TANGENT: f64 = 0.99;
@@ -31,6 +36,7 @@ pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>
     if cycle.is_active() {
         return fault(Code::PC042, "an arc inside a cycle", "end the cycle before with CYCLE/OFF");
     }
+    let (words, times, angle) = extent(words)?;
     let values = numbers(words).unwrap_or_default();
     let (centre, axis, radius) = match values.as_slice() {
         [x, y, z] => ([*x, *y, *z], [0.0, 0.0, 1.0], None),
@@ -43,8 +49,32 @@ pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>
         return fault(Code::PL004, "an arc in a tilted plane", "let the CAM system write lines for it");
     };
     let centre = motion.shift.of(centre);
-    arcs.pending = Some(PendingArc { centre, axis: along, up: axis[along] > 0.0, radius, sense });
+    arcs.pending = Some(PendingArc { centre, axis: along, up: axis[along] > 0.0, radius, sense, times, angle });
     Ok(())
+}
+
+/// What stands behind the numbers of an arc: TIMES,n and ANGLE,a.
+fn extent(words: &[Word]) -> Done<(&[Word], Option<u32>, Option<f64>)> {
+    let numbers = words.iter().position(|word| word.number().is_none()).unwrap_or(words.len());
+    let (words, mut rest) = words.split_at(numbers);
+    let (mut times, mut angle) = (None, None);
+    while let [word, value, after @ ..] = rest {
+        match value.number() {
+            Some(n) if word.is("TIMES") && n.fract() == 0.0 && (1.0..=MOST_TIMES).contains(&n) => {
+                times = Some(n as u32)
+            }
+            Some(a) if word.is("ANGLE") && a > 0.0 && a <= 360.0 * MOST_TIMES => angle = Some(a),
+            _ => break,
+        }
+        rest = after;
+    }
+    match rest {
+        [] => Ok((words, times, angle)),
+        [word, ..] => {
+            let message = format!("`{word}` behind the numbers of an arc");
+            fault(Code::PL002, message, "write TIMES,n or ANGLE,degrees there, or nothing")
+        }
+    }
 }
 
 /// The GOTO after a CIRCLE.
@@ -75,25 +105,60 @@ pub(super) fn arc_to(arc: &PendingArc, to: [f64; 3], rapid: bool, state: &mut St
 /// An arc from where the tool is.
 pub(super) fn arc_event(arc: &PendingArc, to: [f64; 3], ccw: bool, state: &mut State<'_>) -> Done {
     let State { job, motion, arcs, feeds, .. } = state;
-    if motion.cutcom.asked.is_some() {
-        let help = "put a straight motion between CUTCOM and the arc";
-        return fault(Code::PL004, "cutter compensation can't begin or end on an arc", help);
+    approach(motion, feeds, job)?;
+    if job.turns_part() && arc.axis != 1 {
+        return fault(Code::PL004, "an arc of a lathe outside the plane of z and x", "turn in that plane");
+    }
+    match motion.cutcom.asked {
+        Some(Some(_)) => {
+            let help = "put a straight motion between CUTCOM and the arc";
+            return fault(Code::PL004, "cutter compensation can't begin on an arc", help);
+        }
+        Some(None) => {
+            let help = "no control ends it on an arc; put a straight motion between CUTCOM/OFF and the arc where that is wrong";
+            job.notes.warn(
+                Code::PL008,
+                "CUTCOM/OFF stands before an arc, and ends with the straight motion behind it",
+                help,
+            );
+        }
+        None => {}
     }
     let mut unit = [0.0; 3];
     unit[arc.axis] = if ccw { 1.0 } else { -1.0 };
+    let turns = turns(arc, motion.position, to, ccw)?;
     let radius = [to[0] - arc.centre[0], to[1] - arc.centre[1], to[2] - arc.centre[2]];
     arcs.heading = Heading::between([0.0; 3], cross(unit, radius));
     motion.position = Some(to);
     let event = Arc {
-        to: Axes::new(&to),
-        center: Some(Axes::new(&arc.centre)),
+        to: job.axes(to)?,
+        center: Some(job.axes(arc.centre)?),
         radius: None,
         direction: if ccw { Direction::Ccw } else { Direction::Cw },
-        plane: [Plane::Yz, Plane::Xz, Plane::Xy][arc.axis],
-        turns: 0,
+        plane: if job.turns_part() { Plane::Xy } else { [Plane::Yz, Plane::Xz, Plane::Xy][arc.axis] },
+        turns,
     };
     let feed = feed_to_say(feeds, job)?;
     job.push(Event::Arc { arc: &event, feed })
+}
+
+/// Full turns before the end is reached for good. NX counts by TIMES how often the tool comes to the end, the last one
+/// included: its ramps have their angle only so. ANGLE must agree with the way from the beginning to the end.
+fn turns(arc: &PendingArc, from: Option<[f64; 3]>, to: [f64; 3], ccw: bool) -> Done<u32> {
+    let (Some(angle), Some(from)) = (arc.angle, from) else { return Ok(arc.times.unwrap_or(1) - 1) };
+    let (first, second) = ((arc.axis + 1) % 3, (arc.axis + 2) % 3);
+    let at = |p: [f64; 3]| (p[second] - arc.centre[second]).atan2(p[first] - arc.centre[first]).to_degrees();
+    let way = if ccw { at(to) - at(from) } else { at(from) - at(to) };
+    let turns = ((angle - way) / 360.0).round();
+    let off = (angle - way - 360.0 * turns).abs();
+    if off > ANGLE_OFF || arc.times.is_some() {
+        let message = format!("an arc of {angle} degrees, and its points are {:.3} apart", way.rem_euclid(360.0));
+        return fault(Code::PR005, message, "look at the motions before and after it");
+    }
+    let least = way.rem_euclid(360.0);
+    // what begins where it ends is a whole turn
+    let least = if least < ANGLE_OFF || least > 360.0 - ANGLE_OFF { 360.0 } else { least };
+    Ok(((angle - least) / 360.0).round().max(0.0) as u32)
 }
 
 /// Which way circles turn in a file of an unknown system: its arcs leave the motion before them along their

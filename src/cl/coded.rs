@@ -3,6 +3,7 @@
 use super::cycle_words::{OPTIONS, Opt, TYPES};
 use super::dialect::Dialect;
 use super::fault::{Done, fault};
+use super::feed_unit::Feed;
 use super::report::Notes;
 use super::words::Word;
 use crate::diag::Code;
@@ -67,7 +68,13 @@ pub(super) fn cycle_type(words: &[Word]) -> Done<(Coded, &[Word])> {
 }
 
 /// The options of a CYCLE statement; CYCLE/ON says only some of them (`whole` is false).
-pub(super) fn read_options(notes: &mut Notes<'_>, before: &Coded, words: &[Word], whole: bool) -> Done<Coded> {
+pub(super) fn read_options(
+    notes: &mut Notes<'_>,
+    before: &Coded,
+    words: &[Word],
+    whole: bool,
+    feed: Option<Feed>,
+) -> Done<Coded> {
     let kind = before.kind.unwrap_or(CycleKind::Drill);
     let mut coded = Coded { kind: before.kind, mode: before.mode, ..Coded::default() };
     let mut at = 0;
@@ -79,7 +86,7 @@ pub(super) fn read_options(notes: &mut Notes<'_>, before: &Coded, words: &[Word]
                 at += 1;
                 continue;
             }
-            Word::Number(value) if at == 0 && whole => return positional(notes, coded, words, *value),
+            Word::Number(value) if at == 0 && whole => return positional(notes, coded, words, *value, feed),
             Word::Number(value) => {
                 let help = "put its word before it, as DEPTH, STEP or MMPM";
                 return fault(Code::PC037, format!("{value} belongs to no word"), help);
@@ -136,22 +143,31 @@ pub(super) fn read_options(notes: &mut Notes<'_>, before: &Coded, words: &[Word]
     Ok(coded)
 }
 
-/// The format of 1978, whose order each system has its own: only where a dialect is named.
-fn positional(notes: &Notes<'_>, mut coded: Coded, words: &[Word], depth: f64) -> Done<Coded> {
-    let catia = notes.said && notes.dialect() == Dialect::Catia;
-    match words {
-        [_, Word::Number(clear), Word::Number(feed), Word::Name(unit)] if catia => {
-            let feed = Some((unit.clone(), *feed));
-            coded.groups.push(Group { depths: vec![depth], steps: Vec::new(), feed });
-            coded.options.push((Opt::Clear, vec![*clear]));
-            Ok(coded)
-        }
+/// The format of 1978, whose order each system has its own: only where CATIA is known to have written it.
+fn positional(notes: &Notes<'_>, mut coded: Coded, words: &[Word], depth: f64, in_force: Option<Feed>) -> Done<Coded> {
+    let unit = |name: &str, value| Some((name.to_owned(), value));
+    let (clear, feed) = match words {
+        [_, Word::Number(clear), Word::Number(feed), Word::Name(name)] => (*clear, unit(name, *feed)),
+        // a tap has the feed that is in force
+        [_, Word::Number(clear)] if coded.kind == Some(CycleKind::Tap) => match in_force {
+            Some(Feed::Minute(feed)) => (*clear, unit("PERMIN", feed)),
+            Some(Feed::Revolution(feed)) => (*clear, unit("PERREV", feed)),
+            None => return fault(Code::PC005, "the cycle has no feed", "put FEDRAT before it"),
+        },
         _ => {
-            let help = "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2, or name CATIA with `--dialect catia`";
-            fault(Code::PC032, "numbers without their words, which each system orders in its own way", help)
+            let help = "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2";
+            return fault(Code::PC032, "numbers without their words, in an order that is not known", help);
         }
+    };
+    if notes.dialect() != Dialect::Catia {
+        let help = "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2, or name CATIA with `--dialect catia`";
+        return fault(Code::PC032, "numbers without their words, which each system orders in its own way", help);
     }
+    coded.groups.push(Group { depths: vec![depth], steps: Vec::new(), feed });
+    coded.options.push((Opt::Clear, vec![clear]));
+    Ok(coded)
 }
+
 /// What CYCLE/ON says replaces what was coded.
 pub(super) fn over(mut last: Coded, said: Coded) -> Coded {
     for (option, numbers) in said.options {

@@ -1,12 +1,13 @@
 //! CYCLE statements: which cycle holds for the points that follow.
 
 use super::coded::{Coded, cycle_type, over, read_options};
-use super::cycle_words::{Opt, in_gener_words};
+use super::cycle_dialects::{Heights, autodesk, in_gener_words, returns_to_start};
+use super::cycle_words::Opt;
 use super::dialect::Dialect;
 use super::fault::{Done, fault};
 use super::job::Job;
 use super::spec::spec;
-use super::state::{Cycle, ReturnMode, State};
+use super::state::{CodedReturn, Cycle, ReturnMode, State};
 use super::words::Word;
 use crate::cycle::check;
 use crate::diag::Code;
@@ -34,12 +35,25 @@ pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
             Some(last) => begin(last, &words[1..], false, state),
             None => fault(Code::PC038, "CYCLE/ON, and there was no cycle", "write the whole cycle"),
         },
-        _ => {
-            let words = in_gener_words(words, dialect).or_else(|help| {
-                fault(Code::PC040, "a return plane that postform does not know of this system", help)
-            })?;
+        _ if dialect == Dialect::Autodesk => {
+            let (words, heights) = autodesk(words)?;
             let (coded, rest) = cycle_type(&words)?;
-            begin(coded, rest, true, state)
+            begin(coded, rest, true, state)?;
+            let shifted = |height| state.motion.shift.of([0.0, 0.0, height])[2];
+            let heights =
+                Heights { clearance: shifted(heights.clearance), retract: shifted(heights.retract), ..heights };
+            state.cycle.coded_return = Some(CodedReturn::Height(heights.clearance));
+            state.cycle.heights = Some(heights);
+            Ok(())
+        }
+        _ => {
+            let gener = in_gener_words(words, dialect)?;
+            let (coded, rest) = cycle_type(&gener)?;
+            begin(coded, rest, true, state)?;
+            if returns_to_start(words, dialect) {
+                state.cycle.coded_return = Some(CodedReturn::Start);
+            }
+            Ok(())
         }
     }
 }
@@ -83,14 +97,16 @@ fn begin(coded: Coded, words: &[Word], whole: bool, state: &mut State<'_>) -> Do
     motion.rapid = false; // one that stands before a cycle is dropped
     motion.rapid_after_cycle = false;
     feeds.cut_off = None;
-    if motion.cutcom.on {
-        return fault(Code::PC041, "a cycle under cutter compensation", "end it with CUTCOM/OFF before");
+    if motion.cutcom.on || motion.cutcom.asked.is_some() {
+        return fault(Code::PC041, "a cycle under cutter compensation", "end it with CUTCOM/OFF and a motion before");
     }
-    let said = read_options(&mut job.notes, &coded, words, whole)?;
+    let said = read_options(&mut job.notes, &coded, words, whole, feeds.feed)?;
     let coded = if whole { said } else { over(coded, said) };
     let spec = spec(cycle, job, &coded)?;
     check(&spec)?;
-    cycle.coded_return = coded.numbers(Opt::Return).map(|numbers| numbers.first().copied());
+    let above = |numbers: &[f64]| numbers.first().map_or(CodedReturn::Clearance, |above| CodedReturn::Above(*above));
+    cycle.coded_return = coded.numbers(Opt::Return).map(above);
+    cycle.heights = None;
     cycle.plane = None;
     cycle.last = Some(coded);
     cycle.active = Some(spec);
@@ -111,5 +127,6 @@ pub(super) fn follow_spindle(cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
 /// The cycle ends: points are motions again.
 pub(super) fn end(cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
     cycle.active = None;
+    cycle.heights = None;
     job.close_holes()
 }

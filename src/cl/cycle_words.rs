@@ -1,7 +1,5 @@
 //! The words of a CYCLE statement: types, options, and what belongs to which.
 
-use super::dialect::Dialect;
-use super::words::Word;
 use crate::toolpath::CycleKind;
 
 /// Types, with the second word that changes them.
@@ -16,6 +14,8 @@ pub(super) const TYPES: &[(&str, CycleKind)] = &[
     ("THRU", CycleKind::Thru),
     ("CSINK", CycleKind::Csink),
     ("MANUAL", CycleKind::Manual),
+    // AZpost's counterbore
+    ("CBORE", CycleKind::Face),
 ];
 
 /// An option of a cycle.
@@ -90,6 +90,7 @@ pub(super) const OPTIONS: &[OptionRow] = &[
     row("ORIENT", O::Orient, 0, 1,  true,  &[K::Bore, K::Back, K::Tap]),
     row("OFSETL", O::Ofsetl, 1, 2,  true,  BORES),
     row("DIAMET", O::Diamet, 1, 1,  false, &[K::Csink]),
+    row("DIAMTR", O::Diamet, 1, 1,  false, &[K::Csink]),
     row("TLANGL", O::Tlangl, 1, 1,  false, &[K::Csink]),
     row("HOLDIA", O::Holdia, 1, 1,  false, &[K::Csink]),
     row("IPM",    O::Feed,   1, 1,  true,  ANY),
@@ -98,6 +99,8 @@ pub(super) const OPTIONS: &[OptionRow] = &[
     row("MMPR",   O::Feed,   1, 1,  true,  ANY),
     row("PERMIN", O::Feed,   1, 1,  true,  ANY),
     row("PERREV", O::Feed,   1, 1,  true,  ANY),
+    row("UPM",    O::Feed,   1, 1,  true,  ANY),
+    row("UPR",    O::Feed,   1, 1,  true,  ANY),
     row("TPI",    O::Feed,   1, 1,  true,  ANY),
     row("SIDE",   O::Side,   1, 1,  true,  TAPS),
 ];
@@ -111,64 +114,4 @@ const fn row(
     types: &'static [K],
 ) -> OptionRow {
     OptionRow { word, option, least, most, signed, types }
-}
-
-/// The statement in GENER's words: what other systems call the same. `Err`: why it can't be said so.
-pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Result<Vec<Word>, &'static str> {
-    let name = |text: &str| Word::Name(text.into());
-    let mut out: Vec<Word> = Vec::with_capacity(words.len());
-    let mut flips = false;
-    let mut words = words.iter().peekable();
-    let mut first_peck = None;
-    while let Some(word) = words.next() {
-        let at_type = out.is_empty();
-        let other = match (dialect, word.name().unwrap_or("")) {
-            (Dialect::Ncl, "FEDTO") if out.first().is_some_and(|word| word.is("CSINK")) => {
-                // diameter and angle
-                out.push(name("DIAMET"));
-                out.extend(words.next().cloned());
-                name("TLANGL")
-            }
-            (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "FEDTO") => {
-                flips = dialect == Dialect::Nx; // signed along the axis there, downward elsewhere
-                name("DEPTH")
-            }
-            (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "RAPTO") => name("CLEAR"),
-            (Dialect::Nx, "RTRCTO") => {
-                if words.next().is_some_and(|word| word.is("AUTO")) {
-                    continue; // to the clearance plane, where every hole ends
-                }
-                return Err("write RTRCTO,AUTO");
-            }
-            (Dialect::SolidWorksCam | Dialect::Ncl, "RTRCTO") => name("RETURN"),
-            (Dialect::SolidWorksCam, "DEEP2") if at_type => name("DEEP"),
-            (Dialect::SolidWorksCam, "INCR") => name("STEP"),
-            (Dialect::SolidWorksCam, "1STPECK") => {
-                first_peck = words.next().cloned();
-                continue;
-            }
-            (Dialect::SolidWorksCam, "SUBPECK") => {
-                out.push(name("STEP"));
-                out.extend(first_peck.take());
-                continue;
-            }
-            // PostWorks' names are the reverse of GENER's, and its BORE feeds out
-            (Dialect::Ncl, "DEEP") if at_type => name("BRKCHP"),
-            (Dialect::Ncl, "THRU") if at_type => name("DEEP"),
-            (Dialect::Ncl, "BORE") if at_type => name("REAM"),
-            (Dialect::Ncl, "REVERS") if at_type => {
-                out.push(name("TAP"));
-                name("INVERS")
-            }
-            _ => match word {
-                Word::Number(value) if std::mem::take(&mut flips) => Word::Number(-value),
-                word => word.clone(),
-            },
-        };
-        out.push(other);
-    }
-    if let Some(first) = first_peck {
-        out.extend([name("STEP"), first]);
-    }
-    Ok(out)
 }

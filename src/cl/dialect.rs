@@ -14,6 +14,7 @@ pub enum Dialect {
     SolidWorksCam,
     Makino,
     Ncl,
+    Autodesk,
 }
 
 /// Which way a CIRCLE with a positive axis turns.
@@ -37,9 +38,12 @@ struct Row {
     last: Option<&'static str>,
 }
 
+/// The name of a program of Autodesk.
+const QUOTED_NAME: &str = "PARTNO/'";
+
 /// Marks and senses are those of real files (cl.md sections 2.2 and 2.5).
 #[rustfmt::skip]
-const ROWS: [Row; 7] = [
+const ROWS: [Row; 8] = [
     Row { dialect: Dialect::Gener, name: "gener", title: "ICAM GENER", marks: &[], sense: None, last: Some("FINI") },
     Row { dialect: Dialect::Catia, name: "catia", title: "CATIA", marks: &["$$*CATIA", "CATIAAPTVERSION"], sense: None, last: Some("FINI") },
     Row { dialect: Dialect::Creo, name: "creo", title: "Creo", marks: &["PRO/CLFILE"], sense: None, last: Some("FINI") },
@@ -47,6 +51,7 @@ const ROWS: [Row; 7] = [
     Row { dialect: Dialect::SolidWorksCam, name: "solidworks", title: "SolidWorks CAM", marks: &["CSI_", "TRNTYP"], sense: Some(Sense::RightHand), last: Some("FINI") },
     Row { dialect: Dialect::Makino, name: "makino", title: "Makino APTCL", marks: &["APTCL-SPEC"], sense: Some(Sense::LeftHand), last: None },
     Row { dialect: Dialect::Ncl, name: "ncl", title: "NCL", marks: &["NCLCAM"], sense: None, last: Some("FINI") },
+    Row { dialect: Dialect::Autodesk, name: "autodesk", title: "Autodesk HSM", marks: &[], sense: None, last: Some("FINI") },
 ];
 
 impl Dialect {
@@ -92,8 +97,13 @@ impl Dialect {
     /// The dialect that the first lines of a file give away, with the number of the line and its mark. Text behind the
     /// first motion is no mark: it is the programmer's.
     pub(super) fn of_head<'l>(lines: impl Iterator<Item = &'l [u8]>) -> Option<(Dialect, usize, &'static str)> {
-        let mut moves = false;
+        let (mut moves, mut has_mode) = (false, false);
         for (line, number) in lines.zip(1..) {
+            // Autodesk's post begins with a mode, and is alone in quoting its text
+            if has_mode && line.starts_with(QUOTED_NAME.as_bytes()) {
+                return Some((Dialect::Autodesk, number, QUOTED_NAME));
+            }
+            has_mode |= line.starts_with(b"MODE/MILL") || line.starts_with(b"MODE/TURN");
             moves |= line.trim_ascii_start().get(..4).is_some_and(|word| word.eq_ignore_ascii_case(b"GOTO"));
             if moves && text_statement(line.trim_ascii()).is_some() {
                 continue;
@@ -134,5 +144,11 @@ mod tests {
         assert_eq!(of("$$*          Pro/CLfile  Version 11.0"), Some(Dialect::Creo));
         assert_eq!(of("TOOL PATH/ZLEVEL,TOOL,MILL"), Some(Dialect::Nx));
         assert_eq!(of("GOTO/1,2,3"), None);
+        let head = |text: &'static str| {
+            Dialect::of_head(text.lines().map(str::as_bytes)).map(|(found, line, _)| (found, line))
+        };
+        assert_eq!(head("MODE/MILL\nPARTNO/'1'\nTOOL PATH/"), Some((Dialect::Autodesk, 2)));
+        assert_eq!(head("PARTNO/'1'\nMODE/MILL"), None);
+        assert_eq!(head("GOTO/1,2,3\nPPRINT/APTCL-SPEC\nCSI_SET/1"), Some((Dialect::SolidWorksCam, 3)));
     }
 }

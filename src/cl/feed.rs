@@ -2,8 +2,10 @@
 
 use super::dialect::Dialect;
 use super::fault::{Done, fault};
-use super::job::Job;
-use super::state::{Feed, Feeds, State};
+use super::feed_unit::Feed;
+use super::job::{Job, Waiting};
+use super::missing::no_start;
+use super::state::{Feeds, Motion, State};
 use super::words::{Word, numbers};
 use crate::diag::Code;
 use crate::toolpath::{Event, Units};
@@ -13,8 +15,10 @@ const MM: f64 = 25.4;
 
 /// The feed that a unit word and a number mean, in lengths of the file. `None`: no such word.
 pub(super) fn feed_of(job: &Job<'_>, unit: &str, value: f64) -> Done<Option<Feed>> {
-    if matches!(unit, "PERMIN" | "PERREV") {
-        return Ok(Some(if unit == "PERMIN" { Feed::Minute(value) } else { Feed::Revolution(value) }));
+    match unit {
+        "PERMIN" | "UPM" => return Ok(Some(Feed::Minute(value))),
+        "PERREV" | "UPR" => return Ok(Some(Feed::Revolution(value))),
+        _ => {}
     }
     let inches = if job.units()? == Units::Mm { MM } else { 1.0 };
     Ok(Some(match unit {
@@ -29,9 +33,16 @@ pub(super) fn feed_of(job: &Job<'_>, unit: &str, value: f64) -> Done<Option<Feed
     }))
 }
 
-/// A feed in lengths a minute; per revolution it needs a turning spindle.
-pub(super) fn per_minute(job: &Job<'_>, feed: Feed) -> Done<f64> {
+/// A feed as the job counts it: lengths a minute, on lathes lengths a revolution. From one to the other needs a spindle
+/// that turns at a fixed speed.
+pub(super) fn counted(job: &Job<'_>, feed: Feed) -> Done<f64> {
     match (feed, job.spindle.rpm()) {
+        (Feed::Revolution(value), _) if job.turns_part() => Ok(value),
+        (Feed::Minute(value), Some(rpm)) if job.turns_part() => Ok(value / rpm),
+        (Feed::Minute(_), None) if job.turns_part() => {
+            let help = "say it per revolution, as FEDRAT/0.2,MMPR";
+            fault(Code::PC009, "a feed per minute on a lathe, and the spindle has no fixed speed", help)
+        }
         (Feed::Minute(value), _) => Ok(value),
         (Feed::Revolution(value), Some(rpm)) => Ok(value * rpm),
         (Feed::Revolution(_), None) => {
@@ -43,6 +54,9 @@ pub(super) fn per_minute(job: &Job<'_>, feed: Feed) -> Done<f64> {
 
 /// FEDRAT: a number and its unit in any order.
 pub(super) fn fedrat(words: &[Word], state: &mut State<'_>) -> Done {
+    if state.cycle.heights.is_some() {
+        return Ok(()); // Autodesk says the feed of a cycle at each of its points
+    }
     if state.cycle.is_active() {
         let help = "say the feed in the CYCLE statement";
         state.job.notes.warn(Code::PC052, "FEDRAT inside a cycle is ignored", help);
@@ -90,10 +104,27 @@ pub(super) fn feed_to_say(feeds: &Feeds, job: &mut Job<'_>) -> Done<Option<f64>>
         return fault(Code::PC043, message, help);
     }
     let Some(feed) = feeds.feed else {
-        return fault(Code::PR011, "a feed motion before any feed", "put FEDRAT before it");
+        let help = "put FEDRAT before it, or say it with `--assume-feed 200`, in units of the file a minute";
+        return fault(Code::PR011, "a feed motion before any feed", help);
     };
-    let feed = per_minute(job, feed)?;
+    job.turns()?;
+    let feed = counted(job, feed)?;
     Ok(job.feed_to_say(feed))
+}
+
+/// Before a cut that is the first motion: where the tool is by then.
+#[inline]
+pub(super) fn approach(motion: &Motion, feeds: &Feeds, job: &mut Job<'_>) -> Done {
+    if !job.is_unmoved() || feeds.feed.is_none() {
+        return Ok(()); // a feed is missed first
+    }
+    match motion.position {
+        Some(from) => {
+            let from = job.axes(from)?;
+            job.wait(Waiting::Rapid(from))
+        }
+        None => no_start(job),
+    }
 }
 
 /// DELAY/seconds, or revolutions with REV.
@@ -101,7 +132,14 @@ pub(super) fn delay(words: &[Word], job: &mut Job<'_>) -> Done {
     let seconds = match (numbers(words).as_deref(), words) {
         (Some([seconds]), _) => *seconds,
         (None, [Word::Name(name), Word::Number(n)] | [Word::Number(n), Word::Name(name)]) if name == "REV" => {
-            n / per_minute(job, Feed::Revolution(1.0))? * 60.0
+            let Some(rpm) = job.spindle.rpm() else {
+                return fault(
+                    Code::PC009,
+                    "a DELAY in revolutions, and the spindle does not turn",
+                    "write DELAY/seconds",
+                );
+            };
+            n / rpm * 60.0
         }
         _ => return fault(Code::PL001, "a DELAY that can't be read", "write DELAY/seconds or DELAY/REV,turns"),
     };

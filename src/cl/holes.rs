@@ -1,10 +1,14 @@
 //! Points of a cycle.
 
+use super::cycle_dialects::Heights;
 use super::fault::{Done, fault};
 use super::job::Job;
-use super::state::{Arcs, Cycle, Motion, ReturnMode, State};
+use super::state::{Arcs, CodedReturn, Cycle, Motion, ReturnMode, State};
 use crate::diag::Code;
-use crate::toolpath::{Axes, CycleSpec, Event, Hole};
+use crate::toolpath::{CycleSpec, Event, Hole};
+
+/// What rounding may take from a height.
+const BELOW_TOP: f64 = 1e-4;
 
 /// A point of the cycle in force.
 pub(super) fn point(at: [f64; 3], state: &mut State<'_>) -> Done {
@@ -23,13 +27,18 @@ fn hole(
     cycle: &mut Cycle,
     job: &mut Job<'_>,
 ) -> Done {
+    let at = match cycle.heights {
+        Some(heights) => top(at, heights, spec, job)?,
+        None => at,
+    };
     if !job.holes_are_open() {
+        job.turns()?;
         // a sink counts the return plane from the first point that it sees
         let plane = return_plane(at, spec, motion, cycle, job)?;
         spec.return_height = plane.map(|plane| plane - at[2]).filter(|&height| height > spec.clear.unwrap_or(f64::MIN));
         job.open_holes(spec)?;
     }
-    job.push(Event::Hole(Hole { at: Axes::new(&at), depth: None }))?;
+    job.push(Event::Hole(Hole { at: job.axes(at)?, depth: None }))?;
     // where the hole is left is known where its clearance is
     motion.position = spec.clear.map(|clear| {
         let plane = cycle.plane.flatten().unwrap_or(f64::MIN);
@@ -37,6 +46,22 @@ fn hole(
     });
     arcs.heading = None;
     Ok(())
+}
+
+/// The top of a hole whose bottom is said, with the clearance above it that its heights mean.
+fn top(bottom: [f64; 3], heights: Heights, spec: &mut CycleSpec, job: &mut Job<'_>) -> Done<[f64; 3]> {
+    let top = bottom[2] + heights.depth;
+    let clear = heights.retract - top;
+    if clear < -BELOW_TOP {
+        let message = format!("the cycle feeds from {}, and the top of this hole is {top}", heights.retract);
+        return fault(Code::PC004, message, "raise the retract height in the CAM system");
+    }
+    let clear = clear.max(0.0);
+    if spec.clear.is_none_or(|before| (before - clear).abs() > BELOW_TOP) {
+        job.close_holes()?;
+        spec.clear = Some(clear);
+    }
+    Ok([bottom[0], bottom[1], top])
 }
 
 /// The height to which the tool comes back, one for the whole cycle: set at its first point.
@@ -53,9 +78,10 @@ fn return_plane(
     let clear = at[2] + spec.clear.unwrap_or(0.0);
     let plane = match (cycle.return_mode, cycle.coded_return) {
         (ReturnMode::Off, _) | (ReturnMode::AsCoded, None) => None,
-        (ReturnMode::AsCoded, Some(above)) => Some(above.map_or(clear, |above| at[2] + above)),
-        (ReturnMode::Above(above), _) => Some(at[2] + above),
-        (ReturnMode::AtStart, _) => match motion.position {
+        (ReturnMode::AsCoded, Some(CodedReturn::Clearance)) => Some(clear),
+        (ReturnMode::AsCoded, Some(CodedReturn::Height(height))) => Some(height),
+        (ReturnMode::Above(above), _) | (ReturnMode::AsCoded, Some(CodedReturn::Above(above))) => Some(at[2] + above),
+        (ReturnMode::AtStart, _) | (ReturnMode::AsCoded, Some(CodedReturn::Start)) => match motion.position {
             Some(position) => Some(position[2]),
             None => {
                 let help = "put a GOTO before the cycle, or give CYCLE/RETURN a height";

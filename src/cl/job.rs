@@ -1,13 +1,19 @@
 //! The job that a CL file becomes: what is held back until a tool change is complete, and the events.
 
 use super::fault::{Done, fault};
+use super::missing::{no_speed, no_tool, no_units};
 use super::options::Options;
 use super::report::{Notes, Report};
 use super::tools::{Tools, Turning};
 use super::words::Word;
 use crate::diag::Code;
-use crate::toolpath::{Axes, CycleSpec, Event, First, Hold, Place, Sink, Start, StopKind, Tool, ToolChange, Units};
+use crate::lang::Machine;
+use crate::toolpath::{
+    Axes, Coolant, CycleSpec, Event, FeedMode, First, Hold, Place, Sink, Start, StopKind, Tool, ToolChange, Units,
+};
 
+/// How far from the plane of z and x a turning tool may be for rounding.
+const OFF_PLANE: f64 = 1e-4;
 /// Most items between a tool change and its spindle.
 const MOST_WAITING: usize = 4096;
 
@@ -33,6 +39,7 @@ pub(super) struct Job<'s> {
     units: Option<Units>,
     /// Units of a file that does not say them.
     assumed_units: Option<Units>,
+    machine: Machine,
     started: bool,
     operations: u32,
     /// A tool change that is not complete.
@@ -51,11 +58,12 @@ impl<'s> Job<'s> {
             hold: Hold::new(sink),
             notes: Notes::new(report, options.dialect),
             tools: Tools::new(options.tool.clone()),
-            spindle: Turning::default(),
+            spindle: Turning::new(options.speed),
             name: None,
             setup: None,
             units: None,
             assumed_units: options.units,
+            machine: Machine::Mill,
             started: false,
             operations: 0,
             change: None,
@@ -84,11 +92,52 @@ impl<'s> Job<'s> {
     pub fn units(&self) -> Done<Units> {
         match self.units.or(self.assumed_units) {
             Some(units) => Ok(units),
-            None => {
-                let help = "put UNITS/MM or UNITS/INCHES before it, or say it with `--assume-units`";
-                fault(Code::PL005, "the file has not said its units yet", help)
-            }
+            None => no_units(self, "the file has not said its units yet"),
         }
+    }
+
+    /// Are its units said or assumed?
+    pub fn knows_units(&self) -> bool {
+        self.units.or(self.assumed_units).is_some()
+    }
+
+    /// The option for a tool that the motion to come needs, and nobody loads.
+    pub fn missing_tool(&self) -> Option<String> {
+        let is_loaded = self.change.as_ref().map_or(self.operations > 0, |(change, _)| change.tool.is_some());
+        if is_loaded { None } else { self.tools.number(self.operations == 0).err() }
+    }
+
+    /// The file is a lathe's: it has tools that turn.
+    pub fn turning(&mut self) -> Done {
+        if self.machine == Machine::Lathe {
+            return Ok(());
+        }
+        if self.has_operation() {
+            let help = "let the CAM system write milling and turning into files of their own";
+            return fault(Code::PL004, "a turning tool behind a milling tool", help);
+        }
+        self.leave_out_rapids();
+        self.machine = Machine::Lathe;
+        Ok(())
+    }
+
+    /// Is it a lathe, where the spindle turns the part?
+    #[inline]
+    pub fn turns_part(&self) -> bool {
+        self.machine == Machine::Lathe
+    }
+
+    /// A position as events have it: on a lathe z, and x as a radius.
+    #[inline]
+    pub fn axes(&self, to: [f64; 3]) -> Done<Axes> {
+        if !self.turns_part() {
+            return Ok(Axes::new(&to));
+        }
+        if to[1].abs() > OFF_PLANE {
+            let help = "let the CAM system turn in the plane of z and x";
+            return fault(Code::PL004, format!("a turning tool at y {}", to[1]), help);
+        }
+        Ok(Axes::new(&[to[2], to[0]]))
     }
 
     /// What is printed where it stands, once the tool change before it is complete.
@@ -152,15 +201,14 @@ impl<'s> Job<'s> {
     fn release(&mut self) -> Done {
         if !self.started {
             let Some(units) = self.units.or(self.assumed_units) else {
-                let help = "put UNITS/MM or UNITS/INCHES into the file, or say it with `--assume-units`";
-                return fault(Code::PL005, "the file does not say its units", help);
+                return no_units(self, "the file does not say its units");
             };
             self.units = Some(units);
             let start = Start {
                 program: None,
                 name: self.name.clone(),
                 units,
-                machine: crate::lang::Machine::Mill,
+                machine: self.machine,
                 set: Vec::new(),
                 tool_order: None,
             };
@@ -172,12 +220,16 @@ impl<'s> Job<'s> {
         }
         if let Some((mut change, place)) = self.change.take() {
             if change.tool.is_none() {
-                let number = self.tools.assumed(self.operations == 0)?;
-                change.tool = number.map(|number| Tool { number, ..Tool::default() });
+                let number = match self.tools.number(self.operations == 0) {
+                    Ok(number) => number,
+                    Err(option) => return no_tool(self, &option),
+                };
+                self.tools.goes_by_its_name();
+                change.tool = Some(Tool { number, ..Tool::default() });
             }
-            change.spindle = Some(self.spindle.now).filter(|spindle| *spindle != Default::default());
+            change.spindle = Some(self.spindle.in_force()).filter(|spindle| *spindle != Default::default());
             if let Some(tool) = &mut change.tool {
-                tool.diameter = self.tools.diameter;
+                tool.diameter = self.tools.diameter.filter(|_| self.machine == Machine::Mill);
             }
             self.operations += 1;
             self.feed = None;
@@ -199,7 +251,7 @@ impl<'s> Job<'s> {
             work: None,
             feed: None,
             plunge: None,
-            feed_mode: None,
+            feed_mode: self.turns_part().then_some(FeedMode::PerRev),
             comment: None,
             set: Vec::new(),
             first: First::Nothing,
@@ -207,13 +259,42 @@ impl<'s> Job<'s> {
     }
 
     /// Another tool comes: the change before it is complete, whatever was done with that tool; one that is only named
-    /// gives way.
+    /// gives way. A change that waits for the same tool is this one.
     pub fn begin_change(&mut self, tool: Option<Tool>) -> Done {
+        if let (Some((change, _)), Some(tool)) = (&mut self.change, &tool)
+            && let Some(before) = change.tool.as_mut().filter(|before| before.number == tool.number)
+        {
+            before.length_offset = tool.length_offset.or(before.length_offset);
+            return Ok(());
+        }
         if self.change.as_ref().is_some_and(|(change, _)| change.tool.is_some()) {
             self.release()?;
         }
+        if tool.is_some() && self.operations == 0 {
+            self.leave_out_rapids();
+        }
         self.change = Some((self.operation(tool), self.notes.place));
         Ok(())
+    }
+
+    /// Rapids before the first tool go to where it is loaded, which is the machine's to know.
+    fn leave_out_rapids(&mut self) {
+        let is_rapid = |waiting: &(Waiting, Place)| matches!(waiting.0, Waiting::Rapid(_));
+        let count = self.waiting.iter().filter(|waiting| is_rapid(waiting)).count();
+        let Some((_, place)) = self.waiting.iter().find(|waiting| is_rapid(waiting)) else { return };
+        let message = if count == 1 {
+            "a rapid before the first tool is left out".to_owned()
+        } else {
+            format!("{count} rapids before the first tool, from line {} on, are left out", place.line)
+        };
+        let help = "the machine goes to its tool change by itself; put LOADTL before what it shall do besides";
+        self.notes.warn_at(*place, Code::PL008, message, help);
+        self.waiting.retain(|waiting| !is_rapid(waiting));
+    }
+
+    /// Nothing moved so far that is part of the job.
+    pub fn is_unmoved(&self) -> bool {
+        self.operations == 0 && !self.waiting.iter().any(|(waiting, _)| matches!(waiting, Waiting::Rapid(_)))
     }
 
     /// Is a tool change waiting to be complete?
@@ -228,7 +309,7 @@ impl<'s> Job<'s> {
     }
 
     /// COOLNT: with the tool change that waits, else as an event.
-    pub fn coolant(&mut self, coolant: crate::toolpath::Coolant) -> Done {
+    pub fn coolant(&mut self, coolant: Coolant) -> Done {
         self.tools.coolant = Some(coolant);
         match &mut self.change {
             Some((change, _)) => change.coolant = Some(coolant),
@@ -251,9 +332,15 @@ impl<'s> Job<'s> {
         Some(feed)
     }
 
+    /// Is there a speed to cut with?
+    #[inline]
+    pub fn turns(&self) -> Done {
+        if self.spindle.is_known() { Ok(()) } else { no_speed(self) }
+    }
+
     /// The end of the file.
     pub fn finish(&mut self) -> Done {
-        if !self.has_operation() {
+        if !self.has_operation() && self.is_unmoved() {
             return fault(Code::PJ009, "the file has no motion", "look whether this is a CL file");
         }
         self.push(Event::Finish)

@@ -72,7 +72,9 @@ pub(super) fn text_statement(line: &[u8]) -> Option<(&'static str, &[u8])> {
     let word =
         TEXT.into_iter().find(|w| line.len() >= w.len() && line[..w.len()].eq_ignore_ascii_case(w.as_bytes()))?;
     let rest = line[word.len()..].trim_ascii_start();
-    Some((word, rest.strip_prefix(b"/").unwrap_or(rest).trim_ascii()))
+    let text = rest.strip_prefix(b"/").unwrap_or(rest).trim_ascii();
+    let quoted = text.strip_prefix(b"'").and_then(|text| text.strip_suffix(b"'"));
+    Some((word, quoted.unwrap_or(text).trim_ascii()))
 }
 
 /// A line without its comment (`$$`), and whether the next one continues it (`$`; what follows that is no part of it).

@@ -10,8 +10,16 @@ use crate::toolpath::{Spindle, Tool};
 
 /// LOADTL/n, LOAD/TOOL,n, TOOLNO/n: a tool change, complete with the next feed motion or spindle.
 pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
-    if name == "TOOLNO" && state.job.notes.dialect() == Dialect::Catia {
-        return Ok(()); // describes the tool that LOADTL loads
+    let dialect = state.job.notes.dialect();
+    if name == "TOOLNO" && dialect == Dialect::Catia {
+        if !words.iter().any(|word| word.is("TURN")) {
+            // describes the tool that LOADTL loads
+            if let Some(Word::Number(diameter)) = words.get(1) {
+                state.job.tools.diameter = Some(*diameter);
+            }
+            return Ok(());
+        }
+        state.job.turning()?;
     }
     let words = match words.first() {
         Some(word) if word.is("TOOL") => &words[1..],
@@ -22,7 +30,11 @@ pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     };
     let tools = &mut state.job.tools;
     tools.greatest = tools.greatest.max(number);
-    let register = length_register(name, &words[1..])?;
+    let register = match (dialect, &words[1..]) {
+        // pocket, length, offset
+        (Dialect::Autodesk, [_, _, Word::Number(register)]) => Some(*register),
+        (_, words) => length_register(name, words)?,
+    };
     another_tool(Some(Tool { number, length_offset: register, ..Tool::default() }), state)
 }
 
@@ -44,13 +56,14 @@ fn another_tool(tool: Option<Tool>, state: &mut State<'_>) -> Done {
     let State { job, motion, feeds, cycle, .. } = state;
     feeds.cut_off = cycle.is_active().then_some(job.notes.place.line).or(feeds.cut_off);
     cycle::end(cycle, job)?;
-    let is_named = tool.is_none();
+    let number = tool.as_ref().map(|tool| tool.number);
     job.begin_change(tool)?;
     motion.rapid_after_cycle = false; // what the tool before left
-    if !job.spindle.is_new {
+    let is_in = number.is_some() && std::mem::replace(&mut job.tools.loaded, number) == number;
+    if !job.spindle.is_new && !is_in {
         job.spindle.now = Spindle::default();
     }
-    job.spindle.is_new &= is_named;
+    job.spindle.is_new &= number.is_none();
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! What is switched: units, spindle, coolant, cutter compensation.
 
 use super::cycle::follow_spindle;
+use super::dialect::Dialect;
 use super::fault::{Done, fault};
 use super::job::Job;
 use super::state::{Cutcom, Cycle};
@@ -22,14 +23,24 @@ pub(super) fn units(words: &[Word], job: &mut Job<'_>) -> Done {
 
 /// SPINDL: the spindle turns otherwise; feeds per revolution follow it.
 pub(super) fn spindl(words: &[Word], cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
+    if let (Dialect::Autodesk, [Word::Name(word)]) = (job.notes.dialect(), words)
+        && matches!(word.as_str(), "ON" | "OFF")
+    {
+        let message = format!("SPINDL/{word}: Autodesk's post writes OFF for on, and ON for off");
+        return fault(
+            Code::PL004,
+            message,
+            "take the manual command out of the CAM system's setup, or write SPINDL/CLW",
+        );
+    }
     let said = spindle(words, job)?;
     job.spindle.say(said);
     follow_spindle(cycle, job)?;
     if job.changes() || !job.has_operation() {
         return Ok(()); // the tool change says it
     }
-    // revolutions are what a form starts with
-    let css = job.spindle.now.css.filter(|css| *css);
+    // revolutions are what a form starts with on mills
+    let css = job.spindle.now.css.filter(|css| *css || job.turns_part());
     job.between(Event::Spindle(Spindle { css, ..said }))
 }
 
@@ -98,6 +109,11 @@ pub(super) fn coolnt(words: &[Word], job: &mut Job<'_>) -> Done {
 
 /// CUTCOM/LEFT, RIGHT, OFF: the next motion carries it.
 pub(super) fn cutcom(words: &[Word], cutcom: &mut Cutcom, cycle: &Cycle, job: &mut Job<'_>) -> Done {
+    if let (Dialect::Autodesk, [Word::Name(word)]) = (job.notes.dialect(), words)
+        && word == "ON"
+    {
+        return Ok(()); // its side follows
+    }
     let side = |name: &str| match name {
         "LEFT" => Some(Some(Side::Left)),
         "RIGHT" => Some(Some(Side::Right)),

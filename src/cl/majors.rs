@@ -1,13 +1,14 @@
 //! Major words: what is done for each.
 
 use super::arcs::circle;
-use super::dialect::Sense;
+use super::dialect::{Dialect, Sense};
 use super::fault::{Done, fault};
 use super::feed::{delay, fedrat};
 use super::job::{Job, Waiting};
 use super::load::{load, tool_path};
 use super::machine::{coolnt, cutcom, spindl, units};
-use super::motion::{from, godlta, goto_words, rapid, tlaxis, trans};
+use super::motion::{from, godlta, gohome, goto_words, rapid, tlaxis, trans};
+use super::setups::{csys, msys};
 use super::state::State;
 use super::tlon::{indirv, tlon};
 use super::words::Word;
@@ -22,6 +23,7 @@ pub(super) enum Major {
     Godlta,
     From,
     Rapid,
+    Gohome,
     Circle,
     Movarc,
     Indirv,
@@ -46,12 +48,15 @@ pub(super) enum Major {
     Data,
     Fini,
     EndOfPath,
-    /// Tells something about the file.
-    Fact,
     ToolPath,
     Msys,
+    Csys,
+    Machin,
+    Turret,
     /// Known, and of no consequence for the motions.
     Ignored,
+    Nurbs,
+    Thread,
     /// Known to move or shift the part, and not supported.
     Refused,
     Unknown,
@@ -65,11 +70,11 @@ const MAJORS: &[(&str, Major)] = &[
     ("FEDRAT", Major::Fedrat), ("SPINDL", Major::Spindl), ("COOLNT", Major::Coolnt),
     ("LOADTL", Major::Load), ("LOAD", Major::Load), ("TOOLNO", Major::Load),
     ("CUTTER", Major::Cutter), ("TLDATA", Major::Cutter), ("CUTCOM", Major::Cutcom), ("CYCLE", Major::Cycle),
-    ("UNITS", Major::Units), ("UNIT", Major::Units), ("DELAY", Major::Delay),
+    ("GOHOME", Major::Gohome), ("UNITS", Major::Units), ("UNIT", Major::Units), ("DELAY", Major::Delay),
     ("STOP", Major::Stop), ("OPSTOP", Major::Opstop), ("TRANS", Major::Trans), ("ORIGIN", Major::Origin),
     ("TLAXIS", Major::Tlaxis), ("SET", Major::Set), ("AUXFUN", Major::Auxfun), ("PREFUN", Major::Prefun),
     ("$DATA", Major::Data), ("FINI", Major::Fini), ("END", Major::Fini), ("END-OF-PATH", Major::EndOfPath),
-    ("TOOLPATH", Major::ToolPath), ("MSYS", Major::Msys), ("CSYS", Major::Fact), ("MACHIN", Major::Fact), ("SYN", Major::Ignored),
+    ("TOOLPATH", Major::ToolPath), ("MSYS", Major::Msys), ("CSYS", Major::Csys), ("MACHIN", Major::Machin), ("SYN", Major::Ignored),
     ("MULTAX", Major::Ignored), ("SELECT", Major::Ignored), ("SELCTL", Major::Ignored), ("PAINT", Major::Ignored),
     ("INTOL", Major::Ignored), ("OUTTOL", Major::Ignored), ("TOLER", Major::Ignored), ("AUTOPS", Major::Ignored),
     ("MODE", Major::Set), ("ARCSLP", Major::Ignored), ("CLEARP", Major::Ignored), ("SEQNO", Major::Ignored),
@@ -78,10 +83,10 @@ const MAJORS: &[(&str, Major)] = &[
     ("TRACUT", Major::Refused), ("COPY", Major::Refused), ("INDEX", Major::Refused), ("BLOCK", Major::Refused),
     ("CALSUB", Major::Refused), ("DEFSUB", Major::Refused), ("ENDSUB", Major::Refused), ("MACRO", Major::Refused),
     ("CALL", Major::Refused), ("ROTABL", Major::Refused), ("ROTATE", Major::Refused), ("RETRCT", Major::Refused),
-    ("GOHOME", Major::Refused), ("OPSKIP", Major::Refused), ("ORIANT", Major::Refused), ("ORIENT", Major::Refused),
+    ("OPSKIP", Major::Refused), ("ORIANT", Major::Refused), ("ORIENT", Major::Refused),
     ("TLRGT", Major::Refused), ("TLLFT", Major::Refused), ("GOFWD", Major::Refused), ("GOLFT", Major::Refused),
-    ("GORGT", Major::Refused), ("GOBACK", Major::Refused), ("SPLINE", Major::Refused), ("NURBS", Major::Refused),
-    ("THREAD", Major::Refused), ("TURRET", Major::Refused), ("MIRROR", Major::Refused), ("ROTHED", Major::Refused), ("SCALE", Major::Refused), ("MATRIX", Major::Refused), ("REFSYS", Major::Refused),
+    ("GORGT", Major::Refused), ("GOBACK", Major::Refused), ("SPLINE", Major::Nurbs), ("NURBS", Major::Nurbs),
+    ("THREAD", Major::Thread), ("TURRET", Major::Turret), ("MIRROR", Major::Refused), ("ROTHED", Major::Refused), ("SCALE", Major::Refused), ("MATRIX", Major::Refused), ("REFSYS", Major::Refused),
 ];
 
 /// Words that must not be lost in a statement that is not known.
@@ -104,6 +109,10 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         Major::Godlta => godlta(words, state),
         Major::From => from(words, state),
         Major::Rapid => rapid(words, state),
+        Major::Gohome => {
+            job.notes.fact(shown(name, words));
+            gohome(words, state)
+        }
         Major::Circle => circle(words, None, state),
         Major::Movarc => circle(words, Some(Sense::RightHand), state),
         Major::Indirv => indirv(words, arcs),
@@ -112,10 +121,7 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         Major::Spindl => spindl(words, cycle, job),
         Major::Coolnt => coolnt(words, job),
         Major::Load => load(name, words, state),
-        Major::Cutter => {
-            job.tools.diameter = words.iter().find_map(Word::number);
-            Ok(())
-        }
+        Major::Cutter => cutter(words, job),
         Major::Cutcom => cutcom(words, &mut motion.cutcom, cycle, job),
         Major::Cycle => super::cycle::cycle(words, state),
         Major::Units => units(words, job),
@@ -125,16 +131,25 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         Major::Trans => trans(words, &mut motion.shift, false),
         Major::Origin => trans(words, &mut motion.shift, true),
         Major::Tlaxis => tlaxis(words, &mut motion.axis, job),
-        Major::Set => set(name, words),
+        Major::Set => set(name, words, job),
         Major::Auxfun => code('M', name, words, job),
         Major::Prefun => code('G', name, words, job),
         Major::Data => {
             data(words, job);
             Ok(())
         }
-        Major::Fact => {
+        Major::Machin => {
             job.notes.fact(shown(name, words));
+            if words.iter().any(|word| word.is("TURN") || word.is("LATHE")) { job.turning() } else { Ok(()) }
+        }
+        Major::Csys => {
+            job.notes.fact(shown(name, words));
+            csys(words, motion, job);
             Ok(())
+        }
+        Major::Turret => {
+            job.turning()?;
+            load(name, words, state)
         }
         Major::ToolPath => {
             job.notes.fact(shown(name, words));
@@ -147,6 +162,14 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         Major::Fini => super::cycle::end(cycle, job),
         Major::EndOfPath | Major::Ignored | Major::None => Ok(()),
         Major::Unknown => unknown(name, words, job),
+        Major::Thread => {
+            let help = "let the CAM system write its passes, or write the thread into a job by hand";
+            fault(Code::PL004, "THREAD: threads of CL files are not read", help)
+        }
+        Major::Nurbs => {
+            let help = "let the CAM system write lines and arcs: in NX by Motion Output Type of the operation";
+            fault(Code::PL004, format!("{name}: a spline, for which a form has no words"), help)
+        }
         Major::Refused => {
             let message = format!("{name} moves, shifts or turns something that postform can't follow");
             fault(Code::PL004, message, "let the CAM system write plain motions instead")
@@ -175,11 +198,32 @@ fn code(letter: char, name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
 }
 
 /// MODE and SET: what counts is whether positions stay positions.
-fn set(name: &str, words: &[Word]) -> Done {
+fn set(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
+    if name == "MODE" && words.first().is_some_and(|word| word.is("TURN")) {
+        if job.notes.dialect() == Dialect::Autodesk {
+            let help = "let the CAM system write JSON Lines, or an NC program, for a lathe";
+            return fault(
+                Code::PL004,
+                "turning by Autodesk's APT post, which mixes up speeds and surface speeds",
+                help,
+            );
+        }
+        return job.turning();
+    }
     if words.iter().any(|word| word.name().is_some_and(|name| name.starts_with("INCR"))) {
         let help = "let the CAM system write absolute positions";
         return fault(Code::PL004, format!("{name} asks for incremental positions"), help);
     }
+    Ok(())
+}
+
+/// CUTTER and TLDATA: the first number is the diameter, also of a tool that turns on a lathe.
+fn cutter(words: &[Word], job: &mut Job<'_>) -> Done {
+    if words.first().and_then(Word::name).is_some_and(|name| matches!(name, "TURN" | "GROOVE" | "THREAD")) {
+        job.tools.diameter = None;
+        return job.turning();
+    }
+    job.tools.diameter = words.iter().find_map(Word::number).filter(|diameter| *diameter > 0.0);
     Ok(())
 }
 
@@ -190,20 +234,6 @@ fn data(words: &[Word], job: &mut Job<'_>) {
         [Word::Name(word), ..] if word == "CSYS" || word == "MFGNO" => job.notes.fact(shown("", words)),
         _ => {}
     }
-}
-
-/// MSYS: where positions count from. One work offset can't stand for two.
-fn msys(words: &[Word], job: &mut Job<'_>) -> Done {
-    match &job.setup {
-        None => job.setup = Some((words.to_vec(), job.notes.place.line)),
-        Some((before, _)) if before.as_slice() == words => {}
-        Some((_, line)) => {
-            let message = format!("this MSYS is not that of line {line}: its positions count from another place");
-            let help = "let NX write the operations of each MSYS into a file of their own: each is a setup";
-            return fault(Code::PL004, message, help);
-        }
-    }
-    Ok(())
 }
 
 /// A statement as it is shown.

@@ -2,9 +2,10 @@
 
 use super::arcs::arc_to;
 use super::fault::{Done, fault};
-use super::feed::{feed_on_goto, feed_to_say};
+use super::feed::{approach, feed_on_goto, feed_to_say};
 use super::holes::point;
 use super::job::{Job, Waiting};
+use super::setups::must_agree;
 use super::state::{Axis, Feeds, Heading, Motion, Shift, State};
 use super::words::{Word, numbers};
 use crate::diag::Code;
@@ -60,24 +61,55 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
         state.job.close_holes()?;
     }
     let State { job, motion, arcs, feeds, .. } = state;
-    let axes = Axes::new(&to);
+    if !rapid {
+        approach(motion, feeds, job)?;
+    }
+    if let Some(frame) = motion.frame.take() {
+        must_agree(frame, motion.axis.0)?;
+    }
+    let axes = job.axes(to)?;
     // for arcs that do not say which way they turn
     if job.notes.report.dialect.and_then(super::Dialect::sense).is_none() {
         arcs.heading = motion.position.and_then(|from| Heading::between(from, to)).or(arcs.heading);
     }
+    let across = motion.position.is_none_or(|from| from[..2] != to[..2]);
     motion.position = Some(to);
-    if motion.cutcom.asked.is_some() {
+    // a control begins and ends compensation on a move in the plane: one along the depth alone leaves it to the next
+    if motion.cutcom.asked.is_some() && across {
         return compensate(axes, rapid, motion, feeds, job);
     }
     if rapid {
         // a tool's spindle may come after its first rapids
-        if job.changes() && job.spindle.now.speed.is_none() {
+        if !job.has_operation() || job.changes() && job.spindle.now.speed.is_none() {
             return job.wait(Waiting::Rapid(axes));
         }
         return job.push(Event::Rapid(axes));
     }
     let feed = feed_to_say(feeds, job)?;
     job.push(Event::Line { to: axes, feed })
+}
+
+/// GOHOME/x,y,z: a rapid to that point, up before across and across before down.
+pub(super) fn gohome(words: &[Word], state: &mut State<'_>) -> Done {
+    let values = numbers(words).unwrap_or_default();
+    let [x, y, z, axis @ ..] = values.as_slice() else {
+        let help = "say the place in the CAM system, as GOHOME/x,y,z, or take it out";
+        return fault(Code::PL004, "GOHOME to a place that only the machine knows", help);
+    };
+    if let [i, j, k] = axis {
+        set_axis([*i, *j, *k], &mut state.motion.axis, &mut state.job)?;
+    }
+    let to = state.motion.shift.of([*x, *y, *z]);
+    // away from the part: up on mills, outward on lathes
+    let away = if state.job.turns_part() { 0 } else { 2 };
+    if let Some(from) = state.motion.position.filter(|from| from[away] != to[away]) {
+        let mut corner = if to[away] > from[away] { from } else { to };
+        corner[away] = to[away].max(from[away]);
+        state.motion.rapid = true;
+        go(corner, state)?;
+    }
+    state.motion.rapid = true;
+    go(to, state)
 }
 
 /// The motion that turns cutter compensation on or off.
@@ -138,7 +170,7 @@ pub(super) fn rapid(words: &[Word], state: &mut State<'_>) -> Done {
 /// A tool axis other than the one so far is told, so that a machine that can't tilt refuses it.
 #[inline]
 fn set_axis(to: [f64; 3], axis: &mut Axis, job: &mut Job<'_>) -> Done {
-    if to == axis.0 {
+    if to == axis.0 || job.turns_part() {
         return Ok(());
     }
     let length = to.iter().map(|c| c * c).sum::<f64>().sqrt();

@@ -1,7 +1,7 @@
 //! What a caller may say about a CL file that the file leaves open.
 
 use super::dialect::Dialect;
-use crate::toolpath::Units;
+use crate::toolpath::{Spindle, SpindleTurn, Units};
 
 /// What a caller may choose.
 #[derive(Clone, Debug, Default)]
@@ -12,6 +12,63 @@ pub struct Options {
     pub units: Option<Units>,
     /// The tool of a file that loads none, or each by its name.
     pub tool: Option<Assumed>,
+    /// The spindle of tools for which the file says none.
+    pub speed: Option<AssumedSpeed>,
+    /// The feed until the file says one: lengths of the file a minute.
+    pub feed: Option<f64>,
+    /// Where the tool is before the first motion, of a file that begins with a cut.
+    pub start: Option<[f64; 3]>,
+    /// The file is whole, though it does not end as its system ends files.
+    pub end: bool,
+}
+
+/// Largest spindle speed.
+const FASTEST: f64 = 1e6;
+
+/// A spindle that a file does not say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AssumedSpeed {
+    /// Revolutions a minute.
+    pub rpm: f64,
+    /// Counter-clockwise.
+    pub ccw: bool,
+}
+
+impl AssumedSpeed {
+    /// As `--assume-speed` says it: `3000`, or `3000,CCLW`.
+    ///
+    /// # Errors
+    /// What to write instead.
+    pub fn parse(text: &str) -> Result<AssumedSpeed, String> {
+        let (speed, turn) = text.split_once(',').unwrap_or((text, "CLW"));
+        let ccw = match turn.trim().to_ascii_uppercase().as_str() {
+            "CLW" => Some(false),
+            "CCLW" => Some(true),
+            _ => None,
+        };
+        let rpm = speed.trim().parse::<f64>().ok().filter(|rpm| (0.0..=FASTEST).contains(rpm) && *rpm > 0.0);
+        let read = rpm.zip(ccw).map(|(rpm, ccw)| AssumedSpeed { rpm, ccw });
+        read.ok_or_else(|| "write revolutions a minute, as 3000 or 3000,CCLW".to_owned())
+    }
+
+    /// As events have it.
+    pub(super) fn spindle(self) -> Spindle {
+        let turn = if self.ccw { SpindleTurn::Ccw } else { SpindleTurn::Cw };
+        Spindle { speed: Some(self.rpm), turn: Some(turn), ..Spindle::default() }
+    }
+}
+
+/// A position as `--assume-start` says it: `X,Y,Z`.
+///
+/// # Errors
+/// What to write instead.
+pub fn parse_position(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Option<Vec<f64>> =
+        text.split(',').map(|part| part.trim().parse().ok().filter(|n: &f64| n.is_finite())).collect();
+    match numbers.as_deref() {
+        Some([x, y, z]) => Ok([*x, *y, *z]),
+        _ => Err("write X,Y,Z in units of the file, as 0,0,100".to_owned()),
+    }
 }
 
 /// Largest tool number.
@@ -66,6 +123,19 @@ mod tests {
         assert_eq!((named.of("MILL"), named.of("FACEMILL"), named.of("DRILL")), (Some(1.0), Some(2.0), None));
         for wrong in ["", "MILL", "MILL=", "MILL=1,DRILL", "100000000", "-1"] {
             assert!(Assumed::parse(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn speeds_and_positions_are_read_or_say_what_to_write() {
+        assert_eq!(AssumedSpeed::parse("3000"), Ok(AssumedSpeed { rpm: 3000.0, ccw: false }));
+        assert_eq!(AssumedSpeed::parse("1200.5, cclw"), Ok(AssumedSpeed { rpm: 1200.5, ccw: true }));
+        for wrong in ["", "0", "-5", "nan", "1e9", "100,LEFT", "CLW"] {
+            assert!(AssumedSpeed::parse(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(parse_position("1, -2.5,100"), Ok([1.0, -2.5, 100.0]));
+        for wrong in ["", "1,2", "1,2,3,4", "1,2,inf", "x,y,z"] {
+            assert!(parse_position(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -4,6 +4,7 @@ use std::io::Read;
 
 use super::cycle;
 use super::fault::{Done, fault};
+use super::feed_unit::Feed;
 use super::job::Job;
 use super::lines::{LONGEST, Lines, text_statement, without_comment};
 use super::majors::{Major, major, run};
@@ -31,6 +32,8 @@ struct Reader<'s> {
     /// FINI or END was there.
     ended: bool,
     insert: Insert,
+    /// The file is whole, whatever its last statement.
+    whole: bool,
 }
 
 /// Reads a CL file and pushes its events. Memory does not grow with the file.
@@ -44,9 +47,9 @@ pub fn read_cl(input: impl Read, options: &Options, report: &mut Report, sink: &
     let mut reader = Reader {
         state: State {
             job,
-            motion: Motion::default(),
+            motion: Motion { position: options.start, ..Motion::default() },
             arcs: Arcs::default(),
-            feeds: Feeds::default(),
+            feeds: Feeds { feed: options.feed.map(Feed::Minute), cut_off: None },
             cycle: Cycle::default(),
         },
         joined: Vec::new(),
@@ -54,6 +57,7 @@ pub fn read_cl(input: impl Read, options: &Options, report: &mut Report, sink: &
         major: Major::None,
         ended: false,
         insert: None,
+        whole: options.end,
     };
     let mut number = 0;
     while let Some(line) = lines.next().map_err(ReadError::Io)? {
@@ -176,11 +180,12 @@ impl Reader<'_> {
             return fault(Code::PL007, "the file ends inside a statement", "get the whole file");
         }
         let dialect = self.state.job.notes.dialect();
-        let ends = self.ended || self.major == Major::EndOfPath || dialect.last_statement().is_none();
+        let ends = self.whole || self.ended || self.major == Major::EndOfPath || dialect.last_statement().is_none();
         if !ends {
             let last = dialect.last_statement().unwrap_or("FINI");
             let message = format!("the file ends without {last}: it may be cut short");
-            return fault(Code::PL007, message, format!("get the whole file, or put {last} at its end"));
+            let help = format!("get the whole file; if it is whole, put {last} at its end, or say `--assume-end`");
+            return fault(Code::PL007, message, help);
         }
         cycle::end(&mut self.state.cycle, &mut self.state.job)?;
         self.state.job.finish()

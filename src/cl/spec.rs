@@ -3,7 +3,7 @@
 use super::coded::Coded;
 use super::cycle_words::Opt;
 use super::fault::{Done, fault};
-use super::feed::{feed_of, per_minute};
+use super::feed::{counted, feed_of};
 use super::job::Job;
 use super::state::Cycle;
 use crate::cycle::stepped_pecks;
@@ -90,7 +90,7 @@ fn depths(job: &Job<'_>, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -
     let mut of_groups = Vec::new();
     for group in &coded.groups {
         if let Some((unit, value)) = &group.feed {
-            last = feed_of(job, unit, *value)?.map(|feed| per_minute(job, feed)).transpose()?;
+            last = feed_of(job, unit, *value)?.map(|feed| counted(job, feed)).transpose()?;
         }
         of_groups.push(last);
     }

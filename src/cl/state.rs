@@ -1,7 +1,9 @@
 //! What a file has said so far, in parts by the statements that touch them.
 
 use super::coded::Coded;
+use super::cycle_dialects::Heights;
 use super::dialect::Sense;
+use super::feed_unit::Feed;
 use super::job::Job;
 use crate::toolpath::{CycleSpec, LastDwell, Side};
 
@@ -29,6 +31,8 @@ pub(super) struct Motion {
     /// So is it after the end of a cycle, unless a feed comes first.
     pub rapid_after_cycle: bool,
     pub cutcom: Cutcom,
+    /// A coordinate system of the file that no motion has been in: along z of its z axis, and its line.
+    pub frame: Option<(f64, u64)>,
 }
 
 /// The tool axis, a unit vector; a file begins with an upright tool.
@@ -105,15 +109,10 @@ pub(super) struct PendingArc {
     pub radius: Option<f64>,
     /// The sense, where the statement itself has one.
     pub sense: Option<Sense>,
-}
-
-/// A feed as it was said.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Feed {
-    /// Lengths of the file a minute.
-    Minute(f64),
-    /// Lengths of the file a revolution.
-    Revolution(f64),
+    /// TIMES,n: it is the n-th time that the tool comes to the end.
+    pub times: Option<u32>,
+    /// ANGLE,a: degrees from the beginning to the end.
+    pub angle: Option<f64>,
 }
 
 /// The feed in force.
@@ -134,6 +133,19 @@ pub(super) enum ReturnMode {
     Off,
 }
 
+/// Where a cycle comes back to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum CodedReturn {
+    /// As high as its clearance.
+    Clearance,
+    /// So high above its first point.
+    Above(f64),
+    /// Where the tool was before.
+    Start,
+    /// At this height of the file.
+    Height(f64),
+}
+
 /// The cycle in force, and what is remembered from one to the next.
 #[derive(Debug, Default)]
 pub(super) struct Cycle {
@@ -143,8 +155,10 @@ pub(super) struct Cycle {
     pub dwell: LastDwell,
     pub emulate: bool,
     pub return_mode: ReturnMode,
-    /// RETURN as the statement said it: above the first point; `None` within: as high as the clearance.
-    pub coded_return: Option<Option<f64>>,
+    /// The return plane as the statement said it.
+    pub coded_return: Option<CodedReturn>,
+    /// Heights that a system says instead of a clearance.
+    pub heights: Option<Heights>,
     /// The return plane, once its first point is known: as a height of the file.
     pub plane: Option<Option<f64>>,
 }

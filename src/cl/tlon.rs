@@ -39,13 +39,20 @@ pub(super) fn tlon(words: &[Word], state: &mut State<'_>) -> Done {
     }
     let shift = &state.motion.shift;
     let (centre, to) = (shift.of(centre), shift.of(to));
-    let radius = [from[0] - centre[0], from[1] - centre[1], 0.0];
-    let turn = cross(radius, direction)[2];
-    if turn.abs() < 0.1 * radius[0].hypot(radius[1]) * direction[0].hypot(direction[1]) {
+    let axis = if state.job.turns_part() { 1 } else { 2 };
+    let in_plane = |mut vector: [f64; 3]| {
+        vector[axis] = 0.0;
+        vector
+    };
+    let radius = in_plane([from[0] - centre[0], from[1] - centre[1], from[2] - centre[2]]);
+    let direction = in_plane(direction);
+    let turn = cross(radius, direction)[axis];
+    let length = |vector: [f64; 3]| vector.iter().map(|c| c * c).sum::<f64>().sqrt();
+    if turn.abs() < 0.1 * length(radius) * length(direction) {
         let help = "INDIRV must lie along the arc";
         return fault(Code::PL004, "INDIRV points to the centre, so nothing says which way the arc turns", help);
     }
     state.motion.point = Some(to);
-    let arc = PendingArc { centre, axis: 2, up: true, radius: None, sense: None };
+    let arc = PendingArc { centre, axis, up: true, radius: None, sense: None, times: None, angle: None };
     arc_event(&arc, to, turn > 0.0, state)
 }

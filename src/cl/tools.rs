@@ -1,8 +1,6 @@
 //! Tools and the spindle: what the file has said of them, for the tool change that comes.
 
-use super::fault::{Done, fault};
-use super::options::Assumed;
-use crate::diag::Code;
+use super::options::{Assumed, AssumedSpeed};
 use crate::toolpath::{Coolant, Spindle, SpindleTurn};
 
 /// Tools of a file.
@@ -16,6 +14,8 @@ pub(super) struct Tools {
     pub name: Option<String>,
     /// Tools that were named and not loaded.
     not_loaded: Vec<String>,
+    /// The number that was loaded last.
+    pub loaded: Option<f64>,
     /// The greatest number that was loaded.
     pub greatest: f64,
     /// The coolant, which stays from tool to tool.
@@ -28,29 +28,36 @@ impl Tools {
         Tools { assumed, ..Tools::default() }
     }
 
-    /// The number of a tool that is not loaded; `None`: nobody says it, which the renderer tells.
-    pub fn assumed(&mut self, first: bool) -> Done<Option<f64>> {
+    /// The number of a tool that is not loaded. `first`: no tool was before it.
+    ///
+    /// # Errors
+    /// The option that says it.
+    pub fn number(&self, first: bool) -> Result<f64, String> {
         let assumed = self.assumed.as_ref();
         let one = assumed.and_then(Assumed::one).filter(|_| first);
-        let Some(name) = &self.name else { return Ok(one) };
-        if !self.not_loaded.contains(name) {
-            self.not_loaded.push(name.clone());
-        }
-        let number = one.or_else(|| assumed.and_then(|list| list.of(name)));
-        let only = first && !matches!(assumed, Some(Assumed::Named(_)));
-        if number.is_some() || only {
+        let named = |name: &String| assumed.and_then(|list| list.of(name));
+        if let Some(number) = one.or_else(|| self.name.as_ref().and_then(named)) {
             return Ok(number);
         }
+        if self.name.is_none() {
+            return Err("--assume-tool 1".into());
+        }
         let mut next = self.greatest;
-        let all = self.not_loaded.iter().map(|name| {
-            let number = assumed.and_then(|list| list.of(name)).unwrap_or_else(|| {
+        let new = self.name.iter().filter(|name| !self.not_loaded.contains(name));
+        let all = self.not_loaded.iter().chain(new).map(|name| {
+            let number = named(name).unwrap_or_else(|| {
                 next += 1.0;
                 next
             });
             format!("{name}={number}")
         });
-        let help = format!("say the number of each with `--assume-tool {}`", all.collect::<Vec<_>>().join(","));
-        fault(Code::PJ006, format!("the file names the tool {name} and does not load it"), help)
+        Err(format!("--assume-tool {}", all.collect::<Vec<_>>().join(",")))
+    }
+
+    /// The tool in use was not loaded, and has a number all the same.
+    pub fn goes_by_its_name(&mut self) {
+        let new = self.name.iter().filter(|name| !self.not_loaded.contains(name)).cloned().collect::<Vec<_>>();
+        self.not_loaded.extend(new);
     }
 }
 
@@ -63,9 +70,38 @@ pub(super) struct Turning {
     last: Option<SpindleTurn>,
     /// It was said since the last motion, so perhaps for the tool that comes.
     pub is_new: bool,
+    /// What turns a tool for which the file says nothing.
+    assumed: Option<Spindle>,
 }
 
 impl Turning {
+    /// Before any SPINDL.
+    pub fn new(assumed: Option<AssumedSpeed>) -> Self {
+        Turning { assumed: assumed.map(AssumedSpeed::spindle), ..Turning::default() }
+    }
+
+    /// What is in force: as said, else as assumed.
+    pub fn in_force(&self) -> Spindle {
+        match self.assumed {
+            Some(assumed) if self.says_no_speed() => {
+                Spindle { speed: assumed.speed, turn: self.now.turn.or(assumed.turn), ..self.now }
+            }
+            _ => self.now,
+        }
+    }
+
+    /// Nothing says how fast it turns, nor that it stands.
+    #[inline]
+    pub fn says_no_speed(&self) -> bool {
+        self.now.speed.is_none() && self.now.turn != Some(SpindleTurn::Off)
+    }
+
+    /// Is there a speed to cut with, or does it stand as it was told?
+    #[inline]
+    pub fn is_known(&self) -> bool {
+        !self.says_no_speed() || self.assumed.is_some()
+    }
+
     /// The direction that SPINDL/ON asks for.
     pub fn direction(&self) -> SpindleTurn {
         self.last.unwrap_or(SpindleTurn::Cw)
@@ -85,7 +121,8 @@ impl Turning {
 
     /// Revolutions a minute, where it turns at a fixed speed.
     pub fn rpm(&self) -> Option<f64> {
-        let turns = self.now.turn.is_some_and(|turn| turn != SpindleTurn::Off) && self.now.css != Some(true);
-        self.now.speed.filter(|&rpm| turns && rpm > 0.0)
+        let now = self.in_force();
+        let turns = now.turn.is_some_and(|turn| turn != SpindleTurn::Off) && now.css != Some(true);
+        now.speed.filter(|&rpm| turns && rpm > 0.0)
     }
 }

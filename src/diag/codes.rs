@@ -182,6 +182,7 @@ codes! {
     PL006 Error "a dialect that must be named"
     PL007 Error "the file is cut short"
     PL008 Warning "something that is printed as something else"
+    PL009 Error "something that the file must say, or an option"
     // PC: canned cycles; the first word is the name that cycles have for it everywhere (docs/cycles.md)
     PC001 Error "cycle.type.unknown: no such cycle"
     PC002 Error "cycle.depth.missing: the cycle has no depth"

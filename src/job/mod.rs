@@ -9,7 +9,7 @@ use std::fmt;
 use std::io::{self, BufReader, Cursor, Read, Seek};
 use std::rc::Rc;
 
-use crate::cl::{self, Assumed, Dialect, Report, read_cl};
+use crate::cl::{self, Assumed, AssumedSpeed, Dialect, Report, read_cl};
 use crate::control::Control;
 use crate::error::Error;
 use crate::nc::{JobOptions, Settings, Unpointed, read_program};
@@ -26,6 +26,14 @@ pub struct Reading {
     pub units: Option<Units>,
     /// The tool number of a CL file or program that loads none, or of each tool that a CL file names.
     pub tool: Option<Assumed>,
+    /// The spindle of tools for which a CL file says none.
+    pub speed: Option<AssumedSpeed>,
+    /// The feed of a CL file that says none: units of the file a minute.
+    pub feed: Option<f64>,
+    /// Where the tool is before a CL file that begins with a cut, in units of the file.
+    pub start: Option<[f64; 3]>,
+    /// A CL file is whole, though it does not end as its system ends files.
+    pub end: bool,
     /// Whose rules an NC program follows; else Fanuc's.
     pub control: Option<&'static Control>,
     /// The name or label of the job of a FreeCAD document that has several.
@@ -237,7 +245,15 @@ fn read_once(
     match format {
         Format::JsonLines => read_lines(input, sink),
         Format::Cl => {
-            let options = cl::Options { dialect: reading.dialect, units: reading.units, tool: reading.tool.clone() };
+            let options = cl::Options {
+                dialect: reading.dialect,
+                units: reading.units,
+                tool: reading.tool.clone(),
+                speed: reading.speed,
+                feed: reading.feed,
+                start: reading.start,
+                end: reading.end,
+            };
             read_cl(input, &options, report, sink)
         }
         _ => read_document(input, sink),

@@ -8,7 +8,7 @@ use crate::support::root;
 
 #[test]
 fn transcripts() {
-    trycmd::TestCases::new().case("README.md").case("docs/*.md").case("tests/cmd/*.trycmd");
+    trycmd::TestCases::new().case("README.md").case("docs/*.md").case("docs/sources/*.md").case("tests/cmd/*.trycmd");
 }
 
 /// The README's commands for a fresh machine: the first renders, the second is what CI runs.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use postform::cl::{Assumed, Dialect};
+use postform::cl::{Assumed, AssumedSpeed, Dialect, parse_position};
 use postform::diag::{Diag, Severity};
 use postform::render::Cycles;
 use postform::toolpath::Units;
@@ -39,7 +39,7 @@ pub struct ReadArgs {
     /// Which job of a FreeCAD document that has several, by its name or label
     #[arg(long = "job", value_name = "NAME")]
     pub job_name: Option<String>,
-    /// Who wrote a CL file: gener, catia, creo, nx, solidworks, makino, ncl [default: by its first lines]
+    /// Who wrote a CL file: gener, catia, creo, nx, solidworks, makino, ncl, autodesk [default: by its first lines]
     #[arg(long, value_name = "SYSTEM", value_parser = Dialect::parse)]
     pub dialect: Option<Dialect>,
     /// Units of a CL file or program that does not say them
@@ -48,12 +48,29 @@ pub struct ReadArgs {
     /// Tool number of a CL file or program that loads none; of a CL file that names several: NAME=1,OTHER=2
     #[arg(long, value_name = "NUMBER", value_parser = Assumed::parse)]
     pub assume_tool: Option<Assumed>,
+    /// Spindle of tools for which a CL file says none: revolutions a minute, with ,CCLW for left-hand tools
+    #[arg(long, value_name = "RPM", value_parser = AssumedSpeed::parse)]
+    pub assume_speed: Option<AssumedSpeed>,
+    /// Feed of a CL file that says none: units of the file a minute
+    #[arg(long, value_name = "FEED", value_parser = positive)]
+    pub assume_feed: Option<f64>,
+    /// Where the tool is before a CL file that begins with a cut
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_position, allow_hyphen_values = true)]
+    pub assume_start: Option<[f64; 3]>,
+    /// A CL file is whole, though it does not end as its system ends files
+    #[arg(long)]
+    pub assume_end: bool,
     /// Whose rules a job that is an NC program follows [default: fanuc]
     #[arg(long, value_name = "CONTROL", value_parser = control_parser())]
     pub job_control: Option<&'static Control>,
     /// What a length without a point means in a job that is an NC program [default: it is an error]
     #[arg(long, value_name = "MEANING")]
     pub job_no_point: Option<NoPoint>,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|n| n.is_finite() && *n > 0.0);
+    number.ok_or_else(|| "write a number above zero".to_owned())
 }
 
 impl From {
@@ -79,7 +96,16 @@ impl ReadArgs {
         reading.control = self.job_control;
         reading.job = self.job_name.clone();
         reading.unpointed = self.job_no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
+        reading.speed = self.assume_speed;
+        reading.feed = self.assume_feed;
+        reading.start = self.assume_start;
+        reading.end = self.assume_end;
         reading
+    }
+
+    /// Is something assumed that only a CL file can leave open?
+    pub fn assumes_of_cl(&self) -> bool {
+        self.assume_speed.is_some() || self.assume_feed.is_some() || self.assume_start.is_some() || self.assume_end
     }
 }
 

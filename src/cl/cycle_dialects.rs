@@ -1,0 +1,153 @@
+//! CYCLE statements of other systems in GENER's words.
+
+use super::dialect::Dialect;
+use super::fault::{Done, fault};
+use super::words::Word;
+use crate::diag::Code;
+
+fn name(text: &str) -> Word {
+    Word::Name(text.into())
+}
+
+/// The statement in GENER's words: what other systems call the same.
+///
+/// # Errors
+/// What GENER has no words for.
+pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>> {
+    let mut out: Vec<Word> = Vec::with_capacity(words.len() + 2);
+    let mut flips = false;
+    let mut words = words.iter().peekable();
+    let mut first_peck = None;
+    while let Some(word) = words.next() {
+        let at_type = out.is_empty();
+        let other = match (dialect, word.name().unwrap_or("")) {
+            (Dialect::Ncl, "FEDTO") if out.first().is_some_and(|word| word.is("CSINK")) => {
+                // diameter and angle
+                out.push(name("DIAMET"));
+                out.extend(words.next().cloned());
+                name("TLANGL")
+            }
+            (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "FEDTO") => {
+                flips = dialect == Dialect::Nx; // signed along the axis there, downward elsewhere
+                name("DEPTH")
+            }
+            (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "RAPTO") => name("CLEAR"),
+            // to where the tool was before the cycle, which is told elsewhere
+            (Dialect::Nx, "RTRCTO") if words.next_if(|word| word.is("AUTO")).is_some() => continue,
+            (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "RTRCTO") => name("RETURN"),
+            (Dialect::Nx, "BORE") if at_type => {
+                out.extend(nx_bore(words.next_if(|word| word.name().is_some_and(|name| NX_BORES.contains(&name))))?);
+                continue;
+            }
+            (Dialect::SolidWorksCam, "DEEP2") if at_type => name("DEEP"),
+            (Dialect::SolidWorksCam, "INCR") => name("STEP"),
+            (Dialect::SolidWorksCam, "1STPECK") => {
+                first_peck = words.next().cloned();
+                continue;
+            }
+            (Dialect::SolidWorksCam, "SUBPECK") => {
+                out.push(name("STEP"));
+                out.extend(first_peck.take());
+                continue;
+            }
+            // PostWorks' names are the reverse of GENER's, and its BORE feeds out
+            (Dialect::Ncl, "DEEP") if at_type => name("BRKCHP"),
+            (Dialect::Ncl, "THRU") if at_type => name("DEEP"),
+            (Dialect::Ncl, "BORE") if at_type => name("REAM"),
+            (Dialect::Ncl, "REVERS") if at_type => {
+                out.push(name("TAP"));
+                name("INVERS")
+            }
+            _ => match word {
+                Word::Number(value) if std::mem::take(&mut flips) => Word::Number(-value),
+                word => word.clone(),
+            },
+        };
+        out.push(other);
+    }
+    if let Some(first) = first_peck {
+        out.extend([name("STEP"), first]);
+    }
+    Ok(out)
+}
+
+/// What changes the BORE of NX.
+const NX_BORES: [&str; 4] = ["DRAG", "NODRAG", "BACK", "MANUAL"];
+
+/// BORE of NX feeds out; with DRAG it stops the spindle and comes out by rapid, with NODRAG off the wall.
+fn nx_bore(kind: Option<&Word>) -> Done<Vec<Word>> {
+    Ok(match kind.and_then(Word::name) {
+        None => vec![name("REAM")],
+        Some("DRAG") => vec![name("BORE")],
+        Some("NODRAG") => vec![name("BORE"), name("ORIENT")],
+        Some("BACK") => vec![name("BORE"), name("BACK")],
+        Some(_) => {
+            let help = "bore with BORE, DRAG or NODRAG in NX";
+            return fault(Code::PC001, "a bore that is left by hand", help);
+        }
+    })
+}
+
+/// Does a cycle of NX return to where the tool was before it?
+pub(super) fn returns_to_start(words: &[Word], dialect: Dialect) -> bool {
+    dialect == Dialect::Nx && words.windows(2).any(|pair| pair[0].is("RTRCTO") && pair[1].is("AUTO"))
+}
+
+/// What a cycle of Autodesk says by heights of the file. Its points are the bottoms of holes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Heights {
+    /// From the top of a hole to its bottom.
+    pub depth: f64,
+    /// Where the tool goes from hole to hole.
+    pub clearance: f64,
+    /// Where rapids end and feeds begin.
+    pub retract: f64,
+}
+
+/// CYCLE/type,depth[,INCR,step],unit,feed,clearance[,RAPTO,down][,DWELL,seconds] of Autodesk's ISO 4343 post, in GENER's words
+/// without a clearance.
+pub(super) fn autodesk(words: &[Word]) -> Done<(Vec<Word>, Heights)> {
+    let (Some(kind), Some(Word::Number(depth))) = (words.first().and_then(Word::name), words.get(1)) else {
+        let help = "Autodesk writes CYCLE/DRILL, depth, MMPM, feed, clearance";
+        return fault(Code::PC037, "a cycle of Autodesk without its depth", help);
+    };
+    if !matches!(kind, "DRILL" | "REAM" | "DEEP" | "BRKCHP" | "TAP") {
+        let message = format!("Autodesk writes CYCLE/{kind} for cycles that come out in different ways");
+        return fault(Code::PC001, message, "expand the cycle in the CAM system, or ream");
+    }
+    let mut out = vec![name(kind), name("DEPTH"), Word::Number(*depth)];
+    let (mut clearance, mut down) = (None, 0.0);
+    let mut rest = &words[2..];
+    loop {
+        rest = match rest {
+            [] => break,
+            [word, step @ Word::Number(_), after @ ..] if word.is("INCR") => {
+                out.extend([name("STEP"), step.clone()]);
+                after
+            }
+            [unit, feed @ Word::Number(_), Word::Number(height), after @ ..] if unit.is("MMPM") || unit.is("IPM") => {
+                out.extend([unit.clone(), feed.clone()]);
+                clearance = Some(*height);
+                after
+            }
+            [word, Word::Number(by), after @ ..] if word.is("RAPTO") => {
+                down = *by;
+                after
+            }
+            [word, time @ Word::Number(_), after @ ..] if word.is("DWELL") => {
+                out.extend([word.clone(), time.clone()]);
+                after
+            }
+            [word, ..] => {
+                let help =
+                    "postform reads CYCLE/type, depth, INCR, step, MMPM, feed, clearance, RAPTO, down, DWELL, seconds";
+                return fault(Code::PC018, format!("`{word}` in a cycle of Autodesk"), help);
+            }
+        };
+    }
+    let Some(clearance) = clearance.filter(|_| *depth > 0.0 && down >= 0.0) else {
+        let help = "Autodesk writes CYCLE/DRILL, depth, MMPM, feed, clearance";
+        return fault(Code::PC037, "a cycle of Autodesk without its depth, feed and clearance", help);
+    };
+    Ok((out, Heights { depth: *depth, clearance, retract: clearance - down }))
+}

@@ -5,6 +5,7 @@ mod allocations;
 mod architecture;
 mod bad_input;
 mod cl;
+mod cl_points;
 mod commands;
 mod cycles;
 mod diff;

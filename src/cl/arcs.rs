@@ -157,7 +157,7 @@ fn turns(arc: &PendingArc, from: Option<[f64; 3]>, to: [f64; 3], ccw: bool) -> D
     }
     let least = way.rem_euclid(360.0);
     // what begins where it ends is a whole turn
-    let least = if least < ANGLE_OFF || least > 360.0 - ANGLE_OFF { 360.0 } else { least };
+    let least = if (ANGLE_OFF..=360.0 - ANGLE_OFF).contains(&least) { least } else { 360.0 };
     Ok(((angle - least) / 360.0).round().max(0.0) as u32)
 }
 

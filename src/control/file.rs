@@ -6,6 +6,7 @@ use std::fmt;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::arcs::{Arcs, Tolerance};
 use super::code::Code;
 use super::hole::Hole;
 use super::meaning::Meaning;
@@ -46,7 +47,7 @@ struct File {
     title: Option<String>,
     like: Option<Spanned<String>>,
     rules: Option<Rules>,
-    only: Option<Spanned<String>>,
+    complete: Option<bool>,
     #[serde(default)]
     numbers: Numbers,
     #[serde(default)]
@@ -60,9 +61,11 @@ struct File {
     #[serde(default)]
     stops: Stops,
     #[serde(default)]
-    arcs: Arcs,
+    arcs: ArcsText,
     #[serde(default)]
     tool: Tool,
+    #[serde(default)]
+    coolant: CoolantText,
     #[serde(default)]
     codes: BTreeMap<Spanned<String>, RowText>,
 }
@@ -72,6 +75,7 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct Text {
     line: Option<usize>,
+    comments_count: Option<bool>,
     longer: Option<Longer>,
     open_comments: Option<bool>,
     small_letters: Option<bool>,
@@ -109,8 +113,11 @@ struct Stops {
 /// `[arcs]`.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Arcs {
+struct ArcsText {
     centres: Option<Centres>,
+    /// In millimetres, and in inches where other lengths count there.
+    mm: Option<Tolerance>,
+    inch: Option<Tolerance>,
 }
 
 /// What becomes of a block that is longer.
@@ -121,12 +128,20 @@ enum Longer {
     Cut,
 }
 
-/// `[words]`: words that need no code.
+/// `[words]`: the letters of all words, and words that need no code.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WordsOf {
+    letters: Option<Spanned<String>>,
     everywhere: Option<Spanned<String>>,
     work: Option<Spanned<String>>,
+}
+
+/// `[coolant]`: what of it the machine has.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CoolantText {
+    mist: Option<bool>,
 }
 
 /// `[tool]`: its length.
@@ -231,6 +246,9 @@ impl Reader<'_> {
         take(&mut traits.rules, file.rules);
         traits.longest_line = file.text.line.or(traits.longest_line);
         take(&mut traits.stops_at_longer, file.text.longer.map(|longer| longer == Longer::Stops));
+        take(&mut traits.complete, file.complete);
+        take(&mut traits.bare_line, file.text.comments_count.map(|count| !count));
+        take(&mut traits.no_mist, file.coolant.mist.map(|mist| !mist));
         take(&mut traits.open_comments, file.text.open_comments);
         take(&mut traits.small_letters, file.text.small_letters);
         take(&mut traits.without_point, file.numbers.length_without_point);
@@ -246,19 +264,13 @@ impl Reader<'_> {
         if let Some(letter) = &file.words.work {
             traits.work_letter = Some(self.letter(letter)?);
         }
-        if let Some(only) = &file.only {
-            traits.only = self.codes(only)?;
+        if let Some(letters) = &file.words.letters {
+            traits.letters = self.words(letters)?;
+        }
+        if let Some(mm) = file.arcs.mm {
+            traits.arcs = Arcs { mm, inch: file.arcs.inch };
         }
         Ok(())
-    }
-
-    /// Codes with blanks between them.
-    fn codes(&self, text: &Spanned<String>) -> Result<Vec<Code>, Wrong> {
-        let parse = |word: &str| {
-            word.parse()
-                .map_err(|_| self.wrong(text.span().start, format!("`{word}` is no code"), "write G0, G59.1 or M3"))
-        };
-        text.get_ref().split_ascii_whitespace().map(parse).collect()
     }
 
     fn letter(&self, text: &Spanned<String>) -> Result<u8, Wrong> {

@@ -3,6 +3,7 @@
 //! A file says which codes the control has and what they mean, by the names of [`Meaning`]; what the meanings do is the
 //! program's. What a file does not say is as in the control that it is `like`.
 
+mod arcs;
 mod code;
 mod file;
 mod hole;
@@ -12,6 +13,7 @@ mod words;
 
 use std::sync::LazyLock;
 
+pub use arcs::{Arcs, Tolerance};
 pub use code::{Code, NoCode};
 pub use file::Wrong;
 pub use hole::Hole;
@@ -208,7 +210,26 @@ impl Control {
         self.traits.rules
     }
 
-    /// Has it the interpreter of LinuxCNC and its predecessors?
+    /// How far an arc's numbers may be from one circle, in programs in inches or in millimetres.
+    pub fn arc_tolerance(&self, inch: bool) -> Tolerance {
+        self.traits.arcs.tolerance(inch)
+    }
+
+    /// Does it read words of this letter, as far as anything public says?
+    pub fn reads(&self, letter: u8) -> bool {
+        self.traits.letters == Words::NONE || self.traits.letters.has(letter)
+    }
+
+    /// Has it a code of this meaning?
+    pub fn has(&self, meaning: Meaning) -> bool {
+        self.rows().any(|row| row.meaning == meaning && self.is_there(row))
+    }
+
+    fn is_there(&self, row: &Row) -> bool {
+        row.meaning != Meaning::Mist || !self.traits.no_mist
+    }
+
+    /// Does it run programs as NIST's interpreter does, from which LinuxCNC, its predecessors and Grbl come?
     pub fn is_linuxcnc(&self) -> bool {
         self.traits.rules != Rules::Fanuc
     }
@@ -223,6 +244,7 @@ impl Control {
                     .find(|row| row.code.letter == code.letter && row.code.tenths / 10 == code.tenths / 10)
             })
             .or_else(|| rows.others.iter().find(|row| row.code.letter == code.letter))
+            .filter(|row| self.is_there(row))
     }
 
     /// What a code means on it. `None`: nobody knows.
@@ -252,7 +274,7 @@ impl Control {
 
     /// Is it known to refuse a code?
     pub fn refuses(&self, code: Code) -> bool {
-        !self.traits.only.is_empty() && !self.traits.only.contains(&code)
+        self.traits.complete && self.row(code).is_none()
     }
 
     /// Its rows of single codes, in their order.

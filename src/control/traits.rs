@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::code::Code;
+use super::arcs::Arcs;
 use super::words::Words;
 
 /// By whose rules programs are run: what no table says, as in which order a block acts.
@@ -16,6 +16,8 @@ pub enum Rules {
     Linuxcnc,
     /// EMC as its manual of about 2005 describes the cycles; else as LinuxCNC.
     Emc2,
+    /// Grbl 1.1, as its own parser answers.
+    Grbl,
 }
 
 /// What a length without a point counts.
@@ -121,6 +123,14 @@ pub struct Traits {
     pub everywhere: Words,
     /// The letter of a word that selects a work offset, beside its codes.
     pub work_letter: Option<u8>,
-    /// All its codes, where they are known: it refuses others. Empty: they are not.
-    pub only: Vec<Code>,
+    /// The letters of all words that it reads; none: nothing public says.
+    pub letters: Words,
+    /// Blanks and comments do not count for the length of a block.
+    pub bare_line: bool,
+    /// It has no mist coolant.
+    pub no_mist: bool,
+    /// How far an arc's numbers may be from one circle.
+    pub arcs: Arcs,
+    /// All its codes are known: it refuses others.
+    pub complete: bool,
 }

@@ -8,6 +8,14 @@ impl Words {
     /// None of them.
     pub const NONE: Words = Words(0);
 
+    /// All of them.
+    pub const ALL: Words = Words::of("ABCDEFGHIJKLMNOPQRSTUVWXYZ");
+
+    /// Is this letter one of them?
+    pub const fn has(self, letter: u8) -> bool {
+        letter.is_ascii_uppercase() && self.0 & 1 << (letter - b'A') != 0
+    }
+
     /// These capital letters; others count for nothing.
     pub const fn of(text: &str) -> Words {
         let (mut bits, mut i) = (0, 0);

@@ -5,6 +5,7 @@ use super::block::Block;
 use super::codes::letters;
 use super::fault::{Done, refuse};
 use super::machine::{Machine, Out};
+use crate::control::Tolerance;
 use crate::diag::Code;
 use crate::toolpath::{Direction, Plane, Units};
 
@@ -36,7 +37,7 @@ impl Machine {
             }
             (Some(radius), _) => {
                 let (a, b) = ([from[first], from[second]], [to[first], to[second]]);
-                let at = center_of(a, b, radius, direction, self.units)?;
+                let at = center_of(a, b, radius, direction, self.arc_tolerance().chord)?;
                 (center[first], center[second]) = (at[0], at[1]);
             }
             (None, [None, None]) => {
@@ -79,14 +80,16 @@ impl Machine {
         Ok(())
     }
 
-    /// Both ends must lie on one circle, as near as LinuxCNC was seen to ask; a Fanuc has a parameter for it.
+    fn arc_tolerance(&self) -> Tolerance {
+        self.control.arc_tolerance(self.units == Units::Inch)
+    }
+
+    /// Both ends must lie on one circle.
     fn check_radii(&self, from: [f64; 6], to: [f64; 6], center: [f64; 3]) -> Done {
         let [first, second, _] = axes_of(self.plane);
         let radius = |at: &[f64; 6]| (at[first] - center[first]).hypot(at[second] - center[second]);
         let (start, end) = (radius(&from), radius(&to));
-        let difference = (start - end).abs();
-        let (most, least) = if self.units == Units::Inch { (0.05, 0.002_828) } else { (0.5, 0.028_28) };
-        if start == 0.0 || difference > most || (difference > least && difference > 0.001 * start) {
+        if start == 0.0 || self.arc_tolerance().refuses(start, end) {
             let message = format!("the arc begins at radius {start:.5} and ends at {end:.5}");
             return refuse(Code::PN009, message, "look at its end, its centre, and G90.1 or G91.1");
         }
@@ -95,14 +98,15 @@ impl Machine {
 }
 
 /// The centre of an arc by its radius, negative for the longer way.
-fn center_of(from: [f64; 2], to: [f64; 2], radius: f64, direction: Direction, units: Units) -> Done<[f64; 2]> {
+///
+/// `slack`: so much may it be too short.
+pub(super) fn center_of(from: [f64; 2], to: [f64; 2], radius: f64, direction: Direction, slack: f64) -> Done<[f64; 2]> {
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     let chord = dx.hypot(dy);
     if chord == 0.0 {
         return refuse(Code::PN009, "a full circle by R", "write its centre: any circle goes through one point");
     }
     let half = chord / 2.0;
-    let slack = if units == Units::Inch { 0.000_05 } else { 0.001_27 };
     if half > radius.abs() + slack {
         let message = format!("R{radius} is too small: the ends are {chord:.5} apart");
         return refuse(Code::PN009, message, format!("R must be at least {half:.5}"));

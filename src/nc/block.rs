@@ -7,7 +7,7 @@ use super::flow::Flow;
 use super::machine::{NO_MOTION, Settings};
 use super::parameters::{Parameters, Target};
 use super::scan::{Kind, tokens, tokens_from};
-use crate::control::{Control, GROUPS, Row};
+use crate::control::{Control, GROUPS, Row, Rules};
 use crate::diag::Code;
 
 /// Most G codes and M codes of a block that are kept.
@@ -49,6 +49,8 @@ pub struct Block {
     is_empty: bool,
     /// A comment may go on to the end of its line.
     open_comments: bool,
+    /// The line without what its control drops before it reads it.
+    pub text: Vec<u8>,
 }
 
 impl Block {
@@ -106,13 +108,9 @@ impl Block {
         self.is_empty
     }
 
-    /// Reads a line.
-    ///
-    /// # Errors
-    /// What the control can't read, or refuses before it does anything.
-    pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, settings: &Settings) -> Done {
-        let control = settings.control;
-        self.open_comments = control.traits().open_comments;
+    /// Nothing is in it.
+    #[inline]
+    pub fn clear(&mut self) {
         self.given = 0;
         self.whole = 0;
         self.m_count = 0;
@@ -127,6 +125,44 @@ impl Block {
         self.percent = false;
         self.comment = None;
         self.flow = None;
+    }
+
+    /// Puts a word in.
+    pub fn put(&mut self, letter: u8, value: f64) {
+        self.is_empty &= letter == b'N';
+        self.given |= bit(letter);
+        self.values[usize::from(letter - b'A')] = value;
+    }
+
+    /// Puts a G code in; is it the first of its group?
+    pub fn put_g(&mut self, row: &'static Row, its_group: Group, takes_axes: bool) -> bool {
+        self.is_empty = false;
+        self.has_g = true;
+        self.takes_axes |= takes_axes;
+        self.has_modes |= !matches!(its_group, Group::Motion | Group::Cycle);
+        self.g[its_group as usize].replace(row).is_none()
+    }
+
+    /// Puts an M code in; more than a block has room for are left out.
+    pub fn put_m(&mut self, code: u16) {
+        self.is_empty = false;
+        if let Some(place) = self.m.get_mut(self.m_count) {
+            *place = code;
+            self.m_count += 1;
+        }
+    }
+
+    /// Reads a line.
+    ///
+    /// # Errors
+    /// What the control can't read, or refuses before it does anything.
+    pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, settings: &Settings) -> Done {
+        let control = settings.control;
+        if control.rules() == Rules::Grbl {
+            return super::grbl::read(self, line, control);
+        }
+        self.clear();
+        self.open_comments = control.traits().open_comments;
         let mut stream = tokens(line);
         loop {
             stream.skip_blanks();

@@ -160,7 +160,7 @@ impl Machine {
             position: [0.0; 6],
             at_machine: if settings.places_unknown { 0b111 } else { 0 },
             frames: Frames::default(),
-            motion: NO_MOTION,
+            motion: if settings.control.rules() == Rules::Grbl { 0 } else { NO_MOTION },
             cycle: None,
             series: Series::default(),
             work: None,
@@ -205,6 +205,11 @@ impl Machine {
         self.length_on
     }
 
+    /// A place of the program in machine coordinates, in the units in force.
+    pub fn in_machine_coordinates(&self, at: &Position) -> Position {
+        self.frames.to_machine(at)
+    }
+
     /// The units in force.
     pub fn units(&self) -> Units {
         self.units
@@ -228,6 +233,14 @@ impl Machine {
     /// # Errors
     /// What the control refuses.
     pub fn run(&mut self, block: &mut Block, line: u64, items: &mut Vec<Item>) -> Done<Next> {
+        if self.control.rules() == Rules::Grbl {
+            let before = items.len();
+            let done = self.grbl_block(block, &mut Out::new(items, line));
+            if done.is_err() {
+                items.truncate(before);
+            }
+            return done;
+        }
         if !self.control.is_linuxcnc() && block.whole & LENGTHS != 0 {
             self.unpointed(block)?;
         }

@@ -14,6 +14,7 @@ mod fanuc_cycles;
 mod fault;
 mod flow;
 mod frames;
+mod grbl;
 mod job;
 mod jumps;
 mod machine;

@@ -5,6 +5,7 @@ use super::block::Block;
 use super::codes::{Group, bit, letters};
 use super::fault::{Done, refuse};
 use super::machine::{Machine, Out};
+use crate::control::Rules;
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane, Side, Units};
 
@@ -15,14 +16,18 @@ impl Machine {
             Some(950) => FeedMode::PerRev,
             _ => FeedMode::PerMinute,
         };
-        // LinuxCNC forgets F at every such word, a Fanuc where the mode changes
-        if mode != FeedMode::InverseTime && (self.control.is_linuxcnc() || mode != self.feed_mode) {
+        // LinuxCNC forgets F at every such word, others where the mode changes
+        if mode != FeedMode::InverseTime && (self.forgets_feed() || mode != self.feed_mode) {
             self.feed = 0.0;
         }
         if mode != self.feed_mode {
             self.feed_mode = mode;
             out.push(Action::FeedMode(mode));
         }
+    }
+
+    fn forgets_feed(&self) -> bool {
+        matches!(self.control.rules(), Rules::Linuxcnc | Rules::Emc2)
     }
 
     /// Everything between feed and motion.

@@ -5,6 +5,7 @@ use super::block::Block;
 use super::codes::{Group, bit};
 use super::fault::{Done, refuse};
 use super::machine::{Machine, Out};
+use crate::control::Rules;
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane};
 
@@ -119,7 +120,7 @@ impl Machine {
 
     /// G53: the words are machine coordinates.
     fn in_machine(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
-        if !self.absolute {
+        if !self.absolute && self.control.rules() != Rules::Grbl {
             return refuse(Code::PN018, "G53 under G91", "write G90 with it: increments have no place to begin");
         }
         if self.compensated {

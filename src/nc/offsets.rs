@@ -5,6 +5,7 @@ use super::block::Block;
 use super::codes::Group;
 use super::fault::{Done, refuse};
 use super::machine::{Machine, Out};
+use crate::control::Rules;
 use crate::diag::Code;
 
 impl Machine {
@@ -32,7 +33,9 @@ impl Machine {
         if self.control.is_linuxcnc() && [1.0, 10.0, 11.0].contains(&l) {
             return refuse(Code::PN016, "G10 on the tool table is not simulated", "set the tool table at the machine");
         }
-        let Some(p) = block.get(b'P').filter(|p| p.fract() == 0.0 && *p >= 0.0) else {
+        let grbl = self.control.rules() == Rules::Grbl;
+        let written = if grbl { Some(block.get(b'P').map_or(0.0, f64::trunc)) } else { block.get(b'P') };
+        let Some(p) = written.filter(|p| p.fract() == 0.0 && *p >= 0.0) else {
             return refuse(Code::PN007, "G10 without the number of its offset", "write P1 for G54");
         };
         if l != 2.0 && l != 20.0 {
@@ -108,8 +111,10 @@ impl Machine {
             return refuse(Code::PN006, "G28 or G30 without axes", "write the axes that go home, as G91 G28 Z0");
         }
         let axes = if named == 0 { 0x3f } else { named };
-        let way = self.target(block)?;
-        self.rapid_to(way, out);
+        if named != 0 || self.control.rules() != Rules::Grbl {
+            let way = self.target(block)?;
+            self.rapid_to(way, out);
+        }
         let home = self.frames.to_program(&self.homes[which]);
         let mut to = self.position;
         for axis in (0..6).filter(|axis| axes & 1 << axis != 0) {

@@ -9,11 +9,11 @@ use super::fault::{Done, Fault, refuse};
 use super::jumps::{Frame, Jump, Spot};
 use super::machine::{Machine, Next, Settings};
 use super::parameters::Parameters;
+use crate::control::Rules;
 use crate::diag::{Code, Diag};
 
-/// Longest line in bytes; LinuxCNC takes 252.
+/// Longest line in bytes of any control.
 const LONGEST: usize = 1 << 16;
-const LONGEST_OF_LINUXCNC: usize = 252;
 /// Rounds of loops, calls, and blocks passed over again, before a program counts as endless.
 const MOST_JUMPS: u64 = 1_000_000;
 
@@ -218,8 +218,10 @@ impl<R: BufRead + Seek> Simulator<R> {
         if std::mem::take(&mut self.unfinished) {
             return self.acted(items, |machine, block, line, items| machine.run_on(block, line, items));
         }
-        let linuxcnc = self.machine.settings.control.is_linuxcnc();
-        let longest = if linuxcnc { LONGEST_OF_LINUXCNC } else { LONGEST };
+        let control = self.machine.settings.control;
+        let traits = control.traits();
+        let counts = traits.stops_at_longer && !traits.bare_line;
+        let longest = traits.longest_line.filter(|_| counts).unwrap_or(LONGEST);
         if self.line.len() > longest && self.line.trim_ascii_end().len() > longest {
             self.line.truncate(80);
             return refuse(Code::PN001, format!("a line of over {longest} bytes"), "break it into several blocks");
@@ -277,6 +279,9 @@ impl<R: BufRead + Seek> Simulator<R> {
     /// The input is over before the program.
     fn at_end(&mut self) -> Done<bool> {
         self.over = true;
+        if self.machine.settings.control.rules() == Rules::Grbl {
+            return Ok(false); // it takes block by block, and knows no program
+        }
         let help = "a program ends with M2, M30 or %";
         refuse(Code::PN010, "the program is cut off: its end is missing", help)
     }

@@ -7,6 +7,7 @@ mod cycle;
 mod defaults;
 mod fault;
 mod moves;
+mod needs;
 mod numbers;
 mod options;
 mod printer;

@@ -4,6 +4,7 @@ use super::fault::{Done, fault};
 use super::shape::Shape;
 use super::vars::Vars;
 use crate::control::Group;
+use crate::control::Meaning;
 use crate::diag::Code;
 use crate::lang::{Machine, Origin, Unit, VARIABLES, VarId, did_you_mean, work_code};
 use crate::number::quantise;
@@ -201,6 +202,9 @@ impl Want {
     pub fn set_spindle(&mut self, spindle: &Spindle, shape: &Shape) -> Done {
         let settings = &shape.program.settings;
         if let Some(css) = spindle.css {
+            if css {
+                shape.needs(Meaning::SurfaceSpeed)?;
+            }
             self.set(VarId::Speedtype, settings.speed_type[usize::from(!css)]);
         }
         if let Some(speed) = spindle.speed {

@@ -395,7 +395,8 @@ fn called_files_are_named_by_their_paths() {
 #[test]
 fn new_forms_are_clean_laid_out_and_print() {
     let folder = Folder::new("new");
-    let jobs = ["bracket", "lathe-part", "wire"].map(|name| root().join("samples").join(name).join("job.json"));
+    let jobs =
+        ["bracket", "lathe-part", "wire", "plate"].map(|name| root().join("samples").join(name).join("job.json"));
     for control in ["fanuc", "haas", "fadal", "linuxcnc", "grbl", "lathe", "edm"] {
         let name = format!("{control}.pf");
         assert_eq!(folder.run(&["new", "--control", control, "-o", &name]).status.code(), Some(0));
@@ -407,6 +408,7 @@ fn new_forms_are_clean_laid_out_and_print() {
         let job = match control {
             "lathe" => &jobs[1],
             "edm" => &jobs[2],
+            "grbl" => &jobs[3],
             _ => &jobs[0],
         };
         let output = folder.run(&["render", job.to_str().unwrap(), "--form", &name]);

@@ -13,6 +13,7 @@ mod examples;
 mod fmt;
 mod freecad;
 mod golden;
+mod grbl;
 mod guide;
 mod increments;
 mod lint_command;

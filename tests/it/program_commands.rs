@@ -189,7 +189,7 @@ fn render_verify_leaves_no_program_that_differs() {
 /// Job and program through pipes.
 #[test]
 fn verify_reads_standard_input() {
-    let job = fs::read(root().join("samples/bracket/job.json")).unwrap();
+    let job = fs::read(root().join("samples/plate/job.json")).unwrap();
     let output = fed(&["verify", "-", "--form", "postforms/grbl.pf"], &job);
     assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
     assert!(text(&output.stdout).starts_with("equivalent: "), "{}", text(&output.stdout));

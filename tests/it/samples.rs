@@ -6,6 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::support::{assert_same, render_sample, render_sample_with, root, sample_form, samples};
+use postform::control::Meaning;
 use postform::render::{Cycles, Options};
 
 fn compare(folder: &Path, form: &Path, expected: &Path, cycles: Cycles) {
@@ -53,7 +54,7 @@ fn expected_posts(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn every_post_that_ships_is_clean_and_prints_the_bracket() {
+fn every_post_that_ships_is_clean_and_prints_its_part() {
     let mut posts = 0;
     for entry in fs::read_dir(root().join("postforms")).unwrap() {
         let path = entry.unwrap().path();
@@ -63,8 +64,11 @@ fn every_post_that_ships_is_clean_and_prints_the_bracket() {
         posts += 1;
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         if checked.form.settings.machine == postform::lang::Machine::Mill {
-            let expected = root().join(format!("samples/bracket/expected.{name}.nc"));
-            assert!(expected.exists(), "the bracket is not printed by {name}");
+            // a control without compensation prints the part by the path of the tool's centre
+            let control = checked.form.settings.control();
+            let part = if control.has(Meaning::SideLeft) { "bracket" } else { "plate" };
+            let expected = root().join(format!("samples/{part}/expected.{name}.nc"));
+            assert!(expected.exists(), "the {part} is not printed by {name}");
         }
     }
     assert!(posts >= 5);

@@ -2,6 +2,7 @@
 
 use super::open::{Drilling, left_hole, turning};
 use super::planned::{Planned, hole_variables};
+use crate::control::Meaning;
 use crate::cycle::{Step, plan};
 use crate::diag::Code;
 use crate::lang::VarId;
@@ -91,6 +92,7 @@ fn make_steps(
                 return fault(Code::PR006, message, "leave `orient` and `offset` out");
             }
             Step::Orient(angle) => {
+                shape.needs(Meaning::Orient)?;
                 let (code, letter) = &shape.program.settings.orient;
                 code_word(code, shape, want, said, out)?;
                 parameter_word(*letter, angle, shape, said, out)?;

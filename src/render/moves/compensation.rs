@@ -2,6 +2,7 @@
 
 use super::measure::measure;
 use super::reach::{begins_somewhere, reach};
+use crate::control::Meaning;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::render::before::{check_prints, enter_plane, feed_block, plane_block};
@@ -28,6 +29,7 @@ pub fn infeed(
     said: &mut Said,
     out: &mut Printer,
 ) -> Done {
+    shape.needs(Meaning::SideLeft)?;
     let [left, right, _] = shape.program.settings.cdc;
     let mirrored = shape.scales[1] < 0.0; // a turret on the other side
     let code = if (infeed.side == Side::Left) != mirrored { left } else { right };

@@ -28,6 +28,7 @@ pub fn in_travel(
     let mut inside = *target;
     for axis in shape.rotary().filter(|axis| given & 1 << axis != 0) {
         let letter = shape.axes[axis];
+        shape.needs_axis(letter)?;
         inside.values[axis] = target.values[axis] - said.stand.angles.wound(axis);
         let Some(limit) = shape.program.settings.limits.iter().find(|limit| limit.letter == letter) else {
             continue;

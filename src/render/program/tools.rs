@@ -5,6 +5,7 @@ use super::sections::check_sections_closed;
 use super::start::begin_main;
 use super::table::Subprograms;
 use super::variables::set_named;
+use crate::control::Meaning;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId, VarSet};
 use crate::render::cycle::hole::hole_position;
@@ -93,7 +94,11 @@ fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut
     for (name, value) in &change.set {
         set_named(name, *value, shape, want, out)?;
     }
-    want.set_feed_mode(change.feed_mode.unwrap_or(FeedMode::PerMinute), shape);
+    let mode = change.feed_mode.unwrap_or(FeedMode::PerMinute);
+    if mode == FeedMode::PerRev {
+        shape.needs(Meaning::PerRev)?;
+    }
+    want.set_feed_mode(mode, shape);
     want.keep_feed(None, shape);
     if let Some(feed) = change.feed {
         want.set_feed(feed, shape);

@@ -108,6 +108,7 @@ impl Said {
 /// May positions be kept after a G code without a modal group? Where the form's control runs it, where the form's
 /// commands name it, in a cycle, whose end forgets them, and beside axis words, which say where it goes.
 fn is_harmless(value: f64, meaning: Option<Meaning>, line: Line, want: &Want, shape: &Shape) -> bool {
-    let known = meaning.is_some_and(|meaning| meaning != Meaning::Unsaid && !meaning.is_call());
+    let known =
+        meaning.is_some_and(|meaning| !matches!(meaning, Meaning::Unsaid | Meaning::Probe) && !meaning.is_call());
     known || shape.program.settings.names_code(value) || want.in_cycle || !shape.calls(value) && line.prints_axes(shape)
 }

@@ -1,0 +1,47 @@
+//! G2 and G3.
+
+use super::error::refuse;
+use crate::nc::action::{Action, Turn};
+use crate::nc::arcs::{CENTERS, axes_of, center_of};
+use crate::nc::block::Block;
+use crate::nc::codes::letters;
+use crate::nc::fault::Done;
+use crate::nc::machine::{Machine, Out};
+use crate::toolpath::{Direction, Units};
+
+impl Machine {
+    /// An arc or helix. The centre is incremental, and a word across the plane counts for nothing.
+    pub(super) fn grbl_arc(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+        let feed = self.feed_of(block)?;
+        let [first, second, _] = axes_of(self.plane);
+        let from = self.position;
+        let to = self.target(block)?;
+        let direction = if code == 20 { Direction::Cw } else { Direction::Ccw };
+        let tolerance = self.control.arc_tolerance(self.units == Units::Inch);
+        let words = [first, second].map(|axis| block.get(CENTERS[axis]));
+        let mut center = [from[0], from[1], from[2]];
+        if let Some(radius) = block.get(b'R') {
+            if block.has(letters("IJK")) {
+                return refuse(36);
+            }
+            let (a, b) = ([from[first], from[second]], [to[first], to[second]]);
+            if from[..3] == to[..3] {
+                return refuse(33);
+            }
+            let Ok(at) = center_of(a, b, radius, direction, tolerance.chord) else { return refuse(34) };
+            (center[first], center[second]) = (at[0], at[1]);
+        } else if words == [None; 2] {
+            return refuse(35);
+        } else {
+            center[first] += words[0].unwrap_or(0.0);
+            center[second] += words[1].unwrap_or(0.0);
+            let radius = |at: &[f64; 6]| (at[first] - center[first]).hypot(at[second] - center[second]);
+            if tolerance.refuses(radius(&from), radius(&to)) {
+                return refuse(33);
+            }
+        }
+        self.position = to;
+        out.push(Action::Arc(Turn { to, center, plane: self.plane, direction, turns: 0, feed }));
+        Ok(())
+    }
+}

@@ -1,0 +1,101 @@
+//! Whether the words of a block go together, found before any of them acts.
+
+use super::error::refuse;
+use crate::nc::arcs::axes_of;
+use crate::nc::block::Block;
+use crate::nc::codes::{Group, bit, letters};
+use crate::nc::fault::Done;
+use crate::nc::machine::{Machine, NO_MOTION};
+use crate::toolpath::{FeedMode, Plane};
+
+/// Highest block number.
+const MOST_NUMBER: f64 = 10_000_000.0;
+/// Work offsets, G54 to G59.
+const OFFSETS: f64 = 6.0;
+/// Bits of X, Y and Z.
+const LINEAR: [u32; 3] = [bit(b'X'), bit(b'Y'), bit(b'Z')];
+
+/// Checks a block; the motion that it makes, if any.
+///
+/// # Errors
+/// Grbl's answer to what is wrong first, in its own order.
+pub(super) fn check(block: &Block, state: &Machine) -> Done<Option<u16>> {
+    if block.get(b'N').is_some_and(|number| number > MOST_NUMBER) {
+        return refuse(27);
+    }
+    let word = block.g(Group::Motion);
+    let motion = word.unwrap_or(state.motion);
+    let (has_axes, length) = (block.has_axes(), block.g(Group::Length));
+    let moves = word.is_some_and(|code| code != NO_MOTION) || has_axes && !block.axes_are_taken();
+    let cuts = moves && motion != 0 && motion != NO_MOTION;
+    let mode = feed_mode(block, state);
+    if mode == FeedMode::InverseTime && cuts && !block.has(bit(b'F')) {
+        return refuse(22);
+    }
+    if block.g(Group::Once) == Some(40) && !block.has(bit(b'P')) {
+        return refuse(28);
+    }
+    if length == Some(431) && block.given & letters("XYZ") != bit(b'Z') {
+        return refuse(37);
+    }
+    check_once(block, motion)?;
+    if motion == NO_MOTION {
+        return if has_axes && length.is_none() { refuse(31) } else { Ok(None) };
+    }
+    if cuts {
+        check_cut(block, motion, mode, state)?;
+    }
+    Ok(Some(motion).filter(|_| moves && has_axes))
+}
+
+/// Codes that hold for their block.
+fn check_once(block: &Block, motion: u16) -> Done {
+    match block.g(Group::Once) {
+        Some(100 | 920) if !block.has_axes() => refuse(26),
+        Some(100) if !block.has(letters("PL")) => refuse(28),
+        Some(100) if block.get(b'P').is_some_and(|p| p.trunc() > OFFSETS) => refuse(29),
+        Some(100) => match block.get(b'L') {
+            Some(20.0) => Ok(()),
+            Some(2.0) if !block.has(bit(b'R')) => Ok(()),
+            _ => refuse(20),
+        },
+        Some(530) if !matches!(motion, 0 | 10) => refuse(30),
+        _ => Ok(()),
+    }
+}
+
+/// A cut has a feed, and a curve or probe says where it ends.
+fn check_cut(block: &Block, motion: u16, mode: FeedMode, state: &Machine) -> Done {
+    let kept = if mode == FeedMode::PerMinute && state.feed_mode == mode { state.feed } else { 0.0 };
+    if block.get(b'F').unwrap_or(kept) == 0.0 {
+        return refuse(22);
+    }
+    if motion == 10 {
+        return Ok(());
+    }
+    if !block.has_axes() {
+        return refuse(26);
+    }
+    let [first, second, _] = axes_of(plane(block, state)).map(|axis| LINEAR[axis]);
+    if matches!(motion, 20 | 30) && !block.has(first | second) {
+        return refuse(32);
+    }
+    Ok(())
+}
+
+fn feed_mode(block: &Block, state: &Machine) -> FeedMode {
+    match block.g(Group::FeedMode) {
+        Some(930) => FeedMode::InverseTime,
+        Some(_) => FeedMode::PerMinute,
+        None => state.feed_mode,
+    }
+}
+
+fn plane(block: &Block, state: &Machine) -> Plane {
+    match block.g(Group::Plane) {
+        Some(180) => Plane::Xz,
+        Some(190) => Plane::Yz,
+        Some(_) => Plane::Xy,
+        None => state.plane,
+    }
+}

@@ -1,0 +1,114 @@
+//! A block in the order in which Grbl does it.
+
+use super::check::check;
+use super::error::refuse;
+use crate::nc::action::{Action, Cooling, Rotation};
+use crate::nc::block::Block;
+use crate::nc::codes::{Group, g_code};
+use crate::nc::fault::Done;
+use crate::nc::machine::{Machine, Next, Out};
+use crate::toolpath::{FeedMode, Plane, StopKind, Units};
+
+/// G92.1: the frame goes after the move of its block, which still counts in it.
+const FRAME_OFF: u16 = 921;
+
+impl Machine {
+    /// Runs a block. A refused one does nothing, and the caller takes its actions back.
+    pub(in crate::nc) fn grbl_block(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {
+        let motion = check(block, self)?;
+        if let Some((start, end)) = block.comment {
+            out.push(Action::Comment(start, end));
+        }
+        self.grbl_feed(block, motion, out)?;
+        let frame_goes = block.g(Group::Once) == Some(FRAME_OFF);
+        if !frame_goes {
+            self.once(block, out)?;
+        }
+        if let Some(code) = block.g(Group::Motion) {
+            self.motion = code;
+        }
+        match motion {
+            Some(code @ (0 | 10)) => self.straight(code, block, out)?,
+            Some(code @ (20 | 30)) => self.grbl_arc(code, block, out)?,
+            Some(_) => self.probe(block, out)?,
+            None => {}
+        }
+        if frame_goes {
+            self.once(block, out)?;
+        }
+        let row = motion.and_then(|code| g_code(self.control, code));
+        if block.check_words(row, self.control).is_err() {
+            return refuse(36);
+        }
+        self.grbl_stops(block, out);
+        Ok(Next::On)
+    }
+
+    /// Feed, and all that comes before the axis words. F is kept in millimetres, so that it counts in the units of its
+    /// block, and as millimetres in the block that comes back from G93.
+    fn grbl_feed(&mut self, block: &Block, motion: Option<u16>, out: &mut Out<'_>) -> Done {
+        let before = self.feed_mode;
+        if block.g(Group::FeedMode).is_some() {
+            self.feed_mode(block, out);
+        }
+        let feed = block.get(b'F').filter(|_| self.feed_mode != FeedMode::InverseTime);
+        self.feed = feed.unwrap_or(self.feed);
+        self.set_up(block, motion, out)?;
+        if let Some(feed) = feed {
+            let is_mm = before == FeedMode::InverseTime && self.units == Units::Inch;
+            self.feed = if is_mm { feed / 25.4 } else { feed };
+        }
+        Ok(())
+    }
+
+    /// G38: as far as it goes where nothing is touched; where it touches, only the machine knows.
+    fn probe(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+        let feed = self.feed_of(block)?;
+        let (from, to) = (self.position, self.target(block)?);
+        if from == to {
+            return refuse(33);
+        }
+        self.feed_to(to, feed, out);
+        for axis in (0..3).filter(|&axis| from[axis] != to[axis]) {
+            self.at_machine |= 1 << axis;
+        }
+        Ok(())
+    }
+
+    /// M0, M2 and M30. Senders go on behind the end, and so does Grbl, with some of its modes as switched on.
+    fn grbl_stops(&mut self, block: &Block, out: &mut Out<'_>) {
+        for &code in block.m() {
+            match code {
+                0 => out.push(Action::Stop(StopKind::Program)),
+                1 => out.push(Action::LeftOut(b'M', 10)),
+                2 | 30 => self.grbl_end(out),
+                _ => {}
+            }
+        }
+    }
+
+    fn grbl_end(&mut self, out: &mut Out<'_>) {
+        self.motion = 10;
+        self.absolute = true;
+        if self.plane != Plane::Xy {
+            self.plane = Plane::Xy;
+            out.push(Action::Plane(Plane::Xy));
+        }
+        if self.feed_mode != FeedMode::PerMinute {
+            (self.feed_mode, self.feed) = (FeedMode::PerMinute, 0.0);
+            out.push(Action::FeedMode(FeedMode::PerMinute));
+        }
+        if self.frames.active != 1 {
+            let place = self.frames.to_machine(&self.position);
+            self.frames.active = 1;
+            self.position = self.frames.to_program(&place);
+            out.push(Action::Work(54.0));
+        }
+        if self.spindle != Rotation::Stop {
+            self.spindle = Rotation::Stop;
+            out.push(Action::Spindle(Rotation::Stop, self.speed));
+        }
+        out.push(Action::Coolant(Cooling::Off));
+        out.push(Action::End);
+    }
+}

@@ -1,0 +1,210 @@
+//! A line as Grbl reads it: without blanks, slashes and comments, word by word, refused at the first wrong one.
+
+use super::error::error;
+use crate::control::{Code, Control, Meaning};
+use crate::nc::block::Block;
+use crate::nc::codes::{bit, group, letters, m_code, m_group};
+use crate::nc::fault::{Done, Fault};
+use crate::nc::scan::{Kind, tokens};
+
+/// Letters of words that are not negative.
+const UNSIGNED: u32 = letters("FNPST");
+/// Highest tool.
+const MOST_TOOL: f64 = 255.0;
+/// Digits of a number that are read.
+const MOST_DIGITS: usize = 8;
+/// Numbers of codes whose unknown fractions it calls unknown codes.
+const WITH_FRACTIONS: [u16; 8] = [28, 30, 38, 43, 61, 90, 91, 92];
+
+/// Reads a line.
+///
+/// # Errors
+/// What Grbl refuses while it reads.
+pub(in crate::nc) fn read(block: &mut Block, line: &[u8], control: &'static Control) -> Done {
+    block.clear();
+    let mut text = std::mem::take(&mut block.text);
+    text.clear();
+    text.extend_from_slice(line);
+    let done = words(block, &mut text, control);
+    block.text = text;
+    done
+}
+
+fn words(block: &mut Block, line: &mut [u8], control: &'static Control) -> Done {
+    let (kept, comment) = clear(line)?;
+    block.comment = comment;
+    if control.traits().longest_line.is_some_and(|longest| kept >= longest) {
+        return Err(error(11, None));
+    }
+    if line.trim_ascii_start().first() == Some(&b'$') {
+        return Err(error(0, None));
+    }
+    let mut m_groups = 0;
+    for token in tokens(line) {
+        let about = || std::str::from_utf8(&line[token.start..token.end]).unwrap_or_default().trim_end();
+        let fault = |number: u8| error(number, Some((about(), token.start)));
+        match token.kind {
+            Kind::Word(b'G', number) => {
+                g_word(block, number.value, control).map_err(fault)?;
+            }
+            Kind::Word(b'M', number) => {
+                m_word(block, number.value, &mut m_groups, control).map_err(fault)?;
+            }
+            Kind::Word(letter @ b'A'..=b'Z', number) => {
+                word(block, letter, value(&line[token.start..token.end], number.value), control).map_err(fault)?;
+            }
+            Kind::Letter(b'A'..=b'Z') | Kind::Name => return Err(fault(2)),
+            Kind::Blank | Kind::LineEnd => {}
+            _ => return Err(fault(1)),
+        }
+    }
+    Ok(())
+}
+
+/// Blanks out what does not reach the parser; how many characters are left, and where the first comment is.
+fn clear(line: &mut [u8]) -> Done<(usize, Option<(usize, usize)>)> {
+    let (mut kept, mut comment, mut inside) = (0, None, None);
+    let end = line.trim_ascii_end().len();
+    for (at, byte) in line[..end].iter_mut().enumerate() {
+        match (inside, *byte) {
+            (_, b'!' | 0x18) => {
+                let help = "take it out, also from comments: senders hand it on before the blocks that wait";
+                return Err(Fault::at(crate::diag::Code::PN001, at, "a character that stops Grbl at once", help));
+            }
+            (_, b'\r') => {
+                let help = "end lines with LF, or with CR and LF";
+                return Err(Fault::at(crate::diag::Code::PN001, at, "a line end inside the line", help));
+            }
+            (None, mark @ (b'(' | b';')) => {
+                inside = Some(mark);
+                comment.get_or_insert((at + 1, end));
+            }
+            (Some(b'('), b')') => {
+                inside = None;
+                if let Some((_, close)) = comment.as_mut().filter(|(_, close)| *close == end) {
+                    *close = at;
+                }
+            }
+            (Some(_), _) => {}
+            (None, b'/' | b'?' | b'~' | ..=b' ' | 0x7f..) => {}
+            (None, _) => {
+                kept += 1;
+                continue;
+            }
+        }
+        *byte = b' ';
+    }
+    Ok((kept, comment))
+}
+
+/// The value of a word. Of its number Grbl reads eight digits, zeros before them included; others only hold their place.
+fn value(word: &[u8], value: f64) -> f64 {
+    let digits = || word.iter().filter(|byte| byte.is_ascii_digit());
+    if digits().count() <= MOST_DIGITS {
+        return value;
+    }
+    let read = digits().take(MOST_DIGITS).fold(0.0, |read, digit| read * 10.0 + f64::from(digit - b'0'));
+    let before_point = word.iter().take_while(|&&byte| byte != b'.').filter(|byte| byte.is_ascii_digit()).count();
+    let scale = 10f64.powi((before_point as i32 - MOST_DIGITS as i32).abs());
+    (if before_point < MOST_DIGITS { read / scale } else { read * scale }).copysign(value)
+}
+
+fn g_word(block: &mut Block, value: f64, control: &'static Control) -> Result<(), u8> {
+    let hundredths = ((value - value.trunc()) * 100.0).round();
+    let mut number = value.trunc();
+    if number == 49.0 || hundredths < 0.0 {
+        // any fraction of G49 is G49
+    } else if hundredths % 10.0 == 0.0 {
+        number += hundredths / 100.0;
+    } else {
+        return Err(unknown_fraction(number, control));
+    }
+    let row = Code::of(b'G', number).filter(|_| value >= 0.0).and_then(|code| control.row(code));
+    let Some(row) = row else {
+        return Err(if hundredths == 0.0 { 20 } else { unknown_fraction(number.trunc(), control) });
+    };
+    let takes_axes = takes_axes(row.meaning);
+    if takes_axes && block.axes_are_taken() {
+        return Err(24);
+    }
+    let its_group = group(row, control.rules());
+    if block.put_g(row, its_group, takes_axes) { Ok(()) } else { Err(21) }
+}
+
+/// The answer to a fraction that a number does not have.
+fn unknown_fraction(number: f64, control: &'static Control) -> u8 {
+    let whole = Code::of(b'G', number).filter(|code| !WITH_FRACTIONS.contains(&(code.tenths / 10)));
+    if whole.and_then(|code| control.row(code)).is_some() { 23 } else { 20 }
+}
+
+/// Does a code use the axis words of its block for itself? One that does may stand in a block.
+fn takes_axes(meaning: Meaning) -> bool {
+    use Meaning as M;
+    matches!(meaning, M::Rapid | M::Line | M::ArcCw | M::ArcCcw | M::Probe)
+        || matches!(meaning, M::Data | M::Reference | M::Frame | M::LengthData | M::LengthOff)
+}
+
+fn m_word(block: &mut Block, value: f64, groups: &mut u16, control: &'static Control) -> Result<(), u8> {
+    if (value.fract() * 100.0).round() > 0.0 {
+        return Err(23);
+    }
+    let code = if (0.0..=999.0).contains(&value) { value.trunc() as u16 } else { return Err(20) };
+    let Some(row) = m_code(control, code) else { return Err(20) };
+    let group = 1 << m_group(row);
+    if *groups & group != 0 {
+        return Err(21);
+    }
+    *groups |= group;
+    block.put_m(code);
+    Ok(())
+}
+
+fn word(block: &mut Block, letter: u8, value: f64, control: &'static Control) -> Result<(), u8> {
+    let at = bit(letter);
+    if !control.reads(letter) {
+        return Err(20);
+    }
+    if letter == b'T' && value > MOST_TOOL {
+        return Err(38);
+    }
+    if block.given & at != 0 {
+        return Err(25);
+    }
+    if UNSIGNED & at != 0 && value < 0.0 {
+        return Err(4);
+    }
+    // numbers of tools, blocks and data lose their fraction
+    block.put(letter, if matches!(letter, b'L' | b'N' | b'T') { value.trunc() } else { value });
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_has_eight_digits() {
+        assert_eq!(value(b"X-12.5", -12.5), -12.5);
+        assert_eq!(value(b"X0000000001", 1.0), 0.0);
+        assert_eq!(value(b"X-1234567891", -1234567891.0), -1234567800.0);
+        assert_eq!(value(b"X123.456789012", 123.456789012), 123.45678);
+    }
+
+    fn cleared(text: &str) -> (String, usize, Option<String>) {
+        let mut line = text.as_bytes().to_vec();
+        let (kept, comment) = clear(&mut line).unwrap();
+        let comment = comment.map(|(start, end)| text[start..end].to_owned());
+        (String::from_utf8(line).unwrap(), kept, comment)
+    }
+
+    #[test]
+    fn blanks_slashes_and_comments_never_reach_the_parser() {
+        assert_eq!(cleared("/G0 X1\r\n"), (" G0 X1\r\n".into(), 4, None));
+        assert_eq!(cleared("G0(a;b)X1"), ("G0     X1".into(), 4, Some("a;b".into())));
+        assert_eq!(cleared("G0 X1 (open Y5"), ("G0 X1         ".into(), 4, Some("open Y5".into())));
+        assert_eq!(cleared("(a (b) c)"), ("       c)".into(), 2, Some("a (b".into())));
+        assert_eq!(cleared("G0 X1? Y2~ ; (c)"), ("G0 X1  Y2       ".into(), 6, Some(" (c)".into())));
+        assert!(clear(&mut b"(stop!)".to_vec()).is_err());
+        assert!(clear(&mut b"G0 X1\rY2\n".to_vec()).is_err());
+    }
+}

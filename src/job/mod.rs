@@ -12,7 +12,7 @@ use std::rc::Rc;
 use crate::cl::{self, Assumed, AssumedSpeed, Dialect, Report, read_cl};
 use crate::control::Control;
 use crate::error::Error;
-use crate::nc::{JobOptions, Settings, Unpointed, read_program};
+use crate::nc::{JobOptions, RunSettings, Unpointed, read_program};
 use crate::toolpath::json::{read_document, read_lines};
 use crate::toolpath::{Event, Flow, Hold, Place, ReadError, Sink, Units, flow};
 
@@ -267,10 +267,10 @@ fn read_nc(
     report: &mut Report,
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
-    let settings = Settings {
+    let settings = RunSettings {
         unpointed: reading.unpointed,
         units: reading.units.unwrap_or(Units::Mm),
-        ..Settings::new(reading.control.unwrap_or_else(Control::usual))
+        ..RunSettings::new(reading.control.unwrap_or_else(Control::usual))
     };
     let tool = reading.tool.as_ref().and_then(Assumed::one);
     read_program(input, &JobOptions { settings, units: reading.units, tool }, &mut report.warnings, sink)

@@ -4,7 +4,8 @@ use super::action::{Action, Turn};
 use super::block::Block;
 use super::codes::letters;
 use super::fault::{Done, refuse};
-use super::machine::{Machine, Out};
+use super::out::Out;
+use super::state::State;
 use crate::control::Tolerance;
 use crate::diag::Code;
 use crate::toolpath::{Direction, Plane, Units};
@@ -21,12 +22,12 @@ pub(crate) fn axes_of(plane: Plane) -> [usize; 3] {
 /// Letters of an arc's centre, by axis.
 pub(super) const CENTERS: [u8; 3] = *b"IJK";
 
-impl Machine {
+impl State {
     /// An arc or helix.
     pub(super) fn arc(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
-        let feed = self.feed_of(block)?;
-        let [first, second, across] = axes_of(self.plane);
-        let from = self.position;
+        let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
+        let [first, second, across] = axes_of(self.modes.plane);
+        let from = self.place.position;
         let to = self.target(block)?;
         let direction = if code == 20 { Direction::Cw } else { Direction::Ccw };
         let words = [first, second].map(|axis| block.get(CENTERS[axis]));
@@ -49,7 +50,7 @@ impl Machine {
             }
             (None, words) => {
                 for (axis, word) in [first, second].into_iter().zip(words) {
-                    if self.centers_absolute {
+                    if self.modes.centers_absolute {
                         let Some(value) = word else {
                             let help = "under G90.1 both coordinates of the centre are written";
                             return refuse(Code::PN009, "half a centre", help);
@@ -74,19 +75,19 @@ impl Machine {
             }
         };
         // less than a turn, unless it ends where it begins
-        let turn = Turn { to, center, plane: self.plane, direction, turns: turns as u32 - 1, feed };
-        self.position = to;
+        let turn = Turn { to, center, plane: self.modes.plane, direction, turns: turns as u32 - 1, feed };
+        self.place.position = to;
         out.push(Action::Arc(turn));
         Ok(())
     }
 
     fn arc_tolerance(&self) -> Tolerance {
-        self.control.arc_tolerance(self.units == Units::Inch)
+        self.control.arc_tolerance(self.modes.units == Units::Inch)
     }
 
     /// Both ends must lie on one circle.
     fn check_radii(&self, from: [f64; 6], to: [f64; 6], center: [f64; 3]) -> Done {
-        let [first, second, _] = axes_of(self.plane);
+        let [first, second, _] = axes_of(self.modes.plane);
         let radius = |at: &[f64; 6]| (at[first] - center[first]).hypot(at[second] - center[second]);
         let (start, end) = (radius(&from), radius(&to));
         if start == 0.0 || self.arc_tolerance().refuses(start, end) {

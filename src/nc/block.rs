@@ -1,42 +1,39 @@
 //! One block: its words with their values, its codes, and whether they go together.
 
-use super::codes::{AXES, CHECKED, Group, bit, g_code, group, letters, m_code, m_group, takes_axes, why_not_run};
-use super::expression::Reader;
-use super::fault::{Done, Fault, refuse};
+use super::codes::{AXES, CHECKED, Group, bit, m_code};
+use super::fault::{Done, refuse};
 use super::flow::Flow;
-use super::machine::{NO_MOTION, Settings};
-use super::parameters::{Parameters, Target};
-use super::scan::{Kind, tokens, tokens_from};
-use crate::control::{Control, GROUPS, Row, Rules};
+use super::parameters::Target;
+use crate::control::{Control, GROUPS, Row};
 use crate::diag::Code;
 
 /// Most G codes and M codes of a block that are kept.
-const MOST: usize = 16;
+pub(super) const MOST: usize = 16;
 
 /// A block.
 #[derive(Debug, Default)]
 pub struct Block {
     /// Values by letter.
-    values: [f64; 26],
+    pub(super) values: [f64; 26],
     /// Bit i: letter i is there.
     pub given: u32,
     /// Bit i: its value was written as a number without a point.
     pub whole: u32,
     /// G codes by group.
-    g: [Option<&'static Row>; GROUPS],
+    pub(super) g: [Option<&'static Row>; GROUPS],
     /// A G code is there.
-    has_g: bool,
+    pub(super) has_g: bool,
     /// One besides motions and cycles is.
-    has_modes: bool,
+    pub(super) has_modes: bool,
     /// One that uses axis words without being a motion is.
-    takes_axes: bool,
+    pub(super) takes_axes: bool,
     /// M codes in order.
-    m: [u16; MOST],
-    m_count: usize,
+    pub(super) m: [u16; MOST],
+    pub(super) m_count: usize,
     /// Polar radius `@` and angle `^`.
     pub polar: [Option<f64>; 2],
     /// `$` is there.
-    spindle: bool,
+    pub(super) spindle: bool,
     /// It begins with a slash.
     pub deleted: bool,
     /// It is a `%`.
@@ -45,10 +42,10 @@ pub struct Block {
     pub comment: Option<(usize, usize)>,
     /// Flow of the program: subprograms, loops.
     pub flow: Option<Flow>,
-    settings: Vec<(Target, f64)>,
-    is_empty: bool,
+    pub(super) settings: Vec<(Target, f64)>,
+    pub(super) is_empty: bool,
     /// A comment may go on to the end of its line.
-    open_comments: bool,
+    pub(super) open_comments: bool,
     /// The line without what its control drops before it reads it.
     pub text: Vec<u8>,
 }
@@ -152,248 +149,6 @@ impl Block {
         }
     }
 
-    /// Reads a line.
-    ///
-    /// # Errors
-    /// What the control can't read, or refuses before it does anything.
-    pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, settings: &Settings) -> Done {
-        let control = settings.control;
-        if control.rules() == Rules::Grbl {
-            return super::grbl::read(self, line, control);
-        }
-        self.clear();
-        self.open_comments = control.traits().open_comments;
-        let mut stream = tokens(line);
-        loop {
-            stream.skip_blanks();
-            let Some(token) = stream.next() else { break };
-            match token.kind {
-                Kind::Word(b'O' | b':', _) if !self.is_empty => {
-                    return Err(Fault::at(
-                        Code::PN015,
-                        token.start,
-                        "words before an O word",
-                        "write it in a block of its own",
-                    ));
-                }
-                Kind::Word(b'O' | b':', number) => {
-                    let mut reader = Reader::new(line, stream);
-                    self.flow = Some(Flow::read(format!("{}", number.value), &mut reader, parameters)?);
-                    self.is_empty = false;
-                    return Ok(());
-                }
-                Kind::Word(letter, number) => {
-                    self.word(letter, number.value, !number.point, token.start, control)?;
-                }
-                Kind::Blank => {}
-                Kind::LineEnd if line[token.start] == b'\r' && token.end == token.start + 1 => {}
-                Kind::LineEnd => break,
-                Kind::Letter(_) | Kind::Symbol(b'#') | Kind::Name => {
-                    return self.read_values(
-                        line,
-                        Reader::new(line, tokens_from(line, token.start)),
-                        parameters,
-                        control,
-                    );
-                }
-                _ => self.mark(line, token.kind, token.start, token.end, control)?,
-            }
-        }
-        self.check(control)
-    }
-
-    /// The rest of a line that has expressions.
-    #[cold]
-    fn read_values(
-        &mut self,
-        line: &[u8],
-        mut reader: Reader<'_>,
-        parameters: &mut Parameters,
-        control: &'static Control,
-    ) -> Done {
-        while let Some(token) = reader.next() {
-            match token.kind {
-                Kind::LineEnd => break,
-                Kind::Word(letter, number) => {
-                    self.word(letter, number.value, !number.point, token.start, control)?;
-                }
-                Kind::Letter(b'O') => {
-                    let name = match reader.next() {
-                        Some(name) if name.kind == Kind::Quoted => {
-                            String::from_utf8_lossy(reader.text(name)).to_ascii_lowercase()
-                        }
-                        _ => return unreadable(line, token.start, token.end),
-                    };
-                    self.flow = Some(Flow::read(name, &mut reader, parameters)?);
-                    self.is_empty = false;
-                    return Ok(());
-                }
-                Kind::Letter(letter) => {
-                    let value = reader.value(parameters)?;
-                    self.word(letter, value, false, token.start, control)?;
-                }
-                Kind::Symbol(b'#') => {
-                    let target = reader.target(parameters)?;
-                    if !reader.takes(b'=') {
-                        let help = "a parameter at the beginning of a word is set: #1=2";
-                        return Err(Fault::at(Code::PN014, token.start, "a parameter without `=`", help));
-                    }
-                    let value = reader.value(parameters)?;
-                    self.settings.push((target, value));
-                    self.is_empty = false;
-                }
-                Kind::Name => {
-                    let text = String::from_utf8_lossy(reader.text(token)).into_owned();
-                    let message = format!("`{text}` is not simulated");
-                    let help = "jumps and conditions of Fanuc macros are known only at the control";
-                    return Err(Fault::at(Code::PN016, token.start, message, help));
-                }
-                _ => self.mark(line, token.kind, token.start, token.end, control)?,
-            }
-        }
-        self.check(control)?;
-        for (target, value) in self.settings.drain(..) {
-            parameters.set(target, value)?;
-        }
-        Ok(())
-    }
-
-    /// What is no word.
-    fn mark(&mut self, line: &[u8], kind: Kind, start: usize, end: usize, control: &'static Control) -> Done {
-        match kind {
-            Kind::Comment => {
-                if control.is_linuxcnc() && line[start + 1..end].contains(&b'(') {
-                    return Err(Fault::at(Code::PN001, start, "a comment in a comment", "take the inner `(` out"));
-                }
-                self.comment.get_or_insert((start + 1, end - 1));
-            }
-            Kind::Remark => _ = self.comment.get_or_insert((start + 1, end)),
-            Kind::OpenComment if self.open_comments => _ = self.comment.get_or_insert((start + 1, end)),
-            Kind::OpenComment => {
-                return Err(Fault::at(Code::PN001, start, "a comment without its `)`", "close it on this line"));
-            }
-            Kind::Delete => self.deleted = true,
-            Kind::Percent => self.percent = true,
-            Kind::Symbol(b',') => {
-                let help = "program the chamfer or rounding as moves";
-                return Err(Fault::at(Code::PN016, start, "`,C` and `,R` are not simulated", help));
-            }
-            _ => return unreadable(line, start, end),
-        }
-        Ok(())
-    }
-
-    #[inline]
-    fn word(&mut self, letter: u8, value: f64, whole: bool, column: usize, control: &'static Control) -> Done {
-        self.is_empty &= letter == b'N';
-        match letter {
-            b'G' => self.g_word(value, column, control),
-            b'M' => self.m_word(value, column),
-            b'@' | b'^' if control.is_linuxcnc() => {
-                let slot = usize::from(letter == b'^');
-                match self.polar[slot].replace(value) {
-                    None => Ok(()),
-                    Some(_) => twice(letter, column),
-                }
-            }
-            b'$' if control.is_linuxcnc() => {
-                self.spindle = true;
-                Ok(())
-            }
-            b'A'..=b'Z' => {
-                let at = bit(letter);
-                if self.given & at != 0 {
-                    return twice(letter, column);
-                }
-                if at & letters("UVW") != 0 {
-                    let help = "axes are X Y Z A B C";
-                    return Err(Fault::at(Code::PN016, column, format!("the word {}", char::from(letter)), help));
-                }
-                self.given |= at;
-                self.values[usize::from(letter - b'A')] = value;
-                if whole {
-                    self.whole |= at;
-                }
-                Ok(())
-            }
-            _ => {
-                let message = format!("`{}` is no word of this control", char::from(letter));
-                Err(Fault::at(Code::PN001, column, message, "take it out"))
-            }
-        }
-    }
-
-    #[inline]
-    fn g_word(&mut self, value: f64, column: usize, control: &'static Control) -> Done {
-        let code = (value * 10.0 + 0.5) as u16;
-        let code = if (value * 10.0 - f64::from(code)).abs() < 1e-3 { code } else { u16::MAX };
-        let Some(row) = g_code(control, code) else { return unknown_g(value, code, column, control) };
-        self.has_g = true;
-        let rules = control.rules();
-        let its_group = group(row, rules);
-        self.takes_axes |= takes_axes(row, rules);
-        self.has_modes |= !matches!(its_group, Group::Motion | Group::Cycle);
-        let group = its_group as usize;
-        // beside another motion, LinuxCNC takes no notice of G80
-        if control.is_linuxcnc() && its_group == Group::Motion {
-            match self.g[group].map(|before| before.code.tenths) {
-                Some(_) if code == NO_MOTION => return Ok(()),
-                Some(NO_MOTION) => self.g[group] = None,
-                _ => {}
-            }
-        }
-        // modal codes that change nothing here may come in numbers
-        if let Some(before) = self.g[group].filter(|_| its_group != Group::Other) {
-            let message = format!("{} and {} are of one group", name_of(before.code.tenths), name_of(code));
-            return Err(Fault::at(Code::PN004, column, message, "write them in two blocks, or take one out"));
-        }
-        self.g[group] = Some(row);
-        Ok(())
-    }
-
-    fn m_word(&mut self, value: f64, column: usize) -> Done {
-        let code = value.round();
-        if (value - code).abs() > 1e-4 || !(0.0..=999.0).contains(&code) || self.m_count == MOST {
-            return Err(Fault::at(Code::PN003, column, format!("there is no code M{value}"), "M codes are M0 to M999"));
-        }
-        self.m[self.m_count] = code as u16;
-        self.m_count += 1;
-        Ok(())
-    }
-
-    /// Do its codes and words go together?
-    fn check(&self, control: &'static Control) -> Done {
-        if self.m_count > 0 {
-            self.check_m(control)?;
-        }
-        if control.is_linuxcnc() && self.has(letters("FL")) {
-            for letter in [b'F', b'L'] {
-                if self.get(letter).is_some_and(|value| value < 0.0) {
-                    let letter = char::from(letter);
-                    return refuse(Code::PN018, format!("a negative {letter}"), "write it without the minus");
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn check_m(&self, control: &'static Control) -> Done {
-        let mut seen = 0u16;
-        for &code in self.m() {
-            let Some(group) = m_code(control, code).map(m_group) else {
-                let help = "it is unknown to this control: take it out";
-                return refuse(Code::PN003, format!("M{code} is unknown"), help);
-            };
-            let at = 1 << group;
-            if group > 0 && seen & at != 0 {
-                let help = "write them in two blocks";
-                return refuse(Code::PN004, format!("M{code} and another M code of its group"), help);
-            }
-            seen |= at;
-        }
-        Ok(())
-    }
-
     /// Are all words used, where this is the code of its motion?
     ///
     /// # Errors
@@ -429,33 +184,4 @@ impl Block {
         }
         Ok(())
     }
-}
-
-fn twice<T>(letter: u8, column: usize) -> Done<T> {
-    let message = format!("{} stands twice in the block", char::from(letter));
-    Err(Fault::at(Code::PN002, column, message, "keep one of them"))
-}
-
-#[cold]
-fn unknown_g(value: f64, code: u16, column: usize, control: &'static Control) -> Done {
-    Err(match why_not_run(control, code) {
-        Some(why) => {
-            Fault::at(Code::PN016, column, format!("G{value} is not run: {why}"), "run the program without it")
-        }
-        None => {
-            let message = format!("G{value} is no code of this control ({})", control.name());
-            Fault::at(Code::PN003, column, message, "look for a misprint, or choose another `--control`")
-        }
-    })
-}
-
-#[cold]
-fn unreadable<T>(line: &[u8], start: usize, end: usize) -> Done<T> {
-    let text = String::from_utf8_lossy(&line[start..end.max(start + 1).min(line.len())]).into_owned();
-    Err(Fault::at(Code::PN001, start, format!("`{text}` can't be read"), "take it out, or put it into a comment"))
-}
-
-/// `G91.1` of 911.
-pub fn name_of(code: u16) -> String {
-    if code.is_multiple_of(10) { format!("G{}", code / 10) } else { format!("G{}.{}", code / 10, code % 10) }
 }

@@ -3,7 +3,8 @@
 use super::action::{Action, Drilling, Position, Rotation};
 use super::arcs::axes_of;
 use super::fault::{Done, refuse};
-use super::machine::{Machine, Out};
+use super::out::Out;
+use super::state::State;
 use crate::control::Rules;
 use crate::diag::Code;
 use crate::toolpath::{StopKind, Units};
@@ -27,15 +28,15 @@ impl Drilling {
     }
 }
 
-impl Machine {
+impl State {
     /// The spindle is switched by the cycle.
     fn turn(&mut self, rotation: Rotation, out: &mut Out<'_>) {
-        out.push(Action::Spindle(rotation, self.speed));
+        out.push(Action::Spindle(rotation, self.drive.speed));
     }
 
     /// How far a peck's rapid stays above the last depth.
     fn back_off(&self) -> f64 {
-        let inch = self.units == Units::Inch;
+        let inch = self.modes.units == Units::Inch;
         self.settings.back_off.unwrap_or(match (self.control.rules(), inch) {
             (Rules::Fanuc, true) => 0.02,
             (Rules::Fanuc, false) => 0.5,
@@ -46,12 +47,12 @@ impl Machine {
 
     #[inline]
     fn rapid_over(&mut self, hole: &Drilling, height: f64, out: &mut Out<'_>) {
-        self.rapid_to(hole.over(height), out);
+        self.place.rapid_to(hole.over(height), out);
     }
 
     #[inline]
     fn feed_over(&mut self, hole: &Drilling, height: f64, out: &mut Out<'_>) {
-        self.feed_to(hole.over(height), hole.feed, out);
+        self.place.feed_to(hole.over(height), hole.feed, out);
     }
 
     /// Drills, from over the hole at R to over the hole at the clear level. `from`: the hole was begun, and its next peck
@@ -98,7 +99,7 @@ impl Machine {
                         Code::PN034,
                         "G88 does not retract: the operator does, and the next hole is approached as if so",
                     ));
-                    self.position = hole.over(hole.clear);
+                    self.place.position = hole.over(hole.clear);
                 } else {
                     self.rapid_over(hole, hole.clear, out);
                 }
@@ -176,10 +177,10 @@ impl Machine {
 
     /// The direction of the spindle, which must turn.
     fn turning(&self, cycle: &str) -> Done<Rotation> {
-        if self.spindle == Rotation::Stop {
+        if self.drive.spindle == Rotation::Stop {
             return refuse(Code::PN012, format!("{cycle} with the spindle stopped"), "write M3 or M4 before it");
         }
-        Ok(self.spindle)
+        Ok(self.drive.spindle)
     }
 
     fn tap(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
@@ -191,7 +192,7 @@ impl Machine {
         }
         let outwards = inwards.reversed();
         let clear = if linuxcnc { hole.clear } else { hole.r };
-        if from.is_none() && !linuxcnc && self.spindle != inwards {
+        if from.is_none() && !linuxcnc && self.drive.spindle != inwards {
             self.turn(inwards, out);
         }
         let rest = self.tap_pecks(hole, from, [inwards, outwards], out)?;
@@ -213,7 +214,7 @@ impl Machine {
         }
         self.turn(inwards, out);
         if !linuxcnc {
-            self.spindle = inwards;
+            self.drive.spindle = inwards;
             self.rapid_over(hole, hole.clear, out);
         }
         Ok(None)
@@ -250,8 +251,8 @@ impl Machine {
     fn leave_aside(&mut self, hole: &Drilling, turning: Rotation, out: &mut Out<'_>) {
         self.turn(Rotation::Stop, out);
         out.push(Action::Orient(0.0));
-        self.rapid_to(hole.beside(hole.bottom), out);
-        self.rapid_to(hole.beside(hole.clear), out);
+        self.place.rapid_to(hole.beside(hole.bottom), out);
+        self.place.rapid_to(hole.beside(hole.clear), out);
         self.rapid_over(hole, hole.clear, out);
         self.turn(turning, out);
     }
@@ -263,8 +264,8 @@ impl Machine {
             // a Fanuc's R is below, and Z above: it stands at the initial level now
             self.turn(Rotation::Stop, out);
             out.push(Action::Orient(0.0));
-            self.rapid_to(hole.beside(hole.clear), out);
-            self.rapid_to(hole.beside(hole.r), out);
+            self.place.rapid_to(hole.beside(hole.clear), out);
+            self.place.rapid_to(hole.beside(hole.r), out);
             self.rapid_over(hole, hole.r, out);
             self.turn(turning, out);
             self.feed_over(hole, hole.bottom, out);
@@ -272,10 +273,10 @@ impl Machine {
             self.leave_aside(hole, turning, out);
             return Ok(());
         }
-        self.rapid_to(hole.beside(hole.r), out);
+        self.place.rapid_to(hole.beside(hole.r), out);
         self.turn(Rotation::Stop, out);
         out.push(Action::Orient(0.0));
-        self.rapid_to(hole.beside(hole.bottom), out);
+        self.place.rapid_to(hole.beside(hole.bottom), out);
         self.rapid_over(hole, hole.bottom, out);
         self.turn(turning, out);
         self.feed_over(hole, hole.level, out);
@@ -286,7 +287,7 @@ impl Machine {
 
     /// G76 of a Fanuc mill.
     fn fine_bore(&mut self, hole: &Drilling, out: &mut Out<'_>) {
-        let turning = self.spindle;
+        let turning = self.drive.spindle;
         self.feed_over(hole, hole.bottom, out);
         wait(hole, out);
         self.leave_aside(hole, turning, out);

@@ -69,3 +69,8 @@ pub fn m_group(row: &Row) -> u8 {
         },
     }
 }
+
+/// `G91.1` of 911.
+pub fn name_of(code: u16) -> String {
+    if code.is_multiple_of(10) { format!("G{}", code / 10) } else { format!("G{}.{}", code / 10, code % 10) }
+}

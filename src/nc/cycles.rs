@@ -3,66 +3,29 @@
 use super::action::{Action, Drilling};
 use super::arcs::{CENTERS, axes_of};
 use super::block::Block;
-use super::codes::letters;
+use super::codes::{letters, name_of};
 use super::fault::{Done, refuse};
-use super::machine::{Machine, Out};
+use super::holes::Work;
+use super::out::Out;
+use super::state::State;
 use crate::control::Rules;
 use crate::diag::Code;
-use crate::toolpath::{FeedMode, Plane, Units};
-
-/// What a control keeps from one hole to the next.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Series {
-    /// A series of cycles is running.
-    pub running: bool,
-    /// Height of the tool at its beginning.
-    pub initial: f64,
-    /// The numbers as written.
-    pub r: Option<f64>,
-    pub depth: Option<f64>,
-    pub dwell: Option<f64>,
-    pub peck: Option<f64>,
-    pub shift: [Option<f64>; 3],
-    /// In which mode, plane and units R and depth were written.
-    written: Option<(bool, Plane, Units)>,
-}
-
-impl Series {
-    /// A motion that is no cycle ends it.
-    pub fn end(&mut self) {
-        self.running = false;
-    }
-}
-
-/// Holes of one block that are still to be made.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Work {
-    /// The hole that is made, or was made last.
-    pub hole: Drilling,
-    /// How many are to be made.
-    pub times: u32,
-    /// How many were begun.
-    pub begun: u32,
-    /// Height of the tool before the first.
-    pub level: f64,
-    /// Where the next peck of the hole ends.
-    pub depth: Option<f64>,
-}
+use crate::toolpath::FeedMode;
 
 /// LinuxCNC's own mark of a word that is not there.
 fn given(word: Option<f64>) -> Option<f64> {
     word.filter(|&value| value != -1.0)
 }
 
-impl Machine {
+impl State {
     /// Words of a cycle: those of this block, else kept ones, else an error.
     pub(super) fn linuxcnc_cycle(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
         self.check_cycle(block)?;
-        let same = self.motion == code;
-        let [_, _, across] = axes_of(self.plane);
-        let name = super::block::name_of(code);
-        let mode = (self.absolute, self.plane, self.units);
-        let kept = self.series;
+        let same = self.modes.motion == code;
+        let [_, _, across] = axes_of(self.modes.plane);
+        let name = name_of(code);
+        let mode = (self.modes.absolute, self.modes.plane, self.modes.units);
+        let kept = self.holes.series;
         let Some(r) = block.get(b'R').or(kept.r.filter(|_| same)) else {
             return refuse(Code::PN007, format!("{name} without its R plane"), "write R in the cycle's first block");
         };
@@ -77,43 +40,43 @@ impl Machine {
             self.warnings.push((Code::PN030, "R or depth written under another mode is used again as the same number"));
         }
         if !reused {
-            self.series.written = Some(mode);
+            self.holes.series.written = Some(mode);
         }
-        if !self.series.running || self.control.rules() == Rules::Emc2 {
-            self.series.initial = self.position[across];
+        if !self.holes.series.running || self.control.rules() == Rules::Emc2 {
+            self.holes.series.initial = self.place.position[across];
         }
-        let initial = self.series.initial;
-        let (plane_r, bottom) = if self.absolute { (r, depth) } else { (initial + r, initial + r + depth) };
+        let initial = self.holes.series.initial;
+        let (plane_r, bottom) = if self.modes.absolute { (r, depth) } else { (initial + r, initial + r + depth) };
         if plane_r < bottom {
             let message = format!("the R plane {plane_r} is below the bottom {bottom}");
             return refuse(Code::PN011, message, "look at R, at the depth, and at G90 or G91");
         }
-        self.series.r = Some(r);
-        self.series.depth = Some(depth);
+        self.holes.series.r = Some(r);
+        self.holes.series.depth = Some(depth);
         // straight up first, where it is
         if initial < plane_r {
-            let mut to = self.position;
+            let mut to = self.place.position;
             to[across] = plane_r;
             out.by_cycle = true;
-            self.rapid_to(to, out);
+            self.place.rapid_to(to, out);
         }
         let hole = self.words(code, same, block, &name)?;
         let hole = Drilling {
             r: plane_r,
             bottom,
-            clear: if self.to_initial { initial.max(plane_r) } else { plane_r },
+            clear: if self.modes.to_initial { initial.max(plane_r) } else { plane_r },
             ..hole
         };
         check_moves(times, &hole)?;
-        self.work = Some(Work { hole, times, begun: 0, level: self.position[across], depth: None });
-        self.motion = code;
-        self.series.running = true;
+        self.holes.work = Some(Work { hole, times, begun: 0, level: self.place.position[across], depth: None });
+        self.modes.motion = code;
+        self.holes.series.running = true;
         self.make_holes(block, out)
     }
 
     /// Makes the holes of a block, one after the other; stops where there is enough to be read.
     pub(super) fn make_holes(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
-        while let Some(mut work) = self.work.take() {
+        while let Some(mut work) = self.holes.work.take() {
             if work.depth.is_none() {
                 if work.begun == work.times {
                     return Ok(());
@@ -125,7 +88,7 @@ impl Machine {
             work.depth = self.drill(&work.hole, work.depth, out)?;
             out.by_cycle = false;
             if work.depth.is_some() || work.begun < work.times {
-                self.work = Some(work);
+                self.holes.work = Some(work);
             }
             if out.is_full() {
                 return Ok(());
@@ -144,39 +107,39 @@ impl Machine {
     }
 
     fn go_to_hole_of_linuxcnc(&mut self, work: &mut Work, block: &Block, out: &mut Out<'_>) -> Done {
-        let [first, second, across] = axes_of(self.plane);
+        let [first, second, across] = axes_of(self.modes.plane);
         let (begun, level) = (work.begun, work.level);
         let at = &mut work.hole.at;
         // an absolute place stays where it was the first time
-        if block.polar != [None; 2] && (begun == 0 || !self.absolute) {
-            let held = std::mem::replace(&mut self.position, *at);
+        if block.polar != [None; 2] && (begun == 0 || !self.modes.absolute) {
+            let held = std::mem::replace(&mut self.place.position, *at);
             let done = self.polar(block, at);
-            self.position = held;
+            self.place.position = held;
             done?;
         }
         for axis in [first, second] {
             if let Some(value) = self.axis_word(block, axis) {
-                at[axis] = if self.absolute { value } else { at[axis] + value };
-                self.at_machine &= !(1 << axis);
+                at[axis] = if self.modes.absolute { value } else { at[axis] + value };
+                self.place.at_machine &= !(1 << axis);
             }
         }
-        self.at_machine &= !(1 << across);
+        self.place.at_machine &= !(1 << across);
         let hole = work.hole;
         self.announce(&hole, out);
         out.by_cycle = true;
         if begun == 0 && level > hole.r {
-            self.rapid_to(hole.over(level), out);
-            self.rapid_to(hole.over(hole.r), out);
+            self.place.rapid_to(hole.over(level), out);
+            self.place.rapid_to(hole.over(hole.r), out);
             return Ok(());
         }
-        let across_too = self.position[first] != hole.at[first] || self.position[second] != hole.at[second];
-        if self.position[across] < hole.clear && across_too {
+        let across_too = self.place.position[first] != hole.at[first] || self.place.position[second] != hole.at[second];
+        if self.place.position[across] < hole.clear && across_too {
             let message = "the rapid to this hole rises on its way: the hole before returned to R only";
             self.warnings.push((Code::PN031, message));
         }
-        self.rapid_to(hole.over(hole.clear), out);
+        self.place.rapid_to(hole.over(hole.clear), out);
         if hole.clear > hole.r {
-            self.rapid_to(hole.over(hole.r), out);
+            self.place.rapid_to(hole.over(hole.r), out);
         }
         Ok(())
     }
@@ -192,13 +155,13 @@ impl Machine {
         if block.has(letters("ABC")) {
             return refuse(Code::PN005, "A, B or C in a canned cycle", "turn the axis in a block before it");
         }
-        if self.feed == 0.0 {
+        if self.drive.feed == 0.0 {
             return refuse(Code::PN008, "a canned cycle without a feed", "write F with it");
         }
-        if self.feed_mode == FeedMode::InverseTime {
+        if self.modes.feed_mode == FeedMode::InverseTime {
             return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before it");
         }
-        if self.compensated {
+        if self.tool.side.is_some() {
             return refuse(
                 Code::PN013,
                 "a canned cycle under cutter compensation",
@@ -214,11 +177,11 @@ impl Machine {
             let help = format!("write {letter} in the cycle's first block");
             refuse(Code::PN007, format!("{name} without {letter}"), help)
         };
-        let feed = self.feed;
+        let feed = self.drive.feed;
         let mut hole = Drilling {
             code,
-            at: self.position,
-            plane: self.plane,
+            at: self.place.position,
+            plane: self.modes.plane,
             r: 0.0,
             bottom: 0.0,
             clear: 0.0,
@@ -236,16 +199,16 @@ impl Machine {
             if word.is_some() && block.g(super::codes::Group::Once) == Some(40) {
                 self.warnings.push((Code::PN033, "P is the dwell of G4 and of the cycle at once"));
             }
-            self.series.dwell = word.or(self.series.dwell);
-            hole.dwell = self.series.dwell.unwrap_or(0.0);
+            self.holes.series.dwell = word.or(self.holes.series.dwell);
+            hole.dwell = self.holes.series.dwell.unwrap_or(0.0);
         }
         if matches!(code, 730 | 830) {
             let word = given(block.get(b'Q'));
             if word.is_none() && !same {
                 return missing('Q');
             }
-            self.series.peck = word.or(self.series.peck);
-            hole.peck = self.series.peck.unwrap_or(0.0);
+            self.holes.series.peck = word.or(self.holes.series.peck);
+            hole.peck = self.holes.series.peck.unwrap_or(0.0);
         }
         if code == 870 {
             for (axis, letter) in CENTERS.into_iter().enumerate() {
@@ -253,19 +216,20 @@ impl Machine {
                 if word.is_none() && !same {
                     return missing(char::from(letter));
                 }
-                self.series.shift[axis] = word.or(self.series.shift[axis]);
+                self.holes.series.shift[axis] = word.or(self.holes.series.shift[axis]);
             }
-            let [first, second, across] = axes_of(self.plane).map(|axis| self.series.shift[axis].unwrap_or(0.0));
+            let [first, second, across] =
+                axes_of(self.modes.plane).map(|axis| self.holes.series.shift[axis].unwrap_or(0.0));
             hole.shift = [first, second];
             let bottom = self.bottom();
-            hole.level = if self.absolute { across } else { bottom + across };
+            hole.level = if self.modes.absolute { across } else { bottom + across };
         }
         Ok(hole)
     }
 
     fn bottom(&self) -> f64 {
-        let (r, depth) = (self.series.r.unwrap_or(0.0), self.series.depth.unwrap_or(0.0));
-        if self.absolute { depth } else { self.series.initial + r + depth }
+        let (r, depth) = (self.holes.series.r.unwrap_or(0.0), self.holes.series.depth.unwrap_or(0.0));
+        if self.modes.absolute { depth } else { self.holes.series.initial + r + depth }
     }
 }
 

@@ -2,40 +2,41 @@
 
 use super::action::Drilling;
 use super::arcs::{CENTERS, axes_of};
-use super::block::{Block, name_of};
-use super::codes::letters;
-use super::cycles::Work;
+use super::block::Block;
+use super::codes::{letters, name_of};
 use super::fault::{Done, refuse};
-use super::machine::{Machine, Out};
+use super::holes::{Series, Work};
+use super::out::Out;
+use super::state::State;
 use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
-impl Machine {
+impl State {
     /// A cycle code: the series begins at the tool's height unless one is running.
     pub(super) fn enter_fanuc_cycle(&mut self, code: u16) {
-        if self.cycle.is_none() {
-            self.series = super::cycles::Series::default();
+        if self.holes.cycle.is_none() {
+            self.holes.series = Series::default();
         }
-        self.cycle = Some(code);
+        self.holes.cycle = Some(code);
     }
 
     /// A block while a cycle is in force: a hole where it has X, Y, Z or R.
     pub(super) fn fanuc_cycle(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
         let name = name_of(code);
-        let [_, _, across] = axes_of(self.plane);
-        if !self.series.running {
-            self.series.running = true;
-            self.series.initial = self.position[across];
+        let [_, _, across] = axes_of(self.modes.plane);
+        if !self.holes.series.running {
+            self.holes.series.running = true;
+            self.holes.series.initial = self.place.position[across];
         }
-        let initial = self.series.initial;
-        let series = &mut self.series;
+        let initial = self.holes.series.initial;
+        let series = &mut self.holes.series;
         // increments become places at once: the level they count from is that of the series
         let word = |letter: u8| block.get(letter);
         if let Some(r) = word(b'R') {
-            series.r = Some(if self.absolute { r } else { initial + r });
+            series.r = Some(if self.modes.absolute { r } else { initial + r });
         }
         if let Some(depth) = word(b"XYZ"[across]) {
-            series.depth = Some(if self.absolute { depth } else { series.r.unwrap_or(initial) + depth });
+            series.depth = Some(if self.modes.absolute { depth } else { series.r.unwrap_or(initial) + depth });
         }
         if let Some(p) = word(b'P') {
             series.dwell = Some(if block.whole & super::codes::bit(b'P') != 0 { p / 1000.0 } else { p });
@@ -47,23 +48,23 @@ impl Machine {
         if !block.has(letters("XYZABCR")) {
             return Ok(());
         }
-        let series = self.series;
+        let series = self.holes.series;
         let (Some(r), Some(bottom)) = (series.r, series.depth) else {
             let what = if series.r.is_none() { "R plane" } else { "depth" };
             let help = "write R and Z in the cycle's first block";
             return refuse(Code::PN007, format!("{name} without its {what}"), help);
         };
-        if self.compensated {
+        if self.tool.side.is_some() {
             return refuse(
                 Code::PN013,
                 "a canned cycle under cutter compensation",
                 "end the compensation with G40 first",
             );
         }
-        if self.feed_mode == FeedMode::InverseTime {
+        if self.modes.feed_mode == FeedMode::InverseTime {
             return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before it");
         }
-        if self.feed == 0.0 {
+        if self.drive.feed == 0.0 {
             return refuse(Code::PN008, "a canned cycle without a feed", "write F with it");
         }
         if matches!(code, 760 | 870) && series.peck.is_some_and(|q| q < 0.0) {
@@ -80,14 +81,14 @@ impl Machine {
             Some(times) if times.fract() == 0.0 && (0.0..=9999.0).contains(&times) => times as u32,
             Some(times) => return refuse(Code::PN018, format!("{times} is no number of repeats"), "write K1 to K9999"),
         };
-        if upward && !self.to_initial {
+        if upward && !self.modes.to_initial {
             return refuse(Code::PN013, "G87 under G99", "a back bore returns to the initial level: write G98");
         }
-        let clear = if self.to_initial { initial.max(r) } else { r };
+        let clear = if self.modes.to_initial { initial.max(r) } else { r };
         let hole = Drilling {
             code,
-            at: self.position,
-            plane: self.plane,
+            at: self.place.position,
+            plane: self.modes.plane,
             r,
             bottom,
             clear: if upward { initial } else { clear },
@@ -95,31 +96,31 @@ impl Machine {
             peck: series.peck.unwrap_or(0.0),
             shift: self.bore_shift(code),
             level: bottom,
-            feed: self.feed,
+            feed: self.drive.feed,
         };
         super::cycles::check_moves(times, &hole)?;
-        self.work = Some(Work { hole, times, begun: 0, level: self.position[across], depth: None });
+        self.holes.work = Some(Work { hole, times, begun: 0, level: self.place.position[across], depth: None });
         self.make_holes(block, out)
     }
 
     pub(super) fn go_to_hole_of_fanuc(&mut self, work: &mut Work, block: &Block, out: &mut Out<'_>) {
-        let [first, second, across] = axes_of(self.plane);
+        let [first, second, across] = axes_of(self.modes.plane);
         let at = &mut work.hole.at;
         for axis in [first, second, 3, 4, 5] {
             if let Some(value) = self.axis_word(block, axis) {
-                at[axis] = if self.absolute { value } else { at[axis] + value };
-                self.at_machine &= !(1 << axis);
+                at[axis] = if self.modes.absolute { value } else { at[axis] + value };
+                self.place.at_machine &= !(1 << axis);
             }
         }
         let hole = work.hole;
         self.announce(&hole, out);
         out.by_cycle = true;
         // across at the height where the tool is, then down to R
-        let height = self.position[across];
-        self.rapid_to(hole.over(height), out);
+        let height = self.place.position[across];
+        self.place.rapid_to(hole.over(height), out);
         if hole.code != 870 && height != hole.r {
-            self.at_machine &= !(1 << across);
-            self.rapid_to(hole.over(hole.r), out);
+            self.place.at_machine &= !(1 << across);
+            self.place.rapid_to(hole.over(hole.r), out);
         }
     }
 
@@ -128,9 +129,9 @@ impl Machine {
         if !matches!(code, 760 | 870) {
             return [0.0; 2];
         }
-        let [first, second, _] = axes_of(self.plane);
-        match [self.series.shift[first], self.series.shift[second]] {
-            [None, None] => [self.settings.bore_shift * self.series.peck.unwrap_or(0.0), 0.0],
+        let [first, second, _] = axes_of(self.modes.plane);
+        match [self.holes.series.shift[first], self.holes.series.shift[second]] {
+            [None, None] => [self.settings.bore_shift * self.holes.series.peck.unwrap_or(0.0), 0.0],
             shift => shift.map(|value| value.unwrap_or(0.0)),
         }
     }

@@ -236,7 +236,7 @@ impl<R: BufRead + Seek> Simulator<R> {
             }
             self.frames.pop(); // loops and branches end with their subprogram
         }
-        if self.machine.settings.control.is_linuxcnc() {
+        if self.state.settings.control.is_linuxcnc() {
             return refuse(Code::PN015, format!("{what} ends, and was not called"), "call it, or take the end out");
         }
         // M99 in a main program begins it again: once is enough
@@ -277,7 +277,7 @@ impl<R: BufRead + Seek> Simulator<R> {
                 (Ends::Branch, Step::Else) => return Ok(()),
                 (Ends::Branch, Step::ElseIf(_)) => {
                     // its condition counts now
-                    let read = self.block.read(&self.line, &mut self.parameters, &self.machine.settings);
+                    let read = self.block.read(&self.line, &mut self.parameters, &self.state.settings);
                     if let Err(fault) = read {
                         return Err(self.refused(fault));
                     }

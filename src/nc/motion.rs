@@ -4,33 +4,34 @@ use super::action::{Action, Position, Rotation};
 use super::block::Block;
 use super::codes::{Group, bit};
 use super::fault::{Done, refuse};
-use super::machine::{Machine, Out};
+use super::out::Out;
+use super::state::State;
 use crate::control::Rules;
 use crate::diag::Code;
-use crate::toolpath::{FeedMode, Plane};
+use crate::toolpath::Plane;
 
 /// Letters of the axes.
 const LETTERS: [u8; 6] = *b"XYZABC";
 
-impl Machine {
+impl State {
     /// The word of an axis as a length: X in diameters is halved.
     #[inline]
     pub(super) fn axis_word(&self, block: &Block, axis: usize) -> Option<f64> {
         let value = block.get(LETTERS[axis])?;
-        Some(if self.diameter && axis == 0 { value / 2.0 } else { value })
+        Some(if self.modes.diameter && axis == 0 { value / 2.0 } else { value })
     }
 
     /// Where a block's axis words lead, in program coordinates.
     #[inline]
     pub(super) fn target(&mut self, block: &Block) -> Done<Position> {
-        let mut to = self.position;
+        let mut to = self.place.position;
         for (axis, place) in to.iter_mut().enumerate() {
             let Some(value) = self.axis_word(block, axis) else { continue };
-            if self.absolute {
+            if self.modes.absolute {
                 *place = value;
-                self.at_machine &= !(1 << axis);
-                if axis == 2 && self.control.traits().height_is_machine && !self.length_on() {
-                    self.at_machine |= 0b100; // without its length offset, a FADAL's Z is the machine's
+                self.place.at_machine &= !(1 << axis);
+                if axis == 2 && self.control.traits().height_is_machine && !self.tool.length_on {
+                    self.place.at_machine |= 0b100; // without its length offset, a FADAL's Z is the machine's
                 }
             } else {
                 *place += value;
@@ -44,15 +45,15 @@ impl Machine {
 
     /// Polar coordinates: `@` radius, `^` angle.
     pub(super) fn polar(&self, block: &Block, to: &mut Position) -> Done {
-        if self.plane != Plane::Xy {
+        if self.modes.plane != Plane::Xy {
             return refuse(Code::PN005, "polar coordinates outside G17", "write G17 first");
         }
         if block.has(bit(b'X') | bit(b'Y')) {
             return refuse(Code::PN005, "polar coordinates and X or Y in one block", "write one or the other");
         }
-        let [x, y, ..] = self.position;
+        let [x, y, ..] = self.place.position;
         let (mut radius, mut angle) = (x.hypot(y), y.atan2(x).to_degrees());
-        match (self.absolute, block.polar) {
+        match (self.modes.absolute, block.polar) {
             (true, [_, None]) if x == 0.0 && y == 0.0 => {
                 return refuse(Code::PN018, "a polar radius at the origin without its angle", "write ^ with it");
             }
@@ -72,35 +73,6 @@ impl Machine {
         Ok(())
     }
 
-    /// A rapid in program coordinates.
-    #[inline]
-    pub(super) fn rapid_to(&mut self, to: Position, out: &mut Out<'_>) {
-        self.position = to;
-        out.push(Action::Rapid { to, machine: self.at_machine });
-    }
-
-    /// A straight feed move.
-    #[inline]
-    pub(super) fn feed_to(&mut self, to: Position, feed: f64, out: &mut Out<'_>) {
-        self.position = to;
-        out.push(Action::Feed { to, feed, lead: None });
-    }
-
-    /// The feed of a block that cuts.
-    #[inline]
-    pub(super) fn feed_of(&self, block: &Block) -> Done<f64> {
-        if self.feed_mode == FeedMode::InverseTime {
-            return match block.get(b'F') {
-                Some(feed) if feed > 0.0 => Ok(feed),
-                _ => refuse(Code::PN008, "G93 without F in the block", "write F in every block that cuts"),
-            };
-        }
-        if self.feed > 0.0 {
-            return Ok(self.feed);
-        }
-        refuse(Code::PN008, "a feed move without a feed", "write F with it")
-    }
-
     /// G0 or G1.
     #[inline]
     pub(super) fn straight(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
@@ -109,24 +81,24 @@ impl Machine {
         }
         if code == 0 {
             let to = self.target(block)?;
-            self.rapid_to(to, out);
+            self.place.rapid_to(to, out);
             return Ok(());
         }
-        let feed = self.feed_of(block)?;
+        let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let to = self.target(block)?;
-        self.feed_to(to, feed, out);
+        self.place.feed_to(to, feed, out);
         Ok(())
     }
 
     /// G53: the words are machine coordinates.
     fn in_machine(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
-        if !self.absolute && self.control.rules() != Rules::Grbl {
+        if !self.modes.absolute && self.control.rules() != Rules::Grbl {
             return refuse(Code::PN018, "G53 under G91", "write G90 with it: increments have no place to begin");
         }
-        if self.compensated {
+        if self.tool.side.is_some() {
             return refuse(Code::PN013, "G53 under cutter compensation", "end the compensation with G40 first");
         }
-        let mut place = self.frames.to_machine(&self.position);
+        let mut place = self.place.frames.to_machine(&self.place.position);
         let mut named = 0;
         for (axis, coordinate) in place.iter_mut().enumerate() {
             if let Some(value) = self.axis_word(block, axis) {
@@ -134,34 +106,34 @@ impl Machine {
                 named |= 1 << axis;
             }
         }
-        let mut to = self.frames.to_program(&place);
+        let mut to = self.place.frames.to_program(&place);
         // in a turned frame, X of the machine moves both axes of the program
-        let turned = if self.frames.angle() == 0.0 { 0 } else { 0b11 };
+        let turned = if self.place.frames.angle() == 0.0 { 0 } else { 0b11 };
         for axis in (0..6).filter(|axis| (named | turned) & 1 << axis == 0) {
-            to[axis] = self.position[axis];
+            to[axis] = self.place.position[axis];
         }
-        self.at_machine |= named;
+        self.place.at_machine |= named;
         // a Fanuc goes there at rapid, whatever is in force
         if code == 0 || !self.control.is_linuxcnc() {
-            self.rapid_to(to, out);
+            self.place.rapid_to(to, out);
         } else {
-            let feed = self.feed_of(block)?;
-            self.feed_to(to, feed, out);
+            let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
+            self.place.feed_to(to, feed, out);
         }
         Ok(())
     }
 
     /// G33.1: a tap that follows the spindle in, turns it back and follows it out to where it began.
     pub(super) fn rigid_tap(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
-        let (begin, turning) = (self.position, self.spindle);
+        let (begin, turning) = (self.place.position, self.drive.spindle);
         if turning == Rotation::Stop {
             return refuse(Code::PN012, "G33.1 with the spindle stopped", "write M3 or M4 before it");
         }
         self.synchronised(block, out)?;
-        out.push(Action::Spindle(turning.reversed(), self.speed));
-        self.position = begin;
-        out.push(Action::Feed { to: begin, feed: self.feed, lead: block.get(b'K') });
-        out.push(Action::Spindle(turning, self.speed));
+        out.push(Action::Spindle(turning.reversed(), self.drive.speed));
+        self.place.position = begin;
+        out.push(Action::Feed { to: begin, feed: self.drive.feed, lead: block.get(b'K') });
+        out.push(Action::Spindle(turning, self.drive.speed));
         Ok(())
     }
 
@@ -171,11 +143,11 @@ impl Machine {
             return refuse(Code::PN007, "G33 without K", "write K with the distance of one turn");
         };
         let mut to = self.target(block)?;
-        if block.g(Group::Motion).unwrap_or(self.motion) == 331 {
-            to[3..].copy_from_slice(&self.position[3..]); // a tap turns no axis
+        if block.g(Group::Motion).unwrap_or(self.modes.motion) == 331 {
+            to[3..].copy_from_slice(&self.place.position[3..]); // a tap turns no axis
         }
-        self.position = to;
-        out.push(Action::Feed { to, feed: self.feed, lead: Some(lead) });
+        self.place.position = to;
+        out.push(Action::Feed { to, feed: self.drive.feed, lead: Some(lead) });
         Ok(())
     }
 }

@@ -4,18 +4,19 @@ use super::action::Action;
 use super::block::Block;
 use super::codes::Group;
 use super::fault::{Done, refuse};
-use super::machine::{Machine, Out};
+use super::out::Out;
+use super::state::State;
 use crate::control::Rules;
 use crate::diag::Code;
 
-impl Machine {
+impl State {
     /// Codes that hold for their block: G10, G28, G30, G52, G92.
     pub(super) fn once(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         match block.g(Group::Once) {
             Some(100) => self.set_data(block, out),
             Some(code @ (280 | 300)) => self.go_home(usize::from(code == 300), block, out),
             Some(code @ (281 | 301)) => {
-                self.homes[usize::from(code == 301)] = self.frames.to_machine(&self.position);
+                self.place.homes[usize::from(code == 301)] = self.place.frames.to_machine(&self.place.position);
                 Ok(())
             }
             Some(520 | 920..=923) => self.shift_frame(block, out),
@@ -41,17 +42,17 @@ impl Machine {
         if l != 2.0 && l != 20.0 {
             return refuse(Code::PN016, format!("G10 L{l} is not simulated"), "offsets are set by G10 L2 and L20");
         }
-        let active = self.frames.active;
+        let active = self.place.frames.active;
         let number = match (p as usize, self.control.is_linuxcnc()) {
             (0, true) => active,
             // an additional offset of a Haas or Fanuc
             (p, false) if l == 20.0 => p + 9,
             (p, _) => p,
         };
-        let place = self.frames.to_machine(&self.position);
+        let place = self.place.frames.to_machine(&self.place.position);
         let words: [Option<f64>; 6] = std::array::from_fn(|axis| self.axis_word(block, axis));
-        let (absolute, control, position) = (self.absolute, self.control, self.position);
-        let Some((work, rotation)) = self.frames.work(number) else {
+        let (absolute, control, position) = (self.modes.absolute, self.control, self.place.position);
+        let Some((work, rotation)) = self.place.frames.work(number) else {
             return refuse(Code::PN018, format!("there is no work offset P{p}"), "write P1 for G54");
         };
         let before = [*work, [*rotation; 6]];
@@ -68,34 +69,37 @@ impl Machine {
             *rotation = angle;
         }
         let changed = [*work, [*rotation; 6]] != before;
-        self.position = self.frames.to_program(&place);
+        self.place.position = self.place.frames.to_program(&place);
         out.push(if changed { Action::Frame } else { Action::LeftOut(b'G', 100) });
         Ok(())
     }
 
     pub(super) fn shift_frame(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
-        let place = self.frames.to_machine(&self.position);
-        let before = self.frames.shift;
+        let place = self.place.frames.to_machine(&self.place.position);
+        let before = self.place.frames.shift;
         match block.g(Group::Once) {
-            Some(921) => (self.frames.shift, self.frames.shift_kept) = ([0.0; 6], [0.0; 6]),
-            Some(922) => self.frames.shift = [0.0; 6],
-            Some(923) => self.frames.shift = self.frames.shift_kept,
+            Some(921) => (self.place.frames.shift, self.place.frames.shift_kept) = ([0.0; 6], [0.0; 6]),
+            Some(922) => self.place.frames.shift = [0.0; 6],
+            Some(923) => self.place.frames.shift = self.place.frames.shift_kept,
             code => {
                 if !block.has_axes() {
                     return refuse(Code::PN006, "the code needs axis words and has none", "write the axes it shifts");
                 }
                 for axis in 0..6 {
                     let Some(value) = self.axis_word(block, axis) else { continue };
-                    self.frames.shift[axis] =
-                        if code == Some(520) { value } else { self.frames.shift[axis] + self.position[axis] - value };
+                    self.place.frames.shift[axis] = if code == Some(520) {
+                        value
+                    } else {
+                        self.place.frames.shift[axis] + self.place.position[axis] - value
+                    };
                 }
             }
         }
         if matches!(block.g(Group::Once), Some(520 | 920)) {
-            self.frames.shift_kept = self.frames.shift;
+            self.place.frames.shift_kept = self.place.frames.shift;
         }
-        self.position = self.frames.to_program(&place);
-        if self.frames.shift != before {
+        self.place.position = self.place.frames.to_program(&place);
+        if self.place.frames.shift != before {
             out.push(Action::Frame);
         }
         Ok(())
@@ -103,7 +107,7 @@ impl Machine {
 
     /// By way of a place to the reference point.
     pub(super) fn go_home(&mut self, which: usize, block: &Block, out: &mut Out<'_>) -> Done {
-        if self.compensated {
+        if self.tool.side.is_some() {
             return refuse(Code::PN013, "G28 or G30 under cutter compensation", "end the compensation with G40 first");
         }
         let named: u8 = (0..6).filter(|&axis| self.axis_word(block, axis).is_some()).map(|axis| 1 << axis).sum();
@@ -113,17 +117,17 @@ impl Machine {
         let axes = if named == 0 { 0x3f } else { named };
         if named != 0 || self.control.rules() != Rules::Grbl {
             let way = self.target(block)?;
-            self.rapid_to(way, out);
+            self.place.rapid_to(way, out);
         }
-        let home = self.frames.to_program(&self.homes[which]);
-        let mut to = self.position;
+        let home = self.place.frames.to_program(&self.place.homes[which]);
+        let mut to = self.place.position;
         for axis in (0..6).filter(|axis| axes & 1 << axis != 0) {
             to[axis] = home[axis];
         }
         // an axis at angle zero is at its reference point
-        self.at_machine |= axes & 0b111;
-        self.position = to;
-        out.push(Action::Rapid { to, machine: self.at_machine });
+        self.place.at_machine |= axes & 0b111;
+        self.place.position = to;
+        out.push(Action::Rapid { to, machine: self.place.at_machine });
         Ok(())
     }
 }

@@ -7,8 +7,10 @@ use super::action::{Action, Item};
 use super::block::Block;
 use super::fault::{Done, Fault, refuse};
 use super::jumps::{Frame, Jump, Spot};
-use super::machine::{Machine, Next, Settings};
+use super::out::Next;
 use super::parameters::Parameters;
+use super::settings::RunSettings;
+use super::state::State;
 use crate::control::Rules;
 use crate::diag::{Code, Diag};
 
@@ -41,7 +43,7 @@ impl From<io::Error> for RunError {
 #[derive(Debug)]
 pub struct Simulator<R> {
     pub(super) input: R,
-    pub(super) machine: Machine,
+    pub(super) state: State,
     pub(super) parameters: Parameters,
     pub(super) block: Block,
     pub(super) line: Vec<u8>,
@@ -70,10 +72,10 @@ pub struct Simulator<R> {
 
 impl<R: BufRead + Seek> Simulator<R> {
     /// From the beginning of a program.
-    pub fn new(input: R, settings: Settings) -> Simulator<R> {
+    pub fn new(input: R, settings: RunSettings) -> Simulator<R> {
         Simulator {
             input,
-            machine: Machine::new(settings),
+            state: State::new(settings),
             parameters: Parameters::new(settings.control),
             block: Block::default(),
             line: Vec::new(),
@@ -95,12 +97,12 @@ impl<R: BufRead + Seek> Simulator<R> {
 
     /// The program counts in these units until it says others; before the first block.
     pub fn begin_in(&mut self, units: crate::toolpath::Units) {
-        self.machine.begin_in(units);
+        self.state.begin_in(units);
     }
 
     /// The state of the control.
-    pub fn machine(&self) -> &Machine {
-        &self.machine
+    pub fn state(&self) -> &State {
+        &self.state
     }
 
     /// The block that was run last, as written.
@@ -129,7 +131,7 @@ impl<R: BufRead + Seek> Simulator<R> {
     /// The input can't be gone back in.
     pub fn again(mut self) -> io::Result<Simulator<R>> {
         self.input.seek(SeekFrom::Start(0))?;
-        Ok(Simulator::new(self.input, self.machine.settings))
+        Ok(Simulator::new(self.input, self.state.settings))
     }
 
     /// Blocks run so far.
@@ -165,7 +167,7 @@ impl<R: BufRead + Seek> Simulator<R> {
 
     /// Warnings since the last call, as findings.
     pub fn take_warnings(&mut self) -> Vec<Diag> {
-        let list = self.machine.take_warnings();
+        let list = self.state.take_warnings();
         let (line, text) = (self.at.line, self.text());
         list.into_iter().map(|(code, message)| Fault::new(code, message, code.row().title).diag(line, text)).collect()
     }
@@ -216,9 +218,9 @@ impl<R: BufRead + Seek> Simulator<R> {
     #[inline]
     fn line_step(&mut self, items: &mut Vec<Item>) -> Done<Jump> {
         if std::mem::take(&mut self.unfinished) {
-            return self.acted(items, |machine, block, line, items| machine.run_on(block, line, items));
+            return self.acted(items, |state, block, line, items| state.run_on(block, line, items));
         }
-        let control = self.machine.settings.control;
+        let control = self.state.settings.control;
         let traits = control.traits();
         let counts = traits.stops_at_longer && !traits.bare_line;
         let longest = traits.longest_line.filter(|_| counts).unwrap_or(LONGEST);
@@ -226,8 +228,11 @@ impl<R: BufRead + Seek> Simulator<R> {
             self.line.truncate(80);
             return refuse(Code::PN001, format!("a line of over {longest} bytes"), "break it into several blocks");
         }
-        self.parameters.position = *self.machine.position();
-        self.block.read(&self.line, &mut self.parameters, &self.machine.settings)?;
+        self.parameters.position = *self.state.position();
+        match control.rules() {
+            Rules::Grbl => super::grbl::read(&mut self.block, &self.line, control)?,
+            _ => self.block.read(&self.line, &mut self.parameters, &self.state.settings)?,
+        }
         if self.block.is_empty() && self.block.comment.is_none() {
             if self.block.percent {
                 let ends = self.percent || self.blocks > 0;
@@ -237,7 +242,7 @@ impl<R: BufRead + Seek> Simulator<R> {
             return Ok(Jump::On);
         }
         if self.block.deleted {
-            if self.machine.settings.block_delete {
+            if self.state.settings.block_delete {
                 return Ok(Jump::On);
             }
             items.push(Item { line: self.at.line, by_cycle: false, action: Action::LeftOut(b'/', 0) });
@@ -246,18 +251,18 @@ impl<R: BufRead + Seek> Simulator<R> {
         if let Some(flow) = self.block.flow.take() {
             return self.follow(flow);
         }
-        self.acted(items, Machine::run)
+        self.acted(items, State::run)
     }
 
-    /// Lets the machine act for the block, and says where the program goes.
+    /// Lets the control act for the block, and says where the program goes.
     #[inline]
     fn acted(
         &mut self,
         items: &mut Vec<Item>,
-        act: impl FnOnce(&mut Machine, &mut Block, u64, &mut Vec<Item>) -> Done<Next>,
+        act: impl FnOnce(&mut State, &mut Block, u64, &mut Vec<Item>) -> Done<Next>,
     ) -> Done<Jump> {
         let before = items.len();
-        let next = act(&mut self.machine, &mut self.block, self.at.line, items)?;
+        let next = act(&mut self.state, &mut self.block, self.at.line, items)?;
         self.unfinished = next == Next::Rest;
         // a block alone may make as many as a loop
         if self.unfinished || !self.frames.is_empty() {
@@ -279,7 +284,7 @@ impl<R: BufRead + Seek> Simulator<R> {
     /// The input is over before the program.
     fn at_end(&mut self) -> Done<bool> {
         self.over = true;
-        if self.machine.settings.control.rules() == Rules::Grbl {
+        if self.state.settings.control.rules() == Rules::Grbl {
             return Ok(false); // it takes block by block, and knows no program
         }
         let help = "a program ends with M2, M30 or %";

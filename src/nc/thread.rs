@@ -5,7 +5,8 @@ use super::action::Rotation;
 use super::block::Block;
 use super::codes::letters;
 use super::fault::{Done, refuse};
-use super::machine::{Machine, Out};
+use super::out::Out;
+use super::state::State;
 use crate::diag::Code;
 
 /// Most passes of a thread.
@@ -25,10 +26,10 @@ struct Thread {
     start_z: f64,
 }
 
-impl Machine {
+impl State {
     /// All passes.
     pub(super) fn thread(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
-        if self.spindle == Rotation::Stop {
+        if self.drive.spindle == Rotation::Stop {
             return refuse(Code::PN012, "G76 with the spindle stopped", "write M3 or M4 before it");
         }
         let need = |letter: u8| match block.get(letter) {
@@ -39,7 +40,7 @@ impl Machine {
             }
         };
         // lengths along X are diameters under G7
-        let scale = if self.diameter { 0.5 } else { 1.0 };
+        let scale = if self.modes.diameter { 0.5 } else { 1.0 };
         let (pitch, i, j, k) = (need(b'P')?, need(b'I')? * scale, need(b'J')? * scale, need(b'K')? * scale);
         let degression = block.get(b'R').unwrap_or(1.0).max(1.0);
         let checks = [
@@ -47,7 +48,7 @@ impl Machine {
             (j <= 0.0, "J, the first cut, must be greater than 0"),
             (k <= j, "K, the full depth, must be greater than J"),
             (block.has(letters("ABC")), "rotary axes do not move in G76"),
-            (self.compensated, "G76 under cutter compensation"),
+            (self.tool.side.is_some(), "G76 under cutter compensation"),
         ];
         if let Some((_, message)) = checks.iter().find(|(wrong, _)| *wrong) {
             return refuse(Code::PN018, *message, "G76 P(pitch) Z(end) I(crest) J(first cut) K(depth)");
@@ -56,7 +57,7 @@ impl Machine {
         // without a length there is no taper
         let ends = block.get(b'L').filter(|_| block.get(b'E').is_some_and(|e| e != 0.0)).unwrap_or(0.0);
         let mut tan = block.get(b'Q').unwrap_or(0.0).to_radians().tan();
-        if target[2] > self.position[2] {
+        if target[2] > self.place.position[2] {
             tan = -tan;
         }
         let thread = Thread {
@@ -67,10 +68,10 @@ impl Machine {
             tan,
             entry: ends == 1.0 || ends == 3.0,
             exit: ends == 2.0 || ends == 3.0,
-            taper: block.get(b'E').unwrap_or(0.0).copysign(self.position[2] - target[2]),
+            taper: block.get(b'E').unwrap_or(0.0).copysign(self.place.position[2] - target[2]),
             side: i.signum(),
-            start_x: self.position[0],
-            start_z: self.position[2],
+            start_x: self.place.position[0],
+            start_z: self.place.position[2],
         };
         let full = thread.peak + k;
         let mut pass = 1.0f64;
@@ -92,11 +93,11 @@ impl Machine {
         for _ in 0..=springs as u32 {
             self.pass(&thread, full, out);
         }
-        let mut to = self.position;
+        let mut to = self.place.position;
         to[0] = thread.start_x;
         to[2] = target[2];
-        self.rapid_to(to, out);
-        self.motion = 760;
+        self.place.rapid_to(to, out);
+        self.modes.motion = 760;
         Ok(())
     }
 
@@ -106,10 +107,10 @@ impl Machine {
         let infeed = (depth - peak) * tan;
         let whole = peak + full;
         let lead_of_taper = pitch * taper.hypot(full) / taper.abs();
-        let mut to = self.position;
+        let mut to = self.place.position;
         let start = start_z - infeed;
         (to[0], to[2]) = (x(depth - whole), start);
-        self.rapid_to(to, out);
+        self.place.rapid_to(to, out);
         if thread.entry {
             to[0] = x(depth - full);
             self.threaded(to, lead_of_taper, out);
@@ -117,7 +118,7 @@ impl Machine {
             self.threaded(to, lead_of_taper, out);
         } else {
             to[0] = x(depth);
-            self.rapid_to(to, out);
+            self.place.rapid_to(to, out);
         }
         let target = end - infeed;
         to[2] = if thread.exit { target + taper } else { target };
@@ -127,11 +128,11 @@ impl Machine {
             self.threaded(to, lead_of_taper, out);
         }
         to[0] = x(depth - whole);
-        self.rapid_to(to, out);
+        self.place.rapid_to(to, out);
     }
 
     fn threaded(&mut self, to: [f64; 6], lead: f64, out: &mut Out<'_>) {
-        self.position = to;
-        out.push(Action::Feed { to, feed: self.feed, lead: Some(lead) });
+        self.place.position = to;
+        out.push(Action::Feed { to, feed: self.drive.feed, lead: Some(lead) });
     }
 }

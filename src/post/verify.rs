@@ -9,7 +9,7 @@ use crate::control::Control;
 use crate::diag::Diag;
 use crate::error::{Error, ErrorKind};
 use crate::job::Job;
-use crate::nc::Settings;
+use crate::nc::RunSettings;
 use crate::toolpath::{Event, Flow, Place, Sink, Units};
 use crate::verify::{Comparer, Counts, Expectation, Verdict};
 
@@ -61,17 +61,17 @@ impl Proof {
     }
 
     /// How the control runs a program that this form printed.
-    fn settings(&self, form: Option<&compile::Program>, units: Units) -> Settings {
+    fn settings(&self, form: Option<&compile::Program>, units: Units) -> RunSettings {
         let form = form.map(|form| &form.settings);
         let of_form = form.and_then(|form| form.control);
         let control = self.control.or(of_form).unwrap_or_else(Control::usual);
-        Settings {
+        RunSettings {
             units,
             block_delete: self.block_delete,
             back_off: self.back_off,
             unpointed: self.unpointed,
             centers_absolute: form.is_some_and(|form| !form.centre_incremental),
-            ..Settings::new(control)
+            ..RunSettings::new(control)
         }
     }
 }

@@ -10,7 +10,7 @@ use super::expectation::Expectation;
 use super::finding::Verdict;
 use super::report::Counts;
 use crate::diag::Diag;
-use crate::nc::Settings;
+use crate::nc::RunSettings;
 use crate::toolpath::{Arc, Call, CycleSpec, Event, Infeed, Place, Sink, Start, Thread, ToolChange};
 
 /// What a renderer takes and makes, in its order: one event of the job, or some bytes of the program.
@@ -117,7 +117,7 @@ pub struct Outcome {
 /// None that `parts` does not have: text in memory can always be read.
 pub fn prove_beside(
     parts: impl Iterator<Item = Part>,
-    settings: Settings,
+    settings: RunSettings,
     expectation: Expectation,
     tolerance: Option<f64>,
     of_job: bool,

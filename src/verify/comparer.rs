@@ -13,7 +13,7 @@ use super::state::{Holes, Limits, Sides};
 use super::tables::PLACES;
 use super::{arcs, begin, holes, lines, pauses, ways};
 use crate::diag::{Code, Diag};
-use crate::nc::Settings;
+use crate::nc::RunSettings;
 use crate::toolpath::{self, Event, Flow, Sink, Stop, StopKind, Units};
 
 /// Compares a program with the events of its job: push them, then ask for the verdict.
@@ -26,7 +26,7 @@ pub struct Comparer<R> {
 
 impl<R: BufRead + Seek> Comparer<R> {
     /// Compares with this program. `tolerance` in the job's units; else 0.0001 inch or 0.002 mm.
-    pub fn new(program: R, settings: Settings, expectation: Expectation, tolerance: Option<f64>) -> Comparer<R> {
+    pub fn new(program: R, settings: RunSettings, expectation: Expectation, tolerance: Option<f64>) -> Comparer<R> {
         let program = Program::new(program, settings, &expectation);
         let tools = expectation.tools;
         let typed = [expectation.feeds.clone(), expectation.speeds.clone()];

@@ -9,7 +9,7 @@ use super::passage::{Frame, Passage};
 use super::recent::Recent;
 use crate::control::{Control, Meaning, Rules};
 use crate::diag::{Code, Diag};
-use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, Settings, Simulator};
+use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, StopKind, Units};
 
 /// What the program has not said yet, and what was told of it.
@@ -87,8 +87,8 @@ pub(super) struct Program<R> {
 
 impl<R: BufRead + Seek> Program<R> {
     /// Runs with these settings, and by what a form says of its words.
-    pub fn new(input: R, settings: Settings, expectation: &Expectation) -> Program<R> {
-        let settings = Settings { places_unknown: true, bore_shift: -1.0, ..settings };
+    pub fn new(input: R, settings: RunSettings, expectation: &Expectation) -> Program<R> {
+        let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..settings };
         // as switched on
         let state = State {
             side: Some(None),
@@ -164,7 +164,7 @@ impl<R: BufRead + Seek> Program<R> {
         if let Some(cut) = self.cut.take() {
             self.at = cut.end();
             // a cut may say a height that was unknown
-            self.unknown = self.scale.axes(self.simulator.machine().at_machine());
+            self.unknown = self.scale.axes(self.simulator.state().at_machine());
             self.passage.begin(Rapid { to: self.at, unknown: self.unknown, spin: Some(self.spin) });
             self.cuts = true;
         }

@@ -7,7 +7,7 @@ use super::expectation::Expectation;
 use super::passage::Mark;
 use super::program::Program;
 use super::way::{Compared, Way, compare, leaves_low};
-use crate::nc::{Cooling, RunError, Settings, axes_of};
+use crate::nc::{Cooling, RunError, RunSettings, axes_of};
 use crate::toolpath::{StopKind, Units};
 
 /// The first difference of two programs' motions.
@@ -41,7 +41,7 @@ pub struct NoMotion(pub usize, pub RunError);
 pub fn compare_motions<R: BufRead + Seek>(
     old: R,
     new: R,
-    settings: [Settings; 2],
+    settings: [RunSettings; 2],
     units: Units,
     tolerance: f64,
 ) -> Result<Motions, NoMotion> {

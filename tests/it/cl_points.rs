@@ -272,6 +272,7 @@ fn programs_of_real_files_cut_and_drill_what_the_files_say() {
                     agree.push(name);
                 }
                 Err(ReadError::Job(diag)) => eprintln!("{name}: {} {}", diag.code.name(), diag.message),
+                Err(ReadError::Stopped) => panic!("a renderer takes all"),
                 Err(ReadError::Io(error)) => panic!("{error}"),
             }
         }

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 
 use crate::support::root;
 use postform::diff::{Comparison, Edit, Ignore, Options, Program, compare};
-use postform::nc::Settings;
+use postform::nc::RunSettings;
 use postform::toolpath::Units;
 use postform::verify::compare_motions;
 use proptest::prelude::*;
@@ -33,7 +33,7 @@ fn compared(old: &str, new: &str, ignore: Ignore, tolerance: f64) -> Comparison 
 
 /// Do both machines do the same?
 fn same_motion(old: &str, new: &str) -> bool {
-    let settings = Settings::new(control("fanuc"));
+    let settings = RunSettings::new(control("fanuc"));
     compare_motions(Cursor::new(old), Cursor::new(new), [settings; 2], Units::Mm, 1e-6).unwrap().difference.is_none()
 }
 
@@ -158,7 +158,7 @@ fn pairs_and_their_verdicts() {
 #[test]
 fn other_ways_are_counted() {
     let detour = BASE.replacen("N110", "G0 X-20.\nN110", 1);
-    let settings = [Settings::new(control("fanuc")); 2];
+    let settings = [RunSettings::new(control("fanuc")); 2];
     let found = compare_motions(Cursor::new(BASE), Cursor::new(detour.as_str()), settings, Units::Mm, 1e-6).unwrap();
     assert_eq!((found.difference, found.ways), (None, 1));
 }

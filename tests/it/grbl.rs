@@ -5,7 +5,7 @@ use std::io::Cursor;
 
 use crate::support::{check_file, job, render_checked, render_sample, root, sample_form, samples};
 use postform::control::Control;
-use postform::nc::{Action, Cooling, Item, Position, Rotation, RunError, Settings, Simulator, Turn};
+use postform::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator, Turn};
 use postform::toolpath::{Direction, FeedMode, Plane, Units};
 use serde_json::Value;
 
@@ -66,7 +66,7 @@ struct Run {
 impl Run {
     fn new(program: &str, control: &'static Control) -> Run {
         Run {
-            simulator: Simulator::new(Cursor::new(program.as_bytes().to_vec()), Settings::new(control)),
+            simulator: Simulator::new(Cursor::new(program.as_bytes().to_vec()), RunSettings::new(control)),
             scale: 1.0,
             at: [0.0; 3],
             frame: [0.0; 3],
@@ -133,7 +133,7 @@ impl Run {
             }
         }
         self.frame = self.frame();
-        let at = *self.simulator.machine().position();
+        let at = *self.simulator.state().position();
         self.place(&at, self.frame);
         if turning != self.spindle {
             self.spindle = turning.clone();
@@ -147,8 +147,8 @@ impl Run {
 
     /// Where the program's zero is, in mm.
     fn frame(&self) -> [f64; 3] {
-        let zero = self.simulator.machine().in_machine_coordinates(&[0.0; 6]);
-        let inch = self.simulator.machine().units() == Units::Inch;
+        let zero = self.simulator.state().in_machine_coordinates(&[0.0; 6]);
+        let inch = self.simulator.state().units() == Units::Inch;
         [0, 1, 2].map(|axis| zero[axis] * if inch { 25.4 } else { 1.0 })
     }
 

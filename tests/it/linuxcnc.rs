@@ -7,7 +7,7 @@ use std::path::Path;
 
 use crate::support::nc::{self, difference, simulated};
 use crate::support::{Kind, root, sample_job, samples};
-use postform::nc::Settings;
+use postform::nc::RunSettings;
 use postform::render::{Cycles, Options};
 use postform::toolpath::Sink;
 use postform::toolpath::json::{read_document, read_lines};
@@ -116,7 +116,7 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
             let name = folder.file_name().unwrap().to_string_lossy().into_owned();
             let mut comparer = Comparer::new(
                 std::io::Cursor::new(rendered.text.clone()),
-                Settings::new(control("linuxcnc")),
+                RunSettings::new(control("linuxcnc")),
                 Expectation::of_form(&settings, false),
                 None,
             );
@@ -130,7 +130,7 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
             fs::write(&program, &rendered.text).unwrap();
             let Some(calls) = interpreted(&program, &tools) else { return };
             assert!(calls.contains("PROGRAM_END()"), "{name}: {}\n{calls}", rendered.text);
-            let (ours, ended, _) = simulated(rendered.text.as_bytes(), Settings::new(control("linuxcnc")));
+            let (ours, ended, _) = simulated(rendered.text.as_bytes(), RunSettings::new(control("linuxcnc")));
             assert_eq!(ended, Ok(()), "{name}");
             // the interpreter offsets the path under compensation, the simulator only follows it
             if rendered.text.contains("G41") || rendered.text.contains("G42") {
@@ -152,7 +152,7 @@ fn rigid_taps_run_as_in_the_interpreter() {
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rigid-tap.ngc");
     fs::write(&program, text).unwrap();
     let Some(calls) = interpreted(&program, "T1 P1 Z0 D1\n") else { return };
-    let (ours, ended, _) = simulated(text.as_bytes(), Settings::new(control("linuxcnc")));
+    let (ours, ended, _) = simulated(text.as_bytes(), RunSettings::new(control("linuxcnc")));
     assert_eq!(ended, Ok(()));
     assert_eq!(difference(&ours, &nc::interpreted(&calls)), None, "{calls}");
 }

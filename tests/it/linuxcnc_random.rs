@@ -5,7 +5,7 @@ use crate::support::control;
 use std::path::Path;
 
 use crate::support::nc::{self, difference, interpreted, simulated};
-use postform::nc::Settings;
+use postform::nc::RunSettings;
 
 /// A generator of its own, so that a failing program can be made again from its number.
 struct Random(u64);
@@ -110,7 +110,7 @@ fn random_programs_run_as_in_the_interpreter() {
         let arguments = ["-v".as_ref(), parameters.as_os_str(), "-g".as_ref(), path.as_os_str()];
         let Some(output) = nc::rs274(&[(&path, &text), (&parameters, PARAMETERS)], &arguments) else { return };
         let canon = String::from_utf8_lossy(&output.stdout).into_owned();
-        let (calls, ended, _) = simulated(text.as_bytes(), Settings::new(control("linuxcnc")));
+        let (calls, ended, _) = simulated(text.as_bytes(), RunSettings::new(control("linuxcnc")));
         let theirs = interpreted(&canon);
         let ended_well = canon.contains("PROGRAM_END");
         if ended_well != ended.is_ok() {

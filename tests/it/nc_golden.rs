@@ -6,7 +6,7 @@ use std::io::Cursor;
 use std::path::PathBuf;
 
 use crate::support::nc::{difference, interpreted, simulated};
-use postform::nc::{Settings, Simulator};
+use postform::nc::{RunSettings, Simulator};
 use serde_json::Value;
 
 fn golden() -> Option<PathBuf> {
@@ -20,7 +20,7 @@ fn golden() -> Option<PathBuf> {
 
 /// What is wrong with one program, if anything.
 fn compare(program: &str, canon: &str) -> Option<String> {
-    let settings = Settings::new(control("linuxcnc"));
+    let settings = RunSettings::new(control("linuxcnc"));
     let (ours, ended, _) = simulated(program.as_bytes(), settings);
     let refused = canon.lines().find_map(|line| line.strip_prefix("!error "));
     match (refused, ended) {
@@ -80,7 +80,7 @@ fn every_rule_has_its_case() {
 #[test]
 fn surprises_are_warned_of() {
     let warned = |program: &str| -> Vec<String> {
-        let mut simulator = Simulator::new(Cursor::new(program), Settings::new(control("linuxcnc")));
+        let mut simulator = Simulator::new(Cursor::new(program), RunSettings::new(control("linuxcnc")));
         while let Ok(true) = simulator.step(&mut Vec::new()) {}
         simulator.take_warnings().iter().map(|diag| diag.code.name().to_owned()).collect()
     };

@@ -6,7 +6,7 @@ use std::io::Cursor;
 
 use crate::support::{check, root};
 use postform::compile::compile;
-use postform::nc::{JobOptions, Settings, read_program};
+use postform::nc::{JobOptions, RunSettings, read_program};
 use postform::render::{Options, Renderer};
 use postform::toolpath::ReadError;
 
@@ -17,7 +17,7 @@ fn printed(program: &str) -> Result<(String, Vec<String>), String> {
     let checked = check(&fs::read_to_string(root().join("postforms/haas.pf")).unwrap());
     let form = compile(&checked.form);
     let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
-    let options = JobOptions { settings: Settings::new(control("fanuc")), units: None, tool: None };
+    let options = JobOptions { settings: RunSettings::new(control("fanuc")), units: None, tool: None };
     let mut warnings = Vec::new();
     match read_program(Cursor::new(program), &options, &mut warnings, &mut renderer) {
         Ok(()) => {

@@ -7,7 +7,7 @@ use crate::program_commands::{postform, text};
 use crate::support::{check, control, root};
 use crate::verify::{document, inches, post, rendered, verified};
 use postform::compile::compile;
-use postform::nc::{JobOptions, Settings, read_program};
+use postform::nc::{JobOptions, RunSettings, read_program};
 use postform::render::{Cycles, Options as RenderOptions, Renderer};
 use postform::toolpath::json::read_lines;
 use postform::toolpath::{Event, Flow, Place, Sink};
@@ -199,7 +199,7 @@ fn programs_are_identical_to_themselves() {
     ];
     for (name, body) in bodies {
         let program = format!("{head}{body}M30\n%\n");
-        let settings = Settings::new(control("fanuc"));
+        let settings = RunSettings::new(control("fanuc"));
         let mut comparer = Comparer::new(Cursor::new(program.clone()), settings, Expectation::default(), None);
         let options = JobOptions { settings, units: None, tool: None };
         let read = read_program(Cursor::new(program.clone()), &options, &mut Vec::new(), &mut comparer);
@@ -445,7 +445,7 @@ fn a_proof_beside_the_renderer_is_the_same() {
             .flat_map(|part| if let Part::Text(text) = part { &text[..] } else { &[] })
             .copied()
             .collect();
-        let settings = Settings::new(compiled.settings.control());
+        let settings = RunSettings::new(compiled.settings.control());
         let expectation = || Expectation::of_form(&compiled.settings, false).typed(&compiled);
         let beside = |parts: Vec<Part>| prove_beside(parts.into_iter(), settings, expectation(), None, true).unwrap();
         let outcome = beside(tap.parts.clone());

@@ -8,7 +8,7 @@ use std::io::Cursor;
 
 use crate::support::root;
 use postform::compile::compile;
-use postform::nc::{JobOptions, RunError, Settings, Simulator, Tally, Unpointed, read_program};
+use postform::nc::{JobOptions, RunError, RunSettings, Simulator, Tally, Unpointed, read_program};
 use postform::render::{Options, Renderer};
 use postform::toolpath::{Sink, Units};
 use postform::verify::{Comparer, Expectation, Verdict};
@@ -17,7 +17,7 @@ use postform::verify::{Comparer, Expectation, Verdict};
 type Outcome = Result<(u64, u64), (&'static str, u64)>;
 
 /// A program with how it is run and what comes of it.
-type Program = (&'static str, Vec<u8>, Settings, Option<Units>, Outcome);
+type Program = (&'static str, Vec<u8>, RunSettings, Option<Units>, Outcome);
 
 /// File, what it counts in where it does not say so, holes and tools, or its refusal.
 const PROGRAMS: [(&str, Option<Units>, Outcome); 7] = [
@@ -41,7 +41,8 @@ fn programs() -> Vec<Program> {
     let with = |(name, units, expected): (&'static str, Option<Units>, _)| {
         // two of them end with a G53 X12, whose units only the shop knows
         let unpointed = if units.is_some() { Unpointed::Whole } else { Unpointed::Refused };
-        let settings = Settings { units: units.unwrap_or(Units::Mm), unpointed, ..Settings::new(control("fanuc")) };
+        let settings =
+            RunSettings { units: units.unwrap_or(Units::Mm), unpointed, ..RunSettings::new(control("fanuc")) };
         (name, fs::read(folder.join(name)).unwrap(), settings, units, expected)
     };
     PROGRAMS.into_iter().map(with).collect()
@@ -87,7 +88,7 @@ fn real_programs_printed_by_another_form_make_the_same_motions() {
         let program = std::mem::take(renderer.text());
         let text = String::from_utf8_lossy(&program).into_owned();
         let expectation = Expectation::of_form(&form.settings, false);
-        let mut comparer = Comparer::new(Cursor::new(program), Settings::new(control("fanuc")), expectation, None);
+        let mut comparer = Comparer::new(Cursor::new(program), RunSettings::new(control("fanuc")), expectation, None);
         let read = read(&mut comparer);
         let verdict = comparer.verdict().unwrap();
         assert!(read.is_ok() && !matches!(verdict, Verdict::Different(_)), "{name}: {verdict:?}\n{text}");

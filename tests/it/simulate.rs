@@ -7,11 +7,11 @@ use postform::control::Control;
 use std::io::Cursor;
 
 use crate::support::nc::{Call, simulated};
-use postform::nc::{Action, RunError, Settings, Simulator, Unpointed};
+use postform::nc::{Action, RunError, RunSettings, Simulator, Unpointed};
 
 /// Motions as text: `T` rapid, `F` feed.
 fn motions(control: &'static Control, program: &str) -> Vec<String> {
-    let (calls, ended, _) = simulated(program.as_bytes(), Settings::new(control));
+    let (calls, ended, _) = simulated(program.as_bytes(), RunSettings::new(control));
     assert_eq!(ended, Ok(()), "{program}");
     calls.iter().map(shown).collect()
 }
@@ -36,10 +36,10 @@ fn shown(call: &Call) -> String {
 
 /// The code and line of a refusal.
 fn refused(control: &'static Control, program: &str) -> (String, u64) {
-    refused_with(Settings::new(control), program)
+    refused_with(RunSettings::new(control), program)
 }
 
-fn refused_with(settings: Settings, program: &str) -> (String, u64) {
+fn refused_with(settings: RunSettings, program: &str) -> (String, u64) {
     let mut simulator = Simulator::new(Cursor::new(program), settings);
     loop {
         match simulator.step(&mut Vec::new()) {
@@ -146,7 +146,7 @@ fn lengths_without_a_point() {
     assert_eq!(refused(control("fanuc"), program), ("PN017".into(), 2));
     for (unpointed, x) in [(Unpointed::Whole, 1000.0), (Unpointed::Increments, 1.0)] {
         let (calls, ended, _) =
-            simulated(program.as_bytes(), Settings { unpointed, ..Settings::new(control("fanuc")) });
+            simulated(program.as_bytes(), RunSettings { unpointed, ..RunSettings::new(control("fanuc")) });
         assert_eq!((calls, ended), (vec![Call::Rapid([x, 0.0, 0.0, 0.0, 0.0, 0.0])], Ok(())));
     }
     assert_eq!(motions(control("linuxcnc"), program), ["T 1000 0 0"]);
@@ -306,9 +306,9 @@ fn the_same_program_however_it_is_written() {
         assert_eq!(motions(control("fanuc"), &text), wanted, "{text:?}");
     }
     let latin1 = [&b"(90\xb0)\n"[..], &plain.as_bytes()[2..]].concat();
-    let (calls, ended, _) = simulated(&latin1, Settings::new(control("fanuc")));
+    let (calls, ended, _) = simulated(&latin1, RunSettings::new(control("fanuc")));
     assert_eq!((calls.len(), ended), (2, Ok(())));
-    let skipped = Settings { block_delete: true, ..Settings::new(control("fanuc")) };
+    let skipped = RunSettings { block_delete: true, ..RunSettings::new(control("fanuc")) };
     let (calls, ..) = simulated(
         plain.replace("N20", "/N20").replace("G1", "G0 X0 G1").replace("G0 X0 G1", "G1 X0").as_bytes(),
         skipped,
@@ -337,7 +337,7 @@ fn mutilated_programs_get_an_answer() {
             }
         }
         for control in postform::control::names().map(control) {
-            let _ended = simulated(&bytes, Settings::new(control)).1;
+            let _ended = simulated(&bytes, RunSettings::new(control)).1;
         }
     }
 }
@@ -358,7 +358,7 @@ fn interrupted_reads_are_made_again() {
             self.0.seek(to)
         }
     }
-    let (program, settings) = ("G21\nG0 X1.\nM30\n", Settings::new(control("fanuc")));
+    let (program, settings) = ("G21\nG0 X1.\nM30\n", RunSettings::new(control("fanuc")));
     let input = BufReader::with_capacity(4, Interrupted(Cursor::new(program), false));
     let mut simulator = Simulator::new(input, settings);
     let mut items = Vec::new();
@@ -398,7 +398,7 @@ fn rigid_taps_of_linuxcnc_come_back() {
     assert_eq!(refused("G33.1 Z-10 K1.5"), "PN012");
     assert_eq!(refused("S100 M3 G33.1 Z-10"), "PN007");
     assert_eq!(refused("S100 M3 G33.1 K1"), "PN006");
-    assert_eq!(refused_with(Settings::new(control("fanuc")), "G21\nG33.1 Z-10. K1.\n").0, "PN016");
+    assert_eq!(refused_with(RunSettings::new(control("fanuc")), "G21\nG33.1 Z-10. K1.\n").0, "PN016");
 }
 
 /// Passing over lines is no loop, however many there are; passing over them in a loop is one.
@@ -406,7 +406,7 @@ fn rigid_taps_of_linuxcnc_come_back() {
 fn lines_passed_over_are_no_loop() {
     let lines = "G1 X1.\n".repeat(2_100_000);
     for program in [format!("o1 if [0]\n{lines}o1 endif\nM2\n"), format!("o1 sub\n{lines}o1 endsub\nM2\n")] {
-        let (calls, ended, _) = simulated(program.as_bytes(), Settings::new(control("linuxcnc")));
+        let (calls, ended, _) = simulated(program.as_bytes(), RunSettings::new(control("linuxcnc")));
         assert_eq!((calls.len(), ended), (0, Ok(())));
     }
     let lines = "G1 X1.\n".repeat(1_000);
@@ -419,7 +419,7 @@ fn lines_passed_over_are_no_loop() {
 fn a_block_of_many_moves_is_not_held() {
     for (code, each) in [("G83", 1), ("G84", 2)] {
         let program = format!("{START}G98 {code} X0. Y0. Z-100. R0. Q0.001 F100. K2\nG80\nM30\n");
-        let mut simulator = Simulator::new(Cursor::new(program), Settings::new(control("fanuc")));
+        let mut simulator = Simulator::new(Cursor::new(program), RunSettings::new(control("fanuc")));
         let (mut items, mut most, mut depths) = (Vec::new(), 0, Vec::new());
         loop {
             items.clear();

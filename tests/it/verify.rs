@@ -8,7 +8,7 @@ use std::io::Cursor;
 use crate::support::{check, root, wrong};
 use postform::compile::compile;
 use postform::control::Control;
-use postform::nc::{JobOptions, Settings, read_program};
+use postform::nc::{JobOptions, RunSettings, read_program};
 use postform::render::{Cycles, Options, Renderer};
 use postform::sema::Checked;
 use postform::toolpath::Sink;
@@ -39,7 +39,7 @@ pub fn rendered(form: &Checked, job: Job<'_>, cycles: Cycles) -> String {
 /// Runs a program as the form's control would, and compares.
 pub fn verified(form: &Checked, program: &str, job: Job<'_>) -> Verdict {
     let compiled = compile(&form.form);
-    let settings = Settings::new(compiled.settings.control.unwrap_or_else(Control::usual));
+    let settings = RunSettings::new(compiled.settings.control.unwrap_or_else(Control::usual));
     let expectation = Expectation::of_form(&compiled.settings, false).typed(&compiled);
     let mut comparer = Comparer::new(Cursor::new(program.to_owned()), settings, expectation, None);
     let read = job(&mut comparer);
@@ -296,7 +296,7 @@ fn without_tap() -> String {
 fn becomes_a_job(fanuc: &Checked, text: &str, posts: &[&str]) {
     let source = document(text);
     let old = rendered(fanuc, &source, Cycles::Form);
-    let options = JobOptions { settings: Settings::new(control("fanuc")), units: None, tool: None };
+    let options = JobOptions { settings: RunSettings::new(control("fanuc")), units: None, tool: None };
     let mut warnings = Vec::new();
     let seen = std::cell::RefCell::new(0);
     let job = |sink: &mut dyn Sink| {
@@ -472,7 +472,7 @@ fn taps_with_a_dwell_and_by_the_spindle_are_the_jobs() {
 
 #[test]
 fn a_hole_outside_a_cycle_is_a_fault_of_postform() {
-    let settings = Settings::new(control("fanuc"));
+    let settings = RunSettings::new(control("fanuc"));
     let mut comparer = Comparer::new(Cursor::new(String::new()), settings, Expectation::default(), None);
     let hole = postform::toolpath::Hole { at: postform::toolpath::Axes::new(&[1.0, 1.0, 0.0]), depth: None };
     let error = wrong(comparer.event(postform::toolpath::Event::Hole(hole), Default::default()));

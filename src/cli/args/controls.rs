@@ -5,7 +5,7 @@ use clap::{Args, ValueEnum};
 
 use postform::Proof;
 use postform::control::{self, Control};
-use postform::nc::{Settings, Unpointed};
+use postform::nc::{RunSettings, Unpointed};
 use postform::toolpath::Units;
 
 /// How a program is run.
@@ -70,15 +70,15 @@ impl ControlArgs {
     }
 
     /// As the library has it; `form` is the form's own control.
-    pub fn settings(&self, form: Option<&'static Control>, units: Units) -> Settings {
+    pub fn settings(&self, form: Option<&'static Control>, units: Units) -> RunSettings {
         let control = self.control.or(form).unwrap_or_else(Control::usual);
         let unpointed = self.no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
-        Settings {
+        RunSettings {
             units,
             block_delete: self.block_delete,
             back_off: self.back_off,
             unpointed,
-            ..Settings::new(control)
+            ..RunSettings::new(control)
         }
     }
 }

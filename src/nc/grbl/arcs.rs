@@ -6,18 +6,19 @@ use crate::nc::arcs::{CENTERS, axes_of, center_of};
 use crate::nc::block::Block;
 use crate::nc::codes::letters;
 use crate::nc::fault::Done;
-use crate::nc::machine::{Machine, Out};
+use crate::nc::out::Out;
+use crate::nc::state::State;
 use crate::toolpath::{Direction, Units};
 
-impl Machine {
+impl State {
     /// An arc or helix. The centre is incremental, and a word across the plane counts for nothing.
     pub(super) fn grbl_arc(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
-        let feed = self.feed_of(block)?;
-        let [first, second, _] = axes_of(self.plane);
-        let from = self.position;
+        let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
+        let [first, second, _] = axes_of(self.modes.plane);
+        let from = self.place.position;
         let to = self.target(block)?;
         let direction = if code == 20 { Direction::Cw } else { Direction::Ccw };
-        let tolerance = self.control.arc_tolerance(self.units == Units::Inch);
+        let tolerance = self.control.arc_tolerance(self.modes.units == Units::Inch);
         let words = [first, second].map(|axis| block.get(CENTERS[axis]));
         let mut center = [from[0], from[1], from[2]];
         if let Some(radius) = block.get(b'R') {
@@ -40,8 +41,8 @@ impl Machine {
                 return refuse(33);
             }
         }
-        self.position = to;
-        out.push(Action::Arc(Turn { to, center, plane: self.plane, direction, turns: 0, feed }));
+        self.place.position = to;
+        out.push(Action::Arc(Turn { to, center, plane: self.modes.plane, direction, turns: 0, feed }));
         Ok(())
     }
 }

@@ -5,7 +5,7 @@ use crate::nc::arcs::axes_of;
 use crate::nc::block::Block;
 use crate::nc::codes::{Group, bit, letters};
 use crate::nc::fault::Done;
-use crate::nc::machine::{Machine, NO_MOTION};
+use crate::nc::state::{NO_MOTION, State};
 use crate::toolpath::{FeedMode, Plane};
 
 /// Highest block number.
@@ -19,12 +19,12 @@ const LINEAR: [u32; 3] = [bit(b'X'), bit(b'Y'), bit(b'Z')];
 ///
 /// # Errors
 /// Grbl's answer to what is wrong first, in its own order.
-pub(super) fn check(block: &Block, state: &Machine) -> Done<Option<u16>> {
+pub(super) fn check(block: &Block, state: &State) -> Done<Option<u16>> {
     if block.get(b'N').is_some_and(|number| number > MOST_NUMBER) {
         return refuse(27);
     }
     let word = block.g(Group::Motion);
-    let motion = word.unwrap_or(state.motion);
+    let motion = word.unwrap_or(state.modes.motion);
     let (has_axes, length) = (block.has_axes(), block.g(Group::Length));
     let moves = word.is_some_and(|code| code != NO_MOTION) || has_axes && !block.axes_are_taken();
     let cuts = moves && motion != 0 && motion != NO_MOTION;
@@ -65,8 +65,8 @@ fn check_once(block: &Block, motion: u16) -> Done {
 }
 
 /// A cut has a feed, and a curve or probe says where it ends.
-fn check_cut(block: &Block, motion: u16, mode: FeedMode, state: &Machine) -> Done {
-    let kept = if mode == FeedMode::PerMinute && state.feed_mode == mode { state.feed } else { 0.0 };
+fn check_cut(block: &Block, motion: u16, mode: FeedMode, state: &State) -> Done {
+    let kept = if mode == FeedMode::PerMinute && state.modes.feed_mode == mode { state.drive.feed } else { 0.0 };
     if block.get(b'F').unwrap_or(kept) == 0.0 {
         return refuse(22);
     }
@@ -83,19 +83,19 @@ fn check_cut(block: &Block, motion: u16, mode: FeedMode, state: &Machine) -> Don
     Ok(())
 }
 
-fn feed_mode(block: &Block, state: &Machine) -> FeedMode {
+fn feed_mode(block: &Block, state: &State) -> FeedMode {
     match block.g(Group::FeedMode) {
         Some(930) => FeedMode::InverseTime,
         Some(_) => FeedMode::PerMinute,
-        None => state.feed_mode,
+        None => state.modes.feed_mode,
     }
 }
 
-fn plane(block: &Block, state: &Machine) -> Plane {
+fn plane(block: &Block, state: &State) -> Plane {
     match block.g(Group::Plane) {
         Some(180) => Plane::Xz,
         Some(190) => Plane::Yz,
         Some(_) => Plane::Xy,
-        None => state.plane,
+        None => state.modes.plane,
     }
 }

@@ -6,15 +6,24 @@ use crate::nc::action::{Action, Cooling, Rotation};
 use crate::nc::block::Block;
 use crate::nc::codes::{Group, g_code};
 use crate::nc::fault::Done;
-use crate::nc::machine::{Machine, Next, Out};
+use crate::nc::out::{Next, Out};
+use crate::nc::state::State;
 use crate::toolpath::{FeedMode, Plane, StopKind, Units};
 
 /// G92.1: the frame goes after the move of its block, which still counts in it.
 const FRAME_OFF: u16 = 921;
 
-impl Machine {
-    /// Runs a block. A refused one does nothing, and the caller takes its actions back.
+impl State {
+    /// Runs a block. A refused one does nothing.
     pub(in crate::nc) fn grbl_block(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {
+        let done = self.grbl_actions(block, out);
+        if done.is_err() {
+            out.take_back();
+        }
+        done
+    }
+
+    fn grbl_actions(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {
         let motion = check(block, self)?;
         if let Some((start, end)) = block.comment {
             out.push(Action::Comment(start, end));
@@ -25,7 +34,7 @@ impl Machine {
             self.once(block, out)?;
         }
         if let Some(code) = block.g(Group::Motion) {
-            self.motion = code;
+            self.modes.motion = code;
         }
         match motion {
             Some(code @ (0 | 10)) => self.straight(code, block, out)?,
@@ -47,30 +56,30 @@ impl Machine {
     /// Feed, and all that comes before the axis words. F is kept in millimetres, so that it counts in the units of its
     /// block, and as millimetres in the block that comes back from G93.
     fn grbl_feed(&mut self, block: &Block, motion: Option<u16>, out: &mut Out<'_>) -> Done {
-        let before = self.feed_mode;
+        let before = self.modes.feed_mode;
         if block.g(Group::FeedMode).is_some() {
             self.feed_mode(block, out);
         }
-        let feed = block.get(b'F').filter(|_| self.feed_mode != FeedMode::InverseTime);
-        self.feed = feed.unwrap_or(self.feed);
+        let feed = block.get(b'F').filter(|_| self.modes.feed_mode != FeedMode::InverseTime);
+        self.drive.feed = feed.unwrap_or(self.drive.feed);
         self.set_up(block, motion, out)?;
         if let Some(feed) = feed {
-            let is_mm = before == FeedMode::InverseTime && self.units == Units::Inch;
-            self.feed = if is_mm { feed / 25.4 } else { feed };
+            let is_mm = before == FeedMode::InverseTime && self.modes.units == Units::Inch;
+            self.drive.feed = if is_mm { feed / 25.4 } else { feed };
         }
         Ok(())
     }
 
     /// G38: as far as it goes where nothing is touched; where it touches, only the machine knows.
     fn probe(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
-        let feed = self.feed_of(block)?;
-        let (from, to) = (self.position, self.target(block)?);
+        let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
+        let (from, to) = (self.place.position, self.target(block)?);
         if from == to {
             return refuse(33);
         }
-        self.feed_to(to, feed, out);
+        self.place.feed_to(to, feed, out);
         for axis in (0..3).filter(|&axis| from[axis] != to[axis]) {
-            self.at_machine |= 1 << axis;
+            self.place.at_machine |= 1 << axis;
         }
         Ok(())
     }
@@ -88,25 +97,23 @@ impl Machine {
     }
 
     fn grbl_end(&mut self, out: &mut Out<'_>) {
-        self.motion = 10;
-        self.absolute = true;
-        if self.plane != Plane::Xy {
-            self.plane = Plane::Xy;
+        self.modes.motion = 10;
+        self.modes.absolute = true;
+        if self.modes.plane != Plane::Xy {
+            self.modes.plane = Plane::Xy;
             out.push(Action::Plane(Plane::Xy));
         }
-        if self.feed_mode != FeedMode::PerMinute {
-            (self.feed_mode, self.feed) = (FeedMode::PerMinute, 0.0);
+        if self.modes.feed_mode != FeedMode::PerMinute {
+            (self.modes.feed_mode, self.drive.feed) = (FeedMode::PerMinute, 0.0);
             out.push(Action::FeedMode(FeedMode::PerMinute));
         }
-        if self.frames.active != 1 {
-            let place = self.frames.to_machine(&self.position);
-            self.frames.active = 1;
-            self.position = self.frames.to_program(&place);
+        if self.place.frames.active != 1 {
+            self.place.reframe(|frames| frames.active = 1);
             out.push(Action::Work(54.0));
         }
-        if self.spindle != Rotation::Stop {
-            self.spindle = Rotation::Stop;
-            out.push(Action::Spindle(Rotation::Stop, self.speed));
+        if self.drive.spindle != Rotation::Stop {
+            self.drive.spindle = Rotation::Stop;
+            out.push(Action::Spindle(Rotation::Stop, self.drive.speed));
         }
         out.push(Action::Coolant(Cooling::Off));
         out.push(Action::End);

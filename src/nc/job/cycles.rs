@@ -3,7 +3,7 @@
 use super::unsaid;
 use crate::diag::Diag;
 use crate::nc::action::Drilling;
-use crate::nc::block::name_of;
+use crate::nc::codes::name_of;
 use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole};
 
 /// Are two holes of one cycle?

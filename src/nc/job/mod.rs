@@ -8,7 +8,7 @@ mod switches;
 
 use std::io::{BufRead, Seek};
 
-use super::machine::Settings;
+use super::settings::RunSettings;
 use super::simulator::{RunError, Simulator};
 use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{ReadError, Sink, Stop, Units};
@@ -19,7 +19,7 @@ use survey::survey;
 #[derive(Clone, Copy, Debug)]
 pub struct JobOptions {
     /// Whose program it is.
-    pub settings: Settings,
+    pub settings: RunSettings,
     /// Its units where it says none.
     pub units: Option<Units>,
     /// Its first tool where it cuts before it loads one.
@@ -39,7 +39,7 @@ pub fn read_program(
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
     // off the wall to the side that a job's bore has at angle zero
-    let settings = Settings { places_unknown: true, bore_shift: -1.0, ..options.settings };
+    let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..options.settings };
     let mut simulator = Simulator::new(input, settings);
     let survey = survey(&mut simulator, options, warnings)?;
     let mut simulator = simulator.again().map_err(ReadError::Io)?;

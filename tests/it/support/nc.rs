@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::Mutex;
 
-use postform::nc::{Action, Item, Rotation, RunError, Settings, Simulator};
+use postform::nc::{Action, Item, Rotation, RunError, RunSettings, Simulator};
 
 /// Runs LinuxCNC's interpreter on files that are written first. One at a time: it keeps its tool table in the home folder.
 pub fn rs274(files: &[(&Path, &str)], arguments: &[&OsStr]) -> Option<Output> {
@@ -56,7 +56,7 @@ impl Call {
 pub type Ended = Result<(), u64>;
 
 /// What the simulator makes of a program.
-pub fn simulated(program: &[u8], settings: Settings) -> (Vec<Call>, Ended, Vec<Item>) {
+pub fn simulated(program: &[u8], settings: RunSettings) -> (Vec<Call>, Ended, Vec<Item>) {
     let mut simulator = Simulator::new(Cursor::new(program), settings);
     let mut items = Vec::new();
     let ended = loop {

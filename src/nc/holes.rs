@@ -1,0 +1,58 @@
+//! What a control keeps for canned cycles.
+
+use super::action::Drilling;
+use crate::toolpath::{Plane, Units};
+
+/// The cycle in force and its holes.
+#[derive(Debug, Default)]
+pub struct Holes {
+    /// The cycle in force on a Fanuc; elsewhere it is the modal motion.
+    pub cycle: Option<u16>,
+    /// What is kept from one hole to the next.
+    pub series: Series,
+    /// What the block's cycle still has to make.
+    pub work: Option<Work>,
+}
+
+/// What a control keeps from one hole to the next.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Series {
+    /// A series of cycles is running.
+    pub running: bool,
+    /// Height of the tool at its beginning.
+    pub initial: f64,
+    /// The R plane, as written.
+    pub r: Option<f64>,
+    /// The depth, as written.
+    pub depth: Option<f64>,
+    /// The dwell in seconds.
+    pub dwell: Option<f64>,
+    /// The peck.
+    pub peck: Option<f64>,
+    /// I, J and K of boring cycles.
+    pub shift: [Option<f64>; 3],
+    /// In which mode, plane and units R and depth were written.
+    pub written: Option<(bool, Plane, Units)>,
+}
+
+impl Series {
+    /// A motion that is no cycle ends it.
+    pub fn end(&mut self) {
+        self.running = false;
+    }
+}
+
+/// Holes of one block that are still to be made.
+#[derive(Clone, Copy, Debug)]
+pub struct Work {
+    /// The hole that is made, or was made last.
+    pub hole: Drilling,
+    /// How many are to be made.
+    pub times: u32,
+    /// How many were begun.
+    pub begun: u32,
+    /// Height of the tool before the first.
+    pub level: f64,
+    /// Where the next peck of the hole ends.
+    pub depth: Option<f64>,
+}

@@ -1,0 +1,57 @@
+//! Where actions go, and where a program goes after a block.
+
+use super::action::{Action, Item};
+
+/// Actions after which the rest of a block waits for the next call.
+const AT_ONCE: usize = 4096;
+
+/// Where a program goes after a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Next {
+    /// On to the next block.
+    On,
+    /// It is over.
+    End,
+    /// To a subprogram, so often.
+    Call(f64, u32),
+    /// Back from a subprogram.
+    Return,
+    /// The block is not done: `State::run_on`.
+    Rest,
+}
+
+/// The actions of a block.
+pub struct Out<'a> {
+    /// All actions so far, of other blocks, too.
+    pub items: &'a mut Vec<Item>,
+    /// How many there were before the block.
+    start: usize,
+    /// Line of the block.
+    pub line: u64,
+    /// A canned cycle makes what follows.
+    pub by_cycle: bool,
+}
+
+impl<'a> Out<'a> {
+    /// Behind what is there.
+    pub fn new(items: &'a mut Vec<Item>, line: u64) -> Out<'a> {
+        Out { start: items.len(), items, line, by_cycle: false }
+    }
+
+    /// Is there enough to be read?
+    #[inline]
+    pub fn is_full(&self) -> bool {
+        self.items.len() - self.start >= AT_ONCE
+    }
+
+    /// Takes the actions of the block back.
+    pub fn take_back(&mut self) {
+        self.items.truncate(self.start);
+    }
+
+    /// Adds an action.
+    #[inline]
+    pub fn push(&mut self, action: Action) {
+        self.items.push(Item { line: self.line, by_cycle: self.by_cycle, action });
+    }
+}

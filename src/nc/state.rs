@@ -1,0 +1,155 @@
+//! The state of a control between two blocks, in parts.
+
+use super::action::{Position, Rotation};
+use super::block::Block;
+use super::fault::{Done, refuse};
+use super::holes::Holes;
+use super::place::Place;
+use super::settings::RunSettings;
+use crate::control::{Control, Rules};
+use crate::diag::Code;
+use crate::toolpath::{FeedMode, Plane, Side, Units};
+
+/// No motion: G80 of LinuxCNC.
+pub(super) const NO_MOTION: u16 = 800;
+
+/// A control between two blocks.
+#[derive(Debug)]
+pub struct State {
+    pub(super) settings: RunSettings,
+    pub(super) control: &'static Control,
+    pub(super) modes: Modes,
+    pub(super) place: Place,
+    pub(super) drive: Drive,
+    pub(super) tool: Tool,
+    pub(super) holes: Holes,
+    /// What a machinist should know though the control does it, with the block.
+    pub(super) warnings: Vec<(Code, &'static str)>,
+}
+
+/// Modal codes.
+#[derive(Debug)]
+pub(super) struct Modes {
+    /// Modal motion code times ten; [`NO_MOTION`] for none.
+    pub motion: u16,
+    pub plane: Plane,
+    pub units: Units,
+    /// G90: axis words are positions.
+    pub absolute: bool,
+    /// G90.1: I, J and K are positions.
+    pub centers_absolute: bool,
+    pub feed_mode: FeedMode,
+    /// G98: cycles return to the initial level.
+    pub to_initial: bool,
+    /// G7: X words are diameters.
+    pub diameter: bool,
+}
+
+/// Feed and spindle.
+#[derive(Debug)]
+pub(super) struct Drive {
+    /// In the unit of the feed mode; 0 where none is known.
+    pub feed: f64,
+    pub spindle: Rotation,
+    pub speed: f64,
+}
+
+/// The tool and its offsets.
+#[derive(Debug, Default)]
+pub(super) struct Tool {
+    /// What T said last.
+    pub number: Option<f64>,
+    /// A tool length offset is on.
+    pub length_on: bool,
+    /// On which side of the path it is; `None`: cutter compensation is off.
+    pub side: Option<Side>,
+    /// D, which a Fanuc keeps.
+    pub diameter_register: Option<f64>,
+}
+
+impl Drive {
+    /// The feed of a block that cuts.
+    #[inline]
+    pub fn feed_of(&self, block: &Block, mode: FeedMode) -> Done<f64> {
+        if mode == FeedMode::InverseTime {
+            return match block.get(b'F') {
+                Some(feed) if feed > 0.0 => Ok(feed),
+                _ => refuse(Code::PN008, "G93 without F in the block", "write F in every block that cuts"),
+            };
+        }
+        if self.feed > 0.0 {
+            return Ok(self.feed);
+        }
+        refuse(Code::PN008, "a feed move without a feed", "write F with it")
+    }
+}
+
+impl State {
+    /// As switched on.
+    pub fn new(settings: RunSettings) -> State {
+        let control = settings.control;
+        State {
+            settings,
+            control,
+            modes: Modes {
+                motion: if control.rules() == Rules::Grbl { 0 } else { NO_MOTION },
+                plane: Plane::Xy,
+                units: settings.units,
+                absolute: true,
+                centers_absolute: settings.centers_absolute,
+                feed_mode: FeedMode::PerMinute,
+                to_initial: !control.is_linuxcnc(),
+                diameter: false,
+            },
+            place: Place::new(if settings.places_unknown { 0b111 } else { 0 }),
+            drive: Drive { feed: 0.0, spindle: Rotation::Stop, speed: 0.0 },
+            tool: Tool::default(),
+            holes: Holes::default(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// Units before the first G20 or G21.
+    pub(super) fn begin_in(&mut self, units: Units) {
+        self.modes.units = units;
+    }
+
+    /// Where the tool is.
+    pub fn position(&self) -> &Position {
+        &self.place.position
+    }
+
+    /// Axes that stand at a place in machine coordinates, as bits.
+    #[inline]
+    pub fn at_machine(&self) -> u8 {
+        self.place.at_machine
+    }
+
+    /// A place of the program in machine coordinates, in the units in force.
+    pub fn in_machine_coordinates(&self, at: &Position) -> Position {
+        self.place.frames.to_machine(at)
+    }
+
+    /// The units in force.
+    pub fn units(&self) -> Units {
+        self.modes.units
+    }
+
+    /// The canned cycle in force, times ten.
+    pub fn cycle_in_force(&self) -> Option<u16> {
+        match self.control.rules() {
+            Rules::Fanuc => self.holes.cycle,
+            _ => Some(self.modes.motion).filter(|&code| is_cycle(code)),
+        }
+    }
+
+    /// Warnings since the last call.
+    pub fn take_warnings(&mut self) -> Vec<(Code, &'static str)> {
+        std::mem::take(&mut self.warnings)
+    }
+}
+
+/// Is it a canned cycle of LinuxCNC?
+pub(super) fn is_cycle(code: u16) -> bool {
+    matches!(code, 730 | 740 | 810..=890)
+}

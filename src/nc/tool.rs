@@ -1,0 +1,181 @@
+//! What a block says of the spindle and the tool: speed, tool, coolant, compensation, length.
+
+use super::action::{Action, Cooling, Rotation};
+use super::block::Block;
+use super::codes::Group;
+use super::fault::{Done, refuse};
+use super::out::Out;
+use super::state::State;
+use crate::diag::Code;
+use crate::toolpath::Side;
+
+impl State {
+    pub(super) fn spindle_and_tool(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+        let speed = block.get(b'S');
+        if let Some(speed) = speed {
+            if speed < 0.0 {
+                return refuse(
+                    Code::PN018,
+                    "a negative S",
+                    "write the speed without the minus, the direction as M3 or M4",
+                );
+            }
+            self.drive.speed = speed;
+        }
+        match block.g(Group::SpeedMode) {
+            Some(960) => out.push(Action::SurfaceSpeed(Some(block.get(b'D').unwrap_or(0.0)))),
+            Some(970) => out.push(Action::SurfaceSpeed(None)),
+            _ => {}
+        }
+        if let Some(tool) = block.get(b'T') {
+            if tool < 0.0 || tool.fract() != 0.0 {
+                return refuse(Code::PN018, format!("T{tool} is no tool"), "tools are whole numbers");
+            }
+            self.tool.number = Some(tool);
+        }
+        if block.m().contains(&6) {
+            self.change_tool(out)?;
+        }
+        let mut turned = false;
+        for &code in block.m() {
+            match code {
+                // a Fanuc stops spindle and coolant when the block's motion is done
+                5 | 9 if !self.control.is_linuxcnc() => turned |= code == 5,
+                3..=5 => {
+                    turned = true;
+                    self.turn_spindle(code, out);
+                }
+                19 => {
+                    self.drive.spindle = Rotation::Stop; // it stands at its angle
+                    out.push(Action::Orient(block.get(b'R').unwrap_or(0.0)));
+                }
+                7 => out.push(Action::Coolant(Cooling::Mist)),
+                8 => out.push(Action::Coolant(Cooling::Flood)),
+                9 => out.push(Action::Coolant(Cooling::Off)),
+                0..=2 | 6 | 30 | 60 | 98 | 99 => {}
+                _ => out.push(Action::LeftOut(b'M', code * 10)),
+            }
+        }
+        for group in [Group::Path, Group::Once] {
+            if let Some(code) = block.g(group).filter(|&code| group == Group::Path || code == 90) {
+                out.push(Action::LeftOut(b'G', code));
+            }
+        }
+        if let Some(code) = block.g(Group::Other) {
+            out.push(Action::LeftOut(b'G', code));
+        }
+        if speed.is_some() && !turned {
+            out.push(Action::Spindle(self.drive.spindle, self.drive.speed));
+        }
+        Ok(())
+    }
+
+    pub(super) fn turn_spindle(&mut self, code: u16, out: &mut Out<'_>) {
+        self.drive.spindle = match code {
+            3 => Rotation::Cw,
+            4 => Rotation::Ccw,
+            _ => Rotation::Stop,
+        };
+        out.push(Action::Spindle(self.drive.spindle, self.drive.speed));
+    }
+
+    /// M6: the spindle stands afterwards.
+    pub(super) fn change_tool(&mut self, out: &mut Out<'_>) -> Done {
+        let Some(tool) = self.tool.number else {
+            return refuse(Code::PN007, "M6 without a tool", "write T and the tool's number before it");
+        };
+        if self.settings.places_unknown {
+            self.place.at_machine |= 0b100;
+        }
+        self.drive.spindle = Rotation::Stop;
+        out.push(Action::Tool(tool));
+        Ok(())
+    }
+
+    pub(super) fn compensation(&mut self, block: &Block, motion: Option<u16>, out: &mut Out<'_>) -> Done {
+        if !self.control.is_linuxcnc() {
+            self.tool.diameter_register = block.get(b'D').or(self.tool.diameter_register);
+        }
+        let Some(code) = block.g(Group::Compensation) else {
+            // another register while it is on
+            if let (Some(side), Some(_), false) = (self.tool.side, block.get(b'D'), self.control.is_linuxcnc()) {
+                out.push(Action::Compensation(Some((side, self.tool.diameter_register))));
+            }
+            return Ok(());
+        };
+        if code == 400 {
+            self.tool.side = None;
+            out.push(Action::Compensation(None));
+            return Ok(());
+        }
+        if self.tool.side.is_some() && self.control.is_linuxcnc() {
+            return refuse(Code::PN013, "cutter compensation is on already", "end it with G40 first");
+        }
+        if !self.control.is_linuxcnc() && matches!(motion, Some(20 | 30)) {
+            return refuse(Code::PN013, "cutter compensation begins on an arc", "begin it on a straight move");
+        }
+        let side = if matches!(code, 410 | 411) { Side::Left } else { Side::Right };
+        // LinuxCNC takes the tool's own diameter where no register is named
+        let register = match code {
+            411 | 421 => None, // a diameter, and no register
+            _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.number),
+            _ => self.tool.diameter_register,
+        };
+        if register.is_none() && !self.control.is_linuxcnc() {
+            let help = "write D with the tool's register: G41 D1";
+            return refuse(Code::PN007, "cutter compensation without D", help);
+        }
+        self.tool.side = Some(side);
+        out.push(Action::Compensation(Some((side, register))));
+        Ok(())
+    }
+
+    pub(super) fn length(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+        let code = match block.g(Group::Length) {
+            Some(code) => code,
+            // a Fanuc changes the offset in force by H alone, a FADAL turns it on
+            None => {
+                let counts = self.tool.length_on || self.control.traits().height_is_machine;
+                if let Some(register) = block.get(b'H').filter(|_| counts && !self.control.is_linuxcnc()) {
+                    self.tool.length_on = true;
+                    out.push(Action::Length(Some(register)));
+                }
+                return Ok(());
+            }
+        };
+        let place = self.place.frames.to_machine(&self.place.position);
+        self.tool.length_on = code != 490;
+        match code {
+            490 => {
+                self.place.frames.tool = [0.0; 3];
+                out.push(Action::Length(None));
+            }
+            431 => {
+                for (axis, letter) in (*b"XYZ").into_iter().enumerate() {
+                    if let Some(value) = block.get(letter) {
+                        self.place.frames.tool[axis] = value;
+                    }
+                }
+                out.push(Action::Length(Some(0.0)));
+            }
+            _ => {
+                let register = block.get(b'H').or(self.tool.number);
+                if block.get(b'H').is_none() && !self.control.is_linuxcnc() {
+                    let help = "write H with the tool's register: G43 H1";
+                    return refuse(Code::PN007, "a tool length offset without H", help);
+                }
+                if code == 432 && block.get(b'H').is_none() {
+                    return refuse(Code::PN007, "G43.2 without H", "write H with the tool's number");
+                }
+                if code != 432 {
+                    self.place.frames.tool = [0.0; 3]; // what G43.1 set is gone
+                }
+                // no table of tools tells its length: it counts as zero; G44 takes it off instead
+                let register = register.unwrap_or(0.0);
+                out.push(Action::Length(Some(if code == 440 { -register } else { register })));
+            }
+        }
+        self.place.position = self.place.frames.to_program(&place);
+        Ok(())
+    }
+}

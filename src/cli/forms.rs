@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use postform::lint::Changed;
+use postform::lint::{Changed, parts};
 use postform::sema::{Checked, Limits, analyse};
 use postform::{Files, Source};
 
@@ -111,16 +111,7 @@ pub fn wholes(mut files: Vec<FormFile>) -> Vec<FormFile> {
     let mut seen = HashSet::new();
     files.retain(|file| seen.insert(real(file)));
     let calls: Vec<(PathBuf, Vec<PathBuf>)> = files.iter().map(|file| (real(file), file.calls())).collect();
-    let mut callers: HashMap<&Path, Vec<usize>> = HashMap::new();
-    for (at, (_, parts)) in calls.iter().enumerate() {
-        parts.iter().for_each(|part| callers.entry(part).or_default().push(at));
-    }
-    let is_part = |i: usize| {
-        let (own, called) = &calls[i];
-        let mut others = callers.get(own.as_path()).into_iter().flatten().filter(|&&other| other != i);
-        others.any(|&other| other < i || !called.contains(&calls[other].0))
-    };
-    let parts: Vec<bool> = (0..files.len()).map(is_part).collect();
+    let parts = parts(&calls);
     files.into_iter().zip(parts).filter(|(_, is_part)| !is_part).map(|(file, _)| file).collect()
 }
 

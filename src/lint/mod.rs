@@ -4,6 +4,7 @@ mod allow;
 mod blocks;
 mod levels;
 mod mend;
+mod parts;
 mod places;
 mod rules;
 mod tokens;
@@ -11,6 +12,7 @@ mod view;
 
 pub use levels::{Level, Levels};
 pub use mend::{Changed, Mended, mend};
+pub use parts::parts;
 pub use rules::{RULES, Rule};
 
 use crate::compile::{Program, compile};

@@ -37,9 +37,10 @@ impl Axes {
 
 /// Units of lengths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Units {
+    /// Inches.
     Inch,
+    /// Millimetres.
     Mm,
 }
 
@@ -79,23 +80,31 @@ impl Start {
 
 /// A tool.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[allow(missing_docs)]
 pub struct Tool {
+    /// Its number, which the program calls it by.
     pub number: f64,
+    /// In the job's units.
     pub diameter: Option<f64>,
+    /// In the job's units.
     pub corner_radius: Option<f64>,
+    /// Register of its length.
     pub length_offset: Option<f64>,
+    /// Register of its diameter, for cutter compensation.
     pub diameter_offset: Option<f64>,
+    /// Its place in the turret, where that is not its number.
     pub turret: Option<f64>,
+    /// What the program says of it.
     pub comment: Option<String>,
 }
 
 /// Which way the spindle turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum SpindleTurn {
+    /// Clockwise, seen from the spindle: M3.
     Cw,
+    /// Counterclockwise: M4.
     Ccw,
+    /// It stands: M5.
     Off,
 }
 
@@ -114,19 +123,23 @@ pub struct Spindle {
 
 /// Coolant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Coolant {
+    /// Flood: M8.
     On,
+    /// Mist: M7.
     Mist,
+    /// None: M9.
     Off,
 }
 
 /// What a feed counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum FeedMode {
+    /// Length a minute: G94, on lathes G98.
     PerMinute,
+    /// Length a turn of the spindle: G95, on lathes G99.
     PerRev,
+    /// Moves a minute: G93.
     InverseTime,
 }
 
@@ -185,9 +198,10 @@ pub enum Plane {
 
 /// Which way an arc turns, seen from the plane's positive third axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Direction {
+    /// Clockwise: G2.
     Cw,
+    /// Counterclockwise: G3.
     Ccw,
 }
 
@@ -210,9 +224,10 @@ pub struct Arc {
 
 /// Side of the path on which the tool is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Side {
+    /// Left of the path: G41.
     Left,
+    /// Right of the path: G42.
     Right,
 }
 
@@ -229,22 +244,29 @@ pub struct Infeed {
 
 /// Named parts of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Section {
+    /// Onto the contour.
     Leadin,
+    /// Off the contour.
     Leadout,
+    /// Down into the material.
     Plunge,
+    /// Up out of it.
     Retract,
+    /// Across, to the next pass.
     SideStep,
+    /// The moves of one Z level.
     ZLevel,
+    /// A pass of a pocket or of a surface.
     Row,
 }
 
 /// Kinds of stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum StopKind {
+    /// The machine stops: M0.
     Program,
+    /// It stops where the operator wants it to: M1.
     Optional,
 }
 
@@ -275,37 +297,64 @@ impl Orient {
 
 /// A canned cycle without its points. Heights are distances along the tool axis from each point.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
 pub struct CycleSpec {
+    /// Which cycle.
     pub kind: CycleKind,
+    /// How deep the bottom is below the point, positive down.
     pub depth: Option<f64>,
+    /// How far above the point the feed begins: the R plane.
     pub clear: Option<f64>,
+    /// Return plane above the first point.
     pub return_height: Option<f64>,
+    /// Feed into the hole, a length a minute or a turn as the operation says.
     pub feed: Option<f64>,
+    /// Feed of its plunges; else `feed`.
     pub plunge: Option<f64>,
+    /// Peck: how much deeper each goes, counted from the R plane.
     pub step: Option<f64>,
+    /// The first peck.
     pub first_step: Option<f64>,
+    /// How far above the last depth the feed begins again; after a chip break, how far the tool lifts.
     pub back: Option<f64>,
+    /// Dwell at the bottom, in seconds.
     pub dwell: Option<f64>,
+    /// Dwell at the bottom, in turns of the spindle.
     pub revs: Option<f64>,
+    /// How far below the R plane the rapid goes on.
     pub rapto: Option<f64>,
+    /// Angle at which a boring cycle stops the spindle.
     pub orient: Option<Orient>,
+    /// How far a boring cycle moves off the wall, without `offset_y` along the first axis.
     pub offset: Option<f64>,
+    /// Feed out of the hole over feed into it.
     pub ratio: Option<f64>,
+    /// Starts of a tapped thread.
     pub starts: Option<f64>,
+    /// Tapping in step with the spindle; else as the form says.
     pub rigid: Option<bool>,
+    /// Chip breaks between full retracts.
     pub times: Option<f64>,
+    /// How much each peck is less than the one before.
     pub decr: Option<f64>,
+    /// The least peck.
     pub min_step: Option<f64>,
+    /// Diameter of a countersink, from which comes its depth.
     pub diameter: Option<f64>,
+    /// Full angle of a countersink, in degrees.
     pub angle: Option<f64>,
+    /// Diameter of the hole under a countersink.
     pub hole_diameter: Option<f64>,
+    /// Depths of a cycle through webs, positive down: end of the first, start and end of the next, and so on.
     pub webs: Vec<f64>,
+    /// Absolute steps, instead of `step`.
     pub pecks: Vec<Peck>,
     /// Tapping in pecks: deep or chip breaking.
     pub mode: Option<CycleKind>,
+    /// A tap that does not reverse the spindle.
     pub norevr: bool,
+    /// A tap that leaves the hole by a rapid.
     pub rapout: bool,
+    /// How far a boring cycle lifts while it is off the wall.
     pub jog: Option<f64>,
     /// With `offset` along x, the jog off the wall along y.
     pub offset_y: Option<f64>,
@@ -398,11 +447,14 @@ pub struct Thread {
 
 /// What a wire EDM machine does between moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum EdmAction {
+    /// The wire is threaded.
     Thread,
+    /// The wire is cut.
     Cut,
+    /// A thread point is predrilled.
     PreDrill,
+    /// The tank is filled.
     Submerge,
 }
 
@@ -421,48 +473,83 @@ pub struct Call {
 
 /// One event.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum Event<'a> {
+    /// The head of the job: the first event.
     Start(&'a Start),
+    /// An operation begins; the tool changes where its number does.
     ToolChange(&'a ToolChange),
+    /// A rapid move there.
     Rapid(Axes),
+    /// A straight move at feed.
     Line {
+        /// Where it ends.
         to: Axes,
+        /// The feed from here on; `None`: as before.
         feed: Option<f64>,
     },
+    /// An arc or helix at feed.
     Arc {
+        /// Its end and centre.
         arc: &'a Arc,
+        /// The feed from here on; `None`: as before.
         feed: Option<f64>,
     },
+    /// A straight move that turns cutter compensation on.
     Infeed {
+        /// Its end, and the side.
         infeed: &'a Infeed,
+        /// The feed from here on; `None`: as before.
         feed: Option<f64>,
     },
+    /// A straight move that turns cutter compensation off.
     Outfeed {
+        /// Where it ends.
         to: Axes,
+        /// The feed from here on; `None`: as before.
         feed: Option<f64>,
+        /// As a rapid.
         rapid: bool,
     },
     /// The tool axis from here on, a unit vector; a job begins with 0, 0, 1.
     Tilt([f64; 3]),
+    /// A named part of the path begins.
     Begin(Section),
+    /// A named part of the path ends.
     End(Section),
+    /// A canned cycle begins: holes follow.
     CycleBegin(&'a CycleSpec),
+    /// A hole of the cycle.
     Hole(Hole),
+    /// The cycle ends.
     CycleEnd,
+    /// A dwell, in seconds.
     Dwell(f64),
+    /// A stop of the program.
     Stop(StopKind),
+    /// A comment to print.
     Comment(&'a str),
+    /// Text to print as it stands.
     Text(&'a str),
+    /// The feed from here on, in the operation's mode.
     Feed(f64),
+    /// The work offset from here on: a fixture number below 50, else the code.
     Work(f64),
+    /// The spindle from here on.
     Spindle(Spindle),
+    /// The coolant from here on.
     Coolant(Coolant),
+    /// A variable of the form from here on, by its name.
     Set(&'a str, f64),
+    /// A subprogram of this number begins.
     SubStart(f64),
+    /// The subprogram ends.
     SubEnd,
+    /// A subprogram is called.
     SubCall(&'a Call),
+    /// A thread is cut, on a lathe.
     Thread(&'a Thread),
+    /// A wire EDM machine does something.
     Edm(EdmAction),
+    /// The job is over: the last event.
     Finish,
 }

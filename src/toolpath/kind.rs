@@ -5,22 +5,36 @@ use crate::lang::SequenceId;
 
 /// Kinds of canned cycles (cycles.md section 1.5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum CycleKind {
+    /// Feed in, rapid out.
     Drill,
+    /// Feed in, dwell, rapid out: spot facing.
     Face,
+    /// A right-hand thread.
     Tap,
+    /// A left-hand thread.
     LTap,
+    /// Feed in, stop the spindle, rapid out.
     Bore,
+    /// A bore from below, cut upward.
     Back,
+    /// Feed in, feed out.
     Ream,
+    /// Pecks with full retracts.
     Deep,
+    /// Pecks with short retracts.
     Chipbreak,
+    /// Through several webs, rapids between them.
     Thru,
+    /// A countersink by its diameter and angle.
     Csink,
+    /// A stop: the operator does it.
     Manual,
+    /// The form's first cycle of its own.
     Custom1,
+    /// The form's second cycle of its own.
     Custom2,
+    /// The form's third cycle of its own.
     Custom3,
 }
 

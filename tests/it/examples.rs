@@ -126,3 +126,36 @@ fn options_are_checked() {
     let error = post().render(Job::json(JOB), &options).unwrap_err();
     assert!(error.to_string().contains("`vall` is no variable"), "{error}");
 }
+
+#[test]
+fn lines_of_a_program_have_their_form_line_and_item() {
+    let (post, options) = (post(), Options::default());
+    let pocket = EXPECTED.lines().position(|line| line.contains("X2.25")).unwrap() as u64 + 1;
+    let origins = post.origins(Job::json(JOB), &options, &[pocket, 1, 9999]).unwrap();
+    let [Some(cut), Some(start), None] = origins.as_slice() else { panic!("{origins:?}") };
+    assert_eq!((cut.line, cut.place.path()), (pocket, "operations[0].path[7]".to_owned()));
+    let form = &post.files()[0];
+    assert_eq!(form.text.lines().nth(form.line(start.form.unwrap().start)), Some("%0"));
+}
+
+#[test]
+fn a_place_in_a_job_is_data() {
+    let job = JOB.replacen("\"line\"", "\"lime\"", 1);
+    let error = post().render(Job::json(&job), &Options::default()).unwrap_err();
+    let place = error.findings().diags[0].place.clone().unwrap();
+    assert!(place.line.unwrap() > 1 && place.column.unwrap() > 1, "{place:?}");
+    assert!(place.step.unwrap().starts_with("operations[0].path["));
+}
+
+#[test]
+fn questions_of_a_form_are_answered_by_their_variable() {
+    const ASKS: &str = include_str!("../../samples/prompted/form.pf");
+    let post = Post::compile(Source::from_text("form.pf", ASKS), &NoFiles).unwrap();
+    let asked: Vec<_> = post.prompts().map(|prompt| prompt.variable).collect();
+    assert!(!asked.is_empty());
+    let mut options = Options::default();
+    for variable in asked {
+        options.set_value(variable, 2.0).unwrap();
+    }
+    assert_eq!(options.set_value("h", 1.0).unwrap_err().to_string(), "[h] comes from the toolpath and can't be set");
+}

@@ -270,6 +270,8 @@ impl<R: BufRead + Seek> Program<R> {
                 self.passage.waits.push(mark);
             }
             Action::Stop(kind) => self.stop(*kind, item),
+            // Grbl reads M1 and goes on, as other controls do with their switch off
+            Action::LeftOut(b'M', 10) => self.stop(StopKind::Optional, item),
             Action::Spindle(rotation, speed) => {
                 if !item.by_cycle {
                     self.before_tap = None;

@@ -431,7 +431,7 @@ fn a_proof_beside_the_renderer_is_the_same() {
             Flow::Continue(())
         }
     }
-    for name in ["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"] {
+    for name in ["fanuc.pf", "haas.pf", "linuxcnc.pf"] {
         let form = check(&post(name));
         let compiled = compile(&form.form);
         let bracket = fs::read_to_string(root().join("samples/bracket/job.json")).unwrap();

@@ -1,4 +1,5 @@
-//! Suppression in the form: `# postform: allow PF103`, at the end of a line, above a line, or above a sequence.
+//! Suppression in the form: `# postform: allow PF103`, at the end of a line, above a line, or above a sequence; and
+//! `# postform: allow-file PF103` above the form's first line, for the whole file.
 
 use std::collections::BTreeMap;
 
@@ -26,8 +27,11 @@ pub fn take_allowed(checked: &Checked, levels: &Levels, diags: &mut Vec<Diag>) -
     let mut allows = Vec::new();
     let mut wrong = Vec::new();
     for (tree, source) in checked.trees.iter().zip(&checked.files) {
+        let head = head(&tree.items);
         for (comment, range) in comments(&tree.items) {
-            read(source, comment, range, &mut allows, &mut wrong);
+            let whole = head.is_none_or(|first| comment.end <= first.start);
+            let whole = whole.then(|| Span::new(comment.file, 0, source.text.len()));
+            read(source, comment, Ranges { here: range, whole }, &mut allows, &mut wrong);
         }
     }
     let before = diags.len();
@@ -64,6 +68,25 @@ fn unused(allow: &Allow) -> Diag {
     Diag::new(Code::PF108, format!("nothing here is allowed by `{}`", allow.code.name()))
         .at(allow.word, "no such finding")
         .help(help)
+}
+
+/// Where a comment may allow findings.
+#[derive(Clone, Copy)]
+struct Ranges {
+    /// What it stands at.
+    here: Span,
+    /// The whole file, for a comment at its head.
+    whole: Option<Span>,
+}
+
+/// The first line of a form that is no comment: what stands above it is the form's head.
+fn head(items: &[Head]) -> Option<Span> {
+    items.iter().find_map(|item| match item {
+        Head::Blank(_) => None,
+        Head::Format { line, .. } | Head::StrayEnd(line) => Some(line.span),
+        Head::Statement(statement) => Some(statement.line.span),
+        Head::Sequence(node) => Some(node.span()),
+    })
 }
 
 /// All comments that begin with `#`, each with the place that it speaks of: its own line, else what comes after it.
@@ -108,7 +131,7 @@ fn comments(items: &[Head]) -> Vec<(Span, Span)> {
 }
 
 /// Reads one comment, if it is for postform.
-fn read(source: &Source, comment: Span, range: Span, allows: &mut Vec<Allow>, wrong: &mut Vec<Diag>) {
+fn read(source: &Source, comment: Span, ranges: Ranges, allows: &mut Vec<Allow>, wrong: &mut Vec<Diag>) {
     let text = source.slice(comment);
     let body = text.trim_start_matches('#').trim_start();
     let starts = |head: &str| body.get(..head.len()).is_some_and(|start| start.eq_ignore_ascii_case(head));
@@ -131,8 +154,15 @@ fn read(source: &Source, comment: Span, range: Span, allows: &mut Vec<Allow>, wr
         }
         at += word.len() + 1;
     }
+    let whole_file = words.first().is_some_and(|(verb, _)| verb.eq_ignore_ascii_case("allow-file"));
+    let is_verb = |verb: &str| whole_file || verb.eq_ignore_ascii_case("allow");
     match words.split_first() {
-        Some(((verb, _), rest)) if verb.eq_ignore_ascii_case("allow") && !rest.is_empty() => {
+        Some(((_, verb), _)) if whole_file && ranges.whole.is_none() => {
+            let help = "move it above the first line of the form, or write `allow` for what stands here";
+            bad(*verb, "what is allowed in the whole file stands at its head".into(), Some(help.into()));
+        }
+        Some(((verb, _), rest)) if is_verb(verb) && !rest.is_empty() => {
+            let range = ranges.whole.filter(|_| whole_file).unwrap_or(ranges.here);
             // behind the codes a reason may stand
             let is_code = |word: &str| word.get(..2).is_some_and(|head| head.eq_ignore_ascii_case("PF"));
             let told = rest.iter().position(|(word, _)| !is_code(word)).unwrap_or(rest.len()).max(1);
@@ -152,7 +182,7 @@ fn read(source: &Source, comment: Span, range: Span, allows: &mut Vec<Allow>, wr
                 }
             }
         }
-        Some(((verb, span), _)) if !verb.eq_ignore_ascii_case("allow") => {
+        Some(((verb, span), _)) if !is_verb(verb) => {
             bad(*span, format!("`{verb}` is nothing that a comment can ask for"), None);
         }
         _ => bad(comment, "the comment does not say what it allows".into(), None),

@@ -234,6 +234,27 @@ fn comments_allow_findings_where_they_stand() {
 }
 
 #[test]
+fn a_comment_at_the_head_allows_findings_of_the_whole_file() {
+    let allowed = |head: &str, sequence: &str| {
+        let findings = found(&checked(format!("{head}{}", mill("", sequence)).as_bytes()));
+        let own = |code: &&str| ["PF108", "PF109", "PF418", "PF001"].contains(code);
+        (codes(&findings.diags).into_iter().filter(own).collect::<Vec<_>>(), findings.suppressed)
+    };
+    let twice = "LineCode\nG1 X[h] Y[v] Z[d]\nG1 X[h] Y[v] Z[d]\nEnd";
+    let plain = allowed("", twice);
+    assert!(plain.0.contains(&"PF418") && plain.1 == 0, "{plain:?}");
+    let head = "# our router\n\n# postform: allow-file PF418 its feed is set by hand\n";
+    assert_eq!(allowed(head, twice), (vec![], plain.0.len()));
+    // an allowance of a place beside it is not lost
+    assert_eq!(allowed(head, &format!("# postform: allow PF418\n{twice}")), (vec![], plain.0.len()));
+    // nothing to allow, an error, and a comment that stands too late
+    assert_eq!(allowed(head, "").0, ["PF108"]);
+    let error = "LineCode\nG1 X[h] Y[v]. Z[d] F[frate]\nEnd";
+    assert_eq!(allowed("# postform: allow-file PF001\n", error).0, ["PF108", "PF001"]);
+    assert_eq!(allowed("Name A\n# postform: allow-file PF418\n", twice).0, [vec!["PF109"], plain.0].concat());
+}
+
+#[test]
 fn levels_change_what_findings_count_as() {
     let form = Page::read("PF418").fence("Example").checked();
     let with = |rule: &str, level: &str| {

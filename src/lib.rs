@@ -29,8 +29,7 @@
 //! The library does no I/O of its own: bytes and names come in. Files, the terminal and the command line are in the binary,
 //! which the feature `cli` builds; the library alone needs `default-features = false`.
 #![forbid(unsafe_code)]
-#![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::todo, clippy::dbg_macro)]
-#![warn(clippy::print_stdout, clippy::print_stderr)]
+#![warn(clippy::print_stdout, clippy::print_stderr, clippy::disallowed_methods, clippy::disallowed_types)]
 
 pub mod cl;
 pub mod compile;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 use std::ops::Range;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use similar::{Algorithm, DiffTag, capture_diff_slices_deadline};
 
@@ -18,13 +18,23 @@ pub struct Options {
     pub ignore: Ignore,
     /// By how much numbers of a changed block may differ and be the same.
     pub tolerance: f64,
-    /// When to stop looking for the shortest answer: a longer one that is right comes then.
-    pub patience: Duration,
+    /// When to stop looking for the shortest answer: a longer one that is right comes then. `None`: it is looked for to the
+    /// end, which for programs of a million lines may be long.
+    pub deadline: Option<Deadline>,
+}
+
+/// A time, and the clock that knows whether it has come: the library has none.
+#[derive(Clone, Copy, Debug)]
+pub struct Deadline {
+    /// The time.
+    pub at: Instant,
+    /// The clock, which is `Instant::now` where there is one.
+    pub now: fn() -> Instant,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { ignore: Ignore::USUAL, tolerance: 0.0, patience: Duration::from_millis(800) }
+        Options { ignore: Ignore::USUAL, tolerance: 0.0, deadline: None }
     }
 }
 
@@ -110,9 +120,10 @@ impl Lines {
 /// Compares two programs.
 pub fn compare(old: &Program, new: &Program, options: &Options) -> Comparison {
     let (before, after) = (Lines::of(old, &options.ignore), Lines::of(new, &options.ignore));
-    let deadline = Instant::now() + options.patience;
-    let ops = capture_diff_slices_deadline(Algorithm::RawMyers, &before.keys, &after.keys, Some(deadline));
-    let mut comparison = Comparison { hunks: Vec::new(), is_coarse: Instant::now() > deadline, until: Some(deadline) };
+    let until = options.deadline.map(|deadline| deadline.at);
+    let ops = capture_diff_slices_deadline(Algorithm::RawMyers, &before.keys, &after.keys, until);
+    let is_coarse = options.deadline.is_some_and(|deadline| (deadline.now)() > deadline.at);
+    let mut comparison = Comparison { hunks: Vec::new(), is_coarse, until };
     for op in ops {
         let (tag, from, to) = op.as_tag_tuple();
         if tag == DiffTag::Equal {

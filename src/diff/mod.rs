@@ -7,7 +7,7 @@ mod program;
 mod summary;
 mod words;
 
-pub use align::{Comparison, Edit, Hunk, Options, compare};
+pub use align::{Comparison, Deadline, Edit, Hunk, Options, compare};
 pub use ignore::Ignore;
 pub use program::Program;
 pub use summary::Summary;

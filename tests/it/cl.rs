@@ -1,5 +1,4 @@
 //! APT CL files as their systems write them: what each statement does, and what is refused.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::support;
 use std::fs;

@@ -1,6 +1,5 @@
 //! Worked CYCLE statements: what a CL file says, printed as single moves, is what the tool must do. Coordinates agree
 //! to the last printed decimal; a rapid may be printed in two parts, up first or down last.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use crate::support;
 use std::fs;

@@ -5,9 +5,10 @@ use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::time::{Duration, Instant};
 
 use crate::support::root;
-use postform::diff::{Comparison, Edit, Ignore, Options, Program, compare};
+use postform::diff::{Comparison, Deadline, Edit, Ignore, Options, Program, compare};
 use postform::nc::RunSettings;
 use postform::toolpath::Units;
 use postform::verify::compare_motions;
@@ -186,7 +187,7 @@ fn tolerance_moves_and_words() {
 fn a_coarse_answer_is_right() {
     let lines = |seed: u64| -> String { (0..60_000u64).map(|i| format!("G1 X{}\n", i * 7919 + seed)).collect() };
     let (old, new) = (lines(1), lines(2));
-    let options = Options { patience: std::time::Duration::from_millis(1), ..Options::default() };
+    let options = Options { deadline: within(Duration::from_millis(1)), ..Options::default() };
     let (old, new) = (program(&old), program(&new));
     let comparison = compare(&old, &new, &options);
     assert_eq!(
@@ -200,11 +201,17 @@ fn a_coarse_answer_is_right() {
 fn long_blocks_are_compared_in_bounded_time() {
     let block = |end: &str| (0..60_000).map(|i| format!("X{i}{end} ")).collect::<String>() + "\n";
     let (old, new) = (program(&block("")), program(&block(".5")));
-    let began = std::time::Instant::now();
-    let comparison = compare(&old, &new, &Options::default());
+    let began = Instant::now();
+    let options = Options { deadline: within(Duration::from_millis(800)), ..Options::default() };
+    let comparison = compare(&old, &new, &options);
     let spans = postform::diff::changed_spans(old.line(0), new.line(0), &Ignore::USUAL, comparison.until);
     assert_eq!(spans.map(|list| list.len()), [60_000; 2]);
     assert!(began.elapsed().as_secs() < 10, "{:?}", began.elapsed());
+}
+
+/// A deadline so long from now.
+fn within(patience: Duration) -> Option<Deadline> {
+    Some(Deadline { at: Instant::now() + patience, now: Instant::now })
 }
 
 /// NEW made from OLD by the edits alone.

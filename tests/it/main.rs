@@ -1,5 +1,5 @@
 //! All tests of the library and of the commands, as one program.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod allocations;
 mod architecture;

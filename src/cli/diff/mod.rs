@@ -6,8 +6,9 @@ mod sides;
 mod text;
 
 use std::io::{Cursor, IsTerminal, Write};
+use std::time::{Duration, Instant};
 
-use postform::diff::{Ignore, Options, Program, Summary, compare};
+use postform::diff::{Deadline, Ignore, Options, Program, Summary, compare};
 use postform::nc::{Kind, RunError, tokens};
 use postform::toolpath::Units;
 use postform::verify::{Motions, NoMotion, compare_motions};
@@ -18,6 +19,9 @@ use super::report::{Reporter, place_in};
 use super::say::say;
 use super::{Ending, output};
 use sides::{Side, sides};
+
+/// How long the shortest answer is looked for.
+const PATIENCE: Duration = Duration::from_millis(800);
 
 /// Compares two programs.
 pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
@@ -42,6 +46,8 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
             }
         }
     } else {
+        let options =
+            Options { deadline: Some(Deadline { at: Instant::now() + PATIENCE, now: Instant::now }), ..options };
         let comparison = compare(&old.program, &new.program, &options);
         let summary = Summary::of(&comparison, &old.program, &new.program, &options.ignore);
         let text = match args.format {

@@ -1,5 +1,4 @@
 //! What the tests share: rendering through the library, without the command line.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 pub mod nc;
 pub mod pages;

@@ -12,6 +12,16 @@ growth:
     cargo build --release
     benches/growth.py target/release/postform
 
+# random jobs through all forms, and right programs made wrong: what comparing gets wrong is printed
+hunt jobs="1000000" programs="20000" seed="0":
+    git rev-parse --short HEAD; date -u +%F
+    cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin jobs {{jobs}} {{seed}}
+    cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin programs {{programs}} {{seed}}
+
+# ten million of them: a night
+hunt-long:
+    just hunt 10000000 1000000
+
 # figures for docs/performance.md
 bench:
     cargo bench --bench render

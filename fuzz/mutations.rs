@@ -9,6 +9,7 @@ use std::time::Instant;
 mod look;
 
 use look::look;
+use postform_fuzz::random::Random;
 
 /// Pieces of forms that mean something in the wrong place.
 const PIECES: &[&str] = &[
@@ -48,32 +49,15 @@ const PIECES: &[&str] = &[
     "\u{feff}",
 ];
 
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        // splitmix64: every seed gives another sequence
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n.max(1) as u64) as usize
-    }
-}
-
 fn mutated(forms: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     let mut form = forms[random.below(forms.len())].clone();
     for _ in 0..=random.below(6) {
         let at = random.below(form.len() + 1);
         match random.below(7) {
             0 if at < form.len() => _ = form.remove(at),
-            1 => form.insert(at, random.next() as u8),
+            1 => form.insert(at, random.number() as u8),
             2 => _ = form.splice(at..at, PIECES[random.below(PIECES.len())].bytes()),
-            3 if at < form.len() => form[at] = random.next() as u8,
+            3 if at < form.len() => form[at] = random.number() as u8,
             4 => _ = form.drain(at..(at + random.below(60)).min(form.len())),
             5 => {
                 // a part of another form
@@ -98,7 +82,7 @@ fn main() {
     assert!(forms.len() > 40, "the forms that ship");
     let start = Instant::now();
     for seed in first..first + count {
-        let bytes = mutated(&forms, &mut Random(seed));
+        let bytes = mutated(&forms, &mut Random::new(seed));
         let panicked = std::panic::catch_unwind(|| look(&bytes, seed % 8 == 0)).is_err();
         if panicked {
             eprintln!("mutation {seed}:\n{}", String::from_utf8_lossy(&bytes));

@@ -1,0 +1,250 @@
+//! A program against its job, by the judge's own rules: every cut of the job is made, from its place to its place, with its
+//! tool; nothing else is cut, and no rapid crosses lower than the job's way.
+
+mod arcs;
+mod holes;
+
+use super::{Act, Place, Want, Wanted, What, near, same};
+
+/// What differs first, in words; `None`: the program does its job. `within`: millimetres.
+pub fn difference(wants: &[Wanted], acts: &[Act], within: f64) -> Option<String> {
+    let judge = Judge { acts, at: 0, within, low: f64::INFINITY, low_line: 0, allowed: f64::INFINITY };
+    judge.follow(wants, &mut 64)
+}
+
+fn cuts(what: &What) -> bool {
+    matches!(what, What::Feed | What::Arc { .. } | What::Hole { .. })
+}
+
+fn shown(place: &Place) -> String {
+    let list: Vec<String> = place.iter().map(|number| format!("{:.4}", number)).collect();
+    list.join(" ")
+}
+
+#[derive(Clone, Copy)]
+struct Judge<'a> {
+    acts: &'a [Act],
+    at: usize,
+    within: f64,
+    /// Lowest place where a rapid crossed since the last cut, and its line.
+    low: f64,
+    low_line: usize,
+    /// Lowest place of the job's way to cuts that no digits show.
+    allowed: f64,
+}
+
+impl Judge<'_> {
+    /// All wants in their order; `left`: how often it may be tried otherwise.
+    fn follow(mut self, wants: &[Wanted], left: &mut u32) -> Option<String> {
+        for (number, wanted) in wants.iter().enumerate() {
+            if wanted.want == Want::Line
+                && same(&wanted.from, &wanted.to, self.within)
+                && wanted.from[3..] == wanted.to[3..]
+            {
+                // shorter than the digits can say: the program may have it or not
+                let is_made = self.next().is_some_and(|act| {
+                    act.what == What::Feed
+                        && same(&act.from, &wanted.from, 2.0 * self.within)
+                        && same(&act.to, &wanted.to, 2.0 * self.within)
+                });
+                if is_made && *left > 0 {
+                    *left -= 1;
+                    let mut made = self;
+                    made.take();
+                    made.follow(&wants[number + 1..], left)?;
+                }
+                self.allowed = self.allowed.min(wanted.low);
+            } else if let Some(difference) = self.meet(wanted) {
+                return Some(difference);
+            }
+        }
+        self.next().map(|act| format!("line {}: a cut that the job does not have, to {}", act.line, shown(&act.to)))
+    }
+
+    /// The next cut of the program: its place in the list.
+    fn find(&self) -> Option<usize> {
+        (self.at..self.acts.len()).find(|&at| {
+            // a feed of no length cuts nothing
+            let act = &self.acts[at];
+            cuts(&act.what) && (act.what != What::Feed || !same(&act.from, &act.to, 1e-9))
+        })
+    }
+
+    fn next(&self) -> Option<Act> {
+        self.find().map(|at| self.acts[at])
+    }
+
+    /// Everything up to the next cut is dealt with.
+    fn take(&mut self) {
+        self.at = self.find().map_or(self.acts.len(), |at| at + 1);
+        self.low = f64::INFINITY;
+        self.allowed = f64::INFINITY;
+    }
+
+    /// The lowest place where a rapid crosses before `until`, and its line.
+    fn crossing(&self, until: usize) -> (f64, usize) {
+        let mut lowest = (self.low, self.low_line);
+        for act in &self.acts[self.at..until] {
+            if act.what == What::Tool {
+                lowest = (f64::INFINITY, 0);
+            }
+            let across = (0..2).any(|axis| !near(act.from[axis], act.to[axis], self.within));
+            let low = act.from[2].min(act.to[2]);
+            if act.what == What::Rapid && across && low < lowest.0 {
+                lowest = (low, act.line);
+            }
+        }
+        lowest
+    }
+
+    fn meet(&mut self, wanted: &Wanted) -> Option<String> {
+        match &wanted.want {
+            Want::Stop(_) | Want::Dwell(_) => self.pass(wanted),
+            Want::Line => self.line(wanted),
+            Want::Arc { .. } => self.arc(wanted),
+            Want::Hole { .. } => self.hole(wanted),
+        }
+    }
+
+    /// A stop or dwell before the next cut.
+    fn pass(&mut self, wanted: &Wanted) -> Option<String> {
+        let mut at = self.at;
+        while let Some(act) = self.acts.get(at) {
+            let found = match (&wanted.want, act.what) {
+                (Want::Stop(kind), What::Stop(is)) => *kind == is,
+                (Want::Dwell(seconds), What::Dwell(is)) => near(*seconds, is, 0.0011),
+                _ => false,
+            };
+            if found {
+                let low = self.way(wanted, at);
+                (self.low, self.allowed) = (f64::INFINITY, f64::INFINITY);
+                self.at = at + 1;
+                return low;
+            }
+            if cuts(&act.what) && !same(&act.from, &act.to, self.within) {
+                break;
+            }
+            at += 1;
+        }
+        Some(format!("{:?} is missing before line {}", wanted.want, self.acts.get(at).map_or(0, |act| act.line)))
+    }
+
+    fn state(&self, wanted: &Wanted, act: &Act) -> Option<String> {
+        let state = &act.state;
+        let line = act.line;
+        if state.tool != wanted.tool && state.tool != 0.0 {
+            return Some(format!("line {line}: tool {} for {}", state.tool, wanted.tool));
+        }
+        if state.length.is_some_and(|length| length != wanted.length) {
+            return Some(format!("line {line}: length register {:?} for {}", state.length, wanted.length));
+        }
+        let work = if state.work < 50.0 { state.work + 53.0 } else { state.work };
+        if work != wanted.work {
+            return Some(format!("line {line}: work offset {work} for {}", wanted.work));
+        }
+        let is_tap = matches!(&wanted.want, Want::Hole { kind, .. } if kind.ends_with("tap"));
+        if !is_tap && state.direction != wanted.spindle.0 {
+            return Some(format!("line {line}: spindle M{} for M{}", state.direction, wanted.spindle.0));
+        }
+        if (state.speed - wanted.spindle.1).abs() > 0.01 * wanted.spindle.1 + 0.5 {
+            return Some(format!("line {line}: S{} for S{}", state.speed, wanted.spindle.1));
+        }
+        // revolutions may be counted as minutes
+        if state.feed.1 != wanted.feed.1 && state.feed.1 != 94.0 && !is_tap {
+            return Some(format!("line {line}: G{} for G{}", state.feed.1, wanted.feed.1));
+        }
+        None
+    }
+
+    fn feed(&self, wanted: &Wanted, act: &Act) -> Option<String> {
+        let by = match (act.state.feed.1 == 95.0, wanted.feed.1 == 95.0) {
+            (false, true) => wanted.spindle.1,
+            (true, false) => 1.0 / wanted.spindle.1,
+            _ => 1.0,
+        };
+        let (is, should) = (act.state.feed.0, wanted.feed.0 * by);
+        // the last digit of a form is the form's matter
+        let off = (is - should).abs() > 0.011 * should + 0.006;
+        off.then(|| format!("line {}: feed {is:.4} for {should:.4}", act.line))
+    }
+
+    /// The way there was no lower than the job's.
+    fn way(&self, wanted: &Wanted, until: usize) -> Option<String> {
+        let (low, line) = self.crossing(until);
+        let allowed = wanted.low.min(self.allowed);
+        (low < allowed - self.within.max(0.01) && !allowed.is_infinite())
+            .then(|| format!("line {line}: a rapid crosses at {low:.4}, the job's way is at {allowed:.4}"))
+    }
+
+    fn begins(&self, wanted: &Wanted, act: &Act) -> Option<String> {
+        let known = wanted.from.iter().all(|number| !number.is_nan());
+        (known && !same(&act.from, &wanted.from, self.within)).then(|| {
+            format!("line {}: a cut begins at {}, the job's at {}", act.line, shown(&act.from), shown(&wanted.from))
+        })
+    }
+
+    /// Feeds straight down again to where the cut goes on, after the tool was taken out.
+    fn enter_again(&mut self, wanted: &Wanted) {
+        while self.next().is_some_and(|act| {
+            let above = act.from[2].is_nan() || act.from[2] > act.to[2];
+            act.what == What::Feed
+                && above
+                && same(&act.to, &wanted.from, self.within)
+                && (0..2).all(|axis| near(act.from[axis], act.to[axis], self.within))
+                && !same(&act.from, &wanted.from, self.within)
+                && !same(&act.to, &wanted.to, self.within)
+        }) {
+            self.take();
+        }
+    }
+
+    fn line(&mut self, wanted: &Wanted) -> Option<String> {
+        self.enter_again(wanted);
+        let Some(act) = self.next() else { return Some(format!("the cut to {} is missing", shown(&wanted.to))) };
+        if let Some(difference) = self
+            .begins(wanted, &act)
+            .or_else(|| self.way(wanted, self.find().unwrap_or(self.at)))
+            .or_else(|| self.state(wanted, &act))
+        {
+            return Some(difference);
+        }
+        let mut act = act;
+        let mut swept = [0.0; 3];
+        loop {
+            (0..3).for_each(|axis| swept[axis] += act.to[axis + 3] - act.from[axis + 3]);
+            if act.what != What::Feed {
+                return Some(format!("line {}: {:?} for a straight cut to {}", act.line, act.what, shown(&wanted.to)));
+            }
+            if let Some(difference) = self.feed(wanted, &act) {
+                return Some(difference);
+            }
+            self.take();
+            if same(&act.to, &wanted.to, self.within) {
+                let off = |axis: &usize| !near(swept[*axis], wanted.to[axis + 3] - wanted.from[axis + 3], 0.01);
+                let off = wanted.from[3..].iter().all(|angle| !angle.is_nan()) && (0..3).any(|axis| off(&axis));
+                return off
+                    .then(|| format!("line {}: turned by {swept:?} on the way to {}", act.line, shown(&wanted.to)));
+            }
+            if !between(&wanted.from, &act.to, &wanted.to, self.within) {
+                return Some(format!(
+                    "line {}: a cut to {}, the job's to {}",
+                    act.line,
+                    shown(&act.to),
+                    shown(&wanted.to)
+                ));
+            }
+            match self.next() {
+                Some(next) => act = next,
+                None => return Some(format!("the cut to {} stops short", shown(&wanted.to))),
+            }
+        }
+    }
+}
+
+/// Is b on the straight way from a to c?
+fn between(a: &Place, b: &Place, c: &Place, within: f64) -> bool {
+    let length: f64 = (0..3).map(|axis| (c[axis] - a[axis]).powi(2)).sum();
+    let along: f64 = (0..3).map(|axis| (b[axis] - a[axis]) * (c[axis] - a[axis])).sum::<f64>() / length;
+    (-1e-6..=1.0 + 1e-6).contains(&along)
+        && (0..3).all(|axis| near(a[axis] + along * (c[axis] - a[axis]), b[axis], within))
+}

@@ -1,0 +1,121 @@
+//! Arcs of a job: the program makes them as arcs or in parts, and all parts lie on them.
+
+use super::{Judge, shown};
+use crate::judge::wants::axes;
+use crate::judge::{Act, Place, Want, Wanted, What, near, same};
+
+impl Judge<'_> {
+    pub(super) fn arc(&mut self, wanted: &Wanted) -> Option<String> {
+        let Want::Arc { plane, center, ccw, turns } = &wanted.want else { return None };
+        let [first, second] = axes(plane);
+        let third = 3 - first - second;
+        let angle = |place: &Place| (place[second] - center[1]).atan2(place[first] - center[0]);
+        let radius = |place: &Place| (place[second] - center[1]).hypot(place[first] - center[0]);
+        let tau = std::f64::consts::TAU;
+        let swept = |from: &Place, to: &Place, ccw: bool| {
+            let turn = (angle(to) - angle(from)).rem_euclid(tau);
+            if ccw { turn } else { tau - turn }
+        };
+        let size = radius(&wanted.from);
+        let closed =
+            near(wanted.from[first], wanted.to[first], 1e-6) && near(wanted.from[second], wanted.to[second], 1e-6);
+        let whole = if closed { tau } else { swept(&wanted.from, &wanted.to, *ccw) } + turns * tau;
+        // how far lines may leave it, and how an angle shows a length
+        let loose = self.within + 0.03;
+        let slack = (4.0 * self.within + 0.001) / size.max(1e-6) + 1e-6;
+        if whole * size <= 2.0 * self.within || (tau - whole) * size <= self.within && *turns == 0.0 && !closed {
+            // too short to be told from nothing, or from a full turn
+            while self.next().is_some_and(|act| {
+                !same(&act.from, &wanted.to, self.within)
+                    && act.what != What::Rapid
+                    && act_in_reach(&act, &wanted.to, size * 2.0 + loose)
+            }) {
+                self.take();
+            }
+            return None;
+        }
+        let Some(act) = self.next() else { return Some(format!("the arc to {} is missing", shown(&wanted.to))) };
+        if let Some(difference) = self
+            .begins(wanted, &act)
+            .or_else(|| self.way(wanted, self.find().unwrap_or(self.at)))
+            .or_else(|| self.state(wanted, &act))
+        {
+            return Some(difference);
+        }
+        let mut done = 0.0;
+        let mut act = act;
+        loop {
+            let part = match act.what {
+                What::Feed => {
+                    let turn = (angle(&act.to) - angle(&act.from)).rem_euclid(tau);
+                    // a chord is short
+                    let turn = if turn > tau / 2.0 { turn - tau } else { turn };
+                    if *ccw { turn } else { -turn }
+                }
+                What::Arc { plane: is, center: about, ccw: way, turns } => {
+                    let code = match *plane {
+                        "xz" => 18.0,
+                        "yz" => 19.0,
+                        _ => 17.0,
+                    };
+                    let full =
+                        near(act.from[first], act.to[first], 1e-9) && near(act.from[second], act.to[second], 1e-9);
+                    let middle = middle(&act, [first, second], about, way, full);
+                    let off = ((middle[1] - center[1]).hypot(middle[0] - center[0]) - size).abs();
+                    if is != code || way != *ccw || off > loose {
+                        return Some(format!("line {}: {:?} for {:?}", act.line, act.what, wanted.want));
+                    }
+                    (if full { tau } else { swept(&act.from, &act.to, *ccw) }) + turns * tau
+                }
+                _ => return Some(format!("line {}: {:?} for an arc", act.line, act.what)),
+            };
+            if let Some(difference) = self.feed(wanted, &act).filter(|_| act.state.feed.1 != 93.0) {
+                return Some(difference);
+            }
+            self.take();
+            done += part;
+            if (radius(&act.to) - size).abs() > loose {
+                return Some(format!("line {}: {} is not on the arc", act.line, shown(&act.to)));
+            }
+            let height = wanted.from[third] + (wanted.to[third] - wanted.from[third]) * (done / whole);
+            if !near(act.to[third], height, loose + 0.05 * (wanted.to[third] - wanted.from[third]).abs()) {
+                return Some(format!("line {}: {} is not as high as the helix", act.line, shown(&act.to)));
+            }
+            if done >= whole - slack && same(&act.to, &wanted.to, self.within) {
+                return (done > whole + slack)
+                    .then(|| format!("line {}: the arc goes on for {done}, not {whole}", act.line));
+            }
+            if done > whole + slack {
+                return Some(format!(
+                    "line {}: the arc ends at {}, not {}",
+                    act.line,
+                    shown(&act.to),
+                    shown(&wanted.to)
+                ));
+            }
+            match self.next() {
+                Some(next) => act = next,
+                None => return Some(format!("the arc to {} stops short", shown(&wanted.to))),
+            }
+        }
+    }
+}
+
+/// A place in the middle of an arc, in its plane.
+fn middle(act: &Act, [first, second]: [usize; 2], about: [f64; 2], ccw: bool, full: bool) -> [f64; 2] {
+    let angle = |place: &Place| (place[second] - about[1]).atan2(place[first] - about[0]);
+    let tau = std::f64::consts::TAU;
+    let turn = (angle(&act.to) - angle(&act.from)).rem_euclid(tau);
+    let turn = match (full, ccw) {
+        (true, _) => tau,
+        (false, true) => turn,
+        (false, false) => turn - tau,
+    };
+    let radius = (act.from[second] - about[1]).hypot(act.from[first] - about[0]);
+    let at = angle(&act.from) + turn / 2.0;
+    [about[0] + radius * at.cos(), about[1] + radius * at.sin()]
+}
+
+fn act_in_reach(act: &Act, place: &Place, reach: f64) -> bool {
+    (0..3).all(|axis| near(act.to[axis], place[axis], reach))
+}

@@ -1,0 +1,263 @@
+//! Two programs that should do the same: what differs, by its class.
+
+use super::{Act, What, near, same};
+
+/// What two programs differ in, the gravest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// Where it is cut.
+    Cut,
+    /// With which tool.
+    Tool,
+    /// Length register.
+    Length,
+    /// Work offset.
+    Work,
+    /// Direction or speed of the spindle at a cut.
+    Spindle,
+    /// Angle at which the spindle stands.
+    Orientation,
+    /// Feed, or what it counts.
+    Feed,
+    /// Side of the compensation, or its register.
+    Side,
+    /// Stops of the program.
+    Stop,
+    /// Dwells.
+    Dwell,
+    /// Pecks.
+    Pecks,
+    /// Coolant at a cut.
+    Coolant,
+    /// A rapid that crosses lower.
+    Low,
+    /// A cut within 0.03 mm.
+    Near,
+    /// Rapids elsewhere.
+    Way,
+    /// What comes after the last cut.
+    Tail,
+}
+
+/// The gravest difference between a right program and a changed one; `None`: they do the same. `within`: millimetres.
+pub fn difference(right: &[Act], changed: &[Act], within: f64) -> Option<(Class, String)> {
+    let mut found: Option<(Class, String)> = None;
+    let mut say = |class: Class, what: String| {
+        if found.as_ref().is_none_or(|(other, _)| class < *other) {
+            found = Some((class, what));
+        }
+    };
+    let (a, b) = (plunges(right), plunges(changed));
+    for (left, other) in a.iter().zip(&b) {
+        if let Some((class, what)) = plunge(left, other, within) {
+            let grave = class == Class::Cut;
+            say(class, format!("line {}: {what}", other.cuts[0].line));
+            if grave {
+                break;
+            }
+        }
+    }
+    if a.len() != b.len() {
+        say(Class::Cut, format!("{} cuts, not {}", b.len(), a.len()));
+    }
+    others(right, changed, &mut say);
+    ways(right, changed, within, &mut say);
+    found
+}
+
+/// A cut, or all straight up and down cuts at one place with nothing but ups and downs between them.
+struct Plunge {
+    cuts: Vec<Act>,
+}
+
+fn plunges(acts: &[Act]) -> Vec<Plunge> {
+    let mut list: Vec<Plunge> = Vec::new();
+    // nothing but ups and downs since the last cut
+    let mut straight = false;
+    for act in acts {
+        if !act.cuts() {
+            straight &= act.what != What::Rapid || act.plunges();
+            continue;
+        }
+        let goes_on = straight && act.what == What::Feed && act.plunges();
+        match list.last_mut() {
+            Some(last) if goes_on && last.cuts[0].what == What::Feed => last.cuts.push(*act),
+            _ => list.push(Plunge { cuts: vec![*act] }),
+        }
+        straight = act.what == What::Feed && act.plunges();
+    }
+    list
+}
+
+fn plunge(left: &Plunge, other: &Plunge, within: f64) -> Option<(Class, String)> {
+    if left.cuts.len() == 1 && other.cuts.len() == 1 && !(left.cuts[0].plunges() && other.cuts[0].plunges()) {
+        return cut(&left.cuts[0], &other.cuts[0], within);
+    }
+    let deepest = |plunge: &Plunge| plunge.cuts.iter().fold(f64::INFINITY, |low, cut| low.min(cut.to[2]));
+    let (one, two) = (&left.cuts[0], &other.cuts[0]);
+    if two.what != What::Feed || one.what != What::Feed {
+        return cut(one, two, within);
+    }
+    if (0..6).any(|axis| axis != 2 && !near(one.to[axis], two.to[axis], within)) {
+        return Some((Class::Cut, format!("at {:.4?}, not {:.4?}", two.to, one.to)));
+    }
+    if !near(deepest(left), deepest(other), within) {
+        return Some((Class::Cut, format!("down to {:.4}, not {:.4}", deepest(other), deepest(left))));
+    }
+    // into what was not cut so far, where the right program does not go: through gaps between webs
+    let gaps = |plunge: &Plunge| {
+        let mut bottom = plunge.cuts[0].from[2];
+        let mut list = Vec::new();
+        for cut in &plunge.cuts {
+            if cut.from[2] < bottom - within {
+                list.push((bottom, cut.from[2]));
+            }
+            bottom = bottom.min(cut.to[2]);
+        }
+        list
+    };
+    let allowed = gaps(left);
+    let free = |gap: &&(f64, f64)| !allowed.iter().any(|other| gap.0 <= other.0 + within && gap.1 >= other.1 - within);
+    if let Some((bottom, to)) = gaps(other).iter().find(free) {
+        return Some((Class::Cut, format!("a rapid to {to:.4}, cut so far to {bottom:.4}")));
+    }
+    if let (true, Some(found)) =
+        (left.cuts.len() == other.cuts.len(), left.cuts.iter().zip(&other.cuts).find_map(|(a, b)| state(a, b)))
+    {
+        return Some(found);
+    }
+    let off = |(one, two): (&Act, &Act)| !near(one.to[2], two.to[2], within) || !near(one.from[2], two.from[2], within);
+    (left.cuts.len() != other.cuts.len() || left.cuts.iter().zip(&other.cuts).any(off))
+        .then(|| (Class::Pecks, format!("{} strokes, not {}", other.cuts.len(), left.cuts.len())))
+}
+
+fn cut(left: &Act, other: &Act, within: f64) -> Option<(Class, String)> {
+    let places = || format!("{:.4?} to {:.4?}, not {:.4?} to {:.4?}", other.from, other.to, left.from, left.to);
+    match (left.what, other.what) {
+        (What::Feed, What::Feed) => {}
+        (What::Arc { plane, center, ccw, turns }, What::Arc { plane: p, center: c, ccw: w, turns: t }) => {
+            if plane != p || ccw != w || turns != t || !near(center[0], c[0], 0.01) || !near(center[1], c[1], 0.01) {
+                return Some((Class::Cut, format!("{:?}, not {:?}", other.what, left.what)));
+            }
+        }
+        (What::Hole { code, r, z, out, q, p, jog }, What::Hole { code: c, r: s, z: y, out: o, q: u, p: v, jog: k }) => {
+            if code != c || !near(r, s, within) || !near(z, y, within) || jog != k {
+                return Some((Class::Cut, format!("{:?}, not {:?}", other.what, left.what)));
+            }
+            if !near(p, v, 0.0011 + 0.01 * p) {
+                return Some((Class::Dwell, format!("{v} s, not {p} s")));
+            }
+            if !near(q, u, within) {
+                return Some((Class::Pecks, format!("Q{u}, not {q}")));
+            }
+            if !near(out, o, within) {
+                return Some((Class::Way, format!("out to {o}, not {out}")));
+            }
+        }
+        _ => return Some((Class::Cut, format!("{:?}, not {:?}", other.what, left.what))),
+    }
+    // a cycle begins where it is, the way there is a rapid
+    let hole = matches!(left.what, What::Hole { .. });
+    if !hole && (!same(&left.from, &other.from, within) || !same(&left.to, &other.to, within)) {
+        // as far off as the lines of an arc may be
+        let class = if same(&left.from, &other.from, 0.03) && same(&left.to, &other.to, 0.03) {
+            Class::Near
+        } else {
+            Class::Cut
+        };
+        return Some((class, places()));
+    }
+    if hole && (0..6).any(|axis| axis != 2 && !near(left.to[axis], other.to[axis], within)) {
+        return Some((Class::Cut, places()));
+    }
+    state(left, other)
+}
+
+fn state(left: &Act, other: &Act) -> Option<(Class, String)> {
+    let (is, was) = (&other.state, &left.state);
+    // a tap turns the spindle itself
+    let is_tap = matches!(left.what, What::Hole { code: 84.0 | 74.0, .. });
+    let speed_off = (is.speed - was.speed).abs() > 0.01 * was.speed;
+    let feed_off = is.feed.1 != was.feed.1 || (is.feed.0 - was.feed.0).abs() > 0.01 * was.feed.0;
+    let classes = [
+        (Class::Tool, is.tool != was.tool),
+        (Class::Length, is.length != was.length),
+        (Class::Work, is.work != was.work),
+        (Class::Spindle, is.direction != was.direction && !is_tap || speed_off),
+        (Class::Feed, feed_off),
+        (Class::Side, is.side != was.side),
+        (Class::Coolant, is.coolant != was.coolant),
+    ];
+    let (class, _) = classes.into_iter().find(|(_, off)| *off)?;
+    Some((class, format!("{is:?}, not {was:?}")))
+}
+
+/// Stops, dwells, orientations and ends, each with how many cuts stand before it.
+fn others(right: &[Act], changed: &[Act], say: &mut impl FnMut(Class, String)) {
+    let cuts = |acts: &[Act]| acts.iter().filter(|act| act.cuts()).count();
+    let pick = |class: Class, what: &What| match (class, what) {
+        (Class::Stop, What::Stop(kind)) => Some(*kind),
+        (Class::Dwell, What::Dwell(seconds)) => Some(*seconds),
+        (Class::Orientation, What::Orient(angle)) => Some(*angle),
+        (Class::Tail, What::End) => Some(0.0),
+        _ => None,
+    };
+    let list = |acts: &[Act], class: Class| {
+        let mut cuts = 0;
+        let mut list = Vec::new();
+        for act in acts {
+            if let Some(number) = pick(class, &act.what) {
+                list.push((cuts, number, act.line));
+            }
+            cuts += usize::from(act.cuts());
+        }
+        list
+    };
+    let last = cuts(right).min(cuts(changed));
+    for class in [Class::Stop, Class::Dwell, Class::Orientation, Class::Tail] {
+        let (a, b) = (list(right, class), list(changed, class));
+        let alike =
+            |a: &(usize, f64, usize), b: &(usize, f64, usize)| a.0 == b.0 && near(a.1, b.1, 0.0011 + 0.01 * a.1.abs());
+        let count = |list: &[(usize, f64, usize)]| list.iter().filter(|one| one.0 < last).count();
+        let (head_a, head_b) = (&a[..count(&a)], &b[..count(&b)]);
+        if head_a.len() != head_b.len() || !head_a.iter().zip(head_b).all(|(a, b)| alike(a, b)) {
+            let at =
+                head_a.iter().zip(head_b).position(|(a, b)| !alike(a, b)).unwrap_or(head_a.len().min(head_b.len()));
+            say(class, format!("(cuts before, value, line) {:?}, not {:?}", head_b.get(at), head_a.get(at)));
+        } else if a.len() != b.len() || !a.iter().zip(&b).all(|(a, b)| alike(a, b)) {
+            say(Class::Tail, format!("{class:?} after the last cut"));
+        }
+    }
+}
+
+/// Rapids between the cuts.
+fn ways(right: &[Act], changed: &[Act], within: f64, say: &mut impl FnMut(Class, String)) {
+    let split = |acts: &[Act]| {
+        let mut gaps: Vec<Vec<Act>> = vec![Vec::new()];
+        for act in acts {
+            if act.cuts() {
+                gaps.push(Vec::new());
+            } else if act.what == What::Rapid && !same(&act.from, &act.to, 1e-6) {
+                gaps.last_mut().into_iter().for_each(|gap| gap.push(*act));
+            }
+        }
+        gaps
+    };
+    let crossing = |gap: &[Act]| {
+        gap.iter()
+            .filter(|act| (0..2).any(|axis| !near(act.from[axis], act.to[axis], within)))
+            .fold(f64::INFINITY, |low, act| low.min(act.from[2]).min(act.to[2]))
+    };
+    let (left, other) = (split(right), split(changed));
+    let last = left.len().min(other.len()) - 1;
+    for (at, (left, other)) in left.iter().zip(&other).enumerate() {
+        let line = other.first().map_or(0, |act| act.line);
+        let (low, should) = (crossing(other), crossing(left));
+        let begins = other.first().map_or(f64::NAN, |act| act.from[2]);
+        if low < should - within && !(at == last && low >= begins - within) {
+            say(Class::Low, format!("line {line}: a rapid crosses at {low:.4}, not {should:.4}"));
+        } else if left.len() != other.len() || left.iter().zip(other).any(|(a, b)| !same(&a.to, &b.to, within)) {
+            say(if at == last { Class::Tail } else { Class::Way }, format!("line {line}: another way"));
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! What a milling job asks for: its cuts, holes, dwells and stops, in millimetres, from the document alone.
+
+use serde_json::Value;
+
+use super::{INCH, Place};
+
+/// One thing that must be done.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Want {
+    /// A straight cut.
+    Line,
+    /// An arc: its plane, its centre in the plane (the arc's axes), its direction, full turns besides.
+    Arc { plane: &'static str, center: [f64; 2], ccw: bool, turns: f64 },
+    /// A hole: where the feed begins and ends, and the kind.
+    Hole { kind: String, clear: f64, bottom: f64, out: f64 },
+    /// A stop: 0 or 1.
+    Stop(f64),
+    /// A dwell.
+    Dwell(f64),
+}
+
+/// With all that holds then.
+#[derive(Clone, Debug)]
+pub struct Wanted {
+    /// What.
+    pub want: Want,
+    /// From where; not a number where nobody said.
+    pub from: Place,
+    /// To where; a hole's place over it.
+    pub to: Place,
+    /// The tool, its length register.
+    pub tool: f64,
+    /// Length register.
+    pub length: f64,
+    /// The work offset as the job says it, 54 at first.
+    pub work: f64,
+    /// 3, 4 or 5, and speed.
+    pub spindle: (f64, f64),
+    /// Feed in millimetres, and 94 or 95.
+    pub feed: (f64, f64),
+    /// The least height of the job's own way to it.
+    pub low: f64,
+    /// 40, 41 or 42.
+    pub side: f64,
+}
+
+struct Reader {
+    unit: f64,
+    at: Place,
+    tool: f64,
+    length: f64,
+    work: f64,
+    spindle: (f64, f64),
+    feed: (f64, f64),
+    low: f64,
+    side: f64,
+    list: Vec<Wanted>,
+    /// The tool left the hole beside its axis.
+    jogged: bool,
+}
+
+/// The list, or nothing for a job that this does not read: with calls, custom cycles, or codes as text.
+pub fn wants(job: &Value) -> Option<Vec<Wanted>> {
+    if job.get("machine").is_some_and(|machine| machine != "mill") || job.get("subprograms").is_some() {
+        return None;
+    }
+    let unit = if job["units"] == "mm" { 1.0 } else { INCH };
+    let mut reader = Reader {
+        unit,
+        at: [f64::NAN, f64::NAN, f64::NAN, 0.0, 0.0, 0.0],
+        tool: f64::NAN,
+        length: f64::NAN,
+        work: 54.0,
+        spindle: (5.0, 0.0),
+        feed: (f64::NAN, 94.0),
+        low: f64::INFINITY,
+        side: 40.0,
+        list: Vec::new(),
+        jogged: false,
+    };
+    for operation in job["operations"].as_array()? {
+        reader.head(operation, job);
+        for item in operation["path"].as_array()? {
+            reader.item(item)?;
+        }
+    }
+    Some(reader.list)
+}
+
+impl Reader {
+    fn head(&mut self, operation: &Value, job: &Value) {
+        if let Some(tool) = operation.get("tool").and_then(Value::as_f64).filter(|tool| *tool != self.tool) {
+            self.tool = tool;
+            let row =
+                job["tools"].as_array().and_then(|tools| tools.iter().find(|row| row["number"].as_f64() == Some(tool)));
+            self.length = row.and_then(|row| row.get("length_offset")).and_then(Value::as_f64).unwrap_or(tool);
+            self.at[..3].fill(f64::NAN);
+        }
+        if let Some(work) = operation.get("work").and_then(Value::as_f64) {
+            self.work(work);
+        }
+        match operation.get("feed_mode").and_then(Value::as_str) {
+            Some("per_rev") => self.feed.1 = 95.0,
+            Some(_) => self.feed.1 = 94.0,
+            None => {}
+        }
+        if let Some(spindle) = operation.get("spindle") {
+            self.spindle(spindle);
+        }
+        if let Some(feed) = operation.get("feed").and_then(Value::as_f64) {
+            self.feed.0 = feed * self.unit;
+        }
+    }
+
+    fn work(&mut self, work: f64) {
+        self.work = if work < 50.0 { work + 53.0 } else { work };
+    }
+
+    fn spindle(&mut self, spindle: &Value) {
+        if let Some(speed) = spindle.get("speed").and_then(Value::as_f64) {
+            self.spindle.1 = speed;
+            if self.spindle.0 == 5.0 && spindle.get("direction").is_none() {
+                self.spindle.0 = 3.0;
+            }
+        }
+        match spindle.get("direction").and_then(Value::as_str) {
+            Some("cw") => self.spindle.0 = 3.0,
+            Some("ccw") => self.spindle.0 = 4.0,
+            Some(_) => self.spindle.0 = 5.0,
+            None => {}
+        }
+    }
+
+    /// A position of the job; angles count too.
+    fn target(&self, position: &Value) -> Place {
+        let mut to = self.at;
+        for (axis, place) in to.iter_mut().enumerate() {
+            if let Some(number) = position.get(axis).and_then(Value::as_f64) {
+                *place = if axis < 3 { number * self.unit } else { number };
+            }
+        }
+        to
+    }
+
+    fn put(&mut self, want: Want, to: Place) {
+        let back = matches!(&want, Want::Hole { kind, .. } if kind == "back");
+        let low = if back || self.jogged { f64::NEG_INFINITY } else { self.low.min(self.at[2]).min(to[2]) };
+        self.jogged = false;
+        self.list.push(Wanted {
+            want,
+            from: self.at,
+            to,
+            tool: self.tool,
+            length: self.length,
+            work: self.work,
+            spindle: self.spindle,
+            feed: self.feed,
+            low,
+            side: self.side,
+        });
+        self.at = to;
+        self.low = f64::INFINITY;
+    }
+
+    fn item(&mut self, item: &Value) -> Option<()> {
+        if let Some(feed) = item.get("feed").and_then(Value::as_f64) {
+            self.feed.0 = feed * self.unit;
+        }
+        if let Some(to) = item.get("rapid") {
+            self.low = self.low.min(self.at[2]);
+            self.at = self.target(to);
+            self.low = self.low.min(self.at[2]);
+        } else if let Some(to) = item.get("line") {
+            let to = self.target(to);
+            self.put(Want::Line, to);
+        } else if let Some(to) = item.get("infeed") {
+            self.side = if item["side"] == "right" { 42.0 } else { 41.0 };
+            let to = self.target(to);
+            self.put(Want::Line, to);
+        } else if let Some(to) = item.get("outfeed") {
+            self.side = 40.0;
+            let to = self.target(to);
+            self.put(Want::Line, to);
+        } else if let Some(arc) = item.get("arc") {
+            self.arc(arc)?;
+        } else if let Some(cycle) = item.get("cycle") {
+            self.cycle(cycle)?;
+        } else if let Some(work) = item.get("work").and_then(Value::as_f64) {
+            self.work(work);
+        } else if let Some(spindle) = item.get("spindle") {
+            self.spindle(spindle);
+        } else if let Some(stop) = item.get("stop") {
+            let at = self.at;
+            self.put(Want::Stop(if stop == "optional" { 1.0 } else { 0.0 }), at);
+        } else if let Some(seconds) = item.get("dwell").and_then(Value::as_f64) {
+            let at = self.at;
+            self.put(Want::Dwell(seconds), at);
+        } else if item.get("call").is_some()
+            || item.get("text").is_some_and(|text| !text.as_str().unwrap_or("").starts_with('('))
+        {
+            return None;
+        }
+        Some(())
+    }
+
+    fn arc(&mut self, arc: &Value) -> Option<()> {
+        let to = self.target(&arc["to"]);
+        let plane = match arc.get("plane").and_then(Value::as_str) {
+            Some("xz") => "xz",
+            Some("yz") => "yz",
+            _ => "xy",
+        };
+        let [first, second] = axes(plane);
+        let ccw = arc["direction"] == "ccw";
+        let center = match arc.get("center") {
+            Some(center) => [center[first].as_f64()? * self.unit, center[second].as_f64()? * self.unit],
+            None => {
+                let radius = arc["radius"].as_f64()? * self.unit;
+                let from = [self.at[first], self.at[second]];
+                super::machine::by_radius(from, [to[first], to[second]], radius, ccw)?
+            }
+        };
+        let turns = arc.get("turns").and_then(Value::as_f64).unwrap_or(0.0);
+        self.put(Want::Arc { plane, center, ccw, turns }, to);
+        Some(())
+    }
+
+    fn cycle(&mut self, cycle: &Value) -> Option<()> {
+        let kind = cycle["kind"].as_str()?.to_owned();
+        if kind.starts_with("custom") || cycle.get("rapto").is_some_and(|_| kind != "back") {
+            return None;
+        }
+        let number = |key: &str| cycle.get(key).and_then(Value::as_f64).map(|number| number * self.unit);
+        let clear = number("clear").unwrap_or(if self.unit == 1.0 { 3.0 } else { 0.1 * INCH });
+        let webs = cycle
+            .get("webs")
+            .and_then(Value::as_array)
+            .and_then(|webs| webs.last()?.as_f64())
+            .map(|web| web * self.unit);
+        let pecks = cycle.get("pecks").and_then(Value::as_array).and_then(|pecks| pecks.last()?["to"].as_f64());
+        let sink = number("diameter").zip(cycle.get("angle").and_then(Value::as_f64));
+        let sink = sink.map(|(diameter, angle)| diameter / 2.0 / (angle / 2.0).to_radians().tan());
+        let depth = number("depth").or(webs).or(pecks.map(|peck| peck * self.unit)).or(sink).unwrap_or(0.0);
+        let above = number("return");
+        let before = self.feed;
+        if let Some(feed) = number("feed") {
+            self.feed.0 = feed;
+        }
+        let mut first = None;
+        let mut place = self.at;
+        place[2] = f64::NAN;
+        for point in cycle["points"].as_array()? {
+            let at = point.get("at").unwrap_or(point);
+            for (axis, place) in place.iter_mut().enumerate() {
+                if let Some(number) = at.get(axis).and_then(Value::as_f64) {
+                    *place = if axis < 3 { number * self.unit } else { number };
+                }
+            }
+            let own = point.get("depth").and_then(Value::as_f64).map_or(depth, |depth| depth * self.unit);
+            let top = place[2];
+            // without a return plane the first clearance is one
+            let plane = *first.get_or_insert(top + above.unwrap_or(clear));
+            let clear = top + clear;
+            let out = plane.max(clear);
+            let mut to = place;
+            to[2] = out;
+            let want = match kind.as_str() {
+                "manual" => Want::Stop(0.0),
+                _ => Want::Hole { kind: kind.clone(), clear, bottom: top - own, out },
+            };
+            let jogs = cycle.get("orient").is_some() || kind == "back";
+            self.low = self.low.min(clear);
+            if kind == "manual" {
+                to[2] = clear;
+                self.low = f64::NEG_INFINITY;
+            }
+            self.put(want, to);
+            self.jogged = jogs;
+        }
+        self.feed = before;
+        Some(())
+    }
+}
+
+/// The axes of a plane, in the order in which angles grow.
+pub(super) fn axes(plane: &str) -> [usize; 2] {
+    match plane {
+        "xz" => [2, 0],
+        "yz" => [1, 2],
+        _ => [0, 1],
+    }
+}

@@ -1,0 +1,127 @@
+//! A form as the hunt uses it: it prints jobs and compares programs with them.
+
+use postform::toolpath::Place;
+use postform::verify::Finding;
+use postform::{Error, Format, Job, NoFiles, Options, Post, Source, Verdict};
+
+use crate::job::{Kind, Takes};
+
+/// A form that prints.
+pub struct Form {
+    /// Its file, without its ending.
+    pub name: String,
+    /// The control that runs its programs.
+    pub control: String,
+    /// What jobs it can print.
+    pub kinds: Vec<Kind>,
+    /// What they may say.
+    pub takes: Takes,
+    /// How near its digits come to a place, in millimetres, and what adding such places may add.
+    pub within: f64,
+    /// The job's A is another letter of the program's.
+    pub renames: bool,
+    post: Post,
+}
+
+/// A code, and what it says.
+pub type Said = (String, String);
+
+impl Form {
+    /// Reads a form; it calls no other.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn read(name: &str, text: &str) -> Result<Form, Error> {
+        let post = Post::compile(Source::from_text(name, text), &NoFiles)?;
+        let says = |line: &str| text.lines().any(|other| other.trim_end() == line);
+        let inch = [("Units inch", true), ("Units mm", false)].into_iter().find(|(line, _)| says(line));
+        let control = text.lines().find_map(|line| line.strip_prefix("Control ")).unwrap_or("fanuc");
+        let kinds = match (says("Machine Lathe"), says("Machine EDM")) {
+            (true, _) => vec![Kind::Lathe],
+            (_, true) => vec![Kind::Wire],
+            _ => {
+                let more = [(Kind::Rotary, text.contains("A[rotangle]")), (Kind::Subprograms, says("SubCall"))];
+                let more = more.into_iter().filter(|(_, can)| *can).map(|(kind, _)| kind);
+                [Kind::Mill].into_iter().chain(more).collect()
+            }
+        };
+        Ok(Form {
+            name: name.into(),
+            control: control.trim().into(),
+            kinds,
+            takes: Takes { inch: inch.map(|(_, inch)| inch), customs: ["Custom1", "Custom2", "Custom3"].map(says) },
+            within: if text.contains("X->5.>2") { 0.011 } else { 0.0035 },
+            renames: says("Rename A B"),
+            post,
+        })
+    }
+
+    /// Prints a job.
+    ///
+    /// # Errors
+    /// The code and the message of what it refuses.
+    pub fn render(&self, job: &str, format: Format) -> Result<String, Said> {
+        let mut options = Options::default();
+        // a CL file has no number
+        options.program = Some(7);
+        let program = self.post.render(Job::bytes(format, job), &options);
+        program.map(postform::Program::into_text).map_err(|error| said(&error))
+    }
+
+    /// Compares a program with its job.
+    pub fn verify(&self, program: &str, job: &str, format: Format) -> Proof {
+        match self.post.verify(Job::bytes(format, job), program) {
+            Ok(Verdict::Identical) => Proof::Identical,
+            Ok(Verdict::Equivalent(_)) => Proof::Equivalent,
+            Ok(Verdict::Different(findings)) => {
+                let place = |place: Option<Place>| place.map(|place| place.to_string()).unwrap_or_default();
+                let what = |f: &Finding| format!("line {}: {} [{}] {}", f.line, f.message, f.block, place(f.place));
+                Proof::Different(findings.iter().map(|f| (f.code.name().to_owned(), what(f))).collect())
+            }
+            Ok(Verdict::NotProven(unproven)) => Proof::NotProven(("unproven".into(), unproven.why)),
+            Ok(_) => Proof::NotProven(("unknown".into(), "a verdict that is not known here".into())),
+            Err(error) => Proof::NotProven(said(&error)),
+        }
+    }
+}
+
+fn said(error: &Error) -> Said {
+    let diag = error.findings().diags.iter().find(|diag| diag.is_error());
+    match diag {
+        Some(diag) => {
+            let place = diag.place.as_ref().map(ToString::to_string).unwrap_or_default();
+            (diag.code.name().to_owned(), format!("{} {place}", diag.message))
+        }
+        None => ("none".into(), error.to_string()),
+    }
+}
+
+/// What comparing says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Proof {
+    /// The same motions.
+    Identical,
+    /// The same cuts.
+    Equivalent,
+    /// What differs.
+    Different(Vec<Said>),
+    /// Why it can't be told.
+    NotProven(Said),
+}
+
+impl Proof {
+    /// Identical or equivalent?
+    pub fn holds(&self) -> bool {
+        matches!(self, Proof::Identical | Proof::Equivalent)
+    }
+
+    /// In one word; what differs by its first code.
+    pub fn name(&self) -> String {
+        match self {
+            Proof::Identical => "identical".into(),
+            Proof::Equivalent => "equivalent".into(),
+            Proof::Different(list) => format!("different {}", list.first().map_or("", |(code, _)| code)),
+            Proof::NotProven((code, _)) => format!("not proven {code}"),
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! How often what was seen.
+
+use std::collections::BTreeMap;
+
+/// Counts by name, in groups.
+#[derive(Default)]
+pub struct Tally(BTreeMap<&'static str, BTreeMap<String, u64>>);
+
+impl Tally {
+    /// One more.
+    pub fn count(&mut self, group: &'static str, name: impl Into<String>) {
+        *self.0.entry(group).or_default().entry(name.into()).or_default() += 1;
+    }
+
+    /// How many so far.
+    pub fn get(&self, group: &'static str, name: &str) -> u64 {
+        self.0.get(group).and_then(|names| names.get(name)).copied().unwrap_or(0)
+    }
+
+    /// How many of a group.
+    pub fn total(&self, group: &'static str) -> u64 {
+        self.0.get(group).map_or(0, |names| names.values().sum())
+    }
+
+    /// All groups, a line for each name.
+    pub fn print(&self) {
+        for (group, names) in &self.0 {
+            println!("{group}:");
+            let mut rows: Vec<_> = names.iter().collect();
+            rows.sort_by_key(|(name, count)| (std::cmp::Reverse(**count), (*name).clone()));
+            for (name, count) in rows {
+                println!("{count:>12}  {name}");
+            }
+        }
+    }
+}

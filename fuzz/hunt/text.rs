@@ -1,0 +1,63 @@
+//! A job as the text that is read: a document, JSON Lines, or a CL file.
+
+use std::fmt::Write;
+
+use postform::Format;
+use serde_json::{Value, json};
+
+use crate::cl::cl;
+
+/// The ending of a job's file.
+pub fn ending(format: Format) -> &'static str {
+    match format {
+        Format::Cl => "cl",
+        Format::JsonLines => "jsonl",
+        _ => "json",
+    }
+}
+
+/// The job in this format; in CL, what CL can't say is left out ([`crate::cl::for_cl`]).
+pub fn written(job: &Value, format: Format) -> String {
+    match format {
+        Format::Cl => cl(job),
+        Format::JsonLines => lines(job),
+        _ => job.to_string(),
+    }
+}
+
+pub(crate) fn list<'v>(value: &'v Value, key: &str) -> &'v [Value] {
+    value.get(key).and_then(Value::as_array).map_or(&[], Vec::as_slice)
+}
+
+fn without(value: &Value, keys: &[&str]) -> Value {
+    let mut value = value.clone();
+    if let Some(object) = value.as_object_mut() {
+        object.retain(|key, _| !keys.contains(&key.as_str()));
+    }
+    value
+}
+
+fn lines(job: &Value) -> String {
+    let mut text = format!("{}\n", json!({ "start": without(job, &["subprograms", "operations"]) }));
+    let put = |text: &mut String, value: &Value| _ = writeln!(text, "{value}");
+    for sub in list(job, "subprograms") {
+        put(&mut text, &json!({ "subprogram": without(sub, &["path"]) }));
+        list(sub, "path").iter().for_each(|item| put(&mut text, item));
+        put(&mut text, &json!({ "subprogram_end": true }));
+    }
+    for operation in list(job, "operations") {
+        put(&mut text, &json!({ "operation": without(operation, &["path"]) }));
+        for item in list(operation, "path") {
+            // a cycle with three points is split
+            match item.get("cycle").filter(|cycle| list(cycle, "points").len() == 3) {
+                Some(cycle) => {
+                    put(&mut text, &json!({ "cycle": without(cycle, &["points"]) }));
+                    list(cycle, "points").iter().for_each(|point| put(&mut text, &json!({ "point": point })));
+                    put(&mut text, &json!({ "cycle_end": true }));
+                }
+                None => put(&mut text, item),
+            }
+        }
+    }
+    text + "{\"end\":true}\n"
+}

@@ -1,0 +1,102 @@
+//! Right programs made wrong in one place: comparing them with their jobs must see it.
+//!
+//! `programs COUNT SEED KIND FORM`, of which each may be missing; `FOUND=FOLDER` keeps what is found. Those that are called identical or
+//! equivalent and do something else are listed by what they differ in.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::time::Instant;
+
+use postform_fuzz::case::{Asked, Case, End};
+use postform_fuzz::forms::forms;
+use postform_fuzz::judge::pair::{Class, difference};
+use postform_fuzz::judge::{Act, run};
+use postform_fuzz::mutate::{Mutant, mutant};
+use postform_fuzz::tally::Tally;
+
+/// How many are shown of each kind.
+const SHOWN: u64 = 3;
+/// How many changed programs are made of a right one.
+const EACH: usize = 10;
+/// Differences that no part is lost by.
+const HARMLESS: [Class; 4] = [Class::Way, Class::Pecks, Class::Tail, Class::Near];
+
+fn main() {
+    let asked = Asked::of(std::env::args().skip(1), forms());
+    std::panic::set_hook(Box::new(|_| {}));
+    let mut hunt = Hunt { tally: Tally::default(), folder: std::env::var_os("FOUND").map(PathBuf::from) };
+    let start = Instant::now();
+    let mut made = 0;
+    for seed in asked.first.. {
+        if made >= asked.count {
+            break;
+        }
+        let Some((case, mut random)) = asked.case(seed) else { continue };
+        let End::Printed(program, proof) = case.end() else { continue };
+        if !proof.holds() {
+            continue;
+        }
+        let Ok(right) = run(&program, &case.form.control, case.job["units"] == "inch") else {
+            hunt.tally.count("not run", case.form.name.clone());
+            continue;
+        };
+        for _ in 0..EACH {
+            if let Some(mutant) = mutant(&program, &mut random) {
+                made += 1;
+                hunt.look(&case, &program, &right, &mutant, made);
+            }
+        }
+    }
+    hunt.tally.print();
+    println!("{made} programs, {:.0} s", start.elapsed().as_secs_f64());
+}
+
+struct Hunt {
+    tally: Tally,
+    folder: Option<PathBuf>,
+}
+
+impl Hunt {
+    fn look(&mut self, case: &Case<'_>, program: &str, right: &[Act], mutant: &Mutant, made: u64) {
+        let text = case.text();
+        self.tally.count("mutations", mutant.kind);
+        self.tally.count("forms", case.form.name.clone());
+        let verify = || case.form.verify(&mutant.text, &text, case.format);
+        let Ok(proof) = catch_unwind(AssertUnwindSafe(verify)) else {
+            self.tally.count("verdicts", "panic");
+            return self.show(case, program, mutant, made, "panic", "comparing panics");
+        };
+        self.tally.count("verdicts", proof.name());
+        if !proof.holds() {
+            return;
+        }
+        let judged = run(&mutant.text, &case.form.control, case.job["units"] == "inch");
+        let (class, why) = match judged.map(|acts| difference(right, &acts, 0.004)) {
+            Ok(None) => return self.tally.count("quiet", format!("{}: does the same", proof.name())),
+            Ok(Some((class, why))) => (Ok(class), why),
+            Err((line, why)) => (Err(()), format!("line {line}: {why}")),
+        };
+        let name = class.map_or("refused".to_owned(), |class| format!("{class:?}"));
+        self.tally.count("quiet", format!("{}: {name}", proof.name()));
+        let group = format!("{name}, {}", mutant.kind);
+        self.tally.count("quiet by mutation", group.clone());
+        let harmless = class.is_ok_and(|class| HARMLESS.contains(&class));
+        if !harmless && self.tally.get("quiet by mutation", &group) <= SHOWN {
+            self.show(case, program, mutant, made, &format!("{}, {name}", proof.name()), &why);
+        }
+    }
+
+    fn show(&self, case: &Case<'_>, program: &str, mutant: &Mutant, made: u64, what: &str, why: &str) {
+        println!("== seed {}: {} ({}) {what}", case.seed, case.form.name, mutant.kind);
+        println!("{}\n{why}", mutant.what);
+        let Some(folder) = &self.folder else { return };
+        let name = format!("{}-{made}-{}.{}", case.seed, what.replace([' ', ','], "-"), case.form.name);
+        let job = (case.text(), postform_fuzz::text::ending(case.format));
+        let files = [(job.0.as_str(), job.1), (mutant.text.as_str(), "nc"), (program, "right.nc")];
+        for (text, ending) in files {
+            if let Err(error) = std::fs::write(folder.join(format!("{name}.{ending}")), text) {
+                println!("{name}: {error}");
+            }
+        }
+    }
+}

@@ -21,10 +21,18 @@ use super::files::{self, io_message};
 #[serde(deny_unknown_fields)]
 struct Written {
     form: Option<PathBuf>,
-    control: Option<String>,
+    control: Option<NamedControl>,
     limits: Option<String>,
     #[serde(default)]
     rules: BTreeMap<String, String>,
+}
+
+/// `control = "haas"`, or a file that describes one.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+enum NamedControl {
+    Name(String),
+    File { file: PathBuf },
 }
 
 /// What holds for a file.
@@ -88,7 +96,7 @@ impl Config {
             format!("error: {name}: {}\n  help: {known}", error.to_string().trim_end())
         })?;
         let limits = written.limits.as_deref().map(|value| choice(&name, "limits", value)).transpose()?;
-        let control = written.control.as_deref().map(|value| named_control(&name, value)).transpose()?;
+        let control = written.control.as_ref().map(|value| named_control(&name, path, value)).transpose()?;
         let mut levels = Levels::default();
         // a family first, so that its codes can be told apart whatever the order
         let mut rules: Vec<_> = written.rules.iter().collect();
@@ -112,7 +120,14 @@ fn shortened(path: PathBuf) -> PathBuf {
     here.ok().and_then(|here| path.strip_prefix(here).ok().map(Path::to_path_buf)).unwrap_or(path)
 }
 
-fn named_control(name: &str, value: &str) -> Result<&'static Control, String> {
+fn named_control(name: &str, path: &Path, value: &NamedControl) -> Result<&'static Control, String> {
+    let value = match value {
+        NamedControl::File { file } => return files::control(&shortened(files::folder(path).join(file))),
+        NamedControl::Name(value) if control::is_file(value) => {
+            return files::control(&shortened(files::folder(path).join(value)));
+        }
+        NamedControl::Name(value) => value,
+    };
     Control::named(&value.to_ascii_lowercase()).ok_or_else(|| {
         let known: Vec<&str> = control::names().collect();
         format!("error: {name}: control = {value:?}: it is one of {}", known.join(", "))

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufReader, Read, Seek};
 use std::path::Path;
 
+use postform::control::Control;
 use postform::diag::escaped;
 use postform::sema::MOST_TEXT;
 use postform::{Format, Job};
@@ -104,6 +105,16 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
         Ok(_) => Ok(bytes),
         Err(error) => Err(io_message("read", path, &error)),
     }
+}
+
+/// A shop's own control.
+///
+/// # Errors
+/// A message: the file can't be read, or says something wrong, with line and column.
+pub fn control(path: &Path) -> Result<&'static Control, String> {
+    let bytes = read_form(path)?;
+    let text = String::from_utf8(bytes).map_err(|_| format!("error: {} is not UTF-8", name(path)))?;
+    Control::own(&name(path), &text).map_err(|wrong| format!("error: {wrong}"))
 }
 
 /// The format of a job: as said, else by its extension.

@@ -84,6 +84,9 @@ pub fn run() -> ExitCode {
         Command::Simulate(args) => simulate::run(&args, colour),
         Command::Fmt(args) => fmt::run(&args),
         Command::Explain(args) => explain::run(&args),
+        Command::Controls => {
+            output::shown(|out| std::io::Write::write_all(out, postform::explain::controls::list().as_bytes()))
+        }
         Command::New(args) => new::run(&args),
         Command::Completions(args) => shells::completions(&args),
         Command::Man => shells::man(),

@@ -2,6 +2,8 @@
 
 use std::io::{self, Write as _};
 
+use postform::explain::controls;
+
 use super::args::{NewArgs, NewControl};
 use super::files::{io_message, name};
 use super::say::message;
@@ -22,7 +24,11 @@ fn form(control: NewControl) -> &'static str {
 
 /// Writes the form; a file that is there is somebody's work and stays.
 pub fn run(args: &NewArgs) -> Result<Ending, String> {
-    let text = form(args.control);
+    let text = match (args.control_file, args.control) {
+        (Some(control), _) => controls::file(control),
+        (None, Some(control)) => form(control).to_owned(),
+        (None, None) => return Err("error: say which form by --control, or which control by --control-file".into()),
+    };
     if args.output.as_os_str() == "-" {
         return output::shown(|out| out.write_all(text.as_bytes()));
     }
@@ -33,6 +39,10 @@ pub fn run(args: &NewArgs) -> Result<Ending, String> {
         }
         _ => io_message("write", &args.output, &error),
     })?;
-    message(&format!("{0} is written: change it, then `postform lint {0}`", name(&args.output)));
+    let written = name(&args.output);
+    message(&match args.control_file {
+        Some(_) => format!("{written} is written: change it, then write `Control {written}` in the form beside it"),
+        None => format!("{written} is written: change it, then `postform lint {written}`"),
+    });
     Ok(Ending::Clean)
 }

@@ -24,6 +24,8 @@ pub struct Wrong {
     pub file: String,
     /// Line and column, from 1.
     pub at: (usize, usize),
+    /// Where it begins, in bytes.
+    pub start: usize,
     /// What, one sentence.
     pub message: String,
     /// What to write instead; empty where the message says it.
@@ -338,6 +340,12 @@ impl Reader<'_> {
         let before = self.text.get(..at).unwrap_or(self.text);
         let line = before.matches('\n').count() + 1;
         let column = before.rsplit('\n').next().map_or(0, |rest| rest.chars().count()) + 1;
-        Wrong { file: self.name.to_owned(), at: (line, column), message: message.into(), help: help.into() }
+        Wrong {
+            file: self.name.to_owned(),
+            at: (line, column),
+            start: before.len(),
+            message: message.into(),
+            help: help.into(),
+        }
     }
 }

@@ -173,6 +173,7 @@ meanings! {
     Orient           "orient"            None, Free,              "stops the spindle at an angle";
     Flood            "flood"             Some(G::Coolant), Free,  "flood coolant on";
     Mist             "mist"              Some(G::Coolant), Free,  "mist coolant on";
+    Through          "through"           Some(G::Coolant), Free,  "coolant through the spindle on";
     CoolantOff       "coolant-off"       Some(G::Coolant), Free,  "coolant off";
     ToolChange       "tool-change"       None, Free,              "changes the tool";
     ToolNumber       "tool-number"       None, Free,              "says which tool is in";

@@ -11,7 +11,8 @@ mod meaning;
 mod traits;
 mod words;
 
-use std::sync::LazyLock;
+use std::collections::BTreeMap;
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 pub use arcs::{Arcs, Tolerance};
 pub use code::{Code, NoCode};
@@ -131,6 +132,11 @@ fn shipped(at: usize) -> Control {
     Control::read(name, text).unwrap_or_else(|_| Control::empty())
 }
 
+/// Does a control's name mean a file that describes it?
+pub fn is_file(name: &str) -> bool {
+    name.len() > 5 && name.is_char_boundary(name.len() - 5) && name[name.len() - 5..].eq_ignore_ascii_case(".toml")
+}
+
 /// The names of the controls that come with the program.
 pub fn names() -> impl Iterator<Item = &'static str> {
     FILES.iter().map(|(name, _)| *name)
@@ -175,6 +181,22 @@ impl Control {
         file::read(name, text, &like, 0)
     }
 
+    /// A shop's own control, which is there until the program ends: forms and programs name it as they name those that
+    /// ship. A text that was read before is not read again.
+    ///
+    /// # Errors
+    /// What is wrong, with its line and column.
+    pub fn own(name: &str, text: &str) -> Result<&'static Control, Wrong> {
+        static READ: Mutex<BTreeMap<String, &'static Control>> = Mutex::new(BTreeMap::new());
+        let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(control) = read.get(text) {
+            return Ok(control);
+        }
+        let control: &'static Control = Box::leak(Box::new(Control::read(name, text)?));
+        read.insert(text.to_owned(), control);
+        Ok(control)
+    }
+
     fn empty() -> Control {
         Control { chain: Vec::new(), title: String::new(), traits: Traits::default(), rows: Rows::default() }
     }
@@ -182,6 +204,11 @@ impl Control {
     /// Its name, as forms and options write it.
     pub fn name(&self) -> &str {
         self.chain.first().map_or("", String::as_str)
+    }
+
+    /// The names of those that it is like, the nearest first.
+    pub fn like(&self) -> impl Iterator<Item = &str> {
+        self.chain.iter().skip(1).map(String::as_str)
     }
 
     /// As messages name it.
@@ -315,6 +342,14 @@ mod tests {
         assert_eq!((row.meaning, row.words), (Meaning::Harmless, Words::of("P")));
         assert_eq!(own.row("G81".parse().unwrap()).unwrap().meaning, Meaning::Cycle);
         assert!(own.row("G202".parse().unwrap()).is_none());
+    }
+
+    #[test]
+    fn a_text_is_read_once() {
+        let text = "name = \"vf3\"\nlike = \"haas\"\n";
+        let [one, two] = [(); 2].map(|()| Control::own("vf3.toml", text).unwrap());
+        assert!(std::ptr::eq(one, two) && is_file("vf3.toml") && !is_file("haas") && !is_file(".toml"));
+        assert!(Control::own("vf3.toml", "name = 3").is_err());
     }
 
     #[test]

@@ -49,6 +49,7 @@ codes! {
     PF016 Note "one tape mark where there are two"
     PF017 Warning "a subprogram that does not return"
     PF018 Warning "a subprogram without its number"
+    PF019 Error "a control's file that can't be read"
     // PF1: blanks and comments
     PF101 Warning "words lost after a double blank or a tab"
     PF102 Warning "a missing blank between two words"
@@ -153,6 +154,7 @@ codes! {
     PF605 Note "almost too many words on a line"
     PF606 Note "almost too many sequence lines"
     PF607 Warning "a code that the control does not have"
+    PF608 Note "a code that nobody described for the control"
     // PJ: the job
     PJ001 Error "the job is not well-formed"
     PJ002 Error "an unknown key"

@@ -1,16 +1,18 @@
-//! What each code, command, variable, sequence and cycle means, from the tables and pages that the reference is made of.
+//! What each code, command, variable, sequence, cycle and control means, from the tables and pages that the reference is made of.
 // pages name variables as [var]
 #![allow(rustdoc::broken_intra_doc_links)]
 
+pub mod controls;
 mod examples;
 mod pages;
 pub mod reference;
 mod words;
 
+use crate::control::{self, Control};
 use crate::diag::{CODES, CodeRow};
 use crate::lang::{COMMANDS, CommandId, LONGEST_NAME, SEQUENCES, SequenceId, VARIABLES, VarId, did_you_mean};
 
-/// The text for a code, command, variable, sequence or cycle, whatever the case it is asked for in.
+/// The text for a code, command, variable, sequence, cycle or control, whatever the case it is asked for in.
 ///
 /// # Errors
 /// There is no such thing; the text says what may have been meant.
@@ -45,6 +47,7 @@ pub fn explain(what: &str) -> Result<String, String> {
     if let Some((head, _)) = asked.rsplit_once(' ').filter(|_| texts.is_empty() && asked.len() < LONGEST_NAME) {
         texts.extend(explain(head));
     }
+    texts.extend(Control::named(&asked.to_ascii_lowercase()).map(controls::text));
     match texts.is_empty() {
         false => Ok(texts.join("\n")),
         true => Err(did_you_mean(bare, all_names()).unwrap_or_else(|| {
@@ -75,6 +78,9 @@ pub fn list() -> String {
     rows.for_each(|(name, meaning)| text += &format!("  {name:<20} {meaning}\n"));
     text += "\nCycles of a job\n";
     words::CYCLES.iter().for_each(|row| text += &format!("  {:<20} {}\n", row.name, row.meaning));
+    text += "\nControls\n";
+    let controls = control::names().filter_map(Control::named);
+    controls.for_each(|control| text += &format!("  {:<20} {}\n", control.name(), control.title()));
     text += "\nVariables\n";
     VARIABLES.iter().for_each(|row| text += &format!("  {:<20} {}\n", format!("[{}]", row.name), row.meaning));
     text
@@ -88,7 +94,11 @@ fn names_of(row: &'static CodeRow) -> impl Iterator<Item = &'static str> {
 fn all_names() -> impl Iterator<Item = &'static str> {
     let codes = CODES.iter().flat_map(names_of);
     let words = COMMANDS.iter().map(|row| row.name).chain(SEQUENCES.iter().map(|row| row.name));
-    codes.chain(words).chain(VARIABLES.iter().map(|row| row.name)).chain(words::CYCLES.iter().map(|row| row.name))
+    codes
+        .chain(words)
+        .chain(control::names())
+        .chain(VARIABLES.iter().map(|row| row.name))
+        .chain(words::CYCLES.iter().map(|row| row.name))
 }
 
 /// A code: its page, or its section of one.

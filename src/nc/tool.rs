@@ -2,10 +2,11 @@
 
 use super::action::{Action, Cooling, Rotation};
 use super::block::Block;
-use super::codes::Group;
+use super::codes::{Group, m_code};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
+use crate::control::Meaning;
 use crate::diag::Code;
 use crate::toolpath::Side;
 
@@ -49,11 +50,11 @@ impl State {
                     self.drive.spindle = Rotation::Stop; // it stands at its angle
                     out.push(Action::Orient(block.get(b'R').unwrap_or(0.0)));
                 }
-                7 => out.push(Action::Coolant(Cooling::Mist)),
-                8 => out.push(Action::Coolant(Cooling::Flood)),
-                9 => out.push(Action::Coolant(Cooling::Off)),
                 0..=2 | 6 | 30 | 60 | 98 | 99 => {}
-                _ => out.push(Action::LeftOut(b'M', code * 10)),
+                _ => out.push(match self.cooling(code) {
+                    Some(cooling) => Action::Coolant(cooling),
+                    None => Action::LeftOut(b'M', code * 10),
+                }),
             }
         }
         for group in [Group::Path, Group::Once] {
@@ -68,6 +69,16 @@ impl State {
             out.push(Action::Spindle(self.drive.spindle, self.drive.speed));
         }
         Ok(())
+    }
+
+    /// What an M code does to the coolant; through the spindle it is on, as a flood is.
+    fn cooling(&self, code: u16) -> Option<Cooling> {
+        match m_code(self.control, code)?.meaning {
+            Meaning::Mist => Some(Cooling::Mist),
+            Meaning::Flood | Meaning::Through => Some(Cooling::Flood),
+            Meaning::CoolantOff => Some(Cooling::Off),
+            _ => None,
+        }
     }
 
     pub(super) fn turn_spindle(&mut self, code: u16, out: &mut Out<'_>) {

@@ -2,6 +2,7 @@
 
 use super::check::Analysis;
 use super::limits::MOST_TEXT;
+use crate::control::{self, Control};
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;
 use crate::source::Source;
@@ -10,6 +11,14 @@ use crate::syntax::{self, Head, Statement};
 
 /// Deepest nesting of `Call`.
 const MOST_CALLS: usize = 8;
+
+/// Largest file of a control.
+const LARGEST_CONTROL: usize = 1 << 20;
+
+/// Does a name lead out of the folder of its form?
+fn is_outside(name: &str) -> bool {
+    name.starts_with(['/', '\\']) || name.contains(':') || name.split(['/', '\\']).any(|part| part == "..")
+}
 
 impl Analysis {
     /// Parses a file and, in place of each `Call`, the file it names.
@@ -34,9 +43,52 @@ impl Analysis {
         for at in 0..self.trees[file].items.len() {
             self.order.push((number, at as u32));
             let Head::Statement(statement) = &self.trees[file].items[at] else { continue };
-            if matches!(CommandId::parse(&statement.name.text), Some(CommandId::Call | CommandId::CallMe)) {
-                let statement = statement.clone();
-                self.call(&statement, open, load);
+            match CommandId::parse(&statement.name.text) {
+                Some(CommandId::Call | CommandId::CallMe) => {
+                    let statement = statement.clone();
+                    self.call(&statement, open, load);
+                }
+                Some(CommandId::Control) => {
+                    let statement = statement.clone();
+                    self.control_file(&statement, load);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Reads the file that `Control my.toml` names.
+    fn control_file(&mut self, statement: &Statement, load: &mut dyn FnMut(&str) -> Result<Source, String>) {
+        let [arg] = &statement.args[..] else { return };
+        if !control::is_file(&arg.text) {
+            return;
+        }
+        let loaded = if is_outside(&arg.text) { Err("is outside the form's folder".into()) } else { load(&arg.text) };
+        let source = match loaded {
+            Ok(source) if source.text.len() <= LARGEST_CONTROL => source,
+            loaded => {
+                let why = loaded.err().unwrap_or_else(|| format!("is larger than {} KB", LARGEST_CONTROL >> 10));
+                let help = "a control's file stands beside the form, as `Control my-vf2.toml`";
+                self.report(
+                    Diag::new(Code::PF019, format!("`{}` {why}", arg.text)).at(arg.span, "named here").help(help),
+                );
+                return;
+            }
+        };
+        match Control::own(&source.name, &source.text) {
+            Ok(control) => self.control = Some(control),
+            Err(wrong) => {
+                let number = self.files.len() as u32;
+                let end =
+                    source.text[wrong.start..].find(['\n', ' ', '}']).map_or(source.text.len(), |at| wrong.start + at);
+                let mut diag = Diag::new(Code::PF019, wrong.message).at(Span::new(number, wrong.start, end), "here");
+                diag = diag.at(arg.span, "the control of this form");
+                if !wrong.help.is_empty() {
+                    diag = diag.help(wrong.help);
+                }
+                self.trees.push(syntax::Form::default());
+                self.files.push(source);
+                self.report(diag);
             }
         }
     }
@@ -48,10 +100,9 @@ impl Analysis {
         load: &mut dyn FnMut(&str) -> Result<Source, String>,
     ) {
         let name = statement.args.iter().map(|a| a.text.as_str()).collect::<Vec<_>>().join(" ");
-        let outside = name.starts_with(['/', '\\']) || name.contains(':') || name.split(['/', '\\']).any(|p| p == "..");
         let problem = if name.is_empty() {
             return; // reported as a missing argument
-        } else if outside {
+        } else if is_outside(&name) {
             Some("is outside the form's folder".to_owned())
         } else if open.contains(&name) || self.called.contains(&name) {
             Some("was called before: each form once, and no circles".to_owned())

@@ -6,6 +6,7 @@ use super::args::choice_of;
 use super::limits::Limits;
 use super::model::Form;
 use super::settings::Settings;
+use crate::control::Control;
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, Machine, SEQUENCES, SequenceId, UnitChoice};
 use crate::source::Source;
@@ -61,6 +62,8 @@ pub(super) struct Analysis {
     pub(super) trees: Vec<syntax::Form>,
     /// The items of all files as they are read: a file, and an item of its tree.
     pub(super) order: Vec<(u32, u32)>,
+    /// The control of the form, where a file describes it.
+    pub(super) control: Option<&'static Control>,
     pub(super) form: Form,
     pub(super) diags: Vec<Diag>,
     pub(super) commands_seen: Vec<(CommandId, Span)>,
@@ -86,7 +89,7 @@ impl Analysis {
         };
         let machine = find(CommandId::Machine).and_then(Machine::parse).unwrap_or_default();
         let units = find(CommandId::Units).and_then(UnitChoice::parse).unwrap_or_default();
-        self.form.settings = Settings::new(machine, units);
+        self.form.settings = Settings { control: self.control, ..Settings::new(machine, units) };
     }
 
     fn item(&mut self, item: &Head) {

@@ -2,7 +2,7 @@
 
 use super::args::{Arguments, Read, bad, whole};
 use super::settings::Code;
-use crate::control::Control;
+use crate::control::{self, Control};
 use crate::lang::Args;
 
 /// A field that a command sets.
@@ -28,10 +28,19 @@ impl Setting for bool {
     }
 }
 
-/// A control by its name.
+/// A control by its name; one that a file describes was read with the form.
 impl Setting for Option<&'static Control> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
-        *self = Control::named(args.choice()?);
+        let name = args.text().to_ascii_lowercase();
+        if control::is_file(&name) {
+            return Ok(());
+        }
+        let Some(control) = Control::named(&name) else {
+            let known = control::names().collect::<Vec<_>>().join(", ");
+            let message = format!("there is no control `{name}`: there are {known}, or a file, as `my-vf2.toml`");
+            return bad(args.all.first(), message);
+        };
+        *self = Some(control);
         Ok(())
     }
 }

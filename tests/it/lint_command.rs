@@ -2,46 +2,11 @@
 
 use crate::support;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 
+use crate::support::folder::{Folder, err, out};
 use crate::support::{mill, root};
 use serde_json::Value;
-
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Folder {
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("lint").join(name);
-        _ = fs::remove_dir_all(&path);
-        fs::create_dir_all(&path).unwrap();
-        // no configuration of whoever runs the tests
-        fs::write(path.join("postform.toml"), "").unwrap();
-        Folder(path)
-    }
-
-    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
-        let path = self.0.join(name);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, bytes).unwrap();
-    }
-
-    fn read(&self, name: &str) -> String {
-        fs::read_to_string(self.0.join(name)).unwrap()
-    }
-
-    fn run(&self, args: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_postform")).args(args).current_dir(&self.0).output().unwrap()
-    }
-}
-
-fn out(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
-}
-
-fn err(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
 
 /// A line with a warning, a safe fix, an unsafe one and a note.
 const SEQUENCES: &str = "LineCode\nGl X<h> Y[v] Z[d]F[frate]\nEnd";

@@ -22,6 +22,7 @@ mod linuxcnc_random;
 mod machines;
 mod nc_golden;
 mod numbers;
+mod own_control;
 mod program_commands;
 mod program_jobs;
 mod proofs;

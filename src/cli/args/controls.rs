@@ -1,18 +1,24 @@
 //! How a program is run.
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, ValueEnum};
+use std::ffi::OsStr;
+use std::path::Path;
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
+use clap::{Arg, Args, Command, ValueEnum};
 
 use postform::Proof;
 use postform::control::{self, Control};
 use postform::nc::{RunSettings, Unpointed};
 use postform::toolpath::Units;
 
+use super::super::files;
+
 /// How a program is run.
 #[derive(Clone, Debug, Args)]
 pub struct ControlArgs {
-    /// By whose rules [default: the form's Control, else fanuc]
-    #[arg(long, value_name = "CONTROL", value_parser = control_parser())]
+    /// By whose rules: a control, or a file that describes one, as `my-vf2.toml` [default: the form's Control, else fanuc]
+    #[arg(long, value_name = "CONTROL", value_parser = ControlParser)]
     pub control: Option<&'static Control>,
     /// Leave out blocks with a slash
     #[arg(long)]
@@ -33,9 +39,28 @@ pub fn length(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Reads the name of a control.
-pub fn control_parser() -> impl TypedValueParser<Value = &'static Control> {
-    PossibleValuesParser::new(control::names()).try_map(|name| Control::named(&name).ok_or("there is no such control"))
+/// Reads the name of a control, or the file that describes one.
+#[derive(Clone)]
+pub struct ControlParser;
+
+impl TypedValueParser for ControlParser {
+    type Value = &'static Control;
+
+    fn parse_ref(&self, command: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<Self::Value, clap::Error> {
+        let named = PossibleValuesParser::new(control::names());
+        let path = Path::new(value);
+        if path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml")) {
+            return files::control(path).map_err(|why| {
+                let why = why.strip_prefix("error: ").unwrap_or(&why);
+                clap::Error::raw(ErrorKind::ValueValidation, format!("{why}\n")).with_cmd(command)
+            });
+        }
+        named.try_map(|name| Control::named(&name).ok_or("there is no such control")).parse_ref(command, arg, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(control::names().map(PossibleValue::new)))
+    }
 }
 
 /// Lengths without a point.

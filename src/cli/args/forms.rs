@@ -3,6 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use postform::control::Control;
+
+use super::ControlParser;
 
 use postform::sema::Limits;
 
@@ -88,8 +91,11 @@ pub struct ExplainArgs {
 #[derive(Debug, Args)]
 pub struct NewArgs {
     /// For which control or machine
-    #[arg(long, value_name = "NAME", ignore_case = true)]
-    pub control: NewControl,
+    #[arg(long, value_name = "NAME", ignore_case = true, required_unless_present = "control_file")]
+    pub control: Option<NewControl>,
+    /// A file that describes a control like this one, instead of a form
+    #[arg(long, value_name = "NAME", value_parser = ControlParser, conflicts_with = "control")]
+    pub control_file: Option<&'static Control>,
     /// Where the form goes, or - for standard output; a file that is there stays
     #[arg(short, long, value_name = "FORM", default_value = "-")]
     pub output: PathBuf,

@@ -13,7 +13,7 @@ use postform::{Format, Options, Reading};
 use postform::control::Control;
 use postform::nc::Unpointed;
 
-use super::{ControlArgs, LimitsArg, NoPoint, control_parser};
+use super::{ControlArgs, ControlParser, LimitsArg, NoPoint};
 
 /// A file by its format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -61,7 +61,7 @@ pub struct ReadArgs {
     #[arg(long)]
     pub assume_end: bool,
     /// Whose rules a job that is an NC program follows [default: fanuc]
-    #[arg(long, value_name = "CONTROL", value_parser = control_parser())]
+    #[arg(long, value_name = "CONTROL", value_parser = ControlParser)]
     pub job_control: Option<&'static Control>,
     /// What a length without a point means in a job that is an NC program [default: it is an error]
     #[arg(long, value_name = "MEANING")]

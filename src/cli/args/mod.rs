@@ -8,7 +8,7 @@ mod programs;
 use clap::{Args, Parser, Subcommand};
 
 use super::colour::Colour;
-pub use controls::{ControlArgs, NoPoint, control_parser};
+pub use controls::{ControlArgs, ControlParser, NoPoint};
 pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, NewControl};
 pub use jobs::{CheckArgs, From, ReadArgs, RenderArgs, RenderOptions, UnitsArg};
 pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, VerifyArgs};
@@ -42,10 +42,12 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Write forms in the canonical layout
     Fmt(FmtArgs),
-    /// Say what a code, command, variable, sequence or cycle means
+    /// Say what a code, command, variable, sequence, cycle or control means
     Explain(ExplainArgs),
-    /// Write a commented form to start from
+    /// Write a commented form, or a control's file, to start from
     New(NewArgs),
+    /// List the controls, with what is known of each
+    Controls,
     /// Print the completions of a shell
     Completions(CompletionsArgs),
     /// Print the man page

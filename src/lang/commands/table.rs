@@ -17,7 +17,7 @@ macro_rules! command_rows {
                 "what the form is for; decides which sequences and variables it may use";
             Units "Units" (Choice(&["inch", "mm", "both"])) once (of("inch")) Ours {=> known_word}
                 "units of the form's own lengths; a job in other units needs a printed [unitmode]";
-            Control "Control" (Choice(&["fanuc", "haas", "fadal", "linuxcnc", "emc2", "grbl"]))
+            Control "Control" (Words(1, 1, "a control's name, or a file that describes one, as `haas` or `my-vf2.toml`"))
                 once (of("").told("much like fanuc")) Ours {control: Option<&'static Control>}
                 "the control that the programs are checked for";
             // codes

@@ -85,6 +85,7 @@ mod typed_work;
 mod unbracketed_variable;
 mod unit_code;
 mod units_unprinted;
+mod unknown_code;
 mod unsigned_position;
 mod unused_command;
 mod unused_prompt;
@@ -218,4 +219,5 @@ rules! {
     PF605 near_word_limit
     PF606 near_line_limit
     PF607 control_without_code
+    PF608 unknown_code
 }

@@ -1,0 +1,173 @@
+//! What is known of a control, and what is not: for `explain`, for docs/controls, and as a file to start from.
+
+use crate::control::{Centres, Control, DwellUnit, Kept, Row, Rules, ToolLength, WithoutPoint, Words, names};
+
+/// What nothing public says.
+const UNKNOWN: &str = "not known";
+
+/// What a control is besides its codes: a name, and what is known of it.
+fn facts(control: &Control) -> Vec<(&'static str, String)> {
+    let traits = control.traits();
+    let kept = |kept: Kept| match kept {
+        Kept::Kept => "stays as it is",
+        Kept::Lost => "is put back, or stops",
+        Kept::Unknown => UNKNOWN,
+    };
+    let rules = match traits.rules {
+        Rules::Fanuc => "as a Fanuc runs them",
+        Rules::Linuxcnc => "as LinuxCNC runs them",
+        Rules::Grbl => "as Grbl runs them",
+        Rules::Emc2 => "as EMC2 runs them",
+    };
+    let line = match (traits.longest_line, traits.stops_at_longer) {
+        (None, _) => UNKNOWN.to_owned(),
+        (Some(line), true) => format!("{line} characters; it stops at a longer one"),
+        (Some(line), false) => format!("{line} characters; a sender cuts what is longer"),
+    };
+    let point = match traits.without_point {
+        WithoutPoint::Unknown => UNKNOWN,
+        WithoutPoint::Units => "inches or millimetres",
+        WithoutPoint::LeastIncrement => "the smallest unit: 0.0001 inch, 0.001 mm",
+    };
+    let dwell = match traits.dwell {
+        DwellUnit::Unknown => UNKNOWN,
+        DwellUnit::Ms => "milliseconds",
+        DwellUnit::S => "seconds",
+        DwellUnit::ByPoint => "seconds with a point, milliseconds without one",
+    };
+    let centres = match traits.centres {
+        Centres::Unknown => UNKNOWN,
+        Centres::Incremental => "from the start of the arc",
+        Centres::Absolute => "from the origin",
+    };
+    let length = match traits.tool_length {
+        ToolLength::CodeAndRegister => "by G43 with H",
+        ToolLength::Code => "by G43, which is the tool's own without H",
+        ToolLength::Register => "by H alone",
+        ToolLength::None => "it has no registers of lengths",
+    };
+    let others = match traits.complete {
+        true => "refused",
+        false => UNKNOWN,
+    };
+    vec![
+        ("programs", rules.to_owned()),
+        ("longest block", line),
+        ("small letters", if traits.small_letters { "read" } else { "not to be counted on" }.to_owned()),
+        ("a length without a point counts", point.to_owned()),
+        ("P of a dwell counts", dwell.to_owned()),
+        ("I, J and K count", centres.to_owned()),
+        ("the length of a tool is turned on", length.to_owned()),
+        ("G91 of the program before", kept(traits.modes_at_start).to_owned()),
+        ("the spindle at M0 and M1", kept(traits.spindle_at_stop).to_owned()),
+        ("codes that are not listed", others.to_owned()),
+    ]
+}
+
+fn letters(words: Words) -> String {
+    (b'A'..=b'Z').filter(|letter| words.bits() & 1 << (letter - b'A') != 0).map(char::from).collect()
+}
+
+/// What a code is, in words.
+fn about(row: &Row) -> String {
+    let mut text = row.meaning.about().to_owned();
+    if !row.makes.is_empty() {
+        text += &format!(" ({})", row.makes.iter().map(|hole| hole.name()).collect::<Vec<_>>().join(", "));
+    }
+    if !row.text.is_empty() {
+        text += &format!(": {}", row.text);
+    }
+    match &row.not_run {
+        Some(why) => format!("{text}; not run: {why}"),
+        None => text,
+    }
+}
+
+/// What `postform explain haas` prints.
+pub fn text(control: &Control) -> String {
+    let mut text = format!("{} is the control {}\n\n", control.name(), control.title());
+    let like: Vec<&str> = control.like().collect();
+    if !like.is_empty() {
+        text += &format!("  {:<36} {}\n", "what its file does not say is as in", like.join(", "));
+    }
+    facts(control).iter().for_each(|(name, fact)| text += &format!("  {name:<36} {fact}\n"));
+    text += "\n";
+    for row in control.rows() {
+        text += &format!("  {:<8} {:<10} {}\n", row.code.to_string(), letters(row.words), about(row));
+    }
+    text
+}
+
+/// docs/controls/NAME.md.
+pub fn page(control: &Control) -> String {
+    let mut text = format!(
+        "# {}\n\n<!-- made from controls/{}.toml: `just overwrite` -->\n\nForms name it by `Control {1}`, commands by `--control {1}`.\n",
+        control.title(),
+        control.name()
+    );
+    text += "\n| | |\n| --- | --- |\n";
+    facts(control).iter().for_each(|(name, fact)| text += &format!("| {name} | {fact} |\n"));
+    text += "\n| code | words | means |\n| --- | --- | --- |\n";
+    for row in control.rows() {
+        text += &format!("| {} | {} | {} |\n", row.code, letters(row.words), about(row).replace('|', "\\|"));
+    }
+    text
+}
+
+/// docs/controls/README.md, and what `postform controls` lists.
+pub fn index() -> String {
+    let mut text = String::from(
+        "# Controls\n\n<!-- made from controls/*.toml: `just overwrite` -->\n\nA control is a file: CONTRIBUTING.md says how to add one, \
+         `postform new --control-file NAME` prints one to start from.\n\n| control | title | codes | cycles |\n| --- | --- | --- | --- |\n",
+    );
+    for control in names().filter_map(Control::named) {
+        let (codes, cycles) = counts(control);
+        text += &format!("| [{0}]({0}.md) | {1} | {codes} | {cycles} |\n", control.name(), control.title());
+    }
+    text
+}
+
+/// What `postform controls` prints.
+pub fn list() -> String {
+    let mut text = String::new();
+    for control in names().filter_map(Control::named) {
+        let (codes, cycles) = counts(control);
+        text += &format!("{:<10} {:<14} {codes:>3} codes, {cycles:>2} cycles\n", control.name(), control.title());
+    }
+    text
+}
+
+/// How many codes and how many cycles it has that are run.
+fn counts(control: &Control) -> (usize, usize) {
+    let has = |row: &&Row| row.not_run.is_none() && !control.refuses(row.code);
+    let cycles = control.rows().filter(has).filter(|row| row.meaning.is_cycle()).count();
+    (control.rows().filter(has).count(), cycles)
+}
+
+/// A commented file to start from, for a machine whose control is like this one.
+pub fn file(control: &Control) -> String {
+    format!(
+        "# A control of your own. Put it beside the form and write `Control my-control.toml` in the form; simulate and verify take
+# it by `--control my-control.toml`. What it does not say is as in {name}: `postform explain {name}`.
+name = \"my-control\"
+title = \"My machine\"
+like = \"{name}\"
+
+# The codes that differ. `is` says what a code does; `words` are the letters that it takes besides axes, F, S and T.
+[codes]
+# coolant through the spindle
+# \"M88\" = {{ is = \"through\" }}
+# a code of the builder that changes nothing in the program's motions
+# \"G201\" = {{ is = \"harmless\", words = \"P\" }}
+# a code that calls a program of the builder: positions are said again behind it
+# \"G301\" = {{ is = \"macro\", words = \"PQ\" }}
+
+# What `is` may say:
+{meanings}",
+        name = control.name(),
+        meanings = crate::control::Meaning::ALL
+            .iter()
+            .map(|meaning| format!("# {:<20} {}\n", meaning.name(), meaning.about()))
+            .collect::<String>()
+    )
+}

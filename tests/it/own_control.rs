@@ -1,0 +1,123 @@
+//! A shop's own control: one file, no program of ours changed. Lint, render, simulate and verify go by it.
+
+use std::fs;
+
+use crate::support::folder::{Folder, err, out};
+use crate::support::root;
+
+/// A Haas with coolant through the spindle, and two codes of its builder.
+const VF2: &str = r#"name = "vf2"
+title = "Our VF-2"
+like = "haas"
+
+[codes]
+"M88" = { is = "through", text = "coolant through the spindle" }
+"G201" = { is = "harmless", words = "P", text = "smoothing by the builder" }
+"G187" = { is = "harmless", words = "PE" }
+"#;
+
+/// The Haas post for another control, with M88 for its coolant, and G201 and G187 at the start.
+fn form(control: &str) -> String {
+    let text = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    let text = text.replacen("Control haas", &format!("Control {control}\nCoolant 88 9 7"), 1);
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        lines.push(line);
+        if line == "G[unitmode] G17 G40 G49 G80 G90" {
+            lines.extend(["G187 P2 E0.1", "G201 P1"]);
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+fn folder(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    folder.write("vf2.toml", VF2);
+    folder.write("own.pf", form("vf2.toml"));
+    folder.write("haas.pf", form("haas"));
+    folder.write("job.json", fs::read(root().join("samples/bracket/job.json")).unwrap());
+    folder
+}
+
+#[test]
+fn every_command_goes_by_the_file() {
+    let folder = folder("own_control");
+    let lint = folder.run(&["lint", "own.pf"]);
+    assert_eq!(out(&lint), "0 errors, 0 warnings, 0 notes\n", "{}", err(&lint));
+    let lint = out(&folder.run(&["lint", "haas.pf", "--format", "github"]));
+    assert!(lint.contains("title=PF608::haas has no G201 that we know"), "{lint}");
+
+    let render = folder.run(&["render", "job.json", "--form", "own.pf", "-o", "own.nc"]);
+    assert_eq!(render.status.code(), Some(0), "{}", err(&render));
+    let program = folder.read("own.nc");
+    assert!(program.contains("G201 P1") && program.contains("M88"), "{program}");
+
+    let simulate = folder.run(&["simulate", "own.nc", "--control", "vf2.toml"]);
+    assert_eq!(simulate.status.code(), Some(0), "{}", err(&simulate));
+    let refused = folder.run(&["simulate", "own.nc", "--control", "haas"]);
+    assert!(refused.status.code() == Some(1) && err(&refused).contains("G201"), "{}", err(&refused));
+
+    let verify = folder.run(&["verify", "job.json", "--form", "own.pf"]);
+    assert_eq!(verify.status.code(), Some(0), "{}{}", out(&verify), err(&verify));
+    for configuration in ["control = \"vf2.toml\"\n", "[control]\nfile = \"vf2.toml\"\n"] {
+        folder.write("postform.toml", configuration);
+        assert_eq!(folder.run(&["simulate", "own.nc"]).status.code(), Some(0), "{configuration}");
+    }
+}
+
+/// The file that `new` writes is one, and its commented rows are right.
+#[test]
+fn a_new_file_is_right_as_it_is_and_with_its_rows() {
+    let folder = folder("own_control_new");
+    let new = folder.run(&["new", "--control-file", "haas", "-o", "new.toml"]);
+    assert_eq!(new.status.code(), Some(0), "{}", err(&new));
+    folder.write("vf2.toml", folder.read("new.toml"));
+    assert_eq!(folder.run(&["lint", "own.pf"]).status.code(), Some(0));
+    let rows = folder.read("new.toml").replace("# \"", "\"");
+    assert_eq!(rows.matches("\n\"").count(), 3, "{rows}");
+    folder.write("vf2.toml", rows);
+    let lint = folder.run(&["lint", "own.pf"]);
+    assert_eq!(out(&lint), "0 errors, 0 warnings, 0 notes\n", "{}", err(&lint));
+    let controls = out(&folder.run(&["controls"]));
+    assert!(
+        controls.contains("haas") && controls.contains("linuxcnc") && !controls.contains("of-no-name"),
+        "{controls}"
+    );
+    let explained = out(&folder.run(&["explain", "haas"]));
+    assert!(
+        explained.contains("G154") && explained.contains("longest block") && explained.contains("not known"),
+        "{explained}"
+    );
+}
+
+#[test]
+fn what_is_wrong_in_the_file_is_said_with_line_and_column() {
+    let folder = folder("own_control_wrong");
+    let table = [
+        ("name = \"vf2\"\nlike = \"haas\"\nsize = 3\n", "3:1", "unknown field `size`"),
+        ("name = \"vf2\"\nlike = \"haas\"\n[codes]\nG201 = { is = \"harmles\" }\n", "4:15", "did you mean `harmless`?"),
+        ("name = \"vf2\"\nlike = \"vf2\"\n", "2:8", "there is no control `vf2`"),
+        ("name = \"vf2\"\nlike = \"haas\"\n[codes]\nG201 = { is = \"work\" }\nG201 = { is = \"work\" }\n", "5:1", ""),
+        ("name = \"vf2\"\nlike = \"haas\"\n[text]\nline = \"long\"\n", "4:8", "invalid type"),
+        ("name = \"vf2\"\nlike = \"haas\"\n[codes]\n\"G1.25\" = { is = \"work\" }\n", "4:1", ""),
+    ];
+    for (text, place, message) in table {
+        folder.write("vf2.toml", text);
+        let lint = folder.run(&["lint", "own.pf", "--format", "github"]);
+        let said = out(&lint) + &err(&lint);
+        let (line, column) = place.split_once(':').unwrap();
+        assert_eq!(lint.status.code(), Some(1), "{text}{said}");
+        let at = said.lines().find(|line| line.contains("title=PF019")).unwrap_or_default();
+        assert!(at.contains(&format!("file=vf2.toml,line={line},")), "{text}{said}");
+        assert!(at.contains(&format!(",col={column},")), "{text}{said}");
+        assert!(said.contains(message), "{text}{said}");
+        let option = folder.run(&["simulate", "job.json", "--control", "vf2.toml"]);
+        assert!(option.status.code() == Some(2), "{}", err(&option));
+        assert!(err(&option).contains(&format!("vf2.toml:{place}")), "{}", err(&option));
+    }
+    for (name, why) in [("../vf2.toml", "outside the form's folder"), ("none.toml", "can't be found")] {
+        folder.write("own.pf", form(name));
+        let lint = folder.run(&["lint", "own.pf"]);
+        assert!(out(&lint).contains(why) || err(&lint).contains(why), "{}{}", out(&lint), err(&lint));
+    }
+}

@@ -250,7 +250,7 @@ fn a_comment_at_the_head_allows_findings_of_the_whole_file() {
     // nothing to allow, an error, and a comment that stands too late
     assert_eq!(allowed(head, "").0, ["PF108"]);
     let error = "LineCode\nG1 X[h] Y[v]. Z[d] F[frate]\nEnd";
-    assert_eq!(allowed("# postform: allow-file PF001\n", error).0, ["PF108", "PF001"]);
+    assert_eq!(allowed("# postform: allow-file PF001\n", error).0, ["PF001", "PF108"]);
     assert_eq!(allowed("Name A\n# postform: allow-file PF418\n", twice).0, [vec!["PF109"], plain.0].concat());
 }
 

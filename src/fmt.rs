@@ -170,6 +170,12 @@ impl Page<'_> {
             if i > 0 {
                 text.push(' ');
             }
+            // what is no word may stand beside one: laid out, the two could become another word
+            let stray = |piece: &Piece| matches!(piece.kind, PieceKind::Stray(_));
+            if word.pieces.iter().any(stray) {
+                text.push_str(self.source.slice(word.span));
+                continue;
+            }
             for (j, piece) in word.pieces.iter().enumerate() {
                 if j > 0 && piece.lacks_blank_after(&word.pieces[j - 1]) {
                     text.push(' ');

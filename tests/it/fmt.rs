@@ -118,6 +118,13 @@ fn change(line: &str, kind: u8) -> String {
 
 static FORMS: std::sync::LazyLock<Vec<String>> = std::sync::LazyLock::new(forms);
 
+/// What is no word stays as typed, with the words that touch it: `a<0>` alone would lose its brackets.
+#[test]
+fn text_that_is_no_word_stays_as_typed() {
+    let form = "Drill\n>a<0>0\nEnd\n";
+    assert!(laid_out(form).contains(">a<0>0"), "{}", laid_out(form));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(600))]
     #[test]

@@ -1,5 +1,5 @@
-//! From toolpath events to NC blocks (render.md): what a form is ([`shape`]), what the job asks for ([`want`]), what the
-//! control holds ([`said`]), what is printed ([`printer`]), and the functions that make one of the other.
+//! From toolpath events to NC blocks (render.md): what a form is (`shape`), what the job asks for (`want`), what the
+//! control holds (`said`), what is printed (`printer`), and the functions that make one of the other.
 
 mod before;
 mod body;

@@ -105,6 +105,7 @@ macro_rules! settings {
        $(if ($used:expr))? $(eg $example:literal)? $meaning:literal;)*) => {
         /// Everything that commands set. Lengths are in the form's units.
         #[derive(Clone, Debug)]
+        #[allow(rustdoc::broken_intra_doc_links)] // names in brackets are variables of forms
         pub struct Settings {
             $($(#[doc = $meaning] pub $field: $type,)?)*
             /// What the form is for.

@@ -644,3 +644,16 @@ fn ways_before_another_offset_are_those_of_the_tool_change() {
     let lines = program(&mill("", ""), &job("@").replace("{\"rapid\":[0,0,1]},@", items));
     assert_eq!(lines[3..], ["G0 G55 X2. Y2. Z1.", "G1 Z0 F10.", "M30"]);
 }
+
+/// A rigid tap turns the spindle both ways and says neither: the next cut is told its own.
+#[test]
+fn after_a_tap_against_the_spindle_its_direction_is_said() {
+    let rigid = "Tap\nM29\nG[retplane] G84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let path = "{\"spindle\":{\"direction\":\"ccw\"}},{\"rapid\":[0,0,2]},\
+        {\"cycle\":{\"kind\":\"tap\",\"rigid\":true,\"depth\":0.8,\"clear\":0.1,\"feed\":9,\"points\":[[0,1,0]]}},\
+        {\"spindle\":{\"direction\":\"cw\"}},{\"rapid\":[1,1,0.1]},{\"line\":[1,1,-0.2]}";
+    let lines = program(&mill("RigidTap? Y", rigid), &job(path));
+    let tap = lines.iter().position(|line| line.contains("G84")).unwrap();
+    let cut = lines.iter().rposition(|line| line.starts_with("G1")).unwrap();
+    assert!(lines[tap..cut].iter().any(|line| line.contains("M3")), "{lines:?}");
+}

@@ -117,6 +117,8 @@ pub fn close_cycle(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Pr
     if let Some(direct) = cycle.turned {
         want.set(VarId::Direct, direct);
         want.changed = true;
+        // a rigid tap has turned it both ways, and said neither
+        said.conditions.put(VarId::Direct, None);
     }
     want.put(VarId::Dwell, None);
     Ok(())

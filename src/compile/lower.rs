@@ -131,8 +131,9 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Routine {
                     Op::Remark { var: *var, glued }
                 }
                 WordKind::Literal(letter, text, value) => {
+                    let code = Code::of(program.letters[0][*letter].printed, *value);
                     prints_g98 |= *letter == b'G' && *value == program.settings.return_plane[1];
-                    let literal = Literal { letter: *letter, text: text.clone(), value: *value };
+                    let literal = Literal { letter: *letter, text: text.clone(), value: *value, code };
                     Op::Literal { index: push(&mut program.literals, literal), glued }
                 }
                 WordKind::Text(text) | WordKind::Note(text) => {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::letters::LetterTable;
 use super::work::WorkWord;
+use crate::control::Code;
 use crate::lang::{SEQUENCES, SequenceId, VarId, VarSet};
 use crate::sema::Settings;
 use crate::span::Span;
@@ -62,8 +63,10 @@ pub struct Literal {
     pub letter: u8,
     /// The whole word as typed.
     pub text: String,
-    /// Its number.
+    /// The number behind the letter.
     pub value: f64,
+    /// The code that it prints, if it is one.
+    pub code: Option<Code>,
 }
 
 /// How a canned cycle prints (render.md section 3).

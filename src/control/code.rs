@@ -3,10 +3,10 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// A G or M code. Codes are compared as whole numbers of tenths, so `G59.1` is no rounded `G59`.
+/// A code. Codes are compared as whole numbers of tenths, so `G59.1` is no rounded `G59`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code {
-    /// `G` or `M`.
+    /// `G` or `M`; a command of a form may name another.
     pub letter: u8,
     /// Ten times its number.
     pub tenths: u16,
@@ -32,9 +32,21 @@ impl Code {
         (is_code && (0.0..=f64::from(u16::MAX)).contains(&whole)).then_some(Code { letter, tenths: whole as u16 })
     }
 
-    /// Its number.
+    /// Is it the G code of this number?
+    pub fn is_g(self, number: f64) -> bool {
+        self.letter == b'G' && self.value() == number
+    }
+
+    /// The number behind the letter.
     pub fn value(self) -> f64 {
         f64::from(self.tenths) / 10.0
+    }
+}
+
+/// `G0`.
+impl Default for Code {
+    fn default() -> Self {
+        Code::g(0)
     }
 }
 

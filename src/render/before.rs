@@ -8,30 +8,31 @@ use super::shape::Shape;
 use super::want::Want;
 use super::words::{code_word, feed_word};
 use crate::compile::Routine;
-use crate::diag::Code;
+use crate::control::Code;
+use crate::diag;
 use crate::lang::{Machine, VarId};
 use crate::sema;
 use crate::toolpath::Axes;
 
 /// The plane's code as a block of its own, before what prints none and needs it.
 pub fn plane_block(
-    plane: f64,
+    plane: Code,
     routine: &Routine,
     shape: &Shape,
     want: &Want,
     said: &mut Said,
     out: &mut Printer,
 ) -> Done {
-    if said.is_in_plane(plane) || prints_code(routine, b'G', |code| shape.is_plane(code), shape) {
+    if said.is_in_plane(plane) || prints_code(routine, |code| shape.is_plane(code), shape) {
         return Ok(());
     }
     enter_plane(plane, shape, want, said, out)
 }
 
 /// The plane's code as a block of its own, where the control is in another; only mills have planes.
-pub fn enter_plane(plane: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn enter_plane(plane: Code, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
     if !said.is_in_plane(plane) && shape.program.settings.machine == Machine::Mill {
-        code_word(&sema::Code::plain(b'G', plane), shape, want, said, out)?;
+        code_word(&sema::Code::plain(plane), shape, want, said, out)?;
         out.end_block();
     }
     Ok(())
@@ -93,12 +94,11 @@ pub fn feed_block(
     said: &mut Said,
     out: &mut Printer,
 ) -> Done {
-    let begun =
-        code.value == shape.program.settings.feed.value && motion_before(code, routine, shape, want, said, out)?;
+    let begun = code.code == shape.program.settings.feed.code && motion_before(code, routine, shape, want, said, out)?;
     let says_feed = routine.vars.has(VarId::Frate);
     if !says_feed && want.inverse_time() {
         let message = "in inverse time each move says its feed, and the sequence does not print [frate]";
-        return fault_at(Code::PR017, message, "add `F[frate]` to the sequence", Some(routine.span));
+        return fault_at(diag::Code::PR017, message, "add `F[frate]` to the sequence", Some(routine.span));
     }
     // a Grbl refuses G1 before any feed
     if !says_feed || begun && !want.inverse_time() {
@@ -119,5 +119,5 @@ pub fn check_prints(routine: &Routine, target: &Axes, shape: &Shape, said: &Said
         (None, None) => return Ok(()),
     };
     let message = format!("this move changes {word}, which the sequence does not print");
-    fault_at(Code::PR017, message, format!("add the word of {word} to the sequence"), Some(routine.span))
+    fault_at(diag::Code::PR017, message, format!("add the word of {word} to the sequence"), Some(routine.span))
 }

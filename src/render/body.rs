@@ -1,5 +1,6 @@
 //! One run of a sequence: its operations, word by word. What holds only during it begins and ends here.
 
+use crate::control;
 use std::ops::Range;
 
 use super::fault::{Done, fault};
@@ -180,7 +181,7 @@ impl Body<'_, '_> {
         self.out.letter(info, units, glued)?;
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => {
-                self.said.code(info.printed, value, self.line(), self.want, shape);
+                self.said.code_word(info, value, self.line(), self.want, shape);
             }
             LetterKind::Axis => {
                 let is_position = POSITIONS.has(var);
@@ -220,7 +221,8 @@ impl Body<'_, '_> {
                 let arc_word = self.mode == Mode::ArcMotion && (ARC_WORDS.has(var) || b"IJKR".contains(&info.printed));
                 !arc_word
                     && match info.kind {
-                        LetterKind::GCode | LetterKind::MCode => self.said.code_drops(info.printed, value, self.shape),
+                        LetterKind::GCode | LetterKind::MCode => control::Code::of(info.printed, value)
+                            .is_some_and(|code| self.said.code_drops(code, self.shape)),
                         // an increment is no position: it may go when it is none
                         _ if INCREMENTS.has(var) => units == 0,
                         _ => info.modal && self.said.holds(info, units),
@@ -229,9 +231,9 @@ impl Body<'_, '_> {
             }
             Mode::NextHole { position } => {
                 let is_position = matches!(var, VarId::H | VarId::V);
-                settings.modality && !(position && is_position) && self.said.holds_value(info, units, value, self.shape)
+                settings.modality && !(position && is_position) && self.said.holds_value(info, units, value)
             }
-            Mode::Hole => self.drops && self.said.holds_value(info, units, value, self.shape),
+            Mode::Hole => self.drops && self.said.holds_value(info, units, value),
         }
     }
 
@@ -313,10 +315,9 @@ impl Body<'_, '_> {
         let shape = self.shape;
         let literal = &shape.program.literals[index];
         let info = &shape.letters[literal.letter];
-        let is_code = matches!(info.kind, LetterKind::GCode | LetterKind::MCode);
         let drop = match self.mode {
             Mode::All | Mode::Hole => false,
-            Mode::Motion | Mode::ArcMotion => is_code && self.said.code_drops(info.printed, literal.value, shape),
+            Mode::Motion | Mode::ArcMotion => literal.code.is_some_and(|code| self.said.code_drops(code, shape)),
             Mode::NextHole { .. } => true,
         };
         if drop {
@@ -333,7 +334,7 @@ impl Body<'_, '_> {
         }
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => {
-                self.said.code(info.printed, literal.value, self.line(), self.want, shape);
+                self.said.code_word(info, literal.value, self.line(), self.want, shape);
             }
             // a literal position may stand in another frame
             LetterKind::Axis => {

@@ -33,11 +33,6 @@ pub fn as_number(units: i64, decimals: u8) -> f64 {
     units as f64 / POWERS[usize::from(decimals)] as f64
 }
 
-/// A code in tenths: G59.1 is 591.
-pub fn tenths(value: f64) -> i64 {
-    (value * 10.0 + 0.5) as i64 // codes are not negative
-}
-
 /// A code must not be rounded: G59.1 as G59 is another work offset.
 #[cold]
 fn check_code(info: &Letter, value: f64, units: i64) -> Done {

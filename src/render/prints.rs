@@ -2,16 +2,13 @@
 
 use super::shape::Shape;
 use crate::compile::{LetterKind, Op, Routine};
-use crate::control::Group;
+use crate::control::{Code, Group};
 use crate::lang::{Origin, VarId};
 
-/// Does a sequence print a code of this letter as typed that answers this?
-pub fn prints_code(routine: &Routine, letter: u8, asked: impl Fn(f64) -> bool, shape: &Shape) -> bool {
+/// Does a sequence print a code as typed that answers this?
+pub fn prints_code(routine: &Routine, asked: impl Fn(Code) -> bool, shape: &Shape) -> bool {
     routine.ops.clone().any(|i| match shape.program.ops[i] {
-        Op::Literal { index, .. } => {
-            let literal = &shape.program.literals[index as usize];
-            shape.letters[literal.letter].printed == letter && asked(literal.value)
-        }
+        Op::Literal { index, .. } => shape.program.literals[index as usize].code.is_some_and(&asked),
         _ => false,
     })
 }
@@ -24,14 +21,14 @@ pub fn prints_motion(routine: &Routine, shape: &Shape) -> bool {
         }
         _ => false,
     };
-    prints_code(routine, b'G', |code| shape.group_of(b'G', code) == Some(Group::Motion), shape)
+    prints_code(routine, |code| shape.group_of(code) == Some(Group::Motion), shape)
         || routine.ops.clone().any(by_variable)
 }
 
 /// Does a sequence print a motion code, or one of no group, which may move by itself?
 pub fn prints_own_motion(routine: &Routine, shape: &Shape) -> bool {
-    let own = |code: f64| matches!(shape.group_of(b'G', code), None | Some(Group::Motion));
-    prints_motion(routine, shape) || prints_code(routine, b'G', own, shape)
+    let own = |code: Code| code.letter == b'G' && matches!(shape.group_of(code), None | Some(Group::Motion));
+    prints_motion(routine, shape) || prints_code(routine, own, shape)
 }
 
 /// Does a sequence come to words of axes before it says a motion? A block with a code of no group, as G28, goes by

@@ -7,7 +7,7 @@ use super::shape::Shape;
 use super::targets::set_targets;
 use super::upon::{upons, upons_are_printed};
 use super::want::{Want, is_no_work};
-use super::words::{code_word, letter_word};
+use super::words::{code_word, letter_word, value_code};
 use crate::compile::{LetterKind, Op, Routine, WorkWord};
 use crate::diag::Code;
 use crate::lang::{VarId, VarSet};
@@ -63,14 +63,14 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
     if let Some(cool) = want.get(VarId::Cool)
         && said.conditions.get(VarId::Cool) != Some(cool)
     {
-        code_word(&sema::Code::plain(b'M', cool), shape, want, said, out)?;
+        value_code(b'M', cool, shape, want, said, out)?;
         out.end_block();
         said.conditions.put(VarId::Cool, Some(cool));
     }
     if let Some(feed_type) = want.get(VarId::Feedtype)
         && said.conditions.get(VarId::Feedtype) != Some(feed_type)
     {
-        code_word(&sema::Code::plain(b'G', feed_type), shape, want, said, out)?;
+        value_code(b'G', feed_type, shape, want, said, out)?;
         out.end_block();
         said.conditions.put(VarId::Feedtype, Some(feed_type));
     }
@@ -94,7 +94,7 @@ fn print_spindle(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer)
         && (said.conditions.get(VarId::Direct) != direct || said.conditions.get(VarId::Speed) != speed || other_mode)
     {
         if let Some(mode) = speed_type.filter(|_| other_mode) {
-            code_word(&sema::Code::plain(b'G', mode), shape, want, said, out)?;
+            value_code(b'G', mode, shape, want, said, out)?;
             said.conditions.put(VarId::Speedtype, Some(mode));
         }
         if let Some(speed) = speed {
@@ -102,11 +102,11 @@ fn print_spindle(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer)
             said.conditions.put(VarId::Speed, Some(speed));
         }
         if let Some(direct) = direct {
-            code_word(&sema::Code::plain(b'M', direct), shape, want, said, out)?;
+            value_code(b'M', direct, shape, want, said, out)?;
         }
         out.end_block();
     } else if direct == Some(off) && said.conditions.get(VarId::Direct) != Some(off) {
-        code_word(&sema::Code::plain(b'M', off), shape, want, said, out)?;
+        value_code(b'M', off, shape, want, said, out)?;
         out.end_block();
     }
     Ok(())
@@ -143,7 +143,7 @@ pub fn speed_mode_before(shape: &Shape, want: &Want, said: &mut Said, out: &mut 
     else {
         return Ok(());
     };
-    code_word(&sema::Code::plain(b'G', mode), shape, want, said, out)?;
+    value_code(b'G', mode, shape, want, said, out)?;
     out.end_block();
     said.conditions.put(VarId::Speedtype, Some(mode));
     Ok(())
@@ -154,7 +154,7 @@ fn work_block(work: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut 
     match shape.program.work_word {
         Some(WorkWord { code, letter, .. }) => {
             if let Some(code) = code {
-                code_word(&sema::Code::plain(b'G', code.value()), shape, want, said, out)?;
+                code_word(&sema::Code::plain(code), shape, want, said, out)?;
             }
             letter_word(letter, work, shape, said, out)?;
             said.forget_axes(shape);
@@ -163,7 +163,7 @@ fn work_block(work: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut 
             let message = format!("the work offset changes to {work}, and the form nowhere prints [work]");
             return fault(Code::PR017, message, "print `G[work]` in the tool changes, or add `Upon [work]`");
         }
-        None => code_word(&sema::Code::plain(b'G', work), shape, want, said, out)?,
+        None => value_code(b'G', work, shape, want, said, out)?,
     }
     out.end_block();
     said.conditions.put(VarId::Work, Some(work));
@@ -209,7 +209,8 @@ pub fn check_distance_of(routine: &Routine, shape: &Shape, said: &Said) -> Done 
             Op::Var { letter, .. } => letter,
             Op::Literal { index, .. } => {
                 let literal = &shape.program.literals[index as usize];
-                if literal.letter == b'G' && shape.program.settings.inc_abs.contains(&literal.value) {
+                let distances = shape.program.settings.inc_abs;
+                if literal.code.is_some_and(|code| distances.iter().any(|&number| code.is_g(number))) {
                     return Ok(());
                 }
                 literal.letter

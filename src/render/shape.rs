@@ -3,13 +3,12 @@
 
 use super::defaults::{cycle_defaults, factor, form_units, no_defaults};
 use super::fault::{Done, fault};
-use super::numbers::tenths;
 use super::options::Options;
 use super::vars::{LAST_VARS, MEASURES, MOVE_VARS};
 use crate::compile::{LetterTable, Program};
-use crate::control::{self, Group, Meaning};
+use crate::control::{Code, Group, Meaning, Row};
 use crate::cycle::Defaults;
-use crate::diag::Code;
+use crate::diag;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::toolpath::Units;
 
@@ -85,7 +84,7 @@ impl<'p> Shape<'p> {
             let help = format!(
                 "render with `--units {form}`, or print `G[unitmode]` in StartCode: the machine would move 25.4 times as far or as little"
             );
-            return fault(Code::PR010, message, help);
+            return fault(diag::Code::PR010, message, help);
         }
         self.scale = factor(job, self.units);
         self.form_scale = factor(form.unwrap_or(Units::Inch), self.units);
@@ -106,34 +105,33 @@ impl<'p> Shape<'p> {
     }
 
     /// What the form's control has of a code.
-    pub fn code_row(&self, letter: u8, value: f64) -> Option<&control::Row> {
-        let tenths = u16::try_from(tenths(value)).ok()?;
-        self.program.settings.codes().row(control::Code { letter, tenths })
+    pub fn code_row(&self, code: Code) -> Option<&Row> {
+        self.program.settings.codes().row(code)
     }
 
     /// What a code means on the form's control. `None`: nobody knows.
-    pub fn meaning_of(&self, letter: u8, value: f64) -> Option<Meaning> {
-        self.code_row(letter, value).map(|row| row.meaning)
+    pub fn meaning_of(&self, code: Code) -> Option<Meaning> {
+        self.code_row(code).map(|row| row.meaning)
     }
 
     /// The modal group of a code.
-    pub fn group_of(&self, letter: u8, value: f64) -> Option<Group> {
-        self.meaning_of(letter, value)?.group()
+    pub fn group_of(&self, code: Code) -> Option<Group> {
+        self.meaning_of(code)?.group()
     }
 
-    /// Does a G code start a cycle of the form's control?
-    pub fn is_cycle(&self, value: f64) -> bool {
-        self.meaning_of(b'G', value).is_some_and(Meaning::is_cycle)
+    /// Does a code start a cycle of the form's control?
+    pub fn is_cycle(&self, code: Code) -> bool {
+        self.meaning_of(code).is_some_and(Meaning::is_cycle)
     }
 
-    /// Does a G code say the plane of arcs?
-    pub fn is_plane(&self, value: f64) -> bool {
-        self.group_of(b'G', value) == Some(Group::Plane)
+    /// Does a code say the plane of arcs?
+    pub fn is_plane(&self, code: Code) -> bool {
+        self.group_of(code) == Some(Group::Plane)
     }
 
     /// Does a G code call a macro, or what the builder of the machine wrote?
-    pub fn calls(&self, value: f64) -> bool {
-        control::Code::of(b'G', value).is_some_and(|code| self.program.settings.codes().calls(code))
+    pub fn calls(&self, code: Code) -> bool {
+        self.program.settings.codes().calls(code)
     }
 
     /// The rotary axes of this machine.

@@ -3,8 +3,8 @@
 use super::fault::{Done, fault};
 use super::shape::Shape;
 use super::vars::Vars;
-use crate::control::Group;
 use crate::control::Meaning;
+use crate::control::{self, Group};
 use crate::diag::Code;
 use crate::lang::{Machine, Origin, Unit, VARIABLES, VarId, did_you_mean, work_code};
 use crate::number::quantise;
@@ -253,8 +253,8 @@ fn surface_scale(shape: &Shape) -> f64 {
 }
 
 /// Is this no code of a work offset of the form's control?
-pub fn is_no_work(code: f64, shape: &Shape) -> bool {
-    shape.group_of(b'G', code) != Some(Group::Work)
+pub fn is_no_work(number: f64, shape: &Shape) -> bool {
+    control::Code::of(b'G', number).and_then(|code| shape.group_of(code)) != Some(Group::Work)
 }
 
 /// A variable's value in program units.

@@ -6,7 +6,7 @@ use super::printer::Printer;
 use super::said::{Line, Said};
 use super::shape::Shape;
 use super::want::Want;
-use crate::compile::{Letter, LetterKind};
+use crate::compile::Letter;
 use crate::diag::Code;
 use crate::lang::VarId;
 use crate::sema;
@@ -102,7 +102,7 @@ pub fn increments(target: &Axes, axes: u8, shape: &Shape, said: &mut Said, out: 
 /// The motion code, unless it is in force and may be dropped.
 #[inline]
 pub fn motion_word(code: &sema::Code, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    if said.code_drops(code.letter, code.value, shape) {
+    if said.code_drops(code.code, shape) {
         return Ok(());
     }
     code_word(code, shape, want, said, out)
@@ -110,17 +110,20 @@ pub fn motion_word(code: &sema::Code, shape: &Shape, want: &Want, said: &mut Sai
 
 /// A code, as typed in its command or by its letter's format.
 pub fn code_word(code: &sema::Code, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    let info = &shape.letters[code.letter];
+    let info = &shape.letters[code.letter()];
     match &code.text {
         Some(text) => out.text(text, false),
-        None => {
-            let units = quantised(info, code.value)?;
-            out.letter(info, units, false)?;
-        }
+        None => out.letter(info, quantised(info, code.value())?, false)?,
     }
-    if matches!(info.kind, LetterKind::GCode | LetterKind::MCode) {
-        said.code(info.printed, code.value, Line::NONE, want, shape);
-    }
+    said.code_word(info, code.value(), Line::NONE, want, shape);
+    Ok(())
+}
+
+/// The code of a value of the job or of the form's commands, by its letter's format.
+pub fn value_code(letter: u8, value: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    let info = &shape.letters[letter];
+    out.letter(info, quantised(info, value)?, false)?;
+    said.code_word(info, value, Line::NONE, want, shape);
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! Arguments of commands: reading them.
 
 use super::settings::Code;
+use crate::control;
 use crate::lang::{Args, CommandId};
 use crate::span::Span;
 use crate::syntax::Spanned;
@@ -71,7 +72,7 @@ impl Arguments<'_> {
         let takes = self.id.row().args;
         let letter = if let Args::Codes(letter, ..) = takes { letter } else { 'G' };
         let codes: Vec<Code> = self.all.iter().map(|arg| self.code(arg, letter)).collect::<Read<_>>()?;
-        match codes.iter().zip(self.all).find(|(code, _)| !code.letter.eq_ignore_ascii_case(&b'G')) {
+        match codes.iter().zip(self.all).find(|(code, _)| !code.code.letter.eq_ignore_ascii_case(&b'G')) {
             Some((_, arg)) if matches!(takes, Args::Motion(..)) => {
                 bad(Some(arg), format!("`{}` is no G code, and only a G code moves the tool", arg.text))
             }
@@ -84,12 +85,14 @@ impl Arguments<'_> {
         let first = arg.text.bytes().next().unwrap_or(b' ');
         let (given, digits) =
             if first.is_ascii_alphabetic() { (Some(first), &arg.text[1..]) } else { (None, arg.text.as_str()) };
-        match digits.parse::<f64>() {
-            Ok(value) if value >= 0.0 && digits.bytes().all(|b| b.is_ascii_digit() || b == b'.') => {
+        let plain = digits.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+        let number = digits.parse::<f64>().ok().filter(|_| plain);
+        match number.and_then(|number| control::Code::of(b'G', number)) {
+            Some(code) => {
                 let text = given.filter(|_| self.typed).map(|_| arg.text.clone());
-                Ok(Code { letter: given.unwrap_or(letter as u8), text, value })
+                Ok(Code { code: control::Code { letter: given.unwrap_or(letter as u8), ..code }, text })
             }
-            _ => bad(Some(arg), format!("`{}` is no code, as `{letter}0` is", arg.text)),
+            None => bad(Some(arg), format!("`{}` is no code, as `{letter}0` is", arg.text)),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::args::{Arguments, Read};
 use super::store::Setting;
-use crate::control::Control;
+use crate::control::{self, Control};
 use crate::lang::{COMMANDS, CommandId, Machine, UnitChoice, VarId, command_rows};
 use crate::span::Span;
 use crate::syntax::Spanned;
@@ -10,18 +10,26 @@ use crate::syntax::Spanned;
 /// A code of a command: printed as typed when its letter was typed, else by the letter's format.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Code {
-    /// The letter, given or implied.
-    pub letter: u8,
+    /// Its letter, given or implied, and its number.
+    pub code: control::Code,
     /// As typed, `G00`.
     pub text: Option<String>,
-    /// Its number.
-    pub value: f64,
 }
 
 impl Code {
     /// A code that nobody typed.
-    pub fn plain(letter: u8, value: f64) -> Code {
-        Code { letter, text: None, value }
+    pub fn plain(code: control::Code) -> Code {
+        Code { code, text: None }
+    }
+
+    /// Its letter.
+    pub fn letter(&self) -> u8 {
+        self.code.letter
+    }
+
+    /// The number behind its letter.
+    pub fn value(&self) -> f64 {
+        self.code.value()
     }
 }
 
@@ -215,12 +223,13 @@ impl Settings {
     }
 
     /// Do the form's commands name this G code, so that what it does is known?
-    pub fn names_code(&self, value: f64) -> bool {
+    pub fn names_code(&self, asked: control::Code) -> bool {
         let codes = [Some(&self.rapid), Some(&self.feed), Some(&self.cw), Some(&self.ccw), Some(&self.dwell.code)];
         let more = [self.depth_rapid.as_ref(), self.thread.as_ref(), Some(&self.orient.0)];
         let mut codes = codes.into_iter().chain(more).flatten().chain(&self.planes);
         let numbers =
             [&self.feed_type[..], &self.speed_type, &self.cdc, &self.inc_abs, &self.inch_mm, &self.return_plane];
-        codes.any(|code| code.value == value) || numbers.iter().any(|numbers| numbers.contains(&value))
+        codes.any(|code| code.code == asked)
+            || asked.letter == b'G' && numbers.iter().any(|numbers| numbers.contains(&asked.value()))
     }
 }

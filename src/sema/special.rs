@@ -172,10 +172,10 @@ fn turn(args: &Arguments, spindle: &mut f64) -> Read<Code> {
     let code = Arguments { all: arc, ..*args }.codes()?.swap_remove(0);
     if let [second] = turn {
         let turn = args.code(second, 'M')?;
-        if !turn.letter.eq_ignore_ascii_case(&b'M') {
+        if !turn.letter().eq_ignore_ascii_case(&b'M') {
             return bad(Some(second), format!("`{}` is no M code of the spindle", second.text));
         }
-        *spindle = turn.value;
+        *spindle = turn.value();
     }
     Ok(code)
 }

@@ -65,7 +65,7 @@ impl Setting for Vec<String> {
 impl Setting for f64 {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         *self = match args.id.row().args {
-            Args::Codes(..) => args.codes()?[0].value,
+            Args::Codes(..) => args.codes()?[0].code.value(),
             _ => args.number()?,
         };
         Ok(())
@@ -76,16 +76,16 @@ impl Setting for f64 {
 impl<const N: usize> Setting for [f64; N] {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         for (slot, code) in self.iter_mut().zip(args.codes()?) {
-            *slot = code.value;
+            *slot = code.code.value();
         }
         Ok(())
     }
 }
 
-/// Numbers of codes.
-impl Setting for Vec<f64> {
+/// Codes, however they are typed.
+impl Setting for Vec<control::Code> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
-        *self = args.codes()?.iter().map(|code| code.value).collect();
+        *self = args.codes()?.iter().map(|code| code.code).collect();
         Ok(())
     }
 }

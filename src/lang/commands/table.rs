@@ -130,7 +130,7 @@ macro_rules! command_rows {
                 once (of("").told("axes, F and S")) Ours {modal_letters: Option<Vec<u8>>} if (Modal) eg "X Y Z F S"
                 "letters that may be dropped";
             ModalGs "ModalGs" (Codes('G', 1, 15))
-                once (of("0 1 2 3 17 18 19")) Ours {modal_codes: Vec<f64>} if (Modal)
+                once (of("0 1 2 3 17 18 19")) Ours {modal_codes: Vec<control::Code>} if (Modal)
                 "codes that may be dropped";
             Force "Force" (Letters(1, 15)) once (of("")) Ours {force: Vec<u8>} if (Modal) eg "X Y Z"
                 "letters printed again after every tool change and every change from rapid to feed";

@@ -8,9 +8,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let settings = view.settings;
     let table = [(SequenceId::CwCode, &settings.ccw, &settings.cw), (SequenceId::CcwCode, &settings.cw, &settings.ccw)];
     for (id, wrong, right) in table {
-        let Some(body) = view.body(id).filter(|_| wrong.value != right.value) else { continue };
-        let Some(word) = body.code(b'G', &[wrong.value]) else { continue };
-        let better = format!("G{}", right.value);
+        let Some(body) = view.body(id).filter(|_| wrong.value() != right.value()) else { continue };
+        let Some(word) = body.code(b'G', &[wrong.value()]) else { continue };
+        let better = format!("G{}", right.value());
         diags.push(
             Diag::new(Code::PF432, format!("{} prints an arc that turns the other way", body.name()))
                 .at(word.span, "the other direction")

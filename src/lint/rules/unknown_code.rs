@@ -2,14 +2,13 @@
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
-use crate::sema::WordKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     // where the form names no control there is none to ask
     let Some(control) = view.settings.control.filter(|_| view.is_mill()) else { return };
     for word in view.words() {
-        let (Some(code), WordKind::Literal(_, _, value)) = (word.code(), &word.kind) else { continue };
-        let named = code.letter == b'G' && view.settings.names_code(*value);
+        let Some(code) = word.code() else { continue };
+        let named = code.letter == b'G' && view.settings.names_code(code);
         if control.row(code).is_some() || control.refuses(code) || named {
             continue;
         }

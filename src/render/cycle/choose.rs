@@ -2,6 +2,7 @@
 
 use super::open::is_rigid;
 use crate::compile::{CycleStyle, Routine};
+use crate::control;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::render::fault::{Done, fault};
@@ -87,9 +88,9 @@ fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<&'st
     let program = shape.program;
     let own = !custom; // what a custom cycle must say, only its form knows
     let across = own && program.settings.machine == Machine::Mill; // a lathe drills at its centre
-    let absolute = |code| code == program.settings.inc_abs[1];
+    let absolute = |code: control::Code| code.is_g(program.settings.inc_abs[1]);
     let positions = &[VarId::H, VarId::V, VarId::D, VarId::Vclear, VarId::Rplane];
-    let steps = program.settings.incremental && prints(positions) && !prints_code(routine, b'G', absolute, shape);
+    let steps = program.settings.incremental && prints(positions) && !prints_code(routine, absolute, shape);
     let feeds_out = !spec.norevr && !spec.rapout;
     let by_form = shape.defaults.orient;
     let other_angle = spec.orient.is_some_and(|orient| orient.angle(by_form) != by_form);

@@ -15,8 +15,7 @@ use crate::render::settle::settle;
 use crate::render::shape::Shape;
 use crate::render::targets::set_targets;
 use crate::render::want::Want;
-use crate::render::words::{code_word, dwell_block, letter_word, parameter_word};
-use crate::sema;
+use crate::render::words::{code_word, dwell_block, letter_word, parameter_word, value_code};
 
 /// A hole as single moves.
 pub fn generated_hole(
@@ -99,7 +98,7 @@ fn make_steps(
                 out.end_block();
             }
             Step::ProgramStop => {
-                code_word(&sema::Code::plain(b'M', shape.program.settings.stop_code[0]), shape, want, said, out)?;
+                value_code(b'M', shape.program.settings.stop_code[0], shape, want, said, out)?;
                 out.end_block();
             }
         }
@@ -124,7 +123,7 @@ fn spindle_block(
         };
         letter_word(shape.program.settings.speed_code, speed * times, shape, said, out)?;
     }
-    code_word(&sema::Code::plain(b'M', code), shape, want, said, out)?;
+    value_code(b'M', code, shape, want, said, out)?;
     out.end_block();
     Ok(())
 }

@@ -2,7 +2,8 @@
 
 use super::open::{Drilling, cancel, leave_cycle, left_hole};
 use super::planned::{Heights, Planned, SAME, hole_variables};
-use crate::compile::{CycleStyle, LetterKind, Op, Routine};
+use crate::compile::{CycleStyle, LetterKind, Literal, Op, Routine};
+use crate::control;
 use crate::diag::Code;
 use crate::lang::{VarId, VarSet};
 use crate::render::before::{motion_block, plane_block};
@@ -41,7 +42,7 @@ pub fn sequence_hole(
     }
     upons(used, shape, want, said, out)?;
     upon_bottom(routine, hole, shape, want, said, out, drill)?;
-    plane_block(17.0, routine, shape, want, said, out)?; // else the control drills along another axis
+    plane_block(control::Code::g(17), routine, shape, want, said, out)?; // else the control drills along another axis
     want.set(VarId::D, hole.heights.bottom);
     if matches!(routine.style, CycleStyle::Emulated) {
         raise_to(&hole.target, shape, want, said, out, drill)?;
@@ -56,7 +57,7 @@ pub fn sequence_hole(
             cycle.in_force = routine.stays;
         }
         // after a cycle of the control the last height printed is its bottom
-        let cycled = prints_code(routine, b'G', |code| shape.is_cycle(code), shape);
+        let cycled = prints_code(routine, |code| shape.is_cycle(code), shape);
         let exit = match stays_at_clearance(routine, hole.heights, shape) {
             true => (hole.heights.clear, true),
             false => (hole.heights.return_plane, false),
@@ -104,7 +105,7 @@ pub fn sequence_hole(
     let returns = routine.returns && (higher || !routine.vars.has(VarId::Retplane));
     let exit = if returns { initial.max(hole.heights.clear) } else { hole.heights.clear };
     // without a code that says it, the control's own setting decides whether it returns
-    let stays = prints_code(routine, b'G', |code| code == shape.program.settings.return_plane[0], shape);
+    let stays = prints_code(routine, |code| code.is_g(shape.program.settings.return_plane[0]), shape);
     let low = hole.heights.return_plane <= hole.heights.clear + SAME;
     let known = routine.returns || stays || low && initial <= hole.heights.clear + SAME;
     left_hole(&hole.target, Some((exit, known)), shape, said, drill)
@@ -112,16 +113,15 @@ pub fn sequence_hole(
 
 /// Does an emulated sequence leave the tool at the clearance for certain: G99, and no axis behind the control's cycle?
 fn stays_at_clearance(routine: &Routine, heights: Heights, shape: &Shape) -> bool {
-    let code = shape.program.settings.return_plane[0];
+    let number = shape.program.settings.return_plane[0];
     let chosen = routine.vars.has(VarId::Retplane) && heights.return_plane <= heights.clear + SAME;
-    if !chosen && !prints_code(routine, b'G', |value| value == code, shape) {
+    if !chosen && !prints_code(routine, |code| code.is_g(number), shape) {
         return false;
     }
     let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
     let cycle = routine.ops.clone().rfind(|&i| match shape.program.ops[i] {
         Op::Literal { index, .. } => {
-            let literal = &shape.program.literals[index as usize];
-            literal.letter == b'G' && shape.is_cycle(literal.value)
+            shape.program.literals[index as usize].code.is_some_and(|code| shape.is_cycle(code))
         }
         _ => false,
     });
@@ -176,17 +176,14 @@ fn way_to_hole(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, o
 
 /// Do the first lines of a counted cycle drill a hole themselves? K0 and L0 keep the control from it.
 fn drills_at_once(routine: &Routine, shape: &Shape) -> bool {
-    let typed = |asked: &dyn Fn(u8, f64) -> bool| {
+    let typed = |asked: &dyn Fn(&Literal) -> bool| {
         (routine.ops.start..routine.repeat).any(|i| match shape.program.ops[i] {
-            Op::Literal { index, .. } => {
-                let literal = &shape.program.literals[index as usize];
-                asked(literal.letter, literal.value)
-            }
+            Op::Literal { index, .. } => asked(&shape.program.literals[index as usize]),
             _ => false,
         })
     };
-    typed(&|letter, value| letter == b'G' && shape.is_cycle(value))
-        && !typed(&|letter, value| matches!(letter, b'K' | b'L') && value == 0.0)
+    typed(&|word| word.code.is_some_and(|code| shape.is_cycle(code)))
+        && !typed(&|word| matches!(word.letter, b'K' | b'L') && word.value == 0.0)
 }
 
 /// What stands between holes. While the control is in its cycle nothing may come there: it would be taken for a hole, and
@@ -203,7 +200,7 @@ fn settle_before_hole(
         return Ok(());
     }
     let in_force = drill.open.as_ref().is_some_and(|cycle| cycle.in_force);
-    match in_force && (routine.cancel || prints_code(routine, b'G', |code| shape.is_cycle(code), shape)) {
+    match in_force && (routine.cancel || prints_code(routine, |code| shape.is_cycle(code), shape)) {
         // positions in a form of increments are right if the sequence says G90
         true if shape.program.settings.incremental => Ok(()),
         true => check_distance(shape, said),

@@ -1,5 +1,6 @@
 //! Arcs: what the form can print of them.
 
+use crate::control;
 use std::f64::consts::PI;
 
 use super::centres::{CENTRE_OF, as_printed_back, centre_letter};
@@ -24,11 +25,11 @@ use crate::sema::ArcCentre;
 use crate::toolpath::{Arc, Axes, Direction, Plane, Units};
 
 /// The axes of a plane in the order that makes counter-clockwise positive, the axis across it, the plane's code.
-fn plane_axes(plane: Plane) -> ([usize; 2], usize, f64) {
+fn plane_axes(plane: Plane) -> ([usize; 2], usize, control::Code) {
     match plane {
-        Plane::Xy => ([0, 1], 2, 17.0),
-        Plane::Xz => ([2, 0], 1, 18.0),
-        Plane::Yz => ([1, 2], 0, 19.0),
+        Plane::Xy => ([0, 1], 2, control::Code::g(17)),
+        Plane::Xz => ([2, 0], 1, control::Code::g(18)),
+        Plane::Yz => ([1, 2], 0, control::Code::g(19)),
     }
 }
 
@@ -87,7 +88,7 @@ pub fn arc(
         check_arc(&curve, axes, &target, shape)?;
     }
     let settings = &shape.program.settings;
-    let plane = settings.planes.iter().find(|plane| plane.value == code);
+    let plane = settings.planes.iter().find(|plane| plane.code == code);
     let scale = shape.form_scale;
     let printable = curve.radius >= settings.min_radius * scale
         && curve.radius <= settings.max_radius * scale
@@ -174,7 +175,7 @@ fn has_centre_words(axes: [usize; 2], ccw: bool, shape: &Shape) -> bool {
         let says = |axis: usize| CENTRE_OF[axis].iter().any(|&var| routine.vars.has(var));
         let planes = [Plane::Xy, Plane::Xz, Plane::Yz].map(plane_axes);
         let own = planes.into_iter().find(|plane| plane.0 == axes).map(|plane| plane.2);
-        let elsewhere = prints_code(routine, b'G', |code| shape.is_plane(code) && Some(code) != own, shape);
+        let elsewhere = prints_code(routine, |code| shape.is_plane(code) && Some(code) != own, shape);
         return !elsewhere && (routine.vars.has(VarId::Arcrad) || axes.iter().all(|&axis| says(axis)));
     }
     match &shape.program.settings.centre {

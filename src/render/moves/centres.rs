@@ -124,10 +124,10 @@ pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, 
     }
     let mirrored = reversed(piece.axes[0]) != reversed(piece.axes[1]);
     let own = if ccw != mirrored { 3.0 } else { 2.0 };
-    let typed = |value: f64| routine.is_some_and(|routine| prints_code(routine, b'G', |code| code == value, shape));
+    let typed = |number: f64| routine.is_some_and(|routine| prints_code(routine, |code| code.is_g(number), shape));
     let wrong = match routine {
         Some(_) => typed(5.0 - own) && !typed(own),
-        None => code.value == 5.0 - own,
+        None => code.value() == 5.0 - own,
     };
     if wrong && (0..shape.linear).any(reversed) {
         let message = match mirrored {

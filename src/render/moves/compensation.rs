@@ -2,7 +2,7 @@
 
 use super::measure::measure;
 use super::reach::{begins_somewhere, reach};
-use crate::control::Meaning;
+use crate::control::{self, Meaning};
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::render::before::{check_prints, enter_plane, feed_block, plane_block};
@@ -16,8 +16,7 @@ use crate::render::targets::set_targets;
 use crate::render::upon::upons;
 use crate::render::vars::MOVE_VARS;
 use crate::render::want::Want;
-use crate::render::words::{AxisUnits, axis_units, axis_words, code_word, feed_word, letter_word, motion_word};
-use crate::sema;
+use crate::render::words::{AxisUnits, axis_units, axis_words, feed_word, letter_word, motion_word, value_code};
 use crate::toolpath::{Axes, Infeed, Side};
 
 /// The move that turns cutter compensation on.
@@ -119,14 +118,14 @@ fn compensate(to: &Axes, switch: &Switch, shape: &Shape, want: &mut Want, said: 
             let help = "put a rapid before it, or the word of [d] into the sequence";
             return fault_at(Code::PR017, message, help, Some(routine.span));
         }
-        plane_block(17.0, routine, shape, want, said, out)?;
+        plane_block(control::Code::g(17), routine, shape, want, said, out)?;
         upons(routine.vars, shape, want, said, out)?;
         feed_block(&program.settings.feed, routine, shape, want, said, out)?;
         run_all(routine, shape, want, said, out)?;
     } else {
-        enter_plane(17.0, shape, want, said, out)?;
+        enter_plane(control::Code::g(17), shape, want, said, out)?;
         motion_word(if rapid { &program.settings.rapid } else { &program.settings.feed }, shape, want, said, out)?;
-        code_word(&sema::Code::plain(b'G', code), shape, want, said, out)?;
+        value_code(b'G', code, shape, want, said, out)?;
         let mut axes = AxisUnits::default();
         axis_units(&target, &mut axes, shape, said)?;
         axis_words(&target, &axes, shape, said, out)?;

@@ -120,7 +120,7 @@ fn print_piece(piece: &Piece, shape: &Shape, want: &mut Want, said: &mut Said, o
         let by_angle = if polar { 1 << a | 1 << b } else { 0 };
         check_prints(routine, &Axes { given: piece.target.given & !by_angle, ..piece.target }, shape, said)?;
         upons(routine.vars, shape, want, said, out)?;
-        plane_block(piece.plane.value, routine, shape, want, said, out)?;
+        plane_block(piece.plane.code, routine, shape, want, said, out)?;
         check_arc_code(routine, code, shape, said)?;
         feed_block(code, routine, shape, want, said, out)?;
         run(routine.ops.clone(), Mode::ArcMotion, shape, want, said, out)?;
@@ -152,8 +152,8 @@ fn check_arc_code(routine: &Routine, code: &sema::Code, shape: &Shape, said: &Sa
     if !shape.program.speaks_g || said.motion_in_force(code) || prints_own_motion(routine, shape) {
         return Ok(());
     }
-    let message = format!("the sequence prints no G{}, and the control is in another motion", code.value);
-    fault_at(Code::PR017, message, format!("begin its block with G{}", code.value), Some(routine.span))
+    let message = format!("the sequence prints no G{}, and the control is in another motion", code.value());
+    fault_at(Code::PR017, message, format!("begin its block with G{}", code.value()), Some(routine.span))
 }
 
 /// The generated block: plane, motion code, axes, centre, direction, feed.

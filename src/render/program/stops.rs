@@ -11,8 +11,7 @@ use crate::render::shape::Shape;
 use crate::render::targets::set_here;
 use crate::render::upon::{run_with_upons, upon_is_due};
 use crate::render::want::Want;
-use crate::render::words::{code_word, dwell_block};
-use crate::sema;
+use crate::render::words::{dwell_block, value_code};
 use crate::toolpath::StopKind;
 
 /// A dwell in seconds.
@@ -32,13 +31,13 @@ pub fn stop(kind: StopKind, shape: &Shape, want: &mut Want, said: &mut Said, out
             set_here(shape, want, said)?;
             run_with_upons(routine, shape, want, said, out)?;
             if !routine.vars.has(VarId::Stop)
-                && !prints_code(routine, b'M', |code| shape.meaning_of(b'M', code).is_some_and(Meaning::is_stop), shape)
+                && !prints_code(routine, |code| shape.meaning_of(code).is_some_and(Meaning::is_stop), shape)
             {
                 said.stopped(want, shape); // by words of its own
             }
         }
         None => {
-            code_word(&sema::Code::plain(b'M', code), shape, want, said, out)?;
+            value_code(b'M', code, shape, want, said, out)?;
             out.end_block();
         }
     }

@@ -2,6 +2,7 @@
 
 use super::sections::check_sections_closed;
 use super::table::{Defined, Left, State, Subprograms};
+use crate::control;
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
 use crate::render::before::enter_plane;
@@ -133,7 +134,7 @@ pub fn plain_cutting(shape: &Shape, want: &Want, said: &mut Said, out: &mut Prin
         let help = "end the compensation with an `outfeed` before";
         return fault(Code::PR030, "cutter compensation is on at the border of a subprogram", help);
     }
-    enter_plane(17.0, shape, want, said, out)
+    enter_plane(control::Code::g(17), shape, want, said, out)
 }
 
 /// Changes places with the text aside.

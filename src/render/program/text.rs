@@ -1,7 +1,7 @@
 //! Text as it stands.
 
 use super::stops::settle_between_moves;
-use crate::control::Group;
+use crate::control::{self, Group};
 use crate::diag::{Code, steers};
 use crate::lang::VarId;
 use crate::render::fault::{Done, fault, fault_at};
@@ -54,8 +54,10 @@ fn text_codes(text: &str, shape: &Shape, want: &mut Want, said: &mut Said) -> Do
                         let message = format!("the text changes the units of the program with G{value}");
                         return fault_at(Code::PR035, message, "render with `--units`, and take the code out", None);
                     } else {
-                        said.code(letter, value, Line::NONE, want, shape);
-                        is_the_jobs(letter, value, shape, want);
+                        if let Some(code) = control::Code::of(letter, value) {
+                            said.code(code, Line::NONE, want, shape);
+                            is_the_jobs(code, shape, want);
+                        }
                     }
                 }
                 at = end;
@@ -69,8 +71,8 @@ fn text_codes(text: &str, shape: &Shape, want: &mut Want, said: &mut Said) -> Do
 }
 
 /// What a text switches is what the job wants from there on; what its feeds count is not.
-fn is_the_jobs(letter: u8, value: f64, shape: &Shape, want: &mut Want) {
-    let var = match shape.group_of(letter, value) {
+fn is_the_jobs(code: control::Code, shape: &Shape, want: &mut Want) {
+    let var = match shape.group_of(code) {
         Some(Group::Spindle) => VarId::Direct,
         Some(Group::Coolant) => VarId::Cool,
         Some(Group::Work) => match shape.program.work_word {
@@ -82,10 +84,11 @@ fn is_the_jobs(letter: u8, value: f64, shape: &Shape, want: &mut Want) {
         Some(Group::SpeedMode) => VarId::Speedtype,
         _ => return,
     };
-    want.set(var, value);
+    want.set(var, code.value());
 }
 
 /// Is this a code of other units than the program's?
 fn changes_units(letter: u8, value: f64, shape: &Shape, want: &Want) -> bool {
-    shape.group_of(letter, value) == Some(Group::Units) && want.get(VarId::Unitmode) != Some(value)
+    control::Code::of(letter, value).and_then(|code| shape.group_of(code)) == Some(Group::Units)
+        && want.get(VarId::Unitmode) != Some(value)
 }

@@ -2,25 +2,32 @@
 
 use super::line::{Line, Shift};
 use super::state::Said;
-use crate::control::{Frame, Group, Meaning, Row, Words};
+use crate::compile::Letter;
+use crate::control::{Code, Frame, Group, Meaning, Row, Words};
 use crate::lang::{Machine, VarId};
-use crate::render::numbers::tenths;
 use crate::render::shape::Shape;
 use crate::render::want::Want;
 
 impl Said {
+    /// A letter and its number were printed in this line: they may be a code.
+    #[inline]
+    pub fn code_word(&mut self, info: &Letter, value: f64, line: Line, want: &Want, shape: &Shape) {
+        if let Some(code) = Code::of(info.printed, value) {
+            self.code(code, line, want, shape);
+        }
+    }
+
     /// A G or M code was printed in this line.
-    pub fn code(&mut self, letter: u8, value: f64, line: Line, want: &Want, shape: &Shape) {
-        let row = shape.code_row(letter, value);
-        match letter {
-            b'M' => self.m_code(value, row, want, shape),
-            b'G' | b'g' => self.frame_code(value, row, line, want, shape),
-            _ => {}
+    pub fn code(&mut self, code: Code, line: Line, want: &Want, shape: &Shape) {
+        let row = shape.code_row(code);
+        match code.letter {
+            b'M' => self.m_code(code, row, want, shape),
+            _ => self.frame_code(code, row, line, want, shape),
         }
         let settings = &shape.program.settings;
-        let is_feed_mode = letter == b'G' && settings.feed_type.contains(&value);
+        let is_feed_mode = code.letter == b'G' && settings.feed_type.contains(&code.value());
         if is_feed_mode {
-            self.conditions.put(VarId::Feedtype, Some(value));
+            self.conditions.put(VarId::Feedtype, Some(code.value()));
             self.switched = true;
         }
         let group = row.and_then(|row| row.meaning.group());
@@ -29,19 +36,19 @@ impl Said {
         }
         let Some(group) = group else { return };
         match group {
-            Group::Plane => self.plane = value,
-            Group::Motion => self.motion = Some(tenths(value)),
-            Group::Distance => self.distance = Some(tenths(value)),
+            Group::Plane => self.plane = code,
+            Group::Motion => self.motion = Some(code),
+            Group::Distance => self.distance = Some(code),
             _ => {}
         }
-        self.registers.set_group(group, tenths(value));
-        self.condition_code(group, value, shape);
+        self.registers.set_group(group, code);
+        self.condition_code(group, code.value(), shape);
     }
 
     /// What an M code stops or moves.
-    fn m_code(&mut self, value: f64, row: Option<&Row>, want: &Want, shape: &Shape) {
+    fn m_code(&mut self, code: Code, row: Option<&Row>, want: &Want, shape: &Shape) {
         let meaning = row.map(|row| row.meaning);
-        if meaning.is_some_and(Meaning::is_stop) || shape.program.settings.stop_code.contains(&value) {
+        if meaning.is_some_and(Meaning::is_stop) || shape.program.settings.stop_code.contains(&code.value()) {
             self.stopped(want, shape);
         } else if meaning.is_some_and(|meaning| meaning.is_call() || meaning == Meaning::ToolChange) {
             self.forget_axes(shape); // a changer, and what is called, go where they like
@@ -50,7 +57,7 @@ impl Said {
     }
 
     /// What a G code does to positions.
-    fn frame_code(&mut self, value: f64, row: Option<&Row>, line: Line, want: &Want, shape: &Shape) {
+    fn frame_code(&mut self, code: Code, row: Option<&Row>, line: Line, want: &Want, shape: &Shape) {
         let meaning = row.map(|row| row.meaning);
         let lathe = shape.program.settings.machine == Machine::Lathe;
         match meaning.and_then(Meaning::frame) {
@@ -67,13 +74,13 @@ impl Said {
             Some(Frame::Increments) if lathe => self.shift = Shift::Body,
             // the same offset again; of G54.1 the P says which
             Some(Frame::Moves)
-                if self.registers.group(Group::Work) == Some(tenths(value))
+                if self.registers.group(Group::Work) == Some(code)
                     && row.is_some_and(|row| row.words == Words::NONE) => {}
             Some(Frame::Moves) => self.forget_axes(shape),
             Some(Frame::MovesDepth) => self.depth_moved = true,
-            None if !is_harmless(value, meaning, line, want, shape) => {
+            None if !is_harmless(code, meaning, line, want, shape) => {
                 self.forget_axes(shape);
-                if shape.calls(value) {
+                if shape.calls(code) {
                     self.forget_motion();
                 }
             }
@@ -94,9 +101,9 @@ impl Said {
             return;
         }
         self.speed_word(letter, Some(value), shape);
-        if letter == b'G' || letter == b'M' {
-            self.code(letter, value, line, want, shape);
-            if let Some(group) = shape.group_of(letter, value) {
+        if let Some(code) = Code::of(letter, value) {
+            self.code(code, line, want, shape);
+            if let Some(group) = shape.group_of(code) {
                 self.registers.forget_group(group);
             }
         }
@@ -107,8 +114,8 @@ impl Said {
 
 /// May positions be kept after a G code without a modal group? Where the form's control runs it, where the form's
 /// commands name it, in a cycle, whose end forgets them, and beside axis words, which say where it goes.
-fn is_harmless(value: f64, meaning: Option<Meaning>, line: Line, want: &Want, shape: &Shape) -> bool {
+fn is_harmless(code: Code, meaning: Option<Meaning>, line: Line, want: &Want, shape: &Shape) -> bool {
     let known =
         meaning.is_some_and(|meaning| !matches!(meaning, Meaning::Unsaid | Meaning::Probe) && !meaning.is_call());
-    known || shape.program.settings.names_code(value) || want.in_cycle || !shape.calls(value) && line.prints_axes(shape)
+    known || shape.program.settings.names_code(code) || want.in_cycle || !shape.calls(code) && line.prints_axes(shape)
 }

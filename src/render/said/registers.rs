@@ -1,6 +1,6 @@
 //! What was last printed: a register for each letter, one for each modal group of codes.
 
-use crate::control::{GROUPS, Group};
+use crate::control::{Code, GROUPS, Group};
 
 /// What a letter last printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -14,13 +14,13 @@ struct Register {
 #[derive(Clone, Debug)]
 pub struct Registers {
     letters: [Register; 128],
-    /// Code in tenths; -1: unknown.
-    groups: [i64; GROUPS],
+    /// The code that each modal group printed last.
+    groups: [Option<Code>; GROUPS],
 }
 
 impl Default for Registers {
     fn default() -> Self {
-        Registers { letters: [Register::default(); 128], groups: [-1; GROUPS] }
+        Registers { letters: [Register::default(); 128], groups: [None; GROUPS] }
     }
 }
 
@@ -59,22 +59,27 @@ impl Registers {
         self.letters[usize::from(letter & 0x7f)] = Register::default();
     }
 
-    /// The code that a group last printed, in tenths.
+    /// The code that a group last printed.
     #[inline]
-    pub fn group(&self, group: Group) -> Option<i64> {
-        let tenths = self.groups[group as usize];
-        (tenths >= 0).then_some(tenths)
+    pub fn group(&self, group: Group) -> Option<Code> {
+        self.groups[group as usize]
+    }
+
+    /// Is this code what its group last printed?
+    #[inline]
+    pub fn holds_code(&self, code: Code) -> bool {
+        self.groups.contains(&Some(code))
     }
 
     /// A group printed this code.
     #[inline]
-    pub fn set_group(&mut self, group: Group, tenths: i64) {
-        self.groups[group as usize] = tenths;
+    pub fn set_group(&mut self, group: Group, code: Code) {
+        self.groups[group as usize] = Some(code);
     }
 
     /// The group's code is unknown.
     #[inline]
     pub fn forget_group(&mut self, group: Group) {
-        self.groups[group as usize] = -1;
+        self.groups[group as usize] = None;
     }
 }

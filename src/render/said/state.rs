@@ -5,10 +5,9 @@ use super::line::Shift;
 use super::registers::Registers;
 use super::stand::Stand;
 use crate::compile::{Letter, LetterKind};
-use crate::control::Group;
+use crate::control::{Code, Group};
 use crate::lang::{Machine, VarId};
 use crate::number::quantise;
-use crate::render::numbers::tenths;
 use crate::render::shape::Shape;
 use crate::render::want::Want;
 use crate::sema;
@@ -40,11 +39,11 @@ pub struct Said {
     /// The value of each Upon's variable when it was used last.
     pub upon_used: Vec<Option<f64>>,
     /// The plane that the control is in: what was printed last, also before a tool change.
-    pub(super) plane: f64,
-    /// The distance code that the control is in, in tenths: what was printed last, also before a tool change.
-    pub(super) distance: Option<i64>,
-    /// The motion that the control is in, in tenths of its code: also where the next move says it again.
-    pub(super) motion: Option<i64>,
+    pub(super) plane: Code,
+    /// The distance code that the control is in: what was printed last, also before a tool change.
+    pub(super) distance: Option<Code>,
+    /// The motion that the control is in: also where the next move says it again.
+    pub(super) motion: Option<Code>,
     /// What kind of move printed last.
     pub last_move: LastMove,
     /// In which frame the axis words of the running sequence stand.
@@ -67,7 +66,7 @@ impl Said {
             conditions: Conditions::default(),
             stand: Stand::default(),
             upon_used: vec![None; upons],
-            plane: 17.0,
+            plane: Code::g(17),
             distance: None,
             motion: None,
             last_move: LastMove::None,
@@ -99,42 +98,40 @@ impl Said {
     }
 
     /// Does the control hold this value of a letter already, a code in its modal group?
-    pub fn holds_value(&self, info: &Letter, units: i64, value: f64, shape: &Shape) -> bool {
+    pub fn holds_value(&self, info: &Letter, units: i64, value: f64) -> bool {
         match info.kind {
-            LetterKind::GCode | LetterKind::MCode => self.holds_code(info.printed, value, shape),
+            LetterKind::GCode | LetterKind::MCode => {
+                Code::of(info.printed, value).is_some_and(|code| self.registers.holds_code(code))
+            }
             _ => self.holds(info, units),
         }
     }
 
-    /// Is this code in force in its modal group?
-    pub fn holds_code(&self, letter: u8, value: f64, shape: &Shape) -> bool {
-        shape.group_of(letter, value).is_some_and(|group| self.registers.group(group) == Some(tenths(value)))
-    }
-
-    /// May a motion block drop this code?
-    pub fn code_drops(&self, letter: u8, value: f64, shape: &Shape) -> bool {
+    /// May a motion block drop this code, because it is in force in its modal group?
+    #[inline]
+    pub fn code_drops(&self, code: Code, shape: &Shape) -> bool {
         let settings = &shape.program.settings;
-        settings.modality && settings.modal_codes.contains(&value) && self.holds_code(letter, value, shape)
+        settings.modality && self.registers.holds_code(code) && settings.modal_codes.contains(&code)
     }
 
     /// Is this motion code the one in force, so that the next move need not say it?
     pub fn motion_in_force(&self, code: &sema::Code) -> bool {
-        self.registers.group(Group::Motion) == Some(tenths(code.value))
+        self.registers.group(Group::Motion) == Some(code.code)
     }
 
     /// Is the control in this motion, also where the next move says it again?
     pub fn is_in_motion(&self, code: &sema::Code) -> bool {
-        self.motion == Some(tenths(code.value))
+        self.motion == Some(code.code)
     }
 
     /// Is the control in this plane?
-    pub fn is_in_plane(&self, plane: f64) -> bool {
+    pub fn is_in_plane(&self, plane: Code) -> bool {
         self.plane == plane
     }
 
-    /// Is the control in this code of distances?
-    pub fn is_in_distance(&self, code: f64) -> bool {
-        self.distance == Some(tenths(code))
+    /// Is the control in the distance code of this number?
+    pub fn is_in_distance(&self, number: f64) -> bool {
+        self.distance.is_some_and(|code| code.value() == number)
     }
 
     /// Would the control read generated positions as increments, or the other way round?

@@ -1,6 +1,5 @@
-//! The worked examples of the POSTFORM manual, where their data lies beside the checkout: what the sample of each
-//! prints from the example's own sequence is the example's expected lines, exactly. Without the data the samples
-//! themselves still stand as tests.
+//! The worked examples of the POSTFORM manual: what the sample of each prints from the example's own sequence is the
+//! example's expected lines, exactly.
 
 use crate::support;
 use std::fs;
@@ -14,11 +13,7 @@ fn strings(value: &Value) -> Vec<String> {
 
 #[test]
 fn worked_examples_are_exact() {
-    let path = root().join("../shared/golden/postform/cases.json");
-    let Ok(text) = fs::read_to_string(&path) else {
-        eprintln!("skipped: the worked examples are not beside this checkout");
-        return;
-    };
+    let text = fs::read_to_string(root().join("tests/data/postform.json")).unwrap();
     let cases: Vec<Value> = serde_json::from_str(&text).unwrap();
     let mut seen = 0;
     for case in &cases {
@@ -39,7 +34,7 @@ fn worked_examples_are_exact() {
         }
         seen += 1;
     }
-    assert_eq!(seen, cases.len());
+    assert!(seen == cases.len() && seen > 10, "{seen}");
 }
 
 /// The program lines that come from a sequence of the form, and for a cycle from Cancel.

@@ -1,4 +1,4 @@
-//! Programs and what LinuxCNC's interpreter makes of them: the same motions, the same refusals at the same block.
+//! Programs and what LinuxCNC 2.9's interpreter made of them when they were recorded: the same motions, the same refusals at the same block.
 
 use crate::support::control;
 use std::fs;
@@ -8,15 +8,6 @@ use std::path::PathBuf;
 use crate::support::nc::{difference, interpreted, simulated};
 use postform::nc::{RunSettings, Simulator};
 use serde_json::Value;
-
-fn golden() -> Option<PathBuf> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/golden/nc");
-    if path.is_dir() {
-        return Some(path);
-    }
-    eprintln!("skipped: the recorded programs are not beside this checkout");
-    None
-}
 
 /// What is wrong with one program, if anything.
 fn compare(program: &str, canon: &str) -> Option<String> {
@@ -38,37 +29,28 @@ fn compare(program: &str, canon: &str) -> Option<String> {
     difference(&ours, &interpreted(canon))
 }
 
-fn folder(name: &str) {
-    let Some(golden) = golden() else { return };
-    let (mut wrong, mut seen) = (Vec::new(), 0);
-    let mut paths: Vec<PathBuf> = fs::read_dir(golden.join(name)).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    for path in paths.iter().filter(|path| path.extension().is_some_and(|e| e == "ngc")) {
-        let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
-        seen += 1;
-        let program = String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned();
-        let canon = fs::read_to_string(path.with_extension("canon")).unwrap();
-        let problem = compare(&program, &canon);
-        if let Some(problem) = problem {
-            wrong.push(format!("{stem}: {problem}"));
-        }
-    }
-    assert!(wrong.is_empty(), "{} of {seen}\n{}", wrong.len(), wrong.join("\n"));
+/// The cases of a file, each with what is wrong with it.
+fn cases(file: &str) -> Vec<(Value, Option<String>)> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(file);
+    let cases: Vec<Value> = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let compared = |case: Value| {
+        let canon: Vec<&str> = case["calls"].as_array().unwrap().iter().map(|call| call.as_str().unwrap()).collect();
+        let problem = compare(case["program"].as_str().unwrap(), &canon.join("\n"));
+        (case, problem)
+    };
+    cases.into_iter().map(compared).collect()
 }
 
 /// The recorded programs of this repository: each pins a rule.
 #[test]
 fn every_rule_has_its_case() {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/nc.json");
-    let cases: Vec<Value> = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let cases = cases("nc.json");
     let mut wrong = Vec::new();
-    for case in &cases {
-        let text = |key: &str| case[key].as_str().unwrap().to_owned();
-        let canon: Vec<&str> = case["calls"].as_array().unwrap().iter().map(|call| call.as_str().unwrap()).collect();
-        let problem = compare(&text("program"), &canon.join("\n"));
+    for (case, problem) in &cases {
+        let text = |key: &str| case[key].as_str().unwrap();
         // the path under compensation is tracked, not offset
         let offset = text("name").starts_with("comp_");
-        if let Some(problem) = problem.filter(|problem| !(offset && problem.starts_with("call"))) {
+        if let Some(problem) = problem.as_ref().filter(|problem| !(offset && problem.starts_with("call"))) {
             wrong.push(format!("{} ({}): {problem}", text("name"), text("pins")));
         }
     }
@@ -100,5 +82,9 @@ fn surprises_are_warned_of() {
 
 #[test]
 fn random_programs_agree() {
-    folder("fuzz");
+    let cases = cases("nc-random.json");
+    let wrong: Vec<String> =
+        cases.iter().filter_map(|(case, problem)| Some(format!("{}: {}", case["name"], problem.as_ref()?))).collect();
+    assert!(wrong.is_empty(), "{} of {}\n{}", wrong.len(), cases.len(), wrong.join("\n"));
+    assert!(cases.len() > 200);
 }

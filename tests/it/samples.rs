@@ -2,12 +2,15 @@
 //! `SAMPLES=overwrite cargo test samples::` writes what is printed now; look at the difference before committing.
 
 use crate::support;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use crate::support::{assert_same, render_sample, render_sample_with, root, sample_form, samples};
+use crate::support::{assert_same, check_file, render_sample, render_sample_with, root, sample_form, samples};
 use postform::control::Meaning;
 use postform::render::{Cycles, Options};
+use postform::toolpath::Place;
+use serde_json::Value;
 
 fn compare(folder: &Path, form: &Path, expected: &Path, cycles: Cycles) {
     let name = format!("{} by {}, cycles {cycles:?}", folder.display(), form.display());
@@ -76,14 +79,60 @@ fn every_post_that_ships_is_clean_and_prints_its_part() {
 
 #[test]
 fn every_program_line_has_its_place_in_the_job_and_traces_lose_nothing() {
+    let (mut items, mut of_forms) = (BTreeSet::new(), 0);
     for folder in samples() {
         let Some(form) = sample_form(&folder) else { continue };
         let rendered = render_sample(&folder, &form).unwrap();
         assert_eq!(rendered.trace.len(), rendered.text.lines().count(), "{}", folder.display());
-        for (i, line) in rendered.trace.iter().enumerate() {
-            assert_eq!(line.line, i as u64 + 1);
+        let checked = check_file(&form);
+        let job = fs::read_to_string(folder.join("job.json")).ok();
+        let job: Option<Value> = job.map(|text| serde_json::from_str(&text).unwrap());
+        let mut last = Place::default();
+        for (i, (line, printed)) in rendered.trace.iter().zip(rendered.text.lines()).enumerate() {
+            let at = format!("{}: line {}, `{printed}`", folder.display(), i + 1);
+            assert_eq!(line.line, i as u64 + 1, "{at}");
+            if let Some(job) = &job {
+                let path = line.place.path();
+                assert!(item(job, &path).is_some(), "{at}: the job has no {path}");
+                items.insert((folder.clone(), path));
+                // blocks come in the order of the job, those of subprograms as the form asks; start and end are no item's
+                if job.get("subprograms").is_none() && line.place.operation > 0 {
+                    assert!(!before(line.place, last), "{at}: {} after {last}", line.place);
+                    last = line.place;
+                }
+            }
+            // a block has no letter that its line of the form does not write
+            if let Some(span) = line.form {
+                let words = checked.files[span.file as usize].slice(span).to_ascii_uppercase();
+                assert!(!words.is_empty() && !words.contains('\n'), "{at}: `{words}`");
+                let strange = letters(printed).find(|&letter| letter != 'N' && !words.contains(letter));
+                assert_eq!(strange, None, "{at}, of `{words}`");
+                of_forms += 1;
+            }
         }
     }
+    assert!(items.len() > 250 && of_forms > 500, "{} items, {of_forms} lines of forms", items.len());
+}
+
+/// What stands in a job at a path as `operations[0].path[3].cycle.points[2]`.
+fn item<'a>(job: &'a Value, path: &str) -> Option<&'a Value> {
+    let steps = path.split(['.', '[', ']']).filter(|step| !step.is_empty());
+    steps.into_iter().try_fold(job, |value, step| match step.parse::<usize>() {
+        Ok(index) => value.get(index),
+        Err(_) => value.get(step),
+    })
+}
+
+/// Whether a place comes before another one in the job. A cycle's end has the place of its item, after all points.
+fn before(place: Place, other: Place) -> bool {
+    let item = |place: Place| (place.operation, place.item);
+    item(place) < item(other) || item(place) == item(other) && place.point > 0 && place.point < other.point
+}
+
+/// The letters of a block's words, without comments.
+fn letters(block: &str) -> impl Iterator<Item = char> {
+    let words = block.split(['(', ';']).next().unwrap_or_default();
+    words.chars().filter(|letter| letter.is_ascii_uppercase())
 }
 
 /// Grbl refuses what others read: arcs without an axis word of their plane, mist, two motions in a block; and it acts on some

@@ -39,7 +39,11 @@ pub fn rendered(form: &Checked, job: Job<'_>, cycles: Cycles) -> String {
 /// Runs a program as the form's control would, and compares.
 pub fn verified(form: &Checked, program: &str, job: Job<'_>) -> Verdict {
     let compiled = compile(&form.form);
-    let settings = RunSettings::new(compiled.settings.control.unwrap_or_else(Control::usual));
+    // as `Post::verify` takes them from a form
+    let settings = RunSettings {
+        centers_absolute: !compiled.settings.centre_incremental,
+        ..RunSettings::new(compiled.settings.control.unwrap_or_else(Control::usual))
+    };
     let expectation = Expectation::of_form(&compiled.settings, false).typed(&compiled);
     let mut comparer = Comparer::new(Cursor::new(program.to_owned()), settings, expectation, None);
     let read = job(&mut comparer);

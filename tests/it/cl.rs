@@ -412,8 +412,8 @@ fn turning_is_a_job_for_a_lathe() {
 }
 
 /// Real files, where they lie beside the checkout: all are read, or refused for what they do not say.
+#[test_with::path(../shared/data/cl)]
 #[test]
-#[ignore = "needs real CL files beside the checkout: cargo test -- --ignored cl::"]
 fn real_files_are_read_or_refused_for_a_reason() {
     let folder = fs::read_dir(support::root().join("../shared/data/cl")).unwrap();
     let mut names = 0;

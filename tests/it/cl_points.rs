@@ -259,8 +259,8 @@ fn the_judge_finds_each_kind_of_fault() {
 }
 
 /// The same of real files, where they lie beside the checkout.
+#[test_with::path(../shared/data/cl)]
 #[test]
-#[ignore = "needs real CL files beside the checkout: cargo test -- --ignored cl_points"]
 fn programs_of_real_files_cut_and_drill_what_the_files_say() {
     let shared = root().join("../shared");
     let mut agree = Vec::new();

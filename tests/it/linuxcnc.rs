@@ -14,19 +14,20 @@ use postform::toolpath::json::{read_document, read_lines};
 use postform::verify::{Comparer, Expectation, Verdict};
 
 /// What the interpreter makes of a program: its canonical calls, or its error.
-fn interpreted(program: &Path, tools: &str) -> Option<String> {
+fn interpreted(program: &Path, tools: &str) -> String {
     // the interpreter keeps its tools in one place for all of its processes
     let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tools.tbl");
     let arguments = ["-t".as_ref(), table.as_os_str(), "-g".as_ref(), program.as_os_str()];
-    let output = nc::rs274(&[(&table, tools)], &arguments)?;
-    Some(String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr))
+    let output = nc::rs274(&[(&table, tools)], &arguments);
+    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
 }
 
+#[test_with::executable(rs274)]
 #[test]
 fn the_bracket_runs_to_its_end() {
     let program = root().join("samples/bracket/expected.linuxcnc.nc");
     let tools: String = [1, 2, 3, 4, 5, 11].map(|n| format!("T{n} P{n} Z0 D0.5\n")).concat();
-    let Some(calls) = interpreted(&program, &tools) else { return };
+    let calls = interpreted(&program, &tools);
     assert!(calls.contains("PROGRAM_END()"), "{}", calls.lines().rev().take(4).collect::<Vec<_>>().join("\n"));
     // every hole of the job is fed to its bottom
     let fed = |x: &str, y: &str, z: &str| calls.contains(&format!("STRAIGHT_FEED({x}, {y}, {z}, "));
@@ -61,6 +62,7 @@ fn places(calls: &str) -> Vec<(bool, [f64; 3])> {
 }
 
 /// What the real interpreter makes of its own cycles is what it makes of the moves: same bottoms, same planes.
+#[test_with::executable(rs274)]
 #[test]
 fn cycles_of_the_control_go_where_the_moves_go() {
     for (name, exact) in [("drill", true), ("face", true), ("ream", true), ("deep", false), ("brkchp", false)] {
@@ -71,11 +73,11 @@ fn cycles_of_the_control_go_where_the_moves_go() {
             let rendered = support::render_sample_with(&folder, &form, options).unwrap();
             let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{cycles:?}.ngc"));
             fs::write(&program, &rendered.text).unwrap();
-            let calls = interpreted(&program, "T1 P1 Z0 D10\n")?;
+            let calls = interpreted(&program, "T1 P1 Z0 D10\n");
             assert!(calls.contains("PROGRAM_END()"), "{name}: {}\n{calls}", rendered.text);
-            Some((rendered.text, places(&calls)))
+            (rendered.text, places(&calls))
         });
-        let [Some((cycle, by_control)), Some((moves, by_moves))] = both else { return };
+        let [(cycle, by_control), (moves, by_moves)] = both;
         assert!(cycle.contains("G80") && cycle != moves, "{name} is printed as the control's cycle\n{cycle}");
         if exact {
             assert_eq!(by_control, by_moves, "{name}");
@@ -87,6 +89,7 @@ fn cycles_of_the_control_go_where_the_moves_go() {
 
 /// Every sample that this post can print: the interpreter's motions are those of the simulator, and the simulator's are
 /// those of the job. So the real interpreter does what the job asks for.
+#[test_with::executable(rs274)]
 #[test]
 fn samples_run_in_the_interpreter_as_their_jobs_ask() {
     let form = root().join("postforms/linuxcnc.pf");
@@ -128,7 +131,7 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
             assert!(!matches!(verdict, Verdict::Different(_)), "{name} {cycles:?}: {verdict:?}\n{}", rendered.text);
             let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("sample-{name}-{cycles:?}.ngc"));
             fs::write(&program, &rendered.text).unwrap();
-            let Some(calls) = interpreted(&program, &tools) else { return };
+            let calls = interpreted(&program, &tools);
             assert!(calls.contains("PROGRAM_END()"), "{name}: {}\n{calls}", rendered.text);
             let (ours, ended, _) = simulated(rendered.text.as_bytes(), RunSettings::new(control("linuxcnc")));
             assert_eq!(ended, Ok(()), "{name}");
@@ -146,12 +149,13 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
 }
 
 /// Rigid taps by G33.1: the interpreter's one call is the simulator's way in and out.
+#[test_with::executable(rs274)]
 #[test]
 fn rigid_taps_run_as_in_the_interpreter() {
     let text = "G21 G17 G90 G94\nS100 M3\nG0 X1 Y1 Z5\nG33.1 Z-10 K1.5\nG0 X3\nG33.1 X3 Z-5 K1\nG91\nG33.1 Z-2 K1 I2\nM4\nZ-1 K1\nG90\nG0 Z9\nM2\n";
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rigid-tap.ngc");
     fs::write(&program, text).unwrap();
-    let Some(calls) = interpreted(&program, "T1 P1 Z0 D1\n") else { return };
+    let calls = interpreted(&program, "T1 P1 Z0 D1\n");
     let (ours, ended, _) = simulated(text.as_bytes(), RunSettings::new(control("linuxcnc")));
     assert_eq!(ended, Ok(()));
     assert_eq!(difference(&ours, &nc::interpreted(&calls)), None, "{calls}");

@@ -31,13 +31,9 @@ const PROGRAMS: [(&str, Option<Units>, Outcome); 7] = [
     ("rawdog_1401.nc", None, Ok((24, 15))),
 ];
 
-/// The programs, or nothing where they are not there.
+/// The programs.
 fn programs() -> Vec<Program> {
     let folder = root().join("../shared/data/nc");
-    if !folder.is_dir() {
-        eprintln!("skipped: the programs are not beside this checkout");
-        return Vec::new();
-    }
     let with = |(name, units, expected): (&'static str, Option<Units>, _)| {
         // two of them end with a G53 X12, whose units only the shop knows
         let unpointed = if units.is_some() { Unpointed::Whole } else { Unpointed::Refused };
@@ -48,6 +44,7 @@ fn programs() -> Vec<Program> {
     PROGRAMS.into_iter().map(with).collect()
 }
 
+#[test_with::path(../shared/data/nc)]
 #[test]
 fn real_programs_run_or_are_refused_for_a_reason() {
     for (name, bytes, settings, _, expected) in programs() {
@@ -69,6 +66,7 @@ fn real_programs_run_or_are_refused_for_a_reason() {
     }
 }
 
+#[test_with::path(../shared/data/nc)]
 #[test]
 fn real_programs_printed_by_another_form_make_the_same_motions() {
     let checked = support::check_file(&root().join("postforms/haas.pf"));

@@ -63,6 +63,7 @@ const LINES: [&str; 17] = [
     "man nonsense",
 ];
 
+#[test_with::path(/dev/full)]
 #[test]
 fn standard_error_fails_no_work() {
     for (i, line) in LINES.iter().enumerate() {

@@ -258,8 +258,8 @@ impl<'s> Job<'s> {
         }
     }
 
-    /// Another tool comes: the change before it is complete, whatever was done with that tool; one that is only named
-    /// gives way. A change that waits for the same tool is this one.
+    /// Begins the change to another tool: the change before it is complete, whatever was done with that tool; one that
+    /// is only named gives way. A waiting change to the same tool goes on.
     pub fn begin_change(&mut self, tool: Option<Tool>) -> Done {
         if let (Some((change, _)), Some(tool)) = (&mut self.change, &tool)
             && let Some(before) = change.tool.as_mut().filter(|before| before.number == tool.number)

@@ -51,7 +51,8 @@ pub(super) fn tool_path(words: &[Word], state: &mut State<'_>) -> Done {
     another_tool(None, state)
 }
 
-/// Another tool: its change is complete with the next feed motion or spindle. `None`: it is only named so far.
+/// Begins the change to another tool, which is complete with the next feed motion or spindle. `None`: the tool is only
+/// named so far.
 fn another_tool(tool: Option<Tool>, state: &mut State<'_>) -> Done {
     let State { job, motion, feeds, cycle, .. } = state;
     feeds.cut_off = cycle.is_active().then_some(job.notes.place.line).or(feeds.cut_off);

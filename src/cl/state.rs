@@ -28,7 +28,7 @@ pub(super) struct Motion {
     pub axis: Axis,
     /// The next motion is a rapid.
     pub rapid: bool,
-    /// So is it after the end of a cycle, unless a feed comes first.
+    /// The next motion after the end of a cycle is a rapid, unless a feed comes first.
     pub rapid_after_cycle: bool,
     pub cutcom: Cutcom,
     /// A coordinate system of the file that no motion has been in: along z of its z axis, and its line.
@@ -68,7 +68,7 @@ impl Shift {
 pub(super) struct Cutcom {
     /// What the next motion turns on, or (`None` inside) off.
     pub asked: Option<Option<Side>>,
-    /// It is on, or will be with the next motion.
+    /// Compensation is on, or will be with the next motion.
     pub on: bool,
 }
 
@@ -138,7 +138,7 @@ pub(super) enum ReturnMode {
 pub(super) enum CodedReturn {
     /// As high as its clearance.
     Clearance,
-    /// So high above its first point.
+    /// A height above the first point of the cycle.
     Above(f64),
     /// Where the tool was before.
     Start,

@@ -68,7 +68,7 @@ pub(super) struct Turning {
     pub now: Spindle,
     /// The direction in which it turned last.
     last: Option<SpindleTurn>,
-    /// It was said since the last motion, so perhaps for the tool that comes.
+    /// The spindle was said since the last motion, so perhaps for the tool that comes.
     pub is_new: bool,
     /// What turns a tool for which the file says nothing.
     assumed: Option<Spindle>,

@@ -16,7 +16,7 @@ const SAME: f64 = 1e-9;
 pub struct Peck {
     /// Height above the point; negative below it.
     pub height: f64,
-    /// Its feed, if not the cycle's.
+    /// Feed of the peck, if not the cycle's, in units a minute or a turn as the cycle's.
     pub feed: Option<f64>,
 }
 

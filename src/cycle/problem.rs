@@ -6,7 +6,7 @@ use crate::toolpath::Stop;
 /// A problem of a cycle; its code has a name, as `cycle.depth.missing`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// Its code.
+    /// Row in the table of codes.
     pub code: Code,
     /// What is wrong, a sentence.
     pub message: String,

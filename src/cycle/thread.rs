@@ -48,7 +48,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
-        /// Against the closed formula: never too deep, never rising, the last pass at full depth.
+        /// Passes against the closed formula: never too deep, never rising, the last pass at full depth.
         #[test]
         fn passes_follow_the_formula(depth in 0.01..5.0f64, first in 0.001..5.0f64, count in 1usize..60, by_count: bool, least in 0.0..0.02f64) {
             let passes = by_count.then_some(count);

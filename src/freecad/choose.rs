@@ -8,7 +8,7 @@ use crate::diag::{Code, Diag};
 pub(super) struct Job<'d> {
     /// The name that the user sees.
     pub label: String,
-    /// Its properties.
+    /// The object of the job, with its properties.
     pub object: &'d Object,
 }
 

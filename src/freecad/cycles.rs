@@ -27,7 +27,7 @@ pub(super) fn kind_of(tenths: u16) -> Option<CycleKind> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drilling {
     kind: CycleKind,
-    /// Where it is, in X and Y.
+    /// Where the hole is, in X and Y, in mm.
     pub at: [f64; 2],
     bottom: f64,
     /// The R plane.

@@ -33,7 +33,7 @@ pub(super) enum Value {
 /// A tool inside a property, as documents before 0.19 hold it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct OldTool {
-    /// Its name.
+    /// Name of the tool.
     pub name: String,
     /// Millimetres.
     pub diameter: Option<f64>,
@@ -117,7 +117,7 @@ impl Object {
 pub(super) struct Document {
     /// FreeCAD's version, as `0.20R` or `1.1R20260725 (Git shallow)`.
     pub version: String,
-    /// Its objects by name, in order.
+    /// The objects of the document by name, in the order of the file.
     pub objects: IndexMap<String, Object>,
 }
 

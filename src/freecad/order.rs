@@ -32,9 +32,9 @@ pub(super) enum Kind {
 /// An operation.
 #[derive(Clone, Debug)]
 pub(super) struct Operation {
-    /// Its tool, speed and feeds.
+    /// The tool controller of the operation: tool, speed and feeds.
     pub controller: Controller,
-    /// Its coolant, on before it and off after it.
+    /// Coolant of the operation, on before it and off after it.
     pub coolant: Coolant,
     /// The top of its holes: where it begins to cut.
     pub top: Option<f64>,

@@ -25,7 +25,7 @@ const EXTENSIONS: [(Format, &[&str]); 5] = [
     (Format::Freecad, &["fcstd"]),
 ];
 
-/// So many bytes at a job's beginning are looked at.
+/// How many bytes of a job are looked at to guess its format.
 const LOOKED_AT: usize = 4096;
 
 impl Format {

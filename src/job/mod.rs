@@ -131,7 +131,7 @@ impl<'a> Job<'a> {
         Job::new(Format::Json, Input::Events(Box::new(make)))
     }
 
-    /// This job again: to render it first and verify it then.
+    /// The job once more, to render it first and verify it then.
     pub fn again(&mut self) -> Job<'_> {
         let input = match &mut self.input {
             Input::Bytes(bytes) => Input::Bytes(bytes),
@@ -142,7 +142,7 @@ impl<'a> Job<'a> {
         Job { reading: self.reading.clone(), ..Job::new(self.format, input) }
     }
 
-    /// Its format.
+    /// The format of the job.
     pub fn format(&self) -> Format {
         self.format
     }

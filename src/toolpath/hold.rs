@@ -15,7 +15,7 @@ pub struct Hold<'s> {
     waiting: Vec<(Waiting, Place)>,
     /// The axes that a tool change of this machine may print.
     axes: u8,
-    /// The one along which the tool goes into a hole.
+    /// The axis along which the tool goes into a hole.
     depth: u8,
     /// Where the rapids so far lead, while they do not say all axes: of each the first place.
     first: Axes,

@@ -9,7 +9,7 @@ use crate::diag::{Diag, Location};
 /// Why a sink takes no more events.
 #[derive(Debug)]
 pub enum Stop {
-    /// It has seen enough, which is no error.
+    /// The sink has seen enough, which is no error.
     Enough,
     /// What is wrong with the event, or with what it asks for.
     Wrong(Box<Diag>),
@@ -54,7 +54,7 @@ pub trait Sink {
     /// Takes one event with its place in the input. After a break nothing may be pushed.
     fn event(&mut self, event: Event<'_>, place: Place) -> Flow;
 
-    /// The same for readers: what breaks off ends them, by `?`.
+    /// Gives the sink one event as a reader does, so that `?` ends the reading where the sink breaks off.
     ///
     /// # Errors
     /// The sink takes no more events.

@@ -13,9 +13,9 @@ use crate::diag::{Code, Diag};
 pub struct Summary {
     /// Units of the job.
     pub units: Option<Units>,
-    /// Its name.
+    /// Name of the job.
     pub name: Option<String>,
-    /// Its program number.
+    /// Program number of the job.
     pub program: Option<f64>,
     /// Tool numbers in the order of their first use, with diameter.
     pub tools: Vec<(f64, Option<f64>)>,
@@ -33,7 +33,7 @@ pub struct Summary {
     pub extents: [Option<(f64, f64)>; 3],
     /// How often the tool axis changes.
     pub tilts: u64,
-    /// Where it changes first.
+    /// Where the tool axis changes first.
     tilted: Option<Place>,
     /// The first operation with nothing in it.
     idle: Option<Place>,

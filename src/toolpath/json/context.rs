@@ -44,13 +44,13 @@ impl Context {
         self.fail_with(diag.into())
     }
 
-    /// The same for what a sink answered.
+    /// Keeps what a sink answered and returns an error that carries it through serde.
     pub fn fail_with<E: de::Error>(&self, stop: Stop) -> E {
         *self.failure.borrow_mut() = Some(stop);
         E::custom("stopped")
     }
 
-    /// The same for a failure that the input ends with.
+    /// Keeps a failure that the input ends with and returns an error that carries it through a reader.
     pub fn fail_reading(&self, diag: Diag) -> std::io::Error {
         *self.failure.borrow_mut() = Some(diag.into());
         std::io::Error::other("stopped")

@@ -18,7 +18,7 @@ pub enum Kind {
 /// A plain line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Simple {
-    /// What it says.
+    /// What the line says.
     pub kind: Kind,
     /// The position.
     pub to: Axes,

@@ -14,9 +14,9 @@ use crate::toolpath::{CycleKind, EdmAction};
 
 /// An object with a fixed list of keys.
 pub trait Object: Default {
-    /// What it is called in messages.
+    /// What the object is called in messages.
     const NAME: &'static str;
-    /// Its keys.
+    /// Keys of the object.
     const KEYS: &'static [&'static str];
     /// Reads the value of key number `key`.
     fn read<'de, A: MapAccess<'de>>(&mut self, key: usize, map: &mut A, context: &Context) -> Result<(), A::Error>;
@@ -335,7 +335,7 @@ pub struct KeySeed<'c> {
     pub context: &'c Context,
     /// What the object is called.
     pub object: &'static str,
-    /// Its keys, in parts.
+    /// Keys of the object, in parts.
     pub keys: [&'static [&'static str]; 2],
 }
 

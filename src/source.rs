@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use crate::span::Span;
 
-/// So many bytes apart it is known how many characters come before: columns of long lines cost no more than those of
-/// short ones.
+/// Every so many bytes of a line it is known how many characters come before: columns of long lines cost no more than
+/// those of short ones.
 const STEP: usize = 1024;
 
 /// One form file, decoded.

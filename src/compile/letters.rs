@@ -19,7 +19,7 @@ pub enum LetterKind {
 /// One letter of a form.
 #[derive(Clone, Copy, Debug)]
 pub struct Letter {
-    /// Its format.
+    /// The format of numbers behind this letter.
     pub format: LetterFormat,
     /// The form gives that format; else it is a built-in one.
     pub has_format: bool,
@@ -31,7 +31,7 @@ pub struct Letter {
     pub reversed: bool,
     /// Motion blocks may drop it when it did not change (`ModalLetters`).
     pub modal: bool,
-    /// What it stands for.
+    /// What the letter stands for.
     pub kind: LetterKind,
 }
 

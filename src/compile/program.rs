@@ -42,14 +42,14 @@ pub enum Op {
     },
     /// A letter and a number as typed.
     Literal {
-        /// Its row in [`Program::literals`].
+        /// Row in [`Program::literals`].
         index: u32,
         /// No blank before it.
         glued: bool,
     },
     /// Text as typed.
     Text {
-        /// Its row in [`Program::texts`].
+        /// Row in [`Program::texts`].
         index: u32,
         /// No blank before it.
         glued: bool,
@@ -97,11 +97,11 @@ pub struct Routine {
     pub setup_vars: VarSet,
     /// `End Cancel`.
     pub cancel: bool,
-    /// Its lines leave the control in a cycle, a macro or another motion of its own.
+    /// The lines leave the control in a cycle, a macro or another motion of its own.
     pub stays: bool,
-    /// How it prints as a cycle.
+    /// How the routine prints as a cycle.
     pub style: CycleStyle,
-    /// It prints `[retplane]`, `[rplane]` or G98: the tool comes back to the return plane.
+    /// The routine prints `[retplane]`, `[rplane]` or G98: the tool comes back to the return plane.
     pub returns: bool,
     /// The name line.
     pub span: Span,
@@ -114,7 +114,7 @@ pub struct Upon {
     pub var: VarId,
     /// At every use.
     pub every: bool,
-    /// Its operations.
+    /// The operations of the Upon sequence.
     pub routine: Routine,
 }
 

@@ -10,7 +10,7 @@ use crate::sema::{Form, Line, Word, WordKind};
 pub struct WorkWord {
     /// The G code before it in its block.
     pub code: Option<Code>,
-    /// Its letter.
+    /// The letter of the word.
     pub letter: u8,
     /// G54 to G59 select offsets beside it. Not where its own code is another one: G56 of an Okuma, which has G15, is a
     /// length.

@@ -8,11 +8,11 @@ use serde::Deserialize;
 pub struct Tolerance {
     /// The end may always be so far off the circle of the start, a length.
     pub least: f64,
-    /// It may be farther off by this part of the radius.
+    /// How far off the end may be as a part of the radius.
     pub part: f64,
-    /// It may never be farther off than this length.
+    /// How far off the end may be whatever the radius, a length.
     pub most: f64,
-    /// So much may half the distance of the ends be longer than R, a length.
+    /// How much longer than R half the distance of the ends may be, a length.
     pub chord: f64,
 }
 

@@ -24,7 +24,7 @@ pub struct Wrong {
     pub file: String,
     /// Line and column, from 1.
     pub at: (usize, usize),
-    /// Where it begins, in bytes.
+    /// Where the wrong part begins, in bytes.
     pub start: usize,
     /// What, one sentence.
     pub message: String,

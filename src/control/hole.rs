@@ -15,7 +15,7 @@ macro_rules! holes {
                 match self { $(Hole::$name => $text),* }
             }
 
-            /// What it is, in words.
+            /// What a cycle with this hole does, in words.
             pub const fn about(self) -> &'static str {
                 match self { $(Hole::$name => $about),* }
             }

@@ -91,7 +91,7 @@ macro_rules! meanings {
                 match self { $(Meaning::$name => $text),* }
             }
 
-            /// What it is, in words.
+            /// What a code of this meaning does, in words.
             pub const fn about(self) -> &'static str {
                 match self { $(Meaning::$name => $about),* }
             }
@@ -188,7 +188,7 @@ meanings! {
 }
 
 impl Meaning {
-    /// What it does to the frame of axis words; `None`: nothing.
+    /// What a code of this meaning does to the frame of axis words; `None`: nothing.
     pub const fn frame(self) -> Option<Frame> {
         use Meaning as M;
         match self {

@@ -25,9 +25,9 @@ pub use words::Words;
 /// A control.
 #[derive(Clone, Debug)]
 pub struct Control {
-    /// Its name, and the names of those that it is like.
+    /// Name of the control, then the names of those that it is like.
     chain: Vec<String>,
-    /// Its title.
+    /// Title of the control.
     title: String,
     traits: Traits,
     rows: Rows,
@@ -38,7 +38,7 @@ pub struct Control {
 pub struct Row {
     /// The code; of a row for many, the first.
     pub code: Code,
-    /// What it means.
+    /// What the code means.
     pub meaning: Meaning,
     /// The words that it takes besides axes, F, S and T.
     pub words: Words,
@@ -158,13 +158,13 @@ impl Control {
         Some(&CONTROLS[at])
     }
 
-    /// The one of programs that name none: a Fanuc mill.
+    /// The control of programs that name none: a Fanuc mill.
     pub fn usual() -> &'static Control {
         &CONTROLS[0]
     }
 
-    /// The one of forms that name none: a Fanuc mill that has the common codes of other controls, too. Programs are not
-    /// run by it.
+    /// The control of forms that name none: a Fanuc mill that has the common codes of other controls, too. Programs are
+    /// not run by it.
     pub fn of_no_name() -> &'static Control {
         static UNION: LazyLock<Control> = LazyLock::new(|| {
             let text = include_str!("../../controls/of-no-name.toml");
@@ -201,7 +201,7 @@ impl Control {
         Control { chain: Vec::new(), title: String::new(), traits: Traits::default(), rows: Rows::default() }
     }
 
-    /// Its name, as forms and options write it.
+    /// Name of the control, as forms and options write it.
     pub fn name(&self) -> &str {
         self.chain.first().map_or("", String::as_str)
     }
@@ -216,7 +216,7 @@ impl Control {
         if std::ptr::eq(self, Control::of_no_name()) { "most controls" } else { self.name() }
     }
 
-    /// Its title.
+    /// Title of the control, for people.
     pub fn title(&self) -> &str {
         &self.title
     }
@@ -226,7 +226,7 @@ impl Control {
         self.chain.iter().any(|other| other == name)
     }
 
-    /// What it is besides its codes.
+    /// What the control is besides its codes.
     pub fn traits(&self) -> &Traits {
         &self.traits
     }
@@ -261,7 +261,8 @@ impl Control {
         self.traits.rules != Rules::Fanuc
     }
 
-    /// What it has of a code: its own row, else that of its number, else that of its letter. `None`: nobody knows.
+    /// What the control knows of a code: the code's own row, else the row of its whole number, else the row of its
+    /// letter. `None`: nobody knows.
     pub fn row(&self, code: Code) -> Option<&Row> {
         let rows = &self.rows;
         rows.own(code)
@@ -304,7 +305,7 @@ impl Control {
         self.traits.complete && self.row(code).is_none()
     }
 
-    /// Its rows of single codes, in their order.
+    /// Rows of single codes, in the order of the codes.
     pub fn rows(&self) -> impl Iterator<Item = &Row> {
         self.rows.one.iter()
     }

@@ -61,7 +61,7 @@ pub enum ToolLength {
     /// By the register alone; a code may stand beside it.
     #[serde(rename = "H")]
     Register,
-    /// It has no registers of lengths.
+    /// The control has no registers of lengths.
     #[serde(rename = "none")]
     None,
 }
@@ -86,9 +86,9 @@ pub enum Kept {
     /// Nothing public says.
     #[default]
     Unknown,
-    /// It stays.
+    /// A stop keeps what was on.
     Kept,
-    /// It is put back, or stops.
+    /// A stop puts back or ends what was on.
     Lost,
 }
 
@@ -97,13 +97,13 @@ pub enum Kept {
 pub struct Traits {
     /// By whose rules its programs are run.
     pub rules: Rules,
-    /// Its longest block in characters; `None`: nothing public says.
+    /// The longest block that the control reads, in characters; `None`: nothing public says.
     pub longest_line: Option<usize>,
-    /// It stops at a longer block. Of others a sender cuts what is too long.
+    /// The control stops at a longer block. Of others a sender cuts what is too long.
     pub stops_at_longer: bool,
     /// A comment may go on to the end of its line without its closing mark.
     pub open_comments: bool,
-    /// It reads words with small letters.
+    /// The control reads words with small letters.
     pub small_letters: bool,
     /// What a length without a point counts.
     pub without_point: WithoutPoint,
@@ -127,7 +127,7 @@ pub struct Traits {
     pub letters: Words,
     /// Blanks and comments do not count for the length of a block.
     pub bare_line: bool,
-    /// It has no mist coolant.
+    /// The control has no mist coolant.
     pub no_mist: bool,
     /// How far an arc's numbers may be from one circle.
     pub arcs: Arcs,

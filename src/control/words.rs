@@ -16,7 +16,7 @@ impl Words {
         letter.is_ascii_uppercase() && self.0 & 1 << (letter - b'A') != 0
     }
 
-    /// These capital letters; others count for nothing.
+    /// The set of the capital letters in a text; other characters count for nothing.
     pub const fn of(text: &str) -> Words {
         let (mut bits, mut i) = (0, 0);
         while i < text.len() {

@@ -16,7 +16,7 @@ pub struct Sequence {
     pub machines: Machines,
     /// Machines whose forms must have it.
     pub required: Machines,
-    /// When it is printed.
+    /// When the sequence is printed.
     pub meaning: &'static str,
     /// Where that comes from.
     pub standing: Standing,
@@ -104,7 +104,7 @@ sequences! {
 }
 
 impl SequenceId {
-    /// Its row of the table.
+    /// The row of the sequence in the table.
     pub fn row(self) -> &'static Sequence {
         &SEQUENCES[self as usize]
     }

@@ -195,7 +195,7 @@ variables! {
 const ALSO: [(&str, VarId); 2] = [("lastrotang", VarId::Lastrotangle), ("etplane", VarId::Retplane)];
 
 impl VarId {
-    /// Its row of the table.
+    /// The row of the variable in the table.
     pub fn row(self) -> &'static Variable {
         &VARIABLES[self as usize]
     }
@@ -252,17 +252,17 @@ impl VarSet {
         self.0 == 0
     }
 
-    /// Both together.
+    /// Variables that are in either set.
     pub fn with(self, other: VarSet) -> VarSet {
         VarSet(self.0 | other.0)
     }
 
-    /// Those not in `other`.
+    /// Variables of this set that are not in `other`.
     pub fn without(self, other: VarSet) -> VarSet {
         VarSet(self.0 & !other.0)
     }
 
-    /// Those in it.
+    /// Variables of this set, one by one.
     pub fn iter(self) -> impl Iterator<Item = VarId> {
         VARIABLES.iter().map(|v| v.id).filter(move |&id| self.has(id))
     }

@@ -14,7 +14,7 @@ pub const POWERS: [i64; 19] = {
     powers
 };
 
-/// The same as doubles, for decimals.
+/// The powers of ten as doubles, for decimals.
 const SCALES: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
 /// The largest magnitude that stands exactly in a double.
@@ -46,7 +46,7 @@ pub fn quantise(value: f64, decimals: u8) -> Option<i64> {
     by_digits(value, decimals)
 }
 
-/// The same from the digits of the shortest decimal.
+/// The value in whole units of the last decimal, from the digits of its shortest decimal.
 #[cold]
 fn by_digits(value: f64, decimals: u8) -> Option<i64> {
     if !value.is_finite() {

@@ -17,7 +17,7 @@ pub struct BadArg {
 /// An argument that was read.
 pub type Read<T> = Result<T, BadArg>;
 
-/// This argument can't be read.
+/// Says that an argument can't be read.
 pub fn bad<T>(arg: Option<&Spanned>, message: impl Into<String>) -> Read<T> {
     Err(BadArg { span: arg.map(|a| a.span), message: message.into() })
 }

@@ -18,9 +18,9 @@ use crate::syntax::{self, Head};
 pub struct Checked {
     /// The files: the form itself first, then those that it calls.
     pub files: Vec<Source>,
-    /// Their trees.
+    /// Trees of the files.
     pub trees: Vec<syntax::Form>,
-    /// What they mean together.
+    /// What the files mean together.
     pub form: Form,
     /// Everything found so far, in no order.
     pub diags: Vec<Diag>,

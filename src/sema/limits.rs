@@ -10,7 +10,7 @@ pub enum Limits {
     /// 15 words a line, 150 lines: over it is an error.
     #[default]
     Classic,
-    /// The same as warnings.
+    /// 15 words a line, 150 lines: over it is a warning.
     Extended,
 }
 

@@ -73,7 +73,7 @@ pub struct Upon {
 pub struct Line {
     /// The whole line.
     pub span: Span,
-    /// Its words.
+    /// Words of the line.
     pub words: Vec<Word>,
 }
 
@@ -84,7 +84,7 @@ pub struct Word {
     pub span: Span,
     /// No blank stands before it in the output.
     pub glued: bool,
-    /// What it prints.
+    /// What the word prints.
     pub kind: WordKind,
 }
 
@@ -106,7 +106,7 @@ pub enum WordKind {
 }
 
 impl Word {
-    /// Its letter, unless it is text.
+    /// Letter of the word, unless the word is text.
     pub fn letter(&self) -> Option<u8> {
         match self.kind {
             WordKind::Var(letter, _) | WordKind::Literal(letter, ..) => Some(letter),
@@ -114,7 +114,7 @@ impl Word {
         }
     }
 
-    /// Its variable, if it has one.
+    /// Variable of the word, if it has one.
     pub fn var(&self) -> Option<VarId> {
         match self.kind {
             WordKind::Var(_, var) | WordKind::Value(var) | WordKind::Remark(var) => Some(var),
@@ -122,7 +122,7 @@ impl Word {
         }
     }
 
-    /// Its variable, unless that stands in a comment.
+    /// Variable of the word, unless that stands in a comment.
     pub fn printed_var(&self) -> Option<VarId> {
         match self.kind {
             WordKind::Var(_, var) | WordKind::Value(var) => Some(var),
@@ -140,7 +140,7 @@ impl Word {
         self.typed(letter).is_some_and(|value| codes.contains(&value))
     }
 
-    /// Its number, if it has this letter and is typed; behind the slash of block delete, too.
+    /// Number of the word, if the word has this letter and is typed; behind the slash of block delete, too.
     pub fn typed(&self, letter: u8) -> Option<f64> {
         match &self.kind {
             WordKind::Literal(own, _, value) if *own == letter => Some(*value),

@@ -45,7 +45,7 @@ pub enum ArcCentre {
 /// The generated dwell block.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DwellWord {
-    /// Its code, `G4`.
+    /// The code of a dwell, `G4`.
     pub code: Code,
     /// The letter of the time.
     pub letter: u8,
@@ -86,7 +86,7 @@ pub struct Prompt {
 /// The travel of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TravelLimit {
-    /// Its letter.
+    /// Letter of the axis.
     pub letter: u8,
     /// Least position, form units or degrees.
     pub least: f64,

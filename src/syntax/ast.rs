@@ -130,7 +130,7 @@ impl SequenceNode {
 pub struct Body {
     /// The line.
     pub line: Line,
-    /// Its words; none on an empty line or a comment.
+    /// Words of the line; none on an empty line or a comment.
     pub words: Vec<Word>,
 }
 

@@ -44,7 +44,7 @@ pub struct Command {
     pub id: CommandId,
     /// As forms write it.
     pub name: &'static str,
-    /// What it takes.
+    /// What the command takes.
     pub args: Args,
     /// May it stand more than once?
     pub repeats: bool,
@@ -52,11 +52,11 @@ pub struct Command {
     pub without: Without,
     /// Where its meaning comes from.
     pub standing: Standing,
-    /// Where it has something to change.
+    /// Where the command has something to change.
     pub used: Used,
-    /// What it could say, where no form that ships gives it.
+    /// An example of the command, where no form that ships gives it.
     pub example: Option<&'static str>,
-    /// What it does.
+    /// What the command does.
     pub meaning: &'static str,
 }
 
@@ -92,7 +92,7 @@ macro_rules! vocabulary {
 command_rows! { vocabulary }
 
 impl CommandId {
-    /// Its row of the table.
+    /// The row of the command in the table.
     pub fn row(self) -> &'static Command {
         &COMMANDS[self as usize]
     }

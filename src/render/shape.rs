@@ -129,11 +129,6 @@ impl<'p> Shape<'p> {
         self.group_of(code) == Some(Group::Plane)
     }
 
-    /// Does a G code call a macro, or what the builder of the machine wrote?
-    pub fn calls(&self, code: Code) -> bool {
-        self.program.settings.codes().calls(code)
-    }
-
     /// The rotary axes of this machine.
     pub fn rotary(&self) -> std::ops::Range<usize> {
         if self.linear == ROTARY.start { ROTARY } else { 0..0 }

@@ -322,6 +322,18 @@ fn after_a_macro_the_place_is_said_again() {
     }
 }
 
+/// What a code does that the control's file does not know, nobody knows: the next block says its motion again, also
+/// where the code stood beside words of axes.
+#[test]
+fn after_an_unknown_code_the_motion_is_said_again() {
+    for code in ["G6", "G6 X[h]", "G199 X[h]"] {
+        let change = format!("G0 X[h] Y[v] Z[d]\n{code}\nEnd\nToolChange");
+        let form = mill("Control haas", "").replace("X[h] Y[v] Z[d]\nEnd\nToolChange", &change);
+        let lines = program(&form, &job("{\"rapid\":[0,0,0]}"));
+        assert!(lines.iter().any(|line| line == "G0 X0 Y0 Z1."), "{code}: {lines:?}");
+    }
+}
+
 /// An axis with the other sign has its arcs' centre and turn with it.
 #[test]
 fn reversed_axes_reverse_their_arcs() {

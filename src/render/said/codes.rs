@@ -78,11 +78,11 @@ impl Said {
                     && row.is_some_and(|row| row.words == Words::NONE) => {}
             Some(Frame::Moves) => self.forget_axes(shape),
             Some(Frame::MovesDepth) => self.depth_moved = true,
-            None if !is_harmless(code, meaning, line, want, shape) => {
+            // it moves by itself, or nobody knows what it does
+            None if !is_harmless(code, meaning, want, shape) => {
+                self.shift = self.shift.max_of(Shift::Block);
                 self.forget_axes(shape);
-                if shape.calls(code) {
-                    self.forget_motion();
-                }
+                self.forget_motion();
             }
             _ => {}
         }
@@ -113,9 +113,9 @@ impl Said {
 }
 
 /// May positions be kept after a G code without a modal group? Where the form's control runs it, where the form's
-/// commands name it, in a cycle, whose end forgets them, and beside axis words, which say where it goes.
-fn is_harmless(code: Code, meaning: Option<Meaning>, line: Line, want: &Want, shape: &Shape) -> bool {
+/// commands name it, and in a cycle, whose end forgets them.
+fn is_harmless(code: Code, meaning: Option<Meaning>, want: &Want, shape: &Shape) -> bool {
     let known =
         meaning.is_some_and(|meaning| !matches!(meaning, Meaning::Unsaid | Meaning::Probe) && !meaning.is_call());
-    known || shape.program.settings.names_code(code) || want.in_cycle || !shape.calls(code) && line.prints_axes(shape)
+    known || shape.program.settings.names_code(code) || want.in_cycle
 }

@@ -230,7 +230,7 @@ impl Meaning {
 
     /// Does it stop the program, or may it?
     pub const fn is_stop(self) -> bool {
-        matches!(self, Meaning::StopProgram | Meaning::StopOptional)
+        matches!(self, Meaning::StopProgram | Meaning::StopOptional | Meaning::Pallet)
     }
 
     /// The meaning that control files name so.

@@ -277,6 +277,7 @@ codes! {
     PR038 Error "a limit of the spindle that is not printed"
     PR039 Error "an offset register that can't be used"
     PR040 Error "positions among increments, or increments among positions"
+    PR041 Error "a control that reads lengths in other units, or otherwise"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

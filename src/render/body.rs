@@ -97,7 +97,7 @@ pub fn go_on(ops: Range<usize>, mode: Mode, shape: &Shape, want: &Want, said: &m
     body.end_line();
     // looked at before the next move: until then another sequence may put it right
     if said.take_switched() {
-        said.differs |= said.distance_is_wrong(shape) || !said.lacks(want, shape).is_empty();
+        said.differs |= said.is_misread(shape, want) || !said.lacks(want, shape).is_empty();
     }
     Ok(())
 }

@@ -40,7 +40,7 @@ pub fn settle_here(cuts: bool, shape: &Shape, want: &mut Want, said: &mut Said, 
 pub fn print_lacking(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
     (want.changed, said.differs) = (false, false);
     print_conditions(shape, want, said, out)?;
-    check_distance(shape, said)
+    check_reading(shape, want, said)
 }
 
 /// Changes that nothing printed yet, each as a block of its own.
@@ -187,8 +187,15 @@ pub fn knows_after_stop(shape: &Shape, want: &Want, said: &Said) -> Done {
     fault(Code::PR033, "the subprogram goes on after a stop, and nobody knows its spindle and coolant here", help)
 }
 
-/// Positions are not printed where they would be read as increments, nor the other way round.
-pub fn check_distance(shape: &Shape, said: &Said) -> Done {
+/// Positions are not printed where they would be read as increments, nor the other way round, nor in other units.
+pub fn check_reading(shape: &Shape, want: &Want, said: &Said) -> Done {
+    if let Some(code) = said.misread_by(shape, want) {
+        let message =
+            format!("the control is in {code} here, and would read every length otherwise than the program means it");
+        let help =
+            "take the code out of the sequence that printed it, or print the program's own behind it: `G[unitmode]`";
+        return fault(Code::PR041, message, help);
+    }
     if said.distance_is_wrong(shape) {
         let [increments, positions] = shape.program.settings.inc_abs;
         let (now, needed, read) = match shape.program.settings.incremental {
@@ -203,7 +210,7 @@ pub fn check_distance(shape: &Shape, said: &Said) -> Done {
 }
 
 /// A sequence that prints words of axes before a G90 or G91 of its own prints them in the mode that is in force.
-pub fn check_distance_of(routine: &Routine, shape: &Shape, said: &Said) -> Done {
+pub fn check_reading_of(routine: &Routine, shape: &Shape, want: &Want, said: &Said) -> Done {
     for i in routine.ops.clone() {
         let letter = match shape.program.ops[i] {
             Op::Var { letter, .. } => letter,
@@ -218,7 +225,7 @@ pub fn check_distance_of(routine: &Routine, shape: &Shape, said: &Said) -> Done 
             _ => continue,
         };
         if shape.letters[letter].kind == LetterKind::Axis && !shape.program.settings.incremental {
-            return check_distance(shape, said);
+            return check_reading(shape, want, said);
         }
     }
     Ok(())

@@ -6,6 +6,7 @@ mod architecture;
 mod bad_input;
 mod cl;
 mod cl_points;
+mod codes_agree;
 mod commands;
 mod cycles;
 mod diff;

@@ -14,7 +14,7 @@ use crate::render::numbers::quantised;
 use crate::render::printer::Printer;
 use crate::render::prints::{prints_axis_words, prints_code, prints_own_motion};
 use crate::render::said::Said;
-use crate::render::settle::{check_distance, settle};
+use crate::render::settle::{check_reading, settle};
 use crate::render::shape::Shape;
 use crate::render::targets::set_targets;
 use crate::render::upon::{upon_is_due, upons};
@@ -203,7 +203,7 @@ fn settle_before_hole(
     match in_force && (routine.cancel || prints_code(routine, |code| shape.is_cycle(code), shape)) {
         // positions in a form of increments are right if the sequence says G90
         true if shape.program.settings.incremental => Ok(()),
-        true => check_distance(shape, said),
+        true => check_reading(shape, want, said),
         false => settle(shape, want, said, out),
     }
 }

@@ -100,6 +100,17 @@ fn radius_letter(piece: &Piece, ccw: bool, shape: &Shape) -> Option<u8> {
     }
 }
 
+/// Centre words are printed only where the control counts them as the form does, from the arc's start or as positions.
+pub fn check_centres(shape: &Shape, said: &Said) -> Done {
+    match said.centres_misread_by(shape) {
+        None => Ok(()),
+        Some(code) => {
+            let message = format!("the control is in {code} here, and would take the arc's centre for another point");
+            fault(Code::PR041, message, "take the code out of the form, or turn `CtrIncremental?` round")
+        }
+    }
+}
+
 /// `RevSigns` of an axis is one of its centre word too, and turns the arc round: in blocks that are generated and in the
 /// form's own.
 pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, ccw: bool, shape: &Shape) -> Done {

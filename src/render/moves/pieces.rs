@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use super::centres::{
-    CENTRE_OF, CENTRES, as_printed_back, centre_values, centre_words, check_signs, divide_for_radius, set_arc_variables,
+    CENTRE_OF, CENTRES, as_printed_back, centre_values, centre_words, check_centres, check_signs, divide_for_radius,
+    set_arc_variables,
 };
 use super::geometry::{Piece, PlaneArc};
 use super::line::line_to;
@@ -113,6 +114,7 @@ fn print_piece(piece: &Piece, shape: &Shape, want: &mut Want, said: &mut Said, o
     }
     let routine = program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode });
     check_signs(piece, routine, code, ccw, shape)?;
+    check_centres(shape, said)?;
     if let Some(routine) = routine {
         let [a, b] = piece.axes;
         let polar =

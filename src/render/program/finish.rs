@@ -12,7 +12,7 @@ use crate::render::body::{Mode, go_on, is_percent, run};
 use crate::render::fault::{Done, fault};
 use crate::render::printer::Printer;
 use crate::render::said::Said;
-use crate::render::settle::check_distance_of;
+use crate::render::settle::check_reading_of;
 use crate::render::shape::Shape;
 use crate::render::targets::set_here;
 use crate::render::upon::{run_with_upons, upons};
@@ -43,7 +43,7 @@ pub fn finish(
     check_calls(subs)?;
     set_here(shape, want, said)?;
     let Some(routine) = shape.program.routine(SequenceId::EndCode) else { return Ok(()) };
-    check_distance_of(routine, shape, said)?;
+    check_reading_of(routine, shape, want, said)?;
     if !has_waiting(subs) {
         return run_with_upons(routine, shape, want, said, out);
     }

@@ -66,7 +66,7 @@ fn text_codes(text: &str, shape: &Shape, want: &mut Want, said: &mut Said) -> Do
         }
     }
     said.forget_words();
-    said.differs |= said.distance_is_wrong(shape) || !said.lacks(want, shape).is_empty();
+    said.differs |= said.is_misread(shape, want) || !said.lacks(want, shape).is_empty();
     Ok(())
 }
 

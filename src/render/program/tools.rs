@@ -13,7 +13,7 @@ use crate::render::fault::{Done, fault, fault_at};
 use crate::render::moves::rotary::change_turns;
 use crate::render::printer::Printer;
 use crate::render::said::{LastMove, Said};
-use crate::render::settle::{check_distance_of, speed_mode_before, work_before};
+use crate::render::settle::{check_reading_of, speed_mode_before, work_before};
 use crate::render::shape::Shape;
 use crate::render::targets::set_targets;
 use crate::render::upon::{run_with_upons, upons_of_change};
@@ -165,7 +165,7 @@ fn change_tool(
     if routine.vars.has(VarId::Speed) && !routine.vars.has(VarId::Speedtype) {
         speed_mode_before(shape, want, said, out)?; // else a surface speed would be revolutions
     }
-    check_distance_of(routine, shape, said)?;
+    check_reading_of(routine, shape, want, said)?;
     said.stand.placed = 0;
     said.stand.moved_by = None;
     upons_of_change(routine, shape, want, said);

@@ -3,7 +3,7 @@
 use super::line::{Line, Shift};
 use super::state::Said;
 use crate::compile::Letter;
-use crate::control::{Code, Frame, Group, Meaning, Row, Words};
+use crate::control::{AxisWords, Code, Frame, Group, Meaning, Row, Words};
 use crate::lang::{Machine, VarId};
 use crate::render::shape::Shape;
 use crate::render::want::Want;
@@ -48,12 +48,29 @@ impl Said {
     /// What an M code stops or moves.
     fn m_code(&mut self, code: Code, row: Option<&Row>, want: &Want, shape: &Shape) {
         let meaning = row.map(|row| row.meaning);
+        self.spindle_code(meaning, shape);
         if meaning.is_some_and(Meaning::is_stop) || shape.program.settings.stop_code.contains(&code.value()) {
             self.stopped(want, shape);
         } else if meaning.is_some_and(|meaning| meaning.is_call() || meaning == Meaning::ToolChange) {
             self.forget_axes(shape); // a changer, and what is called, go where they like
             self.forget_motion();
         }
+    }
+
+    /// A code that stops the spindle at an angle, or turns it with coolant, as `[direct]` and `[cool]` would.
+    fn spindle_code(&mut self, meaning: Option<Meaning>, shape: &Shape) {
+        let settings = &shape.program.settings;
+        let (direct, cool) = match meaning {
+            Some(Meaning::Orient) => (None, None),
+            Some(Meaning::SpindleCwCoolant) => (Some(settings.spindle[0]), Some(settings.coolant[0])),
+            Some(Meaning::SpindleCcwCoolant) => (Some(settings.spindle[1]), Some(settings.coolant[0])),
+            _ => return,
+        };
+        self.conditions.put(VarId::Direct, direct);
+        if cool.is_some() {
+            self.conditions.put(VarId::Cool, cool);
+        }
+        self.switched = true;
     }
 
     /// What a G code does to positions.
@@ -76,8 +93,14 @@ impl Said {
             Some(Frame::Moves)
                 if self.registers.group(Group::Work) == Some(code)
                     && row.is_some_and(|row| row.words == Words::NONE) => {}
-            Some(Frame::Moves) => self.forget_axes(shape),
-            Some(Frame::MovesDepth) => self.depth_moved = true,
+            Some(Frame::Moves) => {
+                self.forget_axes(shape);
+                self.axis_words_are_data(meaning);
+            }
+            Some(Frame::MovesDepth) => {
+                self.depth_moved = true;
+                self.axis_words_are_data(meaning);
+            }
             // it moves by itself, or nobody knows what it does
             None if !is_harmless(code, meaning, want, shape) => {
                 self.shift = self.shift.max_of(Shift::Block);
@@ -85,6 +108,13 @@ impl Said {
                 self.forget_motion();
             }
             _ => {}
+        }
+    }
+
+    /// Behind such a code the axis words of the block are no places.
+    fn axis_words_are_data(&mut self, meaning: Option<Meaning>) {
+        if meaning.is_some_and(|meaning| meaning.axes() == AxisWords::Data) {
+            self.shift = self.shift.max_of(Shift::Block);
         }
     }
 

@@ -5,7 +5,7 @@ use super::line::Shift;
 use super::registers::Registers;
 use super::stand::Stand;
 use crate::compile::{Letter, LetterKind};
-use crate::control::{Code, Group};
+use crate::control::{Code, Group, Meaning};
 use crate::lang::{Machine, VarId};
 use crate::number::quantise;
 use crate::render::shape::Shape;
@@ -139,6 +139,35 @@ impl Said {
         let settings = &shape.program.settings;
         let wrong = settings.inc_abs[usize::from(settings.incremental)];
         self.is_in_distance(wrong) && settings.machine != Machine::Lathe
+    }
+
+    /// Would the control read generated positions or feeds in other units, or as diameters? The code that it is in.
+    pub fn misread_by(&self, shape: &Shape, want: &Want) -> Option<Code> {
+        let settings = &shape.program.settings;
+        let inch = want.get(VarId::Unitmode) == Some(settings.inch_mm[0]);
+        let units = self.registers.group(Group::Units);
+        let others =
+            units.filter(|&code| shape.meaning_of(code) == Some(if inch { Meaning::Mm } else { Meaning::Inch }));
+        let diameters = || {
+            let code = self.registers.group(Group::Diameter).filter(|_| settings.machine == Machine::Mill)?;
+            (shape.meaning_of(code) == Some(Meaning::Diameter)).then_some(code)
+        };
+        others.or_else(diameters)
+    }
+
+    /// Would the control read generated positions otherwise than they are meant?
+    pub fn is_misread(&self, shape: &Shape, want: &Want) -> bool {
+        self.distance_is_wrong(shape) || self.misread_by(shape, want).is_some()
+    }
+
+    /// Would the control read the centre words of generated arcs as something else? The code that it is in.
+    pub fn centres_misread_by(&self, shape: &Shape) -> Option<Code> {
+        let wrong = if shape.program.settings.centre_incremental {
+            Meaning::CentresAbsolute
+        } else {
+            Meaning::CentresIncremental
+        };
+        self.registers.group(Group::ArcDistance).filter(|&code| shape.meaning_of(code) == Some(wrong))
     }
 
     /// Does a target differ on one of these axes from what was printed?

@@ -55,6 +55,8 @@ struct File {
     #[serde(default)]
     text: Text,
     #[serde(default)]
+    blocks: Blocks,
+    #[serde(default)]
     words: WordsOf,
     #[serde(default)]
     start: Start,
@@ -81,6 +83,13 @@ struct Text {
     longer: Option<Longer>,
     open_comments: Option<bool>,
     small_letters: Option<bool>,
+}
+
+/// `[blocks]`: what a block may hold.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Blocks {
+    one_m: Option<bool>,
 }
 
 /// `[numbers]`.
@@ -174,9 +183,14 @@ struct RowText {
     not_run: Option<String>,
 }
 
+/// What stands for the meaning of a code that the control has not, though the one that it is like has it.
+const ABSENT: &str = "absent";
+
 /// Where a key of `[codes]` stands for more than one code.
 enum Key {
     One(Code),
+    /// `G110-G129`: all codes with whole numbers from the first to the last.
+    Range(Code, Code),
     /// `G31.*`: all codes of a number.
     Number(u8, u16),
     /// `M*`: all others of a letter.
@@ -185,6 +199,11 @@ enum Key {
 
 impl Key {
     fn parse(text: &str) -> Option<Key> {
+        if let Some((first, last)) = text.split_once('-') {
+            let (first, last): (Code, Code) = (first.parse().ok()?, last.parse().ok()?);
+            let whole = first.tenths.is_multiple_of(10) && last.tenths.is_multiple_of(10);
+            return (whole && first.letter == last.letter && first < last).then_some(Key::Range(first, last));
+        }
         if let Some(number) = text.strip_suffix(".*") {
             let code: Code = number.parse().ok()?;
             return code.tenths.is_multiple_of(10).then_some(Key::Number(code.letter, code.tenths / 10));
@@ -193,6 +212,23 @@ impl Key {
             "G*" => Some(Key::Letter(b'G')),
             "M*" => Some(Key::Letter(b'M')),
             _ => text.parse().ok().map(Key::One),
+        }
+    }
+}
+
+impl Rows {
+    /// Takes out what the control that the file is like has of these codes.
+    fn remove(&mut self, key: Key) {
+        let out = |row: &Row, number: bool| match key {
+            Key::One(code) => !number && row.code == code,
+            Key::Range(first, last) => !number && row.code.letter == first.letter && (first..=last).contains(&row.code),
+            Key::Number(letter, whole) => row.code.letter == letter && row.code.tenths / 10 == whole,
+            Key::Letter(letter) => row.code.letter == letter,
+        };
+        self.one.retain(|row| !out(row, false));
+        self.numbers.retain(|row| !out(row, true));
+        if let Key::Letter(letter) = key {
+            self.others.retain(|row| row.code.letter != letter);
         }
     }
 }
@@ -249,6 +285,7 @@ impl Reader<'_> {
         traits.longest_line = file.text.line.or(traits.longest_line);
         take(&mut traits.stops_at_longer, file.text.longer.map(|longer| longer == Longer::Stops));
         take(&mut traits.complete, file.complete);
+        take(&mut traits.one_m, file.blocks.one_m);
         take(&mut traits.bare_line, file.text.comments_count.map(|count| !count));
         take(&mut traits.no_mist, file.coolant.mist.map(|mist| !mist));
         take(&mut traits.open_comments, file.text.open_comments);
@@ -301,9 +338,13 @@ impl Reader<'_> {
                 return Err(self.wrong(
                     key.span().start,
                     message,
-                    "write G154, G59.1, `G31.*` for all of a number, or `M*` for all others",
+                    "write G154, G59.1, G110-G129, `G31.*` for all of a number, or `M*` for all others",
                 ));
             };
+            if row.is.get_ref() == ABSENT {
+                rows.remove(parsed);
+                continue;
+            }
             let Some(meaning) = Meaning::parse(row.is.get_ref()) else {
                 let names = Meaning::ALL.iter().map(|meaning| meaning.name());
                 let near = crate::control::nearest(row.is.get_ref(), names);
@@ -317,6 +358,11 @@ impl Reader<'_> {
             let row = Row { code, meaning, words, makes, pitch, text, not_run: row.not_run.clone() };
             match parsed {
                 Key::One(code) => rows.put(Row { code, ..row }),
+                Key::Range(first, last) => {
+                    for tenths in (first.tenths..=last.tenths).step_by(10) {
+                        rows.put(Row { code: Code { tenths, ..first }, ..row.clone() });
+                    }
+                }
                 Key::Number(letter, number) => {
                     rows.put_number(Row { code: Code { letter, tenths: number * 10 }, ..row })
                 }

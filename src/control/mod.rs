@@ -346,6 +346,20 @@ mod tests {
     }
 
     #[test]
+    fn codes_that_a_control_has_not_and_many_at_once() {
+        let text = "name = \"vf2\"\nlike = \"fanuc\"\n[codes]\n\"G87\" = { is = \"absent\" }\n\"M*\" = { is = \"absent\" }\n\"G110-G112\" = { is = \"work\" }\n";
+        let own = Control::read("vf2.toml", text).unwrap();
+        let meaning = |code: &str| own.meaning(code.parse().unwrap());
+        assert_eq!([meaning("G87"), meaning("M3"), meaning("G109"), meaning("G113")], [None; 4]);
+        assert_eq!(["G110", "G111", "G112"].map(meaning), [Some(Meaning::Work); 3]);
+        assert_eq!(meaning("G86"), Some(Meaning::Cycle));
+        for wrong in ["G112-G110", "G1-M3", "G1.5-G3"] {
+            let text = format!("name = \"a\"\n[codes]\n\"{wrong}\" = {{ is = \"work\" }}\n");
+            assert!(Control::read("a.toml", &text).unwrap_err().to_string().contains("is no code"), "{wrong}");
+        }
+    }
+
+    #[test]
     fn a_text_is_read_once() {
         let text = "name = \"vf3\"\nlike = \"haas\"\n";
         let [one, two] = [(); 2].map(|()| Control::own("vf3.toml", text).unwrap());

@@ -97,6 +97,8 @@ pub enum Kept {
 pub struct Traits {
     /// By whose rules its programs are run.
     pub rules: Rules,
+    /// A block may have one M code.
+    pub one_m: bool,
     /// The longest block that the control reads, in characters; `None`: nothing public says.
     pub longest_line: Option<usize>,
     /// The control stops at a longer block. Of others a sender cuts what is too long.

@@ -155,6 +155,7 @@ codes! {
     PF606 Note "almost too many sequence lines"
     PF607 Warning "a code that the control does not have"
     PF608 Note "a code that nobody described for the control"
+    PF609 Warning "two M codes in a block, where the control takes one"
     // PJ: the job
     PJ001 Error "the job is not well-formed"
     PJ002 Error "an unknown key"

@@ -53,6 +53,7 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
     vec![
         ("programs", rules.to_owned()),
         ("longest block", line),
+        ("M codes in a block", if traits.one_m { "one" } else { UNKNOWN }.to_owned()),
         ("small letters", if traits.small_letters { "read" } else { "not to be counted on" }.to_owned()),
         ("a length without a point counts", point.to_owned()),
         ("P of a dwell counts", dwell.to_owned()),
@@ -161,6 +162,7 @@ like = \"{name}\"
 # \"G201\" = {{ is = \"harmless\", words = \"P\" }}
 # a code that calls a program of the builder: positions are said again behind it
 # \"G301\" = {{ is = \"macro\", words = \"PQ\" }}
+# `G310-G319` stands for all of them, `G31.*` for all with a decimal, `M*` for all others; `absent` takes a code of {name} away
 
 # What `is` may say:
 {meanings}",

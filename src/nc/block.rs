@@ -1,10 +1,10 @@
 //! One block: its words with their values, its codes, and whether they go together.
 
-use super::codes::{AXES, CHECKED, Group, bit, m_code};
+use super::codes::{AXES, CHECKED, Group, bit};
 use super::fault::{Done, refuse};
 use super::flow::Flow;
 use super::parameters::Target;
-use crate::control::{Control, GROUPS, Row};
+use crate::control::{Control, GROUPS, Meaning, Row};
 use crate::diag::Code;
 
 /// Most G codes and M codes of a block that are kept.
@@ -27,9 +27,9 @@ pub struct Block {
     pub(super) has_modes: bool,
     /// One that uses axis words without being a motion is.
     pub(super) takes_axes: bool,
-    /// M codes in order.
-    pub(super) m: [u16; MOST],
-    pub(super) m_count: usize,
+    /// M codes in order: the number, and what the control has of it.
+    m: [Option<(u16, &'static Row)>; MOST],
+    m_count: usize,
     /// Polar radius `@` and angle `^`.
     pub polar: [Option<f64>; 2],
     /// `$` is there.
@@ -83,9 +83,21 @@ impl Block {
         self.has_modes
     }
 
-    /// The M codes.
-    pub fn m(&self) -> &[u16] {
-        &self.m[..self.m_count]
+    /// The M codes: their numbers, and what the control has of them.
+    #[inline]
+    pub fn m(&self) -> impl Iterator<Item = (u16, &'static Row)> {
+        self.m[..self.m_count].iter().flatten().copied()
+    }
+
+    /// Has it M codes?
+    #[inline]
+    pub fn has_m(&self) -> bool {
+        self.m_count > 0
+    }
+
+    /// Has it an M code of this meaning?
+    pub fn means(&self, meaning: Meaning) -> bool {
+        self.m().any(|(_, row)| row.meaning == meaning)
     }
 
     /// Has it words or polar coordinates of axes?
@@ -140,13 +152,12 @@ impl Block {
         self.g[its_group as usize].replace(row).is_none()
     }
 
-    /// Puts an M code in; more than a block has room for are left out.
-    pub fn put_m(&mut self, code: u16) {
+    /// Puts an M code in; has the block room for it?
+    pub fn put_m(&mut self, number: u16, row: &'static Row) -> bool {
         self.is_empty = false;
-        if let Some(place) = self.m.get_mut(self.m_count) {
-            *place = code;
-            self.m_count += 1;
-        }
+        let place = self.m.get_mut(self.m_count);
+        self.m_count += usize::from(place.is_some());
+        place.map(|place| *place = Some((number, row))).is_some()
     }
 
     /// Are all words used, where this is the code of its motion?
@@ -166,8 +177,7 @@ impl Block {
         if self.has_g {
             used |= self.g.iter().flatten().fold(0, |words, row| words | row.words.bits());
         }
-        used |=
-            self.m().iter().filter_map(|&code| m_code(control, code)).fold(0, |words, row| words | row.words.bits());
+        used |= self.m().fold(0, |words, (_, row)| words | row.words.bits());
         used |= control.traits().everywhere.bits();
         let unused = self.given & CHECKED & !used;
         if unused != 0 {
@@ -175,10 +185,11 @@ impl Block {
             let message = format!("{letter} is there, and no code that uses it");
             return refuse(Code::PN005, message, format!("take the {letter} out, or write its code in this block"));
         }
-        let spindle = self.m().iter().any(|m| matches!(m, 3..=5 | 19))
-            || [Group::Motion, Group::SpeedMode, Group::FeedMode]
-                .iter()
-                .any(|&group| matches!(self.g(group), Some(330 | 331 | 760 | 950 | 960 | 970)));
+        let spindle =
+            self.m().any(|(_, row)| row.meaning == Meaning::Orient || row.meaning.group() == Some(Group::Spindle))
+                || [Group::Motion, Group::SpeedMode, Group::FeedMode]
+                    .iter()
+                    .any(|&group| matches!(self.g(group), Some(330 | 331 | 760 | 950 | 960 | 970)));
         if self.spindle && !spindle {
             return refuse(Code::PN005, "$ is there, and no code that uses it", "take it out");
         }

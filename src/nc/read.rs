@@ -1,6 +1,6 @@
 //! A line read as a block: words, values, comments, and whether its codes go together.
 
-use super::block::{Block, MOST};
+use super::block::Block;
 use super::codes::{Group, bit, g_code, group, letters, m_code, m_group, name_of, takes_axes, why_not_run};
 use super::expression::Reader;
 use super::fault::{Done, Fault, refuse};
@@ -148,7 +148,7 @@ impl Block {
         self.is_empty &= letter == b'N';
         match letter {
             b'G' => self.g_word(value, column, control),
-            b'M' => self.m_word(value, column),
+            b'M' => self.m_word(value, column, control),
             b'@' | b'^' if control.is_linuxcnc() => {
                 let slot = usize::from(letter == b'^');
                 match self.polar[slot].replace(value) {
@@ -211,19 +211,28 @@ impl Block {
         Ok(())
     }
 
-    fn m_word(&mut self, value: f64, column: usize) -> Done {
+    fn m_word(&mut self, value: f64, column: usize, control: &'static Control) -> Done {
         let code = value.round();
-        if (value - code).abs() > 1e-4 || !(0.0..=999.0).contains(&code) || self.m_count == MOST {
-            return Err(Fault::at(Code::PN003, column, format!("there is no code M{value}"), "M codes are M0 to M999"));
+        let refuse = |message: String, help: &'static str| Err(Fault::at(Code::PN003, column, message, help));
+        if (value - code).abs() > 1e-4 || !(0.0..=999.0).contains(&code) {
+            return refuse(format!("there is no code M{value}"), "M codes are M0 to M999");
         }
-        self.m[self.m_count] = code as u16;
-        self.m_count += 1;
+        let Some(row) = m_code(control, code as u16) else {
+            return refuse(format!("M{code} is unknown"), "it is unknown to this control: take it out");
+        };
+        if let Some(why) = &row.not_run {
+            let message = format!("M{code} is not run: {why}");
+            return Err(Fault::at(Code::PN016, column, message, "run the program without it"));
+        }
+        if !self.put_m(code as u16, row) {
+            return refuse(format!("M{code} is one more M code than a block may have here"), "write two blocks");
+        }
         Ok(())
     }
 
     /// Do its codes and words go together?
     fn check(&self, control: &'static Control) -> Done {
-        if self.m_count > 0 {
+        if self.has_m() {
             self.check_m(control)?;
         }
         if control.is_linuxcnc() && self.has(letters("FL")) {
@@ -239,11 +248,12 @@ impl Block {
 
     fn check_m(&self, control: &'static Control) -> Done {
         let mut seen = 0u16;
-        for &code in self.m() {
-            let Some(group) = m_code(control, code).map(m_group) else {
-                let help = "it is unknown to this control: take it out";
-                return refuse(Code::PN003, format!("M{code} is unknown"), help);
-            };
+        for (at, (code, row)) in self.m().enumerate() {
+            if at > 0 && control.traits().one_m {
+                let message = format!("M{code} is the second M code of the block, and {} takes one", control.name());
+                return refuse(Code::PN004, message, "write them in two blocks");
+            }
+            let group = m_group(row);
             let at = 1 << group;
             if group > 0 && seen & at != 0 {
                 let help = "write them in two blocks";

@@ -7,7 +7,7 @@ use super::fault::{Done, refuse};
 use super::out::{Next, Out};
 use super::settings::Unpointed;
 use super::state::{NO_MOTION, State, is_cycle};
-use crate::control::{Row, Rules};
+use crate::control::{Meaning, Row, Rules};
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Units};
 
@@ -43,7 +43,7 @@ impl State {
         {
             self.drive.feed = feed;
         }
-        let set_up = block.has(letters("ESTHD")) || !block.m().is_empty();
+        let set_up = block.has(letters("ESTHD")) || block.has_m();
         if set_up || block.has_modes() {
             self.set_up(block, motion, &mut out)?;
         }
@@ -79,7 +79,7 @@ impl State {
         if self.holes.work.is_some() {
             return Ok(Next::Rest);
         }
-        if block.m().is_empty() { Ok(Next::On) } else { self.after(block, out) }
+        if block.has_m() { self.after(block, out) } else { Ok(Next::On) }
     }
 
     /// Lengths without a point.
@@ -88,7 +88,7 @@ impl State {
             Some(code) => code == 200,
             None => self.modes.units == Units::Inch,
         };
-        if block.g(Group::Other).is_some() || block.m().contains(&19) {
+        if block.g(Group::Other).is_some() || block.means(Meaning::Orient) {
             return Ok(()); // their words are no lengths
         }
         let cycle =

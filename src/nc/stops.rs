@@ -1,11 +1,12 @@
 //! What comes when all else of a block is done: stops, the end, subprograms.
 
-use super::action::{Action, Cooling};
+use super::action::{Action, Cooling, Rotation};
 use super::block::Block;
 use super::codes::bit;
 use super::fault::{Done, refuse};
 use super::out::{Next, Out};
 use super::state::State;
+use crate::control::Meaning;
 use crate::diag::Code;
 use crate::toolpath::StopKind;
 
@@ -13,26 +14,22 @@ impl State {
     /// Stops and subprograms come last.
     pub(super) fn after(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {
         let mut next = Next::On;
-        for &code in block.m() {
-            match code {
-                5 if !self.control.is_linuxcnc() => self.turn_spindle(5, out),
-                9 if !self.control.is_linuxcnc() => out.push(Action::Coolant(Cooling::Off)),
-                0 | 60 => out.push(Action::Stop(StopKind::Program)),
-                1 => out.push(Action::Stop(StopKind::Optional)),
-                2 | 30 => {
+        for (code, row) in block.m() {
+            match row.meaning {
+                Meaning::SpindleOff if !self.control.is_linuxcnc() => self.turn_spindle(Rotation::Stop, out),
+                Meaning::CoolantOff if !self.control.is_linuxcnc() => out.push(Action::Coolant(Cooling::Off)),
+                Meaning::StopProgram | Meaning::Pallet => out.push(Action::Stop(StopKind::Program)),
+                Meaning::StopOptional => out.push(Action::Stop(StopKind::Optional)),
+                Meaning::End => {
                     out.push(Action::End);
                     next = Next::End;
                 }
-                97 if !self.control.is_linuxcnc() => {
-                    let help = "write the subprogram with an O number, and M98";
-                    return refuse(Code::PN016, "M97, a call of blocks by their number, is not simulated", help);
-                }
-                98 => next = self.call(block)?,
-                99 if block.has(bit(b'P')) => {
+                Meaning::Call => next = self.call(code, block)?,
+                Meaning::Return if block.has(bit(b'P')) => {
                     let help = "return to the block behind the call";
                     return refuse(Code::PN016, "M99 P, a jump, is not simulated", help);
                 }
-                99 => next = Next::Return,
+                Meaning::Return => next = Next::Return,
                 _ => {}
             }
         }
@@ -40,9 +37,10 @@ impl State {
     }
 
     /// M98 P1000 L3, or P31000 as older controls have it.
-    fn call(&self, block: &Block) -> Done<Next> {
+    fn call(&self, code: u16, block: &Block) -> Done<Next> {
         let Some(p) = block.get(b'P').filter(|p| p.fract() == 0.0 && *p >= 1.0) else {
-            return refuse(Code::PN007, "M98 without the number of its subprogram", "write P and the number");
+            let message = format!("M{code} without the number of its subprogram");
+            return refuse(Code::PN007, message, "write P and the number");
         };
         let times = block.get(b'L').unwrap_or(1.0);
         if times.fract() != 0.0 || !(0.0..=9999.0).contains(&times) {

@@ -2,13 +2,35 @@
 
 use super::action::{Action, Cooling, Rotation};
 use super::block::Block;
-use super::codes::{Group, m_code};
+use super::codes::Group;
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
 use crate::control::Meaning;
 use crate::diag::Code;
 use crate::toolpath::Side;
+
+/// How the spindle turns after an M code of this meaning.
+fn rotation(meaning: Meaning) -> Option<Rotation> {
+    match meaning {
+        Meaning::SpindleCw | Meaning::SpindleCwCoolant => Some(Rotation::Cw),
+        Meaning::SpindleCcw | Meaning::SpindleCcwCoolant => Some(Rotation::Ccw),
+        Meaning::SpindleOff => Some(Rotation::Stop),
+        _ => None,
+    }
+}
+
+/// What an M code of this meaning does to the coolant; through the spindle it is on, as a flood is.
+fn cooling(meaning: Meaning) -> Option<Cooling> {
+    match meaning {
+        Meaning::Mist => Some(Cooling::Mist),
+        Meaning::Flood | Meaning::Through | Meaning::SpindleCwCoolant | Meaning::SpindleCcwCoolant => {
+            Some(Cooling::Flood)
+        }
+        Meaning::CoolantOff => Some(Cooling::Off),
+        _ => None,
+    }
+}
 
 impl State {
     pub(super) fn spindle_and_tool(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
@@ -34,27 +56,32 @@ impl State {
             }
             self.tool.number = Some(tool);
         }
-        if block.m().contains(&6) {
+        if block.means(Meaning::ToolChange) {
             self.change_tool(out)?;
         }
         let mut turned = false;
-        for &code in block.m() {
-            match code {
+        for (code, row) in block.m() {
+            let rotation = rotation(row.meaning);
+            if let Some(rotation) = rotation {
+                turned = true;
                 // a Fanuc stops spindle and coolant when the block's motion is done
-                5 | 9 if !self.control.is_linuxcnc() => turned |= code == 5,
-                3..=5 => {
-                    turned = true;
-                    self.turn_spindle(code, out);
+                if rotation != Rotation::Stop || self.control.is_linuxcnc() {
+                    self.turn_spindle(rotation, out);
                 }
-                19 => {
+            }
+            match row.meaning {
+                Meaning::CoolantOff if !self.control.is_linuxcnc() => {}
+                Meaning::Orient => {
                     self.drive.spindle = Rotation::Stop; // it stands at its angle
                     out.push(Action::Orient(block.get(b'R').unwrap_or(0.0)));
                 }
-                0..=2 | 6 | 30 | 60 | 98 | 99 => {}
-                _ => out.push(match self.cooling(code) {
-                    Some(cooling) => Action::Coolant(cooling),
-                    None => Action::LeftOut(b'M', code * 10),
-                }),
+                Meaning::ToolChange | Meaning::Call | Meaning::Return | Meaning::End => {}
+                meaning if meaning.is_stop() => {}
+                meaning => match cooling(meaning) {
+                    Some(cooling) => out.push(Action::Coolant(cooling)),
+                    None if rotation.is_none() => out.push(Action::LeftOut(b'M', code * 10)),
+                    None => {}
+                },
             }
         }
         for group in [Group::Path, Group::Once] {
@@ -71,22 +98,8 @@ impl State {
         Ok(())
     }
 
-    /// What an M code does to the coolant; through the spindle it is on, as a flood is.
-    fn cooling(&self, code: u16) -> Option<Cooling> {
-        match m_code(self.control, code)?.meaning {
-            Meaning::Mist => Some(Cooling::Mist),
-            Meaning::Flood | Meaning::Through => Some(Cooling::Flood),
-            Meaning::CoolantOff => Some(Cooling::Off),
-            _ => None,
-        }
-    }
-
-    pub(super) fn turn_spindle(&mut self, code: u16, out: &mut Out<'_>) {
-        self.drive.spindle = match code {
-            3 => Rotation::Cw,
-            4 => Rotation::Ccw,
-            _ => Rotation::Stop,
-        };
+    pub(super) fn turn_spindle(&mut self, rotation: Rotation, out: &mut Out<'_>) {
+        self.drive.spindle = rotation;
         out.push(Action::Spindle(self.drive.spindle, self.drive.speed));
     }
 

@@ -442,3 +442,17 @@ fn a_block_of_many_moves_is_not_held() {
         assert!(first == second && first.contains(&-100.0), "{code}");
     }
 }
+
+/// What an M code does is in the control's file: M13 turns the spindle with coolant, M198 calls what is not at hand, and
+/// a Haas takes one M code in a block.
+#[test]
+fn m_codes_do_what_the_file_of_the_control_says() {
+    let started = motions(control("fanuc"), "G21 G90 G94\nS500 M14\nG0 X1.\nM30\n");
+    assert_eq!(started[0], "ccw");
+    assert_eq!(refused(control("fanuc"), &format!("{START}M198 P5\nM30\n")), ("PN016".into(), 4));
+    assert_eq!(refused(control("fanuc"), &format!("{START}M97 P5\nM30\n")), ("PN016".into(), 4));
+    let two = format!("{START}M8 M5\nM30\n");
+    assert_eq!(motions(control("fanuc"), &two).last().unwrap(), "stop");
+    assert_eq!(refused(control("haas"), &two), ("PN004".into(), 4));
+    assert_eq!(refused(control("haas"), &format!("{START}G88 X1. Z-1. R1. F10.\nM30\n")), ("PN003".into(), 4));
+}

@@ -69,6 +69,7 @@ mod rapid_that_feeds;
 mod rapid_to_bottom;
 mod replace_number;
 mod return_without_g91;
+mod second_m_code;
 mod small_letter;
 mod spindle_before_change;
 mod split_word;
@@ -220,4 +221,5 @@ rules! {
     PF606 near_line_limit
     PF607 control_without_code
     PF608 unknown_code
+    PF609 second_m_code
 }

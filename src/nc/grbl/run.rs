@@ -2,6 +2,7 @@
 
 use super::check::check;
 use super::error::refuse;
+use crate::control::Meaning;
 use crate::nc::action::{Action, Cooling, Rotation};
 use crate::nc::block::Block;
 use crate::nc::codes::{Group, g_code};
@@ -86,11 +87,11 @@ impl State {
 
     /// M0, M2 and M30. Senders go on behind the end, and so does Grbl, with some of its modes as switched on.
     fn grbl_stops(&mut self, block: &Block, out: &mut Out<'_>) {
-        for &code in block.m() {
-            match code {
-                0 => out.push(Action::Stop(StopKind::Program)),
-                1 => out.push(Action::LeftOut(b'M', 10)),
-                2 | 30 => self.grbl_end(out),
+        for (_, row) in block.m() {
+            match row.meaning {
+                Meaning::StopProgram => out.push(Action::Stop(StopKind::Program)),
+                Meaning::StopOptional => out.push(Action::LeftOut(b'M', 10)),
+                Meaning::End => self.grbl_end(out),
                 _ => {}
             }
         }

@@ -155,8 +155,7 @@ fn m_word(block: &mut Block, value: f64, groups: &mut u16, control: &'static Con
         return Err(21);
     }
     *groups |= group;
-    block.put_m(code);
-    Ok(())
+    if block.put_m(code, row) { Ok(()) } else { Err(21) }
 }
 
 fn word(block: &mut Block, letter: u8, value: f64, control: &'static Control) -> Result<(), u8> {

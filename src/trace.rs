@@ -11,7 +11,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// A map of these lines, in the order of the program, as the renderer gives them.
+    /// A map of lines in the order of the program, as the renderer gives them.
     pub fn new(lines: Vec<TraceLine>) -> Trace {
         Trace { lines }
     }

@@ -27,7 +27,7 @@ pub enum Mode {
     ArcMotion,
     /// A later hole of a machine cycle: variables that changed, or both position words.
     NextHole {
-        /// Nothing changed: print the position.
+        /// The position is printed, because nothing changed.
         position: bool,
     },
     /// A hole of an emulated or advanced cycle.

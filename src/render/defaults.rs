@@ -54,7 +54,7 @@ pub fn cycle_defaults(settings: &Settings, units: Units, sink_as_printed: bool) 
     }
 }
 
-/// The one unit that a form is for.
+/// The one unit that a form is for; `None`: a form for both.
 pub fn form_units(settings: &Settings) -> Option<Units> {
     match settings.units {
         UnitChoice::Inch => Some(Units::Inch),

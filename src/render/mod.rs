@@ -58,7 +58,7 @@ pub struct Renderer<'p> {
 }
 
 impl<'p> Renderer<'p> {
-    /// Renders with this form.
+    /// A renderer of this form.
     pub fn new(program: &'p Program, options: Options) -> Self {
         let shape = Shape::new(program, options);
         let want = Want::new(&shape);

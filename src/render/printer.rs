@@ -23,10 +23,10 @@ pub struct TraceLine {
     pub place: Place,
 }
 
-/// A block that its control does not read.
+/// A block that is longer than its control reads.
 #[derive(Clone, Copy, Debug)]
 struct TooLong {
-    /// Its length, as far as it was made.
+    /// Length of the block, as far as it was made.
     length: usize,
     /// The longest that the control reads.
     most: usize,
@@ -127,7 +127,7 @@ impl Printer {
         self.layout = Layout::new(settings, letters);
     }
 
-    /// What is being printed.
+    /// The page that is being printed.
     pub fn page(&mut self) -> &mut Page {
         &mut self.page
     }

@@ -137,7 +137,7 @@ pub fn work_before(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printe
     }
 }
 
-/// What the speed counts, where something that does not print it is about to print the speed.
+/// Prints what the speed counts, where something that does not print it is about to print the speed.
 pub fn speed_mode_before(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
     let Some(mode) = want.get(VarId::Speedtype).filter(|mode| said.conditions.get(VarId::Speedtype) != Some(*mode))
     else {

@@ -27,8 +27,9 @@ pub fn upon_is_due(used: VarSet, moving: bool, shape: &Shape, want: &Want, said:
         })
 }
 
-/// Another work offset together with another view: Index takes the tool away and goes over the new place, so the
-/// offset's code is all that is left of an Upon sequence that does the same.
+/// Does Index do the work of `Upon` for the work offset, where another offset comes with another view? Index takes the
+/// tool away and goes over the new place, so the offset's code is all that is left of an Upon sequence that does the
+/// same.
 pub fn index_replaces_work_upon(shape: &Shape) -> bool {
     let retracts =
         shape.program.routine(SequenceId::Index).is_some_and(|routine| prints_axis_words(routine, true, shape));
@@ -71,7 +72,7 @@ pub fn run_with_upons(routine: &Routine, shape: &Shape, want: &mut Want, said: &
     run_all(routine, shape, want, said, out)
 }
 
-/// Before these variables are used: prints the Upon sequences that are due. Their bodies trigger none.
+/// Prints the Upon sequences that are due before these variables are used. Their bodies trigger none.
 pub fn upons(used: VarSet, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
     let program = shape.program;
     if !program.upon_vars.meets(used) {

@@ -43,7 +43,7 @@ impl Vars {
         self.known.has(var).then(|| self.values[var as usize])
     }
 
-    /// Gives a value.
+    /// Gives a variable a value.
     #[inline]
     pub fn set(&mut self, var: VarId, value: f64) {
         self.values[var as usize] = value;

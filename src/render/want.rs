@@ -93,14 +93,14 @@ impl Want {
         self.set(var, sum);
     }
 
-    /// These have no value.
+    /// Takes the values of these variables away.
     pub fn forget(&mut self, vars: &[VarId]) {
         for &var in vars {
             self.vars.put(var, None);
         }
     }
 
-    /// All values.
+    /// Values of all variables.
     pub fn values(&self) -> &Vars {
         &self.vars
     }

@@ -18,7 +18,7 @@ pub struct AxisUnits {
     pub units: [i64; 6],
     /// Axes that differ from what was printed.
     pub changed: u8,
-    /// Those, and the ones that may not be dropped.
+    /// Axes that changed, and those that may not be dropped.
     pub prints: u8,
 }
 
@@ -150,7 +150,7 @@ pub fn letter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, out: 
     Ok(())
 }
 
-/// The feed, when it changed; in inverse time always.
+/// Prints the feed, when it changed; in inverse time always.
 #[inline]
 pub fn feed_word(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
     let info = &shape.letters[shape.program.settings.feed_code];

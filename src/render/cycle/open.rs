@@ -16,9 +16,9 @@ use crate::toolpath::{Axes, CycleSpec, Hole, Place};
 
 /// A cycle between its begin and its end.
 pub struct ActiveCycle {
-    /// In program units.
+    /// What the job asks for, in program units.
     pub spec: CycleSpec,
-    /// What prints it: a sequence, or moves.
+    /// The sequence that prints the cycle; `None`: single moves do.
     pub sequence: Option<SequenceId>,
     /// Holes so far.
     pub holes: u64,

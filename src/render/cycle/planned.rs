@@ -43,11 +43,11 @@ impl Heights {
 
 /// A hole as it is planned.
 pub struct Planned {
-    /// Over the hole, at its return plane.
+    /// The place over the hole, at its return plane.
     pub target: Axes,
-    /// Its planes, counted from its point.
+    /// Planes of the hole, counted from its point.
     pub planes: Plan,
-    /// Its heights as depth positions.
+    /// Heights of the hole as positions of the depth axis.
     pub heights: Heights,
 }
 

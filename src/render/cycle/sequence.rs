@@ -256,7 +256,7 @@ fn changes_position(routine: &Routine, shape: &Shape, want: &Want, said: &Said) 
     Ok(false)
 }
 
-/// Before a control's cycle: the tool goes to the return plane, up first or down last.
+/// Goes to the return plane before a control's cycle, up first or down last.
 fn approach(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
     if !said.differs_from(target, shape.depth_bit(), shape) {
         return Ok(());

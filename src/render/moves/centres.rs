@@ -67,7 +67,7 @@ pub fn divide_for_radius(whole: &Piece, across: usize, parts: &mut Vec<f64>, sha
     Ok(())
 }
 
-/// How far the control's centre of a piece that begins `here` is from the arc's, where a radius says it.
+/// How far the control's centre of a piece that begins `here` is from the arc's, where a radius says the centre.
 fn centre_moves(piece: &Piece, here: &Axes, shape: &Shape) -> Done<f64> {
     let ccw = piece.arc.sweep > 0.0;
     let Some(letter) = radius_letter(piece, ccw, shape) else { return Ok(0.0) };

@@ -99,13 +99,13 @@ impl PlaneArc {
 
 /// An arc or a part of one, ready to print.
 pub struct Piece<'a> {
-    /// The axes of its plane, in the order that makes counter-clockwise positive.
+    /// The axes of the plane, in the order that makes counter-clockwise positive.
     pub axes: [usize; 2],
-    /// The code of its plane.
+    /// The code of the plane.
     pub plane: &'a sema::Code,
-    /// It, in its plane.
+    /// The piece of the arc, in its plane.
     pub arc: PlaneArc,
-    /// Where it ends.
+    /// Where the piece ends.
     pub target: Axes,
 }
 

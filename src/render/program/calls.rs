@@ -114,8 +114,8 @@ pub fn sub_call(
     Ok(())
 }
 
-/// What the call needs before it: changes that its sequence does not print, and the place it is called at.
-/// Returns the place.
+/// Prints what a call needs before it: changes that its sequence does not print, and the place it is called at. Returns
+/// the place.
 fn go_to_call(
     call: &Call,
     routine: &Routine,
@@ -175,7 +175,7 @@ fn after_call(called: Option<usize>, want: &mut Want, said: &mut Said, subs: &mu
     }
 }
 
-/// Every call has its subprogram, and none comes back to itself.
+/// Checks that every call has its subprogram, and none comes back to itself.
 pub fn check_calls(subs: &Subprograms) -> Done {
     let ends = subs.ending();
     for call in &subs.calls {

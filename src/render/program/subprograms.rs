@@ -61,7 +61,7 @@ pub fn sub_start(
     run_with_upons(routine, shape, want, said, out)
 }
 
-/// In a subprogram nothing is known but what it says itself.
+/// Forgets what the main program knows: in a subprogram nothing is known but what it says itself.
 fn leave_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
     let nothing_served = nothing_served(shape);
     subs.main = Some(Box::new(State {
@@ -77,7 +77,8 @@ fn leave_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subpro
     want.keep_feed(None, shape);
 }
 
-/// For Upon sequences: whatever a subprogram says of these is a change, because its caller may have said anything.
+/// Values for Upon sequences in a subprogram: whatever it says of these is a change, because its caller may have said
+/// anything.
 fn nothing_served(shape: &Shape) -> Vec<Option<f64>> {
     shape.program.upons.iter().map(|upon| CONDITIONS.contains(&upon.var).then_some(f64::NAN)).collect()
 }

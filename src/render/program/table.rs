@@ -16,7 +16,7 @@ pub struct Subprograms {
     pub by_number: HashMap<u64, usize>,
     /// The calls inside subprograms.
     pub calls: Vec<Called>,
-    /// The one that is open, as an index of `defined`.
+    /// The subprogram that is open, as an index of `defined`.
     pub open: Option<usize>,
     /// Subprograms that stand after the main program wait here.
     pub waiting: Page,
@@ -74,14 +74,14 @@ pub struct Left {
     pub upon_used: Vec<Option<f64>>,
     /// A rotary axis turned.
     pub turned: bool,
-    /// It stopped: spindle and coolant may stand, whoever calls it.
+    /// The subprogram stopped: spindle and coolant may stand, whoever calls it.
     pub stops: bool,
     /// The height at which it leaves the tool.
     pub height: Option<f64>,
 }
 
 impl Left {
-    /// Nothing that its next run would find otherwise.
+    /// Does the subprogram leave nothing that its next run would find otherwise?
     pub fn is_nothing(&self) -> bool {
         self.conditions.known().is_empty() && !self.stops
     }
@@ -92,7 +92,7 @@ pub struct Defined {
     pub printed: f64,
     pub first_block: Option<f64>,
     pub left: Left,
-    /// It calls one that comes later: what that one leaves is not known here.
+    /// The subprogram calls one that comes later: what that one leaves is not known here.
     pub calls_ahead: bool,
 }
 

@@ -10,7 +10,7 @@ use crate::render::said::{Line, Said};
 use crate::render::shape::Shape;
 use crate::render::want::Want;
 
-/// A block as it stands: nobody knows what it did.
+/// Prints a block as it stands: nobody knows what it did.
 pub fn verbatim(text: &str, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
     if let Some(c) = text.chars().find(|&c| steers(c) && c != '\t') {
         let message = format!("the text holds U+{:04X}, which steers instead of being printed", u32::from(c));
@@ -70,7 +70,7 @@ fn text_codes(text: &str, shape: &Shape, want: &mut Want, said: &mut Said) -> Do
     Ok(())
 }
 
-/// What a text switches is what the job wants from there on; what its feeds count is not.
+/// Takes what a text switches as what the job wants from there on; what its feeds count is not.
 fn is_the_jobs(code: control::Code, shape: &Shape, want: &mut Want) {
     let var = match shape.group_of(code) {
         Some(Group::Spindle) => VarId::Direct,

@@ -6,7 +6,7 @@ use crate::render::printer::Printer;
 use crate::render::shape::Shape;
 use crate::render::want::{Want, in_program_units, settable};
 
-/// A variable by its name, in the job's units.
+/// Gives a variable a value by its name, in the job's units.
 pub fn set_named(name: &str, value: f64, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
     let var = settable(name)?;
     set_variable(var, in_program_units(var, value, shape), want, out);

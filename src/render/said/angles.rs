@@ -7,7 +7,7 @@ use crate::toolpath::Axes;
 /// What is known of the rotary axes.
 #[derive(Clone, Debug)]
 pub struct Angles {
-    /// Where each stands while the tool's position does not say it.
+    /// Where each rotary axis stands while the tool's position does not say it.
     stands: [Option<f64>; 3],
     /// Where each goes, for `[rotangle]`.
     now: [Option<f64>; 3],
@@ -25,12 +25,12 @@ impl Default for Angles {
 }
 
 impl Angles {
-    /// Nobody knows where they stand. Turns that were taken off stay off.
+    /// Forgets where the axes stand. Turns that were taken off stay off.
     pub fn forget(&mut self) {
         (self.stands, self.now, self.last) = ([None; 3], [None; 3], [None; 3]);
     }
 
-    /// They stay where the tool's position says, which is about to be forgotten.
+    /// Keeps the angles that the tool's position says, before the position is forgotten.
     pub fn keep(&mut self, position: &Axes) {
         for (stands, axis) in self.stands.iter_mut().zip(ROTARY) {
             *stands = position.get(axis).or(*stands);

@@ -9,12 +9,12 @@ pub const CONDITIONS: [VarId; 7] =
 /// The values that the program printed last; `None`: unknown.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Conditions {
-    /// In the order of [`CONDITIONS`].
+    /// Values in the order of [`CONDITIONS`].
     values: [Option<f64>; CONDITIONS.len()],
 }
 
 impl Conditions {
-    /// Each condition with its value.
+    /// Each condition with the value that was printed.
     pub fn each(&self) -> impl Iterator<Item = (VarId, Option<f64>)> {
         CONDITIONS.into_iter().zip(self.values)
     }

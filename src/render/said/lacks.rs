@@ -6,7 +6,7 @@ use crate::lang::{VarId, VarSet};
 use crate::render::shape::Shape;
 use crate::render::want::Want;
 
-/// Those of the spindle.
+/// The conditions of the spindle.
 const SPINDLE: VarSet = VarSet::of(&[VarId::Speed, VarId::Direct, VarId::Speedtype]);
 
 impl Said {

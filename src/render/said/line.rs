@@ -7,16 +7,16 @@ use crate::render::shape::Shape;
 /// Which axis words of a sequence stand in another frame than the job's positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shift {
-    /// None.
+    /// No axis words.
     None,
-    /// Those of the block that is open.
+    /// Axis words of the block that is open.
     Block,
     /// All from here on.
     Body,
 }
 
 impl Shift {
-    /// The one that reaches farther.
+    /// Of two shifts, the one that reaches farther.
     pub fn max_of(self, other: Shift) -> Shift {
         if self == Shift::Body { self } else { other }
     }
@@ -25,7 +25,7 @@ impl Shift {
 /// The line of a sequence whose words are printed; generated blocks have none.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Line {
-    /// Its first operation.
+    /// The first operation of the line.
     begin: Option<usize>,
 }
 

@@ -25,7 +25,7 @@ impl Default for Registers {
 }
 
 impl Registers {
-    /// Nothing is known any more.
+    /// Forgets all letters.
     pub fn forget_all(&mut self) {
         *self = Registers::default();
     }
@@ -47,7 +47,7 @@ impl Registers {
         (register.scale != 0).then(|| (register.units, register.scale - 1))
     }
 
-    /// The letter printed this.
+    /// A letter printed this value.
     #[inline]
     pub fn set(&mut self, letter: u8, units: i64, decimals: u8) {
         self.letters[usize::from(letter & 0x7f)] = Register { units, scale: decimals + 1 };

@@ -8,7 +8,7 @@ use crate::toolpath::Axes;
 /// Where the tool stands.
 #[derive(Clone, Debug, Default)]
 pub struct Stand {
-    /// In program units, as the job means it; axes not given are unknown.
+    /// Position in program units, as the job means it; axes not given are unknown.
     pub position: Axes,
     /// Where the rotary axes stand.
     pub angles: Angles,
@@ -22,7 +22,7 @@ pub struct Stand {
     pub left_hole: Option<(Axes, f64)>,
     /// The sequence that took the tool away from its place by numbers of its own; a rapid brings it back.
     pub moved_by: Option<Span>,
-    /// Since its change the tool has made no cut by a line: the first one must have a beginning.
+    /// The tool has made no cut by a line since its change: the first one must have a beginning.
     pub fresh_tool: bool,
 }
 

@@ -16,7 +16,7 @@ use crate::toolpath::Axes;
 /// What kind of move printed last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LastMove {
-    /// None that counts.
+    /// No move that counts.
     None,
     /// A rapid.
     Rapid,
@@ -46,7 +46,7 @@ pub struct Said {
     pub(super) motion: Option<Code>,
     /// What kind of move printed last.
     pub last_move: LastMove,
-    /// In which frame the axis words of the running sequence stand.
+    /// The frame in which axis words of the running sequence stand.
     pub(super) shift: Shift,
     /// The open block changed the frame of the depth axis.
     pub(super) depth_moved: bool,
@@ -54,12 +54,12 @@ pub struct Said {
     pub(super) switched: bool,
     /// The control may not hold what the job wants: the next move must look.
     pub differs: bool,
-    /// In a subprogram: whether it stopped, or called one that does.
+    /// Inside a subprogram: whether it stopped, or called one that does. `None`: in the main program.
     pub sub_stopped: Option<bool>,
 }
 
 impl Said {
-    /// Nothing was printed yet; so many Upon sequences watch.
+    /// A control to which nothing was said; this many Upon sequences watch.
     pub fn new(upons: usize) -> Said {
         Said {
             registers: Registers::default(),
@@ -80,7 +80,7 @@ impl Said {
 
     // ---- letters and groups
 
-    /// A letter printed this.
+    /// A letter printed this value.
     #[inline]
     pub fn word(&mut self, info: &Letter, units: i64) {
         self.registers.set(info.printed, units, info.format.dec.count);
@@ -231,7 +231,8 @@ impl Said {
         self.motion = None;
     }
 
-    /// These axes are somewhere else now. Positions stay what the job means by them; increments need to know more.
+    /// The tool is somewhere else on these axes now. Positions stay what the job means by them; increments need to know
+    /// more.
     pub fn displaced(&mut self, axes: u8, shape: &Shape) {
         self.stand.placed &= !axes;
         if shape.program.settings.incremental {
@@ -262,7 +263,8 @@ impl Said {
         self.forget_place();
     }
 
-    /// Another tool: speed, direction and the spindle's limit are the next one's; no letter keeps its value.
+    /// Forgets what belongs to a tool that leaves: speed, direction and the spindle's limit are the next one's; no
+    /// letter keeps its value.
     pub fn forget_tool(&mut self) {
         self.stand.angles.keep(&self.stand.position);
         self.stand.forget_position();

@@ -12,7 +12,7 @@ pub struct Item {
     pub line: u64,
     /// A canned cycle makes it.
     pub by_cycle: bool,
-    /// What is done.
+    /// What the block does.
     pub action: Action,
 }
 
@@ -21,14 +21,14 @@ pub struct Item {
 pub enum Action {
     /// A rapid.
     Rapid {
-        /// Its end.
+        /// End of the move.
         to: Position,
         /// Axes that stand at a place in machine coordinates, as bits: where that is in the work is known only there.
         machine: u8,
     },
     /// A straight feed move.
     Feed {
-        /// Its end.
+        /// End of the move.
         to: Position,
         /// The feed, in the feed mode's unit.
         feed: f64,
@@ -39,7 +39,7 @@ pub enum Action {
     Arc(Turn),
     /// A dwell in seconds.
     Dwell(f64),
-    /// The spindle.
+    /// The spindle is switched: direction and speed, in revolutions a minute or the surface speed's unit.
     Spindle(Rotation, f64),
     /// The spindle is stopped at an angle.
     Orient(f64),
@@ -61,7 +61,7 @@ pub enum Action {
     Work(f64),
     /// Tool length offset by its register; `None` without.
     Length(Option<f64>),
-    /// Cutter compensation by its register.
+    /// Cutter compensation: its side and register; `None`: off.
     Compensation(Option<(Side, Option<f64>)>),
     /// Surface speed instead of revolutions.
     SurfaceSpeed(Option<f64>),
@@ -87,7 +87,7 @@ pub enum Rotation {
 }
 
 impl Rotation {
-    /// As simulate writes it.
+    /// Name of the rotation, as `simulate` writes it.
     pub fn name(self) -> &'static str {
         match self {
             Rotation::Cw => "cw",
@@ -96,7 +96,7 @@ impl Rotation {
         }
     }
 
-    /// The other way round.
+    /// The opposite direction; a stopped spindle stays stopped.
     pub fn reversed(self) -> Rotation {
         match self {
             Rotation::Cw => Rotation::Ccw,
@@ -116,7 +116,7 @@ pub enum Cooling {
 }
 
 impl Cooling {
-    /// As simulate writes it.
+    /// Name of the coolant, as `simulate` writes it.
     pub fn name(self) -> &'static str {
         match self {
             Cooling::Flood => "flood",
@@ -129,17 +129,17 @@ impl Cooling {
 /// An arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn {
-    /// Its end.
+    /// End of the arc.
     pub to: Position,
-    /// Its centre, X Y Z; the plane's third coordinate is that of the start.
+    /// Centre of the arc, X Y Z; the plane's third coordinate is that of the start.
     pub center: [f64; 3],
-    /// In which plane.
+    /// The plane of the arc.
     pub plane: Plane,
-    /// Which way.
+    /// Direction of the arc, seen from the plane's positive third axis.
     pub direction: Direction,
     /// Full turns before the end is reached for good.
     pub turns: u32,
-    /// The feed.
+    /// Feed of the arc, in the feed mode's unit.
     pub feed: f64,
 }
 
@@ -148,24 +148,25 @@ pub struct Turn {
 pub struct Drilling {
     /// The cycle's G code times ten.
     pub code: u16,
-    /// Over the hole, at the height of the clear level; while the cycle is worked out the height does not count.
+    /// The place over the hole, at the height of the clear level; while the cycle is worked out the height does not
+    /// count.
     pub at: Position,
     /// The plane across the hole.
     pub plane: Plane,
-    /// The R plane.
+    /// Height of the R plane, where the feed begins, as a position of the depth axis.
     pub r: f64,
-    /// The bottom.
+    /// Height of the bottom, as a position of the depth axis.
     pub bottom: f64,
     /// Where the tool goes back to.
     pub clear: f64,
-    /// Dwell in seconds.
+    /// Dwell at the bottom in seconds.
     pub dwell: f64,
-    /// The peck.
+    /// Depth of a peck, a length.
     pub peck: f64,
     /// Shift of boring cycles in the plane.
     pub shift: [f64; 2],
     /// Where a back bore ends.
     pub level: f64,
-    /// The feed.
+    /// Feed into the hole, in the feed mode's unit.
     pub feed: f64,
 }

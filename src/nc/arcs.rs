@@ -85,7 +85,7 @@ impl State {
         self.control.arc_tolerance(self.modes.units == Units::Inch)
     }
 
-    /// Both ends must lie on one circle.
+    /// Checks that both ends of an arc lie on one circle.
     fn check_radii(&self, from: [f64; 6], to: [f64; 6], center: [f64; 3]) -> Done {
         let [first, second, _] = axes_of(self.modes.plane);
         let radius = |at: &[f64; 6]| (at[first] - center[first]).hypot(at[second] - center[second]);

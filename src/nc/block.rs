@@ -13,7 +13,7 @@ pub(super) const MOST: usize = 16;
 /// A block.
 #[derive(Debug, Default)]
 pub struct Block {
-    /// Values by letter.
+    /// Values of the block's words, by letter.
     pub(super) values: [f64; 26],
     /// Bit i: letter i is there.
     pub given: u32,
@@ -34,9 +34,9 @@ pub struct Block {
     pub polar: [Option<f64>; 2],
     /// `$` is there.
     pub(super) spindle: bool,
-    /// It begins with a slash.
+    /// The block begins with a slash.
     pub deleted: bool,
-    /// It is a `%`.
+    /// The block is a `%`.
     pub percent: bool,
     /// The first comment, without its marks.
     pub comment: Option<(usize, usize)>,
@@ -57,12 +57,12 @@ impl Block {
         (self.given & bit(letter) != 0).then(|| self.values[usize::from(letter - b'A')])
     }
 
-    /// Another value for a word that is there.
+    /// Gives a word that is there another value.
     pub fn set(&mut self, letter: u8, value: f64) {
         self.values[usize::from(letter - b'A')] = value;
     }
 
-    /// Is any of these words there?
+    /// Has the block one of these words?
     #[inline]
     pub fn has(&self, words: u32) -> bool {
         self.given & words != 0
@@ -77,7 +77,7 @@ impl Block {
         self.g[group as usize].map(|row| row.code.tenths)
     }
 
-    /// Has it G codes besides motions and cycles?
+    /// Has the block G codes besides motions and cycles?
     #[inline]
     pub fn has_modes(&self) -> bool {
         self.has_modes
@@ -100,7 +100,7 @@ impl Block {
         self.m().any(|(_, row)| row.meaning == meaning)
     }
 
-    /// Has it words or polar coordinates of axes?
+    /// Has the block words or polar coordinates of axes?
     #[inline]
     pub fn has_axes(&self) -> bool {
         self.given & AXES != 0 || self.polar != [None; 2]
@@ -112,12 +112,12 @@ impl Block {
         self.takes_axes
     }
 
-    /// Nothing but blanks, comments and a number.
+    /// Has the block nothing but blanks, comments and a number?
     pub fn is_empty(&self) -> bool {
         self.is_empty
     }
 
-    /// Nothing is in it.
+    /// Empties the block, to read the next line.
     #[inline]
     pub fn clear(&mut self) {
         self.given = 0;

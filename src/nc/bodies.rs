@@ -10,7 +10,7 @@ use crate::diag::Code;
 use crate::toolpath::{StopKind, Units};
 
 impl Drilling {
-    /// Over the hole at a height.
+    /// The place over the hole at a height.
     #[inline]
     pub fn over(&self, height: f64) -> Position {
         let mut to = self.at;
@@ -257,7 +257,7 @@ impl State {
         self.turn(turning, out);
     }
 
-    /// Through the hole with the tool turned aside, and up from below.
+    /// Back boring: through the hole with the tool turned aside, and up from below.
     fn back_bore(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
         let turning = self.turning("G87")?;
         if !self.control.is_linuxcnc() {

@@ -144,7 +144,7 @@ impl State {
         Ok(())
     }
 
-    /// A hole as its reader sees it, before its moves.
+    /// Says a hole as its reader sees it, before its moves.
     pub(super) fn announce(&self, hole: &Drilling, out: &mut Out<'_>) {
         out.by_cycle = false;
         let at = hole.over(hole.clear);

@@ -2,12 +2,12 @@
 
 use crate::diag::{Code, Diag, Location};
 
-/// Why a block is refused, before it is known which block it is.
+/// Why a block is refused; which block it is, its reader adds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
-    /// Its row in the table of codes.
+    /// Row in the table of codes.
     pub code: Code,
-    /// What is wrong.
+    /// What is wrong, one sentence.
     pub message: String,
     /// What to write instead.
     pub help: String,
@@ -29,7 +29,7 @@ impl Fault {
         Box::new(Fault { column: Some(column), ..*Fault::new(code, message, help) })
     }
 
-    /// As a finding about this line of the program.
+    /// The fault as a finding about this line of the program.
     pub fn diag(self, line: u64, text: &[u8]) -> Diag {
         let block = String::from_utf8_lossy(text);
         let block = block.trim();

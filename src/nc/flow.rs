@@ -9,9 +9,9 @@ use crate::diag::Code;
 /// A block with an O word.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flow {
-    /// Its number or name.
+    /// Number or name of the O word.
     pub label: String,
-    /// What it does.
+    /// What the O word does.
     pub step: Step,
 }
 

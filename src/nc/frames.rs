@@ -9,13 +9,13 @@ pub struct Frames {
     work: Vec<Position>,
     /// Rotation of each work offset about its origin in XY, in degrees.
     rotation: Vec<f64>,
-    /// Which is active.
+    /// Index of the active work offset.
     pub active: usize,
     /// G92, or G52 of LinuxCNC.
     pub shift: Position,
     /// What G92.3 brings back.
     pub shift_kept: Position,
-    /// Tool length offset.
+    /// Tool length offset on X, Y, Z.
     pub tool: [f64; 3],
 }
 

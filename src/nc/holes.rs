@@ -31,7 +31,7 @@ pub struct Series {
     pub peck: Option<f64>,
     /// I, J and K of boring cycles.
     pub shift: [Option<f64>; 3],
-    /// In which mode, plane and units R and depth were written.
+    /// The mode (G91: true), plane and units in which R and depth were written.
     pub written: Option<(bool, Plane, Units)>,
 }
 

@@ -22,9 +22,9 @@ pub(super) struct Spot {
 pub(super) enum Frame {
     /// A subprogram: where it was called, and how often it still runs.
     Call { label: String, back: Spot, start: Spot, times: u32, arguments: bool },
-    /// A `while`, from its line.
+    /// A `while`, with the place of its line.
     While { label: String, start: Spot },
-    /// A `do`, from its line.
+    /// A `do`, with the place of its line.
     Do { label: String, start: Spot },
     /// A `repeat`, from the line behind it.
     Repeat { label: String, start: Spot, left: u32 },

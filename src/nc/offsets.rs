@@ -105,7 +105,7 @@ impl State {
         Ok(())
     }
 
-    /// By way of a place to the reference point.
+    /// Goes by way of a place to a reference point.
     pub(super) fn go_home(&mut self, which: usize, block: &Block, out: &mut Out<'_>) -> Done {
         if self.tool.side.is_some() {
             return refuse(Code::PN013, "G28 or G30 under cutter compensation", "end the compensation with G40 first");

@@ -8,11 +8,11 @@ const AT_ONCE: usize = 4096;
 /// Where a program goes after a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Next {
-    /// On to the next block.
+    /// The program goes on with the next block.
     On,
-    /// It is over.
+    /// The program is over.
     End,
-    /// To a subprogram, so often.
+    /// The program calls a subprogram, this many times.
     Call(f64, u32),
     /// Back from a subprogram.
     Return,
@@ -24,7 +24,7 @@ pub enum Next {
 pub struct Out<'a> {
     /// All actions so far, of other blocks, too.
     pub items: &'a mut Vec<Item>,
-    /// How many there were before the block.
+    /// How many actions there were before the block.
     start: usize,
     /// Line of the block.
     pub line: u64,
@@ -33,7 +33,7 @@ pub struct Out<'a> {
 }
 
 impl<'a> Out<'a> {
-    /// Behind what is there.
+    /// Actions of a line, put behind those that are there.
     pub fn new(items: &'a mut Vec<Item>, line: u64) -> Out<'a> {
         Out { start: items.len(), items, line, by_cycle: false }
     }

@@ -33,7 +33,7 @@ pub enum Target {
 }
 
 impl Parameters {
-    /// None has a value yet.
+    /// Parameters of which none has a value yet.
     pub fn new(control: &'static Control) -> Parameters {
         Parameters {
             control,
@@ -128,7 +128,7 @@ impl Parameters {
         self.local.push(HashMap::new());
     }
 
-    /// It ends.
+    /// A subprogram ends: the caller's local parameters come back.
     pub fn leave(&mut self) {
         if let Some(kept) = self.kept.pop() {
             self.numbered[1..=30].copy_from_slice(&kept);

@@ -4,10 +4,10 @@ use super::action::{Action, Position};
 use super::frames::Frames;
 use super::out::Out;
 
-/// The tool's place.
+/// The place of the tool, and the frame in which it is said.
 #[derive(Debug)]
 pub struct Place {
-    /// In program coordinates and the program's units.
+    /// Position in program coordinates and the program's units.
     pub position: Position,
     /// Axes that stand at a place in machine coordinates, as bits.
     pub at_machine: u8,
@@ -18,7 +18,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// At zero; `at_machine`: axes whose place only the machine knows.
+    /// A place at zero; `at_machine`: axes whose place only the machine knows.
     pub fn new(at_machine: u8) -> Place {
         Place { position: [0.0; 6], at_machine, frames: Frames::default(), homes: [[0.0; 6]; 2] }
     }

@@ -118,7 +118,7 @@ impl Block {
         Ok(())
     }
 
-    /// What is no word.
+    /// Marks what is no word.
     fn mark(&mut self, line: &[u8], kind: Kind, start: usize, end: usize, control: &'static Control) -> Done {
         match kind {
             Kind::Comment => {
@@ -230,7 +230,7 @@ impl Block {
         Ok(())
     }
 
-    /// Do its codes and words go together?
+    /// Checks that codes and words of the block go together.
     fn check(&self, control: &'static Control) -> Done {
         if self.has_m() {
             self.check_m(control)?;

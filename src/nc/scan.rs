@@ -6,7 +6,7 @@
 /// One token of a line: bytes `start..end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Token {
-    /// What it is.
+    /// What the token is.
     pub kind: Kind,
     /// First byte in the line.
     pub start: usize,
@@ -50,7 +50,7 @@ pub enum Kind {
 /// A number as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {
-    /// Its value, the nearest double.
+    /// The value of the number, the nearest double.
     pub value: f64,
     /// Written with a point.
     pub point: bool,
@@ -65,7 +65,7 @@ pub struct Tokens<'a> {
     depth: u32,
     /// A value is due: behind `#`, `=` and operators.
     value: bool,
-    /// Nothing but blanks and a block delete so far.
+    /// Only blanks and a block delete were read so far.
     fresh: bool,
 }
 

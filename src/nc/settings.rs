@@ -6,7 +6,7 @@ use crate::toolpath::Units;
 /// What is run and how.
 #[derive(Clone, Copy, Debug)]
 pub struct RunSettings {
-    /// By whose rules.
+    /// The control by whose rules a program is run.
     pub control: &'static Control,
     /// Units before the first G20 or G21.
     pub units: Units,
@@ -17,8 +17,8 @@ pub struct RunSettings {
     pub back_off: Option<f64>,
     /// What a Fanuc makes of a length without a point.
     pub unpointed: Unpointed,
-    /// Where the tool is counts as a place that only the machine knows at the beginning, and its height after a tool
-    /// change; else it is at zero.
+    /// At the beginning, and in height after a tool change, the tool is at a place that only the machine knows; else it
+    /// is at zero.
     pub places_unknown: bool,
     /// I, J and K are places from the beginning, as after G90.1.
     pub centers_absolute: bool,
@@ -29,7 +29,7 @@ pub struct RunSettings {
 /// What a length without a point means on a Fanuc: a setting of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Unpointed {
-    /// Nothing that could be known: an error.
+    /// A length without a point is an error: nothing is known of it.
     #[default]
     Refused,
     /// Whole inches or millimetres.
@@ -39,7 +39,7 @@ pub enum Unpointed {
 }
 
 impl RunSettings {
-    /// A control as it is switched on.
+    /// The settings of a control as it is switched on.
     pub fn new(control: &'static Control) -> RunSettings {
         RunSettings {
             control,

@@ -47,7 +47,7 @@ pub struct Simulator<R> {
     pub(super) parameters: Parameters,
     pub(super) block: Block,
     pub(super) line: Vec<u8>,
-    /// Behind the line.
+    /// The place behind the line.
     pub(super) at: Spot,
     pub(super) frames: Vec<Frame>,
     /// Subprograms by their O number or name, with the byte behind their first line.
@@ -58,7 +58,7 @@ pub struct Simulator<R> {
     pub(super) program: Option<f64>,
     percent: bool,
     over: bool,
-    /// It ended with M99, which begins it again.
+    /// The program ended with M99, which begins it again.
     pub(super) again: bool,
     jumps: u64,
     /// The last line from which the way led elsewhere: those up to it may be read again.
@@ -71,7 +71,7 @@ pub struct Simulator<R> {
 }
 
 impl<R: BufRead + Seek> Simulator<R> {
-    /// From the beginning of a program.
+    /// A simulator at the beginning of a program.
     pub fn new(input: R, settings: RunSettings) -> Simulator<R> {
         Simulator {
             input,

@@ -23,7 +23,7 @@ pub struct State {
     pub(super) drive: Drive,
     pub(super) tool: Tool,
     pub(super) holes: Holes,
-    /// What a machinist should know though the control does it, with the block.
+    /// Warnings of the block: what a machinist should know though the control does it.
     pub(super) warnings: Vec<(Code, &'static str)>,
 }
 
@@ -48,7 +48,7 @@ pub(super) struct Modes {
 /// Feed and spindle.
 #[derive(Debug)]
 pub(super) struct Drive {
-    /// In the unit of the feed mode; 0 where none is known.
+    /// Feed in the unit of the feed mode; 0 where none is known.
     pub feed: f64,
     pub spindle: Rotation,
     pub speed: f64,
@@ -61,7 +61,7 @@ pub(super) struct Tool {
     pub number: Option<f64>,
     /// A tool length offset is on.
     pub length_on: bool,
-    /// On which side of the path it is; `None`: cutter compensation is off.
+    /// Side of the path on which the tool is; `None`: cutter compensation is off.
     pub side: Option<Side>,
     /// D, which a Fanuc keeps.
     pub diameter_register: Option<f64>,
@@ -85,7 +85,7 @@ impl Drive {
 }
 
 impl State {
-    /// As switched on.
+    /// The state of a control as switched on.
     pub fn new(settings: RunSettings) -> State {
         let control = settings.control;
         State {
@@ -149,7 +149,7 @@ impl State {
     }
 }
 
-/// Is it a canned cycle of LinuxCNC?
+/// Is a code a canned cycle of LinuxCNC?
 pub(super) fn is_cycle(code: u16) -> bool {
     matches!(code, 730 | 740 | 810..=890)
 }

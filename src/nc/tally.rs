@@ -11,7 +11,7 @@ pub struct Tally {
     pub moves: [u64; 3],
     /// Holes of canned cycles.
     pub holes: u64,
-    /// Tool changes.
+    /// How often a tool is changed.
     pub tools: u64,
     /// Lengths of rapids and of feed moves.
     pub distances: [f64; 2],
@@ -19,7 +19,7 @@ pub struct Tally {
     pub extents: Option<[(f64, f64); 3]>,
     /// Minutes of feed moves, as programmed.
     pub cutting: f64,
-    /// Minutes of dwells.
+    /// Time of dwells, in minutes.
     pub dwelling: f64,
     /// Feed moves whose time is unknown: their feed follows a spindle without speed.
     pub timeless: u64,
@@ -31,7 +31,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Nothing yet.
+    /// A tally of nothing yet.
     pub fn new(units: Units) -> Tally {
         Tally {
             moves: [0; 3],

@@ -27,7 +27,7 @@ struct Thread {
 }
 
 impl State {
-    /// All passes.
+    /// Makes all passes of a thread.
     pub(super) fn thread(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         if self.drive.spindle == Rotation::Stop {
             return refuse(Code::PN012, "G76 with the spindle stopped", "write M3 or M4 before it");

@@ -58,7 +58,8 @@ fn is_missing<R: BufRead + Seek, T>(s: &mut Sides<R>, cut: &Cut, hole: Option<&E
     s.differs(Code::PV017, 0, message, "look at what the form prints for this move")
 }
 
-/// After the tool was taken out, as to unwind an axis: straight down again to where the cut goes on.
+/// Does the program go straight down again to where the cut goes on, after the tool was taken out, as to unwind an
+/// axis?
 fn enters_again<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut) -> bool {
     let What::Line { to } = found.what else { return false };
     let tolerance = s.limits.tolerance;
@@ -78,7 +79,7 @@ fn enters_again<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut) -> 
     same(&found.from, &to, ACROSS, tolerance) && above && program.stays_above(to[DEPTH])
 }
 
-/// Both cuts begin at one place.
+/// Checks that both cuts begin at one place.
 fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done {
     let tolerance = s.limits.tolerance;
     let unknown = found.unknown & !cut.unknown & ALL;

@@ -25,7 +25,7 @@ pub struct Comparer<R> {
 }
 
 impl<R: BufRead + Seek> Comparer<R> {
-    /// Compares with this program. `tolerance` in the job's units; else 0.0001 inch or 0.002 mm.
+    /// A comparison with this program. `tolerance` in the job's units; else 0.0001 inch or 0.002 mm.
     pub fn new(program: R, settings: RunSettings, expectation: Expectation, tolerance: Option<f64>) -> Comparer<R> {
         let program = Program::new(program, settings, &expectation);
         let tools = expectation.tools;
@@ -249,7 +249,7 @@ impl<R: BufRead + Seek> Sides<R> {
         Ok(!joins || !nearer || circle)
     }
 
-    /// Is it a cut of the program too short to count?
+    /// Is a cut of the program too short to count?
     pub(super) fn is_nothing(&self, found: &Cut) -> bool {
         found.unknown == 0 && found.is_short(self.limits.tolerance)
     }

@@ -13,23 +13,23 @@ pub(super) struct Rapid {
     pub to: Place,
     /// Axes whose place only the machine knows.
     pub unknown: u8,
-    /// What the spindle does, where it matters.
+    /// Rotation or angle of the spindle, where it matters.
     pub spin: Option<Spin>,
 }
 
 /// What the spindle does while the tool moves at rapid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Spin {
-    /// It turns, or stands anyhow.
+    /// The spindle turns, or stands anyhow.
     Turns(Rotation),
-    /// It stands at this angle.
+    /// The spindle stands at this angle, in degrees.
     At(f64),
-    /// It stands at an angle that a parameter of the control says.
+    /// The spindle stands at an angle that a parameter of the control says.
     Oriented,
 }
 
 impl Spin {
-    /// Is it what the job wants? Whichever way a standing spindle was stopped, it stands.
+    /// Is a spindle as the job wants it? Whichever way a standing spindle was stopped, it stands.
     pub fn serves(self, wanted: Spin) -> bool {
         match (wanted, self) {
             (Spin::At(a), Spin::At(b)) => ((a - b) / 360.0).fract().abs() * 360.0 < ORIENTED,
@@ -51,7 +51,7 @@ pub(super) enum What {
 }
 
 impl What {
-    /// Where it ends.
+    /// Where the move ends.
     pub fn end(&self) -> Place {
         match self {
             What::Line { to } => *to,
@@ -99,12 +99,12 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    /// Where it ends.
+    /// Where the cut ends.
     pub fn end(&self) -> Place {
         self.what.end()
     }
 
-    /// Is it so short that the digits of a program may swallow it? No circle is: it comes back to where it began.
+    /// Is the cut so short that the digits of a program may swallow it? No circle is: it comes back to where it began.
     pub fn is_short(&self, tolerance: f64) -> bool {
         let end = self.end();
         let near = same(&self.from, &end, ALL, tolerance) && turn_as_far([&self.from, &self.from], [&self.from, &end]);

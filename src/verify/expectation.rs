@@ -21,7 +21,7 @@ pub struct Expectation {
     pub first_work: f64,
     /// Work offset that holds before the job names one.
     pub work: Option<f64>,
-    /// What a tool's number is raised by for its length and diameter registers, where the job names none.
+    /// How much is added to a tool's number for its length and diameter registers, where the job names none.
     pub registers: Option<[f64; 2]>,
     /// The machine loads tools (M6) and has length offsets.
     pub tools: bool,
@@ -108,7 +108,7 @@ impl Expectation {
     }
 }
 
-/// As which axis each is printed: only angles change their letters without changing what holes and arcs are.
+/// The axis as which each is printed: only angles change their letters without changing what holes and arcs are.
 fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
     let mut axes = [0, 1, 2, 3, 4, 5];
     for (from, to) in rename {

@@ -6,7 +6,7 @@ use crate::toolpath;
 /// A difference or hazard: where in the job and in the program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Its row in the table of codes.
+    /// Row in the table of codes.
     pub code: Code,
     /// What differs, with both values.
     pub message: String,
@@ -16,9 +16,9 @@ pub struct Finding {
     pub place: Option<toolpath::Place>,
     /// The program's line, from 1; 0 where it has none.
     pub line: u64,
-    /// That line as written.
+    /// The line of the program as written.
     pub block: String,
-    /// How often it was found, this once included: what follows from one cause is one finding.
+    /// How often the difference was found, this time included: what follows from one cause is one finding.
     pub times: u64,
 }
 
@@ -29,12 +29,13 @@ macro_rules! allowed {
         pub struct Equivalences { $(#[doc = $about] pub $name: u64),* }
 
         impl Equivalences {
-            /// All of them, in the order of the docs: how often, of what (as `hole`), and how (as `with other pecks`).
+            /// All equivalences, in the order of the docs: how often, of what (as `hole`), and how (as `with other
+            /// pecks`).
             pub fn counts(&self) -> impl Iterator<Item = (u64, &'static str, &'static str)> {
                 [$((self.$name, $one, $how)),*].into_iter()
             }
 
-            /// What each of them allows, in the order of the docs.
+            /// What each equivalence allows, in the order of the docs.
             pub const ABOUT: &'static [(&'static str, &'static str)] = &[$((stringify!($name), $about)),*];
         }
     };
@@ -62,11 +63,11 @@ allowed! {
 #[must_use]
 #[non_exhaustive]
 pub enum Verdict {
-    /// The same motions in the same order.
+    /// The program makes the job's motions in the job's order.
     Identical,
-    /// The same cuts and holes; other pecks, other ways between them.
+    /// The program makes the job's cuts and holes, with other pecks or other ways between them.
     Equivalent(Equivalences),
-    /// From somewhere on it is not known what job or program do.
+    /// Nothing is known from somewhere on of what job or program do.
     NotProven(Box<Unproven>),
     /// Something else, or something dangerous.
     Different(Vec<Finding>),
@@ -78,11 +79,11 @@ pub enum Verdict {
 pub struct Unproven {
     /// The reason, as `fanuc has no G201 that we know`.
     pub why: String,
-    /// What to do about it.
+    /// What to do about the reason.
     pub help: String,
     /// The program's line from which on nothing is proven, from 1; 0 where the job is the reason.
     pub line: u64,
-    /// Its block number as written, as `N120`; else empty.
+    /// Block number as written, as `N120`; else empty.
     pub block: String,
     /// The item of the job from which on nothing is proven.
     pub place: Option<toolpath::Place>,

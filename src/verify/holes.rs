@@ -14,7 +14,7 @@ use crate::diag::Code;
 struct Strokes {
     count: u64,
     longest: f64,
-    /// Between all of them the tool came out.
+    /// The tool came out between all pecks.
     out: bool,
     deepest: f64,
     /// A dwell at the deepest place, before another stroke.
@@ -158,7 +158,8 @@ fn peck_state<R: BufRead + Seek>(
     }
 }
 
-/// Other pecks are as good, but pecks they must be, out of the hole between them where the job's are.
+/// Checks the pecks of a hole: other pecks are as good, but pecks they must be, out of the hole between them where the
+/// job's are.
 fn check<R: BufRead + Seek>(s: &mut Sides<R>, pecks: &[Cut], hole: &Expected, strokes: &Strokes) {
     let mut deepest = hole.plane;
     let (mut count, mut longest) = (0, 0.0f64);

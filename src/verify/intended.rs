@@ -30,9 +30,9 @@ pub(super) trait Intent {
     fn stop(&mut self, kind: StopKind);
     /// The moves of a hole begin.
     fn hole_begins(&mut self, hole: &Expected);
-    /// They end.
+    /// The moves of a hole end.
     fn hole_ends(&mut self, hole: &Expected) -> Done;
-    /// Another tool or work offset: places are others from here on. `length`: the tool's register.
+    /// The tool or the work offset changes: places are others from here on. `length`: the tool's register.
     fn changed(&mut self, frame: Frame, length: Option<f64>, tool: bool);
     /// The job is over.
     fn finish(&mut self) -> Done;
@@ -44,21 +44,21 @@ pub(super) type Done<T = ()> = Result<T, Box<Diag>>;
 /// What a hole must be.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Expected {
-    /// Over the hole.
+    /// The place over the hole.
     pub at: Place,
     /// Where the feed begins.
     pub plane: f64,
     pub bottom: f64,
     pub dwell: Option<f64>,
-    /// Its pecks may be others.
+    /// The hole may be made in other pecks.
     pub pecks: bool,
-    /// Between pecks the tool comes out of the hole.
+    /// The tool comes out of the hole between pecks.
     pub retracts: bool,
     /// A tap: feed and speed are its pitch.
     pub is_tap: bool,
-    /// It may be left at feed farther up than the job does.
+    /// The hole may be left at feed farther up than the job does.
     pub feeds_out: bool,
-    /// Only the form knows its moves.
+    /// The moves of the hole are known to the form alone.
     pub custom: bool,
 }
 

@@ -43,7 +43,7 @@ pub(super) fn line<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, first: &Cut, 
     Ok(())
 }
 
-/// Both straight cuts end at one place.
+/// Checks that both straight cuts end at one place.
 fn ends<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done {
     let tolerance = s.limits.tolerance;
     let (from, end, is, line) = (&cut.from, cut.end(), found.end(), found.line);

@@ -4,7 +4,7 @@ use super::cut::{ALL, Rapid, same};
 use crate::nc::Rotation;
 use crate::toolpath::{self, StopKind};
 
-/// In whose coordinates places are said.
+/// The coordinates in which places are said.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Frame {
     pub tool: Option<f64>,
@@ -15,7 +15,7 @@ pub(super) struct Frame {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Leg {
     pub frame: Frame,
-    /// How many rapids come before it.
+    /// How many rapids come before the leg.
     from: usize,
     /// Length registers in force while the tool moved to heights that are known; of the job, the tool's.
     pub lengths: Vec<Option<f64>>,
@@ -25,9 +25,9 @@ pub(super) struct Leg {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mark<T> {
     pub what: T,
-    /// How many rapids come before it.
+    /// How many rapids come before the mark.
     at: usize,
-    /// How often the frame was changed before it, since the cut.
+    /// How often the frame was changed before the mark, since the cut.
     leg: usize,
     /// The spindle was started before it, since the cut.
     pub started: bool,
@@ -40,10 +40,10 @@ pub(super) struct Mark<T> {
 /// What lies between the last cut and the next.
 #[derive(Clone, Debug)]
 pub(super) struct Passage {
-    /// Where it begins; `None`: only the machine knows.
+    /// Where the passage begins; `None`: only the machine knows.
     pub start: Option<Rapid>,
     pub rapids: Vec<Rapid>,
-    /// At least one.
+    /// The way in pieces, one a frame; at least one.
     legs: Vec<Leg>,
     pub stops: Vec<Mark<StopKind>>,
     /// Dwells in seconds; not a number: of any length.
@@ -56,7 +56,7 @@ pub(super) struct Passage {
     pub new_tool: bool,
     /// The job's way leaves the axis of its hole.
     pub aside: bool,
-    /// The same, before the last change of the frame.
+    /// The job's way left the axis of its hole before the last change of the frame.
     pub left_aside: bool,
 }
 
@@ -64,7 +64,7 @@ pub(super) struct Passage {
 const MOST: usize = 1 << 18;
 
 impl Passage {
-    /// From a start in a frame.
+    /// A passage from a start in a frame.
     pub fn new(start: Option<Rapid>, frame: Frame) -> Passage {
         Passage {
             start,
@@ -99,7 +99,7 @@ impl Passage {
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 
-    /// Other coordinates from here on.
+    /// The frame changes: places are in other coordinates from here on.
     pub fn change(&mut self, frame: Frame) {
         if let [.., before, last] = self.legs.as_slice()
             && last.from == self.rapids.len()
@@ -162,7 +162,7 @@ impl Passage {
         &self.rapids[self.legs.last().map_or(0, |leg| leg.from)..]
     }
 
-    /// Something done here.
+    /// Notes that something is done here.
     pub fn mark<T>(&self, what: T, line: u64, place: toolpath::Place) -> Mark<T> {
         let started = self.turns.iter().any(|turn| *turn != Rotation::Stop);
         Mark { what, at: self.rapids.len(), leg: self.legs.len() - 1, started, line, place }

@@ -12,7 +12,7 @@ use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, StopKind, Units};
 
-/// What the program has not said yet, and what was told of it.
+/// What the program has not said yet, and what was told of that.
 #[derive(Clone, Copy, Debug)]
 struct Due {
     /// Tools need their length offset.
@@ -86,7 +86,7 @@ pub(super) struct Program<R> {
 }
 
 impl<R: BufRead + Seek> Program<R> {
-    /// Runs with these settings, and by what a form says of its words.
+    /// A program that runs with these settings, and by what a form says of its words.
     pub fn new(input: R, settings: RunSettings, expectation: &Expectation) -> Program<R> {
         let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..settings };
         // as switched on
@@ -124,13 +124,13 @@ impl<R: BufRead + Seek> Program<R> {
         }
     }
 
-    /// In which units it counts before it says so.
+    /// Gives the units in which the program counts before it says so.
     pub fn begin_in(&mut self, units: Units) {
         self.simulator.begin_in(units);
         self.scale.units = units;
     }
 
-    /// In which units places are wanted.
+    /// Gives the units in which places are wanted.
     pub fn want(&mut self, units: Units) {
         self.scale.wanted = units;
     }
@@ -434,7 +434,7 @@ impl<R: BufRead + Seek> Program<R> {
         }
     }
 
-    /// What the program did before its end, besides cutting.
+    /// Notes what the program did before its end, besides cutting.
     pub fn ended(&mut self) {
         if self.simulator.begins_again() {
             let line = self.simulator.line();

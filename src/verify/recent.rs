@@ -25,7 +25,7 @@ impl Recent {
         slot.1.extend_from_slice(text);
     }
 
-    /// Its text, if it is still there.
+    /// Text of a line of the program, if it is still there.
     pub fn text(&self, line: u64) -> Option<String> {
         let (_, text) = self.lines.iter().find(|(number, _)| *number == line)?;
         Some(String::from_utf8_lossy(text).trim().to_owned())

@@ -16,29 +16,29 @@ use crate::toolpath;
 /// How near things must be, in the job's units.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Limits {
-    /// Places.
+    /// How far places may be from one another and be the same.
     pub tolerance: f64,
-    /// Short lines from their arc.
+    /// How far short lines may be from their arc.
     pub chord: f64,
 }
 
 /// The hole that the job is in, and the last one.
 #[derive(Debug, Default)]
 pub(super) struct Holes {
-    /// Over which hole the job is: its way aside from there must then be that way.
+    /// The hole over which the job is: its way aside from there must then be that way.
     pub over: Option<Place>,
     pub last: Option<Expected>,
     /// Feeds of a hole in pecks, and a dwell among them.
     pub pecks: Vec<Cut>,
     pub waited: Option<f64>,
-    /// The dwell comes before the last of them.
+    /// The dwell of a hole comes before its last cut.
     pub waits_inside: bool,
 }
 
-/// Both sides.
+/// The state of a comparison: the job's side and the program's.
 pub(super) struct Sides<R> {
     pub program: Program<R>,
-    /// What the job does since its last cut.
+    /// What the job does since its last cut, as a passage.
     pub job: Passage,
     pub hole: Holes,
     pub limits: Limits,
@@ -76,7 +76,7 @@ impl<R: BufRead + Seek> Sides<R> {
         Err(diag)
     }
 
-    /// Nothing is proven from this line of the program on.
+    /// Says that nothing is proven from this line of the program on.
     pub fn unproven<T>(&mut self, why: String, help: &str, line: u64) -> Result<T, Box<Diag>> {
         let diag = Box::new(Diag::new(Code::PV020, why.clone()).help(help));
         let block = self.program.number_of(line);
@@ -116,7 +116,7 @@ impl<R: BufRead + Seek> Sides<R> {
         self.job.begin(Rapid { to: cut.end(), unknown: 0, spin: None });
     }
 
-    /// In whose coordinates the program's last cut was.
+    /// The frame in which the program's last cut was.
     pub fn frame_before(&self) -> Frame {
         Frame { tool: self.before.tool, work: self.before.work }
     }

@@ -5,15 +5,15 @@ use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, same};
 /// How a program's way compares with the job's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Compared {
-    /// The same, moves of no length and parts of one straight rapid joined.
+    /// The job's way, moves of no length and parts of one straight rapid joined.
     Same,
-    /// Another order of axes, or higher, and nowhere lower; each move across has its own in the job, or not.
+    /// A way with another order of axes, or higher, and nowhere lower; each move across has its own in the job, or not.
     AsGood { step_by_step: bool },
     /// Lower than the job's at this place.
     Lower(Place, f64),
     /// Across to a place where the job does not go.
     Elsewhere(Place),
-    /// The same with the spindle turning otherwise.
+    /// The job's way with the spindle turning otherwise.
     Turning,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct Way {
 }
 
 impl Way {
-    /// From a start over these rapids: without those of no length, parts of one straight rapid joined.
+    /// Makes the way from a start over these rapids: without those of no length, parts of one straight rapid joined.
     pub fn set(&mut self, start: Option<Rapid>, rapids: &[Rapid], tolerance: f64) {
         self.corners.clear();
         self.corners.extend(start);
@@ -50,7 +50,7 @@ impl Way {
         }
     }
 
-    /// The same corners, known or not?
+    /// Do both ways have the same corners, known or not?
     pub fn is(&self, other: &Way, tolerance: f64) -> bool {
         self.corners.len() == other.corners.len()
             && self

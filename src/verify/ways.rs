@@ -66,7 +66,8 @@ fn turns_otherwise<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     });
 }
 
-/// On its way the tool may be moved in the job's frames and with their registers, and in no others.
+/// Checks the frames of a way: on it the tool may be moved in the job's frames and with their registers, and in no
+/// others.
 pub(super) fn moved_with<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     let tools = s.tools;
     let passage = &s.program.passage;

@@ -3,7 +3,7 @@
 use crate::diag::Code;
 use crate::nc::fault::Fault;
 
-/// Its number, our code, what is wrong, and what to write instead.
+/// A fault of Grbl: Grbl's number, our code, what is wrong, and what to write instead.
 type Row = (u8, Code, &'static str, &'static str);
 
 #[rustfmt::skip]

@@ -18,11 +18,11 @@ use survey::survey;
 /// How a program is read as a job.
 #[derive(Clone, Copy, Debug)]
 pub struct JobOptions {
-    /// Whose program it is.
+    /// Control of the program, and how it is run.
     pub settings: RunSettings,
-    /// Its units where it says none.
+    /// Units of a program that says none.
     pub units: Option<Units>,
-    /// Its first tool where it cuts before it loads one.
+    /// Number of the first tool, for a program that cuts before it loads one.
     pub tool: Option<f64>,
 }
 

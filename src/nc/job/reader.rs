@@ -209,7 +209,7 @@ impl<'a> Reader<'a> {
         Axes { values: *to, given: 0b111 | rotary }
     }
 
-    /// Before a move: the operation that it begins, and what was switched.
+    /// What comes before a move: the operation that the move begins, and what was switched.
     fn move_begins(&mut self, first: First) -> Done {
         self.start()?;
         if std::mem::take(&mut self.operation) {
@@ -255,7 +255,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// To the reference point in the middle of a tool's work: as high as the program ever goes.
+    /// Goes to the reference point in the middle of a tool's work: as high as the program ever goes.
     fn homeward(&mut self, line: u64, to: Position) -> Done {
         let message = "the way to the reference point has no place in a job";
         let help = "it becomes a rapid to the highest Z that the program says: look whether that clears the clamps";
@@ -273,7 +273,7 @@ impl<'a> Reader<'a> {
         self.place.item += 1;
     }
 
-    /// Before a cut, the tool must stand where a job knows it.
+    /// Checks before a cut that the tool stands where a job knows it.
     fn cut_begins(&mut self) -> Done {
         self.end_cycle()?;
         if self.home.is_some() || self.known & 0b111 != 0b111 {

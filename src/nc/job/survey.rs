@@ -21,7 +21,7 @@ pub(super) struct Registers {
 pub(super) struct Survey {
     pub program: Option<f64>,
     pub units: Option<Units>,
-    /// For each tool change, the first for what comes before any.
+    /// Registers for each tool change, the first for what comes before any.
     pub registers: Vec<Registers>,
     /// Rotary axes that move, as bits.
     pub rotary: u8,

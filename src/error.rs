@@ -41,7 +41,7 @@ impl Error {
         Error(Box::new(Inner { kind, findings, message, source }))
     }
 
-    /// A form with these errors, and its warnings.
+    /// The error of a form with these errors, and its warnings.
     pub(crate) fn form(findings: Findings) -> Error {
         Error::new(ErrorKind::Form, findings, String::new(), None)
     }
@@ -56,7 +56,7 @@ impl Error {
         Error::new(kind, Findings::default(), String::new(), Some(error))
     }
 
-    /// With what was found before it: warnings of a job, and the text of its form.
+    /// The error with what was found before it: warnings of a job, and the text of its form.
     pub(crate) fn after(mut self, warnings: Vec<Diag>, files: &[crate::source::Source]) -> Error {
         self.0.findings.diags.splice(0..0, warnings);
         if self.0.findings.files.is_empty() {
@@ -65,17 +65,17 @@ impl Error {
         self
     }
 
-    /// What it is about.
+    /// What kind of failure this is.
     pub fn kind(&self) -> ErrorKind {
         self.0.kind
     }
 
-    /// What was found: warnings, and the errors that stopped it. Empty where input or output failed.
+    /// Warnings, and the errors that stopped the work. Empty where input or output failed.
     pub fn findings(&self) -> &Findings {
         &self.0.findings
     }
 
-    /// Why the input or the output failed, where it did.
+    /// The failure of the input or the output, where that is the error.
     pub fn io(&self) -> Option<&io::Error> {
         self.0.source.as_ref()
     }

@@ -7,7 +7,7 @@ use clap::ValueEnum;
 /// The choice of `--color`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Colour {
-    /// On a terminal, unless NO_COLOR is set.
+    /// Colour on a terminal, unless NO_COLOR is set.
     Auto,
     /// Always.
     Always,
@@ -16,12 +16,12 @@ pub enum Colour {
 }
 
 impl Colour {
-    /// For standard error.
+    /// Is standard error coloured?
     pub fn on_stderr(self) -> bool {
         self.on(std::io::stderr().is_terminal())
     }
 
-    /// For standard output.
+    /// Is standard output coloured?
     pub fn on_stdout(self) -> bool {
         self.on(std::io::stdout().is_terminal())
     }

@@ -26,7 +26,7 @@ pub fn name(path: &Path) -> String {
     if path == Path::new("-") { "standard input".into() } else { escaped(&path.to_string_lossy()) }
 }
 
-/// The same for an output.
+/// The name that messages use for an output.
 pub fn output_name(path: &Path) -> String {
     if path == Path::new("-") { "standard output".into() } else { escaped(&path.to_string_lossy()) }
 }

@@ -15,11 +15,11 @@ use super::say::message;
 
 /// A form's file, with those that it calls.
 pub struct FormFile {
-    /// Where it is.
+    /// Where the form is.
     pub path: PathBuf,
     bytes: Vec<u8>,
     limits: Limits,
-    /// Where the files are that it calls, by their names in messages.
+    /// Where the called files are, by their names in messages.
     called: RefCell<HashMap<String, PathBuf>>,
 }
 
@@ -61,7 +61,7 @@ impl FormFile {
         std::iter::once(&self.path).chain(self.called.borrow().values()).cloned().collect()
     }
 
-    /// The files that it calls, as far as they were read, whatever links lead to them.
+    /// The files that the form calls, as far as they were read, whatever links lead to them.
     fn calls(&self) -> Vec<PathBuf> {
         // most forms call none, and need not be read twice for that
         let calls =
@@ -157,7 +157,7 @@ fn in_folder(folder: &Path, root: &Path, forms: &mut Vec<PathBuf>) -> Result<(),
     Ok(())
 }
 
-/// By its name.
+/// Is a file a form, by its name?
 fn is_form(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pf"))
 }

@@ -12,7 +12,7 @@ use super::output::destination;
 pub struct Identity {
     /// The file; before it is made, its folder.
     node: Node,
-    /// Before it is made, its name.
+    /// The name of a file that is not made yet.
     name: Option<OsString>,
 }
 
@@ -24,7 +24,7 @@ type Node = (u64, u64);
 type Node = std::path::PathBuf;
 
 impl Identity {
-    /// That of an input. `None`: it is no regular file, and nothing can replace it.
+    /// The identity of an input. `None`: no regular file, so nothing can replace it.
     pub fn of_input(path: &Path) -> Option<Identity> {
         if path == Path::new("-") {
             return of_stream(&io::stdin());
@@ -32,7 +32,7 @@ impl Identity {
         path.metadata().is_ok_and(|meta| meta.is_file()).then(|| of_path(path, None))?
     }
 
-    /// That of an output, which may not be there yet.
+    /// The identity of an output, which may not be there yet.
     pub fn of_output(path: &Path) -> Option<Identity> {
         if path == Path::new("-") {
             return of_stream(&io::stdout());

@@ -13,11 +13,11 @@ use super::unnamed::Unnamed;
 
 /// A file that is being written and not there yet.
 pub enum Target {
-    /// In the folder of its target, to appear there.
+    /// A file without a name in the folder of its target, to appear there.
     Beside(Unnamed),
     /// A device, a pipe or standard output: spooled, then copied.
     Spooled(Spool, Option<PathBuf>),
-    /// Standard output as it comes.
+    /// Standard output, written as text comes.
     Stream,
 }
 

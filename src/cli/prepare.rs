@@ -21,7 +21,7 @@ pub struct Prepared {
     pub options: Options,
     /// Warnings keep a program from being printed.
     pub denies: bool,
-    /// The files that it was made of, the configuration among them.
+    /// The files that the program is made of, the configuration among them.
     pub inputs: Vec<PathBuf>,
 }
 

@@ -23,7 +23,7 @@ impl Progress {
         Progress { started: Instant::now(), shown: None, enabled: stderr().is_terminal() }
     }
 
-    /// So many program lines are done.
+    /// Shows how many program lines are done.
     pub fn lines(&mut self, lines: u64) {
         let now = Instant::now();
         let due = self.shown.map_or(self.started + PATIENCE, |shown| shown + EVERY);

@@ -130,7 +130,7 @@ struct Output<'p> {
     target: Target,
     trace: Option<Target>,
     files: &'p [Source],
-    /// It was the source map that could not be written.
+    /// The source map could not be written, not the program.
     trace_failed: bool,
 }
 

@@ -20,7 +20,7 @@ use super::say::say;
 /// A form file as miette asks for it: found by our line index, so that thousands of findings cost no more each.
 struct Text<'a> {
     source: &'a Source,
-    /// Its text as a terminal may get it, with the same lines.
+    /// The text as a terminal may get it, with the same lines.
     shown: Cow<'a, Source>,
     /// Behind which bytes of the file the shown text is longer, and by how many bytes.
     longer: Vec<(usize, usize)>,
@@ -143,7 +143,7 @@ pub struct Reporter {
 }
 
 impl Reporter {
-    /// With or without colour.
+    /// A reporter with or without colour.
     pub fn new(colour: bool) -> Reporter {
         let theme = if colour { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
         Reporter { handler: GraphicalReportHandler::new_themed(theme).with_width(110).with_links(false) }

@@ -24,7 +24,7 @@ impl Spool {
         Ok(file)
     }
 
-    /// To be read from its beginning.
+    /// The spooled file, to be read from its beginning.
     pub fn into_file(mut self) -> io::Result<File> {
         self.0.rewind().map_err(named)?;
         Ok(self.0)

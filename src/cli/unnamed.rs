@@ -17,7 +17,7 @@ pub struct Unnamed {
 }
 
 impl Unnamed {
-    /// To become `path`, with the permissions of the file that it replaces.
+    /// Makes a file that is to become `path`, with the permissions of the file that it replaces.
     ///
     /// # Errors
     /// The folder is not there, or takes no file.
@@ -42,7 +42,7 @@ impl Unnamed {
         &mut self.file
     }
 
-    /// Lets it appear, in the place of what has its name.
+    /// Lets the file appear, in the place of what has its name.
     ///
     /// # Errors
     /// As the system says; what was there is there still.
@@ -54,7 +54,7 @@ impl Unnamed {
         path.persist(&self.path).map_err(|error| error.error)
     }
 
-    /// Lets it appear where nothing has its name.
+    /// Lets the file appear where nothing has its name.
     ///
     /// # Errors
     /// `AlreadyExists`: something has.
@@ -66,7 +66,7 @@ impl Unnamed {
         path.persist_noclobber(&self.path).map_err(|error| error.error)
     }
 
-    /// Takes its name if nothing has it, and then never had another.
+    /// Gives the file its name if nothing has that; otherwise the file never had another.
     fn appears(&self) -> io::Result<bool> {
         self.file.sync_all()?; // the name must not come before the contents
         Ok(link(&self.file, &self.path).is_ok())

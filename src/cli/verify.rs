@@ -79,7 +79,7 @@ pub struct Proof<'a> {
     pub quiet: bool,
 }
 
-/// How it came out.
+/// How a proof came out.
 pub struct Proven {
     /// The exit status.
     pub ending: Ending,

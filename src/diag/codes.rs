@@ -5,13 +5,13 @@ use super::Severity::{self, Error, Note, Warning};
 /// One row: what a finding is called.
 #[derive(Debug)]
 pub struct CodeRow {
-    /// Which code.
+    /// The code of the row.
     pub code: Code,
-    /// As printed, `PF101`.
+    /// The code as printed, `PF101`.
     pub name: &'static str,
-    /// Its severity.
+    /// Severity of the finding, before limits and levels.
     pub severity: Severity,
-    /// What it finds, in a few words.
+    /// What is found, in a few words.
     pub title: &'static str,
 }
 
@@ -335,12 +335,12 @@ codes! {
 }
 
 impl Code {
-    /// Its row of the table.
+    /// The row of the code in the table.
     pub fn row(self) -> &'static CodeRow {
         &CODES[self as usize]
     }
 
-    /// As printed, `PF101`.
+    /// The code as printed, `PF101`.
     pub fn name(self) -> &'static str {
         self.row().name
     }
@@ -350,7 +350,7 @@ impl Code {
         self.row().title.split_once(": ").map_or("", |(key, _)| key)
     }
 
-    /// As a message begins: `PF101`, `PC002 (cycle.depth.missing)`.
+    /// The code as a message begins: `PF101`, `PC002 (cycle.depth.missing)`.
     pub fn title(self) -> String {
         if self.key().is_empty() { self.name().to_owned() } else { format!("{} ({})", self.name(), self.key()) }
     }

@@ -8,21 +8,21 @@ use crate::source::Source;
 /// What was found, with the form's text: enough to show it or to write a report of it.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
-    /// In the order of the files and of the places in them.
+    /// Findings in the order of the files and of the places in them.
     pub diags: Vec<Diag>,
     /// The form, and those that it calls: the spans of labels and fixes are places in them. Empty where no form is concerned.
     pub files: Vec<Source>,
-    /// How many more there are that comments of the form allow.
+    /// How many findings more there are that comments of the form allow.
     pub suppressed: usize,
 }
 
 impl Findings {
-    /// Are there none?
+    /// Are there no findings?
     pub fn is_empty(&self) -> bool {
         self.diags.is_empty()
     }
 
-    /// How many there are of this severity.
+    /// How many findings have this severity.
     pub fn count(&self, severity: Severity) -> usize {
         self.diags.iter().filter(|diag| diag.severity == severity).count()
     }

@@ -29,13 +29,13 @@ impl Location {
         Location { line: Some(line), ..Location::default() }
     }
 
-    /// With the step of the job; an empty one is none.
+    /// The location with the step of the job; an empty step is none.
     pub(crate) fn step(mut self, step: String) -> Location {
         self.step = Some(step).filter(|step| !step.is_empty());
         self
     }
 
-    /// Is nothing known?
+    /// Is nothing known of the place?
     pub fn is_empty(&self) -> bool {
         *self == Location::default()
     }

@@ -17,7 +17,7 @@ pub enum Severity {
     Note,
     /// The program is printed, but look at it.
     Warning,
-    /// Nothing is printed.
+    /// An error: nothing is printed.
     Error,
 }
 
@@ -35,7 +35,7 @@ impl Severity {
 /// A place in form text and what is to be said of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
-    /// Where.
+    /// The place in the form's text.
     pub span: Span,
     /// A few words under the place.
     pub text: String,
@@ -48,14 +48,14 @@ pub struct Fix {
     pub title: String,
     /// Safe: the NC output of every job stays the same, byte for byte.
     pub safe: bool,
-    /// Replacements, not overlapping.
+    /// Pieces of text and what replaces each; they do not overlap.
     pub edits: Vec<(Span, String)>,
 }
 
 /// One finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diag {
-    /// Its row in the table of codes.
+    /// Row in the table of codes.
     pub code: Code,
     /// As the table says, unless limits were relaxed or a shop's levels say otherwise.
     pub severity: Severity,
@@ -67,7 +67,7 @@ pub struct Diag {
     pub place: Option<Location>,
     /// What to type instead.
     pub help: Option<String>,
-    /// The same as an edit.
+    /// What to type instead, as an edit of the form.
     pub fix: Option<Fix>,
 }
 
@@ -111,7 +111,7 @@ impl Diag {
         self
     }
 
-    /// Is it an error?
+    /// Is the finding an error?
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
@@ -119,7 +119,7 @@ impl Diag {
 
 /// Longest message or help, in characters.
 const LONGEST: usize = 400;
-/// Longest word in it, a number of 309 digits among them.
+/// How many characters of a word messages show; a number of 309 digits is longer.
 const LONGEST_WORD: usize = 100;
 
 fn shown(text: String) -> String {
@@ -131,7 +131,7 @@ fn shown(text: String) -> String {
     cut(&words.join(" "), LONGEST, " … ")
 }
 
-/// Without its middle where it is longer than `most` characters.
+/// A text without its middle where it is longer than `most` characters.
 fn cut(text: &str, most: usize, mark: &str) -> String {
     let count = text.chars().count();
     if count <= most {
@@ -158,7 +158,7 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
-/// The same for text of several lines, which stay lines.
+/// Text of several lines made safe for a terminal; the lines stay lines.
 pub fn escaped_lines(text: &str) -> String {
     text.split('\n').map(escaped).collect::<Vec<_>>().join("\n")
 }

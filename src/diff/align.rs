@@ -26,7 +26,7 @@ pub struct Options {
 /// A time, and the clock that knows whether it has come: the library has none.
 #[derive(Clone, Copy, Debug)]
 pub struct Deadline {
-    /// The time.
+    /// The time at which the search for the shortest answer ends.
     pub at: Instant,
     /// The clock, which is `Instant::now` where there is one.
     pub now: fn() -> Instant,
@@ -65,9 +65,9 @@ pub struct Hunk {
 /// What changed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Comparison {
-    /// In the order of the programs.
+    /// Hunks in the order of the programs.
     pub hunks: Vec<Hunk>,
-    /// It took too long to find the shortest answer.
+    /// The search for the shortest answer was given up: this one is right and may be longer.
     pub is_coarse: bool,
     /// When to stop looking for short answers, inside blocks too.
     pub until: Option<Instant>,

@@ -18,14 +18,14 @@ pub struct Ignore {
 }
 
 impl Ignore {
-    /// Their names.
+    /// The names of all that can be ignored.
     pub const NAMES: [&'static str; 6] = ["numbers", "comments", "spaces", "case", "format", "order"];
 
     /// What a machine does not see: block numbers, blanks, case and the format of numbers.
     pub const USUAL: Ignore =
         Ignore { numbers: true, comments: false, spaces: true, case: true, format: true, order: false };
 
-    /// Sets one by its name; `false` if there is none.
+    /// Sets what can be ignored by its name; `false`: nothing has this name.
     pub fn set(&mut self, name: &str) -> bool {
         let field = match name {
             "numbers" => &mut self.numbers,

@@ -29,17 +29,17 @@ impl Program {
         Ok(Program { bytes, starts })
     }
 
-    /// Its text.
+    /// The text of the program.
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
-    /// How many lines it has.
+    /// How many lines the program has.
     pub fn len(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// Has it none?
+    /// Has the program no line?
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

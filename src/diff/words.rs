@@ -13,23 +13,23 @@ use crate::nc::{Kind, tokens};
 /// A word or comment of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Word {
-    /// Its bytes in the line.
+    /// The bytes of the word in the line.
     pub span: Range<usize>,
-    /// Its letter; 0 for what is no word.
+    /// The letter of the word; 0 for what is no word.
     pub letter: u8,
-    /// Its number, where it has one.
+    /// The number behind the letter, where there is one.
     pub value: Option<f64>,
-    /// As compared.
+    /// The word as it is compared.
     key: Vec<u8>,
 }
 
 impl Word {
-    /// Is it the same, as compared?
+    /// Is another word the same, as compared?
     pub fn is(&self, other: &Word) -> bool {
         self.key == other.key
     }
 
-    /// As compared, as a number: two different words of a line have one by chance once in 2^64.
+    /// The word as a number, made of what is compared: two different words of a line have one by chance once in 2^64.
     fn hashed(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
         self.key.hash(&mut hasher);

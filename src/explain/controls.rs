@@ -5,7 +5,7 @@ use crate::control::{Centres, Control, DwellUnit, Kept, Row, Rules, ToolLength, 
 /// What nothing public says.
 const UNKNOWN: &str = "not known";
 
-/// What a control is besides its codes: a name, and what is known of it.
+/// The traits of a control, by name: what is known of each.
 fn facts(control: &Control) -> Vec<(&'static str, String)> {
     let traits = control.traits();
     let kept = |kept: Kept| match kept {
@@ -138,7 +138,7 @@ pub fn list() -> String {
     text
 }
 
-/// How many codes and how many cycles it has that are run.
+/// How many codes and how many cycles of a control are run.
 fn counts(control: &Control) -> (usize, usize) {
     let has = |row: &&Row| row.not_run.is_none() && !control.refuses(row.code);
     let cycles = control.rows().filter(has).filter(|row| row.meaning.is_cycle()).count();

@@ -33,9 +33,9 @@ samples! {
 
 /// Text of a form and its name.
 pub struct Example {
-    /// The lines.
+    /// The lines of the example.
     pub text: String,
-    /// Where they stand.
+    /// Name of the form in which the lines stand.
     pub form: &'static str,
 }
 
@@ -43,7 +43,7 @@ fn forms() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
     POSTS.iter().chain(SAMPLES)
 }
 
-/// A sequence from its name to its End.
+/// The text of a sequence from its name to its End, in a form that ships.
 pub fn sequence(id: SequenceId) -> Option<Example> {
     forms().find_map(|(form, text)| {
         let tree = parse(&Source::from_text(*form, *text), 0);

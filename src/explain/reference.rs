@@ -15,7 +15,7 @@ fn cell(text: &str) -> String {
     text.replace('|', "\\|")
 }
 
-/// docs/commands.md.
+/// The text of docs/commands.md.
 pub fn commands() -> String {
     let mut text = head(
         "Commands of forms",
@@ -36,7 +36,7 @@ pub fn commands() -> String {
     text
 }
 
-/// docs/variables.md.
+/// The text of docs/variables.md.
 pub fn variables() -> String {
     let mut text = head(
         "Variables of forms",
@@ -57,7 +57,7 @@ pub fn variables() -> String {
     text
 }
 
-/// docs/sequences.md.
+/// The text of docs/sequences.md.
 pub fn sequences() -> String {
     let mut text = head(
         "Sequences",

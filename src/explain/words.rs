@@ -6,7 +6,7 @@ use crate::toolpath::CycleKind;
 
 /// A kind of cycle that jobs ask for.
 pub struct CycleRow {
-    /// As jobs name it.
+    /// Name of the cycle, as jobs write it.
     pub name: &'static str,
     /// What the tool does.
     pub meaning: &'static str,
@@ -104,7 +104,7 @@ fn page(head: &str, lines: &[(&str, String)], example: Option<Example>) -> Strin
     text
 }
 
-/// A command.
+/// The page of a command, as `explain` prints it.
 pub fn command(id: CommandId) -> String {
     let row = id.row();
     let without = if row.without.is_nothing() { "nothing".to_owned() } else { row.without.to_string() };
@@ -132,7 +132,7 @@ fn as_it_would_be(row: &Command) -> Option<Example> {
     Some(Example { text: format!("{} {value}", row.name), form: "as a form would say it" })
 }
 
-/// A variable.
+/// The page of a variable, as `explain` prints it.
 pub fn variable(id: VarId) -> String {
     let row = id.row();
     let lines = [
@@ -151,7 +151,7 @@ fn in_a_comment(id: VarId) -> Option<Example> {
     Some(Example { text, form: "in a comment of the program" })
 }
 
-/// A sequence.
+/// The page of a sequence, as `explain` prints it.
 pub fn sequence(id: SequenceId) -> String {
     let row = id.row();
     let kind = if row.is_cycle { "canned cycle" } else { "sequence" };
@@ -167,7 +167,7 @@ pub fn sequence(id: SequenceId) -> String {
     page(&format!("{} ({kind})", row.name), &lines, examples::sequence(id))
 }
 
-/// `Upon [var]`.
+/// The page of `Upon [var]`, as `explain` prints it.
 pub fn upon() -> String {
     let lines = [
         ("is", "a sequence that is printed when a variable changes, before what uses it".to_owned()),

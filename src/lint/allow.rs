@@ -18,7 +18,7 @@ struct Allow {
     code: Code,
     /// The code in the comment.
     word: Span,
-    /// Where its findings are allowed.
+    /// Where the findings of the comment are allowed.
     range: Span,
 }
 
@@ -73,7 +73,7 @@ fn unused(allow: &Allow) -> Diag {
 /// Where a comment may allow findings.
 #[derive(Clone, Copy)]
 struct Ranges {
-    /// What it stands at.
+    /// The line or sequence that the comment stands at.
     here: Span,
     /// The whole file, for a comment at its head.
     whole: Option<Span>,

@@ -7,7 +7,7 @@ use crate::sema::{Line, Settings, Word, WordKind};
 /// How the tool moves in a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// Nobody has said it yet in this body.
+    /// No block of this body has said the motion yet.
     Unknown,
     /// G0.
     Rapid,
@@ -21,14 +21,14 @@ pub enum Motion {
 
 /// A line with the modes that hold in it: a control acts on all codes of a block at once.
 pub struct Block<'a> {
-    /// The line.
+    /// The line that prints the block.
     pub line: &'a Line,
     /// The words that say where an axis goes, with its number: 0 and 1 across, 2 the depth. Those of a code that only sets
     /// something, as G4, G10, G52, G68 and G92, and of a macro call, say it of none.
     pub axis_words: Vec<(&'a Word, usize)>,
-    /// How it moves.
+    /// How the block moves.
     pub motion: Motion,
-    /// G91 holds.
+    /// G91 holds in the block.
     pub incremental: bool,
     /// The block has G28 or G30: its axis words are a point on the way to the reference point.
     pub reference: bool,

@@ -5,9 +5,9 @@ use crate::diag::{CODES, Code, Diag, Severity};
 /// What a rule's findings count as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// They are not shown.
+    /// Findings are not shown.
     Off,
-    /// They count as this.
+    /// Findings count as this severity.
     As(Severity),
 }
 
@@ -61,7 +61,7 @@ impl Levels {
         self.0.iter().rev().find(|(c, _)| *c == code).map(|(_, level)| *level)
     }
 
-    /// Gives a finding its level; `false`: it is off.
+    /// Gives a finding its level; `false`: the level is off.
     pub(super) fn apply(&self, diag: &mut Diag) -> bool {
         match self.level(diag.code) {
             Some(Level::Off) => false,

@@ -13,13 +13,13 @@ pub type Changed = HashMap<String, String>;
 /// A form after its fixes.
 #[derive(Debug)]
 pub struct Mended {
-    /// The form.
+    /// The mended form.
     pub checked: Checked,
-    /// What is found in it now.
+    /// What is found in the mended form.
     pub findings: Found,
     /// The files that fixes changed.
     pub changed: Changed,
-    /// What was mended. A finding that came up on the way has no place: nobody has seen that text.
+    /// Findings that were mended. One that came up on the way has no place: nobody has seen that text.
     pub made: Vec<Diag>,
 }
 

@@ -25,9 +25,9 @@ use view::View;
 /// What was found in a form.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// In the order of the files and of the places in them.
+    /// Findings in the order of the files and of the places in them.
     pub diags: Vec<Diag>,
-    /// How many more there are that a comment of the form allows.
+    /// How many findings more there are that a comment of the form allows.
     pub suppressed: usize,
 }
 
@@ -50,9 +50,9 @@ pub fn lint(checked: &Checked, levels: &Levels) -> Found {
 /// A form that can print, with what it is warned of.
 #[derive(Debug)]
 pub struct Ready {
-    /// What prints.
+    /// The program that prints the form.
     pub program: Program,
-    /// Its warnings, in the order of their places; notes are for [`lint`].
+    /// Warnings of lint about the form, in the order of their places; notes are for [`lint`].
     pub warnings: Vec<Diag>,
 }
 
@@ -69,7 +69,8 @@ pub fn ready(checked: &Checked, levels: &Levels) -> Result<Ready, Vec<Diag>> {
     }
 }
 
-/// Where words of a sequence were not understood, what it lacks only follows from that: the cause is shown alone.
+/// Leaves the cause alone where words of a sequence were not understood: what the sequence lacks only follows from
+/// that.
 fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     let lost = [Code::PF101, Code::PF104, Code::PF205, Code::PF206];
     let is_cause = |diag: &&Diag| stops_printing(diag) || lost.contains(&diag.code);
@@ -87,7 +88,7 @@ fn stops_printing(diag: &Diag) -> bool {
     diag.is_error() && diag.code.row().severity == Severity::Error
 }
 
-/// In the order of file and place; the worst first where they share one.
+/// Sorts findings by file and place; the worst first where they share one.
 pub fn sort(diags: &mut [Diag]) {
     diags.sort_by_key(|d| {
         let span = d.labels.first().map(|l| l.span).unwrap_or_default();

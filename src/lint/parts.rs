@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// Of forms with the forms that each calls: is it called by another one? A part is looked at where it is called, by the
-/// settings that hold there. Where two call each other the first is none.
+/// Which forms are parts, of forms with the forms that each calls: those that another one calls. A part is looked at
+/// where it is called, by the settings that hold there. Where two call each other the first is none.
 pub fn parts<K: Eq + Hash>(forms: &[(K, Vec<K>)]) -> Vec<bool> {
     let mut callers: HashMap<&K, Vec<usize>> = HashMap::new();
     for (at, (_, called)) in forms.iter().enumerate() {

@@ -20,7 +20,7 @@ impl FromIterator<Span> for Cover {
 }
 
 impl Cover {
-    /// Does one of them hold where `at` begins?
+    /// Does one of the ranges hold where `at` begins?
     pub fn holds(&self, at: Span) -> bool {
         let after = self.0.partition_point(|span| (span.file, span.start) <= (at.file, at.start));
         after.checked_sub(1).is_some_and(|last| self.0[last].file == at.file && at.start <= self.0[last].end)
@@ -39,7 +39,7 @@ impl FromIterator<Span> for Places {
 }
 
 impl Places {
-    /// Does one of them lie in `whole`, its end included?
+    /// Does one of the places lie in `whole`, its end included?
     pub fn any_in(&self, whole: Span) -> bool {
         let first = self.0.partition_point(|&place| place < (whole.file, whole.start));
         self.0.get(first).is_some_and(|&(file, start)| file == whole.file && start <= whole.end)

@@ -14,23 +14,23 @@ use super::blocks::{self, Block};
 pub struct View<'a> {
     /// Files, trees, and what they mean.
     pub checked: &'a Checked,
-    /// What they mean.
+    /// What the files mean together.
     pub form: &'a Form,
-    /// Its commands.
+    /// Commands of the form.
     pub settings: &'a Settings,
-    /// What its letters print, in its own units.
+    /// What letters of the form print, in the form's own units.
     pub letters: LetterTable,
     /// Sequences and Upons in the order of the form.
     pub bodies: Vec<Body<'a>>,
-    /// The blocks of each.
+    /// Blocks of each body, in the order of `bodies`.
     blocks: Vec<Vec<Block<'a>>>,
     /// Letters that have a format of their own.
     has_format: [bool; 256],
     /// The variables that bodies print, outside comments.
     printed: VarSet,
-    /// The same with those in comments.
+    /// Variables that bodies print, in comments too.
     told: VarSet,
-    /// Letters of words.
+    /// Letters that words of the form begin with.
     has_words: [bool; 256],
     /// A body has a cycle of the control.
     has_cycles: bool,
@@ -48,11 +48,11 @@ pub enum Purpose {
 /// The lines of one sequence.
 #[derive(Clone, Copy)]
 pub struct Body<'a> {
-    /// What for.
+    /// Purpose of the body.
     pub purpose: Purpose,
-    /// Its place among the bodies.
+    /// Place of this body in [`View::bodies`].
     index: usize,
-    /// The name line.
+    /// The name line of the body.
     pub span: Span,
     /// The lines that print.
     pub lines: &'a [Line],
@@ -259,7 +259,7 @@ impl<'a> View<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// As messages name it.
+    /// Name of the body in messages.
     pub fn name(&self) -> String {
         match self.purpose {
             Purpose::Sequence(id) => id.name().to_owned(),
@@ -268,7 +268,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Its words.
+    /// Words of the body, line after line.
     pub fn words(&self) -> impl Iterator<Item = &'a Word> + use<'a> {
         self.lines.iter().flat_map(|line| &line.words)
     }
@@ -278,12 +278,12 @@ impl<'a> Body<'a> {
         self.lines.iter().position(|line| line.words.iter().any(|own| std::ptr::eq(own, word))).unwrap_or(0)
     }
 
-    /// Does it print this variable, for the control to read?
+    /// Does the body print this variable, for the control to read?
     pub fn prints(&self, var: VarId) -> bool {
         self.words().any(|word| word.printed_var() == Some(var))
     }
 
-    /// Does it print one of these?
+    /// Does the body print one of these variables?
     pub fn prints_any(&self, vars: &[VarId]) -> bool {
         vars.iter().any(|&var| self.prints(var))
     }

@@ -8,7 +8,7 @@ use crate::toolpath::Place;
 
 /// A program up to this size is nothing to ask about.
 const LARGE: u64 = 100_000_000;
-/// So many times as long as its job.
+/// How many times as long as its job a large program may be.
 const TIMES: u64 = 1000;
 
 /// Compares what is printed with what was read.
@@ -20,7 +20,7 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// So much more is printed, up to this place of the job.
+    /// Counts bytes that are printed, up to this place of the job.
     ///
     /// # Errors
     /// It is too much for this job.

@@ -52,9 +52,9 @@ impl<F: Fn(&str) -> Result<Source, String>> Files for F {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Prompt<'a> {
-    /// The variable that its answer sets.
+    /// The variable that the answer sets.
     pub variable: &'static str,
-    /// What is asked.
+    /// The question.
     pub text: &'a str,
     /// What holds without an answer.
     pub default: Option<f64>,
@@ -102,7 +102,7 @@ impl Post {
         self.0.program.settings.control
     }
 
-    /// What the form asks before it prints: the answers are [`Options::set`].
+    /// Questions of the form before it prints: the answers are [`Options::set`].
     pub fn prompts(&self) -> impl Iterator<Item = Prompt<'_>> {
         let prompts = self.0.program.settings.prompts.iter();
         prompts.map(|prompt| Prompt { variable: prompt.var.row().name, text: &prompt.text, default: prompt.default })
@@ -113,7 +113,7 @@ impl Post {
         &self.0.warnings
     }
 
-    /// Its files: the form, then those that it calls. Spans are places in them.
+    /// Files of the form: the form itself, then those that it calls. Spans are places in them.
     pub fn files(&self) -> &[Source] {
         &self.0.warnings.files
     }

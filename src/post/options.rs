@@ -39,7 +39,7 @@ impl Options {
         Ok(())
     }
 
-    /// As the renderer takes them.
+    /// The options as the renderer takes them.
     pub(super) fn for_renderer(&self) -> Result<render::Options, Error> {
         let set = self.set.iter().map(|(name, value)| Ok((variable(name).map_err(Error::usage)?, *value)));
         Ok(render::Options {
@@ -71,7 +71,7 @@ fn variable(name: &str) -> Result<VarId, String> {
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Proof {
-    /// By whose rules; else the form's `Control`, else Fanuc's.
+    /// The control by whose rules the program is run; `None`: the form's `Control`, else Fanuc.
     pub control: Option<&'static Control>,
     /// Blocks with a slash are left out.
     pub block_delete: bool,

@@ -8,8 +8,8 @@ use crate::render::{Renderer, TraceLine};
 use crate::toolpath::{Event, Flow, Place, Sink, Stop};
 
 impl Post {
-    /// Where lines of a program come from, by printing it once more: `lines` count from 1, and `None` is a line that it has
-    /// not. The job is read as far as it is needed.
+    /// Where lines of a program come from, found by printing it once more: `lines` count from 1, and `None` is a line
+    /// that the program has not. The job is read as far as it is needed.
     ///
     /// # Errors
     /// The job can't be read, or an option makes no sense.

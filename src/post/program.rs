@@ -12,12 +12,12 @@ pub struct Program {
 }
 
 impl Program {
-    /// Its text.
+    /// The text of the program.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// Its text, to keep.
+    /// The text of the program, to keep.
     pub fn into_text(self) -> String {
         self.text
     }
@@ -54,7 +54,7 @@ pub struct Rendered {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Part<'a> {
-    /// Their text.
+    /// The text of these blocks.
     pub text: &'a [u8],
     /// Where each came from, if that was asked for.
     pub trace: &'a [TraceLine],

@@ -78,7 +78,7 @@ fn fault(what: &str) -> Box<Diag> {
     Box::new(Diag::new(Code::PX001, what).help("this is a fault of postform: please report it"))
 }
 
-/// Between reader and output: prints, and passes text on as it comes.
+/// A sink between reader and output: prints, and passes text on as it comes.
 struct Printer<'p, 't> {
     renderer: Renderer<'p>,
     growth: Growth,

@@ -73,7 +73,7 @@ pub enum NoPoint {
 }
 
 impl NoPoint {
-    /// As the library has it.
+    /// The choice as the library has it.
     pub fn unpointed(self) -> Unpointed {
         match self {
             NoPoint::Whole => Unpointed::Whole,
@@ -94,7 +94,7 @@ impl ControlArgs {
         proof
     }
 
-    /// As the library has it; `form` is the form's own control.
+    /// The settings of a run as the library has them; `form` is the form's own control.
     pub fn settings(&self, form: Option<&'static Control>, units: Units) -> RunSettings {
         let control = self.control.or(form).unwrap_or_else(Control::usual);
         let unpointed = self.no_point.map_or(Unpointed::Refused, NoPoint::unpointed);

@@ -20,7 +20,7 @@ pub enum LimitsArg {
 }
 
 impl LimitsArg {
-    /// As the library has it.
+    /// The limits as the library has them.
     pub fn limits(self) -> Limits {
         match self {
             LimitsArg::Classic => Limits::Classic,

@@ -74,7 +74,7 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 impl From {
-    /// As the library has it.
+    /// The format as the library has it.
     pub fn format(self) -> Format {
         match self {
             From::Json => Format::Json,
@@ -87,7 +87,7 @@ impl From {
 }
 
 impl ReadArgs {
-    /// As the library has them.
+    /// The options of reading as the library has them.
     pub fn reading(&self) -> Reading {
         let mut reading = Reading::default();
         reading.dialect = self.dialect;
@@ -137,7 +137,7 @@ pub enum UnitsArg {
 }
 
 impl UnitsArg {
-    /// As the library has it.
+    /// The units as the library has them.
     pub fn units(self) -> Units {
         match self {
             UnitsArg::Inch => Units::Inch,
@@ -186,7 +186,7 @@ pub enum DenyArg {
 }
 
 impl RenderOptions {
-    /// As the library has them, without the values of variables.
+    /// The options of rendering as the library has them, without the values of variables.
     pub fn options(&self) -> Options {
         let mut options = Options::default();
         options.program = self.program;

@@ -18,13 +18,13 @@ use super::super::verify::rendered;
 
 /// A program, and what is known of it.
 pub struct Side {
-    /// What it is called.
+    /// What the program is called.
     pub name: String,
-    /// Its text.
+    /// The text of the program.
     pub program: Program,
     /// The control of the form that printed it.
     pub control: Option<&'static Control>,
-    /// Where its lines come from, and the form's text.
+    /// Where lines of the program come from, and the form's text.
     pub trace: Option<(Trace, Vec<Source>)>,
 }
 
@@ -53,7 +53,7 @@ impl Side {
     }
 }
 
-/// Both programs. `None`: one can't be rendered, which was shown.
+/// Both programs of a comparison. `None`: one can't be rendered, which was shown.
 pub fn sides(args: &DiffArgs, reporter: &Reporter) -> Result<Option<[Side; 2]>, String> {
     match (&args.form, &args.against, args.files.as_slice()) {
         (Some(form), Some(old), [job]) => {

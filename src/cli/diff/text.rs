@@ -41,7 +41,7 @@ pub fn unified(
     page.text
 }
 
-/// The same side by side, in so many columns.
+/// A comparison as two columns, old and new side by side, `columns` characters wide together.
 pub fn side_by_side(
     old: &Side,
     new: &Side,
@@ -156,7 +156,7 @@ impl Page<'_> {
         }
     }
 
-    /// Which words, under their line.
+    /// Marks the words that differ, under their line.
     fn marks(&mut self, line: &[u8], spans: &[Range<usize>]) {
         if spans.is_empty() || line.iter().any(|byte| !(b' '..=b'~').contains(byte)) {
             return; // places are columns only where a byte is one

@@ -19,11 +19,11 @@ use super::report::{Reporter, count};
 use super::say::{message, say};
 use super::{Ending, output};
 
-/// What was found in a form, and what was done about it.
+/// What lint found in a form, and what was done about it.
 pub struct Linted {
-    /// What was found; without the form's text where that is nothing.
+    /// Findings; without the form's text where there are none.
     findings: Findings,
-    /// What was done to its files.
+    /// What was done to the form's files, in words.
     story: String,
     /// How many fixes were made.
     mended: usize,

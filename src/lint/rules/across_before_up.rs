@@ -33,8 +33,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Is it said here where the tool goes? Not from a tool change on, which takes it up; nor in a macro, by a code of the
-/// builder, or with all axes home.
+/// Does a block say where the tool goes? Not a tool change, which takes the tool up; nor a macro, a code of the
+/// builder, or all axes home.
 fn is_said(view: &View, block: &Block) -> bool {
     let leaves = |word: &Word| {
         calls(view.settings.codes(), word)

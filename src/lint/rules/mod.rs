@@ -103,9 +103,9 @@ use crate::diag::{Code, Diag};
 /// A rule: what its findings are called, and how they are found.
 #[derive(Debug)]
 pub struct Rule {
-    /// The code of its findings.
+    /// The code of the rule's findings.
     pub code: Code,
-    /// Its file.
+    /// The file of the rule in `src/lint/rules`.
     pub file: &'static str,
     pub(super) check: fn(&View, &mut Vec<Diag>),
 }

@@ -46,7 +46,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Is it a block of a tap whose pitch has a word of its own, with a pitch?
+/// Is a line the block of a tap whose pitch has a word of its own, with a pitch?
 fn taps_by_pitch(view: &View, line: &Line) -> bool {
     let words = &line.words;
     let codes = view.settings.codes();

@@ -26,3 +26,7 @@ hunt-long:
 bench:
     cargo bench --bench render
     benches/throughput
+
+# the post for FreeCAD's window, inside FreeCAD (installs Debian's): its programs are those of the saved documents
+freecad:
+    integrations/freecad/run

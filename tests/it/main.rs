@@ -17,6 +17,7 @@ mod golden;
 mod grbl;
 mod guide;
 mod increments;
+mod integrations;
 mod lint_command;
 mod linuxcnc;
 mod linuxcnc_random;

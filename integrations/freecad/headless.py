@@ -1,0 +1,84 @@
+"""Posts documents inside FreeCAD, as its own command does, and writes what comes: run by `integrations/freecad/run`.
+
+The environment says what: POSTFORM_DOCUMENTS (a folder; those of its version are taken), POSTFORM_ARGUMENTS, POSTFORM_OUT.
+"""
+
+import os
+import shutil
+
+import FreeCAD
+
+def install():
+    """Puts the post into the macro folder, as a user does."""
+    folder = FreeCAD.getUserMacroDir(True)
+    os.makedirs(folder, exist_ok=True)
+    shutil.copy(os.environ["POSTFORM_POST"], folder)
+
+
+def jobs(document):
+    """The jobs of a document."""
+    return [item for item in document.Objects if hasattr(item, "Fixtures") and hasattr(item, "Operations")]
+
+
+def posted_by_0_20(job):
+    """The programs, by FreeCAD's own way to them: list of objects, loaded post, file."""
+    from PathScripts.PathPost import CommandPathPost
+    from PathScripts.PathPostProcessor import PostProcessor
+
+    programs = []
+    for part, objects in enumerate(CommandPathPost().buildPostList(job)):
+        file = os.path.join(os.environ["POSTFORM_OUT"], "written-{}.nc".format(part))
+        PostProcessor.load("postform").export(objects, file, os.environ["POSTFORM_ARGUMENTS"])
+        with open(file, newline="") as written:
+            programs.append(written.read())
+        os.remove(file)
+    return programs
+
+
+def posted_by_1_1(job):
+    """The programs that FreeCAD gets and would write."""
+    from Path.Post.Processor import PostProcessorFactory
+
+    # a job made before the post was installed does not know its name
+    job.PostProcessor = sorted(set(job.getEnumerationsOfProperty("PostProcessor")) | {"postform"})
+    job.PostProcessor = "postform"
+    job.PostProcessorArgs = os.environ["POSTFORM_ARGUMENTS"]
+    return [program for _, program in PostProcessorFactory.get_post_processor(job, "postform").export()]
+
+
+def refused(document, posted):
+    """A tool without a speed: FreeCAD gets the message as an error, and no program."""
+    for item in document.Objects:
+        if hasattr(item, "SpindleSpeed"):
+            item.SpindleSpeed = 0
+    try:
+        posted(jobs(document)[0])
+    except RuntimeError as error:
+        assert "has no spindle speed" in str(error), error
+    else:
+        raise AssertionError("a tool without a speed was posted")
+
+
+def main():
+    install()
+    posted = posted_by_0_20 if FreeCAD.Version()[0] == "0" else posted_by_1_1
+    version = ".".join(FreeCAD.Version()[:2])
+    folder = os.environ["POSTFORM_DOCUMENTS"]
+    for file in sorted(file for file in os.listdir(folder) if file.endswith("-{}.FCStd".format(version))):
+        name = file[: -len(".FCStd")]
+        document = FreeCAD.openDocument(os.path.join(folder, file))
+        for job in jobs(document):
+            for split in (False, True):
+                job.SplitOutput = split
+                for part, program in enumerate(posted(job)):
+                    file = "{}.{}{}.nc".format(name, "split-" if split else "", part)
+                    with open(os.path.join(os.environ["POSTFORM_OUT"], file), "w", newline="") as out:
+                        out.write(program)
+                    if split:
+                        assert program.count(" M6") == 1 or job.OrderOutputBy != "Tool", program
+        refused(document, posted)
+        FreeCAD.closeDocument(document.Name)
+    print("posted inside FreeCAD", ".".join(FreeCAD.Version()[:3]))
+
+
+main()

@@ -1,0 +1,27 @@
+//! The posts that run inside CAM systems, tested in their own languages without those systems.
+#![allow(clippy::unwrap_used)]
+
+use std::process::Command;
+
+use crate::support;
+
+/// Runs tests of another language, which find this build's postform in `POSTFORM`.
+fn passes(program: &str, arguments: &[&str]) {
+    let done = Command::new(program)
+        .args(arguments)
+        .current_dir(support::root())
+        .env("POSTFORM", env!("CARGO_BIN_EXE_postform"))
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&done.stderr).into_owned() + &String::from_utf8_lossy(&done.stdout);
+    assert!(done.status.success(), "{said}");
+    assert!(said.contains("Ran ") || said.contains("# pass "), "no test ran: {said}");
+}
+
+/// FreeCAD's own objects by stand-ins, made of what was dumped inside it; `just freecad` runs the post inside FreeCAD.
+#[test_with::executable(python3)]
+#[test]
+fn the_post_for_freecad_prints_what_the_saved_document_gives() {
+    passes("python3", &["integrations/freecad/test_postform_post.py"]);
+}

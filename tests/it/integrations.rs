@@ -25,3 +25,10 @@ fn passes(program: &str, arguments: &[&str]) {
 fn the_post_for_freecad_prints_what_the_saved_document_gives() {
     passes("python3", &["integrations/freecad/test_postform_post.py"]);
 }
+
+/// Autodesk's engine by a stand-in that has what its documentation says.
+#[test_with::executable(node)]
+#[test]
+fn the_post_for_fusion_writes_the_job() {
+    passes("node", &["--test", "integrations/fusion/"]);
+}

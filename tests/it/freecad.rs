@@ -10,6 +10,7 @@ use postform::toolpath::{Axes, Coolant, CycleSpec, Event, Flow, Place, ReadError
 use serde_json::Value;
 
 use crate::support;
+use crate::support::nc::Call;
 
 const DOCUMENTS: [&str; 5] = ["bracket-0.20", "by-tool-0.20", "inch-names-0.20", "holes-1.1", "dressups-1.1"];
 
@@ -512,5 +513,56 @@ fn documents_are_posted_and_proven() {
             assert!(said.starts_with("identical") || said.starts_with("equivalent"), "{name} {form:?}: {said}");
             assert!(run("render").stdout.len() > 400);
         }
+    }
+}
+
+/// Ends of the cuts that LinuxCNC's interpreter makes of a program, millimetres; what takes it nowhere is left out.
+fn cuts(program: &str, name: &str) -> Vec<[f64; 3]> {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let (file, table) = (folder.join(format!("freecad-{name}.ngc")), folder.join("tools.tbl"));
+    let tools: String = (1..20).map(|n| format!("T{n} P{n} Z0 D1\n")).collect();
+    let arguments = ["-t".as_ref(), table.as_os_str(), "-g".as_ref(), file.as_os_str()];
+    let output = support::nc::rs274(&[(&table, &tools), (&file, program)], &arguments);
+    let calls = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(calls.contains("PROGRAM_END()"), "{name}: {}\n{program}", String::from_utf8_lossy(&output.stderr));
+    let scale = if program.contains("G20") { 25.4 } else { 1.0 };
+    let mut ends = Vec::new();
+    let mut at = [f64::NAN; 3];
+    for call in support::nc::interpreted(&calls) {
+        let (to, cuts) = match call {
+            Call::Rapid(to) => (to, false),
+            Call::Feed(to) | Call::Arc(to, ..) => (to, true),
+            _ => continue,
+        };
+        let to = [0, 1, 2].map(|axis| to[axis] * scale);
+        if cuts && to != at {
+            ends.push(to);
+        }
+        at = to;
+    }
+    ends
+}
+
+/// FreeCAD's own programs of the documents, and ours, in the interpreter: every cut ends at the same place.
+#[test_with::executable(rs274)]
+#[test]
+fn the_interpreter_cuts_what_freecads_own_program_cuts() {
+    for name in DOCUMENTS {
+        let ours = std::process::Command::new(env!("CARGO_BIN_EXE_postform"))
+            .args(["render", &data(&format!("{name}.FCStd")).to_string_lossy(), "--cycles", "emulated", "--form"])
+            .arg(support::root().join("postforms/linuxcnc.pf"))
+            .output()
+            .unwrap();
+        let theirs = std::fs::read_to_string(data(&format!("{name}.linuxcnc.ngc"))).unwrap();
+        // its comments may nest parentheses, which the interpreter refuses
+        let theirs: String = theirs.lines().filter(|line| !line.contains('(')).flat_map(|line| [line, "\n"]).collect();
+        let ours = cuts(&String::from_utf8_lossy(&ours.stdout), &format!("{name}.ours"));
+        let theirs = cuts(&theirs, &format!("{name}.theirs"));
+        for (i, (ours, theirs)) in ours.iter().zip(&theirs).enumerate() {
+            let near = ours.iter().zip(theirs).all(|(a, b)| (a - b).abs() < 2e-3);
+            assert!(near, "{name}, cut {i}: {ours:?}, FreeCAD's program has {theirs:?}");
+        }
+        assert_eq!(ours.len(), theirs.len(), "{name}");
+        assert!(ours.len() > 10, "{name}");
     }
 }

@@ -1,6 +1,10 @@
 //! Holds a tool change until the path's first move is known, because the tool change may print its position.
 
-use super::event::{Axes, CycleSpec, Event, First, Spindle, ToolChange};
+use super::axes::Axes;
+use super::cycle::CycleSpec;
+use super::event::Event;
+use super::operation::{First, ToolChange};
+use super::tool::Spindle;
 use super::{Flow, Place, Sink, Stop, flow};
 use crate::diag::{Code, Diag};
 use crate::lang::Machine;

@@ -1,6 +1,6 @@
 //! Kinds of canned cycles, and which sequence serves each.
 
-use super::event::SpindleTurn;
+use super::tool::SpindleTurn;
 use crate::lang::SequenceId;
 
 /// Kinds of canned cycles (cycles.md section 1.5).

@@ -1,29 +1,40 @@
 //! Toolpath events: what readers produce and the renderer consumes, one at a time.
 
+mod axes;
+mod cycle;
 mod dwell;
 mod event;
 mod hold;
 mod kind;
+mod moves;
+mod operation;
 mod order;
 mod place;
 mod read;
 mod sink;
+mod start;
 mod summary;
+mod thread;
+mod tool;
 
 pub mod json;
 
+pub use axes::{Axes, Units};
+pub use cycle::{CycleSpec, Hole, Orient, Peck};
 pub use dwell::LastDwell;
-pub use event::{
-    Arc, Axes, Call, Coolant, CycleSpec, Direction, EdmAction, Event, FeedMode, First, Hole, Infeed, Orient, Peck,
-    Plane, Section, Side, Spindle, SpindleTurn, Start, StopKind, Thread, Tool, ToolChange, Units,
-};
+pub use event::{Call, EdmAction, Event, StopKind};
 pub use hold::Hold;
 pub use kind::CycleKind;
+pub use moves::{Arc, Direction, Infeed, Plane, Section, Side};
+pub use operation::{First, ToolChange};
 pub use order::{Order, impossible};
 pub use place::Place;
 pub use read::ReadError;
 pub use sink::{Flow, Sink, Stop, flow};
+pub use start::Start;
 pub use summary::Summary;
+pub use thread::Thread;
+pub use tool::{Coolant, FeedMode, Spindle, SpindleTurn, Tool};
 
 /// A number as a key; zero has one sign.
 pub(crate) fn key(number: f64) -> u64 {

@@ -3,8 +3,10 @@
 use std::collections::HashSet;
 
 use super::CycleKind;
-use super::event::{Axes, Event, Start, Units};
+use super::axes::{Axes, Units};
+use super::event::Event;
 use super::order::{Order, impossible};
+use super::start::Start;
 use super::{Flow, Place, Sink, flow, key};
 use crate::diag::{Code, Diag};
 

@@ -6,8 +6,9 @@ use super::convert::{arc_of, call_of, fault, not_negative, positive, spec_of, sp
 use super::objects::{CycleObject, EndWord, ItemObject, JobHead, Object, OperationHead, SubprogramHead};
 use super::values::Number;
 use crate::diag::Code;
-use crate::toolpath::event::*;
-use crate::toolpath::{Hold, LastDwell, Place, Sink, Stop, key};
+use crate::toolpath::{
+    Axes, Event, First, Hold, Hole, Infeed, LastDwell, Place, Sink, Start, Stop, Tool, ToolChange, Units, key,
+};
 
 type Done = Result<(), Stop>;
 

@@ -4,7 +4,7 @@ use super::objects::{ArcObject, CallObject, CycleObject, SpindleObject, ThreadOb
 use super::values::{Number, PeckMode, SpeedMode, StepFrom};
 use crate::diag::{Code, Diag};
 use crate::toolpath::CycleKind;
-use crate::toolpath::event::*;
+use crate::toolpath::{Arc, Call, CycleSpec, Orient, Peck, Plane, Spindle, Thread, Tool};
 
 /// A fault in the job; the reader adds the place.
 pub(super) fn fault<T, E: From<Box<Diag>>>(

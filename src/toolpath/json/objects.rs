@@ -9,7 +9,7 @@ use super::context::{Context, Step};
 use super::values::{Number, PeckMode, Position, SpeedMode, StepFrom, Word};
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, did_you_mean};
-use crate::toolpath::event::{Coolant, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind, Units};
+use crate::toolpath::{Coolant, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind, Units};
 use crate::toolpath::{CycleKind, EdmAction};
 
 /// An object with a fixed list of keys.

@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 
 use crate::lang::Machine;
-use crate::toolpath::event::{Axes, Coolant, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind};
+use crate::toolpath::{Axes, Coolant, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind};
 use crate::toolpath::{CycleKind, EdmAction, Hole, Units};
 
 /// A number. JSON can't write one that is not finite, so it is finite.

@@ -1,0 +1,80 @@
+//! Arcs, cutter compensation, and the named parts of a path.
+
+use super::axes::Axes;
+
+/// Planes of arcs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Plane {
+    /// First and second axis: G17.
+    #[default]
+    Xy,
+    /// Depth and first axis: G18.
+    Xz,
+    /// Second and depth axis: G19.
+    Yz,
+}
+
+/// Which way an arc turns, seen from the plane's positive third axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// Clockwise: G2.
+    Cw,
+    /// Counterclockwise: G3.
+    Ccw,
+}
+
+/// An arc from the tool's position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// End of the arc.
+    pub to: Axes,
+    /// Centre of the arc, an absolute position; the third coordinate does not count.
+    pub center: Option<Axes>,
+    /// Radius, instead of the centre: negative for the longer way round.
+    pub radius: Option<f64>,
+    /// Direction of the arc.
+    pub direction: Direction,
+    /// Plane of the arc.
+    pub plane: Plane,
+    /// Full turns before the end is reached for good.
+    pub turns: u32,
+}
+
+/// Side of the path on which the tool is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Left of the path: G41.
+    Left,
+    /// Right of the path: G42.
+    Right,
+}
+
+/// The move that turns cutter compensation on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Infeed {
+    /// End of the move.
+    pub to: Axes,
+    /// Side on which the tool will be.
+    pub side: Side,
+    /// The move is a rapid.
+    pub rapid: bool,
+}
+
+/// Named parts of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Section {
+    /// The way onto the contour.
+    Leadin,
+    /// The way off the contour.
+    Leadout,
+    /// The way down into the material.
+    Plunge,
+    /// The way up out of the material.
+    Retract,
+    /// The way across to the next pass.
+    SideStep,
+    /// The moves of one Z level.
+    ZLevel,
+    /// A pass of a pocket or of a surface.
+    Row,
+}

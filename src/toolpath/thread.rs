@@ -1,0 +1,30 @@
+//! A thread on a lathe.
+
+use super::axes::Axes;
+
+/// A thread on a lathe. Positions are z and x as a radius, lengths in the job's units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thread {
+    /// Start of the thread: z, and the radius of the crest.
+    pub from: Axes,
+    /// End of the thread: z, and the radius of the crest.
+    pub to: Axes,
+    /// Distance from crest to crest.
+    pub pitch: f64,
+    /// Height of the thread, on the radius; negative for an inner thread, which is cut outward.
+    pub depth: f64,
+    /// Depth of the first cut, on the radius.
+    pub first_depth: Option<f64>,
+    /// Depth of the least cut, on the radius.
+    pub min_depth: Option<f64>,
+    /// Radius at the start less radius at the end.
+    pub taper: Option<f64>,
+    /// Angle of the tip, in degrees.
+    pub angle: Option<f64>,
+    /// Number of passes.
+    pub passes: Option<f64>,
+    /// Length of the runout, as the control counts it.
+    pub chamfer: Option<f64>,
+    /// Number of starts.
+    pub starts: Option<f64>,
+}

@@ -5,11 +5,13 @@ mod check;
 mod pecks;
 mod plan;
 mod problem;
+mod steps;
 mod tap;
 mod thread;
 
 pub use check::check;
 pub use pecks::stepped_pecks;
-pub use plan::{Defaults, Plan, Step, Steps, plan};
+pub use plan::{Defaults, Plan, Step};
 pub use problem::Problem;
+pub use steps::{Steps, plan};
 pub use thread::thread_passes;

@@ -1,6 +1,6 @@
 //! Arguments of commands: reading them.
 
-use super::settings::Code;
+use super::code::Code;
 use crate::control;
 use crate::lang::{Args, CommandId};
 use crate::span::Span;

@@ -3,6 +3,7 @@
 mod args;
 mod called;
 mod check;
+mod code;
 mod library;
 mod limits;
 mod messages;
@@ -15,7 +16,8 @@ mod store;
 mod words;
 
 pub use check::{Checked, analyse};
+pub use code::Code;
 pub use limits::{Limits, MOST_LINES, MOST_TEXT, MOST_WORDS};
 pub use model::{Form, Line, Sequence, Upon, Word, WordKind, kind_of_remark};
-pub use settings::{ArcCentre, Code, DwellWord, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit};
+pub use settings::{ArcCentre, DwellWord, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit};
 pub use words::before_remark;

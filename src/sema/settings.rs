@@ -1,37 +1,12 @@
 //! What the commands of a form say. Which command sets which field, and what holds without it, is in the rows of `lang`.
 
 use super::args::{Arguments, Read};
+use super::code::Code;
 use super::store::Setting;
 use crate::control::{self, Control};
 use crate::lang::{COMMANDS, CommandId, Machine, UnitChoice, VarId, command_rows};
 use crate::span::Span;
 use crate::syntax::Spanned;
-
-/// A code of a command: printed as typed when its letter was typed, else by the letter's format.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Code {
-    /// Its letter, given or implied, and its number.
-    pub code: control::Code,
-    /// As typed, `G00`.
-    pub text: Option<String>,
-}
-
-impl Code {
-    /// A code that nobody typed.
-    pub fn plain(code: control::Code) -> Code {
-        Code { code, text: None }
-    }
-
-    /// Its letter.
-    pub fn letter(&self) -> u8 {
-        self.code.letter
-    }
-
-    /// The number behind its letter.
-    pub fn value(&self) -> f64 {
-        self.code.value()
-    }
-}
 
 /// Centre words of an arc.
 #[derive(Clone, Debug, PartialEq, Eq)]

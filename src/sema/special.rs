@@ -1,7 +1,8 @@
 //! Commands with words of their own.
 
 use super::args::{Arguments, Read, bad, number, whole};
-use super::settings::{ArcCentre, Code, DwellWord, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit};
+use super::code::Code;
+use super::settings::{ArcCentre, DwellWord, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit};
 use super::store::Setting;
 use crate::lang::{Origin, VarId};
 

@@ -1,7 +1,7 @@
 //! Fields of the settings, by their types: how each takes the arguments of its command.
 
 use super::args::{Arguments, Read, bad, whole};
-use super::settings::Code;
+use super::code::Code;
 use crate::control::{self, Control};
 use crate::lang::Args;
 

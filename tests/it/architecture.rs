@@ -1,6 +1,7 @@
-//! Imports point one way: the `use crate::` lines of each module against the table in ARCHITECTURE.md.
+//! Imports point one way: the `use crate::` lines of each module against the table in ARCHITECTURE.md, and the files of a
+//! module against one another. No file is too long to read at once.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
@@ -70,5 +71,131 @@ fn only_the_parser_knows_the_grammar() {
         if (text.contains("pest::") || text.contains("pest_derive")) && !path.ends_with("syntax/parse.rs") {
             panic!("{} knows of the grammar crate", path.display());
         }
+    }
+}
+
+/// The paths that a file names: those of its `use` lines, with their braces opened, and those in its code.
+fn paths(text: &str) -> Vec<String> {
+    fn open(tree: &str, before: &str, found: &mut Vec<String>) {
+        let Some((head, rest)) = tree.split_once('{') else {
+            let name = tree.split(" as ").next().unwrap().trim();
+            return found.push(format!("{before}{name}"));
+        };
+        let before = format!("{before}{}", head.trim());
+        let inside = rest.trim_end().strip_suffix('}').unwrap();
+        let (mut depth, mut start) = (0, 0);
+        for (i, c) in inside.char_indices().chain([(inside.len(), ',')]) {
+            depth += i32::from(c == '{') - i32::from(c == '}');
+            if c == ',' && depth == 0 {
+                open(inside[start..i].trim(), &before, found);
+                start = i + 1;
+            }
+        }
+    }
+    let code: String = text.lines().map(|line| line.split("//").next().unwrap().to_owned() + "\n").collect();
+    let mut found = Vec::new();
+    for line in code.split(';') {
+        let line = line.trim_start_matches(|c: char| c.is_whitespace() || c == '}');
+        let line = line.strip_prefix("pub ").unwrap_or(line);
+        if let Some(tree) = line.strip_prefix("use ") {
+            open(&tree.replace('\n', " "), "", &mut found);
+        }
+    }
+    for word in code.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':')) {
+        if word.starts_with("crate::") || word.starts_with("super::") {
+            found.push(word.to_owned());
+        }
+    }
+    found
+}
+
+/// Which files of a module import which. A file has the name of its module, as `moves/arc`; the module's own `mod.rs` only
+/// names the others, and counts for nothing.
+fn imports(module: &str) -> BTreeMap<String, BTreeSet<String>> {
+    let folder = root().join("src").join(module);
+    let mut sources = Vec::new();
+    files(&folder, &mut sources);
+    let texts: BTreeMap<String, String> = sources
+        .iter()
+        .map(|path| {
+            let name = path.strip_prefix(&folder).unwrap().with_extension("").to_string_lossy().replace('\\', "/");
+            (name.strip_suffix("/mod").unwrap_or(&name).to_owned(), fs::read_to_string(path).unwrap())
+        })
+        .filter(|(name, _)| name != "mod")
+        .collect();
+    let of = |name: &String, text: &String| {
+        let mut found = BTreeSet::new();
+        for path in paths(text) {
+            let mut steps: Vec<&str> = path.split("::").map(str::trim).collect();
+            let mut place: Vec<&str> = name.split('/').collect();
+            match steps[0] {
+                "crate" if steps.get(1) == Some(&module) => {
+                    place.clear();
+                    steps.drain(..2);
+                }
+                "super" => {
+                    while steps.first() == Some(&"super") {
+                        place.pop();
+                        steps.remove(0);
+                    }
+                }
+                // a file with files below it names them without more
+                _ => {}
+            }
+            place.extend(steps);
+            // the longest part of the path that is a file
+            let file = (1..=place.len()).rev().map(|n| place[..n].join("/")).find(|file| texts.contains_key(file));
+            found.extend(file.filter(|file| file != name));
+        }
+        found
+    };
+    texts.iter().map(|(name, text)| (name.clone(), of(name, text))).collect()
+}
+
+/// Files that lead to each other.
+fn circles(imports: &BTreeMap<String, BTreeSet<String>>) -> BTreeSet<Vec<String>> {
+    let reached = |from: &String| {
+        let (mut found, mut open) = (BTreeSet::new(), vec![from]);
+        while let Some(file) = open.pop() {
+            open.extend(imports[file].iter().filter(|next| found.insert((*next).clone())));
+        }
+        found
+    };
+    let reach: BTreeMap<&String, BTreeSet<String>> = imports.keys().map(|file| (file, reached(file))).collect();
+    let circle = |file: &String| reach[file].iter().filter(|other| reach[other].contains(file)).cloned().collect();
+    imports.keys().map(circle).filter(|circle: &Vec<String>| !circle.is_empty()).collect()
+}
+
+#[test]
+fn circles_are_found() {
+    let named =
+        paths("use super::{a::{B, C}, d as e};\npub use crate::x::y::*;\nfn f() -> super::g::H { 1 } // super::no");
+    assert_eq!(named, ["super::a::B", "super::a::C", "super::d", "crate::x::y::*", "super::g::H"]);
+    let graph = [("a", vec!["b"]), ("b", vec!["c"]), ("c", vec!["b", "d"]), ("d", vec![])];
+    let graph = graph.map(|(file, to)| (file.to_owned(), to.into_iter().map(str::to_owned).collect()));
+    assert_eq!(circles(&graph.into()), [vec!["b".to_owned(), "c".to_owned()]].into());
+    assert!(imports("render")["moves/arc"].len() > 3);
+}
+
+/// A newcomer can read a module from below: no files but a pair know one another. The rim is not held to that.
+#[test]
+fn files_of_a_module_import_one_way() {
+    for entry in fs::read_dir(root().join("src")).unwrap() {
+        let path = entry.unwrap().path();
+        let module = path.file_name().unwrap().to_string_lossy().into_owned();
+        if path.is_dir() && module != "cli" {
+            let found: Vec<_> = circles(&imports(&module)).into_iter().filter(|circle| circle.len() > 2).collect();
+            assert!(found.is_empty(), "src/{module}: {found:?}: what they share goes into a file below them");
+        }
+    }
+}
+
+#[test]
+fn no_file_is_longer_than_can_be_read() {
+    let mut sources = Vec::new();
+    files(&root().join("src"), &mut sources);
+    for path in sources {
+        let lines = fs::read_to_string(&path).unwrap().lines().count();
+        assert!(lines <= 500, "{} has {lines} lines: give one of its nouns a file", path.display());
     }
 }

@@ -1,6 +1,6 @@
 //! A control's cycle as a cycle of a job. The point is the R plane: a program does not say where the part begins.
 
-use super::unsaid;
+use super::fault::unsaid;
 use crate::diag::Diag;
 use crate::nc::action::Drilling;
 use crate::nc::codes::name_of;

@@ -1,9 +1,9 @@
-//! Operations: one for each tool, one where the feed mode changes.
+//! Operations, one for each tool and one where the feed mode changes; and what is switched inside them.
 
+use super::fault::{Done, unsaid, warning};
 use super::reader::Reader;
 use super::switches::Switches;
-use super::{Done, unsaid};
-use crate::nc::action::Rotation;
+use crate::nc::action::{Cooling, Rotation};
 use crate::toolpath::{Coolant, Event, First, Tool, ToolChange};
 
 impl Reader<'_> {
@@ -27,7 +27,7 @@ impl Reader<'_> {
                 diameter_offset: registers.diameter,
                 ..Tool::default()
             }),
-            spindle: Some(self.spindle()),
+            spindle: Some(wanted.spindle()),
             coolant: Some(wanted.coolant.unwrap_or(Coolant::Off)),
             work: wanted.work,
             feed: None,
@@ -70,5 +70,31 @@ impl Reader<'_> {
             self.home = None;
         }
         Ok(())
+    }
+
+    pub(super) fn coolant(&mut self, cooling: Cooling) {
+        if !self.wanted.cool(cooling) {
+            let message = "flood and mist at once: a job has one of them, the later";
+            self.warnings.push(warning(self.place.line, message, "print the other by the form"));
+        }
+    }
+
+    /// Says what was switched since the last move.
+    pub(super) fn switch(&mut self) -> Done {
+        if self.said == self.wanted {
+            return Ok(());
+        }
+        let (said, wanted) = (self.said, self.wanted);
+        self.said = wanted;
+        if (said.rotation, said.speed, said.css) != (wanted.rotation, wanted.speed, wanted.css) {
+            self.push(Event::Spindle(wanted.spindle()))?;
+        }
+        if let Some(coolant) = wanted.coolant.filter(|_| said.coolant != wanted.coolant) {
+            self.push(Event::Coolant(coolant))?;
+        }
+        match wanted.work.filter(|_| said.work != wanted.work) {
+            Some(work) => self.push(Event::Work(work)),
+            None => Ok(()),
+        }
     }
 }

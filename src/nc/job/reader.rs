@@ -1,9 +1,10 @@
 //! The second run: actions become events.
 
 use super::cycles::{hole_of, is_same, spec_of};
+use super::fault::{Done, unsaid, warning};
+use super::options::JobOptions;
 use super::survey::Survey;
 use super::switches::Switches;
-use super::{Done, JobOptions, unsaid, warning};
 use crate::diag::{Code, Diag, Location};
 use crate::lang::Machine;
 use crate::nc::action::{Action, Drilling, Item, Position, Rotation, Turn};
@@ -89,16 +90,7 @@ impl<'a> Reader<'a> {
             Action::Feed { lead: Some(_), .. } => {
                 unsaid(item.line, "a thread that follows the spindle", "a mill's job has no such move")
             }
-            Action::Feed { to, feed, .. } => {
-                if *to == self.at && self.turning.is_none() {
-                    return Ok(());
-                }
-                self.cut_begins()?;
-                let axes = self.axes(to);
-                self.at = *to;
-                self.known |= 0b111;
-                self.moves(axes, Some(*feed))
-            }
+            Action::Feed { to, feed, .. } => self.feed(to, *feed),
             Action::Arc(turn) => self.arc(turn),
             Action::Hole(hole) => self.hole(hole),
             Action::CycleOff => self.end_cycle(),
@@ -131,11 +123,10 @@ impl<'a> Reader<'a> {
                 self.operation = true; // a job's operation has one
                 Ok(())
             }
-            Action::Compensation(Some((_, None))) => unsaid(
-                item.line,
-                "compensation by a diameter in the block (G41.1, G42.1)",
-                "use a register, D with G41 or G42",
-            ),
+            Action::Compensation(Some((_, None))) => {
+                let message = "compensation by a diameter in the block (G41.1, G42.1)";
+                unsaid(item.line, message, "use a register, D with G41 or G42")
+            }
             Action::Compensation(Some(_)) if self.plane != Plane::Xy => {
                 unsaid(item.line, "cutter compensation outside G17", "a job's compensation is in XY")
             }
@@ -148,18 +139,7 @@ impl<'a> Reader<'a> {
                 self.rigid = true;
                 Ok(())
             }
-            Action::Frame if self.place.operation > 0 => {
-                let help = "write the places in one frame: a job has no G10, G52 or G92";
-                unsaid(item.line, "the program moves its coordinate frame between its moves", help)
-            }
-            Action::Frame => {
-                if !std::mem::replace(&mut self.framed, true) {
-                    let message = "the program sets its work offsets (G10, G52 or G92), which a job can't say";
-                    let help = "set them at the machine: positions are those that the program writes";
-                    self.warnings.push(warning(item.line, message, help));
-                }
-                Ok(())
-            }
+            Action::Frame => self.frame(item.line),
             Action::Orient(_) => {
                 unsaid(item.line, "M19, a stop of the spindle at an angle", "only a bore of a job does it")
             }
@@ -169,6 +149,31 @@ impl<'a> Reader<'a> {
             }
             Action::Units(_) | Action::Length(_) | Action::End | Action::LeftOut(..) => Ok(()),
         }
+    }
+
+    fn feed(&mut self, to: &Position, feed: f64) -> Done {
+        if *to == self.at && self.turning.is_none() {
+            return Ok(());
+        }
+        self.cut_begins()?;
+        let axes = self.axes(to);
+        self.at = *to;
+        self.known |= 0b111;
+        self.moves(axes, Some(feed))
+    }
+
+    /// The program moves its coordinate frame: before the first move at the machine, later not in a job.
+    fn frame(&mut self, line: u64) -> Done {
+        if self.place.operation > 0 {
+            let help = "write the places in one frame: a job has no G10, G52 or G92";
+            return unsaid(line, "the program moves its coordinate frame between its moves", help);
+        }
+        if !std::mem::replace(&mut self.framed, true) {
+            let message = "the program sets its work offsets (G10, G52 or G92), which a job can't say";
+            let help = "set them at the machine: positions are those that the program writes";
+            self.warnings.push(warning(line, message, help));
+        }
+        Ok(())
     }
 
     /// The program is over.
@@ -311,7 +316,7 @@ impl<'a> Reader<'a> {
         self.low_approach(hole)?;
         // a rigid tap turns the spindle its own way
         match hole.code {
-            840 if !self.turns() => self.wanted.rotation = Some(Rotation::Cw),
+            840 if !self.wanted.turns() => self.wanted.rotation = Some(Rotation::Cw),
             740 if self.wanted.rotation != Some(Rotation::Ccw) => self.wanted.rotation = Some(Rotation::Ccw),
             _ => {}
         }

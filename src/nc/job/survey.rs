@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::io::{BufRead, Seek};
 
-use super::{JobOptions, refused, unsaid, warning};
+use super::fault::{refused, unsaid, warning};
+use super::options::JobOptions;
 use crate::diag::Diag;
 use crate::nc::action::Action;
 use crate::nc::simulator::Simulator;

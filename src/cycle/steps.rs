@@ -1,0 +1,172 @@
+//! What the tool does at one point of a cycle (cycles.md section 1.5).
+
+use super::bore::{back_bore, bore};
+use super::pecks::{Peck, peck};
+use super::plan::{Defaults, Plan, Step};
+use super::problem::Problem;
+use super::tap::tap;
+use crate::diag::Code;
+use crate::toolpath::{CycleKind, CycleSpec};
+
+/// The steps at one point, and what planning needs; kept from hole to hole so that a hole allocates nothing.
+#[derive(Debug, Default)]
+pub struct Steps {
+    /// Steps of the plan, in their order.
+    pub list: Vec<Step>,
+    pecks: Vec<Peck>,
+}
+
+/// Plans the steps at one point. The tool is over the point at `top`, a height, and comes back there.
+///
+/// # Errors
+/// What can't be made of single moves, or makes no sense.
+pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &mut Steps) -> Result<(), Problem> {
+    use CycleKind as K;
+    let Steps { list: steps, pecks } = out;
+    steps.clear();
+    let Plan { clear, bottom, feed, dwell, .. } = *plan;
+    let mut enter = clear;
+    steps.push(Step::Rapid(clear));
+    if let Some(rapto) = spec.rapto.filter(|_| spec.kind != K::Back) {
+        enter = clear - rapto;
+        if enter < bottom {
+            let message = format!("the extra rapid of {rapto} from the clearance plane ends below the bottom");
+            return Err(Problem::new(Code::PC013, message, "give a smaller `rapto`"));
+        }
+        steps.push(Step::Rapid(enter));
+    }
+    let dwell_step = dwell.map(Step::Dwell);
+    match spec.kind {
+        K::Drill | K::Face => {
+            steps.push(Step::Feed(bottom, feed));
+            steps.extend(dwell_step);
+        }
+        K::Tap | K::LTap => tap(spec, plan, enter, defaults, pecks, steps)?,
+        K::Ream => {
+            steps.push(Step::Feed(bottom, feed));
+            steps.extend(dwell_step);
+            steps.push(Step::Feed(clear, feed * spec.ratio.unwrap_or(1.0)));
+        }
+        K::Bore => return bore(spec, plan, top, defaults, steps),
+        K::Back => return back_bore(spec, plan, top, defaults, steps),
+        K::Deep | K::Chipbreak => peck(spec, plan, enter, defaults, pecks, steps)?,
+        K::Thru => thru(spec, plan, defaults, steps),
+        K::Csink => {
+            if let (Some(hole), Some(angle)) = (spec.hole_diameter, spec.angle) {
+                let contact = -(hole / 2.0) / (angle.to_radians() / 2.0).tan();
+                let above = (contact + defaults.sink_clear.unwrap_or(clear)).min(enter);
+                if above > bottom && above < enter {
+                    steps.push(Step::Rapid(above));
+                }
+            }
+            steps.push(Step::Feed(bottom, feed));
+            steps.extend(dwell_step);
+        }
+        K::Manual => {
+            steps.push(Step::ProgramStop);
+            return Ok(());
+        }
+        K::Custom1 | K::Custom2 | K::Custom3 => {
+            let message = "only the form knows what a custom cycle does, and it has no such sequence";
+            return Err(Problem::new(Code::PC001, message, "add the sequence to the form, or take another `kind`"));
+        }
+    }
+    steps.push(Step::Rapid(top));
+    Ok(())
+}
+
+/// Drilling through webs: end, then start and end of each further web.
+fn thru(spec: &CycleSpec, plan: &Plan, defaults: &Defaults, steps: &mut Vec<Step>) {
+    let whole = [-plan.bottom];
+    let webs = if spec.webs.is_empty() { &whole[..] } else { &spec.webs };
+    let back = spec.back.unwrap_or(defaults.back_thru);
+    let mut reached = -webs[0];
+    steps.push(Step::Feed(reached, plan.feed));
+    for pair in webs[1..].chunks_exact(2) {
+        steps.push(Step::Rapid((-pair[0] + back).min(reached)));
+        reached = -pair[1];
+        steps.push(Step::Feed(reached, plan.feed));
+    }
+    steps.extend(plan.dwell.map(Step::Dwell));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Step::*;
+    use super::*;
+    use crate::cycle::check;
+
+    const DEFAULTS: Defaults = Defaults {
+        clear: 0.1,
+        step: None,
+        min_step: 0.0,
+        back_deep: 0.05,
+        back_chipbreak: 0.05,
+        back_thru: 0.05,
+        dwell: 0.5,
+        dwell_at_steps: false,
+        dwell_at_retracts: false,
+        orient: 0.0,
+        jog: 0.02,
+        sink_clear: None,
+        sink_as_printed: false,
+        rigid: false,
+    };
+
+    fn steps(edit: impl FnOnce(&mut CycleSpec), kind: CycleKind) -> Result<Vec<Step>, Code> {
+        let mut spec = CycleSpec::new(kind);
+        (spec.depth, spec.feed) = (Some(1.0), Some(5.0));
+        edit(&mut spec);
+        check(&spec).map_err(|p| p.code)?;
+        let planes = Plan::of(&spec, None, &DEFAULTS, None).map_err(|p| p.code)?;
+        let mut out = Steps::default();
+        plan(&spec, &planes, 0.2, &DEFAULTS, &mut out).map_err(|p| p.code)?;
+        Ok(out.list)
+    }
+
+    #[test]
+    fn holes_are_fed_and_left_as_their_kind_says() {
+        assert_eq!(steps(|_| (), CycleKind::Drill).unwrap(), [Rapid(0.1), Feed(-1.0, 5.0), Rapid(0.2)]);
+        assert_eq!(steps(|_| (), CycleKind::Face).unwrap(), [Rapid(0.1), Feed(-1.0, 5.0), Dwell(0.5), Rapid(0.2)]);
+        assert_eq!(steps(|_| (), CycleKind::Ream).unwrap(), [Rapid(0.1), Feed(-1.0, 5.0), Feed(0.1, 5.0), Rapid(0.2)]);
+        assert_eq!(
+            steps(|_| (), CycleKind::Tap).unwrap(),
+            [Rapid(0.1), Feed(-1.0, 5.0), SpindleReverse(1.0), Feed(0.1, 5.0), SpindleStart, Rapid(0.2)]
+        );
+        assert_eq!(
+            steps(|s| s.step = Some(0.6), CycleKind::Chipbreak).unwrap(),
+            [Rapid(0.1), Feed(-0.5, 5.0), Rapid(-0.45), Feed(-1.0, 5.0), Rapid(0.2)]
+        );
+        assert_eq!(
+            steps(|s| s.step = Some(0.6), CycleKind::Deep).unwrap(),
+            [Rapid(0.1), Feed(-0.5, 5.0), Rapid(0.1), Rapid(-0.45), Feed(-1.0, 5.0), Rapid(0.2)]
+        );
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused_by_name() {
+        assert_eq!(steps(|s| s.depth = None, CycleKind::Drill), Err(Code::PC002));
+        assert_eq!(steps(|s| s.depth = Some(-0.2), CycleKind::Drill), Err(Code::PC003));
+        assert_eq!(steps(|s| s.feed = None, CycleKind::Drill), Err(Code::PC005));
+        assert_eq!(steps(|s| s.rigid = Some(true), CycleKind::Tap), Err(Code::PC021));
+        assert_eq!(steps(|s| s.offset = Some(0.1), CycleKind::Bore), Err(Code::PC015));
+        assert_eq!(steps(|_| (), CycleKind::Back), Err(Code::PC012));
+        assert_eq!(steps(|s| s.webs = vec![0.5, 1.0], CycleKind::Thru), Err(Code::PC022));
+        assert_eq!(steps(|s| s.rapto = Some(2.0), CycleKind::Drill), Err(Code::PC013));
+        assert_eq!(steps(|_| (), CycleKind::Custom1), Err(Code::PC001));
+    }
+
+    /// Reference motions of what only a control can make: two starts, the second a lead's half lower.
+    #[test]
+    fn rigid_taps_are_planned_for_comparison() {
+        let mut spec = CycleSpec::new(CycleKind::Tap);
+        (spec.depth, spec.feed, spec.clear) = (Some(10.0), Some(900.0), Some(5.0));
+        (spec.rigid, spec.starts) = (Some(true), Some(2.0));
+        let defaults = Defaults { rigid: true, ..DEFAULTS };
+        let planes = Plan::of(&spec, None, &defaults, Some(300.0)).unwrap();
+        let mut out = Steps::default();
+        plan(&spec, &planes, 5.0, &defaults, &mut out).unwrap();
+        let pass = |clear| [Rapid(clear), Feed(-10.0, 900.0), SpindleReverse(1.0), Feed(clear, 900.0), SpindleStart];
+        assert_eq!(out.list, [&pass(5.0)[..], &pass(3.5), &[Rapid(5.0)]].concat());
+    }
+}

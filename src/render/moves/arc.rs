@@ -8,18 +8,15 @@ use super::geometry::{Piece, PlaneArc};
 use super::line::line_to;
 use super::measure::measured;
 use super::pieces::{chords, ends_meet, pieces};
-use super::reach::reach;
+use super::reach::{cut_goes_to, reach};
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::render::fault::{Done, fault};
 use crate::render::printer::Printer;
 use crate::render::prints::prints_code;
 use crate::render::said::Said;
-use crate::render::settle::{settle_here, stands_at_cut};
 use crate::render::shape::Shape;
 use crate::render::targets::{check_limits, set_targets};
-use crate::render::upon::upons;
-use crate::render::vars::MOVE_VARS;
 use crate::render::want::Want;
 use crate::sema::ArcCentre;
 use crate::toolpath::{Arc, Axes, Direction, Plane, Units};
@@ -61,14 +58,7 @@ pub fn arc(
     let centre = centre_of(arc, axes, from, to, ccw, shape)?;
     let coarse = check_radii(axes, from, to, centre, shape)?;
     target.given |= said.stand.position.given;
-    if said.is_unsettled(want) {
-        settle_here(true, shape, want, said, out)?;
-    }
-    stands_at_cut(said)?;
-    set_targets(&target, shape, want, said)?;
-    if shape.watches_moves {
-        upons(MOVE_VARS, shape, want, said, out)?;
-    }
+    cut_goes_to(&target, shape, want, said, out)?;
     if said.differs_from(&said.stand.position, 1 << axes[0] | 1 << axes[1], shape)
         && !shape.program.settings.incremental
     {

@@ -1,7 +1,7 @@
 //! Moves that turn cutter compensation on and off.
 
 use super::measure::measure;
-use super::reach::{begins_somewhere, reach};
+use super::reach::{begins_somewhere, cut_goes_to, reach};
 use crate::control::{self, Meaning};
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
@@ -10,11 +10,8 @@ use crate::render::body::run_all;
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::printer::Printer;
 use crate::render::said::{LastMove, Said};
-use crate::render::settle::{settle_here, stands_at_cut};
 use crate::render::shape::Shape;
-use crate::render::targets::set_targets;
 use crate::render::upon::upons;
-use crate::render::vars::MOVE_VARS;
 use crate::render::want::Want;
 use crate::render::words::{AxisUnits, axis_units, axis_words, feed_word, letter_word, motion_word, value_code};
 use crate::toolpath::{Axes, Infeed, Side};
@@ -89,14 +86,7 @@ fn compensate(to: &Axes, switch: &Switch, shape: &Shape, want: &mut Want, said: 
     if !rapid {
         want.take_feed(feed, shape)?;
     }
-    if said.is_unsettled(want) {
-        settle_here(true, shape, want, said, out)?;
-    }
-    stands_at_cut(said)?;
-    set_targets(&target, shape, want, said)?;
-    if shape.watches_moves {
-        upons(MOVE_VARS, shape, want, said, out)?;
-    }
+    cut_goes_to(&target, shape, want, said, out)?;
     if shape.measures {
         measure(&target, !rapid, want, said);
     }

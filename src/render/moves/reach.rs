@@ -7,8 +7,11 @@ use crate::lang::VarId;
 use crate::render::fault::{Done, fault};
 use crate::render::printer::Printer;
 use crate::render::said::Said;
+use crate::render::settle::{settle_here, stands_at_cut};
 use crate::render::shape::{ROTARY_BITS, Shape};
 use crate::render::targets::set_targets;
+use crate::render::upon::upons;
+use crate::render::vars::MOVE_VARS;
 use crate::render::want::Want;
 use crate::toolpath::Axes;
 
@@ -35,6 +38,19 @@ fn stand_as_left(free: bool, shape: &Shape, want: &mut Want, said: &mut Said, ou
     to.given = shape.depth_bit();
     set_targets(&to, shape, want, said)?;
     split_rapid(&to, shape, want, said, out)
+}
+
+/// Prints what must stand before a cut to a target, and gives the form's sequences their target.
+pub fn cut_goes_to(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    if said.is_unsettled(want) {
+        settle_here(true, shape, want, said, out)?;
+    }
+    stands_at_cut(said)?;
+    set_targets(target, shape, want, said)?;
+    if shape.watches_moves {
+        upons(MOVE_VARS, shape, want, said, out)?;
+    }
+    Ok(())
 }
 
 /// A new tool comes from where nobody knows: its first cut must have a beginning.

@@ -22,20 +22,60 @@ impl State {
 
     /// A block while a cycle is in force: a hole where it has X, Y, Z or R.
     pub(super) fn fanuc_cycle(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
-        let name = name_of(code);
         let [_, _, across] = axes_of(self.modes.plane);
         if !self.holes.series.running {
             self.holes.series.running = true;
             self.holes.series.initial = self.place.position[across];
         }
+        self.keep_cycle_words(block, b"XYZ"[across]);
+        if !block.has(letters("XYZABCR")) {
+            return Ok(());
+        }
+        let series = self.holes.series;
+        let (Some(r), Some(bottom)) = (series.r, series.depth) else {
+            let what = if series.r.is_none() { "R plane" } else { "depth" };
+            let help = "write R and Z in the cycle's first block";
+            return refuse(Code::PN007, format!("{} without its {what}", name_of(code)), help);
+        };
+        self.check_fanuc_cycle(code, r, bottom)?;
+        let times = match block.get(b'K').filter(|_| !matches!(code, 760 | 870)).or(block.get(b'L')) {
+            None => 1,
+            Some(times) if times.fract() == 0.0 && (0.0..=9999.0).contains(&times) => times as u32,
+            Some(times) => return refuse(Code::PN018, format!("{times} is no number of repeats"), "write K1 to K9999"),
+        };
+        let clear = match code {
+            870 => series.initial,
+            _ if self.modes.to_initial => series.initial.max(r),
+            _ => r,
+        };
+        let hole = Drilling {
+            code,
+            at: self.place.position,
+            plane: self.modes.plane,
+            r,
+            bottom,
+            clear,
+            dwell: series.dwell.filter(|_| code != 810 && code != 850).unwrap_or(0.0),
+            peck: series.peck.unwrap_or(0.0),
+            shift: self.bore_shift(code),
+            level: bottom,
+            feed: self.drive.feed,
+        };
+        super::cycles::check_moves(times, &hole)?;
+        self.holes.work = Some(Work { hole, times, begun: 0, level: self.place.position[across], depth: None });
+        self.make_holes(block, out)
+    }
+
+    /// Keeps the words of a block for the holes of the series; `depth` is the letter of the axis across the plane.
+    /// Increments become places at once: the level they count from is that of the series.
+    fn keep_cycle_words(&mut self, block: &Block, depth: u8) {
         let initial = self.holes.series.initial;
         let series = &mut self.holes.series;
-        // increments become places at once: the level they count from is that of the series
         let word = |letter: u8| block.get(letter);
         if let Some(r) = word(b'R') {
             series.r = Some(if self.modes.absolute { r } else { initial + r });
         }
-        if let Some(depth) = word(b"XYZ"[across]) {
+        if let Some(depth) = word(depth) {
             series.depth = Some(if self.modes.absolute { depth } else { series.r.unwrap_or(initial) + depth });
         }
         if let Some(p) = word(b'P') {
@@ -45,15 +85,10 @@ impl State {
         for (axis, letter) in CENTERS.into_iter().enumerate() {
             series.shift[axis] = word(letter).or(series.shift[axis]);
         }
-        if !block.has(letters("XYZABCR")) {
-            return Ok(());
-        }
-        let series = self.holes.series;
-        let (Some(r), Some(bottom)) = (series.r, series.depth) else {
-            let what = if series.r.is_none() { "R plane" } else { "depth" };
-            let help = "write R and Z in the cycle's first block";
-            return refuse(Code::PN007, format!("{name} without its {what}"), help);
-        };
+    }
+
+    /// Refuses a cycle that can't run as the control stands, or between these heights.
+    fn check_fanuc_cycle(&self, code: u16, r: f64, bottom: f64) -> Done {
         if self.tool.side.is_some() {
             return refuse(
                 Code::PN013,
@@ -67,40 +102,19 @@ impl State {
         if self.drive.feed == 0.0 {
             return refuse(Code::PN008, "a canned cycle without a feed", "write F with it");
         }
-        if matches!(code, 760 | 870) && series.peck.is_some_and(|q| q < 0.0) {
+        if matches!(code, 760 | 870) && self.holes.series.peck.is_some_and(|q| q < 0.0) {
             let help = "Q is a distance: a parameter of the control says which way";
-            return refuse(Code::PN018, format!("{name} with a negative Q"), help);
+            return refuse(Code::PN018, format!("{} with a negative Q", name_of(code)), help);
         }
         let upward = code == 870;
         if (r < bottom) != upward && r != bottom {
             let message = format!("the R plane {r} is {} the bottom {bottom}", if upward { "above" } else { "below" });
             return refuse(Code::PN011, message, "look at R, at Z, and at G90 or G91");
         }
-        let times = match block.get(b'K').filter(|_| !matches!(code, 760 | 870)).or(block.get(b'L')) {
-            None => 1,
-            Some(times) if times.fract() == 0.0 && (0.0..=9999.0).contains(&times) => times as u32,
-            Some(times) => return refuse(Code::PN018, format!("{times} is no number of repeats"), "write K1 to K9999"),
-        };
         if upward && !self.modes.to_initial {
             return refuse(Code::PN013, "G87 under G99", "a back bore returns to the initial level: write G98");
         }
-        let clear = if self.modes.to_initial { initial.max(r) } else { r };
-        let hole = Drilling {
-            code,
-            at: self.place.position,
-            plane: self.modes.plane,
-            r,
-            bottom,
-            clear: if upward { initial } else { clear },
-            dwell: series.dwell.filter(|_| code != 810 && code != 850).unwrap_or(0.0),
-            peck: series.peck.unwrap_or(0.0),
-            shift: self.bore_shift(code),
-            level: bottom,
-            feed: self.drive.feed,
-        };
-        super::cycles::check_moves(times, &hole)?;
-        self.holes.work = Some(Work { hole, times, begun: 0, level: self.place.position[across], depth: None });
-        self.make_holes(block, out)
+        Ok(())
     }
 
     pub(super) fn go_to_hole_of_fanuc(&mut self, work: &mut Work, block: &Block, out: &mut Out<'_>) {

@@ -81,30 +81,12 @@ impl<R: BufRead + Seek> Simulator<R> {
         let Flow { label, step } = flow;
         let inner = self.frames.last().is_some_and(|frame| frame.label() == label);
         match step {
-            Step::Program => {
-                self.program = self.program.or(label.parse().ok());
-                self.labels.insert(label, self.at);
-                // the next program begins: a subprogram without M99 runs into it
-                match self.frames.last() {
-                    Some(Frame::Call { .. }) => {
-                        refuse(Code::PN015, "the subprogram has no end", "end it with M99 before the next O number")
-                    }
-                    _ => Ok(Jump::On),
-                }
-            }
+            Step::Program => self.program_begins(label),
             Step::Sub => {
                 self.labels.insert(label.clone(), self.at);
                 Ok(Jump::Skip(label, Ends::Sub))
             }
-            Step::Call(arguments) => {
-                let Some(&start) = self.labels.get(&label) else {
-                    let help = "subprograms in other files are not simulated: define it in this one, before its call";
-                    return refuse(Code::PN015, format!("there is no subprogram o{label}"), help);
-                };
-                self.parameters.enter(&arguments);
-                self.push(Frame::Call { label, back: self.at, start, times: 1, arguments: true })?;
-                Ok(Jump::To(start))
-            }
+            Step::Call(arguments) => self.call_with(label, &arguments),
             Step::EndSub | Step::Return => self.return_from(&format!("o{label}")),
             Step::If(true) => self.push(Frame::If { label }).map(|()| Jump::On),
             Step::If(false) => {
@@ -120,41 +102,13 @@ impl<R: BufRead + Seek> Simulator<R> {
                 self.frames.pop();
                 Ok(Jump::On)
             }
-            Step::While(is_so) => {
-                if let Some(Frame::Do { label: opened, start }) = self.frames.last()
-                    && *opened == label
-                {
-                    let start = *start;
-                    if is_so {
-                        return Ok(Jump::To(start));
-                    }
-                    self.frames.pop();
-                    return Ok(Jump::On);
-                }
-                if !is_so {
-                    return Ok(Jump::Skip(label, Ends::While));
-                }
-                let start = Spot { byte: self.at.byte - self.line.len() as u64, line: self.at.line - 1 };
-                self.push(Frame::While { label, start })?;
-                Ok(Jump::On)
-            }
+            Step::While(is_so) => self.loop_while(label, is_so),
             Step::Do => {
                 let start = self.at;
                 self.push(Frame::Do { label, start })?;
                 Ok(Jump::On)
             }
-            Step::Repeat(times) => {
-                let times = times.round();
-                if !(0.0..=1e9).contains(&times) {
-                    return refuse(Code::PN015, format!("{times} repeats"), "repeat a number of times from 0 on");
-                }
-                if times < 1.0 {
-                    return Ok(Jump::Skip(label, Ends::Repeat));
-                }
-                let start = self.at;
-                self.push(Frame::Repeat { label, start, left: times as u32 - 1 })?;
-                Ok(Jump::On)
-            }
+            Step::Repeat(times) => self.repeat(label, times.round()),
             Step::EndWhile if inner => match self.frames.pop() {
                 Some(Frame::While { start, .. }) => Ok(Jump::To(start)),
                 _ => self.stray(&label),
@@ -173,6 +127,62 @@ impl<R: BufRead + Seek> Simulator<R> {
             Step::Break | Step::Continue => self.out_of_loop(label, step == Step::Break),
             _ => self.stray(&label),
         }
+    }
+
+    /// A program or subprogram begins, as a Fanuc has it: one without M99 before would run into it.
+    fn program_begins(&mut self, label: String) -> Done<Jump> {
+        self.program = self.program.or(label.parse().ok());
+        self.labels.insert(label, self.at);
+        match self.frames.last() {
+            Some(Frame::Call { .. }) => {
+                refuse(Code::PN015, "the subprogram has no end", "end it with M99 before the next O number")
+            }
+            _ => Ok(Jump::On),
+        }
+    }
+
+    /// `o.. call`.
+    fn call_with(&mut self, label: String, arguments: &[f64]) -> Done<Jump> {
+        let Some(&start) = self.labels.get(&label) else {
+            let help = "subprograms in other files are not simulated: define it in this one, before its call";
+            return refuse(Code::PN015, format!("there is no subprogram o{label}"), help);
+        };
+        self.parameters.enter(arguments);
+        self.push(Frame::Call { label, back: self.at, start, times: 1, arguments: true })?;
+        Ok(Jump::To(start))
+    }
+
+    /// `o.. while`, at the beginning of a loop or at the end of a `do`.
+    fn loop_while(&mut self, label: String, is_so: bool) -> Done<Jump> {
+        if let Some(Frame::Do { label: opened, start }) = self.frames.last()
+            && *opened == label
+        {
+            let start = *start;
+            if is_so {
+                return Ok(Jump::To(start));
+            }
+            self.frames.pop();
+            return Ok(Jump::On);
+        }
+        if !is_so {
+            return Ok(Jump::Skip(label, Ends::While));
+        }
+        let start = Spot { byte: self.at.byte - self.line.len() as u64, line: self.at.line - 1 };
+        self.push(Frame::While { label, start })?;
+        Ok(Jump::On)
+    }
+
+    /// `o.. repeat`.
+    fn repeat(&mut self, label: String, times: f64) -> Done<Jump> {
+        if !(0.0..=1e9).contains(&times) {
+            return refuse(Code::PN015, format!("{times} repeats"), "repeat a number of times from 0 on");
+        }
+        if times < 1.0 {
+            return Ok(Jump::Skip(label, Ends::Repeat));
+        }
+        let start = self.at;
+        self.push(Frame::Repeat { label, start, left: times as u32 - 1 })?;
+        Ok(Jump::On)
     }
 
     /// Leaves a loop, or its rest.

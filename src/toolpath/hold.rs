@@ -1,8 +1,8 @@
 //! Holds a tool change until the path's first move is known, because the tool change may print its position.
 
 use super::axes::Axes;
-use super::cycle::CycleSpec;
-use super::event::Event;
+use super::cycle::{CycleSpec, Hole};
+use super::event::{Call, Event};
 use super::operation::{First, ToolChange};
 use super::tool::Spindle;
 use super::{Flow, Place, Sink, Stop, flow};
@@ -39,6 +39,27 @@ enum Waiting {
 }
 
 impl Waiting {
+    /// An event to keep; `None`: the tool must have changed before it.
+    fn of(event: &Event<'_>) -> Option<Waiting> {
+        Some(match *event {
+            Event::CycleBegin(spec) => Waiting::Cycle(Box::new(spec.clone())),
+            Event::Comment(text) => Waiting::Comment(text.to_owned()),
+            Event::Text(text) => Waiting::Text(text.to_owned()),
+            Event::Set(name, value) => Waiting::Set(name.to_owned(), value),
+            Event::Tilt(axis) => Waiting::Plain(Event::Tilt(axis)),
+            Event::Begin(section) => Waiting::Plain(Event::Begin(section)),
+            Event::End(section) => Waiting::Plain(Event::End(section)),
+            Event::CycleEnd => Waiting::Plain(Event::CycleEnd),
+            Event::Edm(action) => Waiting::Plain(Event::Edm(action)),
+            Event::Dwell(seconds) => Waiting::Plain(Event::Dwell(seconds)),
+            Event::Stop(kind) => Waiting::Plain(Event::Stop(kind)),
+            Event::Feed(feed) => Waiting::Plain(Event::Feed(feed)),
+            Event::Spindle(spindle) => Waiting::Plain(Event::Spindle(spindle)),
+            Event::Coolant(coolant) => Waiting::Plain(Event::Coolant(coolant)),
+            _ => return None,
+        })
+    }
+
     /// Comments, rapids and changes: nothing of theirs is printed by a sequence before the tool change.
     fn prints_nothing(&self) -> bool {
         matches!(
@@ -122,119 +143,128 @@ impl<'s> Hold<'s> {
         self.waiting.retain(|(waiting, _)| !is_way(waiting));
     }
 
+    /// Lets the tool change now, and passes an event on behind it.
+    fn release_before(&mut self, event: Event<'_>, place: Place, first: First) -> Result<(), Stop> {
+        self.release(first)?;
+        self.sink.push(event, place)
+    }
+
     #[cold]
     fn held(&mut self, event: Event<'_>, place: Place) -> Result<(), Stop> {
-        let waiting = match event {
+        match event {
             // rapids before it told places of the offset before: they are gone to in that one
             Event::Work(_) if self.first.given != 0 && !self.is_way() => {
-                self.release(First::Nothing)?;
-                return self.sink.push(event, place);
+                self.release_before(event, place, First::Nothing)
             }
             Event::Work(work) => {
-                if self.first.given != 0 {
-                    // another tool goes to its place in the last offset at once
-                    self.first = Axes::default();
-                    self.forget_ways();
-                }
-                // the first position counts from this offset: the tool must not go there in another
-                if let Some((change, _)) = &mut self.change {
-                    change.work = Some(work);
-                }
-                return Ok(());
+                self.change_in(work);
+                Ok(())
             }
-            // a spindle that is switched before anything is done is the tool change's
-            Event::Spindle(spindle) if self.waiting.iter().all(|(w, _)| w.prints_nothing()) => {
+            // what is switched or set before anything is done is the tool change's
+            Event::Spindle(spindle) if self.prints_nothing() => {
+                self.change_with(spindle);
+                Ok(())
+            }
+            Event::Set(name, value) if self.prints_nothing() => {
                 if let Some((change, _)) = &mut self.change {
-                    let before = change.spindle.unwrap_or_default();
-                    change.spindle = Some(Spindle {
-                        speed: spindle.speed.or(before.speed),
-                        turn: spindle.turn.or(before.turn),
-                        css: spindle.css.or(before.css),
-                        max: spindle.max.or(before.max),
-                    });
+                    change.set.push((name.to_owned(), value));
                 }
-                return Ok(());
+                Ok(())
             }
             Event::Rapid(to) => {
                 // CAM systems go to the height first and then across, or the other way: the tool change waits for both
                 self.reaches(&to);
                 if self.axes & !self.first.given == 0 || to.given & !self.axes != 0 {
-                    self.release(First::Nothing)?;
-                    return self.sink.push(event, place);
+                    return self.release_before(event, place, First::Nothing);
                 }
-                Waiting::Plain(Event::Rapid(to))
+                self.wait(Waiting::Plain(Event::Rapid(to)), place)
             }
             Event::Hole(hole) => {
-                let spec = self.waiting.iter().find_map(|(w, _)| match w {
-                    Waiting::Cycle(spec) => Some(spec.clone()),
-                    _ => None,
-                });
-                if self.first.given & self.depth != 0 {
-                    // over the hole, at the height that a rapid told
-                    self.reaches(&Axes { given: hole.at.given & self.axes & !self.depth, ..hole.at });
-                } else {
-                    self.first = Axes::default();
-                    self.forget_ways(); // the tool change goes over the hole at once
-                }
-                self.release(spec.map_or(First::Cut, |spec| First::Hole(spec, hole)))?;
-                return self.sink.push(event, place);
+                let first = self.first_hole(hole);
+                self.release_before(event, place, first)
             }
             Event::Thread(thread) => {
                 if self.first.given != 0 {
                     self.reaches(&Axes { given: thread.from.given & self.axes & !self.first.given, ..thread.from });
                 }
-                self.release(First::Rapid(thread.from))?;
-                return self.sink.push(event, place);
+                self.release_before(event, place, First::Rapid(thread.from))
             }
             Event::Line { .. } | Event::Arc { .. } | Event::Infeed { .. } | Event::Outfeed { .. } => {
-                self.release(First::Cut)?;
-                return self.sink.push(event, place);
+                self.release_before(event, place, First::Cut)
             }
-            Event::SubCall(_) if self.first.given != 0 => {
-                self.release(First::Nothing)?;
-                return self.sink.push(event, place);
-            }
-            Event::SubCall(call) => {
-                // the tool change goes to the call's place, so in the call's work offset; the operation's comes after
-                let own = self
-                    .change
-                    .as_mut()
-                    .filter(|_| call.work.is_some())
-                    .map(|(change, _)| std::mem::replace(&mut change.work, call.work));
-                let lost = own == Some(None); // the offset that is in force is the renderer's to know
-                self.release(if call.at.given == 0 || lost { First::Nothing } else { First::Rapid(call.at) })?;
-                self.sink.push(event, place)?;
-                return match own.flatten() {
-                    Some(work) => self.sink.push(Event::Work(work), place),
-                    None => Ok(()),
-                };
-            }
-            Event::Start(_) | Event::ToolChange(_) | Event::SubStart(_) | Event::SubEnd | Event::Finish => {
-                self.release(First::Nothing)?;
-                return self.sink.push(event, place);
-            }
-            Event::CycleBegin(spec) => Waiting::Cycle(Box::new(spec.clone())),
-            Event::Comment(text) => Waiting::Comment(text.to_owned()),
-            Event::Text(text) => Waiting::Text(text.to_owned()),
-            // values too are those of the tool change: it may print them
-            Event::Set(name, value) if self.waiting.iter().all(|(w, _)| w.prints_nothing()) => {
-                if let Some((change, _)) = &mut self.change {
-                    change.set.push((name.to_owned(), value));
-                }
-                return Ok(());
-            }
-            Event::Set(name, value) => Waiting::Set(name.to_owned(), value),
-            Event::Tilt(axis) => Waiting::Plain(Event::Tilt(axis)),
-            Event::Begin(section) => Waiting::Plain(Event::Begin(section)),
-            Event::End(section) => Waiting::Plain(Event::End(section)),
-            Event::CycleEnd => Waiting::Plain(Event::CycleEnd),
-            Event::Edm(action) => Waiting::Plain(Event::Edm(action)),
-            Event::Dwell(seconds) => Waiting::Plain(Event::Dwell(seconds)),
-            Event::Stop(kind) => Waiting::Plain(Event::Stop(kind)),
-            Event::Feed(feed) => Waiting::Plain(Event::Feed(feed)),
-            Event::Spindle(spindle) => Waiting::Plain(Event::Spindle(spindle)),
-            Event::Coolant(coolant) => Waiting::Plain(Event::Coolant(coolant)),
-        };
+            Event::SubCall(call) if self.first.given == 0 => self.first_call(call, place),
+            _ => match Waiting::of(&event) {
+                Some(waiting) => self.wait(waiting, place),
+                None => self.release_before(event, place, First::Nothing),
+            },
+        }
+    }
+
+    /// Nothing that waits is printed by itself.
+    fn prints_nothing(&self) -> bool {
+        self.waiting.iter().all(|(waiting, _)| waiting.prints_nothing())
+    }
+
+    /// The tool change is in this work offset: the first position counts from it, and the tool must not go there in
+    /// another.
+    fn change_in(&mut self, work: f64) {
+        if self.first.given != 0 {
+            // another tool goes to its place in the last offset at once
+            self.first = Axes::default();
+            self.forget_ways();
+        }
+        if let Some((change, _)) = &mut self.change {
+            change.work = Some(work);
+        }
+    }
+
+    /// The tool change switches the spindle so.
+    fn change_with(&mut self, spindle: Spindle) {
+        if let Some((change, _)) = &mut self.change {
+            let before = change.spindle.unwrap_or_default();
+            change.spindle = Some(Spindle {
+                speed: spindle.speed.or(before.speed),
+                turn: spindle.turn.or(before.turn),
+                css: spindle.css.or(before.css),
+                max: spindle.max.or(before.max),
+            });
+        }
+    }
+
+    /// The path begins with the first hole of the cycle that waits.
+    fn first_hole(&mut self, hole: Hole) -> First {
+        let spec = self.waiting.iter().find_map(|(waiting, _)| match waiting {
+            Waiting::Cycle(spec) => Some(spec.clone()),
+            _ => None,
+        });
+        if self.first.given & self.depth != 0 {
+            // over the hole, at the height that a rapid told
+            self.reaches(&Axes { given: hole.at.given & self.axes & !self.depth, ..hole.at });
+        } else {
+            self.first = Axes::default();
+            self.forget_ways(); // the tool change goes over the hole at once
+        }
+        spec.map_or(First::Cut, |spec| First::Hole(spec, hole))
+    }
+
+    /// The path begins with a call: the tool change goes to the call's place, so in the call's work offset; the
+    /// operation's own comes after.
+    fn first_call(&mut self, call: &Call, place: Place) -> Result<(), Stop> {
+        let own = self
+            .change
+            .as_mut()
+            .filter(|_| call.work.is_some())
+            .map(|(change, _)| std::mem::replace(&mut change.work, call.work));
+        let lost = own == Some(None); // the offset that is in force is the renderer's to know
+        let first = if call.at.given == 0 || lost { First::Nothing } else { First::Rapid(call.at) };
+        self.release_before(Event::SubCall(call), place, first)?;
+        match own.flatten() {
+            Some(work) => self.sink.push(Event::Work(work), place),
+            None => Ok(()),
+        }
+    }
+
+    fn wait(&mut self, waiting: Waiting, place: Place) -> Result<(), Stop> {
         if self.waiting.len() == MOST_HELD {
             let message = format!("more than {MOST_HELD} items before the operation's first move");
             return Err(Diag::new(Code::PJ013, message).help("put the first rapid before them").into());

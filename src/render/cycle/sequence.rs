@@ -45,24 +45,7 @@ pub fn sequence_hole(
     plane_block(control::Code::g(17), routine, shape, want, said, out)?; // else the control drills along another axis
     want.set(VarId::D, hole.heights.bottom);
     if matches!(routine.style, CycleStyle::Emulated) {
-        raise_to(&hole.target, shape, want, said, out, drill)?;
-        if !drill.open.as_ref().is_some_and(|cycle| cycle.in_force) {
-            settle_between_holes(hole, shape, want, said, out, drill)?; // what Cancel switched is put back
-        }
-        want.set(VarId::D, hole.heights.bottom);
-        said.forget_letters();
-        way_to_hole(routine, shape, want, said, out)?;
-        run(routine.ops.clone(), Mode::Hole, shape, want, said, out)?;
-        if let Some(cycle) = &mut drill.open {
-            cycle.in_force = routine.stays;
-        }
-        // after a cycle of the control the last height printed is its bottom
-        let cycled = prints_code(routine, |code| shape.is_cycle(code), shape);
-        let exit = match stays_at_clearance(routine, hole.heights, shape) {
-            true => (hole.heights.clear, true),
-            false => (hole.heights.return_plane, false),
-        };
-        return left_hole(&hole.target, cycled.then_some(exit), shape, said, drill);
+        return emulated_hole(routine, hole, shape, want, said, out, drill);
     }
     let starts = starts_cycle(routine, hole.heights, shape, want, drill);
     if starts {
@@ -99,16 +82,51 @@ pub fn sequence_hole(
         }
         _ => run(routine.ops.clone(), Mode::All, shape, want, said, out)?,
     }
-    let initial = drill.open.as_ref().map_or(hole.heights.return_plane, |cycle| cycle.initial_level);
+    let exit = exit_of_cycle(routine, hole.heights, shape, drill);
+    left_hole(&hole.target, Some(exit), shape, said, drill)
+}
+
+/// A hole by a sequence that prints its moves, or a cycle that ends in its own body.
+fn emulated_hole(
+    routine: &Routine,
+    hole: &Planned,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+    drill: &mut Drilling,
+) -> Done {
+    raise_to(&hole.target, shape, want, said, out, drill)?;
+    if !drill.open.as_ref().is_some_and(|cycle| cycle.in_force) {
+        settle_between_holes(hole, shape, want, said, out, drill)?; // what Cancel switched is put back
+    }
+    want.set(VarId::D, hole.heights.bottom);
+    said.forget_letters();
+    way_to_hole(routine, shape, want, said, out)?;
+    run(routine.ops.clone(), Mode::Hole, shape, want, said, out)?;
+    if let Some(cycle) = &mut drill.open {
+        cycle.in_force = routine.stays;
+    }
+    // after a cycle of the control the last height printed is its bottom
+    let cycled = prints_code(routine, |code| shape.is_cycle(code), shape);
+    let exit = match stays_at_clearance(routine, hole.heights, shape) {
+        true => (hole.heights.clear, true),
+        false => (hole.heights.return_plane, false),
+    };
+    left_hole(&hole.target, cycled.then_some(exit), shape, said, drill)
+}
+
+/// The height to which a cycle of the control comes back, and whether that is certain.
+fn exit_of_cycle(routine: &Routine, heights: Heights, shape: &Shape, drill: &Drilling) -> (f64, bool) {
+    let initial = drill.open.as_ref().map_or(heights.return_plane, |cycle| cycle.initial_level);
     // with [retplane] the code says whether it returns: G98 where the job goes higher, else G99
-    let higher = hole.heights.return_plane > hole.heights.clear + SAME;
+    let higher = heights.return_plane > heights.clear + SAME;
     let returns = routine.returns && (higher || !routine.vars.has(VarId::Retplane));
-    let exit = if returns { initial.max(hole.heights.clear) } else { hole.heights.clear };
+    let exit = if returns { initial.max(heights.clear) } else { heights.clear };
     // without a code that says it, the control's own setting decides whether it returns
     let stays = prints_code(routine, |code| code.is_g(shape.program.settings.return_plane[0]), shape);
-    let low = hole.heights.return_plane <= hole.heights.clear + SAME;
-    let known = routine.returns || stays || low && initial <= hole.heights.clear + SAME;
-    left_hole(&hole.target, Some((exit, known)), shape, said, drill)
+    let known = routine.returns || stays || !higher && initial <= heights.clear + SAME;
+    (exit, known)
 }
 
 /// Does an emulated sequence leave the tool at the clearance for certain: G99, and no axis behind the control's cycle?

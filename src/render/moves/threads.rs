@@ -42,37 +42,9 @@ impl Cut {
 /// A thread of the path. AutoThread goes before CanThread, both before passes made here.
 pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
     let program = shape.program;
-    if program.settings.machine != Machine::Lathe {
-        return fault(Code::PR008, "threads are for lathes", "mill the thread by its moves, or tap it");
-    }
-    if !want.get(VarId::Direct).is_some_and(|code| code != program.settings.spindle[2]) {
-        return fault(Code::PR032, "the spindle does not turn", "give the operation a spindle with a direction");
-    }
-    if want.compensated {
-        let help = "end the compensation with an `outfeed` before";
-        return fault(Code::PR030, "a thread under cutter compensation", help);
-    }
-    if want.get(VarId::Speedtype) == Some(program.settings.speed_type[0]) {
-        let message = "a thread at constant surface speed: each pass turns otherwise, and begins elsewhere".to_owned();
-        out.note(Code::PR029, message, "give its operation a spindle with \"mode\": \"rpm\"");
-    }
-    if program.settings.incremental {
-        let help = "thread with a form of positions";
-        return fault(Code::PR031, "a thread's words are positions, and the form prints increments", help);
-    }
+    check_state(shape, want, out)?;
     let cut = planned(thread, shape, said)?;
-    if said.stand.position.get(1).is_none() {
-        let help = "begin with a rapid to beside the thread, which says how far it is from the axis";
-        return fault(Code::PR001, "the radius at which the passes of the thread begin is unknown", help);
-    }
-    let from = said.stand.target(&thread.from, shape).values[1];
-    let beside = said.stand.position.values[1];
-    let wrong = [from, cut.crest].iter().any(|crest| (beside - crest) * cut.inward > 1e-9);
-    if wrong {
-        let (kind, place) = if cut.inward > 0.0 { ("inner", "outside") } else { ("outer", "inside") };
-        let message = format!("the tool is {place} the crest of an {kind} thread, at the radius {beside}");
-        return fault(Code::PR031, message, "rapid to the other side of the crest first");
-    }
+    check_beside(thread, &cut, shape, said)?;
     let starts = thread.starts.unwrap_or(1.0);
     let begin = said.stand.target(&thread.from, shape).values[0];
     thread_variables(thread, &cut, shape, want);
@@ -115,6 +87,46 @@ pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Sa
     }
     let feed = want.feed();
     want.keep_feed(feed, shape);
+    Ok(())
+}
+
+/// Refuses a thread that the machine can't cut as it stands.
+fn check_state(shape: &Shape, want: &Want, out: &mut Printer) -> Done {
+    let settings = &shape.program.settings;
+    if settings.machine != Machine::Lathe {
+        return fault(Code::PR008, "threads are for lathes", "mill the thread by its moves, or tap it");
+    }
+    if !want.get(VarId::Direct).is_some_and(|code| code != settings.spindle[2]) {
+        return fault(Code::PR032, "the spindle does not turn", "give the operation a spindle with a direction");
+    }
+    if want.compensated {
+        let help = "end the compensation with an `outfeed` before";
+        return fault(Code::PR030, "a thread under cutter compensation", help);
+    }
+    if want.get(VarId::Speedtype) == Some(settings.speed_type[0]) {
+        let message = "a thread at constant surface speed: each pass turns otherwise, and begins elsewhere".to_owned();
+        out.note(Code::PR029, message, "give its operation a spindle with \"mode\": \"rpm\"");
+    }
+    if settings.incremental {
+        let help = "thread with a form of positions";
+        return fault(Code::PR031, "a thread's words are positions, and the form prints increments", help);
+    }
+    Ok(())
+}
+
+/// Checks that the tool is known to be beside the thread, on the side from which it is cut.
+fn check_beside(thread: &Thread, cut: &Cut, shape: &Shape, said: &Said) -> Done {
+    let Some(beside) = said.stand.position.get(1) else {
+        let help = "begin with a rapid to beside the thread, which says how far it is from the axis";
+        return fault(Code::PR001, "the radius at which the passes of the thread begin is unknown", help);
+    };
+    let from = said.stand.target(&thread.from, shape).values[1];
+    let wrong = [from, cut.crest].iter().any(|crest| (beside - crest) * cut.inward > 1e-9);
+    if wrong {
+        let (kind, place) = if cut.inward > 0.0 { ("inner", "outside") } else { ("outer", "inside") };
+        let message = format!("the tool is {place} the crest of an {kind} thread, at the radius {beside}");
+        return fault(Code::PR031, message, "rapid to the other side of the crest first");
+    }
     Ok(())
 }
 

@@ -54,30 +54,10 @@ pub fn sub_call(
     let Some(routine) = shape.program.routine(SequenceId::SubCall) else {
         return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
     };
-    if want.feed_mode() != FeedMode::PerMinute {
-        let help = "call it from an operation whose feeds are per minute";
-        return fault(Code::PR033, "a subprogram's feeds are per minute, and the caller's are not", help);
-    }
-    if said.stand.angles.is_wound() {
-        let help = "make the call before an axis is unwound, or turn it back first";
-        return fault(Code::PR033, "a call after a rotary axis was unwound: its angles would mean others", help);
-    }
     let called = subs.index(call.sub);
-    let (printed, first_block) = match called.map(|i| &subs.defined[i]) {
-        Some(sub) => (sub.printed, sub.first_block),
-        // inside a subprogram a later one may be called; whether it comes is checked at the end
-        None if from.is_some() && !shape.program.settings.renumber_subs => (call.sub, None),
-        None if from.is_some() => {
-            let help = "put the called subprogram before this one, or set `RenumSubs? N`";
-            return fault(Code::PR034, format!("subprogram {} is not known yet", call.sub), help);
-        }
-        None => return undefined(call.sub),
-    };
+    check_call(call, called, want, said, subs)?;
+    let (printed, first_block) = names_of_called(call, called, shape, subs)?;
     let work = want.get(VarId::Work);
-    if call.work.is_some() && work.is_none() {
-        let help = "give the subprogram its own `work` before the call";
-        return fault(Code::PR033, "a call in another work offset from one that is not known here", help);
-    }
     if let Some(work) = call.work {
         want.set_work(work, shape)?;
     }
@@ -86,10 +66,6 @@ pub fn sub_call(
     want.set(VarId::Times, call.times);
     want.put(VarId::Subline, first_block);
     let leaves = called.is_none_or(|i| subs.defined[i].calls_ahead || !subs.defined[i].left.is_nothing());
-    if call.times > 1.0 && called.is_some_and(|i| subs.defined[i].left.turned) {
-        let help = "turn it back at the end of the subprogram, or call it once for each angle";
-        return fault(Code::PR033, "a subprogram that leaves the part turned is called several times", help);
-    }
     // a sequence that does not print how often is printed as often; so is one whose next run must begin as the first
     let together = routine.vars.has(VarId::Times) && !(leaves && call.times > 1.0);
     let calls = if together { 1 } else { call.times as u32 };
@@ -112,6 +88,42 @@ pub fn sub_call(
     want.put(VarId::Work, work);
     want.changed = true;
     Ok(())
+}
+
+/// Refuses a call whose subprogram would do something else here.
+fn check_call(call: &Call, called: Option<usize>, want: &Want, said: &Said, subs: &Subprograms) -> Done {
+    if want.feed_mode() != FeedMode::PerMinute {
+        let help = "call it from an operation whose feeds are per minute";
+        return fault(Code::PR033, "a subprogram's feeds are per minute, and the caller's are not", help);
+    }
+    if said.stand.angles.is_wound() {
+        let help = "make the call before an axis is unwound, or turn it back first";
+        return fault(Code::PR033, "a call after a rotary axis was unwound: its angles would mean others", help);
+    }
+    if call.work.is_some() && want.get(VarId::Work).is_none() {
+        let help = "give the subprogram its own `work` before the call";
+        return fault(Code::PR033, "a call in another work offset from one that is not known here", help);
+    }
+    if call.times > 1.0 && called.is_some_and(|i| subs.defined[i].left.turned) {
+        let help = "turn it back at the end of the subprogram, or call it once for each angle";
+        return fault(Code::PR033, "a subprogram that leaves the part turned is called several times", help);
+    }
+    Ok(())
+}
+
+/// The number of the called subprogram as it is printed, and the number of its first block, where that is known.
+fn names_of_called(call: &Call, called: Option<usize>, shape: &Shape, subs: &Subprograms) -> Done<(f64, Option<f64>)> {
+    let inside = subs.open.is_some();
+    match called.map(|i| &subs.defined[i]) {
+        Some(sub) => Ok((sub.printed, sub.first_block)),
+        // inside a subprogram a later one may be called; whether it comes is checked at the end
+        None if inside && !shape.program.settings.renumber_subs => Ok((call.sub, None)),
+        None if inside => {
+            let help = "put the called subprogram before this one, or set `RenumSubs? N`";
+            fault(Code::PR034, format!("subprogram {} is not known yet", call.sub), help)
+        }
+        None => undefined(call.sub),
+    }
 }
 
 /// Prints what a call needs before it: changes that its sequence does not print, and the place it is called at. Returns

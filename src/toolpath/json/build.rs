@@ -158,60 +158,33 @@ impl<'s> Builder<'s> {
         self.leave_cycle("an item")?;
         self.in_operation()?;
         let feed = item.feed.map(|f| positive("feed", f)).transpose()?;
-        // which kind it is: the feed and side that go with a move do not count
-        let moves = item.line.is_some() || item.arc.is_some() || item.infeed.is_some() || item.outfeed.is_some();
-        let kinds = [
-            item.rapid.is_some(),
-            item.line.is_some(),
-            item.arc.is_some(),
-            item.infeed.is_some(),
-            item.outfeed.is_some(),
-            item.begin.is_some(),
-            item.end.is_some(),
-            item.call.is_some(),
-            item.thread.is_some(),
-            item.edm.is_some(),
-            item.dwell.is_some(),
-            item.stop.is_some(),
-            item.comment.is_some(),
-            item.text.is_some(),
-            feed.is_some() && !moves,
-            item.work.is_some(),
-            item.spindle.is_some(),
-            item.coolant.is_some(),
-            item.set.is_some(),
-        ];
-        match kinds.iter().filter(|&&k| k).count() {
-            1 => {}
-            0 => {
-                let help = format!("give one of {}", ItemObject::KEYS.join(", "));
-                return fault(Code::PJ004, "the path item says nothing", help);
-            }
-            _ => return fault(Code::PJ005, "the path item says more than one thing", "make an item of each"),
-        }
-        if item.side.is_some() != item.infeed.is_some() {
-            return fault(
-                Code::PJ005,
-                "`side` and `infeed` go together",
-                "write {\"infeed\": [1, 2], \"side\": \"left\"}",
-            );
-        }
+        check_one(item)?;
         if let Some(to) = item.rapid {
-            return self.push(Event::Rapid(to.0));
-        }
-        if let Some(to) = item.line {
-            return self.push(Event::Line { to: to.0, feed });
-        }
-        if let Some(arc) = &item.arc {
+            self.push(Event::Rapid(to.0))
+        } else if let Some(to) = item.line {
+            self.push(Event::Line { to: to.0, feed })
+        } else if let Some(arc) = &item.arc {
             let arc = arc_of(arc)?;
-            return self.push(Event::Arc { arc: &arc, feed });
+            self.push(Event::Arc { arc: &arc, feed })
+        } else if let (Some(to), Some(side)) = (item.infeed, item.side) {
+            self.push(Event::Infeed { infeed: &Infeed { to: to.0, side: side.0, rapid: false }, feed })
+        } else if let Some(to) = item.outfeed {
+            self.push(Event::Outfeed { to: to.0, feed, rapid: false })
+        } else if let Some(thread) = &item.thread {
+            let thread = thread_of(thread)?;
+            self.push(Event::Thread(&thread))
+        } else if let Some(call) = &item.call {
+            let call = call_of(call)?;
+            self.push(Event::SubCall(&call))
+        } else if let Some(feed) = feed {
+            self.push(Event::Feed(feed))
+        } else {
+            self.between_moves(item)
         }
-        if let (Some(to), Some(side)) = (item.infeed, item.side) {
-            return self.push(Event::Infeed { infeed: &Infeed { to: to.0, side: side.0, rapid: false }, feed });
-        }
-        if let Some(to) = item.outfeed {
-            return self.push(Event::Outfeed { to: to.0, feed, rapid: false });
-        }
+    }
+
+    /// An item that moves nothing.
+    fn between_moves(&mut self, item: &ItemObject) -> Done {
         if let Some(section) = item.begin {
             return self.push(Event::Begin(section.0));
         }
@@ -222,20 +195,11 @@ impl<'s> Builder<'s> {
             }
             None => {}
         }
-        if let Some(thread) = &item.thread {
-            let thread = thread_of(thread)?;
-            return self.push(Event::Thread(&thread));
-        }
         if let Some(action) = item.edm {
             return self.push(Event::Edm(action.0));
         }
-        if let Some(call) = &item.call {
-            let call = call_of(call)?;
-            return self.push(Event::SubCall(&call));
-        }
         if let Some(seconds) = item.dwell {
-            let seconds = not_negative("dwell", seconds)?;
-            return self.push(Event::Dwell(seconds));
+            return self.push(Event::Dwell(not_negative("dwell", seconds)?));
         }
         if let Some(kind) = item.stop {
             return self.push(Event::Stop(kind.0));
@@ -249,16 +213,11 @@ impl<'s> Builder<'s> {
             }
             return self.push(Event::Text(text));
         }
-        if let Some(feed) = feed {
-            return self.push(Event::Feed(feed));
-        }
         if let Some(work) = item.work {
-            let work = not_negative("work", work)?;
-            return self.push(Event::Work(work));
+            return self.push(Event::Work(not_negative("work", work)?));
         }
         if let Some(spindle) = &item.spindle {
-            let spindle = spindle_of(spindle)?;
-            return self.push(Event::Spindle(spindle));
+            return self.push(Event::Spindle(spindle_of(spindle)?));
         }
         if let Some(coolant) = item.coolant {
             return self.push(Event::Coolant(coolant.0));
@@ -348,5 +307,43 @@ impl<'s> Builder<'s> {
             );
         }
         Ok(())
+    }
+}
+
+/// Checks that an item says one thing: the feed and side that go with a move do not count.
+fn check_one(item: &ItemObject) -> Done {
+    let moves = item.line.is_some() || item.arc.is_some() || item.infeed.is_some() || item.outfeed.is_some();
+    let kinds = [
+        item.rapid.is_some(),
+        item.line.is_some(),
+        item.arc.is_some(),
+        item.infeed.is_some(),
+        item.outfeed.is_some(),
+        item.begin.is_some(),
+        item.end.is_some(),
+        item.call.is_some(),
+        item.thread.is_some(),
+        item.edm.is_some(),
+        item.dwell.is_some(),
+        item.stop.is_some(),
+        item.comment.is_some(),
+        item.text.is_some(),
+        item.feed.is_some() && !moves,
+        item.work.is_some(),
+        item.spindle.is_some(),
+        item.coolant.is_some(),
+        item.set.is_some(),
+    ];
+    match kinds.iter().filter(|&&kind| kind).count() {
+        1 if item.side.is_some() != item.infeed.is_some() => {
+            let help = "write {\"infeed\": [1, 2], \"side\": \"left\"}";
+            fault(Code::PJ005, "`side` and `infeed` go together", help)
+        }
+        1 => Ok(()),
+        0 => {
+            let help = format!("give one of {}", ItemObject::KEYS.join(", "));
+            fault(Code::PJ004, "the path item says nothing", help)
+        }
+        _ => fault(Code::PJ005, "the path item says more than one thing", "make an item of each"),
     }
 }

@@ -1,6 +1,6 @@
 //! One canonical layout for forms. It changes blanks, case and older spellings; never what is rendered.
 
-use crate::lang::{CommandId, SequenceName, VarId};
+use crate::lang::{CommandId, SequenceName, TextVar, VarId};
 use crate::source::Source;
 use crate::span::Span;
 use crate::syntax::{self, Body, End, Head, Line, Piece, PieceKind, SequenceNode, Spanned, Statement, Tail};
@@ -207,7 +207,13 @@ impl Page<'_> {
                 text.push(char::from(*letter));
                 text.push_str(&number.text); // without the brackets of the first forms
             }
-            PieceKind::Stray(_) => text.push_str(self.source.slice(piece.span)),
+            PieceKind::TextVariable { letter: None, name } => match TextVar::parse(&name.text) {
+                Some(var) => text.push_str(&var.to_string()),
+                None => text.push_str(self.source.slice(piece.span)),
+            },
+            PieceKind::TextVariable { .. } | PieceKind::Quote(_) | PieceKind::Stray(_) => {
+                text.push_str(self.source.slice(piece.span));
+            }
         }
     }
 

@@ -9,7 +9,8 @@ use super::words::Word;
 use crate::diag::Code;
 use crate::lang::Machine;
 use crate::toolpath::{
-    Axes, Coolant, CycleSpec, Event, FeedMode, First, Hold, Place, Sink, Start, StopKind, Tool, ToolChange, Units,
+    About, Axes, Coolant, CycleSpec, Event, FeedMode, First, Hold, Place, Sink, Start, StopKind, Tool, ToolChange,
+    Units,
 };
 
 /// How far from the plane of z and x a turning tool may be for rounding.
@@ -207,6 +208,7 @@ impl<'s> Job<'s> {
             let start = Start {
                 program: None,
                 name: self.name.clone(),
+                about: About { part: self.name.clone(), ..About::default() },
                 units,
                 machine: self.machine,
                 set: Vec::new(),
@@ -228,8 +230,14 @@ impl<'s> Job<'s> {
                 change.tool = Some(Tool { number, ..Tool::default() });
             }
             change.spindle = Some(self.spindle.in_force()).filter(|spindle| *spindle != Default::default());
+            change.name = self.tools.operation.take();
             if let Some(tool) = &mut change.tool {
                 tool.diameter = self.tools.diameter.filter(|_| self.machine == Machine::Mill);
+                tool.name.clone_from(&self.tools.name);
+                tool.comment = self.tools.said.take();
+                if tool.name.is_none() {
+                    tool.name.clone_from(&tool.comment);
+                }
             }
             self.operations += 1;
             self.feed = None;

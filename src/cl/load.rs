@@ -40,10 +40,11 @@ pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
 
 /// TOOL PATH/name,TOOL,tool: a tool other than the one in use must be loaded, or have an assumed number.
 pub(super) fn tool_path(words: &[Word], state: &mut State<'_>) -> Done {
-    let tool = match words {
-        [_, word, tool, ..] if word.is("TOOL") => tool.to_string(),
+    let (operation, tool) = match words {
+        [operation, word, tool, ..] if word.is("TOOL") => (operation.to_string(), tool.to_string()),
         _ => return Ok(()),
     };
+    state.job.tools.operation = Some(operation);
     if state.job.tools.name.as_ref() == Some(&tool) {
         return Ok(());
     }

@@ -52,6 +52,13 @@ pub(super) fn text(word: &str, text: String, insert: &mut Insert, job: &mut Job<
         "REMARK" | "LETTER" => {}
         _ if text.is_empty() => {}
         _ => {
+            if word == "TPRINT" {
+                job.tools.said = Some(text.clone());
+            }
+            if word == "PPRINT" && job.name.is_none() && !job.has_operation() && job.notes.dialect() != Dialect::Makino
+            {
+                job.name = Some(text.clone()); // a file without PARTNO names its part so
+            }
             if word == "INSERT" && may_be_lost(&text) {
                 *insert = Some((text.clone(), job.notes.place));
             }

@@ -12,6 +12,10 @@ pub(super) struct Tools {
     pub diameter: Option<f64>,
     /// The tool in use, as TOOL PATH names it.
     pub name: Option<String>,
+    /// The operation that begins, as TOOL PATH names it.
+    pub operation: Option<String>,
+    /// What TPRINT says of the tool that comes.
+    pub said: Option<String>,
     /// Tools that were named and not loaded.
     not_loaded: Vec<String>,
     /// The number that was loaded last.

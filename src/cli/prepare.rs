@@ -11,7 +11,7 @@ use super::files::{self, io_message};
 use super::forms::FormFile;
 use super::report::Reporter;
 use super::say::{message, say};
-use super::{prompt, report};
+use super::{clock, prompt, report};
 
 /// A form that prints, with the answers to its prompts.
 pub struct Prepared {
@@ -54,6 +54,11 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         message(&format!("{name}: {}, nothing was printed", stops.join(", ")));
         return Ok(None);
     };
+    if post.says_time() && options.clock.is_none() {
+        options.clock = Some(clock::now()?);
+    }
+    options.job_file =
+        job.file_name().filter(|_| job != standard_input).map(|name| name.to_string_lossy().into_owned());
     prompt::ask(&post, &mut options, job == standard_input)
         .map_err(|error| io_message("read", Path::new("standard input"), &error))?;
     let inputs = file.paths().into_iter().chain(config.path).collect();

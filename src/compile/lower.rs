@@ -4,7 +4,7 @@ use super::letters::LetterTable;
 use super::program::{CycleStyle, Literal, Op, Program, Routine, Upon};
 use super::work;
 use crate::control::{Code, Control, Group, Meaning};
-use crate::lang::{SequenceId, VarId, VarSet};
+use crate::lang::{SequenceId, TextSet, VarId, VarSet};
 use crate::sema::{Form, Line, Sequence, Word, WordKind};
 use crate::span::Span;
 
@@ -16,6 +16,9 @@ pub fn compile(form: &Form) -> Program {
         spans: Vec::new(),
         literals: Vec::new(),
         texts: Vec::new(),
+        texts_printed: TextSet::default(),
+        name: String::new(),
+        hash: String::new(),
         routines: Program::no_routines(),
         upons: Vec::new(),
         upon_vars: VarSet::default(),
@@ -118,6 +121,7 @@ fn lower_sequence(program: &mut Program, sequence: &Sequence) -> Routine {
 fn lower(program: &mut Program, lines: &[Line], span: Span) -> Routine {
     let start = program.ops.len();
     let mut prints_g98 = false;
+    let mut texts = TextSet::default();
     for line in lines {
         program.ops.push(Op::Line { droppable: line.words.iter().all(|w| is_motion_or_no_code(&w.kind)) });
         program.spans.push(line.span);
@@ -139,16 +143,24 @@ fn lower(program: &mut Program, lines: &[Line], span: Span) -> Routine {
                 WordKind::Text(text) | WordKind::Note(text) => {
                     Op::Text { index: push(&mut program.texts, text.clone()), glued }
                 }
+                WordKind::Quote(text) => Op::Quote { index: push(&mut program.texts, text.clone()), glued },
+                WordKind::TextVar(var) | WordKind::RemarkText(var) => {
+                    texts.insert(var.id);
+                    Op::TextVar { var: *var, in_comment: matches!(word.kind, WordKind::RemarkText(_)), glued }
+                }
+                WordKind::Comment(words) => Op::Comment { words: *words as u32 },
             };
             program.ops.push(op);
             program.spans.push(word.span);
         }
     }
+    program.texts_printed = program.texts_printed.with(texts);
     let ops = start..program.ops.len();
     let vars = vars_of(&program.ops[ops.clone()]);
     Routine {
         repeat: start,
         vars,
+        texts,
         setup_vars: VarSet::default(),
         cancel: false,
         stays: stays_in_cycle(program.settings.codes(), lines),
@@ -178,6 +190,7 @@ fn is_motion_or_no_code(word: &WordKind) -> bool {
         WordKind::Literal(b'G' | b'g', _, value) => [0.0, 1.0, 2.0, 3.0].contains(value),
         WordKind::Literal(letter, ..) | WordKind::Var(letter, _) => !b"GgMm".contains(letter),
         WordKind::Value(_) | WordKind::Remark(_) | WordKind::Text(_) | WordKind::Note(_) => true,
+        WordKind::Quote(_) | WordKind::TextVar(_) | WordKind::RemarkText(_) | WordKind::Comment(_) => true,
     }
 }
 

@@ -2,12 +2,18 @@
 
 use std::ops::Range;
 
+use sha2::{Digest, Sha256};
+
 use super::letters::LetterTable;
 use super::work::WorkWord;
 use crate::control::Code;
-use crate::lang::{SEQUENCES, SequenceId, VarId, VarSet};
+use crate::lang::{SEQUENCES, SequenceId, TextId, TextSet, TextVar, VarId, VarSet};
 use crate::sema::Settings;
+use crate::source::Source;
 use crate::span::Span;
+
+/// How much of a form's hash is printed.
+const HASH_BYTES: usize = 6;
 
 /// One operation. Small, because a long job runs them by the hundred million.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +60,27 @@ pub enum Op {
         /// No blank before it.
         glued: bool,
     },
+    /// Text in backquotes, which nothing changes.
+    Quote {
+        /// Its row in [`Program::texts`].
+        index: u32,
+        /// No blank before it.
+        glued: bool,
+    },
+    /// A text of the job.
+    TextVar {
+        /// Which.
+        var: TextVar,
+        /// In a comment, which holds more characters than words do.
+        in_comment: bool,
+        /// No blank before it.
+        glued: bool,
+    },
+    /// A comment begins that holds texts of the job: where all of them are empty it is left out.
+    Comment {
+        /// How many operations it has.
+        words: u32,
+    },
 }
 
 /// A literal word.
@@ -93,6 +120,8 @@ pub struct Routine {
     pub repeat: usize,
     /// The variables it prints outside comments.
     pub vars: VarSet,
+    /// The texts of the job that it prints.
+    pub texts: TextSet,
     /// The variables that only the lines before `repeat` print.
     pub setup_vars: VarSet,
     /// `End Cancel`.
@@ -131,6 +160,12 @@ pub struct Program {
     pub literals: Vec<Literal>,
     /// Texts.
     pub texts: Vec<String>,
+    /// The texts of the job that the form prints anywhere.
+    pub texts_printed: TextSet,
+    /// Its name: as it says, else as its file is called.
+    pub name: String,
+    /// What tells it from other forms, where it prints that.
+    pub hash: String,
     /// The sequences, by [`SequenceId`].
     pub(super) routines: Vec<Option<Routine>>,
     /// The Upon sequences in the order of the form.
@@ -156,6 +191,23 @@ impl Program {
     #[inline]
     pub fn routine(&self, id: SequenceId) -> Option<&Routine> {
         self.routines[id as usize].as_ref()
+    }
+
+    /// Gives it its name and what tells it from other forms, from its files: the form first, then those that it calls.
+    #[must_use]
+    pub fn identified(mut self, files: &[Source]) -> Program {
+        self.name.clone_from(&self.settings.name);
+        if self.name.is_empty() {
+            let file = files.first().map_or("", |file| file.name.rsplit(['/', '\\']).next().unwrap_or_default());
+            self.name = file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned();
+        }
+        if self.texts_printed.has(TextId::Formhash) {
+            let mut hash = Sha256::new();
+            files.iter().for_each(|file| hash.update(&file.text));
+            let hash = hash.finalize();
+            self.hash = hash.iter().take(HASH_BYTES).map(|byte| format!("{byte:02x}")).collect();
+        }
+        self
     }
 
     pub(super) fn no_routines() -> Vec<Option<Routine>> {

@@ -156,6 +156,9 @@ codes! {
     PF607 Warning "a code that the control does not have"
     PF608 Note "a code that nobody described for the control"
     PF609 Warning "two M codes in a block, where the control takes one"
+    // PF7: what posts say
+    PF701 Error "a text of the job where none can stand"
+    PF702 Error "a width that is none"
     // PJ: the job
     PJ001 Error "the job is not well-formed"
     PJ002 Error "an unknown key"
@@ -279,6 +282,7 @@ codes! {
     PR039 Error "an offset register that can't be used"
     PR040 Error "positions among increments, or increments among positions"
     PR041 Error "a control that reads lengths in other units, or otherwise"
+    PR050 Note "a text of the job that is printed otherwise"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

@@ -10,7 +10,9 @@ mod words;
 
 use crate::control::{self, Control};
 use crate::diag::{CODES, CodeRow};
-use crate::lang::{COMMANDS, CommandId, LONGEST_NAME, SEQUENCES, SequenceId, VARIABLES, VarId, did_you_mean};
+use crate::lang::{
+    COMMANDS, CommandId, LONGEST_NAME, SEQUENCES, SequenceId, TEXTS, TextId, VARIABLES, VarId, did_you_mean,
+};
 
 /// The text for a code, command, variable, sequence, cycle or control, whatever the case it is asked for in.
 ///
@@ -40,6 +42,7 @@ pub fn explain(what: &str) -> Result<String, String> {
         _ => {}
     }
     texts.extend(VarId::parse(bare).map(words::variable));
+    texts.extend(TextId::parse(bare.split(':').next().unwrap_or(bare)).map(words::text));
     if asked == bare {
         texts.extend(words::cycle(asked));
     }
@@ -83,6 +86,8 @@ pub fn list() -> String {
     controls.for_each(|control| text += &format!("  {:<20} {}\n", control.name(), control.title()));
     text += "\nVariables\n";
     VARIABLES.iter().for_each(|row| text += &format!("  {:<20} {}\n", format!("[{}]", row.name), row.meaning));
+    text += "\nTexts\n";
+    TEXTS.iter().for_each(|row| text += &format!("  {:<20} {}\n", format!("[{}]", row.name), row.meaning));
     text
 }
 
@@ -98,6 +103,7 @@ fn all_names() -> impl Iterator<Item = &'static str> {
         .chain(words)
         .chain(control::names())
         .chain(VARIABLES.iter().map(|row| row.name))
+        .chain(TEXTS.iter().map(|row| row.name))
         .chain(words::CYCLES.iter().map(|row| row.name))
 }
 

@@ -2,7 +2,7 @@
 
 use super::words::{origin, standing, takes, unit};
 use crate::diag::CODES;
-use crate::lang::{COMMANDS, Machines, SEQUENCES, VARIABLES};
+use crate::lang::{COMMANDS, Machines, SEQUENCES, TEXTS, VARIABLES};
 use crate::lint::RULES;
 
 /// The first lines of a page that nobody should edit.
@@ -54,6 +54,11 @@ pub fn variables() -> String {
         let (counts, by) = (unit(row.unit), origin(row.origin));
         text += &format!("| `[{}]` | {} | {counts} | {} | {by} |\n", row.name, cell(row.meaning), row.machines);
     }
+    text += "\n## Texts\n\nFor people; ours, not the manual's. `[toolname:12]` has a width: [language](language.md#texts).\n\n";
+    text += "| variable | is | set by |\n| --- | --- | --- |\n";
+    for row in TEXTS {
+        text += &format!("| `[{}]` | {} | {} |\n", row.name, cell(row.meaning), row.from);
+    }
     text
 }
 
@@ -83,7 +88,7 @@ pub fn sequences() -> String {
 }
 
 /// Families of a form's codes.
-const FAMILIES: [(&str, &str); 7] = [
+const FAMILIES: [(&str, &str); 8] = [
     ("PF0", "Structure"),
     ("PF1", "Blanks and comments"),
     ("PF2", "Names"),
@@ -91,6 +96,7 @@ const FAMILIES: [(&str, &str); 7] = [
     ("PF4", "Sequences and cycles"),
     ("PF5", "Modality"),
     ("PF6", "Limits and machine type"),
+    ("PF7", "Texts, expressions, conditions"),
 ];
 
 /// docs/rules/README.md.

@@ -1,7 +1,9 @@
 //! Commands, variables, sequences and kinds of cycles in words.
 
 use super::examples::{self, Example};
-use crate::lang::{Args, Command, CommandId, Machine, Machines, Origin, SequenceId, Standing, Unit, UnitChoice, VarId};
+use crate::lang::{
+    Args, Command, CommandId, Machine, Machines, Origin, SequenceId, Standing, TextId, Unit, UnitChoice, VarId,
+};
 use crate::toolpath::CycleKind;
 
 /// A kind of cycle that jobs ask for.
@@ -149,6 +151,22 @@ pub fn variable(id: VarId) -> String {
 fn in_a_comment(id: VarId) -> Option<Example> {
     let text = format!("({} [{}])", id.name().to_uppercase(), id.name());
     Some(Example { text, form: "in a comment of the program" })
+}
+
+/// The page of a text variable, as `explain` prints it.
+pub fn text(id: TextId) -> String {
+    let row = id.row();
+    let lines = [
+        ("is", row.meaning.to_owned()),
+        ("counts", "text".to_owned()),
+        ("set by", row.from.to_owned()),
+        ("width", format!("[{0}:12] for 12 characters, [{0}:-12] to have it at their right", row.name)),
+        ("standing", standing(Standing::Ours).to_owned()),
+        ("sample", "samples/texts".to_owned()),
+    ];
+    let example =
+        Example { text: format!("({} [{}])", row.name.to_uppercase(), row.name), form: "in a comment of the program" };
+    page(&format!("[{}] (text)", row.name), &lines, Some(example))
 }
 
 /// The page of a sequence, as `explain` prints it.

@@ -16,7 +16,7 @@ mod tools;
 use std::io::{Read, Seek};
 
 use crate::diag::{Code, Diag};
-use crate::toolpath::{Event, Hold, Place, ReadError, Sink, Start, Units};
+use crate::toolpath::{About, Event, Hold, Place, ReadError, Sink, Start, Units};
 use archive::Archive;
 use convert::Convert;
 use document::Document;
@@ -56,6 +56,7 @@ pub fn read_freecad(
     let start = Start {
         program: None,
         name: Some(job.label.clone()),
+        about: About::default(),
         units: Units::Mm,
         machine: crate::lang::Machine::Mill,
         set: Vec::new(),

@@ -73,5 +73,6 @@ fn tool(document: &Document, controller: &Object, number: f64) -> Tool {
         (tool.diameter, tool.corner_radius) = (positive(bit.number("Diameter")), positive(bit.number("CornerRadius")));
     }
     tool.comment = tool.comment.filter(|comment| !comment.trim().is_empty());
+    tool.name.clone_from(&tool.comment);
     tool
 }

@@ -6,6 +6,7 @@ mod commands;
 mod machine;
 mod sequences;
 mod suggest;
+mod texts;
 mod variables;
 mod work;
 
@@ -14,6 +15,7 @@ pub use commands::{Args, COMMANDS, Command, CommandId, Used, Without};
 pub use machine::{Machine, Machines, UnitChoice};
 pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
 pub use suggest::{LONGEST_NAME, did_you_mean, nearest};
+pub use texts::{TEXT_COUNT, TEXTS, Text, TextId, TextSet, TextVar, WIDEST};
 pub use variables::{Origin, Unit, VARIABLES, VarId, VarSet, Variable};
 pub use work::work_code;
 

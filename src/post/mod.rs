@@ -19,6 +19,7 @@ use crate::compile;
 use crate::control::Control;
 use crate::diag::{Diag, Findings};
 use crate::error::Error;
+use crate::lang::TextId;
 use crate::lint::{Levels, ready};
 use crate::sema::{Limits, analyse};
 use crate::source::Source;
@@ -93,6 +94,7 @@ impl Post {
     }
 
     fn of(program: compile::Program, warnings: Vec<Diag>, files: &[Source]) -> Post {
+        let program = program.identified(files);
         let warnings = Findings { diags: warnings, files: files.to_vec(), suppressed: 0 };
         Post(Arc::new(Compiled { program, warnings }))
     }
@@ -106,6 +108,12 @@ impl Post {
     pub fn prompts(&self) -> impl Iterator<Item = Prompt<'_>> {
         let prompts = self.0.program.settings.prompts.iter();
         prompts.map(|prompt| Prompt { variable: prompt.var.row().name, text: &prompt.text, default: prompt.default })
+    }
+
+    /// Does the form say the day or the time of printing? Then [`Options::clock`] gives them.
+    pub fn says_time(&self) -> bool {
+        let texts = self.0.program.texts_printed;
+        texts.has(TextId::Date) || texts.has(TextId::Time)
     }
 
     /// The form's warnings, and its text.

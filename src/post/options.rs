@@ -4,7 +4,7 @@ use crate::control::Control;
 use crate::error::Error;
 use crate::lang::{Origin, VARIABLES, VarId, did_you_mean};
 use crate::nc::Unpointed;
-use crate::render::{self, Cycles};
+use crate::render::{self, Clock, Cycles};
 use crate::toolpath::Units;
 
 /// How a job is printed. All of it may stay as it is.
@@ -24,6 +24,10 @@ pub struct Options {
     pub sink_as_printed: bool,
     /// A program of over 100 MB may be over 1,000 times as long as its job.
     pub huge: bool,
+    /// Day and time of printing, for forms that say them: see [`Post::says_time`](super::Post::says_time).
+    pub clock: Option<Clock>,
+    /// What the job's file is called, for forms that say it.
+    pub job_file: Option<String>,
     /// Keep for each line of the program which form line and which item of the job printed it.
     pub trace: bool,
 }
@@ -48,6 +52,8 @@ impl Options {
             program: self.program,
             set: set.collect::<Result<_, Error>>()?,
             sink_as_printed: self.sink_as_printed,
+            clock: self.clock.clone(),
+            job_file: self.job_file.clone(),
             trace: self.trace,
         })
     }

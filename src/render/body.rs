@@ -8,6 +8,7 @@ use super::numbers::quantised;
 use super::printer::Printer;
 use super::said::{Line, Said};
 use super::shape::Shape;
+use super::texts;
 use super::vars::MOVED;
 use super::want::Want;
 use super::words::check_feed;
@@ -85,14 +86,19 @@ pub fn run(ops: Range<usize>, mode: Mode, shape: &Shape, want: &Want, said: &mut
 pub fn go_on(ops: Range<usize>, mode: Mode, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
     let begin = ops.start;
     let mut body = Body { shape, want, said, out, mode, line: begin, drops: false };
-    for i in ops {
+    let mut i = ops.start;
+    while i < ops.end {
         match shape.program.ops[i] {
             Op::Line { droppable } => {
                 body.end_line();
                 (body.line, body.drops) = (i, droppable);
             }
-            op => body.operation(op).map_err(|diag| Box::new(diag.at(shape.program.spans[i], "printed from here")))?,
+            Op::Comment { words } if body.comment_is_empty(i, words as usize) => i += words as usize,
+            op => {
+                body.operation(op, i).map_err(|diag| Box::new(diag.at(shape.program.spans[i], "printed from here")))?
+            }
         }
+        i += 1;
     }
     body.end_line();
     // looked at before the next move: until then another sequence may put it right
@@ -130,13 +136,25 @@ impl Body<'_, '_> {
         if self.out.is_too_long() { Line::NONE } else { Line::at(self.line) }
     }
 
-    fn operation(&mut self, op: Op) -> Done {
+    /// Has the job none of the texts of the comment that begins here?
+    fn comment_is_empty(&self, at: usize, words: usize) -> bool {
+        self.want.texts.are_empty(&self.shape.program.ops[at + 1..][..words])
+    }
+
+    fn operation(&mut self, op: Op, at: usize) -> Done {
         let next_hole = matches!(self.mode, Mode::NextHole { .. });
         match op {
             Op::Line { .. } => {}
             Op::Var { letter, var, glued } => self.var_word(letter, var, glued)?,
             Op::Literal { index, glued } => self.literal_word(index as usize, glued),
-            Op::Value { .. } | Op::Remark { .. } | Op::Text { .. } if next_hole => {}
+            Op::Value { .. } | Op::Remark { .. } | Op::Text { .. } | Op::Quote { .. } | Op::TextVar { .. }
+                if next_hole => {}
+            Op::Comment { .. } => {}
+            Op::Quote { index, glued } => self.out.quote(&self.shape.program.texts[index as usize], glued),
+            Op::TextVar { var, in_comment, glued } => {
+                let behind = in_comment.then(|| texts::typed_behind(at, self.shape));
+                texts::print(var, self.want.texts.get(var.id), behind, glued, self.shape, self.out);
+            }
             Op::Value { var, glued } => self.bare_word(var, glued)?,
             Op::Remark { var, glued } => self.remark(var, glued)?,
             Op::Text { index, glued } => {

@@ -17,6 +17,7 @@ mod said;
 mod settle;
 mod shape;
 mod targets;
+mod texts;
 mod upon;
 mod vars;
 mod want;
@@ -37,7 +38,7 @@ use shape::Shape;
 use want::Want;
 
 pub use defaults::cycle_defaults;
-pub use options::{Cycles, Options};
+pub use options::{Clock, Cycles, Options};
 pub use printer::TraceLine;
 
 /// Prints the blocks of one program. Push the events of a job, and take the text as it comes.

@@ -13,6 +13,15 @@ pub enum Cycles {
     Emulated,
 }
 
+/// Day and time of printing: nothing of the library looks at a clock.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Clock {
+    /// `[date]`, as 2026-03-31.
+    pub date: String,
+    /// `[time]`, as 14:05; empty where only the day is said.
+    pub time: String,
+}
+
 /// What a caller may choose.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
@@ -26,6 +35,10 @@ pub struct Options {
     pub set: Vec<(VarId, f64)>,
     /// Countersink depths by the formula that GENER's manual prints, which is right at 90 degrees only.
     pub sink_as_printed: bool,
+    /// Day and time of printing, as the program says them.
+    pub clock: Option<Clock>,
+    /// The job's file, as the program says it.
+    pub job_file: Option<String>,
     /// Keep a source map.
     pub trace: bool,
 }

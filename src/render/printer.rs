@@ -1,5 +1,7 @@
 //! The printer: words joined to blocks, numbered, ended, with the source map and the remarks that go with them.
 
+use std::ops::Range;
+
 use super::fault::Done;
 use super::numbers::{as_number, units_of, unprintable};
 use crate::compile::{Letter, LetterTable};
@@ -89,6 +91,8 @@ pub struct Printer {
     numbered: bool,
     next_number: i64,
     first_done: bool,
+    /// Parts of the open block that `Replace` leaves alone.
+    kept: Vec<Range<usize>>,
     too_long: Option<TooLong>,
     notes: Vec<Diag>,
 }
@@ -116,6 +120,7 @@ impl Printer {
             numbered: false,
             next_number: layout.start,
             first_done: false,
+            kept: Vec::new(),
             too_long: None,
             notes: Vec::new(),
             layout,
@@ -251,6 +256,22 @@ impl Printer {
         }
         self.words = 0;
         self.numbered = false;
+        self.kept.clear();
+    }
+
+    /// Text that nothing changes, as `Replace` does.
+    pub fn quote(&mut self, text: &str, glued: bool) {
+        self.word(glued);
+        let from = self.length();
+        self.page.text.extend_from_slice(text.as_bytes());
+        if !self.layout.replace.is_empty() {
+            self.kept.push(from..self.length());
+        }
+    }
+
+    /// The length of the open block so far.
+    pub fn length(&self) -> usize {
+        if self.words > 0 { self.page.text.len() - self.start } else { 0 }
     }
 
     /// Is a block open?
@@ -324,6 +345,7 @@ impl Printer {
             prefix[at] = letter;
         }
         let (length, shift) = (self.page.text.len(), prefix.len() - at);
+        self.kept.iter_mut().for_each(|kept| *kept = kept.start + shift..kept.end + shift);
         self.page.text.extend_from_slice(&prefix[at..]); // as many bytes as are needed
         self.page.text.copy_within(self.start..length, self.start + shift);
         self.page.text[self.start..self.start + shift].copy_from_slice(&prefix[at..]);
@@ -334,17 +356,18 @@ impl Printer {
         let rows = std::mem::take(&mut self.layout.replace);
         _ = rows.iter().try_for_each(|row| self.replace_by(row));
         self.layout.replace = rows;
+        self.kept.clear();
     }
 
     /// Replaces by one row; `None` when the block has become too long.
     fn replace_by(&mut self, (old, new, span): &(Vec<u8>, Vec<u8>, Span)) -> Option<()> {
-        {
-            if memchr::memmem::find(&self.page.text[self.start..], old).is_none() {
-                return Some(());
-            }
-            let block = self.page.text.split_off(self.start);
-            let mut from = 0;
-            for at in memchr::memmem::find_iter(&block, old) {
+        if memchr::memmem::find(&self.page.text[self.start..], old).is_none() {
+            return Some(());
+        }
+        let block = self.page.text.split_off(self.start);
+        let mut from = 0;
+        for kept in std::mem::take(&mut self.kept).into_iter().chain(std::iter::once(block.len()..block.len())) {
+            for at in memchr::memmem::find_iter(&block[from..kept.start], old).map(|at| from + at).collect::<Vec<_>>() {
                 self.page.text.extend_from_slice(&block[from..at]);
                 self.page.text.extend_from_slice(new);
                 from = at + old.len();
@@ -353,7 +376,13 @@ impl Printer {
                     return None;
                 }
             }
-            self.page.text.extend_from_slice(&block[from..]);
+            self.page.text.extend_from_slice(&block[from..kept.start]);
+            let begin = self.length();
+            self.page.text.extend_from_slice(&block[kept.clone()]);
+            if !kept.is_empty() {
+                self.kept.push(begin..self.length());
+            }
+            from = kept.end;
         }
         Some(())
     }

@@ -43,6 +43,7 @@ pub fn index_replaces_work_upon(shape: &Shape) -> bool {
             }
             Op::Remark { .. } => true,
             Op::Value { .. } | Op::Text { .. } => false,
+            Op::Quote { .. } | Op::TextVar { .. } | Op::Comment { .. } => false,
         })
     };
     retracts && shape.program.upons.iter().filter(|upon| upon.var == VarId::Work).all(only_moves)

@@ -2,6 +2,7 @@
 
 use super::fault::{Done, fault};
 use super::shape::Shape;
+use super::texts::Texts;
 use super::vars::Vars;
 use crate::control::Meaning;
 use crate::control::{self, Group};
@@ -14,6 +15,8 @@ use crate::toolpath::{Coolant, FeedMode, Spindle, SpindleTurn};
 #[derive(Clone, Debug)]
 pub struct Want {
     vars: Vars,
+    /// Names and remarks, for people.
+    pub texts: Texts,
     /// A condition or a variable changed: the next move must look whether it is printed.
     pub changed: bool,
     /// The feed of moves, in program units.
@@ -44,6 +47,7 @@ impl Want {
         let settings = &shape.program.settings;
         let mut want = Want {
             vars: Vars::default(),
+            texts: Texts::default(),
             changed: true,
             feed: None,
             feed_units: None,

@@ -4,7 +4,7 @@ use indexmap::IndexMap;
 
 use super::settings::Settings;
 use crate::control::Code;
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{SequenceId, TextVar, VarId};
 use crate::number::LetterFormat;
 use crate::span::Span;
 
@@ -103,6 +103,14 @@ pub enum WordKind {
     Text(String),
     /// Text of a comment of the program.
     Note(String),
+    /// Text in backquotes: nothing about it is looked at or changed.
+    Quote(String),
+    /// A text of the job.
+    TextVar(TextVar),
+    /// A text of the job inside a comment of the program.
+    RemarkText(TextVar),
+    /// So many words that follow are a comment with texts of the job: left out where the job has none of them.
+    Comment(usize),
 }
 
 impl Word {

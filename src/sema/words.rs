@@ -2,7 +2,7 @@
 
 use super::model::{Line, Word, WordKind};
 use crate::diag::{Code, Diag, steers};
-use crate::lang::{Machine, VARIABLES, VarId, did_you_mean};
+use crate::lang::{Machine, TEXTS, TextVar, VARIABLES, VarId, WIDEST, did_you_mean};
 use crate::span::Span;
 use crate::syntax::{self, Body, Piece, PieceKind, Spanned};
 
@@ -19,6 +19,7 @@ pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
     let (codes, remark) = body.words.split_at(before_remark(&body.words, context.comment));
     let mut words = Vec::new();
     for word in codes {
+        check_texts(&word.pieces, diags);
         for (i, piece) in word.pieces.iter().enumerate() {
             let previous = i.checked_sub(1).map(|before| &word.pieces[before]);
             push(piece, previous, context, &mut words, diags);
@@ -26,12 +27,12 @@ pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
     }
     if let [first, .., last] | [first @ last] = remark {
         let span = Span { end: last.span.end, ..first.span };
-        let mut note = Note { span, glued: false, text: String::new(), words: &mut words };
+        let mut note = Note::new(span, false, &mut words);
         for (i, word) in remark.iter().enumerate() {
             note.text.push_str(if i > 0 { " " } else { "" });
             note.pieces(&word.pieces, context, diags);
         }
-        note.end();
+        note.finish();
     }
     words.shrink_to_fit();
     Line { span: body.line.span, words }
@@ -50,8 +51,12 @@ pub fn before_remark(words: &[syntax::Word], comment: &[String; 2]) -> usize {
 pub fn variable(name: &Spanned, machine: Machine, diags: &mut Vec<Diag>) -> Option<VarId> {
     let Some(var) = VarId::parse(&name.text) else {
         let known = VARIABLES.iter().filter(|v| v.machines.has(machine)).map(|v| v.name);
+        let known = known.chain(TEXTS.iter().map(|text| text.name));
         let mut diag = Diag::new(Code::PF202, format!("`{}` is no variable", name.text)).at(name.span, "unknown");
         diag.help = did_you_mean(&name.text, known);
+        if name.text.split_once(':').is_some_and(|(name, _)| VarId::parse(name).is_some()) {
+            diag.help = Some("only texts have a width: that of a number comes from its letter's format".into());
+        }
         diags.push(diag);
         return None;
     };
@@ -83,10 +88,18 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
             check_text(text, piece.span, previous.is_some_and(Piece::is_word), diags);
             WordKind::Text(text.clone())
         }
+        PieceKind::Quote(text) => {
+            check_quote(text, piece.span, diags);
+            WordKind::Quote(text.clone())
+        }
+        PieceKind::TextVariable { name, .. } => match text_variable(name, diags) {
+            Some(var) => WordKind::TextVar(var),
+            None => return,
+        },
         PieceKind::Note { parts, closed } => {
-            let mut note = Note { span: piece.span, glued, text: String::new(), words };
+            let mut note = Note::new(piece.span, glued, words);
             note.brackets(parts, *closed, context, diags);
-            note.end();
+            note.finish();
             return;
         }
     };
@@ -110,15 +123,76 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
     words.push(Word { span: piece.span, glued, kind });
 }
 
+/// A text with its width; reports a width that is none.
+fn text_variable(name: &Spanned, diags: &mut Vec<Diag>) -> Option<TextVar> {
+    let var = TextVar::parse(&name.text);
+    if var.is_none() {
+        let text = name.text.split(':').next().unwrap_or_default();
+        diags.push(
+            Diag::new(Code::PF702, format!("`{}` has a width that is none", name.text))
+                .at(name.span, format!("from 1 to {WIDEST}, or from -1 to -{WIDEST}"))
+                .help(format!("write `[{text}:12]` for 12 characters, `[{text}:-12]` to have the text at their right")),
+        );
+    }
+    var
+}
+
+/// Outside comments a text of the job stands beside text of the form: alone, a name like M30 would be a code.
+fn check_texts(pieces: &[Piece], diags: &mut Vec<Diag>) {
+    let is_text = |piece: &Piece| match &piece.kind {
+        PieceKind::Stray(_) => true,
+        PieceKind::Quote(text) => !text.is_empty(),
+        _ => false,
+    };
+    let held = pieces.iter().any(is_text);
+    for (i, piece) in pieces.iter().enumerate() {
+        let PieceKind::TextVariable { letter, name } = &piece.kind else { continue };
+        let beside = [i.checked_sub(1), Some(i + 1)].into_iter().flatten().filter_map(|at| pieces.get(at));
+        let inner = &name.text;
+        let (message, help) = match letter {
+            Some(letter) => {
+                let letter = char::from(*letter);
+                (
+                    format!("[{inner}] is a text, and {letter} prints a number"),
+                    format!("write `` `{letter}`[{inner}] ``"),
+                )
+            }
+            None if beside.into_iter().any(Piece::is_word) => {
+                let message = format!("[{inner}] is a text, and stands beside a word");
+                (message, "put a blank, or text in backquotes, between them".to_owned())
+            }
+            None if !held => {
+                let message = format!("[{inner}] stands alone: a name like M30 would be a code");
+                (message, format!("put it into a comment, `([{inner}])`, or beside text: `` `\"`[{inner}]`\"` ``"))
+            }
+            None => continue,
+        };
+        diags.push(Diag::new(Code::PF701, message).at(piece.span, "a text of the job").help(help));
+    }
+}
+
 /// A comment of the program while it is read: text and values.
 struct Note<'a> {
     span: Span,
     glued: bool,
     text: String,
     words: &'a mut Vec<Word>,
+    /// Where its words begin.
+    begin: usize,
 }
 
-impl Note<'_> {
+impl<'a> Note<'a> {
+    fn new(span: Span, glued: bool, words: &'a mut Vec<Word>) -> Note<'a> {
+        Note { span, glued, text: String::new(), begin: words.len(), words }
+    }
+
+    /// A word of the comment that is no text of its own.
+    fn push(&mut self, span: Span, kind: WordKind) {
+        self.end();
+        self.words.push(Word { span, glued: self.glued, kind });
+        self.glued = true;
+    }
+
     fn pieces(&mut self, pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
         for (i, piece) in pieces.iter().enumerate() {
             if i > 0 && piece.lacks_blank_after(&pieces[i - 1]) {
@@ -127,11 +201,19 @@ impl Note<'_> {
             match &piece.kind {
                 PieceKind::Variable { letter, name } => {
                     self.text.extend(letter.map(char::from));
-                    self.end();
                     if let Some(var) = variable(name, context.machine, diags) {
-                        self.words.push(Word { span: piece.span, glued: self.glued, kind: WordKind::Remark(var) });
-                        self.glued = true;
+                        self.push(piece.span, WordKind::Remark(var));
                     }
+                }
+                PieceKind::TextVariable { letter, name } => {
+                    self.text.extend(letter.map(char::from));
+                    if let Some(var) = text_variable(name, diags) {
+                        self.push(piece.span, WordKind::RemarkText(var));
+                    }
+                }
+                PieceKind::Quote(text) => {
+                    check_quote(text, piece.span, diags);
+                    self.push(piece.span, WordKind::Quote(text.clone()));
                 }
                 PieceKind::Stray(text) => {
                     if let Some(c) = text.chars().find(|&c| is_invisible(c)) {
@@ -155,6 +237,16 @@ impl Note<'_> {
         self.text.push_str(if closed { ")" } else { &context.comment[1] });
     }
 
+    /// The whole comment.
+    fn finish(mut self) {
+        self.end();
+        let words = &self.words[self.begin..];
+        if words.iter().any(|word| matches!(word.kind, WordKind::RemarkText(_))) {
+            let comment = Word { span: self.span, glued: words[0].glued, kind: WordKind::Comment(words.len()) };
+            self.words.insert(self.begin, comment);
+        }
+    }
+
     /// The text so far becomes a word.
     fn end(&mut self) {
         if !self.text.is_empty() {
@@ -173,6 +265,12 @@ fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
                 .at(span, "a bracket without its partner")
                 .help("variables are written `X[h]`"),
         );
+    } else if text.contains('`') {
+        diags.push(
+            Diag::new(Code::PF001, "a backquote without its partner")
+                .at(span, "text in backquotes ends on its line")
+                .help("write a second one behind the text; a backquote in it is written twice"),
+        );
     } else if let Some(c) = text.chars().find(|&c| is_invisible(c)) {
         diags.push(invisible(c, span));
     } else if after_word {
@@ -181,6 +279,13 @@ fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
                 .at(span, "this would be printed behind the value")
                 .help("take it out, or put a blank before it"),
         );
+    }
+}
+
+/// Nothing about text in backquotes is looked at, but for what nobody sees.
+fn check_quote(text: &str, span: Span, diags: &mut Vec<Diag>) {
+    if let Some(c) = text.chars().find(|&c| is_invisible(c)) {
+        diags.push(invisible(c, span));
     }
 }
 

@@ -180,6 +180,15 @@ pub enum PieceKind {
         /// The number as typed.
         number: Spanned,
     },
+    /// `[toolname]`, `[toolname:12]`: a variable that is text.
+    TextVariable {
+        /// The letter, where one stands before it; none belongs there.
+        letter: Option<u8>,
+        /// The name between the brackets, with its width.
+        name: Spanned,
+    },
+    /// Text in backquotes, without them: it prints as it stands.
+    Quote(String),
     /// Any other text, as typed.
     Stray(String),
     /// A comment of the program, `(TOOL [tool])`.
@@ -203,7 +212,7 @@ impl Piece {
         let begins = match self.kind {
             PieceKind::Variable { letter, .. } => letter.is_some(),
             PieceKind::Literal { .. } | PieceKind::Note { .. } => true,
-            PieceKind::Stray(_) => false,
+            PieceKind::TextVariable { .. } | PieceKind::Quote(_) | PieceKind::Stray(_) => false,
         };
         before.is_word() && begins
     }

@@ -4,7 +4,7 @@ use pest::Parser;
 use pest::iterators::Pair;
 
 use super::ast::*;
-use crate::lang::{CommandId, SequenceId, SequenceName};
+use crate::lang::{CommandId, SequenceId, SequenceName, TextVar};
 use crate::source::Source;
 use crate::span::Span;
 
@@ -300,6 +300,7 @@ fn piece(at: At, pair: Pair<Rule>) -> Piece {
             match letter {
                 // the first forms have every number in brackets
                 Some(letter) if old && is_number(&name.text) => PieceKind::Literal { letter, number: name },
+                _ if TextVar::is_text(&name.text) => PieceKind::TextVariable { letter, name },
                 _ => PieceKind::Variable { letter, name },
             }
         }
@@ -313,6 +314,10 @@ fn piece(at: At, pair: Pair<Rule>) -> Piece {
         Rule::note => {
             let closed = pair.as_str().ends_with(')');
             PieceKind::Note { parts: pair.into_inner().map(|part| piece(at, part)).collect(), closed }
+        }
+        Rule::quote => {
+            let text = pair.as_str();
+            PieceKind::Quote(text[1..text.len() - 1].replace("``", "`"))
         }
         _ => PieceKind::Stray(pair.as_str().to_owned()),
     };

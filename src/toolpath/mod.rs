@@ -31,7 +31,7 @@ pub use order::{Order, impossible};
 pub use place::Place;
 pub use read::ReadError;
 pub use sink::{Flow, Sink, Stop, flow};
-pub use start::Start;
+pub use start::{About, Start};
 pub use summary::Summary;
 pub use thread::Thread;
 pub use tool::{Coolant, FeedMode, Spindle, SpindleTurn, Tool};

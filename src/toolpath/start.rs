@@ -3,6 +3,19 @@
 use super::axes::Units;
 use crate::lang::Machine;
 
+/// What a job says of its part, for people.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct About {
+    /// Name or number of the part.
+    pub part: Option<String>,
+    /// What the part is made of.
+    pub material: Option<String>,
+    /// Who gets the part.
+    pub customer: Option<String>,
+    /// Who made the job.
+    pub author: Option<String>,
+}
+
 /// The head of a job.
 #[derive(Clone, Debug)]
 pub struct Start {
@@ -10,6 +23,8 @@ pub struct Start {
     pub program: Option<f64>,
     /// Name of the job.
     pub name: Option<String>,
+    /// What the job says of its part.
+    pub about: About,
     /// Units of the job's numbers.
     pub units: Units,
     /// Type of machine that the job is for.
@@ -23,6 +38,14 @@ pub struct Start {
 impl Start {
     /// The head of a mill's job that says nothing else.
     pub fn new(units: Units) -> Start {
-        Start { program: None, name: None, units, machine: Default::default(), set: Vec::new(), tool_order: None }
+        Start {
+            program: None,
+            name: None,
+            about: About::default(),
+            units,
+            machine: Default::default(),
+            set: Vec::new(),
+            tool_order: None,
+        }
     }
 }

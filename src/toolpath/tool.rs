@@ -15,6 +15,8 @@ pub struct Tool {
     pub diameter_offset: Option<f64>,
     /// Place in the turret, where that is not the number.
     pub turret: Option<f64>,
+    /// Name of the tool.
+    pub name: Option<String>,
     /// What the program says of the tool.
     pub comment: Option<String>,
 }

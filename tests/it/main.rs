@@ -40,6 +40,7 @@ mod silent;
 mod simulate;
 mod streams;
 mod support;
+mod texts;
 mod trace;
 mod transcripts;
 mod verify;

@@ -6,13 +6,14 @@ use clap::{Args, ValueEnum};
 
 use postform::cl::{Assumed, AssumedSpeed, Dialect, parse_position};
 use postform::diag::{Diag, Severity};
-use postform::render::Cycles;
+use postform::render::{Clock, Cycles};
 use postform::toolpath::Units;
 use postform::{Format, Options, Reading};
 
 use postform::control::Control;
 use postform::nc::Unpointed;
 
+use super::super::clock;
 use super::{ControlArgs, ControlParser, LimitsArg, NoPoint};
 
 /// A file by its format.
@@ -155,6 +156,9 @@ pub struct RenderOptions {
     /// A value for a variable or prompt of the form
     #[arg(long, value_name = "VAR=VALUE")]
     pub set: Vec<String>,
+    /// The day, or day and time, that the program says [default: SOURCE_DATE_EPOCH, else now]
+    #[arg(long, value_name = "DATE", value_parser = clock::parse)]
+    pub date: Option<Clock>,
     /// Where canned cycles come from
     #[arg(long, value_name = "WHERE", default_value = "form")]
     pub cycles: CyclesArg,
@@ -194,6 +198,7 @@ impl RenderOptions {
         options.cycles = if self.cycles == CyclesArg::Emulated { Cycles::Emulated } else { Cycles::Form };
         options.sink_as_printed = self.csink_depth == SinkArg::Printed;
         options.huge = self.huge;
+        options.clock = self.date.clone();
         options
     }
 

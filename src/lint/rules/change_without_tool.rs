@@ -2,10 +2,10 @@
 
 use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{SequenceId, TextId, VarId};
 use crate::lint::blocks::calls;
 use crate::lint::view::View;
-use crate::sema::Word;
+use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.is_flat() {
@@ -18,7 +18,11 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let printed = body.words().find(says);
         let Some(word) = printed else {
             // where a person changes the tool, a comment says which
-            let told = body.words().any(|word| word.var() == Some(VarId::Tool));
+            let named = |kind: &WordKind| match kind {
+                WordKind::TextVar(text) | WordKind::RemarkText(text) => text.id == TextId::Toolname,
+                _ => false,
+            };
+            let told = body.words().any(|word| word.var() == Some(VarId::Tool) || named(&word.kind));
             if !body.lines.is_empty() && !told {
                 let typed = body.words().find(|word| view.printed_letter(word) == Some(b'T'));
                 diags.push(

@@ -25,6 +25,7 @@ impl Reader<'_> {
                 number,
                 length_offset: registers.length,
                 diameter_offset: registers.diameter,
+                name: self.tool_name.clone(),
                 ..Tool::default()
             }),
             spindle: Some(wanted.spindle()),
@@ -60,6 +61,8 @@ impl Reader<'_> {
             );
         }
         self.changes += 1;
+        let (line, text) = &self.remark;
+        self.tool_name = (*line == self.place.line).then(|| text.clone());
         self.operation = true;
         self.wanted.rotation = Some(Rotation::Stop);
         self.said = Switches::default();

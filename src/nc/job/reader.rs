@@ -8,7 +8,7 @@ use super::switches::Switches;
 use crate::diag::{Code, Diag, Location};
 use crate::lang::Machine;
 use crate::nc::action::{Action, Drilling, Item, Position, Rotation, Turn};
-use crate::toolpath::{Arc, Axes, CycleSpec, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Start};
+use crate::toolpath::{About, Arc, Axes, CycleSpec, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Start};
 
 /// Actions to events.
 pub(super) struct Reader<'a> {
@@ -38,6 +38,10 @@ pub(super) struct Reader<'a> {
     rigid: bool,
     framed: bool,
     pub(super) comments: Vec<String>,
+    /// The last comment and its line.
+    pub(super) remark: (u64, String),
+    /// What stands behind the tool's T word.
+    pub(super) tool_name: Option<String>,
 }
 
 impl<'a> Reader<'a> {
@@ -70,6 +74,8 @@ impl<'a> Reader<'a> {
             rigid: false,
             framed: false,
             comments: Vec::new(),
+            remark: (0, String::new()),
+            tool_name: None,
         }
     }
 
@@ -199,7 +205,8 @@ impl<'a> Reader<'a> {
         };
         let start = Start {
             program: self.survey.program,
-            name: None,
+            name: self.survey.name.clone(),
+            about: About::default(),
             units,
             machine: Machine::Mill,
             set: Vec::new(),
@@ -398,6 +405,7 @@ impl<'a> Reader<'a> {
         if text.is_empty() {
             return Ok(());
         }
+        self.remark = (self.place.line, text.to_owned());
         if self.operation {
             if self.comments.len() < MOST {
                 self.comments.push(text.to_owned());

@@ -21,6 +21,8 @@ pub(super) struct Registers {
 #[derive(Debug, Default)]
 pub(super) struct Survey {
     pub program: Option<f64>,
+    /// The comment behind the program's number.
+    pub name: Option<String>,
     pub units: Option<Units>,
     /// Registers for each tool change, the first for what comes before any.
     pub registers: Vec<Registers>,
@@ -39,7 +41,7 @@ pub(super) fn survey(
     let mut survey = Survey { registers: vec![Registers::default()], top: f64::NEG_INFINITY, ..Survey::default() };
     let mut left_out: BTreeMap<(u8, u16), (u64, u64)> = BTreeMap::new();
     let mut items = Vec::new();
-    let (mut length, mut told) = (false, false);
+    let (mut length, mut told, mut named) = (false, false, false);
     let (mut units, mut moved, mut last) = (options.units, false, [0.0; 6]);
     loop {
         items.clear();
@@ -69,6 +71,11 @@ pub(super) fn survey(
                 }
             };
             match &item.action {
+                Action::Comment(start, end) if !named && simulator.program().is_some() => {
+                    let text = simulator.text().get(*start..*end).unwrap_or_default();
+                    let text = String::from_utf8_lossy(text).trim().to_owned();
+                    survey.name = Some(text).filter(|text| !text.is_empty());
+                }
                 Action::Rapid { to, machine } => reach(&mut survey, to, *machine),
                 Action::Feed { to, .. } => reach(&mut survey, to, 0),
                 Action::Arc(turn) => reach(&mut survey, &turn.to, 0),
@@ -105,6 +112,8 @@ pub(super) fn survey(
         if !more {
             break;
         }
+        // its name stands behind its number
+        named |= simulator.program().is_some();
     }
     for ((letter, code), (line, count)) in left_out {
         let name = match letter {

@@ -3,6 +3,7 @@
 use crate::diag::Code;
 use crate::render::printer::Printer;
 use crate::render::shape::Shape;
+use crate::sema::Settings;
 
 /// A text in lines of at most so many characters, broken at blanks where it has them.
 fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
@@ -44,18 +45,23 @@ fn comment_line(text: &str, shape: &Shape, out: &mut Printer) {
     let block = out.word(false);
     block.extend_from_slice(open.as_bytes());
     for c in text.chars() {
-        let c = if settings.upper_comments { c.to_ascii_uppercase() } else { c };
-        block.push(match c {
-            // a mark inside would end the comment early and let the rest move the machine
-            '(' if close.contains(')') => b'[',
-            ')' if close.contains(')') => b']',
-            c if close.contains(c) && !c.is_alphanumeric() => b'_',
-            '%' => b'_', // ends the program for many controls
-            ' '..='~' => c as u8,
-            '\t' => b' ',
-            _ => b'?',
-        });
+        block.push(in_comment(c, settings));
     }
     block.extend_from_slice(close.as_bytes());
     out.end_block();
+}
+
+/// A character as a comment of the form can hold it.
+pub fn in_comment(c: char, settings: &Settings) -> u8 {
+    let close = &settings.comment[1];
+    match if settings.upper_comments { c.to_ascii_uppercase() } else { c } {
+        // a mark inside would end the comment early and let the rest move the machine
+        '(' if close.contains(')') => b'[',
+        ')' if close.contains(')') => b']',
+        c if close.contains(c) && !c.is_alphanumeric() => b'_',
+        '%' => b'_', // ends the program for many controls
+        c @ ' '..='~' => c as u8,
+        '\t' => b' ',
+        _ => b'?',
+    }
 }

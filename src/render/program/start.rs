@@ -39,6 +39,7 @@ pub fn start(
     }
     want.put(VarId::Program, shape.options.program.map(f64::from).or(start.program));
     answers(start, shape, want, out)?;
+    want.texts.start(start, shape);
     for text in &settings.mod_text {
         out.text(text, false);
         out.end_block();

@@ -7,7 +7,7 @@ use super::table::Subprograms;
 use super::variables::set_named;
 use crate::control::Meaning;
 use crate::diag::Code;
-use crate::lang::{Machine, SequenceId, VarId, VarSet};
+use crate::lang::{Machine, SequenceId, TextId, VarId, VarSet};
 use crate::render::cycle::hole::hole_position;
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::moves::rotary::change_turns;
@@ -42,7 +42,10 @@ pub fn tool_change(
         return fault(Code::PJ006, "the operation has no tool", help);
     }
     set_conditions(change, changes, shape, want, out)?;
-    if let Some(comment) = &change.comment {
+    want.texts.operation(change, shape);
+    let routine = if changes { shape.program.routine(change_of(want)) } else { None };
+    let by_form = routine.is_some_and(|routine| routine.texts.has(TextId::Optext));
+    if let Some(comment) = change.comment.as_ref().filter(|_| !by_form) {
         comment_block(comment, shape, out);
     }
     match &change.tool {
@@ -51,6 +54,11 @@ pub fn tool_change(
         None => {}
     }
     Ok(())
+}
+
+/// The sequence of the next tool change.
+fn change_of(want: &Want) -> SequenceId {
+    if want.tool.is_none() { SequenceId::FirstToolChange } else { SequenceId::ToolChange }
 }
 
 /// The tool that is in keeps its offset registers: no sequence would print others.
@@ -122,12 +130,11 @@ fn change_tool(
         let help = "end the compensation with an `outfeed` before";
         return fault(Code::PR030, "the tool changes under cutter compensation", help);
     }
-    let is_first = want.tool.is_none();
+    let id = change_of(want);
     tool_variables(tool, shape, want)?;
     want.tool = Some(tool.number);
     said.stand.fresh_tool = true;
     want.tool_changes += 1;
-    let id = if is_first { SequenceId::FirstToolChange } else { SequenceId::ToolChange };
     let routine = program.routine(id);
     let first_target = match first {
         First::Rapid(to) => Some((said.stand.target(to, shape), to.given)),

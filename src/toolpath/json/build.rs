@@ -7,7 +7,7 @@ use super::objects::{CycleObject, EndWord, ItemObject, JobHead, Object, Operatio
 use super::values::Number;
 use crate::diag::Code;
 use crate::toolpath::{
-    Axes, Event, First, Hold, Hole, Infeed, LastDwell, Place, Sink, Start, Stop, Tool, ToolChange, Units, key,
+    About, Axes, Event, First, Hold, Hole, Infeed, LastDwell, Place, Sink, Start, Stop, Tool, ToolChange, Units, key,
 };
 
 type Done = Result<(), Stop>;
@@ -73,6 +73,7 @@ impl<'s> Builder<'s> {
         let start = Start {
             program: head.program.map(|p| whole("program", p)).transpose()?,
             name: head.name,
+            about: About { part: head.part, material: head.material, customer: head.customer, author: head.author },
             units: head.units.map_or(Units::Inch, |u| u.0),
             machine,
             set: head.set.unwrap_or_default().0,

@@ -48,6 +48,7 @@ pub(super) fn tool_of(object: ToolObject) -> Result<Tool, Box<Diag>> {
         length_offset: object.length_offset.map(|n| whole("length_offset", n)).transpose()?,
         diameter_offset: object.diameter_offset.map(|n| whole("diameter_offset", n)).transpose()?,
         turret: object.turret.map(|n| whole("turret", n)).transpose()?,
+        name: object.name,
         comment: object.comment,
     })
 }

@@ -92,6 +92,10 @@ objects! {
         "postform" version Number, "version of this format: 1";
         "program" program Number, "program number";
         "name" name String, "the job's name";
+        "part" part String, "the part, for people";
+        "material" material String, "what it is made of";
+        "customer" customer String, "who gets it";
+        "author" author String, "who made the job";
         "units" units Word<Units>, "units of all numbers (inch)";
         "machine" machine Word<Machine>, "what the job is for (mill)";
         "set" set Values, "values for variables of the form";
@@ -106,6 +110,7 @@ objects! {
         "length_offset" length_offset Number, "length offset register";
         "diameter_offset" diameter_offset Number, "diameter offset register";
         "turret" turret Number, "turret";
+        "name" name String, "its name";
         "comment" comment String, "what it is";
     }
     /// Spindle of an operation, or a change of it.

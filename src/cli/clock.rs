@@ -1,0 +1,46 @@
+//! Day and time of printing: those of --date, of SOURCE_DATE_EPOCH, else of the place where postform runs.
+
+use jiff::civil::{Date, DateTime};
+use jiff::{Timestamp, Zoned};
+use postform::render::Clock;
+
+/// Reads --date.
+pub fn parse(text: &str) -> Result<Clock, String> {
+    let wrong = |_| "write a day, as 2026-03-31, or with its time, as 2026-03-31T14:05".to_owned();
+    if text.contains(':') {
+        return text.parse::<DateTime>().map(of).map_err(wrong);
+    }
+    let day = text.parse::<Date>().map_err(wrong)?;
+    Ok(Clock { date: day.to_string(), time: String::new() })
+}
+
+/// The clock, where nobody gave --date.
+pub fn now() -> Result<Clock, String> {
+    const EPOCH: &str = "SOURCE_DATE_EPOCH";
+    let Ok(seconds) = std::env::var(EPOCH) else { return Ok(of(Zoned::now().datetime())) };
+    let seconds = seconds.trim().parse().ok().and_then(|seconds| Timestamp::from_second(seconds).ok());
+    let Some(stamp) = seconds else {
+        return Err(format!("error: {EPOCH} is no number of seconds since 1970\n  help: give --date, or unset it"));
+    };
+    Ok(of(stamp.to_zoned(jiff::tz::TimeZone::UTC).datetime()))
+}
+
+fn of(moment: DateTime) -> Clock {
+    Clock { date: moment.date().to_string(), time: moment.strftime("%H:%M").to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_day_may_have_a_time() {
+        let clock = |date: &str, time: &str| Clock { date: date.into(), time: time.into() };
+        assert_eq!(parse("2026-03-31").unwrap(), clock("2026-03-31", ""));
+        assert_eq!(parse("2026-03-31T14:05").unwrap(), clock("2026-03-31", "14:05"));
+        assert_eq!(parse("2026-03-31 14:05:59").unwrap(), clock("2026-03-31", "14:05"));
+        for wrong in ["", "today", "31.3.2026", "2026-02-30", "2026-03-31T25:00"] {
+            assert!(parse(wrong).is_err(), "{wrong}");
+        }
+    }
+}

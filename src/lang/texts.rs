@@ -1,0 +1,150 @@
+//! Text variables: names and remarks of the job, the date, the form itself.
+
+/// A text variable's row.
+#[derive(Debug)]
+pub struct Text {
+    /// Which.
+    pub id: TextId,
+    /// As written between brackets.
+    pub name: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// Where it comes from.
+    pub from: &'static str,
+}
+
+macro_rules! texts {
+    ($($id:ident $name:literal $meaning:literal $from:literal)*) => {
+        /// A text variable.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum TextId {
+            $(#[doc = $meaning] $id),*
+        }
+
+        /// All text variables.
+        pub const TEXTS: &[Text] = &[$(Text { id: TextId::$id, name: $name, meaning: $meaning, from: $from }),*];
+    };
+}
+
+#[rustfmt::skip]
+texts! {
+    Progname "progname" "the program's name"                     "`name` of the job; PARTNO, the O-comment, the job's label"
+    Partname "partname" "the part"                               "`part` of the job"
+    Material "material" "what the part is made of"               "`material` of the job"
+    Customer "customer" "who gets the part"                      "`customer` of the job"
+    Author   "author"   "who made the job"                       "`author` of the job; PPRINT of a CL file is no author"
+    Toolname "toolname" "the tool's name"                        "`name` of the tool"
+    Tooltext "tooltext" "what the job says of the tool"          "`comment` of the tool"
+    Opname   "opname"   "the operation's name"                   "`name` of the operation"
+    Optext   "optext"   "what the job says of the operation"     "`comment` of the operation"
+    Date     "date"     "the day of printing, as 2026-03-31"     "the clock, --date or SOURCE_DATE_EPOCH"
+    Time     "time"     "the time of printing, as 14:05"         "the clock, --date or SOURCE_DATE_EPOCH"
+    Jobfile  "jobfile"  "the job's file, without its folder"     "the command line"
+    Formname "formname" "the form's name"                        "`Name` of the form, else its file"
+    Formhash "formhash" "the first 12 digits of the form's SHA-256: of its file, and those it calls" "the form"
+    Control  "control"  "the control that the form names"        "`Control` of the form"
+    Version  "version"  "postform's version"                     "postform"
+}
+
+/// How many there are.
+pub const TEXT_COUNT: usize = TEXTS.len();
+
+/// A set of texts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct TextSet(u32);
+
+impl TextSet {
+    /// Adds one.
+    pub fn insert(&mut self, id: TextId) {
+        self.0 |= 1 << id as u32;
+    }
+
+    /// Is it in?
+    pub fn has(self, id: TextId) -> bool {
+        self.0 & 1 << id as u32 != 0
+    }
+
+    /// Both together.
+    #[must_use]
+    pub fn with(self, other: TextSet) -> TextSet {
+        TextSet(self.0 | other.0)
+    }
+}
+
+impl TextId {
+    /// Its row of the table.
+    pub fn row(self) -> &'static Text {
+        &TEXTS[self as usize]
+    }
+
+    /// Finds a name in any case.
+    pub fn parse(name: &str) -> Option<TextId> {
+        TEXTS.iter().find(|text| text.name.eq_ignore_ascii_case(name)).map(|text| text.id)
+    }
+}
+
+/// A text variable with its width, as `[toolname:12]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextVar {
+    /// Which text.
+    pub id: TextId,
+    /// So many characters: padded or cut; below zero at the right. Zero: as long as it is.
+    pub width: i8,
+}
+
+/// The greatest width.
+pub const WIDEST: i8 = 100;
+
+impl TextVar {
+    /// Is this the name of a text, whatever its width is?
+    pub fn is_text(name: &str) -> bool {
+        TextId::parse(name.split(':').next().unwrap_or(name)).is_some()
+    }
+
+    /// A name with its width, if it has one. `None`: no text, or no width.
+    pub fn parse(name: &str) -> Option<TextVar> {
+        let (name, width) = name.split_once(':').map_or((name, None), |(name, width)| (name, Some(width)));
+        let id = TextId::parse(name)?;
+        let digits = |text: &str| text.trim_start_matches('-').bytes().all(|b| b.is_ascii_digit());
+        let width = match width {
+            None => 0,
+            Some(text) => {
+                let right = |width: &i8| *width != 0 && (-WIDEST..=WIDEST).contains(width);
+                text.parse::<i8>().ok().filter(|width| right(width) && digits(text))?
+            }
+        };
+        Some(TextVar { id, width })
+    }
+}
+
+impl std::fmt::Display for TextVar {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.width {
+            0 => write!(f, "[{}]", self.id.row().name),
+            width => write!(f, "[{}:{width}]", self.id.row().name),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_have_widths() {
+        let var = |id, width| Some(TextVar { id, width });
+        assert_eq!(TextVar::parse("ToolName"), var(TextId::Toolname, 0));
+        assert_eq!(TextVar::parse("toolname:12"), var(TextId::Toolname, 12));
+        assert_eq!(TextVar::parse("toolname:-12"), var(TextId::Toolname, -12));
+        for wrong in ["toolname:", "toolname:0", "toolname:101", "toolname:+5", "toolname:1.5", "tool:5", "toolnam"] {
+            assert_eq!(TextVar::parse(wrong), None, "{wrong}");
+        }
+        assert!(TextVar::is_text("toolname:x") && !TextVar::is_text("tool"));
+    }
+
+    #[test]
+    fn no_text_has_the_name_of_a_number() {
+        const { assert!(TEXT_COUNT <= 32) }; // TextSet has as many bits
+        assert!(TEXTS.iter().all(|text| crate::lang::VarId::parse(text.name).is_none()));
+    }
+}

@@ -1,0 +1,131 @@
+//! Names and remarks of the job, for people: their values, and how they fit into a comment or a word.
+
+use super::printer::Printer;
+use super::program::comments::in_comment;
+use super::shape::Shape;
+use crate::compile::Op;
+use crate::diag::Code;
+use crate::lang::{TEXT_COUNT, TextId, TextVar};
+use crate::toolpath::{Start, ToolChange};
+
+/// The values of text variables, by slot. What the form does not print is not kept.
+#[derive(Clone, Debug, Default)]
+pub struct Texts([String; TEXT_COUNT]);
+
+impl Texts {
+    /// A text; empty where the job has none.
+    pub fn get(&self, id: TextId) -> &str {
+        &self.0[id as usize]
+    }
+
+    fn set(&mut self, id: TextId, text: Option<&str>, shape: &Shape) {
+        if shape.program.texts_printed.has(id) {
+            let slot = &mut self.0[id as usize];
+            slot.clear();
+            slot.push_str(text.unwrap_or_default().trim());
+        }
+    }
+
+    /// What the head of the job, the form and the caller say.
+    pub fn start(&mut self, start: &Start, shape: &Shape) {
+        let (about, options, program) = (&start.about, &shape.options, shape.program);
+        let clock = options.clock.as_ref();
+        for (id, text) in [
+            (TextId::Progname, start.name.as_deref()),
+            (TextId::Partname, about.part.as_deref()),
+            (TextId::Material, about.material.as_deref()),
+            (TextId::Customer, about.customer.as_deref()),
+            (TextId::Author, about.author.as_deref()),
+            (TextId::Date, clock.map(|clock| clock.date.as_str())),
+            (TextId::Time, clock.map(|clock| clock.time.as_str())),
+            (TextId::Jobfile, options.job_file.as_deref()),
+            (TextId::Formname, Some(&program.name)),
+            (TextId::Formhash, Some(&program.hash)),
+            (TextId::Control, program.settings.control.map(|control| control.name())),
+            (TextId::Version, Some(env!("CARGO_PKG_VERSION"))),
+        ] {
+            self.set(id, text, shape);
+        }
+    }
+
+    /// What an operation and its tool say.
+    pub fn operation(&mut self, change: &ToolChange, shape: &Shape) {
+        let tool = change.tool.as_ref();
+        for (id, text) in [
+            (TextId::Opname, &change.name),
+            (TextId::Optext, &change.comment),
+            (TextId::Toolname, &tool.and_then(|tool| tool.name.clone())),
+            (TextId::Tooltext, &tool.and_then(|tool| tool.comment.clone())),
+        ] {
+            self.set(id, text.as_deref(), shape);
+        }
+    }
+
+    /// Are all texts of a comment empty? Its operations are these.
+    pub fn are_empty(&self, comment: &[Op]) -> bool {
+        comment.iter().all(|op| if let Op::TextVar { var, .. } = op { self.get(var.id).is_empty() } else { true })
+    }
+}
+
+/// Prints a text of the job. In a comment its characters are those of comments, and it is cut where the control's line is
+/// full: `behind` is what else the block has room for. Outside, letters, digits and `_ - .` stay.
+pub fn print(var: TextVar, text: &str, behind: Option<usize>, glued: bool, shape: &Shape, out: &mut Printer) {
+    let settings = &shape.program.settings;
+    let full = text.chars().count();
+    let wide = usize::from(var.width.unsigned_abs());
+    let most = if wide == 0 { full } else { wide };
+    let room = match behind {
+        Some(behind) => room(behind, shape, out).min(most),
+        None => most,
+    };
+    if room < most.min(full) {
+        let message = format!("{var} is cut to {room} characters: the control's line is full");
+        out.note(Code::PR050, message, "shorten it in the job, or give it a line of its own");
+    }
+    let taken = full.min(room);
+    let blanks = room - taken;
+    let block = out.word(glued);
+    if var.width < 0 {
+        block.extend(std::iter::repeat_n(b' ', blanks));
+    }
+    let mut changed = false;
+    for c in text.chars().take(taken) {
+        block.push(match c {
+            c if behind.is_some() => in_comment(c, settings),
+            'A'..='Z' | 'a'..='z' | '0'..='9' | '_' | '-' | '.' => c as u8,
+            _ => {
+                changed = true;
+                b'_'
+            }
+        });
+    }
+    if var.width > 0 {
+        block.extend(std::iter::repeat_n(b' ', blanks));
+    }
+    if changed {
+        let message = format!("{var}, `{text}`, has characters that are no part of a word: `_` stands for each");
+        out.note(Code::PR050, message, "use letters, digits and _ - . in it, or print it in a comment");
+    }
+}
+
+/// How many characters the open block has room for, when so many follow.
+fn room(behind: usize, shape: &Shape, out: &Printer) -> usize {
+    let settings = &shape.program.settings;
+    let number = settings.numbers.letter.map_or(0, |letter| usize::from(shape.letters[letter].format.int.count) + 2);
+    let longest = settings.control().traits().longest_line;
+    let others = number + settings.eob.len() + out.length() + behind;
+    longest.map_or(usize::MAX, |longest| longest.saturating_sub(others))
+}
+
+/// How many characters stand behind an operation on its line, as far as the form types them.
+pub fn typed_behind(at: usize, shape: &Shape) -> usize {
+    let program = shape.program;
+    let line = program.ops[at + 1..].iter().take_while(|op| !matches!(op, Op::Line { .. }));
+    let typed = |text: usize, glued: bool| text + usize::from(!glued);
+    line.map(|op| match *op {
+        Op::Text { index, glued } | Op::Quote { index, glued } => typed(program.texts[index as usize].len(), glued),
+        Op::Literal { index, glued } => typed(program.literals[index as usize].text.len(), glued),
+        _ => 0,
+    })
+    .sum()
+}

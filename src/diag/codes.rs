@@ -309,6 +309,7 @@ codes! {
     PN034 Warning "a cycle that leaves the tool in the hole"
     PN035 Warning "something that a job says otherwise or not at all"
     PN036 Error "something that no job can say"
+    PN037 Warning "a program without its end, and the spindle turns"
     // PV: what verify finds
     PV001 Error "another motion"
     PV002 Error "a hole that is not drilled"

@@ -132,7 +132,8 @@ impl State {
         // across at the height where the tool is, then down to R
         let height = self.place.position[across];
         self.place.rapid_to(hole.over(height), out);
-        if hole.code != 870 && height != hole.r {
+        let known = self.place.at_machine & 1 << across == 0;
+        if hole.code != 870 && (height != hole.r || !known) {
             self.place.at_machine &= !(1 << across);
             self.place.rapid_to(hole.over(hole.r), out);
         }

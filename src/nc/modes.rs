@@ -117,7 +117,7 @@ impl State {
     pub(super) fn work_offset(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(code) = block.g(Group::Work) else {
             if let Some(fixture) = self.control.traits().work_letter.and_then(|letter| block.get(letter)) {
-                out.push(Action::Work(fixture));
+                self.work_is(fixture, out);
             }
             return Ok(());
         };
@@ -130,7 +130,15 @@ impl State {
             _ => (usize::from(code / 10 - 53), f64::from(code) / 10.0),
         };
         self.place.reframe(|frames| frames.active = number);
-        out.push(Action::Work(name));
+        self.work_is(name, out);
         Ok(())
+    }
+
+    /// A work offset by its code or number.
+    pub(super) fn work_is(&mut self, work: f64, out: &mut Out<'_>) {
+        if self.place.work_is(work) && self.settings.places_unknown {
+            self.place.at_machine |= 0b111;
+        }
+        out.push(Action::Work(work));
     }
 }

@@ -13,14 +13,21 @@ pub struct Place {
     pub at_machine: u8,
     /// What program coordinates count from.
     pub frames: Frames,
+    /// The work offset in force, by its code or number; `None`: nothing said one, and none is usual.
+    pub work: Option<f64>,
     /// Where G28 and G30 go, in machine coordinates.
     pub homes: [Position; 2],
 }
 
 impl Place {
     /// A place at zero; `at_machine`: axes whose place only the machine knows.
-    pub fn new(at_machine: u8) -> Place {
-        Place { position: [0.0; 6], at_machine, frames: Frames::default(), homes: [[0.0; 6]; 2] }
+    pub fn new(at_machine: u8, work: Option<f64>) -> Place {
+        Place { position: [0.0; 6], at_machine, frames: Frames::default(), work, homes: [[0.0; 6]; 2] }
+    }
+
+    /// Another work offset: how far it lies from the one before, nobody knows until places are said in it. `true`: it is another.
+    pub fn work_is(&mut self, work: f64) -> bool {
+        self.work.replace(work) != Some(work)
     }
 
     /// A rapid in program coordinates.

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::io::{self, BufRead, Seek, SeekFrom};
 
-use super::action::{Action, Item};
+use super::action::{Action, Item, Rotation};
 use super::block::Block;
 use super::fault::{Done, Fault, refuse};
 use super::jumps::{Frame, Jump, Spot};
@@ -237,6 +237,10 @@ impl<R: BufRead + Seek> Simulator<R> {
             if self.block.percent {
                 let ends = self.percent || self.blocks > 0;
                 self.percent = true;
+                if ends && control.rules() == Rules::Fanuc {
+                    let help = "end it with M30 or M2: a Fanuc stops there with an alarm, and its spindle turns on";
+                    return refuse(Code::PN010, "the program is over at `%`, and no M30 or M2 ended it", help);
+                }
                 return Ok(if ends { Jump::End } else { Jump::On });
             }
             return Ok(Jump::On);
@@ -285,7 +289,12 @@ impl<R: BufRead + Seek> Simulator<R> {
     fn at_end(&mut self) -> Done<bool> {
         self.over = true;
         if self.state.settings.control.rules() == Rules::Grbl {
-            return Ok(false); // it takes block by block, and knows no program
+            // it takes block by block, and knows no program
+            if self.state.drive.spindle != Rotation::Stop {
+                let message = "the program is over, and the spindle turns on: is its end cut off?";
+                self.state.warnings.push((Code::PN037, message));
+            }
+            return Ok(false);
         }
         let help = "a program ends with M2, M30 or %";
         refuse(Code::PN010, "the program is cut off: its end is missing", help)

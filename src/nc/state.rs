@@ -101,7 +101,10 @@ impl State {
                 to_initial: !control.is_linuxcnc(),
                 diameter: false,
             },
-            place: Place::new(if settings.places_unknown { 0b111 } else { 0 }),
+            place: Place::new(
+                if settings.places_unknown { 0b111 } else { 0 },
+                control.traits().work_letter.is_none().then_some(54.0),
+            ),
             drive: Drive { feed: 0.0, spindle: Rotation::Stop, speed: 0.0 },
             tool: Tool::default(),
             holes: Holes::default(),

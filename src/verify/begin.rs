@@ -113,6 +113,13 @@ fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Opt
         let message = format!("the canned cycle is still in force: it drills at {place}, where the job has no hole");
         return s.differs(Code::PV013, line, message, "end the cycle: print G80 in Cancel, and `End Cancel`");
     }
+    if let (None, Some(axes)) = (hole, unsaid(unknown)) {
+        let message = format!(
+            "a cut begins at a place that only the machine knows: {axes} was not said since the work offset or the tool \
+             was changed, or an axis went home"
+        );
+        return s.differs(Code::PV001, line, message, "print all axes before the cut");
+    }
     let Some(hole) = hole else {
         let message = format!("a cut begins at {is}, the job's at {wanted}");
         return s.differs(Code::PV001, line, message, "look at what the form prints for the moves before it");
@@ -136,4 +143,11 @@ fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Opt
         number(cut.from[DEPTH])
     );
     s.differs(Code::PV005, line, message, "print R[vclear] in the cycle, at every hole where it changes")
+}
+
+/// The names of axes, unless there are none.
+fn unsaid(axes: u8) -> Option<String> {
+    let names: Vec<String> =
+        (0..6).filter(|axis| axes & 1 << axis != 0).map(|axis| char::from(b"XYZABC"[axis]).to_string()).collect();
+    (!names.is_empty()).then(|| names.join(" and "))
 }

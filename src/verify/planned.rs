@@ -21,8 +21,8 @@ impl Job {
         let Some(point) = hole.at.get(DEPTH).or(open.point) else { return unproven(Unmodelled::HoleWithout) };
         open.point = Some(point);
         let clear = point + planes.clear;
-        let first = *open.first_return.get_or_insert(point + open.spec.return_height.unwrap_or(planes.clear));
-        let return_plane = first.max(clear);
+        let first = open.spec.return_height.map(|height| *open.first_return.get_or_insert(point + height));
+        let return_plane = first.map_or(clear, |first| first.max(clear));
         let kind = open.spec.kind;
         let mode = open.spec.mode;
         let custom = matches!(kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);

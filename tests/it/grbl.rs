@@ -3,7 +3,7 @@
 use std::fs;
 use std::io::Cursor;
 
-use crate::support::{check_file, job, render_checked, render_sample, root, sample_form, samples};
+use crate::support::{check_file, control, job, render_checked, render_sample, root, sample_form, samples};
 use postform::control::Control;
 use postform::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator, Turn};
 use postform::toolpath::{Direction, FeedMode, Plane, Units};
@@ -314,4 +314,18 @@ fn what_grbl_lacks_is_an_error_of_the_job() {
         assert!(diag.message.contains(what) && diag.help.is_some(), "{what}: {diag:?}\n{text}");
     }
     assert!(rendered(&job(start)).is_ok());
+}
+
+/// A program that was cut off: Grbl knows no end, and turns the spindle on.
+#[test]
+fn a_spindle_without_an_end_is_told() {
+    let warned = |program: &str| {
+        let mut simulator = Simulator::new(Cursor::new(program.to_owned()), RunSettings::new(control("grbl")));
+        let mut items = Vec::new();
+        while simulator.step(&mut items).unwrap() {}
+        simulator.take_warnings().iter().map(|diag| diag.code.name().to_owned()).collect::<Vec<String>>()
+    };
+    assert_eq!(warned("G21\nS1000 M3\nG1 X1 F100\n"), ["PN037"]);
+    assert!(warned("G21\nS1000 M3\nG1 X1 F100\nM5\n").is_empty());
+    assert!(warned("G21\nS1000 M3\nG1 X1 F100\nM2\n").is_empty());
 }

@@ -220,6 +220,7 @@ fn wrong_programs_are_different() {
     let optional = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"rapid":[0,0,2]},{"stop":"optional"},{"rapid":[3,3,2]},{"line":[3,3,1.5]},{"rapid":[3,3,2]}"#;
     let tap = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"tap","depth":0.5,"clear":0.2,"feed":150,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
     let tapped = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"tap","depth":0.5,"clear":0.2,"feed":150,"points":[[1,1,0]]}},{"rapid":[1,1,2]},{"line":[2,1,2]},{"rapid":[2,1,3]}"#;
+    let offsets = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"rapid":[0,0,2]},{"work":55},{"rapid":[3,3,2]},{"line":[3,3,1.5]},{"rapid":[3,3,2]}"#;
     let air = r#"{"rapid":[1,1,2]},{"rapid":[2,2,2]}"#;
     let mutations = [
         ("fanuc.pf", back, "G1 Z-.5", "G1 Z.5", "PV004"),
@@ -245,6 +246,9 @@ fn wrong_programs_are_different() {
         ("haas.pf", stop, "G43 H1 Z2. M8", "G43 H1 Z-3. M8\nZ2.", "PV009"),
         ("fanuc.pf", stop, "G43 H1", "H1", "PV014"),
         ("haas.pf", tapped, "S3000 M3", "S3000 M5", "PV011"),
+        ("grbl.pf", offsets, "G55 X3. Y3.\nZ2.\n", "Z2.\nG55 X3. Y3.\n", "PV001"),
+        ("fanuc.pf", offsets, "G55 G0 X3. Y3.\nN100 Z2.\n", "G0 Z2.\nG55 X3. Y3.\n", "PV001"),
+        ("haas.pf", stop, "M30\n", "(none)\n", "PV015"),
     ];
     let mut quiet = String::new();
     for (name, path, from, to, code) in mutations {

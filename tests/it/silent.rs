@@ -669,3 +669,37 @@ fn after_a_tap_against_the_spindle_its_direction_is_said() {
     let cut = lines.iter().rposition(|line| line.starts_with("G1")).unwrap();
     assert!(lines[tap..cut].iter().any(|line| line.contains("M3")), "{lines:?}");
 }
+
+/// A control that was not told where to return to left its cycle lower than the job: the next rapid across goes up first.
+#[test]
+fn a_rapid_after_a_hole_is_as_high_as_the_jobs() {
+    let form = support::check_file(&root().join("tests/data/forms/no-return-plane.pf"));
+    let printed = |path: &str| {
+        let job = job(path);
+        let rendered = support::render_checked(&form, job.as_bytes(), false, Default::default()).unwrap();
+        let lines: Vec<String> =
+            rendered.text.lines().map(|line| line.split_once(' ').map_or("", |it| it.1).into()).collect();
+        let drilled = lines.iter().position(|line| line.contains("G81")).unwrap();
+        lines[drilled + 1..].iter().take_while(|line| *line != "M9").cloned().collect::<Vec<String>>()
+    };
+    let drill = |x: f64, returns: &str| {
+        format!(r#"{{"cycle":{{"kind":"drill","depth":0.5,"clear":0.1,{returns}"feed":5,"points":[[{x},1,0]]}}}}"#)
+    };
+    let high = drill(1.0, r#""return":2,"#);
+    assert_eq!(printed(&format!("{high},{{\"rapid\":[5,5]}}")), ["G80", "G0 Z2.", "X5. Y5."]);
+    assert_eq!(printed(&format!("{high},{}", drill(3.0, "")))[..3], ["G80", "G0 Z2.", "X3."]);
+    // straight up it goes at once
+    assert_eq!(printed(&format!("{high},{{\"rapid\":[1,1,3]}}")), ["G80", "G0 Z3."]);
+}
+
+/// Without a return plane the tool comes back to each hole's own clearance.
+#[test]
+fn each_hole_has_its_own_clearance() {
+    let points = "[1,1,0],[2,1,-0.5],[3,1,0.25]";
+    let cycle = format!(
+        r#"{{"cycle":{{"kind":"drill","depth":0.5,"clear":0.1,"feed":5,"emulate":true,"points":[{points}]}}}}"#
+    );
+    let lines = path_lines("", "", &cycle);
+    let heights: Vec<&String> = lines.iter().filter(|line| line.starts_with('Z') || line.starts_with("G0 Z")).collect();
+    assert_eq!(heights, ["Z.1", "G0 Z.1", "Z-.4", "G0 Z-.4", "Z.35", "G0 Z.35"], "{lines:?}");
+}

@@ -222,6 +222,7 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
         ("G2 X1. Y1. I5. F10.\nM30", "PN009", 1),
         ("G0 X1.\n", "PN010", 1),
         ("", "PN010", 0),
+        ("%\nG0 X1.\n%\n", "PN010", 3),
         ("G81 X1. R-2. Z-1. F10.\nM30", "PN011", 1),
         ("M5\nG87 X1. R-2. Z-1. Q.1 F10.\nM30", "PN012", 2),
         ("G41 D1\nG1 X1. F10.\nG81 X2. Z-1. R1.\nM30", "PN013", 3),

@@ -365,7 +365,7 @@ fn one_change_is_never_too_small() {
         ("1", circle, "M30", "M99", "PV016"),
         ("1", circle, "G43 H1 Z1.", "Z1.\nG43 H1", "PV014"),
         ("1", circle, "G43 H1 Z1.", "G43 H9 Z1.\nG43 H1", "PV014"),
-        ("1", circle, "G43 H1 Z1.", "G43 H1 Z1.\nG55 Z.5\nG54 Z1.", "PV012"),
+        ("1", circle, "G43 H1 Z1.", "G43 H1 Z1.\nG55 Z.5\nG54 Z1.", "PV001"),
         ("1", circle, "G43", "#5221=1.\nG43", "PV015"),
         ("1", circle, "S3000 M3", "G96 S3000 M3", "PV011"),
         ("1", circle, "G17 G3", "G0 X3.\nX2.\nG17 G3", "PV001"),

@@ -258,10 +258,10 @@ impl Reader {
             }
             let own = point.get("depth").and_then(Value::as_f64).map_or(depth, |depth| depth * self.unit);
             let top = place[2];
-            // without a return plane the first clearance is one
-            let plane = *first.get_or_insert(top + above.unwrap_or(clear));
+            // without a return plane each hole's own clearance is one
+            let plane = above.map(|above| *first.get_or_insert(top + above));
             let clear = top + clear;
-            let out = plane.max(clear);
+            let out = plane.map_or(clear, |plane| plane.max(clear));
             let mut to = place;
             to[2] = out;
             let want = match kind.as_str() {

@@ -11,6 +11,7 @@ use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
 use crate::render::fault::{Done, fault};
 use crate::render::moves::rapid_blocks::split_rapid;
+use crate::render::moves::reach::stand_as_left;
 use crate::render::moves::rotary::turn_to;
 use crate::render::moves::travel::{in_travel, unwound};
 use crate::render::printer::Printer;
@@ -78,8 +79,10 @@ pub fn make_hole(
     let Some(point) = point.or(cycle.point) else { return no_height() };
     cycle.point = Some(point);
     let clear = point + planes.clear;
-    let first = *cycle.return_plane.get_or_insert(point + cycle.spec.return_height.unwrap_or(planes.clear));
-    let heights = Heights { point, clear, bottom: point + planes.bottom, return_plane: first.max(clear) };
+    // without a return plane the tool comes back to each hole's own clearance
+    let first = cycle.spec.return_height.map(|height| *cycle.return_plane.get_or_insert(point + height));
+    let return_plane = first.map_or(clear, |first| first.max(clear));
+    let heights = Heights { point, clear, bottom: point + planes.bottom, return_plane };
     let routine = cycle.sequence.and_then(|id| program.routine(id));
     let mut target = said.stand.target(&hole.at, shape);
     if hole.at.given & ROTARY_BITS != 0 {
@@ -110,6 +113,9 @@ pub fn make_hole(
             Some(_) => turn_to(&target, shape, want, said, out)?,
             None => split_rapid(&target, shape, want, said, out)?,
         }
+    }
+    if said.stand.left_hole.is_some() {
+        stand_as_left(&target, true, shape, want, said, out)?;
     }
     said.stand.moved_by = None; // every hole is approached by rapids
     let mut planned = Planned { target, planes, heights };

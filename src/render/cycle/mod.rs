@@ -32,7 +32,6 @@ pub fn cycle_begin(
     out: &mut Printer,
     drill: &mut Drilling,
 ) -> Done {
-    said.stand.left_hole = None; // its holes come by rapids
     if shape.program.settings.machine == Machine::Edm {
         return fault(Code::PR008, "a wire EDM machine has no canned cycles", "take the cycle out of the job");
     }

@@ -19,18 +19,33 @@ use crate::toolpath::Axes;
 #[inline]
 pub fn reach(to: &Axes, free: bool, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done<Axes> {
     if said.stand.left_hole.is_some() {
-        stand_as_left(free, shape, want, said, out)?;
+        stand_as_left(&said.stand.target(to, shape), free, shape, want, said, out)?;
     }
     let target = said.stand.target(to, shape);
     if to.given & ROTARY_BITS != 0 { in_travel(&target, to.given, free, shape, want, said, out) } else { Ok(target) }
 }
 
-/// After a cycle that left the tool at another height than the job: a cut begins at the job's.
+/// After a cycle that left the tool at another height than the job: a cut begins at the job's, and a rapid across, which
+/// may also be the way to the next cycle, is made there.
 #[cold]
-fn stand_as_left(free: bool, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn stand_as_left(
+    target: &Axes,
+    free: bool,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
     let Some((at, height)) = said.stand.left_hole.take() else { return Ok(()) };
     // only where nothing moved the tool or the frame since
-    if free || at != said.stand.position || said.lacks(want, shape).has(VarId::Work) {
+    if at != said.stand.position || said.lacks(want, shape).has(VarId::Work) {
+        return Ok(());
+    }
+    let across = (0..6).any(|axis| axis != shape.depth && target.get(axis) != at.get(axis));
+    let lower = at.get(shape.depth).is_some_and(|left| left < height);
+    if free && !(across && lower) {
+        let stays = !across && target.get(shape.depth) == at.get(shape.depth);
+        said.stand.left_hole = stays.then_some((at, height));
         return Ok(());
     }
     let mut to = said.stand.position;

@@ -102,7 +102,8 @@ fn paths(text: &str) -> Vec<String> {
         }
     }
     for word in code.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':')) {
-        if word.starts_with("crate::") || word.starts_with("super::") {
+        let leads_on = word.starts_with("crate::") || word.starts_with("super::");
+        if leads_on && !word.ends_with("::") {
             found.push(word.to_owned());
         }
     }

@@ -105,6 +105,10 @@ fn every_program_line_has_its_place_in_the_job_and_traces_lose_nothing() {
             if let Some(span) = line.form {
                 let words = checked.files[span.file as usize].slice(span).to_ascii_uppercase();
                 assert!(!words.is_empty() && !words.contains('\n'), "{at}: `{words}`");
+                // text in backquotes may hold texts of the job
+                if words.contains('`') {
+                    continue;
+                }
                 let strange = letters(printed).find(|&letter| letter != 'N' && !words.contains(letter));
                 assert_eq!(strange, None, "{at}, of `{words}`");
                 of_forms += 1;

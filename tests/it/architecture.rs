@@ -92,20 +92,24 @@ fn paths(text: &str) -> Vec<String> {
             }
         }
     }
-    let code: String = text.lines().map(|line| line.split("//").next().unwrap().to_owned() + "\n").collect();
     let mut found = Vec::new();
-    for line in code.split(';') {
-        let line = line.trim_start_matches(|c: char| c.is_whitespace() || c == '}');
-        let line = line.strip_prefix("pub ").unwrap_or(line);
-        if let Some(tree) = line.strip_prefix("use ") {
-            open(&tree.replace('\n', " "), "", &mut found);
+    let code: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap().trim()).collect();
+    for statement in code.join("\n").split(';') {
+        let mut before = statement;
+        for (at, line) in
+            statement.split('\n').scan(0, |at, line| Some((std::mem::replace(at, *at + line.len() + 1), line)))
+        {
+            let line = line.strip_prefix("pub").map_or(line, |rest| rest.split_once(' ').map_or("", |(_, rest)| rest));
+            if line.starts_with("use ") {
+                let tree = &statement[at..];
+                open(&tree[tree.find("use ").unwrap() + 4..].replace('\n', " "), "", &mut found);
+                before = &statement[..at];
+                break;
+            }
         }
-    }
-    for word in code.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':')) {
-        let leads_on = word.starts_with("crate::") || word.starts_with("super::");
-        if leads_on && !word.ends_with("::") {
-            found.push(word.to_owned());
-        }
+        let words = before.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':'));
+        found
+            .extend(words.filter(|word| word.starts_with("crate::") || word.starts_with("super::")).map(str::to_owned));
     }
     found
 }
@@ -126,7 +130,8 @@ fn imports(module: &str) -> BTreeMap<String, BTreeSet<String>> {
         .collect();
     let of = |name: &String, text: &String| {
         let mut found = BTreeSet::new();
-        for path in paths(text) {
+        // the tests inside a file say `super` of the file
+        for path in paths(text).iter().filter(|path| *path != "super::*") {
             let mut steps: Vec<&str> = path.split("::").map(str::trim).collect();
             let mut place: Vec<&str> = name.split('/').collect();
             match steps[0] {

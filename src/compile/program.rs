@@ -62,7 +62,7 @@ pub enum Op {
     },
     /// Text in backquotes, which nothing changes.
     Quote {
-        /// Its row in [`Program::texts`].
+        /// Row in [`Program::texts`].
         index: u32,
         /// No blank before it.
         glued: bool,
@@ -162,7 +162,7 @@ pub struct Program {
     pub texts: Vec<String>,
     /// The texts of the job that the form prints anywhere.
     pub texts_printed: TextSet,
-    /// Its name: as it says, else as its file is called.
+    /// Name of the form: as it says, else as its file is called.
     pub name: String,
     /// What tells it from other forms, where it prints that.
     pub hash: String,

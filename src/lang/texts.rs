@@ -3,13 +3,13 @@
 /// A text variable's row.
 #[derive(Debug)]
 pub struct Text {
-    /// Which.
+    /// The text of the row.
     pub id: TextId,
-    /// As written between brackets.
+    /// Name of the text, as written between brackets.
     pub name: &'static str,
-    /// What it is.
+    /// What the text is.
     pub meaning: &'static str,
-    /// Where it comes from.
+    /// Where the text comes from.
     pub from: &'static str,
 }
 
@@ -72,7 +72,7 @@ impl TextSet {
 }
 
 impl TextId {
-    /// Its row of the table.
+    /// The row of the text in the table.
     pub fn row(self) -> &'static Text {
         &TEXTS[self as usize]
     }

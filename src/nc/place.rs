@@ -25,7 +25,7 @@ impl Place {
         Place { position: [0.0; 6], at_machine, frames: Frames::default(), work, homes: [[0.0; 6]; 2] }
     }
 
-    /// Another work offset: how far it lies from the one before, nobody knows until places are said in it. `true`: it is another.
+    /// Takes another work offset: how far it lies from the one before, nobody knows until places are said in it. `true`: it is another.
     pub fn work_is(&mut self, work: f64) -> bool {
         self.work.replace(work) != Some(work)
     }

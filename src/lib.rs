@@ -47,6 +47,7 @@ pub mod lang;
 pub mod lint;
 pub mod nc;
 pub mod number;
+pub mod picture;
 pub mod post;
 pub mod render;
 #[cfg(feature = "json")]

@@ -14,6 +14,7 @@ mod identity;
 mod lint;
 mod new;
 mod output;
+mod plot;
 mod prepare;
 mod progress;
 mod prompt;
@@ -83,6 +84,7 @@ pub fn run() -> ExitCode {
         Command::Verify(args) => verify::run(&args, colour),
         Command::Diff(args) => diff::run(&args, arguments.color),
         Command::Simulate(args) => simulate::run(&args, colour),
+        Command::Plot(args) => plot::run(&args, colour),
         Command::Fmt(args) => fmt::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Controls => {

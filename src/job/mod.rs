@@ -14,7 +14,7 @@ use crate::control::Control;
 use crate::error::Error;
 use crate::nc::{JobOptions, RunSettings, Unpointed, read_program};
 use crate::toolpath::json::{read_document, read_lines};
-use crate::toolpath::{Event, Flow, Hold, Place, ReadError, Sink, Units, flow};
+use crate::toolpath::{Event, Flow, Hold, Place, ReadError, Sink, Stop, Units, flow};
 
 /// What a CL file or NC program does not say itself. JSON needs none of it.
 #[derive(Clone, Debug, Default)]
@@ -179,6 +179,16 @@ impl<'a> Job<'a> {
         }
     }
 
+    /// The units that it counts in; `None` for a job without events. It is read as far as it says them.
+    ///
+    /// # Errors
+    /// As [`Job::read`].
+    pub fn units(&mut self) -> Result<Option<Units>, Error> {
+        let mut first = FirstUnits(None);
+        self.read(&mut first)?;
+        Ok(first.0)
+    }
+
     fn read_on(&mut self, sink: &mut dyn Sink) -> Result<(), ReadError> {
         let count = Rc::clone(&self.read);
         let (format, reading, report) = (self.format, &self.reading, &mut self.report);
@@ -322,6 +332,18 @@ impl<R: Read> Read for Counted<R> {
 impl<R: Seek> Seek for Counted<R> {
     fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
         self.input.seek(to)
+    }
+}
+
+/// What the first event says of the units.
+struct FirstUnits(Option<Units>);
+
+impl Sink for FirstUnits {
+    fn event(&mut self, event: Event<'_>, _: Place) -> Flow {
+        if let Event::Start(start) = &event {
+            self.0 = Some(start.units);
+        }
+        Flow::Break(Stop::Enough)
     }
 }
 

@@ -129,9 +129,18 @@ impl<R: BufRead + Seek> Simulator<R> {
     ///
     /// # Errors
     /// The input can't be gone back in.
-    pub fn again(mut self) -> io::Result<Simulator<R>> {
+    pub fn again(self) -> io::Result<Simulator<R>> {
+        let settings = self.state.settings;
+        self.again_with(settings)
+    }
+
+    /// Back to the beginning, with other settings.
+    ///
+    /// # Errors
+    /// The input can't be gone back in.
+    pub fn again_with(mut self, settings: RunSettings) -> io::Result<Simulator<R>> {
         self.input.seek(SeekFrom::Start(0))?;
-        Ok(Simulator::new(self.input, self.state.settings))
+        Ok(Simulator::new(self.input, settings))
     }
 
     /// Blocks run so far.

@@ -94,6 +94,11 @@ impl Tally {
         }
     }
 
+    /// Minutes of the whole program at rapids of [`rapid_rate`], without tool changes.
+    pub fn minutes(&self) -> f64 {
+        self.cutting + self.dwelling + self.distances[0] / rapid_rate(self.units)
+    }
+
     fn cut(&mut self, length: f64, feed: f64, lead: Option<f64>) {
         self.distances[1] += length;
         let minutes = match (lead, self.mode) {
@@ -129,6 +134,22 @@ impl Tally {
                 self.reach(&at);
             }
         }
+    }
+}
+
+/// Rapid rate of time estimates, in units a minute: 10 m, or 400 inch.
+pub fn rapid_rate(units: Units) -> f64 {
+    if units == Units::Inch { 400.0 } else { 10_000.0 }
+}
+
+/// Minutes as `1:02:03`, or `2:03` in less than an hour.
+pub fn clock(minutes: f64) -> String {
+    let seconds = (minutes * 60.0).round() as u64;
+    let (hours, rest) = (seconds / 3600, seconds % 3600);
+    if hours > 0 {
+        format!("{hours}:{:02}:{:02}", rest / 60, rest % 60)
+    } else {
+        format!("{}:{:02}", rest / 60, rest % 60)
     }
 }
 

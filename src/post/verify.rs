@@ -49,6 +49,11 @@ impl Post {
     ) -> Result<Proven, Error> {
         prove(Some(&self.0.program), job, program, options, proof)
     }
+
+    /// How the control of this form runs a program that it printed, which counts in these units until it says others.
+    pub fn run_settings(&self, proof: &Proof, units: Units) -> RunSettings {
+        proof.settings(Some(&self.0.program), units)
+    }
 }
 
 impl Proof {

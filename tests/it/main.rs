@@ -25,6 +25,7 @@ mod machines;
 mod nc_golden;
 mod numbers;
 mod own_control;
+mod plot;
 mod program_commands;
 mod program_jobs;
 mod proofs;

@@ -3,6 +3,7 @@
 mod controls;
 mod forms;
 mod jobs;
+mod pictures;
 mod programs;
 
 use clap::{Args, Parser, Subcommand};
@@ -11,6 +12,7 @@ use super::colour::Colour;
 pub use controls::{ControlArgs, ControlParser, NoPoint};
 pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, NewControl};
 pub use jobs::{CheckArgs, From, ReadArgs, RenderArgs, RenderOptions, UnitsArg};
+pub use pictures::PlotArgs;
 pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, VerifyArgs};
 
 /// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.
@@ -40,6 +42,8 @@ pub enum Command {
     Diff(DiffArgs),
     /// Run an NC program and print what the machine does
     Simulate(SimulateArgs),
+    /// Draw the backplot of a job's program, or of a program that is there
+    Plot(PlotArgs),
     /// Write forms in the canonical layout
     Fmt(FmtArgs),
     /// Say what a code, command, variable, sequence, cycle or control means

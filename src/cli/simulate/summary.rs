@@ -2,11 +2,7 @@
 
 use std::fmt::Write as _;
 
-use postform::nc::Tally;
-use postform::toolpath::Units;
-
-/// Rapid rate of the time estimate, in millimetres a minute.
-const RAPID_RATE: f64 = 10_000.0;
+use postform::nc::{Tally, clock, rapid_rate};
 
 /// The summary as a machinist reads it.
 pub fn describe(tally: &Tally, blocks: u64) -> String {
@@ -29,7 +25,7 @@ pub fn describe(tally: &Tally, blocks: u64) -> String {
     _ = writeln!(
         text,
         "time      {}: cutting {}, dwells {}, rapids {} at {} {unit}/min, without tool changes",
-        clock(minutes.iter().sum()),
+        clock(tally.minutes()),
         clock(minutes[0]),
         clock(minutes[1]),
         clock(minutes[2]),
@@ -59,21 +55,6 @@ pub fn counted(tally: &Tally, blocks: u64) -> String {
     format!("{row}\n")
 }
 
-fn rapid_rate(units: Units) -> f64 {
-    if units == Units::Inch { RAPID_RATE / 25.0 } else { RAPID_RATE }
-}
-
 fn short(value: f64) -> String {
     format!("{}", (value * 1e4).round() / 1e4 + 0.0)
-}
-
-/// Minutes as 1:02:03.
-fn clock(minutes: f64) -> String {
-    let seconds = (minutes * 60.0).round() as u64;
-    let (hours, rest) = (seconds / 3600, seconds % 3600);
-    if hours > 0 {
-        format!("{hours}:{:02}:{:02}", rest / 60, rest % 60)
-    } else {
-        format!("{}:{:02}", rest / 60, rest % 60)
-    }
 }

@@ -1,0 +1,102 @@
+//! `postform plot`.
+
+use std::path::Path;
+
+use postform::picture::{self, Picture, Sheet};
+use postform::toolpath::Units;
+use postform::{Format, Job, Proof};
+
+use super::Ending;
+use super::args::{ControlArgs, PlotArgs};
+use super::config::Config;
+use super::files::{self, io_message};
+use super::identity::Identity;
+use super::output::Target;
+use super::prepare::prepare;
+use super::report::{Reporter, place_in};
+use super::say::say;
+use super::verify::rendered;
+
+/// Draws a program.
+pub fn run(args: &PlotArgs, colour: bool) -> Result<Ending, String> {
+    let reporter = Reporter::new(colour);
+    let is_svg = args.output == Path::new("-") || has_extension(&args.output, "svg");
+    if !is_svg {
+        let name = files::output_name(&args.output);
+        return Err(format!("error: can't tell what {name} is to be\n  help: call it .svg"));
+    }
+    let identity = Identity::of_output(&args.output);
+    if identity.is_some() && identity == Identity::of_input(&args.file) {
+        return Err(format!("error: {} is an input: choose another output", files::output_name(&args.output)));
+    }
+    let Some(mut picture) = picture(args, &reporter)? else { return Ok(Ending::Findings) };
+    let name = files::name(&args.file);
+    if !args.options.quiet {
+        picture.warnings.iter_mut().for_each(|diag| place_in(&name, diag));
+        say(&reporter.text(&picture.warnings, &[]));
+    }
+    let title = [Some(&args.file), args.form.as_ref()];
+    let title: Vec<_> = title.iter().flatten().filter_map(|path| Some(path.file_name()?.to_string_lossy())).collect();
+    let sheet = Sheet {
+        title: title.join(" · "),
+        view: args.view.map_or_else(|| picture.usual_view(), |view| view.view()),
+        width: f64::from(args.width),
+    };
+    let fail = |error| io_message("write", &args.output, &error);
+    let mut target = Target::open(&args.output, false)?;
+    target.write(picture::svg(&picture, &sheet).as_bytes()).map_err(fail)?;
+    match target.complete() {
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe && args.output == Path::new("-") => {}
+        done => done.map_err(fail)?,
+    }
+    // what was drawn until then is worth a look
+    let Some((mut diag, _)) = picture.refused.take() else { return Ok(Ending::Clean) };
+    place_in(&name, &mut diag);
+    say(&reporter.text(&[*diag], &[]));
+    Ok(Ending::Findings)
+}
+
+fn has_extension(path: &Path, wanted: &str) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
+}
+
+/// The program that was meant, run. `None`: there is none, which was shown.
+fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<Picture>, String> {
+    let config = Config::near(&args.file)?;
+    let is_program = args.form.is_none() && args.read.from.is_none_or(|from| from.format() == Format::Nc) && {
+        args.read.from.is_some() || Format::of_name(&args.file.to_string_lossy()) == Some(Format::Nc)
+    };
+    if is_program {
+        let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };
+        let units = args.options.units.map_or(Units::Mm, |units| units.units());
+        let settings = control.settings(None, units);
+        let input = files::open_program(&args.file)?;
+        return picture::draw(input, settings).map(Some).map_err(|error| io_message("read", &args.file, &error));
+    }
+    files::check_format(&args.file, &args.read)?;
+    let Some(form) = args.form.clone().or(config.form) else {
+        let help = "give --form, or name one in a postform.toml: form = \"fanuc.pf\"";
+        return Err(format!("error: {} is a job: which form prints it?\n  help: {help}", files::name(&args.file)));
+    };
+    let Some(prepared) = prepare(&form, &args.options, &args.file, reporter)? else { return Ok(None) };
+    let mut job = files::job(&args.file, &args.read, true)?;
+    let Ok((program, _)) = rendered(&mut job, &args.file, &prepared, false, reporter)? else { return Ok(None) };
+    let units = match args.options.units {
+        Some(units) => units.units(),
+        None => units_of(&mut job, &args.file)?,
+    };
+    let proof: Proof = args.control.proof(None);
+    let settings = prepared.post.run_settings(&proof, units);
+    picture::draw(files::buffered(program), settings)
+        .map(Some)
+        .map_err(|error| io_message("read", Path::new("the program"), &error))
+}
+
+/// The units that a job counts in.
+fn units_of(job: &mut Job<'_>, path: &Path) -> Result<Units, String> {
+    let units = job.units().map_err(|error| match error.io() {
+        Some(error) => io_message("read", path, error),
+        None => format!("error: {error}"),
+    })?;
+    Ok(units.unwrap_or(Units::Mm))
+}

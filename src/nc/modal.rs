@@ -1,0 +1,70 @@
+//! What is modal between two blocks, as codes and values: what a machinist reads off the control's screen.
+
+use super::action::Rotation;
+use super::state::{NO_MOTION, State, is_cycle};
+use crate::toolpath::{FeedMode, Plane, Side, Units};
+
+/// What the control holds between two blocks. Codes are ten times their number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Modal {
+    /// G0 to G3, and others of their group; a canned cycle is none of them.
+    pub motion: Option<u16>,
+    /// G17 to G19.
+    pub plane: u16,
+    /// G90 or G91.
+    pub distance: u16,
+    /// G20 or G21.
+    pub units: u16,
+    /// G93, G94 or G95.
+    pub feed_mode: u16,
+    /// G98 or G99.
+    pub back: u16,
+    /// G40 to G42.
+    pub compensation: u16,
+    /// A tool length offset is on.
+    pub length: bool,
+    /// The canned cycle in force.
+    pub cycle: Option<u16>,
+    /// Register of cutter compensation.
+    pub diameter: Option<f64>,
+    /// F, in the unit of the feed mode; 0 where none was said.
+    pub feed: f64,
+    /// S.
+    pub speed: f64,
+    /// How the spindle turns.
+    pub spindle: Rotation,
+}
+
+impl State {
+    /// What is modal after the block that was run last.
+    pub fn modal(&self) -> Modal {
+        let motion = self.modes.motion;
+        Modal {
+            motion: Some(motion).filter(|&code| code != NO_MOTION && !is_cycle(code)),
+            plane: match self.modes.plane {
+                Plane::Xy => 170,
+                Plane::Xz => 180,
+                Plane::Yz => 190,
+            },
+            distance: if self.modes.absolute { 900 } else { 910 },
+            units: if self.modes.units == Units::Inch { 200 } else { 210 },
+            feed_mode: match self.modes.feed_mode {
+                FeedMode::InverseTime => 930,
+                FeedMode::PerMinute => 940,
+                FeedMode::PerRev => 950,
+            },
+            back: if self.modes.to_initial { 980 } else { 990 },
+            compensation: match self.tool.side {
+                None => 400,
+                Some(Side::Left) => 410,
+                Some(Side::Right) => 420,
+            },
+            length: self.tool.length_on,
+            cycle: self.cycle_in_force(),
+            diameter: self.tool.diameter_register,
+            feed: self.drive.feed,
+            speed: self.drive.speed,
+            spindle: self.drive.spindle,
+        }
+    }
+}

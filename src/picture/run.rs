@@ -1,0 +1,174 @@
+//! A program run, and what it does kept.
+
+use std::io::{self, BufRead, Seek};
+
+use super::state::Registers;
+use super::{Hole, Kind, Move, Picture};
+use crate::nc::{Action, Item, Position, RunError, RunSettings, Simulator, Tally, Turn, axes_of};
+use crate::toolpath::Units;
+
+/// Warnings that are kept.
+const MOST_WARNINGS: usize = 100;
+/// Places farther away are drawn there.
+const FARTHEST: f64 = 1e9;
+/// Moves that are kept: a program of more is drawn up to there.
+const MOST_MOVES: usize = 20_000_000;
+
+/// Runs a program and keeps what it does, from wherever the machine stands.
+///
+/// # Errors
+/// The input fails. What the control refuses is in the picture, which then ends there.
+pub fn draw(input: impl BufRead + Seek, settings: RunSettings) -> io::Result<Picture> {
+    let simulator = Simulator::new(input, RunSettings { places_unknown: true, ..settings });
+    let mut pen = Pen::new(settings.units);
+    let simulator = pen.run(simulator)?;
+    let known = pen.picture.moves.iter().any(|found| found.to.iter().any(|value| value.is_finite()));
+    if known || pen.picture.moves.is_empty() {
+        return Ok(pen.picture);
+    }
+    // a program that only says how far: it is drawn from zero
+    let again = simulator.again_with(RunSettings { places_unknown: false, ..settings })?;
+    let mut pen = Pen::new(settings.units);
+    pen.at = [0.0; 3];
+    pen.run(again)?;
+    Ok(pen.picture)
+}
+
+/// Draws as the machine moves.
+struct Pen {
+    picture: Picture,
+    registers: Registers,
+    /// Where the tool is, in the picture's units; NaN where only the machine knows.
+    at: [f64; 3],
+    tool: u16,
+    /// From the program's units to the picture's.
+    factor: f64,
+    units: Units,
+}
+
+impl Pen {
+    fn new(units: Units) -> Pen {
+        let picture = Picture {
+            units,
+            moves: Vec::new(),
+            arcs: Vec::new(),
+            holes: Vec::new(),
+            tools: vec![0.0],
+            changes: Vec::new(),
+            tally: Tally::new(units),
+            blocks: 0,
+            warnings: Vec::new(),
+            refused: None,
+        };
+        Pen { picture, registers: Registers::new(), at: [f64::NAN; 3], tool: 0, factor: 1.0, units }
+    }
+
+    fn run<R: BufRead + Seek>(&mut self, mut simulator: Simulator<R>) -> io::Result<Simulator<R>> {
+        self.registers.after(0, simulator.state().modal(), &mut self.picture.changes);
+        let mut items = Vec::new();
+        loop {
+            items.clear();
+            let step = simulator.step(&mut items);
+            items.iter().for_each(|item| self.act(item));
+            let line = simulator.line() as u32;
+            self.registers.after(line, simulator.state().modal(), &mut self.picture.changes);
+            self.stands(line, simulator.state().position(), simulator.state().at_machine());
+            let room = MOST_WARNINGS.saturating_sub(self.picture.warnings.len());
+            self.picture.warnings.extend(simulator.take_warnings().into_iter().take(room));
+            match step {
+                Ok(true) if self.picture.moves.len() < MOST_MOVES => {}
+                Ok(_) => break,
+                Err(RunError::Refused(diag, line)) => {
+                    self.picture.refused = Some((diag, line));
+                    break;
+                }
+                Err(RunError::Io(error)) => return Err(error),
+            }
+        }
+        self.picture.blocks = simulator.blocks();
+        Ok(simulator)
+    }
+
+    fn act(&mut self, item: &Item) {
+        self.picture.tally.add(item);
+        let line = item.line as u32;
+        self.registers.act(line, &item.action, &mut self.picture.changes);
+        match &item.action {
+            Action::Rapid { to, machine } => self.go(item, Kind::Rapid, self.place(to, *machine), u32::MAX),
+            Action::Feed { to, .. } => self.go(item, Kind::Feed, self.place(to, 0), u32::MAX),
+            Action::Arc(turn) => {
+                let to = self.place(&turn.to, 0);
+                let arc = self.picture.arcs.len() as u32;
+                let [first, second, _] = axes_of(turn.plane);
+                let center = turn.center.map(|value| (value * self.factor).clamp(-FARTHEST, FARTHEST));
+                // an arc from nowhere is none
+                if self.at[first].is_finite() && self.at[second].is_finite() {
+                    self.picture.arcs.push(Turn { center, ..*turn });
+                    self.go(item, Kind::Arc, to, arc);
+                } else {
+                    self.go(item, Kind::Jump, to, u32::MAX);
+                }
+            }
+            Action::Tool(number) => {
+                let tools = &mut self.picture.tools;
+                let known = tools.iter().position(|tool| tool == number);
+                self.tool = known.unwrap_or_else(|| {
+                    tools.push(*number);
+                    tools.len() - 1
+                }) as u16;
+            }
+            Action::Hole(hole) => {
+                let [_, _, across] = axes_of(hole.plane);
+                let mut top = self.place(&hole.at, 0);
+                let mut bottom = top;
+                top[across] = (hole.r * self.factor).clamp(-FARTHEST, FARTHEST);
+                bottom[across] = (hole.bottom * self.factor).clamp(-FARTHEST, FARTHEST);
+                self.picture.holes.push(Hole { line, top, bottom, tool: self.tool });
+            }
+            Action::Units(units) => self.count_in(*units),
+            _ => {}
+        }
+    }
+
+    /// The picture counts in the units of its first move.
+    fn count_in(&mut self, units: Units) {
+        self.units = units;
+        if self.picture.moves.is_empty() {
+            self.picture.units = units;
+        }
+        self.factor = match (units, self.picture.units) {
+            (Units::Inch, Units::Mm) => 25.4,
+            (Units::Mm, Units::Inch) => 1.0 / 25.4,
+            _ => 1.0,
+        };
+    }
+
+    fn place(&self, to: &Position, machine: u8) -> [f64; 3] {
+        let place = |axis: usize| (to[axis] * self.factor).clamp(-FARTHEST, FARTHEST);
+        std::array::from_fn(|axis| if machine & 1 << axis == 0 { place(axis) } else { f64::NAN })
+    }
+
+    fn go(&mut self, item: &Item, kind: Kind, to: [f64; 3], arc: u32) {
+        self.at = to;
+        let (line, by_cycle) = (item.line as u32, item.by_cycle);
+        self.picture.moves.push(Move { to, line, arc, tool: self.tool, kind, by_cycle });
+    }
+
+    /// After a block: a frame that was moved gives the tool another place without a move.
+    fn stands(&mut self, line: u32, position: &Position, machine: u8) {
+        let at = self.place(position, machine);
+        let same = |a: f64, b: f64| a == b || a.is_nan() || b.is_nan() || (a - b).abs() < 1e-9 * (1.0 + a.abs());
+        if (0..3).all(|axis| same(at[axis], self.at[axis])) {
+            return;
+        }
+        self.at = at;
+        self.picture.moves.push(Move {
+            to: at,
+            line,
+            arc: u32::MAX,
+            tool: self.tool,
+            kind: Kind::Jump,
+            by_cycle: false,
+        });
+    }
+}

@@ -1,0 +1,128 @@
+//! What is modal after each block, kept as changes.
+
+use crate::nc::{Action, Cooling, Modal, Rotation};
+
+/// What a control holds, one by one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+#[allow(missing_docs)]
+pub enum Register {
+    Motion,
+    Plane,
+    Distance,
+    Units,
+    Work,
+    Back,
+    Compensation,
+    Length,
+    FeedMode,
+    Tool,
+    H,
+    D,
+    Speed,
+    Spindle,
+    Coolant,
+    Feed,
+    Cycle,
+    R,
+    Depth,
+    Dwell,
+    Peck,
+}
+
+/// How many there are.
+const COUNT: usize = Register::Peck as usize + 1;
+
+/// A register that holds something else from a block on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Change {
+    /// Line of the program, from 1; 0 as switched on.
+    pub line: u32,
+    /// Which register.
+    pub register: Register,
+    /// What it holds: the number of a code, or a value; NaN for nothing. The spindle and coolant are numbers of M codes.
+    pub value: f64,
+}
+
+/// The registers between two blocks.
+#[derive(Clone, Debug)]
+pub(super) struct Registers {
+    held: [f64; COUNT],
+    modal: Option<Modal>,
+}
+
+impl Registers {
+    /// Nothing is known.
+    pub fn new() -> Registers {
+        Registers { held: [f64::NAN; COUNT], modal: None }
+    }
+
+    fn hold(&mut self, line: u32, register: Register, value: f64, changes: &mut Vec<Change>) {
+        let held = &mut self.held[register as usize];
+        if held.to_bits() != value.to_bits() && !(held.is_nan() && value.is_nan()) {
+            *held = value;
+            changes.push(Change { line, register, value });
+        }
+    }
+
+    /// What an action says.
+    pub fn act(&mut self, line: u32, action: &Action, changes: &mut Vec<Change>) {
+        let mut hold = |register, value| self.hold(line, register, value, changes);
+        match action {
+            Action::Tool(tool) => hold(Register::Tool, *tool),
+            Action::Work(work) => hold(Register::Work, *work),
+            Action::Length(register) => hold(Register::H, register.map_or(f64::NAN, f64::abs)),
+            Action::Coolant(Cooling::Flood) => hold(Register::Coolant, 8.0),
+            Action::Coolant(Cooling::Mist) => hold(Register::Coolant, 7.0),
+            Action::Coolant(Cooling::Off) => hold(Register::Coolant, 9.0),
+            Action::Hole(hole) => {
+                hold(Register::R, hole.r);
+                hold(Register::Depth, hole.bottom);
+                hold(Register::Dwell, some(hole.dwell));
+                hold(Register::Peck, some(hole.peck));
+            }
+            _ => {}
+        }
+    }
+
+    /// What is modal after a block.
+    pub fn after(&mut self, line: u32, modal: Modal, changes: &mut Vec<Change>) {
+        // most blocks only move
+        if self.modal.replace(modal) == Some(modal) {
+            return;
+        }
+        let code = |code: u16| f64::from(code) / 10.0;
+        let rows = [
+            (Register::Motion, modal.motion.map_or(f64::NAN, code)),
+            (Register::Plane, code(modal.plane)),
+            (Register::Distance, code(modal.distance)),
+            (Register::Units, code(modal.units)),
+            (Register::Back, code(modal.back)),
+            (Register::Compensation, code(modal.compensation)),
+            (Register::Length, if modal.length { 43.0 } else { 49.0 }),
+            (Register::FeedMode, code(modal.feed_mode)),
+            (Register::D, modal.diameter.unwrap_or(f64::NAN)),
+            (Register::Speed, some(modal.speed)),
+            (
+                Register::Spindle,
+                match modal.spindle {
+                    Rotation::Cw => 3.0,
+                    Rotation::Ccw => 4.0,
+                    Rotation::Stop => 5.0,
+                },
+            ),
+            (Register::Feed, some(modal.feed)),
+            (Register::Cycle, modal.cycle.map_or(f64::NAN, code)),
+        ];
+        rows.into_iter().for_each(|(register, value)| self.hold(line, register, value, changes));
+        if modal.cycle.is_none() {
+            let of_cycle = [Register::R, Register::Depth, Register::Dwell, Register::Peck];
+            of_cycle.into_iter().for_each(|register| self.hold(line, register, f64::NAN, changes));
+        }
+    }
+}
+
+/// 0 says that there is none.
+fn some(value: f64) -> f64 {
+    if value == 0.0 { f64::NAN } else { value }
+}

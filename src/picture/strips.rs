@@ -1,0 +1,123 @@
+//! Moves as points: a line that goes from point to point, arcs in straight pieces.
+
+use super::{Kind, Picture};
+use crate::nc::{Turn, axes_of, sweep};
+use crate::toolpath::Direction;
+
+/// Largest angle of a piece of an arc, in radians: 3 degrees, an error of 1/3000 of the radius.
+const FINEST: f64 = std::f64::consts::PI / 60.0;
+/// Largest angle of a piece of an arc that is small in the picture.
+const COARSEST: f64 = std::f64::consts::PI / 6.0;
+/// An arc may leave its circle by so much of the size of the picture.
+const ERROR: f64 = 1.0 / 4000.0;
+/// Pieces of one arc: a helix of a million turns is drawn no finer than that.
+const MOST_PIECES: f64 = 20_000.0;
+
+/// A straight piece of a move; it begins at the point before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Its end, X Y Z.
+    pub to: [f64; 3],
+    /// Its move, as a place in [`Picture::moves`].
+    pub of: u32,
+}
+
+/// A picture as points.
+#[derive(Clone, Debug, Default)]
+pub struct Strips {
+    /// Where the first piece begins.
+    pub start: [f64; 3],
+    /// The pieces, in the order of the run.
+    pub pieces: Vec<Piece>,
+    /// Least X Y Z, and greatest, of places that are known.
+    pub extents: [[f64; 3]; 2],
+    /// The height at which tools are drawn that go to a place which only the machine knows.
+    pub ceiling: f64,
+}
+
+impl Strips {
+    /// The longest side of the box around everything; 1 where there is nothing.
+    pub fn size(&self) -> f64 {
+        let [least, greatest] = self.extents;
+        let size = (0..3).map(|axis| greatest[axis] - least[axis]).fold(0.0, f64::max);
+        if size > 0.0 { size } else { 1.0 }
+    }
+}
+
+impl Picture {
+    /// The moves as points. A height that only the machine knows is drawn over everything, a place across that only the machine
+    /// knows not at all.
+    pub fn strips(&self) -> Strips {
+        let [least, greatest] = self.ends();
+        let size = (0..3).map(|axis| greatest[axis] - least[axis]).fold(0.0, f64::max);
+        let ceiling = greatest[2] + size * 0.1;
+        let first = |axis: usize| {
+            let known = self.moves.iter().map(|found| found.to[axis]).find(|value| value.is_finite());
+            known.unwrap_or(0.0)
+        };
+        let start = [first(0), first(1), ceiling];
+        let mut strips =
+            Strips { start, pieces: Vec::with_capacity(self.moves.len()), extents: [least, greatest], ceiling };
+        let mut at = start;
+        for (of, found) in (0..).zip(&self.moves) {
+            let to = [0, 1, 2].map(|axis| match (found.to[axis], axis) {
+                (value, _) if value.is_finite() => value,
+                (_, 2) => ceiling,
+                _ => at[axis],
+            });
+            if let (Kind::Arc, Some(turn)) = (found.kind, self.arcs.get(found.arc as usize)) {
+                round(at, to, turn, size * ERROR, &mut |to| strips.pieces.push(Piece { to, of }));
+            }
+            strips.pieces.push(Piece { to, of });
+            at = to;
+        }
+        for piece in &strips.pieces {
+            let known = &self.moves[piece.of as usize].to;
+            for axis in (0..3).filter(|&axis| known[axis].is_finite()) {
+                strips.extents[0][axis] = strips.extents[0][axis].min(piece.to[axis]);
+                strips.extents[1][axis] = strips.extents[1][axis].max(piece.to[axis]);
+            }
+        }
+        strips
+    }
+
+    /// The box around the ends of all moves.
+    fn ends(&self) -> [[f64; 3]; 2] {
+        let mut extents = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        for found in &self.moves {
+            for (axis, &value) in found.to.iter().enumerate().filter(|(_, value)| value.is_finite()) {
+                extents[0][axis] = extents[0][axis].min(value);
+                extents[1][axis] = extents[1][axis].max(value);
+            }
+        }
+        for axis in (0..3).filter(|&axis| !extents[0][axis].is_finite()).collect::<Vec<_>>() {
+            (extents[0][axis], extents[1][axis]) = (0.0, 0.0);
+        }
+        extents
+    }
+}
+
+/// The points of an arc between its ends.
+fn round(from: [f64; 3], to: [f64; 3], turn: &Turn, error: f64, push: &mut impl FnMut([f64; 3])) {
+    let [first, second, across] = axes_of(turn.plane);
+    let wide = |at: [f64; 3]| [at[0], at[1], at[2], 0.0, 0.0, 0.0];
+    let swept = sweep(&wide(from), &Turn { to: wide(to), ..*turn });
+    let (dx, dy) = (from[first] - turn.center[first], from[second] - turn.center[second]);
+    let radius = dx.hypot(dy);
+    let end = (to[first] - turn.center[first]).hypot(to[second] - turn.center[second]);
+    let step = (2.0 * (1.0 - error / radius).clamp(-1.0, 1.0).acos()).clamp(FINEST, COARSEST);
+    let pieces = (swept / step).ceil().clamp(1.0, MOST_PIECES);
+    let sign = if turn.direction == Direction::Ccw { 1.0 } else { -1.0 };
+    let begin = dy.atan2(dx);
+    for i in 1..pieces as u32 {
+        let share = f64::from(i) / pieces;
+        let angle = begin + sign * swept * share;
+        // both ends lie on circles that differ by a tolerance
+        let radius = radius + (end - radius) * share;
+        let mut at = from;
+        at[first] = turn.center[first] + radius * angle.cos();
+        at[second] = turn.center[second] + radius * angle.sin();
+        at[across] = from[across] + (to[across] - from[across]) * share;
+        push(at);
+    }
+}

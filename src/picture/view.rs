@@ -1,0 +1,52 @@
+//! From where a picture is looked at.
+
+use super::{Picture, Register};
+
+/// From where a picture is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum View {
+    /// From above: X to the right, Y up.
+    Top,
+    /// From the operator's side: X to the right, Z up.
+    Front,
+    /// From the right: Y to the right, Z up.
+    Side,
+    /// From the right, front and above.
+    Iso,
+    /// A lathe's: Z to the right, X up.
+    Lathe,
+}
+
+impl View {
+    /// All of them, with their names.
+    pub const ALL: [(View, &'static str); 5] =
+        [(View::Top, "top"), (View::Front, "front"), (View::Side, "side"), (View::Iso, "iso"), (View::Lathe, "lathe")];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        View::ALL.iter().find(|(view, _)| *view == self).map_or("", |(_, name)| name)
+    }
+
+    /// To the right and up, of a place.
+    pub fn project(self, at: [f64; 3]) -> [f64; 2] {
+        const SQRT_6: f64 = 2.449_489_742_783_178;
+        let [x, y, z] = at;
+        match self {
+            View::Top => [x, y],
+            View::Front => [x, z],
+            View::Side => [y, z],
+            View::Iso => [(x + y) * std::f64::consts::FRAC_1_SQRT_2, (y - x + 2.0 * z) / SQRT_6],
+            View::Lathe => [z, x],
+        }
+    }
+}
+
+impl Picture {
+    /// From where it is usually looked at: a lathe's as it stands, all others from the corner.
+    pub fn usual_view(&self) -> View {
+        let still = self.moves.iter().all(|found| found.to[1].is_nan() || found.to[1] == 0.0);
+        let plane = self.changes.iter().rev().find(|change| change.register == Register::Plane);
+        let turns = plane.is_some_and(|change| change.value == 18.0);
+        if still && turns && !self.moves.is_empty() { View::Lathe } else { View::Iso }
+    }
+}

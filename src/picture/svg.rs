@@ -16,6 +16,9 @@ pub struct Sheet {
     pub width: f64,
 }
 
+/// How a program of before is drawn under another.
+const OLD: &str = "was";
+
 /// Colours of the tools on white and on black, one after the other.
 const COLOURS: [[&str; 2]; 8] = [
     ["#0b63ce", "#78b1ff"],
@@ -31,9 +34,10 @@ const COLOURS: [[&str; 2]; 8] = [
 const STYLE: &str = "\
 svg{background:#fff;font:12px system-ui,sans-serif}text{fill:#5c636c}.h{fill:#1d2024;font-size:14px;font-weight:600}\
 .floor{fill:#f1f0ec;stroke:#d9d8d3}path{fill:none;stroke-linejoin:round;stroke-linecap:round;stroke-width:1.5}\
-.r{stroke:#d0443b;stroke-width:1;stroke-dasharray:4 3;opacity:.6}.axis{stroke:#8a9099;stroke-width:1.2}";
+.r{stroke:#d0443b;stroke-width:1;stroke-dasharray:4 3;opacity:.6}.axis{stroke:#8a9099;stroke-width:1.2}\
+.was{stroke:#9aa1ab;stroke-width:4;opacity:.55}";
 const DARK: &str = "\
-svg{background:#1b1e22}text{fill:#a0a7b0}.h{fill:#e6e7e9}.floor{fill:#23272c;stroke:#353a41}.r{stroke:#e0736a}.axis{stroke:#7d848e}";
+svg{background:#1b1e22}text{fill:#a0a7b0}.h{fill:#e6e7e9}.floor{fill:#23272c;stroke:#353a41}.r{stroke:#e0736a}.axis{stroke:#7d848e}.was{stroke:#6b727b}";
 
 /// Around the picture, in pixels.
 const MARGIN: f64 = 28.0;
@@ -46,17 +50,28 @@ const NEAREST: f64 = 0.1;
 
 /// The picture as SVG text.
 pub fn svg(picture: &Picture, sheet: &Sheet) -> String {
+    svg_over(None, picture, sheet)
+}
+
+/// The same over the picture of another program, which is drawn wide and grey.
+pub fn svg_over(old: Option<&Picture>, picture: &Picture, sheet: &Sheet) -> String {
     let strips = picture.strips();
-    let floor = floor(picture, &strips, sheet.view);
-    let scale = Scale::new(&strips, &floor, sheet);
+    let old = old.map(|old| (old, old.strips()));
+    let mut around = floor(picture, &strips, sheet.view);
+    let floor = around.clone();
+    if let Some((_, strips)) = &old {
+        around.extend(strips.pieces.iter().map(|piece| piece.to));
+    }
+    let scale = Scale::new(&strips, &around, sheet);
     let (width, height) = (sheet.width, scale.height + BANDS[0] + BANDS[1]);
     let mut out = String::new();
     _ = write!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" width=\"{0}\" height=\"{1}\" role=\"img\" \
-         aria-labelledby=\"title desc\">\n<title id=\"title\">{}</title>\n<desc id=\"desc\">{}</desc>\n",
+         aria-labelledby=\"title-{2} desc-{2}\">\n<title id=\"title-{2}\">{3}</title>\n<desc id=\"desc-{2}\">{4}</desc>\n",
         Short(width),
         Short(height),
+        sheet.view.name(),
         safe(&sheet.title),
         safe(&described(picture, &strips))
     );
@@ -73,10 +88,13 @@ pub fn svg(picture: &Picture, sheet: &Sheet) -> String {
         floor.iter().zip("MLLL".chars()).for_each(|(at, command)| point(&mut out, command, scale.at(*at)));
         out.push_str("Z\"/>\n");
     }
+    if let Some((old, strips)) = &old {
+        path(old, strips, &scale, OLD, &|kind, _| kind != Kind::Jump, &mut out);
+    }
     paths(picture, &strips, &scale, &mut out);
     holes(picture, &scale, &mut out);
     axes(&scale, scale.height + BANDS[0], &mut out);
-    legend(picture, &strips, width, height, &mut out);
+    legend(picture, &strips, old.is_some(), [width, height], &mut out);
     out += "</svg>\n";
     out
 }
@@ -91,10 +109,10 @@ struct Scale {
 }
 
 impl Scale {
-    fn new(strips: &Strips, floor: &[[f64; 3]], sheet: &Sheet) -> Scale {
+    fn new(strips: &Strips, around: &[[f64; 3]], sheet: &Sheet) -> Scale {
         let mut least = [f64::INFINITY; 2];
         let mut greatest = [f64::NEG_INFINITY; 2];
-        let drawn = strips.pieces.iter().map(|piece| piece.to).chain(floor.iter().copied());
+        let drawn = strips.pieces.iter().map(|piece| piece.to).chain(around.iter().copied());
         for at in drawn.chain([strips.start]) {
             for (axis, value) in sheet.view.project(at).into_iter().enumerate() {
                 least[axis] = least[axis].min(value);
@@ -247,7 +265,7 @@ fn axes(scale: &Scale, bottom: f64, out: &mut String) {
     }
 }
 
-fn legend(picture: &Picture, strips: &Strips, width: f64, height: f64, out: &mut String) {
+fn legend(picture: &Picture, strips: &Strips, over_old: bool, [width, height]: [f64; 2], out: &mut String) {
     let y = height - 34.0;
     let mut x = MARGIN;
     let mut entry = |class: &str, name: &str, out: &mut String| {
@@ -274,6 +292,9 @@ fn legend(picture: &Picture, strips: &Strips, width: f64, height: f64, out: &mut
             entry(&format!("t{}", colour(i)), &name, out);
         }
     }
+    if over_old {
+        entry(OLD, "before", out);
+    }
     _ = writeln!(
         out,
         "<text x=\"{MARGIN}\" y=\"{}\">{}</text>",
@@ -298,15 +319,15 @@ fn measured(picture: &Picture, strips: &Strips) -> String {
 
 fn described(picture: &Picture, strips: &Strips) -> String {
     let count = |kind: Kind| picture.moves.iter().filter(|found| found.kind == kind).count();
-    format!(
-        "Backplot: {} rapids, {} straight cuts, {} arcs, {} holes, {} tools; {}",
-        count(Kind::Rapid),
-        count(Kind::Feed),
-        count(Kind::Arc),
-        picture.holes.len(),
-        picture.tools.len() - 1,
-        measured(picture, strips)
-    )
+    let counts = [
+        (count(Kind::Rapid), "rapid"),
+        (count(Kind::Feed), "straight cut"),
+        (count(Kind::Arc), "arc"),
+        (picture.holes.len(), "hole"),
+        (picture.tools.len() - 1, "tool"),
+    ];
+    let counts = counts.map(|(number, what)| format!("{number} {what}{}", if number == 1 { "" } else { "s" }));
+    format!("Backplot: {}; {}", counts.join(", "), measured(picture, strips))
 }
 
 /// Text in a picture: nothing of it is markup.

@@ -117,8 +117,8 @@ fn every_part_of_the_state_has_its_block() {
         "G20 G17 G90\nT2 M6\nG54 G0 X0 Y0 S2500 M3\nG43 H2 Z1 M8\nG98 G82 X1 Y1 Z-.1 R.1 P.25 F6\nX2\nG80\nM2\n",
     );
     let at = |line: u32, register: Register| {
-        let before = found.changes.iter().filter(|change| change.line <= line && change.register == register);
-        before.last().map(|change| (change.value, change.line)).unwrap_or_default()
+        let mut before = found.changes.iter().filter(|change| change.line <= line && change.register == register);
+        before.next_back().map(|change| (change.value, change.line)).unwrap_or_default()
     };
     assert_eq!(at(6, Register::Tool), (2.0, 2));
     assert_eq!(at(6, Register::H), (2.0, 4));

@@ -1,11 +1,14 @@
 //! A comparison as one HTML page that stands alone: it can be mailed, and needs nothing from the network.
 
 use std::fmt::Write as _;
+use std::io::Cursor;
 use std::ops::Range;
 use std::time::Instant;
 
 use postform::diag::escaped;
-use postform::diff::{Comparison, Edit, Hunk, Options, Summary, changed_spans};
+use postform::diff::{Comparison, Edit, Hunk, Options, Program, Summary, changed_spans};
+use postform::nc::RunSettings;
+use postform::picture::{Sheet, View, draw, svg_over};
 
 use super::sides::Side;
 use super::text::{grouped, sentence};
@@ -19,9 +22,28 @@ td.n{width:4.5rem;color:#57606a;text-align:right;user-select:none;background:#f6
 td.old{background:#ffebe9}td.new{background:#dafbe1}td.moved{background:#ddf4ff}
 mark{background:#ffc1ba;color:inherit;border-radius:2px}td.new mark{background:#9be9a8}
 td.origin{color:#57606a;background:#f6f8fa;text-align:right;font-size:12px}
+.path{display:flex;flex-wrap:wrap;gap:1rem}.path svg{flex:1 1 24rem;min-width:0;height:auto;border:1px solid #8884;border-radius:4px}
 @media(prefers-color-scheme:dark){body{background:#0d1117;color:#e6edf3}table{border-color:#30363d}td.n,td.origin{background:#161b22;color:#8b949e}
 td.old{background:#49202499}td.new{background:#12361f}td.moved{background:#12304d}mark{background:#8e3a36}td.new mark{background:#1f6f35}}
 ";
+
+/// The paths of both programs, the old one under the new; empty where there is nothing to draw.
+pub fn path(programs: [&Program; 2], settings: [RunSettings; 2]) -> String {
+    let [old, new] = [0, 1].map(|side| draw(Cursor::new(programs[side].bytes()), settings[side]).ok());
+    let (Some(old), Some(new)) = (old, new) else { return String::new() };
+    if old.moves.is_empty() || new.moves.is_empty() {
+        return String::new();
+    }
+    let mut text = "<p class=\"path\">".to_owned();
+    let views = match new.usual_view() {
+        View::Lathe => vec![View::Lathe],
+        view => vec![view, View::Top],
+    };
+    for view in views {
+        text += &svg_over(Some(&old), &new, &Sheet { title: "After over before".into(), view, width: 620.0 });
+    }
+    text + "</p>\n"
+}
 
 /// The page.
 pub fn page(
@@ -31,6 +53,7 @@ pub fn page(
     summary: &Summary,
     context: usize,
     options: &Options,
+    path: &str,
 ) -> String {
     let mut text = String::new();
     let (a, b) = (safe(old.name.as_bytes()), safe(new.name.as_bytes()));
@@ -42,6 +65,7 @@ pub fn page(
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>{a} and {b}</title>\n\
          <style>{STYLE}</style></head>\n<body>\n<h1>What changed</h1>\n<p><code>{a}</code> before, <code>{b}</code> after: {found}</p>\n"
     );
+    text += path;
     if comparison.is_coarse {
         text += "<p>The programs are too different for the shortest answer: this one is right and longer.</p>\n";
     }

@@ -9,7 +9,7 @@ use std::io::{Cursor, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 use postform::diff::{Deadline, Ignore, Options, Program, Summary, compare};
-use postform::nc::{Kind, RunError, tokens};
+use postform::nc::{Kind, RunError, RunSettings, tokens};
 use postform::toolpath::Units;
 use postform::verify::{Motions, NoMotion, compare_motions};
 
@@ -59,7 +59,10 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
                 None => text::unified(&old, &new, &comparison, &summary, args, &options, colour.on_stdout()),
             },
             DiffFormat::Json => json::document(&old, &new, &comparison, &summary, &options),
-            DiffFormat::Html => html::page(&old, &new, &comparison, &summary, args.context, &options),
+            DiffFormat::Html => {
+                let path = html::path([&old.program, &new.program], settings(args, &old, &new).1);
+                html::page(&old, &new, &comparison, &summary, args.context, &options, &path)
+            }
         };
         if comparison.is_same() {
             return said(text);
@@ -119,12 +122,17 @@ enum Outcome {
     Refused,
 }
 
-/// What both machines do.
-fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Result<Outcome, String> {
+/// How both programs are run.
+fn settings(args: &DiffArgs, old: &Side, new: &Side) -> (Units, [RunSettings; 2]) {
     // a program that does not say its units counts in those of --units, or millimetres
     let said = || units_of(&old.program).or_else(|| units_of(&new.program));
     let units = args.options.units.map(|units| units.units()).or_else(said).unwrap_or(Units::Mm);
-    let settings = [old, new].map(|side| args.control.settings(side.control, units));
+    (units, [old, new].map(|side| args.control.settings(side.control, units)))
+}
+
+/// What both machines do.
+fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Result<Outcome, String> {
+    let (units, settings) = settings(args, old, new);
     let tolerance = if args.tolerance > 0.0 { args.tolerance } else { 1e-6 };
     let inputs = [old, new].map(|side| Cursor::new(side.program.bytes()));
     let [a, b] = inputs;

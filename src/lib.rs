@@ -52,6 +52,7 @@ pub mod post;
 pub mod render;
 #[cfg(feature = "json")]
 pub mod report;
+pub mod scene;
 pub mod sema;
 pub mod source;
 pub mod span;

@@ -1,0 +1,62 @@
+//! A head in JSON, and sections of numbers.
+
+use serde_json::{Map, Value, json};
+
+/// The first bytes of a scene.
+const MAGIC: &[u8; 4] = b"PFS1";
+
+/// What the page shows, as it is packed.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    head: Map<String, Value>,
+    sections: Map<String, Value>,
+    body: Vec<u8>,
+}
+
+impl Scene {
+    /// Empty.
+    pub(super) fn new() -> Scene {
+        Scene::default()
+    }
+
+    /// Says something in the head.
+    pub fn say(&mut self, name: &str, value: Value) {
+        self.head.insert(name.to_owned(), value);
+    }
+
+    /// What the head says.
+    pub fn said(&self, name: &str) -> Option<&Value> {
+        self.head.get(name)
+    }
+
+    /// Adds a section; each begins at a multiple of eight bytes.
+    pub(super) fn section<const N: usize>(&mut self, name: String, values: impl IntoIterator<Item = [u8; N]>) {
+        self.body.resize(self.body.len().next_multiple_of(8), 0);
+        let start = self.body.len();
+        let values = values.into_iter();
+        self.body.reserve(values.size_hint().0 * N);
+        values.for_each(|value| self.body.extend_from_slice(&value));
+        self.sections.insert(name, json!([start, self.body.len() - start]));
+    }
+
+    /// Adds a section of bytes.
+    pub(super) fn bytes(&mut self, name: String, bytes: &[u8]) {
+        self.body.resize(self.body.len().next_multiple_of(8), 0);
+        self.sections.insert(name, json!([self.body.len(), bytes.len()]));
+        self.body.extend_from_slice(bytes);
+    }
+
+    /// All of it: `PFS1`, the length of the head, the head, blanks up to a multiple of eight, the sections. Numbers begin with their
+    /// least byte. Places of sections count from the first.
+    pub fn into_bytes(mut self) -> Vec<u8> {
+        self.head.insert("sections".to_owned(), Value::Object(self.sections));
+        let mut head = Value::Object(self.head).to_string().into_bytes();
+        head.resize((head.len() + 8).next_multiple_of(8) - 8, b' ');
+        let mut out = Vec::with_capacity(8 + head.len() + self.body.len());
+        out.extend_from_slice(MAGIC);
+        out.extend_from_slice(&(head.len() as u32).to_le_bytes());
+        out.append(&mut head);
+        out.append(&mut self.body);
+        out
+    }
+}

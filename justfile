@@ -30,3 +30,22 @@ bench:
 # the post for FreeCAD's window, inside FreeCAD (installs Debian's): its programs are those of the saved documents
 freecad:
     integrations/freecad/run
+
+# the page, from page/src; what is built is in the repository
+page:
+    cd page && npm ci --ignore-scripts --no-audit --no-fund && npm run check && npm run build
+
+# the page in a real browser
+page-test: page
+    cargo build --locked
+    cd page && node test/page.mjs
+
+# the page with a hundred thousand moves and a million: figures for docs/watch.md
+page-bench: page
+    cargo build --release --locked
+    cd page && POSTFORM=../target/release/postform node test/million.mjs
+
+# the page without a server, in docs/playground
+playground:
+    docs/playground/build
+    cd page && node test/playground.mjs

@@ -15,6 +15,7 @@ mod lint;
 mod new;
 mod output;
 mod plot;
+mod poll;
 mod prepare;
 mod progress;
 mod prompt;
@@ -26,6 +27,7 @@ mod simulate;
 mod spool;
 mod unnamed;
 mod verify;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -85,6 +87,7 @@ pub fn run() -> ExitCode {
         Command::Diff(args) => diff::run(&args, arguments.color),
         Command::Simulate(args) => simulate::run(&args, colour),
         Command::Plot(args) => plot::run(&args, colour),
+        Command::Watch(args) => watch::run(args),
         Command::Fmt(args) => fmt::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Controls => {

@@ -1,8 +1,14 @@
 //! `postform plot`.
 
+use std::fs::File;
+use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD as BASE64;
+use postform::nc::RunSettings;
 use postform::picture::{self, Picture, Sheet};
+use postform::scene::of_program;
 use postform::toolpath::Units;
 use postform::{Format, Job, Proof};
 
@@ -20,16 +26,16 @@ use super::verify::rendered;
 /// Draws a program.
 pub fn run(args: &PlotArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
-    let is_svg = args.output == Path::new("-") || has_extension(&args.output, "svg");
-    if !is_svg {
+    let is_page = has_extension(&args.output, "html");
+    if !is_page && args.output != Path::new("-") && !has_extension(&args.output, "svg") {
         let name = files::output_name(&args.output);
-        return Err(format!("error: can't tell what {name} is to be\n  help: call it .svg"));
+        return Err(format!("error: can't tell what {name} is to be\n  help: call it .svg or .html"));
     }
     let identity = Identity::of_output(&args.output);
     if identity.is_some() && identity == Identity::of_input(&args.file) {
         return Err(format!("error: {} is an input: choose another output", files::output_name(&args.output)));
     }
-    let Some(mut picture) = picture(args, &reporter)? else { return Ok(Ending::Findings) };
+    let Some((mut picture, mut program)) = picture(args, &reporter)? else { return Ok(Ending::Findings) };
     let name = files::name(&args.file);
     if !args.options.quiet {
         picture.warnings.iter_mut().for_each(|diag| place_in(&name, diag));
@@ -37,14 +43,18 @@ pub fn run(args: &PlotArgs, colour: bool) -> Result<Ending, String> {
     }
     let title = [Some(&args.file), args.form.as_ref()];
     let title: Vec<_> = title.iter().flatten().filter_map(|path| Some(path.file_name()?.to_string_lossy())).collect();
-    let sheet = Sheet {
-        title: title.join(" · "),
-        view: args.view.map_or_else(|| picture.usual_view(), |view| view.view()),
-        width: f64::from(args.width),
+    let title = title.join(" · ");
+    let text = if is_page {
+        let mut text = Vec::new();
+        let fail = |error| io_message("read", &args.file, &error);
+        program.rewind().and_then(|()| program.read_to_end(&mut text)).map_err(fail)?;
+        page(&of_program(&title, &text, &picture).into_bytes())
+    } else {
+        still(&picture, title, args)
     };
     let fail = |error| io_message("write", &args.output, &error);
     let mut target = Target::open(&args.output, false)?;
-    target.write(picture::svg(&picture, &sheet).as_bytes()).map_err(fail)?;
+    target.write(text.as_bytes()).map_err(fail)?;
     match target.complete() {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe && args.output == Path::new("-") => {}
         done => done.map_err(fail)?,
@@ -56,12 +66,25 @@ pub fn run(args: &PlotArgs, colour: bool) -> Result<Ending, String> {
     Ok(Ending::Findings)
 }
 
+fn still(picture: &Picture, title: String, args: &PlotArgs) -> String {
+    let view = args.view.map_or_else(|| picture.usual_view(), |view| view.view());
+    picture::svg(picture, &Sheet { title, view, width: f64::from(args.width) })
+}
+
+/// The page without a scene, as `page/` builds it.
+const PAGE: &str = include_str!("../../page/dist/plot.html");
+
+/// A page that stands alone, with a scene in it.
+fn page(scene: &[u8]) -> String {
+    PAGE.replacen(">SCENE<", &format!(">{}<", BASE64.encode(scene)), 1)
+}
+
 fn has_extension(path: &Path, wanted: &str) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }
 
-/// The program that was meant, run. `None`: there is none, which was shown.
-fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<Picture>, String> {
+/// The program that was meant, run, and its text. `None`: there is none, which was shown.
+fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, BufReader<File>)>, String> {
     let config = Config::near(&args.file)?;
     let is_program = args.form.is_none() && args.read.from.is_none_or(|from| from.format() == Format::Nc) && {
         args.read.from.is_some() || Format::of_name(&args.file.to_string_lossy()) == Some(Format::Nc)
@@ -70,8 +93,7 @@ fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<Picture>, Stri
         let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };
         let units = args.options.units.map_or(Units::Mm, |units| units.units());
         let settings = control.settings(None, units);
-        let input = files::open_program(&args.file)?;
-        return picture::draw(input, settings).map(Some).map_err(|error| io_message("read", &args.file, &error));
+        return drawn(files::open_program(&args.file)?, settings, &args.file).map(Some);
     }
     files::check_format(&args.file, &args.read)?;
     let Some(form) = args.form.clone().or(config.form) else {
@@ -87,9 +109,12 @@ fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<Picture>, Stri
     };
     let proof: Proof = args.control.proof(None);
     let settings = prepared.post.run_settings(&proof, units);
-    picture::draw(files::buffered(program), settings)
-        .map(Some)
-        .map_err(|error| io_message("read", Path::new("the program"), &error))
+    drawn(files::buffered(program), settings, Path::new("the program")).map(Some)
+}
+
+fn drawn(mut input: BufReader<File>, settings: RunSettings, path: &Path) -> Result<(Picture, BufReader<File>), String> {
+    let picture = picture::draw(&mut input, settings).map_err(|error| io_message("read", path, &error))?;
+    Ok((picture, input))
 }
 
 /// The units that a job counts in.

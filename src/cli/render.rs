@@ -1,27 +1,46 @@
 //! `postform render`.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use postform::diag::Severity;
+use postform::lint::Changed;
 use postform::render::TraceLine;
 use postform::source::Source;
 use postform::{ErrorKind, Part};
 
 use super::Ending;
-use super::args::RenderArgs;
+use super::args::{LimitsArg, RenderArgs};
 use super::config::Config;
 use super::files::{self, io_message};
+use super::forms::FormFile;
 use super::identity::Identity;
 use super::output::Target;
+use super::poll;
 use super::prepare::prepare;
 use super::progress::Progress;
 use super::report::{Reporter, place_in, stopped};
 use super::say::{message, say};
 use super::verify::Proof;
 
-/// Renders a job to its output.
+/// Renders a job to its output, with --watch anew when a file of it is changed.
 pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
+    if args.watch { poll::repeat(|| inputs(args), || print(args, colour)) } else { print(args, colour) }
+}
+
+/// The job, the form and those that it calls, and what they follow.
+fn inputs(args: &RenderArgs) -> Vec<PathBuf> {
+    let config = Config::near(&args.job).unwrap_or_default();
+    let form = args.form.clone().or(config.form);
+    let mut paths: Vec<PathBuf> = config.path.into_iter().chain([args.job.clone()]).chain(form.clone()).collect();
+    if let Some(file) = form.and_then(|form| FormFile::read(&form, LimitsArg::default()).ok()) {
+        file.analyse(&Changed::new());
+        paths.extend(file.paths());
+    }
+    paths
+}
+
+fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
     files::check_format(&args.job, &args.read)?;
     let config = Config::near(&args.job)?;

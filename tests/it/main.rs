@@ -45,3 +45,4 @@ mod texts;
 mod trace;
 mod transcripts;
 mod verify;
+mod watch;

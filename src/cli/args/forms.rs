@@ -63,6 +63,9 @@ pub struct LintArgs {
     /// Limits of the form [default: of postform.toml, else classic]
     #[arg(long, value_name = "LIMITS")]
     pub limits: Option<LimitsArg>,
+    /// Report anew whenever a form is changed
+    #[arg(long, conflicts_with_all = ["fix", "unsafe_fixes"])]
+    pub watch: bool,
 }
 
 /// `postform fmt`.

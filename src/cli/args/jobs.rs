@@ -239,6 +239,9 @@ pub struct RenderArgs {
     /// Run the program, and print it only if it makes the job's motions
     #[arg(long, conflicts_with = "stream")]
     pub verify: bool,
+    /// Print anew whenever the form or the job is changed
+    #[arg(long)]
+    pub watch: bool,
     /// How `--verify` runs it
     #[command(flatten)]
     pub control: ControlArgs,

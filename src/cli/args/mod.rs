@@ -12,7 +12,7 @@ use super::colour::Colour;
 pub use controls::{ControlArgs, ControlParser, NoPoint};
 pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, NewControl};
 pub use jobs::{CheckArgs, From, ReadArgs, RenderArgs, RenderOptions, UnitsArg};
-pub use pictures::PlotArgs;
+pub use pictures::{PlotArgs, WatchArgs};
 pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, VerifyArgs};
 
 /// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.
@@ -44,6 +44,8 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Draw the backplot of a job's program, or of a program that is there
     Plot(PlotArgs),
+    /// Show form, program and backplot in a browser, anew with every change
+    Watch(WatchArgs),
     /// Write forms in the canonical layout
     Fmt(FmtArgs),
     /// Say what a code, command, variable, sequence, cycle or control means

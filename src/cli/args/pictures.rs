@@ -1,4 +1,4 @@
-//! What is done with pictures.
+//! What is done with pictures, and the page.
 
 use std::path::PathBuf;
 
@@ -60,6 +60,35 @@ pub struct PlotArgs {
     #[command(flatten)]
     pub options: RenderOptions,
     /// How a job is read
+    #[command(flatten)]
+    pub read: ReadArgs,
+}
+
+/// `postform watch`.
+#[derive(Debug, Args)]
+#[command(mut_arg("job_name", |job| job.long("document-job")))]
+pub struct WatchArgs {
+    /// The form
+    pub form: PathBuf,
+    /// A job that is printed with it; several are tabs
+    #[arg(long, value_name = "JOB", required = true)]
+    pub job: Vec<PathBuf>,
+    /// A program of the job to compare with
+    #[arg(long, value_name = "PROGRAM")]
+    pub against: Option<PathBuf>,
+    /// Open no browser
+    #[arg(long)]
+    pub no_open: bool,
+    /// The port of this machine [default: a free one]
+    #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
+    pub port: u16,
+    /// How programs are run
+    #[command(flatten)]
+    pub control: ControlArgs,
+    /// How jobs are rendered
+    #[command(flatten)]
+    pub options: RenderOptions,
+    /// How jobs are read
     #[command(flatten)]
     pub read: ReadArgs,
 }

@@ -3,11 +3,11 @@
 mod fix;
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use postform::diag::{Findings, Severity};
 use postform::lint::{Changed, Found, lint};
-use postform::report;
+use postform::report as reports;
 use postform::sema::Checked;
 use rayon::prelude::*;
 
@@ -15,6 +15,7 @@ use super::args::{Format, LintArgs};
 use super::colour::Colour;
 use super::config::Config;
 use super::forms::{self, FormFile};
+use super::poll;
 use super::report::{Reporter, count};
 use super::say::{message, say};
 use super::{Ending, output};
@@ -29,8 +30,25 @@ pub struct Linted {
     mended: usize,
 }
 
-/// Every finding of every form.
+/// Every finding of every form, with --watch anew when one of them is changed.
 pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
+    if args.watch { poll::repeat(|| inputs(args), || report(args, colour)) } else { report(args, colour) }
+}
+
+/// The forms, the folders in which others may appear, and what they call and follow.
+fn inputs(args: &LintArgs) -> Vec<PathBuf> {
+    let mut paths = args.forms.clone();
+    for form in forms::named(&args.forms).unwrap_or_default() {
+        paths.extend(Config::near(&form).ok().and_then(|config| config.path));
+        if let Ok(file) = read(&form, args) {
+            file.analyse(&Changed::new());
+            paths.extend(file.paths());
+        }
+    }
+    paths
+}
+
+fn report(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     let mut unread = 0;
     let mut said = |text: String| {
         message(&text);
@@ -60,9 +78,9 @@ pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
             text.extend(shown.collect::<Vec<_>>());
             text += &summary(&linted, unread, args);
         }
-        Format::Json => text = output::json(&report::json(all(), unread)),
-        Format::Github => all().for_each(|form| text += &report::github(form)),
-        Format::Sarif => text = output::json(&report::sarif(all(), unread == 0)),
+        Format::Json => text = output::json(&reports::json(all(), unread)),
+        Format::Github => all().for_each(|form| text += &reports::github(form)),
+        Format::Sarif => text = output::json(&reports::sarif(all(), unread == 0)),
     }
     output::standard_output(|out| out.write_all(text.as_bytes()))?;
     Ok(match (unread, number(Severity::Error) + number(Severity::Warning)) {

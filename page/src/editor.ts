@@ -1,0 +1,257 @@
+// The form pane: CodeMirror, with findings under the words and the lines lit that printed the chosen block.
+
+import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { bracketMatching, HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
+import { type Diagnostic, lintGutter, setDiagnostics } from "@codemirror/lint";
+import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
+import { EditorState, RangeSetBuilder, StateEffect, StateField, Text } from "@codemirror/state";
+import {
+  Decoration, type DecorationSet, drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers,
+} from "@codemirror/view";
+import { tags } from "@lezer/highlight";
+
+import { element } from "./element.ts";
+import { base } from "./names.ts";
+import type { Finding, Place } from "./scene.ts";
+
+interface Lit {
+  /** Lines from 0: those of the chosen block, and those of a difference. */
+  lines: number[];
+  bad: number[];
+}
+
+const light = StateEffect.define<Lit>();
+const litLine = Decoration.line({ class: "cm-lit" });
+const badLine = Decoration.line({ class: "cm-bad" });
+const litLines = StateField.define<DecorationSet>({
+  create: () => Decoration.none,
+  update(lit, transaction) {
+    for (const effect of transaction.effects) if (effect.is(light)) return lines(transaction.state.doc, effect.value);
+    return lit.map(transaction.changes);
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
+
+function lines(doc: Text, { lines, bad }: Lit): DecorationSet {
+  const builder = new RangeSetBuilder<Decoration>();
+  for (const line of [...new Set([...lines, ...bad])].sort((a, b) => a - b)) {
+    if (line >= doc.lines) continue;
+    const at = doc.line(line + 1).from;
+    builder.add(at, at, bad.includes(line) ? badLine : litLine);
+  }
+  return builder.finish();
+}
+
+/** The words of a form, as far as one line tells them. */
+const language = StreamLanguage.define<{ open: boolean }>({
+  startState: () => ({ open: false }),
+  token(stream, state) {
+    if (stream.sol()) {
+      stream.eatSpace();
+      if (stream.match(/#.*/)) return "comment";
+      if (stream.match(/End\b.*/i)) {
+        state.open = false;
+        return "keyword";
+      }
+      // a sequence begins with its name alone, a setting has its value behind it
+      if (!state.open && stream.match(/[A-Za-z0-9]+[ \t]*$/)) {
+        state.open = true;
+        return "keyword";
+      }
+      if (!state.open && stream.match(/(Custom\d+|Upon)\b.*/i)) {
+        state.open = true;
+        return "keyword";
+      }
+      if (!state.open && stream.match(/[A-Za-z0-9]+/)) return "propertyName";
+    }
+    if (stream.match(/\[[^\]]*\]?/)) return "variableName";
+    if (stream.match(/ {2,}.*|\t.*/)) return state.open ? "comment" : null;
+    if (stream.match(/ #.*/)) return "comment";
+    if (stream.match(/\([^)]*\)?/)) return "comment";
+    stream.next();
+    return null;
+  },
+});
+
+const look = HighlightStyle.define([
+  { tag: tags.keyword, color: "var(--key)", fontWeight: "600" },
+  { tag: tags.propertyName, color: "var(--ink)" },
+  { tag: tags.variableName, color: "var(--var)", fontWeight: "500" },
+  { tag: tags.comment, color: "var(--dim)" },
+]);
+
+export class Editor {
+  readonly root: HTMLElement;
+  readonly view: EditorView;
+  private readonly head = element("span", {});
+  private readonly tabs = element("div", { class: "files", role: "tablist", "aria-label": "Files of the form" });
+  private readonly states = new Map<string, EditorState>();
+  private names: string[] = [];
+  private file = 0;
+  private quiet = false;
+  onEdit: (name: string, text: string) => void = () => {};
+  onLine: (file: number, line: number) => void = () => {};
+  onSave: () => void = () => {};
+  onLeave: () => void = () => {};
+
+  constructor(readonly isEditable: boolean) {
+    const holder = element("div", { class: "editor" });
+    this.root = element("section", { class: "form", "aria-label": "Form" }, element("h2", {}, "Form", this.tabs, this.head), holder);
+    this.view = new EditorView({ parent: holder, state: this.fresh("") });
+  }
+
+  /** The name of the file that is shown. */
+  get name(): string {
+    return this.names[this.file] ?? "";
+  }
+
+  get text(): string {
+    return this.view.state.doc.toString();
+  }
+
+  get hasFocus(): boolean {
+    return this.view.hasFocus;
+  }
+
+  private fresh(text: string): EditorState {
+    return EditorState.create({
+      doc: text,
+      extensions: [
+        lineNumbers(), highlightActiveLineGutter(), history(), drawSelection(), bracketMatching(), highlightActiveLine(),
+        highlightSelectionMatches(), lintGutter(), litLines, language, syntaxHighlighting(look),
+        EditorState.readOnly.of(!this.isEditable),
+        EditorView.contentAttributes.of({ "aria-label": "Form", spellcheck: "false" }),
+        keymap.of([
+          { key: "Mod-s", run: () => (this.onSave(), true), preventDefault: true },
+          { key: "Escape", run: () => (this.onLeave(), true) },
+          ...defaultKeymap, ...historyKeymap, ...searchKeymap, indentWithTab,
+        ]),
+        EditorView.updateListener.of((update) => {
+          if (this.quiet) return;
+          if (update.docChanged) this.onEdit(this.name, this.text);
+          else if (update.selectionSet && update.view.hasFocus) {
+            this.onLine(this.file, update.state.doc.lineAt(update.state.selection.main.head).number - 1);
+          }
+        }),
+      ],
+    });
+  }
+
+  /** The files of the form; texts that are there already stay as they were typed. */
+  setFiles(names: string[], texts: string[]): void {
+    const same = names.length === this.names.length && names.every((name, i) => name === this.names[i]);
+    names.forEach((name, i) => {
+      if (!this.states.has(name)) this.states.set(name, this.fresh(texts[i] ?? ""));
+    });
+    if (same) return;
+    const shown = this.name;
+    this.names = names;
+    this.file = -1;
+    this.open(Math.max(0, names.indexOf(shown)));
+    this.tabs.hidden = names.length < 2;
+    this.tabs.replaceChildren(...names.map((name, i) => {
+      const tab = element("button", { role: "tab", "aria-selected": String(i === this.file), title: name }, base(name));
+      tab.onclick = () => this.open(i);
+      return tab;
+    }));
+  }
+
+  /** Another text for a file, as it is on the disk. */
+  replace(name: string, text: string): void {
+    if (name === this.name) {
+      this.quiet = true;
+      const top = this.view.scrollDOM.scrollTop;
+      const at = Math.min(this.view.state.selection.main.head, text.length);
+      this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text }, selection: { anchor: at } });
+      this.view.scrollDOM.scrollTop = top;
+      this.quiet = false;
+    } else {
+      this.states.set(name, this.fresh(text));
+    }
+  }
+
+  private open(file: number): void {
+    if (file === this.file || !this.names[file]) return;
+    if (this.names[this.file]) this.states.set(this.name, this.view.state);
+    this.file = file;
+    this.quiet = true;
+    this.view.setState(this.states.get(this.names[file])!);
+    this.quiet = false;
+    [...this.tabs.children].forEach((tab, i) => tab.setAttribute("aria-selected", String(i === file)));
+    this.onOpen();
+  }
+
+  /** The file that is shown is another one: findings and lit lines are to be said again. */
+  onOpen: () => void = () => {};
+
+  private offset(line: number, column: number): number {
+    const { doc } = this.view.state;
+    if (line >= doc.lines) return doc.length;
+    const at = doc.line(line + 1);
+    return Math.min(at.from + column, at.to);
+  }
+
+  private range([, line, column, endLine, endColumn]: Place): [number, number] {
+    const from = this.offset(line, column);
+    const to = this.offset(endLine, endColumn);
+    // what is nowhere is shown at its line
+    return to > from ? [from, to] : [from, Math.min(from + 1, this.view.state.doc.length)];
+  }
+
+  /** Findings under their words, with what mends them. */
+  setFindings(findings: Finding[]): void {
+    const here = findings.filter((finding) => finding.labels[0]?.at[0] === this.file);
+    const diagnostics: Diagnostic[] = here.map((finding) => {
+      const [from, to] = this.range(finding.labels[0].at);
+      const severity = { error: "error", warning: "warning", note: "info" }[finding.severity] as Diagnostic["severity"];
+      const fix = this.isEditable ? finding.fix : null;
+      return {
+        from, to, severity, message: finding.message,
+        renderMessage: () => told(finding),
+        actions: fix ? [{ name: fix.title, apply: () => this.mend(fix.edits) }] : [],
+      };
+    });
+    diagnostics.sort((a, b) => a.from - b.from);
+    this.quiet = true;
+    this.view.dispatch(setDiagnostics(this.view.state, diagnostics));
+    this.quiet = false;
+  }
+
+  private mend(edits: { at: Place; text: string }[]): void {
+    const here = edits.filter((edit) => edit.at[0] === this.file);
+    this.view.dispatch({ changes: here.map(({ at, text }) => ({ from: this.offset(at[1], at[2]), to: this.offset(at[3], at[4]), insert: text })) });
+  }
+
+  /** Lines that printed the chosen block, and those of differences: file and line. */
+  light(lit: { file: number; line: number }[], bad: { file: number; line: number }[], scrolls: boolean): void {
+    const first = lit[0];
+    if (scrolls && first && first.file !== this.file) this.open(first.file);
+    const here = (places: { file: number; line: number }[]) => places.filter((place) => place.file === this.file).map((place) => place.line);
+    const effects: StateEffect<unknown>[] = [light.of({ lines: here(lit), bad: here(bad) })];
+    if (scrolls && first && first.line < this.view.state.doc.lines) {
+      const at = this.view.state.doc.line(first.line + 1).from;
+      effects.push(EditorView.scrollIntoView(at, { y: "nearest", yMargin: 60 }));
+    }
+    this.quiet = true;
+    this.view.dispatch({ effects });
+    this.quiet = false;
+    this.head.textContent = first ? `line ${first.line + 1}` : "";
+  }
+
+  /** Puts the cursor on a finding. */
+  goTo(at: Place): void {
+    this.open(at[0]);
+    const [from, to] = this.range(at);
+    this.view.dispatch({ selection: { anchor: from, head: to }, effects: EditorView.scrollIntoView(from, { y: "center" }) });
+  }
+
+  lineText(line: number): string {
+    return line < this.view.state.doc.lines ? this.view.state.doc.line(line + 1).text : "";
+  }
+}
+
+function told(finding: Finding): HTMLElement {
+  const text = element("div", { class: "told" }, element("b", {}, finding.code), ` ${finding.message}`);
+  if (finding.help) text.append(element("div", { class: "help" }, finding.help));
+  return text;
+}

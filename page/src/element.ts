@@ -1,0 +1,15 @@
+// Elements of the page.
+
+type Child = Node | string;
+
+/** An element with attributes and what is in it. Text is text: nothing of it is markup. */
+export function element<K extends keyof HTMLElementTagNameMap>(
+  name: K,
+  attributes: Record<string, string>,
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.append(...children);
+  return made;
+}

@@ -1,0 +1,133 @@
+// The program pane: only the lines in sight are elements, so that a million of them scroll.
+
+import { element } from "./element.ts";
+import { type Marks, noMarks } from "./marks.ts";
+import type { Program } from "./program.ts";
+
+const ROW = 20;
+/** No browser lays out more pixels than this; a longer program scrolls by shares of itself. */
+const TALLEST = 8_000_000;
+
+export class Listing {
+  readonly root: HTMLElement;
+  private readonly head = element("span", {});
+  private readonly view = element("div", {
+    class: "code listing", role: "listbox", tabindex: "0", "aria-label": "Program",
+  });
+  private readonly spacer = element("div", { class: "spacer" });
+  private readonly rows = element("div", { class: "rows" });
+  readonly note = element("div", { class: "note", "aria-live": "polite" });
+  private program: Program | null = null;
+  private marks: Marks = noMarks();
+  private line = 0;
+  private lit = new Set<number>();
+  private asked = 0;
+  onPick: (line: number) => void = () => {};
+  onHover: (line: number | null) => void = () => {};
+
+  constructor() {
+    this.view.append(this.spacer, this.rows);
+    this.root = element("section", { class: "program", "aria-label": "Program" },
+      element("h2", {}, "Program", this.head), this.view, this.note);
+    this.view.onscroll = () => this.redraw();
+    new ResizeObserver(() => this.redraw()).observe(this.view);
+    const lineOf = (event: Event) => {
+      const row = (event.target as Element).closest("[data-line]");
+      return row ? Number(row.getAttribute("data-line")) : null;
+    };
+    this.rows.onclick = (event) => {
+      const line = lineOf(event);
+      if (line) this.onPick(line);
+    };
+    this.rows.onmouseover = (event) => this.onHover(lineOf(event));
+    this.rows.onmouseleave = () => this.onHover(null);
+  }
+
+  show(program: Program | null, marks: Marks, head: string): void {
+    [this.program, this.marks] = [program, marks];
+    this.head.replaceChildren(element("span", { class: "gen" }, program?.isTraced ? "generated" : ""), ` ${head}`);
+    this.spacer.style.height = `${Math.min(TALLEST, this.height)}px`;
+    this.view.setAttribute("aria-description", head);
+    this.draw();
+  }
+
+  choose(line: number, lit: number[], scrolls: boolean): void {
+    this.line = line;
+    this.lit = new Set(lit);
+    if (scrolls) this.reveal(line);
+    this.draw();
+  }
+
+  focus(): void {
+    this.view.focus();
+  }
+
+  private get height(): number {
+    return (this.program?.lines ?? 0) * ROW + 12;
+  }
+
+  /** Pixels of the program a pixel that is scrolled. */
+  private get stretch(): number {
+    const room = this.view.clientHeight;
+    const shown = Math.min(TALLEST, this.height);
+    return shown > room ? (this.height - room) / (shown - room) : 1;
+  }
+
+  private reveal(line: number): void {
+    const room = this.view.clientHeight;
+    const top = this.view.scrollTop * this.stretch;
+    const at = (line - 1) * ROW + 6;
+    if (at < top + ROW || at > top + room - 2 * ROW) {
+      const near = Math.abs(at - top - room / 2) < room * 1.5;
+      const target = near ? (at < top + ROW ? at - 3 * ROW : at - room + 4 * ROW) : at - room / 2;
+      this.view.scrollTop = Math.max(0, target / this.stretch);
+    }
+  }
+
+  private redraw(): void {
+    if (this.asked) return;
+    this.asked = requestAnimationFrame(() => {
+      this.asked = 0;
+      this.draw();
+    });
+  }
+
+  private draw(): void {
+    const program = this.program;
+    if (!program) {
+      this.rows.replaceChildren();
+      return;
+    }
+    const scrolled = this.view.scrollTop;
+    const top = scrolled * this.stretch;
+    const first = Math.max(1, Math.floor((top - 6) / ROW) + 1);
+    const last = Math.min(program.lines, first + Math.ceil(this.view.clientHeight / ROW) + 1);
+    this.rows.style.transform = `translateY(${scrolled + (first - 1) * ROW + 6 - top}px)`;
+    const rows: HTMLElement[] = [];
+    for (let line = first; line <= last; line++) rows.push(this.row(program, line));
+    this.rows.replaceChildren(...rows);
+    if (this.line) this.view.setAttribute("aria-activedescendant", `block-${this.line}`);
+  }
+
+  private row(program: Program, line: number): HTMLElement {
+    const chosen = line === this.line;
+    const classes = ["ln"];
+    if (program.isTraced && !program.form(line)) classes.push("gen");
+    if (chosen) classes.push("on");
+    else if (this.lit.has(line)) classes.push("lit");
+    if (this.marks.bad.has(line)) classes.push("bad");
+    if (this.marks.saved.has(line)) classes.push("new");
+    if (this.marks.against.has(line)) classes.push("other");
+    const row = element("div", {
+      class: classes.join(" "), id: `block-${line}`, role: "option", "data-line": String(line),
+      "aria-selected": String(chosen), "aria-setsize": String(program.lines), "aria-posinset": String(line),
+    }, element("i", {}, String(line)), ...words(program.text(line)));
+    return row;
+  }
+}
+
+/** Comments are dim. */
+function words(text: string): (Node | string)[] {
+  const parts = text.slice(0, 400).split(/(\([^)]*\)?)/);
+  return parts.filter(Boolean).map((part) => (part.startsWith("(") ? element("span", { class: "rem" }, part) : part));
+}

@@ -1,0 +1,40 @@
+// What is known of a block, in words: what is wrong with it, what stood there, who printed it, and what it did not print.
+
+import { element } from "./element.ts";
+import type { Marks } from "./marks.ts";
+import { itemPath, type Program } from "./program.ts";
+import { repeats } from "./repeats.ts";
+
+/** `formText`: the line of the form that printed it. */
+export function noteOf(program: Program, line: number, marks: Marks, formText: string): HTMLElement[] {
+  const note: HTMLElement[] = [];
+  const bad = marks.bad.get(line);
+  if (bad) note.push(element("div", { class: "bad" }, bad));
+  const was = marks.against.get(line);
+  if (was) note.push(element("div", {}, "before: ", ...(was.length ? struck(was.map((word) => ({ word }))) : ["nothing"])));
+  const form = program.form(line);
+  if (form) {
+    const gone = repeats(formText, program.text(line), program, line);
+    note.push(element("div", {}, `printed by line ${form.line + 1}: `, element("code", {}, formText.trim())));
+    if (gone.length) {
+      const why = gone.length === 1 ? `repeats: ${gone[0].why}` : "repeat: what stands is not printed again";
+      note.push(element("div", { class: "gone" }, "not printed: ", ...struck(gone), why));
+    }
+  } else if (program.isTraced) {
+    const isText = /^\s*(N\d+\s*)?\(/.test(program.text(line));
+    const who = isText ? "text of the job" : "no line of the form: postform made this block of the job's item";
+    note.push(element("div", { class: "gen" }, who));
+  }
+  return note;
+}
+
+function struck(words: { word: string; why?: string }[]): (Node | string)[] {
+  return words.flatMap(({ word, why }) => [element("s", why ? { title: why } : {}, word), " "]);
+}
+
+/** `block 41 of 99 · operations[2].path[0] · line 59 of the job`. */
+export function whereOf(program: Program, line: number): string {
+  const item = program.item(line);
+  const job = item?.jobLine ? ` · line ${item.jobLine} of the job` : "";
+  return `block ${line} of ${program.lines}${item ? ` · ${itemPath(item)}` : ""}${job}`;
+}

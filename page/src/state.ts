@@ -1,0 +1,89 @@
+// The strip under the panes: what is modal behind the chosen block, and which block said it.
+
+import { element } from "./element.ts";
+import type { Held, Program, Register } from "./program.ts";
+
+export class StateStrip {
+  readonly root = element("div", { class: "state", role: "group", "aria-label": "State after the chosen block" });
+  onPick: (line: number) => void = () => {};
+
+  show(program: Program | null, line: number): void {
+    this.root.replaceChildren();
+    if (!program?.path || line < 1) return;
+    const cells: [name: string, words: Word[]][] = [
+      ["codes", codes(program, line)],
+      ["tool", [word(program, line, "tool", "T"), word(program, line, "h", "H"), word(program, line, "d", "D")]],
+      ["spindle", [word(program, line, "speed", "S"), word(program, line, "spindle", "M")]],
+      ["coolant", [word(program, line, "coolant", "M")]],
+      ["feed", [word(program, line, "feed", "F")]],
+      ["position", place(program, line)],
+      ["cycle", cycle(program, line)],
+    ];
+    for (const [name, words] of cells) {
+      const known = words.filter((word): word is Known => !!word);
+      if (known.length) this.root.append(this.cell(name, known, line));
+    }
+  }
+
+  private cell(name: string, words: Known[], line: number): HTMLElement {
+    const values = words.map(({ text, line: said }) => {
+      const value = element("button", { title: said ? `said by line ${said}` : "as switched on" }, text);
+      value.onclick = () => said && this.onPick(said);
+      if (said === line) value.className = "now";
+      return value;
+    });
+    const said = [...new Set(words.map((word) => word.line))].sort((a, b) => a - b).slice(-3);
+    const by = said.map((at) => (at === line ? "this block" : at === 0 ? "switched on" : `line ${at}`)).join(" · ");
+    return element("div", { role: "group", "aria-label": name }, element("span", {}, ...values), element("small", {}, `${name}: ${by}`));
+  }
+}
+
+interface Known {
+  text: string;
+  line: number;
+}
+type Word = Known | null;
+
+function word(program: Program, line: number, register: Register, letter: string): Word {
+  const held = program.held(register, line);
+  return held && shown(letter, held);
+}
+
+function shown(letter: string, held: Held): Known {
+  return { text: letter + number(held.value), line: held.line };
+}
+
+/** As a program writes it, to five decimals. */
+export function number(value: number): string {
+  return String(Math.round(value * 1e5) / 1e5 + 0).replace(/^(-?)0\./, "$1.");
+}
+
+function codes(program: Program, line: number): Word[] {
+  const groups: Register[] = ["motion", "plane", "distance", "units", "feedMode", "compensation", "length", "work"];
+  return groups.map((register) => {
+    const held = program.held(register, line);
+    // what is off is not worth a look
+    if (!held || (register === "compensation" && held.value === 40) || (register === "feedMode" && held.value === 94)) return null;
+    // offsets of a Haas above G59 are 1540 and their number
+    const value = register === "work" && held.value > 1540 ? `154 P${held.value - 1540}` : number(held.value);
+    return { text: `G${value}`, line: held.line };
+  });
+}
+
+function place(program: Program, line: number): Word[] {
+  return program.position(line).map((held, axis) => {
+    const letter = "XYZ"[axis];
+    if (!held) return { text: `${letter}?`, line };
+    // points are numbers of 24 bits: as exact as a drawing needs
+    return { text: letter + number(Math.round(held.value * 1e4) / 1e4), line: held.line };
+  });
+}
+
+function cycle(program: Program, line: number): Word[] {
+  const held = program.held("cycle", line);
+  if (!held) return [];
+  return [
+    shown("G", held), word(program, line, "back", "G"), word(program, line, "r", "R"), word(program, line, "depth", "Z"),
+    word(program, line, "dwell", "P"), word(program, line, "peck", "Q"),
+  ];
+}

@@ -1,0 +1,115 @@
+// What the tests of the page share: a browser, `postform watch` in a folder of its own, and a list of tests.
+import { spawn } from "node:child_process";
+import { existsSync, mkdtempSync, copyFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { delimiter, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+export const root = fileURLToPath(new URL("../..", import.meta.url));
+const postform = process.env.POSTFORM ?? join(root, "target/debug/postform");
+
+function installed() {
+  const names = ["chromium", "chromium-headless-shell", "google-chrome", "chrome"];
+  const folders = (process.env.PATH ?? "").split(delimiter);
+  return process.env.BROWSER_PATH ?? folders.flatMap((folder) => names.map((name) => join(folder, name))).find(existsSync);
+}
+
+/** The browser, with WebGL2 by software where there is no GPU. */
+export async function browser() {
+  const executablePath = installed();
+  if (!executablePath || !existsSync(postform)) {
+    console.error(`can't run: ${executablePath ? `build ${postform} first` : "no Chromium is installed"}`);
+    process.exit(77);
+  }
+  const args = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+  return chromium.launch({ executablePath, args: [...args, "--enable-precise-memory-info"] });
+}
+
+/** A folder with the bracket and a form. */
+export function folder(form = "postforms/fanuc.pf", job = "samples/bracket/job.json") {
+  const path = mkdtempSync(join(tmpdir(), "postform-page-"));
+  copyFileSync(join(root, form), join(path, "my.pf"));
+  copyFileSync(join(root, job), join(path, "bracket.json"));
+  return path;
+}
+
+/** `postform watch` in a folder: its address, and how it is ended. */
+export async function watch(path, ...more) {
+  const child = spawn(postform, ["watch", "my.pf", "--job", "bracket.json", "--no-open", ...more], { cwd: path });
+  let said = "";
+  child.stderr.on("data", (text) => (said += text));
+  const address = await new Promise((resolve, reject) => {
+    child.stdout.once("data", (line) => resolve(String(line).trim()));
+    child.once("exit", (code) => reject(new Error(`postform watch ended with ${code}: ${said}`)));
+  });
+  return { address, end: () => (child.removeAllListeners("exit"), child.kill()) };
+}
+
+const tests = [];
+export function test(name, run) {
+  tests.push([name, run]);
+}
+
+/** Runs all tests, or those whose name has a word of the command line. */
+export async function run() {
+  const found = await browser();
+  const wanted = process.argv.slice(2).filter((word) => !word.startsWith("--"));
+  let failed = 0;
+  for (const [name, run] of tests) {
+    if (wanted.length && !wanted.some((word) => name.includes(word))) continue;
+    const ends = [];
+    try {
+      await run({
+        /** A page with the bracket in it, ready. */
+        async open({ form, job, more = [], ...options } = {}) {
+          const path = folder(form, job);
+          const served = await watch(path, ...more);
+          ends.push(() => served.end());
+          const context = await found.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+          const page = await context.newPage();
+          const wrong = [];
+          page.on("pageerror", (error) => wrong.push(String(error)));
+          page.on("request", (request) => {
+            if (!request.url().startsWith("data:") && !request.url().startsWith(served.address)) wrong.push(`asks ${request.url()}`);
+          });
+          // the page as it was built last, in a program that was built before
+          if (process.env.PAGE) await page.route(served.address, (route) => route.fulfill({ path: process.env.PAGE, contentType: "text/html" }));
+          await page.goto(served.address);
+          await ready(page);
+          ends.push(async () => {
+            await context.close();
+            rmSync(path, { recursive: true });
+            if (wrong.length) throw new Error(wrong.join("\n"));
+          });
+          return { page, path, address: served.address };
+        },
+        browser: found,
+      });
+      for (const end of ends.splice(0).reverse()) await end();
+      console.log(`ok      ${name}`);
+    } catch (error) {
+      failed++;
+      console.log(`FAILED  ${name}\n${error.stack ?? error}`);
+      for (const end of ends.reverse()) await Promise.resolve(end()).catch(() => {});
+    }
+  }
+  await found.close();
+  console.log(failed ? `${failed} failed` : "all passed");
+  process.exit(failed ? 1 : 0);
+}
+
+/** Until the page shows what it was asked for. */
+export function ready(page) {
+  return page.waitForFunction(() => window.page && !window.page.running && window.page.backplot.frames.count > 1, null, { timeout: 120_000 });
+}
+
+export function equal(is, expected, what = "") {
+  if (JSON.stringify(is) !== JSON.stringify(expected)) {
+    throw new Error(`${what}\n  is        ${JSON.stringify(is)}\n  expected  ${JSON.stringify(expected)}`);
+  }
+}
+
+export function ok(holds, what) {
+  if (!holds) throw new Error(what);
+}

@@ -1,0 +1,249 @@
+// The page of `postform watch` in a real browser: what is typed, clicked and pressed, and what is then shown.
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { equal, ok, ready, root, run, test } from "./harness.mjs";
+
+const chosen = (page) => page.locator(".ln.on").innerText();
+const formLine = (page) => page.locator(".cm-line.cm-lit").innerText();
+const line = async (page) => Number(await page.locator(".ln.on").getAttribute("data-line"));
+
+/** Puts the cursor of the form behind some text of a line, and types. */
+async function type(page, behind, text, keys = []) {
+  await page.evaluate((behind) => {
+    const { view } = window.page.editor;
+    const at = view.state.doc.toString().indexOf(behind) + behind.length;
+    view.dispatch({ selection: { anchor: at }, scrollIntoView: true });
+    view.focus();
+  }, behind);
+  for (const key of keys) await page.keyboard.press(key);
+  await page.keyboard.type(text);
+  await page.waitForTimeout(50);
+  await ready(page);
+}
+
+test("three panes, and what was proven", async ({ open }) => {
+  const { page } = await open();
+  equal(await page.title(), "my.pf · bracket.json · postform");
+  ok((await page.locator(".verdict").innerText()).startsWith("proven"), "the verdict");
+  for (const pane of ["Form", "Program", "Path"]) ok(await page.getByRole("region", { name: pane, exact: true }).isVisible(), pane);
+  const program = readFileSync(join(root, "samples/bracket/expected.fanuc.nc"), "utf8");
+  equal(await page.evaluate(() => window.page.program.all()), program, "byte for byte as render prints it");
+  ok(await page.evaluate(() => window.page.backplot.drawsBy === "WebGL2"), "drawn by WebGL2");
+});
+
+test("a wrong word is underlined and said", async ({ open }) => {
+  const { page, path } = await open();
+  const before = readFileSync(join(path, "my.pf"), "utf8");
+  await type(page, "T[tool]", " ");
+  const wrong = page.locator(".cm-lintRange-error, .cm-lintRange-warning").first();
+  equal(await wrong.innerText(), "M6", "the word that is lost");
+  await wrong.hover();
+  const told = page.locator(".cm-tooltip-lint");
+  await told.waitFor();
+  ok(/M6.* is lost/.test(await told.innerText()), "said in words");
+  ok((await page.locator(".lint").innerText()) !== "lint 0 · 0 · 0", "and counted");
+  equal(readFileSync(join(path, "my.pf"), "utf8"), before, "nothing is written");
+  const verdict = await page.locator(".verdict").innerText();
+  ok(/different|lost/.test(verdict), `a tool change without M6 is not proven: ${verdict}`);
+  // and mended again
+  await page.keyboard.press("Backspace");
+  await ready(page);
+  await page.waitForFunction(() => document.querySelector(".verdict").textContent.startsWith("proven"));
+});
+
+test("a form with errors says so and keeps the last picture", async ({ open }) => {
+  const { page } = await open();
+  await type(page, "Machine Mill", "xx");
+  await page.waitForFunction(() => document.body.classList.contains("stale"));
+  ok((await page.locator(".verdict").innerText()).includes("errors"), "said");
+  ok(await page.locator(".ln").count() > 5, "the program of before is there");
+});
+
+test("a click on a move shows its block, form line and job item", async ({ open }) => {
+  const { page } = await open();
+  await page.getByRole("button", { name: "top" }).click();
+  // a hole of the peck cycle
+  const target = await page.evaluate(() => {
+    const { program, backplot } = window.page;
+    for (let line = 1; line <= program.lines; line++) {
+      if (/G1 G41/.test(program.text(line))) return { line, at: backplot.pixelOf(line) };
+    }
+  });
+  const box = await page.locator("canvas.path").boundingBox();
+  await page.mouse.click(box.x + target.at[0], box.y + target.at[1]);
+  equal(await line(page), target.line, "the block");
+  ok((await formLine(page)).includes("G[icomp]") || (await formLine(page)).includes("D"), `the form line: ${await formLine(page)}`);
+  ok(/operations\[1\]/.test(await page.locator(".where").innerText()), "the item of the job");
+});
+
+test("a click on a block shows its form line, move and item", async ({ open }) => {
+  const { page } = await open();
+  await page.locator(".ln", { hasText: "T2 M6" }).scrollIntoViewIfNeeded().catch(() => {});
+  await page.evaluate(() => {
+    const { program } = window.page;
+    for (let line = 1; line <= program.lines; line++) if (program.text(line).includes("G82")) window.page.listing.choose(line - 2, [], true);
+  });
+  await page.locator(".ln", { hasText: "G82" }).click();
+  ok((await formLine(page)).includes("G82"), await formLine(page));
+  ok(/operations\[2\].*points\[0\]/.test(await page.locator(".where").innerText()), await page.locator(".where").innerText());
+  ok((await page.locator(".state").innerText()).includes("G82"), "the cycle is in force");
+});
+
+test("a click on a form line shows the block that it printed", async ({ open }) => {
+  const { page } = await open();
+  await page.evaluate(() => {
+    const { view } = window.page.editor;
+    view.dispatch({ effects: [], selection: { anchor: view.state.doc.toString().indexOf("G[retplane] G83") }, scrollIntoView: true });
+  });
+  await page.locator(".cm-line", { hasText: "G83" }).click();
+  ok((await chosen(page)).includes("G83"), await chosen(page));
+  ok(/operations\[/.test(await page.locator(".where").innerText()), "and its item");
+});
+
+test("what the state says leads to the block that said it", async ({ open }) => {
+  const { page } = await open();
+  await page.keyboard.press("End");
+  await page.getByRole("group", { name: "State after" }).getByRole("button", { name: /^T\d/ }).click();
+  ok(/T5 M6/.test(await chosen(page)), await chosen(page));
+});
+
+test("keys step by block, tool, item and play", async ({ open }) => {
+  const { page } = await open();
+  await page.keyboard.press("Home");
+  equal(await line(page), 1);
+  await page.keyboard.press("n");
+  await page.keyboard.press("n");
+  await page.keyboard.press("p");
+  equal(await line(page), 2);
+  await page.keyboard.press("t");
+  ok((await chosen(page)).includes("T1 M6"), await chosen(page));
+  await page.keyboard.press("t");
+  ok((await chosen(page)).includes("T2 M6"), await chosen(page));
+  await page.keyboard.press("Shift+T");
+  ok((await chosen(page)).includes("T1 M6"), await chosen(page));
+  const before = await page.locator(".where").innerText();
+  await page.keyboard.press("i");
+  ok((await page.locator(".where").innerText()) !== before, "another item");
+  const at = await line(page);
+  await page.keyboard.press("Space");
+  await page.waitForFunction((at) => Number(document.querySelector(".ln.on").getAttribute("data-line")) > at + 3, at);
+  await page.keyboard.press("Space");
+  await page.keyboard.press("2");
+  equal(await page.locator(".views [aria-pressed=true]").innerText(), "front");
+  await page.keyboard.press("?");
+  ok(await page.getByRole("dialog", { name: "Keys" }).isVisible(), "the keys are told");
+});
+
+test("words that repeat are struck out, with why", async ({ open }) => {
+  const { page } = await open();
+  await page.evaluate(() => {
+    const { program } = window.page;
+    for (let line = 1; line <= program.lines; line++) if (program.text(line).includes("G82")) window.page.choose(line + 1, "key");
+  });
+  const gone = await page.locator(".note s").allInnerTexts();
+  ok(gone.includes("G82") && gone.some((word) => word.startsWith("R.1")) && gone.includes("F6"), gone.join(" "));
+  ok((await page.locator(".note s").last().getAttribute("title")).includes("said it"), "with the line that said it");
+});
+
+test("the first difference is shown in all panes", async ({ open }) => {
+  const { page, path } = await open();
+  const form = readFileSync(join(path, "my.pf"), "utf8");
+  // the peck cycle drills at places that are the job's with X and Y exchanged
+  writeFileSync(join(path, "my.pf"), form.replace("G83 X[h] Y[v] Z[d]", "G83 X[v] Y[h] Z[d]"));
+  await page.waitForFunction(() => document.querySelector(".verdict").textContent.startsWith("different"), null, { timeout: 20_000 });
+  await page.locator(".verdict").click();
+  ok(await page.locator(".ln.on.bad").count() === 1, "chosen and marked in the program");
+  ok((await formLine(page).catch(() => "")) === "" && (await page.locator(".cm-line.cm-bad").innerText()).includes("G83"), "the form line is the Peck's");
+  ok(/PV\d+/.test(await page.locator(".note").innerText()), await page.locator(".note").innerText());
+});
+
+test("against an old program", async ({ open }) => {
+  const path = join(root, "samples/bracket/expected.haas.nc");
+  const { page } = await open({ more: ["--against", path] });
+  ok(/against expected.haas.nc: \d+ blocks differ/.test(await page.locator(".beside").innerText()), await page.locator(".beside").innerText());
+  await page.keyboard.press("Home");
+  await page.keyboard.press("d");
+  ok(await page.locator(".ln.on.other").count() === 1, "the first change is chosen");
+  ok((await page.locator(".note").innerText()).includes("before:"), "with what stood there");
+  ok((await page.locator(".legend").innerText()).includes("before"), "the old path is drawn");
+});
+
+test("what changed since the last save is marked, and saved", async ({ open }) => {
+  const { page, path } = await open();
+  await type(page, "G[unitmode] G17 G40 G49 G80 G90", " G94");
+  await page.waitForFunction(() => document.querySelector(".beside").textContent.includes("since the last save"));
+  equal(await page.locator(".beside").innerText(), "1 block changed since the last save");
+  await page.keyboard.press("Control+s");
+  await page.waitForFunction(() => document.querySelector(".save").hidden);
+  ok(readFileSync(join(path, "my.pf"), "utf8").includes("G80 G90 G94"), "written");
+  await page.waitForFunction(() => document.querySelector(".beside").textContent === "");
+  // and what is saved elsewhere comes by itself
+  const form = readFileSync(join(path, "my.pf"), "utf8");
+  writeFileSync(join(path, "my.pf"), form.replace("G80 G90 G94", "G80 G90"));
+  await page.waitForFunction(() => !window.page.editor.text.includes("G94"), null, { timeout: 20_000 });
+});
+
+test("jobs are tabs with their verdicts", async ({ open }) => {
+  const { page } = await open({ more: ["--job", join(root, "samples/drill-machine/job.json")] });
+  await page.waitForFunction(() => [...document.querySelectorAll(".tab span")].every((mark) => mark.textContent));
+  equal(await page.locator(".tab").count(), 2);
+  await page.getByRole("tab", { name: /drill-machine/ }).click();
+  await page.waitForTimeout(100);
+  await ready(page);
+  ok((await page.title()).includes("job.json"), await page.title());
+});
+
+test("at two widths, light and dark", async ({ open }) => {
+  for (const width of [1280, 1920]) {
+    for (const colorScheme of ["light", "dark"]) {
+      const { page } = await open({ viewport: { width, height: 900 }, colorScheme });
+      const sizes = await page.evaluate(() => ({
+        wide: document.documentElement.scrollWidth, high: document.documentElement.scrollHeight,
+        panes: [...document.querySelectorAll("section")].map((pane) => pane.getBoundingClientRect().width),
+        dark: getComputedStyle(document.body).backgroundColor,
+      }));
+      equal([sizes.wide, sizes.high], [width, 900], "nothing is cut off or scrolls");
+      ok(sizes.panes.length === 3 && sizes.panes.every((pane) => pane >= 270), String(sizes.panes));
+      equal(sizes.dark === "rgb(21, 23, 26)", colorScheme === "dark");
+    }
+  }
+});
+
+test("everything has a name for a screen reader", async ({ open }) => {
+  const { page } = await open();
+  const nameless = await page.evaluate(() =>
+    [...document.querySelectorAll("button, canvas, section, [role], [tabindex]")]
+      .filter((found) => !found.closest("[aria-hidden=true], .cm-editor") && !found.hidden)
+      .filter((found) => !(found.getAttribute("aria-label") || found.title || found.textContent.trim()))
+      .map((found) => found.outerHTML.slice(0, 100)));
+  equal(nameless.filter((html) => !html.includes("lint") && !html.includes('role="alert"')), []);
+  const path = page.getByRole("img", { name: /Backplot: \d+ moves, 20 holes, 5 tools/ });
+  ok(await path.isVisible(), "the path is told in words");
+  const list = page.getByRole("listbox", { name: "Program" });
+  const active = await list.getAttribute("aria-activedescendant");
+  ok(await page.locator(`#${active}[role=option][aria-selected=true]`).count() === 1, "the chosen block is told");
+  ok((await page.getByRole("textbox", { name: "Form" }).count()) === 1, "the form is a field with a name");
+});
+
+test("a browser without WebGL2 draws on a plain canvas", async ({ browser, open }) => {
+  const { address } = await open();
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+  await page.addInitScript(() => {
+    const get = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+      return kind === "webgl2" ? null : get.call(this, kind, ...more);
+    };
+  });
+  await page.goto(address);
+  await ready(page);
+  equal(await page.evaluate(() => window.page.backplot.drawsBy), "canvas");
+  const painted = await page.evaluate(() => {
+    const canvas = document.querySelector("canvas.path");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return data.filter((value, i) => i % 4 === 3 && value > 0).length;
+  });
+  ok(painted > 1000, `${painted} pixels`);
+  await page.close();
+});
+
+await run();

@@ -1,0 +1,95 @@
+//! postform for the playground: it reads a request from standard input and writes a scene to standard output.
+//!
+//! A request is the length of its head (four bytes, the least first), the head as JSON, and the files that the head names, one
+//! behind the other: for each form its text now and as it was saved, the job, and the program to compare with.
+
+use std::collections::HashMap;
+use std::io::{self, Read, Write};
+
+use postform::lint::Levels;
+use postform::scene::{Request, scene};
+use postform::sema::Limits;
+use postform::{Files, Job, Options, Proof, Source};
+use serde::Deserialize;
+use serde_json::json;
+
+#[derive(Deserialize)]
+struct Head {
+    /// The form, then those that it may call.
+    forms: Vec<Form>,
+    job: File,
+    against: Option<File>,
+    jobs: Vec<String>,
+    proves: bool,
+}
+
+#[derive(Deserialize)]
+struct Form {
+    name: String,
+    length: usize,
+    saved: usize,
+}
+
+#[derive(Deserialize)]
+struct File {
+    name: String,
+    length: usize,
+}
+
+/// Forms by their names.
+struct Texts(HashMap<String, Source>);
+
+impl Files for Texts {
+    fn read(&self, name: &str) -> Result<Source, String> {
+        self.0.get(name).cloned().ok_or_else(|| "can't be found: drop it here, too".to_owned())
+    }
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut input = Vec::new();
+    io::stdin().lock().read_to_end(&mut input)?;
+    let (length, rest) = input.split_at_checked(4).ok_or("no request")?;
+    let length = u32::from_le_bytes(length.try_into()?) as usize;
+    let (head, mut rest) = rest.split_at_checked(length).ok_or("the head is cut off")?;
+    let head: Head = serde_json::from_slice(head)?;
+    let mut next = |length: usize| -> Result<&[u8], &str> {
+        let (part, behind) = rest.split_at_checked(length).ok_or("a file is cut off")?;
+        rest = behind;
+        Ok(part)
+    };
+    let (mut now, mut saved) = (Vec::new(), Vec::new());
+    for form in &head.forms {
+        now.push(Source::from_bytes(form.name.as_str(), next(form.length)?));
+        saved.push(Source::from_bytes(form.name.as_str(), next(form.saved)?));
+    }
+    let job = next(head.job.length)?;
+    let against = match &head.against {
+        Some(file) => Some((file.name.as_str(), next(file.length)?)),
+        None => None,
+    };
+    let is_typed = now.iter().zip(&saved).any(|(now, saved)| now.text != saved.text);
+    let form = now.first().cloned().ok_or("no form")?;
+    let before = saved.first().cloned().ok_or("no form")?;
+    let by_name = |forms: Vec<Source>| Texts(forms.into_iter().map(|form| (form.name.clone(), form)).collect());
+    let (now, saved) = (by_name(now), by_name(saved));
+    let mut scene = scene(Request {
+        form,
+        files: &now,
+        limits: Limits::default(),
+        levels: &Levels::default(),
+        job: Job::open(&head.job.name, job)?,
+        job_name: &head.job.name,
+        options: Options::default(),
+        proof: Proof::default(),
+        against,
+        saved: is_typed.then_some((before, &saved as &dyn Files)),
+        proves: head.proves,
+        deadline: None,
+    });
+    let names = scene.said("form").and_then(|form| form["files"].as_array().cloned()).unwrap_or_default();
+    let text = |name: &serde_json::Value| saved.0.get(name.as_str()?).map(|source| source.text.clone());
+    scene.say("texts", json!(names.iter().map(|name| text(name).unwrap_or_default()).collect::<Vec<String>>()));
+    scene.say("jobs", json!(head.jobs));
+    io::stdout().lock().write_all(&scene.into_bytes())?;
+    Ok(())
+}

@@ -1,0 +1,134 @@
+//! Who may ask: a page that this program served to this machine, and nobody else.
+//!
+//! Any web site that is open in a browser can send requests to ports of its machine. It does not know the token; where a name of
+//! its own leads here, `Host` tells; and what is asked with a body must come from the page's own origin.
+
+use super::http::{Answer, Asked};
+
+/// Bytes of randomness in a token.
+const TOKEN: usize = 16;
+
+/// What requests are held against.
+#[derive(Debug)]
+pub struct Guard {
+    /// What the path begins with, between two slashes.
+    pub token: String,
+    /// As 127.0.0.1:8080 and localhost:8080.
+    hosts: [String; 2],
+}
+
+impl Guard {
+    /// For a port, with a new token.
+    ///
+    /// # Errors
+    /// The system has no random numbers.
+    pub fn new(port: u16) -> Result<Guard, String> {
+        let mut random = [0; TOKEN];
+        getrandom::fill(&mut random).map_err(|error| format!("error: no random numbers: {error}"))?;
+        let token = random.iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(Guard::with(token, port))
+    }
+
+    /// With a token that is there.
+    pub fn with(token: String, port: u16) -> Guard {
+        Guard { token, hosts: [format!("127.0.0.1:{port}"), format!("localhost:{port}")] }
+    }
+
+    /// What is asked for, behind the token: empty for the page itself.
+    ///
+    /// # Errors
+    /// What is answered instead.
+    pub fn admit<'a>(&self, asked: &'a Asked) -> Result<&'a str, Answer> {
+        match asked.field("host") {
+            Some(Some(host)) if self.is_host(host) => {}
+            _ => return Err(Answer::no(403, "this host is not served")),
+        }
+        let nothing = || Answer::no(404, "there is nothing here: take the address that postform watch printed");
+        let (token, rest) = asked.path.strip_prefix('/').and_then(|path| path.split_once('/')).ok_or_else(nothing)?;
+        if !same(token.as_bytes(), self.token.as_bytes()) {
+            return Err(nothing());
+        }
+        let page = matches!(asked.field("sec-fetch-site"), None | Some(Some("same-origin" | "none")));
+        if !page {
+            return Err(Answer::no(403, "another page asks"));
+        }
+        match asked.field("origin") {
+            // a browser says it with every body, and need not say it else
+            None if asked.method != "POST" => {}
+            Some(Some(origin)) if origin.strip_prefix("http://").is_some_and(|host| self.is_host(host)) => {}
+            _ => return Err(Answer::no(403, "another page asks")),
+        }
+        if asked.method == "POST" && !matches!(asked.field("content-type"), Some(Some("application/json"))) {
+            return Err(Answer::no(415, "send application/json"));
+        }
+        Ok(rest)
+    }
+
+    fn is_host(&self, host: &str) -> bool {
+        self.hosts.iter().any(|known| known.eq_ignore_ascii_case(host))
+    }
+}
+
+/// Are they the same? How long that takes says nothing of where they differ.
+fn same(a: &[u8], b: &[u8]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).fold(0, |differs, (a, b)| differs | (a ^ b)) == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked(method: &str, path: &str, fields: &[(&str, &str)]) -> Asked {
+        let fields = fields.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+        Asked { method: method.into(), path: path.into(), fields }
+    }
+
+    #[test]
+    fn who_is_admitted() {
+        let guard = Guard::with("abc".into(), 8080);
+        let (host, own) = (("host", "127.0.0.1:8080"), ("origin", "http://localhost:8080"));
+        let json = ("content-type", "application/json");
+        let foreign = ("origin", "http://evil.example");
+        let status = |asked: &Asked| guard.admit(asked).map_err(|answer| answer.status).map(str::to_owned);
+        for (method, path, fields, expected) in [
+            ("GET", "/abc/", vec![host], Ok("")),
+            ("GET", "/abc/events", vec![host], Ok("events")),
+            ("POST", "/abc/scene", vec![host, own, json], Ok("scene")),
+            // a name that leads here is not this machine's
+            ("GET", "/abc/", vec![("host", "evil.example:8080")], Err(403)),
+            ("GET", "/abc/", vec![("host", "127.0.0.1")], Err(403)),
+            ("GET", "/abc/", vec![], Err(403)),
+            ("GET", "/abc/", vec![host, host], Err(403)),
+            // the token
+            ("GET", "/", vec![host], Err(404)),
+            ("GET", "/abd/", vec![host], Err(404)),
+            ("GET", "/abc", vec![host], Err(404)),
+            ("GET", "/abcd/", vec![host], Err(404)),
+            ("GET", "http://127.0.0.1:8080/abc/", vec![host], Err(404)),
+            // another page
+            ("POST", "/abc/save", vec![host, json], Err(403)),
+            ("POST", "/abc/save", vec![host, foreign, json], Err(403)),
+            ("POST", "/abc/save", vec![host, ("origin", "null"), json], Err(403)),
+            ("POST", "/abc/save", vec![host, ("origin", "https://127.0.0.1:8080"), json], Err(403)),
+            ("POST", "/abc/save", vec![host, own, foreign, json], Err(403)),
+            ("GET", "/abc/events", vec![host, foreign], Err(403)),
+            ("GET", "/abc/", vec![host, ("sec-fetch-site", "cross-site")], Err(403)),
+            ("GET", "/abc/", vec![host, ("sec-fetch-site", "same-site")], Err(403)),
+            // what a form of a page can send without being asked
+            ("POST", "/abc/save", vec![host, own, ("content-type", "text/plain")], Err(415)),
+            ("POST", "/abc/save", vec![host, own], Err(415)),
+        ] {
+            assert_eq!(
+                status(&asked(method, path, &fields)),
+                expected.map(str::to_owned),
+                "{method} {path} {fields:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn each_guard_has_a_token_of_its_own() {
+        let [a, b] = [Guard::new(1), Guard::new(1)].map(|guard| guard.unwrap().token);
+        assert!(a.len() == 32 && a != b, "{a} {b}");
+    }
+}

@@ -1,0 +1,194 @@
+//! As much of HTTP as one page on one machine needs: a request is read within limits, an answer is written and the connection
+//! closed. What a request's head says is parsed by `httparse`.
+
+use std::io::{self, Read, Write};
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
+
+/// Longest head of a request.
+const LONGEST_HEAD: usize = 16 << 10;
+/// Largest body: the forms of a page, as JSON.
+pub const LARGEST_BODY: usize = 8 << 20;
+/// Fields of a head.
+const MOST_FIELDS: usize = 64;
+/// A request that takes longer is none.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// What is asked.
+#[derive(Debug, Default, PartialEq)]
+pub struct Asked {
+    /// `GET`, `POST`.
+    pub method: String,
+    /// The path, as it was sent.
+    pub path: String,
+    /// Names in small letters, and values.
+    pub fields: Vec<(String, String)>,
+}
+
+impl Asked {
+    /// A field of the head that stands there once; `Some(None)`: it stands there more than once.
+    pub fn field(&self, name: &str) -> Option<Option<&str>> {
+        let mut found = self.fields.iter().filter(|(known, _)| known == name).map(|(_, value)| value.as_str());
+        let first = found.next()?;
+        Some(if found.next().is_some() { None } else { Some(first) })
+    }
+}
+
+/// An answer.
+#[derive(Debug)]
+pub struct Answer {
+    /// 200, 404.
+    pub status: u16,
+    /// Its `Content-Type`.
+    pub kind: &'static str,
+    /// What comes behind the head.
+    pub body: Vec<u8>,
+    /// More fields of its head.
+    pub fields: Vec<(&'static str, String)>,
+}
+
+impl Answer {
+    /// What was asked for.
+    pub fn of(kind: &'static str, body: impl Into<Vec<u8>>) -> Answer {
+        Answer { status: 200, kind, body: body.into(), fields: Vec::new() }
+    }
+
+    /// Why it is not given.
+    pub fn no(status: u16, why: &str) -> Answer {
+        Answer { status, ..Answer::of("text/plain; charset=utf-8", why) }
+    }
+}
+
+/// Reads the head of a request, and what of the body came with it.
+///
+/// # Errors
+/// What is answered: it is no request, too long or too slow. `None`: the connection ended, and nobody waits for an answer.
+pub fn read_head(stream: &mut TcpStream) -> Result<(Asked, Vec<u8>), Option<Answer>> {
+    let until = Instant::now() + PATIENCE;
+    let mut bytes = Vec::new();
+    loop {
+        let mut fields = [httparse::EMPTY_HEADER; MOST_FIELDS];
+        let mut request = httparse::Request::new(&mut fields);
+        match request.parse(&bytes) {
+            Ok(httparse::Status::Complete(length)) => {
+                let asked = Asked {
+                    method: request.method.unwrap_or_default().to_owned(),
+                    path: request.path.unwrap_or_default().to_owned(),
+                    fields: request.headers.iter().map(field).collect(),
+                };
+                bytes.drain(..length);
+                return Ok((asked, bytes));
+            }
+            Ok(httparse::Status::Partial) if bytes.len() < LONGEST_HEAD => {}
+            Ok(httparse::Status::Partial) | Err(httparse::Error::TooManyHeaders) => {
+                return Err(Some(Answer::no(431, "the head of the request is too long")));
+            }
+            Err(_) => return Err(Some(Answer::no(400, "this is no request"))),
+        }
+        more(stream, &mut bytes, LONGEST_HEAD, until)?;
+    }
+}
+
+fn field(header: &httparse::Header<'_>) -> (String, String) {
+    (header.name.to_ascii_lowercase(), String::from_utf8_lossy(header.value).trim().to_owned())
+}
+
+/// Reads the body of a request; `read`: what of it is there already.
+///
+/// # Errors
+/// As [`read_head`].
+pub fn read_body(stream: &mut TcpStream, asked: &Asked, mut read: Vec<u8>) -> Result<Vec<u8>, Option<Answer>> {
+    if asked.field("transfer-encoding").is_some() {
+        return Err(Some(Answer::no(501, "send the body whole, with its length")));
+    }
+    let Some(Some(length)) = asked.field("content-length") else {
+        return Err(Some(Answer::no(411, "send the length of the body")));
+    };
+    let digits = !length.is_empty() && length.bytes().all(|byte| byte.is_ascii_digit());
+    let Some(length) = length.parse::<usize>().ok().filter(|_| digits) else {
+        return Err(Some(Answer::no(400, "the length of the body is no number")));
+    };
+    if length > LARGEST_BODY {
+        return Err(Some(Answer::no(413, "the body is too large")));
+    }
+    let until = Instant::now() + PATIENCE;
+    while read.len() < length {
+        more(stream, &mut read, length, until)?;
+    }
+    read.truncate(length);
+    Ok(read)
+}
+
+/// Reads some bytes more, at most up to a length.
+fn more(stream: &mut TcpStream, bytes: &mut Vec<u8>, most: usize, until: Instant) -> Result<(), Option<Answer>> {
+    let slow = || Some(Answer::no(408, "the request took too long"));
+    let left = until.saturating_duration_since(Instant::now());
+    if left.is_zero() || stream.set_read_timeout(Some(left)).is_err() {
+        return Err(slow());
+    }
+    let mut part = [0; 16 << 10];
+    let room = most.saturating_sub(bytes.len()).clamp(1, part.len());
+    match stream.read(&mut part[..room]) {
+        Ok(0) => Err(None),
+        Ok(count) => {
+            bytes.extend_from_slice(&part[..count]);
+            Ok(())
+        }
+        Err(error) if error.kind() == io::ErrorKind::Interrupted => Ok(()),
+        Err(error) if matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut) => Err(slow()),
+        Err(_) => Err(None),
+    }
+}
+
+/// What every answer says: nothing of it is kept, guessed, framed or shown to other pages.
+const ALWAYS: &str = "Connection: close\r\nCache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n\
+    Referrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: same-origin\r\n\
+    X-Frame-Options: DENY\r\n";
+
+/// Writes an answer. Who does not wait for it does not get it.
+pub fn write(stream: &mut TcpStream, answer: &Answer) {
+    let mut head = format!(
+        "HTTP/1.1 {} {}\r\n{ALWAYS}Content-Type: {}\r\nContent-Length: {}\r\n",
+        answer.status,
+        reason(answer.status),
+        answer.kind,
+        answer.body.len()
+    );
+    for (name, value) in &answer.fields {
+        head += &format!("{name}: {value}\r\n");
+    }
+    head += "\r\n";
+    _ = stream.set_write_timeout(Some(PATIENCE));
+    if stream.write_all(head.as_bytes()).and_then(|()| stream.write_all(&answer.body)).is_ok() {
+        _ = stream.flush();
+    }
+}
+
+/// The head of an answer that goes on: lines of events.
+///
+/// # Errors
+/// Nobody reads it any more.
+pub fn begin_events(stream: &mut TcpStream) -> io::Result<()> {
+    stream.set_write_timeout(Some(PATIENCE))?;
+    stream.write_all(format!("HTTP/1.1 200 OK\r\n{ALWAYS}Content-Type: text/event-stream\r\n\r\n: here\n\n").as_bytes())
+}
+
+fn reason(status: u16) -> &'static str {
+    match status {
+        200 => "OK",
+        400 => "Bad Request",
+        403 => "Forbidden",
+        404 => "Not Found",
+        405 => "Method Not Allowed",
+        408 => "Request Timeout",
+        409 => "Conflict",
+        411 => "Length Required",
+        413 => "Content Too Large",
+        415 => "Unsupported Media Type",
+        422 => "Unprocessable Content",
+        431 => "Request Header Fields Too Large",
+        501 => "Not Implemented",
+        503 => "Service Unavailable",
+        _ => "Error",
+    }
+}

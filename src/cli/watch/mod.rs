@@ -1,0 +1,177 @@
+//! `postform watch`: the page, served to this machine alone.
+
+mod guard;
+mod http;
+mod session;
+
+use std::io::{self, Write};
+use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use serde::de::DeserializeOwned;
+
+use super::Ending;
+use super::args::WatchArgs;
+use super::output::standard_output;
+use super::poll::Watched;
+use super::say::message;
+use guard::Guard;
+use http::{Answer, Asked};
+use session::{Ask, NotSaved, Save, Session};
+
+/// The page, as `page/` builds it.
+const PAGE: &str = include_str!("../../../page/dist/watch.html");
+
+/// Connections at once: a page has two or three.
+const MOST_CONNECTIONS: usize = 64;
+/// A page that hears nothing for so long is told that the program is there.
+const SILENCE: Duration = Duration::from_secs(15);
+
+/// What all connections share.
+struct Shared {
+    guard: Guard,
+    session: Session,
+    /// How often files were changed.
+    changes: Mutex<u64>,
+    changed: Condvar,
+    connections: AtomicUsize,
+}
+
+/// Serves the page until it is ended.
+pub fn run(args: WatchArgs) -> Result<Ending, String> {
+    let (port, opens) = (args.port, !args.no_open);
+    let session = Session::open(args)?;
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| {
+        let help = "leave --port out: a free one is taken then";
+        format!("error: can't listen on port {port} of this machine: {error}\n  help: {help}")
+    })?;
+    let port = listener.local_addr().map_err(|error| format!("error: no address: {error}"))?.port();
+    let guard = Guard::new(port)?;
+    let address = format!("http://127.0.0.1:{port}/{}/", guard.token);
+    standard_output(|out| writeln!(out, "{address}"))?;
+    let shared = Arc::new(Shared {
+        guard,
+        session,
+        changes: Mutex::new(0),
+        changed: Condvar::new(),
+        connections: AtomicUsize::new(0),
+    });
+    let watching = Arc::clone(&shared);
+    thread::spawn(move || {
+        loop {
+            Watched::new(watching.session.paths()).wait();
+            watching.tell();
+        }
+    });
+    if opens && let Err(error) = open::that_detached(&address) {
+        message(&format!("no browser can be opened ({error}): open {address} yourself"));
+    }
+    for stream in listener.incoming() {
+        let Ok(stream) = stream else { continue }; // who left before being heard
+        let shared = Arc::clone(&shared);
+        thread::spawn(move || shared.serve(stream));
+    }
+    Ok(Ending::Clean)
+}
+
+impl Shared {
+    /// Files were changed: all pages hear it.
+    fn tell(&self) {
+        *self.changes.lock().unwrap_or_else(PoisonError::into_inner) += 1;
+        self.changed.notify_all();
+    }
+
+    fn serve(&self, mut stream: TcpStream) {
+        if self.connections.fetch_add(1, Ordering::Relaxed) < MOST_CONNECTIONS {
+            if let Err(Some(answer)) = self.answer(&mut stream) {
+                http::write(&mut stream, &answer);
+            }
+        } else {
+            http::write(&mut stream, &Answer::no(503, "too many connections"));
+        }
+        // what is left of a request that was refused is read, so that the answer arrives
+        _ = stream.shutdown(Shutdown::Write);
+        _ = stream.set_read_timeout(Some(Duration::from_millis(200)));
+        _ = io::copy(&mut io::Read::take(&stream, 1 << 20), &mut io::sink());
+        self.connections.fetch_sub(1, Ordering::Relaxed);
+    }
+
+    /// Hears a request and answers it; what is refused is the error.
+    fn answer(&self, stream: &mut TcpStream) -> Result<(), Option<Answer>> {
+        let (asked, read) = http::read_head(stream)?;
+        let what = self.guard.admit(&asked)?.to_owned();
+        let allowed = match what.as_str() {
+            "" | "events" => "GET",
+            "scene" | "verdict" | "save" => "POST",
+            _ => return Err(Some(Answer::no(404, "there is nothing here"))),
+        };
+        if asked.method != allowed {
+            let mut answer = Answer::no(405, "not by this method");
+            answer.fields.push(("Allow", allowed.to_owned()));
+            return Err(Some(answer));
+        }
+        if what == "events" {
+            self.events(stream);
+            return Ok(());
+        }
+        let answer = match what.as_str() {
+            "" => page(),
+            "save" => self.save(&body(stream, &asked, read)?),
+            what => self.show(what, &body(stream, &asked, read)?),
+        };
+        http::write(stream, &answer);
+        Ok(())
+    }
+
+    fn show(&self, what: &str, ask: &Ask) -> Answer {
+        let scene = match self.session.scene(ask) {
+            Ok(scene) => scene,
+            Err(why) => return Answer::no(422, &why),
+        };
+        if what == "scene" {
+            return Answer::of("application/octet-stream", scene.into_bytes());
+        }
+        let none = serde_json::json!({ "kind": "none", "text": scene.said("stopped").map(|stopped| stopped["message"].clone()) });
+        let verdict = scene.said("verdict").unwrap_or(&none);
+        Answer::of("application/json", verdict.to_string())
+    }
+
+    fn save(&self, save: &Save) -> Answer {
+        match self.session.save(save) {
+            Ok(()) => Answer::of("text/plain; charset=utf-8", ""),
+            Err(NotSaved::Unknown) => Answer::no(404, "it is no file of this form"),
+            Err(NotSaved::Conflict(why)) => Answer::no(409, &why),
+        }
+    }
+
+    /// Tells a page of changes until it leaves.
+    fn events(&self, stream: &mut TcpStream) {
+        let mut seen = *self.changes.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut sent = http::begin_events(stream);
+        while sent.is_ok() {
+            let changes = self.changes.lock().unwrap_or_else(PoisonError::into_inner);
+            let waited = self.changed.wait_timeout_while(changes, SILENCE, |changes| *changes == seen);
+            let now = *waited.unwrap_or_else(PoisonError::into_inner).0;
+            let text =
+                if now == seen { ": still here\n\n".to_owned() } else { format!("event: changed\ndata: {now}\n\n") };
+            seen = now;
+            sent = stream.write_all(text.as_bytes());
+        }
+    }
+}
+
+/// What a request says in JSON.
+fn body<T: DeserializeOwned>(stream: &mut TcpStream, asked: &Asked, read: Vec<u8>) -> Result<T, Option<Answer>> {
+    let bytes = http::read_body(stream, asked, read)?;
+    serde_json::from_slice(&bytes).map_err(|error| Some(Answer::no(400, &format!("this makes no sense: {error}"))))
+}
+
+fn page() -> Answer {
+    let mut answer = Answer::of("text/html; charset=utf-8", PAGE);
+    // beside what the page says itself: no other page may have it in a frame
+    answer.fields.push(("Content-Security-Policy", "frame-ancestors 'none'".to_owned()));
+    answer
+}

@@ -1,0 +1,452 @@
+//! `postform watch`: what the page is given, and who is refused. Requests are written byte by byte, as whoever is not a browser may.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{SocketAddr, TcpStream, UdpSocket};
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+use crate::support::folder::{Folder, err};
+use crate::support::root;
+
+/// A `postform watch` that runs, ended with the test.
+struct Watch {
+    child: Child,
+    address: SocketAddr,
+    token: String,
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        _ = self.child.kill();
+        _ = self.child.wait();
+    }
+}
+
+struct Answer {
+    status: u16,
+    head: String,
+    body: Vec<u8>,
+}
+
+impl Watch {
+    /// In a folder with a form, a job, and more arguments.
+    fn new(folder: &Folder, arguments: &[&str]) -> Watch {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_postform"))
+            .args(["watch", "my.pf", "--job", "job.json", "--no-open"])
+            .args(arguments)
+            .current_dir(&folder.0)
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
+        let rest =
+            line.trim().strip_prefix("http://").unwrap_or_else(|| panic!("the first line is the address: {line}"));
+        let (address, token) = rest.split_once('/').unwrap();
+        Watch { child, address: address.parse().unwrap(), token: token.trim_end_matches('/').to_owned() }
+    }
+
+    /// Sends bytes and reads what comes back.
+    fn send(&self, request: impl AsRef<[u8]>) -> Answer {
+        let mut stream = TcpStream::connect(self.address).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+        _ = stream.write_all(request.as_ref()); // it may be refused before it is read
+        let mut bytes = Vec::new();
+        _ = stream.read_to_end(&mut bytes);
+        let end = bytes.windows(4).position(|four| four == b"\r\n\r\n").map_or(bytes.len(), |at| at + 4);
+        let head = String::from_utf8_lossy(&bytes[..end]).into_owned();
+        let status = head.get(9..12).and_then(|code| code.parse().ok()).unwrap_or(0);
+        Answer { status, head, body: bytes[end..].to_vec() }
+    }
+
+    /// As the page's own script asks.
+    fn post(&self, what: &str, body: &Value) -> Answer {
+        let (address, token, body) = (self.address, &self.token, body.to_string());
+        self.send(format!(
+            "POST /{token}/{what} HTTP/1.1\r\nHost: {address}\r\nOrigin: http://{address}\r\nSec-Fetch-Site: same-origin\r\n\
+             Content-Type: application/json\r\nContent-Length: {}\r\n\r\n{body}",
+            body.len()
+        ))
+    }
+
+    fn get(&self, path: &str) -> Answer {
+        self.send(format!("GET {path} HTTP/1.1\r\nHost: {}\r\n\r\n", self.address))
+    }
+
+    fn scene(&self, texts: &Value) -> (Value, Vec<u8>) {
+        let answer = self.post("scene", &json!({ "job": 0, "texts": texts, "proves": true }));
+        assert_eq!(answer.status, 200, "{}", String::from_utf8_lossy(&answer.body));
+        unpacked(&answer.body)
+    }
+}
+
+/// The head of a scene, and its sections.
+fn unpacked(bytes: &[u8]) -> (Value, Vec<u8>) {
+    assert_eq!(&bytes[..4], b"PFS1");
+    let length = u32::from_le_bytes(bytes[4..8].try_into().unwrap()) as usize;
+    (serde_json::from_slice(&bytes[8..8 + length]).unwrap(), bytes[8 + length..].to_vec())
+}
+
+fn section<'a>(head: &Value, body: &'a [u8], name: &str) -> &'a [u8] {
+    let place = &head["sections"][name];
+    let [start, length] = [0, 1].map(|i| place[i].as_u64().unwrap() as usize);
+    &body[start..start + length]
+}
+
+/// The bracket and the form for it, in a folder.
+fn bracket(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    folder.write("my.pf", fs::read(root().join("postforms/fanuc.pf")).unwrap());
+    folder.write("job.json", fs::read(root().join("samples/bracket/job.json")).unwrap());
+    folder
+}
+
+#[test]
+fn the_page_is_one_file_that_asks_nobody_else() {
+    let folder = bracket("watch-page");
+    let watch = Watch::new(&folder, &[]);
+    let answer = watch.get(&format!("/{}/", watch.token));
+    assert_eq!(answer.status, 200);
+    for field in [
+        "Content-Type: text/html",
+        "Cache-Control: no-store",
+        "X-Content-Type-Options: nosniff",
+        "Referrer-Policy: no-referrer",
+        "X-Frame-Options: DENY",
+        "Content-Security-Policy: frame-ancestors 'none'",
+        "Cross-Origin-Resource-Policy: same-origin",
+    ] {
+        assert!(answer.head.contains(field), "{field}: {}", answer.head);
+    }
+    let page = String::from_utf8(answer.body).unwrap();
+    assert!(page.contains("default-src 'none'; script-src 'sha256-"), "the page says what it may do");
+    let elsewhere = page.match_indices("src=").chain(page.match_indices("href=\"http")).count();
+    assert_eq!(elsewhere, 0, "nothing is loaded");
+    assert_eq!(watch.token.len(), 32);
+    assert_ne!(watch.token, Watch::new(&folder, &[]).token, "each run has a token of its own");
+}
+
+#[test]
+fn who_is_refused() {
+    let folder = bracket("watch-refused");
+    let watch = Watch::new(&folder, &[]);
+    let (host, token) = (watch.address.to_string(), watch.token.clone());
+    let own = format!("Host: {host}\r\nOrigin: http://{host}\r\nContent-Type: application/json\r\n");
+    let body = r#"{"job":0}"#;
+    let with = |head: &str| format!("{head}Content-Length: {}\r\n\r\n{body}", body.len());
+    let long = "x".repeat(20_000);
+    for (what, request, status) in [
+        ("the page", format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\n\r\n"), 200),
+        ("as localhost", format!("GET /{token}/ HTTP/1.1\r\nHost: localhost:{}\r\n\r\n", watch.address.port()), 200),
+        ("the page's own request", with(&format!("POST /{token}/scene HTTP/1.1\r\n{own}")), 200),
+        ("no token", format!("GET / HTTP/1.1\r\nHost: {host}\r\n\r\n"), 404),
+        ("another token", format!("GET /{}/ HTTP/1.1\r\nHost: {host}\r\n\r\n", "0".repeat(32)), 404),
+        ("half a token", format!("GET /{}/ HTTP/1.1\r\nHost: {host}\r\n\r\n", &token[..16]), 404),
+        ("another name of this machine", format!("GET /{token}/ HTTP/1.1\r\nHost: evil.example\r\n\r\n"), 403),
+        ("no name", format!("GET /{token}/ HTTP/1.1\r\n\r\n"), 403),
+        ("two names", format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\nHost: evil.example\r\n\r\n"), 403),
+        (
+            "another page",
+            with(&format!(
+                "POST /{token}/scene HTTP/1.1\r\nHost: {host}\r\nOrigin: http://evil.example\r\nContent-Type: application/json\r\n"
+            )),
+            403,
+        ),
+        (
+            "a page without a name",
+            with(&format!(
+                "POST /{token}/save HTTP/1.1\r\nHost: {host}\r\nOrigin: null\r\nContent-Type: application/json\r\n"
+            )),
+            403,
+        ),
+        (
+            "nobody says from where",
+            with(&format!("POST /{token}/save HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\n")),
+            403,
+        ),
+        (
+            "a link of another page",
+            format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\nSec-Fetch-Site: cross-site\r\n\r\n"),
+            403,
+        ),
+        (
+            "a form of a page",
+            with(&format!(
+                "POST /{token}/scene HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nContent-Type: text/plain\r\n"
+            )),
+            415,
+        ),
+        ("a file", format!("GET /{token}/my.pf HTTP/1.1\r\nHost: {host}\r\n\r\n"), 404),
+        ("a way up", format!("GET /{token}/../my.pf HTTP/1.1\r\nHost: {host}\r\n\r\n"), 404),
+        ("a way up, hidden", format!("GET /{token}/%2e%2e/%2e%2e/etc/passwd HTTP/1.1\r\nHost: {host}\r\n\r\n"), 404),
+        ("another method", format!("DELETE /{token}/ HTTP/1.1\r\nHost: {host}\r\n\r\n"), 405),
+        ("a scene without a question", format!("GET /{token}/scene HTTP/1.1\r\nHost: {host}\r\n\r\n"), 405),
+        (
+            "what a browser asks first",
+            format!("OPTIONS /{token}/save HTTP/1.1\r\nHost: {host}\r\nOrigin: http://evil.example\r\n\r\n"),
+            403,
+        ),
+        ("no length", format!("POST /{token}/scene HTTP/1.1\r\n{own}\r\n{body}"), 411),
+        (
+            "two lengths",
+            format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: 9\r\nContent-Length: 90\r\n\r\n{body}"),
+            411,
+        ),
+        ("no number", format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: +9\r\n\r\n{body}"), 400),
+        ("in pieces", format!("POST /{token}/scene HTTP/1.1\r\n{own}Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n"), 501),
+        ("too large", format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: 99999999999\r\n\r\n"), 413),
+        ("a long head", format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\nCookie: {long}\r\n\r\n"), 431),
+        ("a long path", format!("GET /{token}/{long} HTTP/1.1\r\nHost: {host}\r\n\r\n"), 431),
+        ("many fields", format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\n{}\r\n", "A: b\r\n".repeat(100)), 431),
+        ("no request", "hello\r\n\r\n".to_owned(), 400),
+        ("TLS", "\u{16}\u{3}\u{1}\u{2}\r\n\r\n".to_owned(), 400),
+        ("no JSON", format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: 2\r\n\r\n[}}"), 400),
+        (
+            "more than is asked",
+            format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: 21\r\n\r\n{{\"job\":0,\"path\":\"/\"}}"),
+            400,
+        ),
+        (
+            "a job that is not there",
+            format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: 9\r\n\r\n{{\"job\":9}}"),
+            422,
+        ),
+    ] {
+        let answer = watch.send(&request);
+        assert_eq!(answer.status, status, "{what}: {}", answer.head);
+        assert!(!answer.head.contains("Access-Control"), "{what}: no other page may read an answer");
+    }
+}
+
+/// The port is open on this machine only.
+#[test]
+fn nobody_else_can_connect() {
+    let folder = bracket("watch-loopback");
+    let watch = Watch::new(&folder, &[]);
+    assert!(watch.address.ip().is_loopback());
+    // the address by which others reach this machine, where there is one: nothing is sent
+    let socket = UdpSocket::bind("0.0.0.0:0").unwrap();
+    let outside = socket.connect("192.0.2.1:9").and_then(|()| socket.local_addr()).map(|address| address.ip());
+    if let Some(outside) = outside.ok().filter(|ip| !ip.is_loopback() && !ip.is_unspecified()) {
+        let found = TcpStream::connect_timeout(&(outside, watch.address.port()).into(), Duration::from_secs(2));
+        assert!(found.is_err(), "{outside} answers");
+    }
+}
+
+/// Connections that say nothing keep nobody else out for long, and too many are told so.
+#[test]
+fn idle_connections_are_bounded() {
+    let folder = bracket("watch-idle");
+    let watch = Watch::new(&folder, &[]);
+    let idle: Vec<TcpStream> = (0..64).map(|_| TcpStream::connect(watch.address).unwrap()).collect();
+    let until = Instant::now() + Duration::from_secs(30);
+    let page = format!("/{}/", watch.token);
+    while watch.get(&page).status != 503 {
+        assert!(Instant::now() < until, "64 connections and one more");
+    }
+    drop(idle);
+    while watch.get(&page).status != 200 {
+        assert!(Instant::now() < until, "there is room again");
+        sleep(Duration::from_millis(50));
+    }
+}
+
+/// The scene has the program byte for byte, where each block comes from, and the verdict.
+#[test]
+fn the_scene_is_the_program() {
+    let folder = bracket("watch-scene");
+    let old = fs::read_to_string(root().join("samples/bracket/expected.fanuc.nc")).unwrap();
+    folder.write("old.nc", old.replace("N90 Z-.25", "N90 Z-.2"));
+    let watch = Watch::new(&folder, &["--against", "old.nc", "--job", "job.json"]);
+    let (head, body) = watch.scene(&json!({}));
+    assert!(section(&head, &body, "text") == old.as_bytes(), "as render prints it");
+    assert_eq!(head["verdict"]["kind"], "proven");
+    assert_eq!(head["form"]["files"], json!(["my.pf"]));
+    assert_eq!(head["jobs"], json!(["job.json", "job.json"]));
+    assert_eq!(head["against"]["blocks"], 1, "{}", head["against"]);
+    assert!(section(&head, &body, "old/text") != old.as_bytes());
+    let lines = old.lines().count();
+    assert_eq!(section(&head, &body, "lineForm").len(), lines * 4);
+    assert_eq!(section(&head, &body, "lineItem").len(), lines * 16);
+    // the block of the tool change stands in a line of the form that says so
+    let at = old.lines().position(|line| line.contains("T2 M6")).unwrap();
+    let packed = i32::from_le_bytes(section(&head, &body, "lineForm")[at * 4..][..4].try_into().unwrap());
+    let form = folder.read("my.pf");
+    assert_eq!(form.lines().nth(packed as usize), Some("T[tool] M6"));
+    let verdict = watch.post("verdict", &json!({ "job": 1 }));
+    let verdict: Value = serde_json::from_slice(&verdict.body).unwrap();
+    assert_eq!(verdict["kind"], "proven");
+}
+
+/// What is typed is shown and not written.
+#[test]
+fn what_is_typed_is_shown_and_not_written() {
+    let folder = bracket("watch-typed");
+    let form = folder.read("my.pf");
+    let watch = Watch::new(&folder, &[]);
+    let (head, body) = watch.scene(&json!({ "my.pf": form.replace("T[tool] M6", "T[tool]  M6") }));
+    let found = head["form"]["findings"].as_array().unwrap();
+    let lost = found.iter().find(|found| found["code"] == "PF101").unwrap_or_else(|| panic!("{found:?}"));
+    let line = form.lines().position(|line| line == "T[tool] M6").unwrap();
+    assert_eq!(lost["labels"][0]["at"], json!([0, line, 9, line, 11]));
+    assert_eq!(head["texts"][0], form.as_str(), "as it is on the disk");
+    assert!(head["stopped"].is_null() || head["stopped"]["by"] == "form");
+    if head["stopped"].is_null() {
+        assert_eq!(head["saved"]["blocks"], 5, "{}", head["saved"]);
+        assert!(!section(&head, &body, "text").is_empty());
+    }
+    assert_eq!(folder.read("my.pf"), form);
+    // a name that is none of the form's is nobody's
+    let (head, _) = watch.scene(&json!({ "/etc/passwd": "Name x" }));
+    assert_eq!(head["verdict"]["kind"], "proven");
+}
+
+/// A wrong job and a form with errors are told, with what was found.
+#[test]
+fn what_is_wrong_is_in_the_scene() {
+    let folder = bracket("watch-wrong");
+    let watch = Watch::new(&folder, &[]);
+    let (head, _) = watch.scene(&json!({ "my.pf": "Nmae x\nStartCode\n" }));
+    assert_eq!(head["stopped"]["by"], "form");
+    assert!(head["form"]["errors"].as_u64().unwrap() > 0 && head["picture"].is_null());
+    folder.write("job.json", "{\"postform\": 1,");
+    let (head, _) = watch.scene(&json!({}));
+    assert_eq!(head["stopped"]["by"], "job", "{head}");
+    fs::remove_file(folder.0.join("job.json")).unwrap();
+    let gone = watch.post("scene", &json!({ "job": 0 }));
+    assert!(gone.status == 422 && String::from_utf8_lossy(&gone.body).contains("can't read job.json"));
+}
+
+#[test]
+fn only_the_form_is_written_and_only_on_save() {
+    let folder = bracket("watch-save");
+    let form = folder.read("my.pf");
+    let watch = Watch::new(&folder, &[]);
+    let save = |name: &str, text: &str, was: &str| {
+        let answer = watch.post("save", &json!({ "name": name, "text": text, "was": was }));
+        (answer.status, String::from_utf8_lossy(&answer.body).into_owned())
+    };
+    let new = form.replace("Name Fanuc 0i-M", "Name Mine");
+    assert_eq!(save("my.pf", &new, &form), (200, String::new()));
+    assert_eq!(folder.read("my.pf"), new);
+    // another file, whatever its name
+    folder.write("other.pf", "Name x");
+    for name in ["other.pf", "./my.pf", "../my.pf", "job.json", "", "/etc/passwd", "my.pf\0"] {
+        assert_eq!(save(name, "x", "Name x").0, 404, "{name}");
+    }
+    // somebody else saved meanwhile
+    assert_eq!(save("my.pf", &form, &form), (409, "it was changed on the disk meanwhile".to_owned()));
+    assert_eq!(folder.read("my.pf"), new);
+    // line ends and the mark at the beginning stay
+    folder.write("my.pf", format!("\u{feff}{}", form.replace('\n', "\r\n")));
+    assert_eq!(save("my.pf", &new, &form).0, 200);
+    assert_eq!(folder.read("my.pf"), format!("\u{feff}{}", new.replace('\n', "\r\n")));
+    // what is not UTF-8 would be written otherwise than it was
+    folder.write("my.pf", b"Name Fr\xe4se\n");
+    let (status, why) = save("my.pf", "Name Fr\u{e4}sen\n", "Name Fr\u{e4}se\n");
+    assert!(status == 409 && why.contains("UTF-8"), "{why}");
+    let left = fs::read_dir(&folder.0).unwrap().count();
+    assert_eq!(left, 4, "my.pf, job.json, other.pf, postform.toml, and nothing beside them");
+}
+
+/// A page hears when form, job or a form that is called were changed.
+#[test]
+fn changes_are_told() {
+    let folder = bracket("watch-changes");
+    let form = folder.read("my.pf");
+    folder.write("my.pf", format!("{form}\nCall part.pf\n"));
+    folder.write("part.pf", "# nothing\n");
+    let watch = Watch::new(&folder, &[]);
+    let (address, token) = (watch.address, &watch.token);
+    let mut stream = TcpStream::connect(address).unwrap();
+    stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+    stream.write_all(format!("GET /{token}/events HTTP/1.1\r\nHost: {address}\r\n\r\n").as_bytes()).unwrap();
+    let mut events = BufReader::new(stream).lines().map(Result::unwrap);
+    assert!(events.by_ref().any(|line| line == ": here"), "the page is told that it is heard");
+    sleep(Duration::from_millis(500));
+    for (name, text) in [("part.pf", "# something\n"), ("job.json", "{}"), ("my.pf", "Name x\n")] {
+        folder.write(name, text);
+        assert!(events.by_ref().any(|line| line == "event: changed"), "{name}");
+        sleep(Duration::from_millis(500));
+    }
+}
+
+#[test]
+fn how_watch_ends() {
+    let folder = bracket("watch-ends");
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = taken.local_addr().unwrap().port().to_string();
+    for (arguments, says) in [
+        (vec!["no-such.pf", "--job", "job.json"], "can't read no-such.pf"),
+        (vec!["my.pf", "--job", "no-such.json"], "can't read no-such.json"),
+        (vec!["my.pf"], "--job"),
+        (vec!["my.pf", "--job", "-"], "- is none"),
+        (vec!["my.pf", "--job", "job.json", "--against", "no-such.nc"], "can't read no-such.nc"),
+        (vec!["my.pf", "--job", "job.json", "--port", &port], "can't listen on port"),
+        (vec!["my.pf", "--job", "job.json", "--port", "99999"], "99999"),
+        (vec!["my.pf", "--job", "job.json", "--set", "nonsense"], "write a variable"),
+    ] {
+        let output = folder.run(&[&["watch", "--no-open"], arguments.as_slice()].concat());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(err(&output).contains(says), "{arguments:?}: {}", err(&output));
+    }
+}
+
+/// `render --watch` prints anew with every change, and waits where something is wrong; the program of before stays then.
+#[test]
+fn render_watches_its_files() {
+    let folder = bracket("watch-render");
+    let form = folder.read("my.pf");
+    let arguments = ["render", "job.json", "--form", "my.pf", "-o", "part.nc", "--watch"];
+    let mut child = Command::new(env!("CARGO_BIN_EXE_postform"))
+        .args(arguments)
+        .current_dir(&folder.0)
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut said = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+    let mut waits =
+        || said.by_ref().take_while(|line| !line.contains("waiting for changes")).collect::<Vec<_>>().join("\n");
+    assert_eq!(waits(), "");
+    let first = folder.read("part.nc");
+    assert!(first.contains("N10 G20 G17"));
+    sleep(Duration::from_millis(50));
+    folder.write("my.pf", form.replace("Sequence#s N 10 10", "Sequence#s N 100 10"));
+    assert_eq!(waits(), "");
+    let second = folder.read("part.nc");
+    assert!(second.contains("N100 G20 G17"), "{second}");
+    folder.write("my.pf", "Nmae x\n");
+    assert!(waits().contains("PF"), "what is wrong is said");
+    assert_eq!(folder.read("part.nc"), second, "and the program stays");
+    _ = child.kill();
+    _ = child.wait();
+}
+
+/// `lint --watch` reports anew, also of a form that appears in a folder.
+#[test]
+fn lint_watches_its_folder() {
+    let folder = Folder::new("watch-lint");
+    folder.write("forms/a.pf", fs::read(root().join("postforms/fanuc.pf")).unwrap());
+    let mut child = Command::new(env!("CARGO_BIN_EXE_postform"))
+        .args(["lint", "forms", "--watch"])
+        .current_dir(&folder.0)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut reports = BufReader::new(child.stdout.take().unwrap()).lines().map(Result::unwrap);
+    let mut next = || reports.by_ref().find(|line| line.contains(" warning")).unwrap();
+    assert!(next().starts_with("0 errors, 0 warnings"));
+    sleep(Duration::from_millis(50));
+    folder.write("forms/b.pf", "Nmae x\n");
+    assert!(!next().starts_with("0 errors"));
+    _ = child.kill();
+    _ = child.wait();
+    let both = folder.run(&["lint", "forms", "--watch", "--fix"]);
+    assert_eq!(both.status.code(), Some(2), "who mends does not wait");
+    assert_eq!(folder.run(&["lint", "-", "--watch"]).status.code(), Some(2), "standard input can't be read again");
+}

@@ -42,6 +42,7 @@ pub mod explain;
 pub mod fmt;
 #[cfg(feature = "freecad")]
 pub mod freecad;
+pub mod ide;
 pub mod job;
 pub mod lang;
 pub mod lint;

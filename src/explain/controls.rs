@@ -1,6 +1,6 @@
 //! What is known of a control, and what is not: for `explain`, for docs/controls, and as a file to start from.
 
-use crate::control::{Centres, Control, DwellUnit, Kept, Row, Rules, ToolLength, WithoutPoint, Words, names};
+use crate::control::{Centres, Code, Control, DwellUnit, Kept, Row, Rules, ToolLength, WithoutPoint, Words, names};
 
 /// What nothing public says.
 const UNKNOWN: &str = "not known";
@@ -82,6 +82,11 @@ fn about(row: &Row) -> String {
         Some(why) => format!("{text}; not run: {why}"),
         None => text,
     }
+}
+
+/// What a code does on a control, in words. `None`: nobody knows it there.
+pub fn code(control: &Control, code: Code) -> Option<String> {
+    control.row(code).map(about)
 }
 
 /// What `postform explain haas` prints.

@@ -8,6 +8,8 @@ mod pages;
 pub mod reference;
 mod words;
 
+pub use words::{command, end, none, sequence, takes, upon, variable};
+
 use crate::control::{self, Control};
 use crate::diag::{CODES, CodeRow};
 use crate::lang::{

@@ -53,7 +53,7 @@ pub fn mend(levels: &Levels, unsafe_too: bool, read: &mut dyn FnMut(&Changed) ->
 }
 
 /// Replacements of text, not overlapping, in the order of their places.
-type Edits<'a> = Vec<(Span, &'a str)>;
+pub(crate) type Edits<'a> = Vec<(Span, &'a str)>;
 
 /// The fixes that can be made at once; `unsafe_too`: those as well that change what is printed. Where two touch the same
 /// place the earlier one is made: the other is found again in the text after it.
@@ -86,7 +86,7 @@ fn edits_of<'a>(diags: &[&'a Diag], file: u32) -> Edits<'a> {
 }
 
 /// Text after replacements. A line that becomes empty goes with its end.
-fn edited(text: &str, edits: &Edits) -> String {
+pub(crate) fn edited(text: &str, edits: &Edits) -> String {
     let mut out = String::with_capacity(text.len());
     let mut at = 0;
     for (span, new) in edits {

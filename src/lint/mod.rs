@@ -11,6 +11,7 @@ mod tokens;
 mod view;
 
 pub use levels::{Level, Levels};
+pub(crate) use mend::edited;
 pub use mend::{Changed, Mended, mend};
 pub use parts::parts;
 pub use rules::{RULES, Rule};

@@ -1,5 +1,6 @@
 //! The front door: a form that prints, a job that is printed, a program that is proven.
 
+mod follow;
 mod growth;
 mod options;
 mod origin;
@@ -8,9 +9,10 @@ mod render;
 mod sample;
 mod verify;
 
+pub use follow::{Followed, Seen};
 pub use options::{Options, Proof};
 pub use program::{Part, Program, Rendered};
-pub use sample::sample_program;
+pub use sample::{sample_job, sample_program};
 pub use verify::Proven;
 
 use std::sync::Arc;
@@ -93,7 +95,8 @@ impl Post {
         }
     }
 
-    fn of(program: compile::Program, warnings: Vec<Diag>, files: &[Source]) -> Post {
+    /// A form that was checked and compiled, with the warnings of its findings.
+    pub(crate) fn of(program: compile::Program, warnings: Vec<Diag>, files: &[Source]) -> Post {
         let program = program.identified(files);
         let warnings = Findings { diags: warnings, files: files.to_vec(), suppressed: 0 };
         Post(Arc::new(Compiled { program, warnings }))

@@ -55,6 +55,7 @@ impl Options {
             clock: self.clock.clone(),
             job_file: self.job_file.clone(),
             trace: self.trace,
+            words: false,
         })
     }
 }

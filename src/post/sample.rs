@@ -9,7 +9,7 @@ use crate::lang::Machine;
 use crate::sema::Checked;
 
 /// A whole part for each type of machine: what most sequences print is in it.
-fn built_in(machine: Machine) -> &'static str {
+pub fn sample_job(machine: Machine) -> &'static str {
     match machine {
         Machine::Mill => include_str!("../../samples/bracket/job.json"),
         Machine::Lathe => include_str!("../../samples/lathe-part/job.json"),
@@ -33,7 +33,7 @@ pub fn sample_program(checked: &Checked, job: Option<Job<'_>>) -> Result<Result<
     // questions are answered, so that something is printed
     let mut options = Options { program: Some(1), ..Options::default() };
     options.set = post.prompts().map(|ask| (ask.variable.to_owned(), ask.default.unwrap_or(1.0))).collect();
-    match post.render(job.unwrap_or_else(|| Job::json(built_in(machine))), &options) {
+    match post.render(job.unwrap_or_else(|| Job::json(sample_job(machine))), &options) {
         Ok(program) => Ok(Ok(program.into_text())),
         Err(error) if matches!(error.kind(), ErrorKind::Job | ErrorKind::Fault) => {
             let diag = error.findings().diags.iter().find(|diag| diag.is_error());

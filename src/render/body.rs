@@ -95,7 +95,12 @@ pub fn go_on(ops: Range<usize>, mode: Mode, shape: &Shape, want: &Want, said: &m
             }
             Op::Comment { words } if body.comment_is_empty(i, words as usize) => i += words as usize,
             op => {
-                body.operation(op, i).map_err(|diag| Box::new(diag.at(shape.program.spans[i], "printed from here")))?
+                let mark = body.out.mark();
+                let span = shape.program.spans[i];
+                body.operation(op, i).map_err(|diag| Box::new(diag.at(span, "printed from here")))?;
+                if let Some(from) = mark {
+                    body.out.trace_word(from, span);
+                }
             }
         }
         i += 1;

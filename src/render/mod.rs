@@ -39,7 +39,7 @@ use want::Want;
 
 pub use defaults::cycle_defaults;
 pub use options::{Clock, Cycles, Options};
-pub use printer::TraceLine;
+pub use printer::{TraceLine, TraceWord};
 
 /// Prints the blocks of one program. Push the events of a job, and take the text as it comes.
 pub struct Renderer<'p> {
@@ -68,7 +68,7 @@ impl<'p> Renderer<'p> {
             said.conditions.put(var, want.get(var)); // a control begins with what the form takes for granted
         }
         Renderer {
-            out: Printer::new(&program.settings, shape.letters, shape.options.trace),
+            out: Printer::new(&program.settings, shape.letters, shape.options.trace, shape.options.words),
             shape,
             want,
             said,
@@ -88,6 +88,16 @@ impl<'p> Renderer<'p> {
     /// The source map of lines not yet taken.
     pub fn trace(&mut self) -> Option<&mut Vec<TraceLine>> {
         subprograms::main_page(&self.shape, &mut self.out, &mut self.subs).trace.as_mut()
+    }
+
+    /// What the words of the form came to, of lines not yet taken.
+    pub fn words(&mut self) -> Option<&mut Vec<TraceWord>> {
+        subprograms::main_page(&self.shape, &mut self.out, &mut self.subs).words.as_mut()
+    }
+
+    /// What a variable holds now, if anything: in the program's units.
+    pub fn value(&self, var: VarId) -> Option<f64> {
+        self.want.get(var)
     }
 
     /// Warnings and notes so far: each kind of remark once.

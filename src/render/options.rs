@@ -41,4 +41,6 @@ pub struct Options {
     pub job_file: Option<String>,
     /// Keep a source map.
     pub trace: bool,
+    /// Keep what each word of the form came to.
+    pub words: bool,
 }

@@ -25,6 +25,17 @@ pub struct TraceLine {
     pub place: Place,
 }
 
+/// What a word of the form came to in one block.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TraceWord {
+    /// Line of the program, from 1.
+    pub line: u64,
+    /// The word of the form.
+    pub form: Span,
+    /// As printed; empty where it was left out, because the control holds it already.
+    pub text: String,
+}
+
 /// A block that is longer than its control reads.
 #[derive(Clone, Copy, Debug)]
 struct TooLong {
@@ -106,15 +117,22 @@ pub struct Page {
     pub lines: u64,
     /// The source map, when asked for.
     pub trace: Option<Vec<TraceLine>>,
+    /// The words of the form, when asked for.
+    pub words: Option<Vec<TraceWord>>,
 }
 
 impl Printer {
     /// Empty; the first block number is the form's.
-    pub fn new(settings: &Settings, letters: &LetterTable, trace: bool) -> Printer {
+    pub fn new(settings: &Settings, letters: &LetterTable, trace: bool, words: bool) -> Printer {
         let layout = Layout::new(settings, letters);
         Printer {
             place: Place::default(),
-            page: Page { text: Vec::with_capacity(128 * 1024), lines: 0, trace: trace.then(Vec::new) },
+            page: Page {
+                text: Vec::with_capacity(128 * 1024),
+                lines: 0,
+                trace: trace.then(Vec::new),
+                words: words.then(Vec::new),
+            },
             start: 0,
             words: 0,
             numbered: false,
@@ -142,6 +160,9 @@ impl Printer {
         if self.page.trace.is_some() {
             page.trace.get_or_insert_default();
         }
+        if self.page.words.is_some() {
+            page.words.get_or_insert_default();
+        }
         std::mem::swap(&mut self.page, page);
     }
 
@@ -154,6 +175,23 @@ impl Printer {
             let lines = aside.trace.into_iter().flatten();
             trace.extend(lines.map(|line| TraceLine { line: line.line + before, ..line }));
         }
+        if let Some(words) = &mut self.page.words {
+            words.extend(aside.words.into_iter().flatten().map(|word| TraceWord { line: word.line + before, ..word }));
+        }
+    }
+
+    /// The end of the text so far, where the words are asked for: what [`Printer::trace_word`] counts from.
+    #[inline]
+    pub fn mark(&self) -> Option<usize> {
+        self.page.words.as_ref().map(|_| self.page.text.len())
+    }
+
+    /// A word of the form is done: what stands behind the mark came of it.
+    #[cold]
+    pub fn trace_word(&mut self, from: usize, form: Span) {
+        let text = String::from_utf8_lossy(self.page.text.get(from..).unwrap_or(b""));
+        let word = TraceWord { line: self.page.lines + 1, form, text: text.trim_start().to_owned() };
+        self.page.words.get_or_insert_default().push(word);
     }
 
     /// Lines printed so far.

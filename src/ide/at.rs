@@ -1,0 +1,178 @@
+//! What stands at a place of a form.
+
+use super::Document;
+use crate::control::Code;
+use crate::lang::{CommandId, SequenceId, SequenceName, VarId};
+use crate::span::Span;
+use crate::syntax::{Body, End, Head, Piece, PieceKind, SequenceNode, Spanned, Statement};
+
+/// What stands at a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct At {
+    /// The whole of it.
+    pub span: Span,
+    /// What.
+    pub what: What,
+}
+
+/// The kinds of things that stand in forms.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum What {
+    /// The name of a command.
+    Command(CommandId),
+    /// An argument of a command, from 0.
+    Argument(CommandId, usize),
+    /// A letter format, of this letter.
+    Format(u8),
+    /// The name of a sequence.
+    Sequence(SequenceId),
+    /// `Upon`, `Upon Every`.
+    Upon,
+    /// `End`.
+    End,
+    /// `Cancel` behind `End`.
+    Cancel,
+    /// `None` as the body of a sequence.
+    Nothing,
+    /// A variable, with the letter that prints it.
+    Variable(VarId, Option<u8>),
+    /// A code that is typed.
+    Code(Code),
+    /// Another word that is typed, of this letter.
+    Word(u8),
+}
+
+impl Document {
+    /// What stands at a byte of a file: a word that ends there counts where nothing begins there.
+    pub fn at(&self, file: u32, offset: u32) -> Option<At> {
+        let mut ends = None;
+        let mut hit = None;
+        self.each(file, |at| {
+            if at.span.start <= offset && offset < at.span.end {
+                hit = Some(at);
+            } else if at.span.end == offset {
+                ends = Some(at);
+            }
+        });
+        hit.or(ends)
+    }
+
+    /// Everything that stands in a file, in its order.
+    pub(super) fn each(&self, file: u32, mut found: impl FnMut(At)) {
+        for item in self.items(file) {
+            match item {
+                Head::Blank(_) | Head::StrayEnd(_) => {}
+                Head::Format { letter, spec, .. } => {
+                    let byte = letter.text.bytes().next().unwrap_or(b' ');
+                    found(At { span: letter.span.to(spec.span), what: What::Format(byte) });
+                }
+                Head::Statement(statement) => command(statement, &mut found),
+                Head::Sequence(node) => sequence(node, &mut found),
+            }
+        }
+    }
+}
+
+fn command(statement: &Statement, found: &mut dyn FnMut(At)) {
+    let Some(id) = CommandId::parse(&statement.name.text) else { return };
+    found(At { span: statement.name.span, what: What::Command(id) });
+    for (i, arg) in statement.args.iter().enumerate() {
+        let asks = i == 0 && matches!(id, CommandId::Ask | CommandId::Each);
+        let what = variable(arg).filter(|_| asks).map_or(What::Argument(id, i), |var| What::Variable(var, None));
+        found(At { span: arg.span, what });
+    }
+}
+
+/// An argument that names a variable, with or without brackets.
+fn variable(arg: &Spanned) -> Option<VarId> {
+    VarId::parse(arg.text.trim_matches(['[', ']', '<', '>']))
+}
+
+fn sequence(node: &SequenceNode, found: &mut dyn FnMut(At)) {
+    let name = &node.name;
+    let mut words = vec![name.name.text.as_str()];
+    words.extend(name.args.iter().map(|arg| arg.text.as_str()));
+    match SequenceName::parse(&words) {
+        Some(SequenceName::Plain(id, _)) => {
+            let spelt = if words[0].eq_ignore_ascii_case(id.name()) { name.name.span } else { name.line.span };
+            let whole = name.args.first().filter(|_| spelt == name.line.span);
+            let span = whole.map_or(name.name.span, |second| name.name.span.to(second.span));
+            found(At { span, what: What::Sequence(id) });
+        }
+        Some(SequenceName::Upon(_) | SequenceName::UponEvery(_)) => {
+            let every = name.args.first().filter(|arg| arg.text.eq_ignore_ascii_case("Every"));
+            let span = every.map_or(name.name.span, |every| name.name.span.to(every.span));
+            found(At { span, what: What::Upon });
+            for arg in &name.args {
+                if let Some(var) = variable(arg) {
+                    found(At { span: arg.span, what: What::Variable(var, None) });
+                }
+            }
+        }
+        None => {}
+    }
+    node.body.iter().for_each(|line| body(line, found));
+    if let Some(End { word, args, .. }) = &node.end {
+        found(At { span: *word, what: What::End });
+        for arg in args.iter().filter(|arg| arg.text.eq_ignore_ascii_case("Cancel")) {
+            found(At { span: arg.span, what: What::Cancel });
+        }
+    }
+}
+
+fn body(line: &Body, found: &mut dyn FnMut(At)) {
+    for word in &line.words {
+        let alone = line.words.len() == 1 && word.pieces.len() == 1;
+        word.pieces.iter().for_each(|part| piece(part, alone, found));
+    }
+}
+
+fn piece(part: &Piece, alone: bool, found: &mut dyn FnMut(At)) {
+    match &part.kind {
+        PieceKind::Variable { letter, name } => {
+            if let Some(var) = VarId::parse(&name.text) {
+                found(At { span: part.span, what: What::Variable(var, *letter) });
+            }
+        }
+        PieceKind::Literal { letter, number } => {
+            let code = number.text.parse().ok().and_then(|value| Code::of(*letter, value));
+            found(At { span: part.span, what: code.map_or(What::Word(*letter), What::Code) });
+        }
+        PieceKind::Stray(text) if alone && text.eq_ignore_ascii_case("None") => {
+            found(At { span: part.span, what: What::Nothing });
+        }
+        PieceKind::TextVariable { .. } | PieceKind::Quote(_) | PieceKind::Stray(_) => {}
+        PieceKind::Note { parts, .. } => parts.iter().for_each(|part| piece(part, false, found)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::tests::haas;
+    use super::*;
+
+    #[test]
+    fn each_kind_is_found() {
+        let at = |from: &str, to: &str| {
+            let (document, offset) = haas(from, to);
+            document.at(0, offset).map(|at| (document.slice(at.span).to_owned(), at.what))
+        };
+        let found = |text: &str, what: What| Some((text.to_owned(), what));
+        assert_eq!(at("ArcPlane", "Arc|Plane"), found("ArcPlane", What::Command(CommandId::ArcPlane)));
+        assert_eq!(at("G17 G18 G19", "G17 G|18 G19"), found("G18", What::Argument(CommandId::ArcPlane, 1)));
+        assert_eq!(at("Y->3.>4", "Y-|>3.>4"), found("Y->3.>4", What::Format(b'Y')));
+        assert_eq!(at("\nCancel", "\nCan|cel"), found("Cancel", What::Sequence(SequenceId::Cancel)));
+        assert_eq!(at("Upon [work]", "Up|on [work]"), found("Upon", What::Upon));
+        assert_eq!(at("Upon [work]", "Upon [wo|rk]"), found("[work]", What::Variable(VarId::Work, None)));
+        assert_eq!(at("End Cancel", "E|nd Cancel"), found("End", What::End));
+        assert_eq!(at("End Cancel", "End Ca|ncel"), found("Cancel", What::Cancel));
+        assert_eq!(
+            at("Z[d] R[vclear]", "Z[d] R[v|clear]"),
+            found("R[vclear]", What::Variable(VarId::Vclear, Some(b'R')))
+        );
+        assert_eq!(at("G81", "G|81"), found("G81", What::Code(Code::g(81))));
+        assert_eq!(at("G53 Z0", "G53 Z0|"), found("Z0", What::Word(b'Z')));
+        assert_eq!(at("# Haas", "# Ha|as"), None);
+    }
+}

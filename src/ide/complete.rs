@@ -1,0 +1,385 @@
+//! What could stand here.
+
+use super::words::markdown;
+use super::{Current, Document};
+use crate::control::{self, Code, Control};
+use crate::diag::CODES;
+use crate::explain;
+use crate::lang::{Args, COMMANDS, CommandId, Machine, Origin, SEQUENCES, SequenceId, Unit, UnitChoice, VARIABLES};
+use crate::span::Span;
+
+/// One thing that could stand here.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Completion {
+    /// As it is listed.
+    pub label: String,
+    /// What kind of thing it is.
+    pub kind: Kind,
+    /// A few words beside it.
+    pub detail: String,
+    /// What is known of it, as Markdown.
+    pub documentation: String,
+    /// The text that it replaces.
+    pub replaces: Span,
+    /// What is written there.
+    pub text: String,
+    /// The same as a snippet of the Language Server Protocol, where there is something to fill in.
+    pub snippet: Option<String>,
+}
+
+/// Kinds of things.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A command of the form.
+    Command,
+    /// A value that a command takes.
+    Value,
+    /// A sequence.
+    Sequence,
+    /// `End`, `None`, `Cancel`.
+    Keyword,
+    /// A variable.
+    Variable,
+    /// A G or M code.
+    Code,
+    /// The code of a finding.
+    Finding,
+}
+
+impl Document {
+    /// What could stand at a byte of a file, by what stands before it.
+    pub fn complete(&self, file: u32, offset: u32, current: Option<&Current>) -> Vec<Completion> {
+        let Some((start, before)) = self.line_before(file, offset) else { return Vec::new() };
+        let span = |length: usize| Span::new(file, offset as usize - length, offset as usize);
+        if let Some(list) = self.allowances(before, &span) {
+            return list;
+        }
+        if before.contains('#') && !before.contains("Sequence#") && !before.contains("[program#") {
+            return Vec::new(); // a comment
+        }
+        let node = self.sequence_at(file, start).filter(|node| node.name.line.span.start < start);
+        let open = node.is_some_and(|node| node.end.as_ref().is_none_or(|end| end.line.span.end >= offset));
+        if let Some(at) = before.rfind(['[', '<'])
+            && !before[at..].contains([']', '>'])
+        {
+            let line = self.line_of(file, offset).unwrap_or_default();
+            return self.variables(span(before.len() - at - 1), before.as_bytes()[at], line, current);
+        }
+        let word = before.rsplit([' ', '\t']).next().unwrap_or("");
+        let first = before.trim_start_matches([' ', '\t']);
+        match open {
+            true => self.in_sequence(first, word, &span, node.map(|node| node.name.name.text.as_str())),
+            false => self.outside(first, word, &span),
+        }
+    }
+
+    /// `# postform: allow PF`: the codes that are found.
+    fn allowances(&self, before: &str, span: &dyn Fn(usize) -> Span) -> Option<Vec<Completion>> {
+        let comment = before.rsplit_once('#')?.1.trim_start();
+        let rest = comment.strip_prefix("postform:")?.trim_start();
+        let word = rest.rsplit(' ').next().unwrap_or("");
+        let new = |label: &str, detail: &str, documentation: String, kind| Completion {
+            label: label.to_owned(),
+            kind,
+            detail: detail.to_owned(),
+            documentation,
+            replaces: span(word.len()),
+            text: label.to_owned(),
+            snippet: None,
+        };
+        if !rest.contains(' ') {
+            let verbs =
+                [("allow", "in this line, the next one, or the sequence below"), ("allow-file", "in the whole file")];
+            return Some(verbs.map(|(verb, detail)| new(verb, detail, String::new(), Kind::Keyword)).into());
+        }
+        let found = |name: &str| self.findings().iter().any(|diag| diag.code.name() == name);
+        let rows = CODES.iter().filter(|row| row.name.starts_with("PF") && found(row.name));
+        Some(rows.map(|row| new(row.name, row.title, String::new(), Kind::Finding)).collect())
+    }
+
+    /// The variables of this machine, with what each holds in the current job.
+    fn variables(&self, replaces: Span, bracket: u8, line: Span, current: Option<&Current>) -> Vec<Completion> {
+        let machine = self.checked.form.settings.machine;
+        let close = if bracket == b'[' { "]" } else { ">" };
+        let source = &self.files()[replaces.file as usize].text;
+        let close = if source[replaces.end as usize..].starts_with(close) { "" } else { close };
+        let rows = VARIABLES.iter().filter(|row| row.machines.has(machine));
+        rows.map(|row| {
+            let value = current.and_then(|current| Some((&current.name, self.value(line, row.id, current)?)));
+            let held = value.map(|(job, value)| format!(" = {value} in {job}")).unwrap_or_default();
+            Completion {
+                label: row.name.to_owned(),
+                kind: Kind::Variable,
+                detail: format!("{}{held}: {}", counts(row.unit), row.meaning),
+                documentation: markdown(&explain::variable(row.id)),
+                replaces,
+                text: format!("{}{close}", row.name),
+                snippet: None,
+            }
+        })
+        .collect()
+    }
+
+    fn in_sequence(
+        &self,
+        first: &str,
+        word: &str,
+        span: &dyn Fn(usize) -> Span,
+        name: Option<&str>,
+    ) -> Vec<Completion> {
+        let keyword = |label: &str, detail: &str, page: &str| Completion {
+            label: label.to_owned(),
+            kind: Kind::Keyword,
+            detail: detail.to_owned(),
+            documentation: markdown(page),
+            replaces: span(word.len()),
+            text: label.to_owned(),
+            snippet: None,
+        };
+        let is_cycle = name.and_then(SequenceId::parse).is_some_and(|id| id.row().is_cycle && id != SequenceId::Cancel);
+        if let Some(rest) = first.get(..4).filter(|head| head.eq_ignore_ascii_case("End ")).map(|_| &first[4..]) {
+            let cancel = keyword("Cancel", "print Cancel behind the last hole", &explain::end());
+            return if is_cycle && !rest.contains(' ') { vec![cancel] } else { Vec::new() };
+        }
+        let mut list = Vec::new();
+        if first.len() == word.len() {
+            list.push(keyword("End", "ends the sequence", &explain::end()));
+            if is_cycle {
+                list.push(keyword("End Cancel", "ends the cycle and cancels it", &explain::end()));
+            }
+            list.push(keyword("None", "the whole body: prints nothing", &explain::none()));
+        }
+        let letter = word.bytes().next().map(|byte| byte.to_ascii_uppercase());
+        match letter {
+            Some(letter @ (b'G' | b'M')) if word[1..].bytes().all(|b| b.is_ascii_digit() || b == b'.') => {
+                codes(self.control(), Some(letter), span(word.len()))
+            }
+            None => {
+                list.extend(codes(self.control(), None, span(0)));
+                list
+            }
+            _ => list,
+        }
+    }
+
+    fn outside(&self, first: &str, word: &str, span: &dyn Fn(usize) -> Span) -> Vec<Completion> {
+        if first.len() > word.len() {
+            let name = first.split([' ', '\t']).next().unwrap_or("");
+            let index = first.split([' ', '\t']).filter(|part| !part.is_empty()).count().saturating_sub(1);
+            let index = if word.is_empty() { index } else { index - 1 };
+            return self.values(name, index, span(word.len()));
+        }
+        let settings = &self.checked.form.settings;
+        let (machine, form) = (settings.machine, &self.checked.form);
+        let statements = || self.checked.trees.iter().flat_map(|tree| tree.statements());
+        let there = |id: CommandId| statements().any(|statement| CommandId::parse(&statement.name.text) == Some(id));
+        let replaces = span(word.len());
+        // commands stand before the first sequence
+        let any_above =
+            self.checked.trees[replaces.file as usize].sequences().any(|node| node.span().start < replaces.start);
+        let commands = COMMANDS.iter().filter(|row| !any_above && (row.repeats || !there(row.id)));
+        let mut list: Vec<Completion> = commands
+            .map(|row| Completion {
+                label: row.name.to_owned(),
+                kind: Kind::Command,
+                detail: row.meaning.to_owned(),
+                documentation: markdown(&explain::command(row.id)),
+                replaces,
+                text: row.name.to_owned(),
+                snippet: Some(shape(row.id, machine)),
+            })
+            .collect();
+        let sequences =
+            SEQUENCES.iter().filter(|row| row.machines.has(machine) && !form.sequences.contains_key(&row.id));
+        list.extend(sequences.map(|row| Completion {
+            label: row.name.to_owned(),
+            kind: Kind::Sequence,
+            detail: row.meaning.to_owned(),
+            documentation: markdown(&explain::sequence(row.id)),
+            replaces,
+            text: row.name.to_owned(),
+            snippet: Some(body(row.id)),
+        }));
+        list.push(Completion {
+            label: "Upon".to_owned(),
+            kind: Kind::Sequence,
+            detail: "when a variable changes, before what uses it".to_owned(),
+            documentation: markdown(&explain::upon()),
+            replaces,
+            text: "Upon".to_owned(),
+            snippet: Some("Upon [${1:work}]\n$0\nEnd".to_owned()),
+        });
+        list
+    }
+
+    /// What a command could say.
+    fn values(&self, name: &str, index: usize, replaces: Span) -> Vec<Completion> {
+        let new = |label: &str, detail: &str| Completion {
+            label: label.to_owned(),
+            kind: Kind::Value,
+            detail: detail.to_owned(),
+            documentation: String::new(),
+            replaces,
+            text: label.to_owned(),
+            snippet: None,
+        };
+        if name.eq_ignore_ascii_case("Upon") && index == 0 {
+            return vec![new("Every", "at every use, not only when it changes")];
+        }
+        let Some(id) = CommandId::parse(name) else { return Vec::new() };
+        match id.row().args {
+            Args::Switch if index == 0 => vec![new("Y", "yes"), new("N", "no")],
+            Args::Choice(words) if index == 0 => words.iter().map(|word| new(word, "")).collect(),
+            Args::Codes(letter, _, most) if index < usize::from(most) => {
+                codes(self.control(), Some(letter as u8), replaces)
+            }
+            Args::Motion(_, most) if index < usize::from(most) => codes(self.control(), Some(b'G'), replaces),
+            _ if id == CommandId::Control && index == 0 => {
+                let controls = control::names().filter_map(Control::named);
+                controls.map(|control| new(control.name(), control.title())).collect()
+            }
+            _ if matches!(id, CommandId::Ask | CommandId::Each) && index == 0 => {
+                let rows = VARIABLES.iter().filter(|row| row.origin != Origin::Computed);
+                rows.map(|row| new(&format!("[{}]", row.name), row.meaning)).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// The codes of a control.
+pub(super) fn codes(control: &Control, letter: Option<u8>, replaces: Span) -> Vec<Completion> {
+    let rows = control.rows().filter(|row| letter.is_none_or(|letter| row.code.letter == letter));
+    rows.map(|row| {
+        let code: Code = row.code;
+        let about = explain::controls::code(control, code).unwrap_or_default();
+        Completion {
+            label: code.to_string(),
+            kind: Kind::Code,
+            detail: about.clone(),
+            documentation: super::hover::about_code(code, control),
+            replaces,
+            text: code.to_string(),
+            snippet: None,
+        }
+    })
+    .collect()
+}
+
+/// A command with what holds without it, to be changed.
+fn shape(id: CommandId, machine: Machine) -> String {
+    let row = id.row();
+    let default = row.without.arguments(machine, UnitChoice::Inch);
+    let filled = match (row.args, default) {
+        (Args::Switch, default) => format!("${{1|{}|}}", if default == "Y" { "N,Y" } else { "Y,N" }),
+        (Args::Choice(words), _) => format!("${{1|{}|}}", words.join(",")),
+        (_, "") => row.example.map_or_else(|| "$0".to_owned(), |example| format!("${{1:{}}}", quoted(example))),
+        (_, default) => {
+            let parts = default.split(' ').enumerate();
+            parts.map(|(i, part)| format!("${{{}:{}}}", i + 1, quoted(part))).collect::<Vec<_>>().join(" ")
+        }
+    };
+    format!("{} {filled}", row.name)
+}
+
+/// A sequence with an empty body.
+fn body(id: SequenceId) -> String {
+    let end = if id.makes_holes() { "End Cancel" } else { "End" };
+    format!("{}\n$0\n{end}", id.name())
+}
+
+fn quoted(text: &str) -> String {
+    text.replace('\\', "\\\\").replace('$', "\\$").replace('}', "\\}")
+}
+
+fn counts(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Length => "length",
+        Unit::Angle => "degrees",
+        Unit::Feed => "feed",
+        Unit::Speed => "speed",
+        Unit::Time => "time",
+        Unit::Code => "code",
+        Unit::Count => "whole number",
+        Unit::Number => "number",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::tests::{haas, marked};
+    use super::*;
+
+    fn listed(document: &Document, offset: u32) -> Vec<Completion> {
+        let current = haas("", "").0.print_sample();
+        document.complete(0, offset, current.as_ref())
+    }
+
+    fn labels(from: &str, to: &str) -> Vec<String> {
+        let (document, offset) = haas(from, to);
+        listed(&document, offset).into_iter().map(|item| item.label).collect()
+    }
+
+    fn has(labels: &[String], label: &str) -> bool {
+        labels.iter().any(|other| other == label)
+    }
+
+    #[test]
+    fn commands_and_sequences_that_are_not_there_yet() {
+        let all = labels("\nSequence#s", "\n|\nSequence#s");
+        assert!(has(&all, "Coolant") && has(&all, "CycleOrient") && has(&all, "Upon"), "{all:?}");
+        assert!(!has(&all, "ArcPlane") && !has(&all, "Drill"), "what is there needs no second one");
+        let behind = labels("\nCancel", "\n|\nCancel");
+        assert!(!has(&behind, "Coolant") && has(&behind, "EndRow"), "commands stand above sequences: {behind:?}");
+        let (document, offset) = haas("\nSequence#s", "\nCoo|\nSequence#s");
+        let list = listed(&document, offset);
+        let coolant = list.iter().find(|item| item.label == "Coolant").unwrap();
+        assert_eq!(coolant.snippet.as_deref(), Some("Coolant ${1:8} ${2:9} ${3:7}"));
+        assert_eq!(document.slice(coolant.replaces), "Coo");
+    }
+
+    #[test]
+    fn variables_behind_a_bracket_with_their_value() {
+        let (document, offset) = haas("R[vclear]", "R[vc|lear]");
+        let current = haas("", "").0.print_sample();
+        let list = document.complete(0, offset, current.as_ref());
+        let vclear = list.iter().find(|item| item.label == "vclear").unwrap();
+        assert!(
+            vclear.detail.starts_with("length = ") && vclear.detail.contains(" in the sample job: clearance"),
+            "{vclear:?}"
+        );
+        assert_eq!((document.slice(vclear.replaces), vclear.text.as_str()), ("vc", "vclear]"));
+        assert!(list.iter().all(|item| item.label != "h2"), "a wire's variable on a mill");
+        let (document, offset) = haas("G81 X[h] Y[v]", "G81 X[| Y[v]");
+        assert_eq!(listed(&document, offset).iter().find(|item| item.label == "h").unwrap().text, "h]");
+    }
+
+    #[test]
+    fn codes_of_the_control_behind_a_letter() {
+        let g = labels("G53 Z0 M5", "G53 Z0 M5 G|");
+        assert!(has(&g, "G187") && !has(&g, "M5"), "{g:?}");
+        let m = labels("G53 Z0 M5", "G53 Z0 M|");
+        assert!(has(&m, "M8") && !has(&m, "G81"));
+        assert!(has(&labels("ArcPlane G17", "ArcPlane G|"), "G17"));
+    }
+
+    #[test]
+    fn the_end_of_a_cycle_and_what_commands_take() {
+        assert_eq!(labels("End Cancel", "End |"), ["Cancel"]);
+        assert!(labels("G49 G80 G90\nEnd", "G49 G80 G90\nEnd |").is_empty(), "StartCode is no cycle");
+        assert!(has(&labels("End Cancel", "|"), "End Cancel"));
+        assert_eq!(labels("Machine Mill", "Machine |"), ["Mill", "Lathe", "EDM"]);
+        assert_eq!(labels("RigidTap? Y", "RigidTap? |"), ["Y", "N"]);
+        assert!(has(&labels("Control haas", "Control ha|"), "haas"));
+        assert!(labels("# Haas VF", "# Haas G|").is_empty(), "a comment");
+    }
+
+    #[test]
+    fn allowances_name_what_is_found() {
+        let (document, offset) = marked("Machine Mill\nDril\n# postform: allow PF|\n");
+        let list = document.complete(0, offset, None);
+        assert!(!list.is_empty() && list.iter().all(|item| item.kind == Kind::Finding), "{list:?}");
+        let (document, offset) = marked("# postform: |\n");
+        assert_eq!(document.complete(0, offset, None)[0].label, "allow");
+    }
+}

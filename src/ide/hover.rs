@@ -1,0 +1,171 @@
+//! What is said of the thing under the pointer.
+
+use super::formats::examples;
+use super::words::{blocks, escape, markdown};
+use super::{At, Current, Document, What};
+use crate::control::{Code, Control};
+use crate::explain;
+use crate::lang::{Unit, VarId};
+use crate::number::LetterFormat;
+use crate::span::Span;
+
+/// What is said, and of what.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hover {
+    /// The thing.
+    pub span: Span,
+    /// Markdown.
+    pub text: String,
+}
+
+/// Blocks of a line that are shown.
+const MOST_BLOCKS: usize = 3;
+
+impl Document {
+    /// What is known of the thing at a byte of a file: `explain`'s words, what a code does, how a format looks; and what its line
+    /// printed in the current job.
+    pub fn hover(&self, file: u32, offset: u32, current: Option<&Current>) -> Option<Hover> {
+        let line = self.line_of(file, offset)?;
+        let printed = current.and_then(|current| printed(current, line));
+        let Some(At { span, what }) = self.at(file, offset) else {
+            return printed.map(|text| Hover { span: line, text });
+        };
+        let mut text = self.about(&what);
+        if let (What::Variable(var, _), Some(current)) = (&what, current)
+            && let Some(value) = self.value(line, *var, current)
+        {
+            text += &format!("\n\nin {}: **{value}**", escape(&current.name));
+        }
+        if let Some(printed) = printed {
+            text += &format!("\n\n---\n{printed}");
+        }
+        Some(Hover { span, text })
+    }
+
+    fn about(&self, what: &What) -> String {
+        match what {
+            What::Command(id) | What::Argument(id, _) => markdown(&explain::command(*id)),
+            What::Sequence(id) => markdown(&explain::sequence(*id)),
+            What::Upon => markdown(&explain::upon()),
+            What::End | What::Cancel => markdown(&explain::end()),
+            What::Nothing => markdown(&explain::none()),
+            What::Variable(var, _) => markdown(&explain::variable(*var)),
+            What::Code(code) => about_code(*code, self.control()),
+            What::Format(letter) | What::Word(letter) => self.format(*letter),
+        }
+    }
+
+    /// How the numbers of a letter look.
+    fn format(&self, letter: u8) -> String {
+        let shown = char::from(letter);
+        let settings = &self.checked.form.settings;
+        let Some((format, span)) = self.checked.form.formats.get(&letter) else {
+            return format!("**{shown}**\n\nThe form gives this letter no format: a built-in one holds.");
+        };
+        let spelt = self.slice(*span).trim();
+        let head = format!("**{}**\n\n{}", escape(spelt), in_words(format));
+        let rows = examples(letter, format, settings.leading_zeros);
+        let rows: Vec<String> = rows.iter().map(|(value, text)| format!("{value:<8} → {text}")).collect();
+        format!("{head}\n```text\n{}\n```", rows.join("\n"))
+    }
+
+    /// The line of a byte, without its end.
+    pub(super) fn line_of(&self, file: u32, offset: u32) -> Option<Span> {
+        let (start, _) = self.line_before(file, offset)?;
+        let text = &self.files()[file as usize].text[start as usize..];
+        let length = text.find('\n').unwrap_or(text.len());
+        Some(Span::new(file, start as usize, start as usize + text[..length].trim_end().len()))
+    }
+
+    /// What a variable holds in the current job: where the line printed first, else where its sequence did.
+    pub(super) fn value(&self, line: Span, var: VarId, current: &Current) -> Option<String> {
+        let sequence = self.sequence_at(line.file, line.start).map(|node| node.span());
+        let value = current.value(line, var).or_else(|| current.value(sequence?, var))?;
+        Some(shown(value, var))
+    }
+}
+
+/// A value with what it counts.
+fn shown(value: f64, var: VarId) -> String {
+    let rounded = (value * 1e6).round() / 1e6;
+    match var.row().unit {
+        Unit::Angle => format!("{rounded}°"),
+        _ => rounded.to_string(),
+    }
+}
+
+/// What a code does on a control.
+pub(super) fn about_code(code: Code, control: &Control) -> String {
+    match explain::controls::code(control, code) {
+        Some(about) => format!("**{code}** on {}\n\n{}", escape(control.shown()), escape(&about)),
+        None if control.refuses(code) => format!("**{code}**\n\n{} refuses it", escape(control.shown())),
+        None => format!("**{code}**\n\nNobody knows what it does on {}.", escape(control.shown())),
+    }
+}
+
+fn in_words(format: &LetterFormat) -> String {
+    use crate::number::{Point, Sign};
+    let sign = match format.sign {
+        Sign::Unsigned => "no sign: a negative value is an error",
+        Sign::Minus => "a minus where the value is negative",
+        Sign::Always => "always a sign",
+    };
+    let digits = |digits: crate::number::Digits| match digits.fixed {
+        true => format!("exactly {}", digits.count),
+        false => format!("up to {}", digits.count),
+    };
+    let point = match (format.point, format.dec.count) {
+        (Point::Implied, 0) => String::new(),
+        (Point::Implied, _) => format!(", {} decimals without a point", digits(format.dec)),
+        (Point::Always, _) => format!(", always a point, {} decimals", digits(format.dec)),
+        (Point::BeforeFraction, _) => format!(", a point before a fraction only, {} decimals", digits(format.dec)),
+    };
+    format!("{sign}; {} digits{point}", digits(format.int))
+}
+
+/// What a line printed.
+fn printed(current: &Current, line: Span) -> Option<String> {
+    let printed = current.printed(line, MOST_BLOCKS);
+    let times = match printed.times {
+        0 => return None,
+        1 => "prints 1 block".to_owned(),
+        times => format!("prints {times} blocks"),
+    };
+    let more = if printed.times > printed.first.len() { "\n…" } else { "" };
+    let first = printed.first.iter().map(|(_, block)| *block);
+    let shown = blocks(first.chain(more.strip_prefix('\n')));
+    Some(format!("in {} this line {times}\n{shown}", escape(&current.name)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::tests::haas;
+
+    fn text(from: &str, to: &str) -> String {
+        let (document, offset) = haas(from, to);
+        let current = document.print_sample();
+        document.hover(0, offset, current.as_ref()).map_or_else(String::new, |hover| hover.text)
+    }
+
+    #[test]
+    fn each_kind_is_told_of() {
+        let variable = text("R[vclear]", "R[vc|lear]");
+        assert!(
+            variable.starts_with("**[vclear] (variable)**") && variable.contains("in the sample job: **"),
+            "{variable}"
+        );
+        assert!(variable.contains("this line prints ") && variable.contains("```nc\n"), "{variable}");
+        let code = text("G40 G49", "G|40 G49");
+        assert!(code.starts_with("**G40** on haas\n\n"), "{code}");
+        let format = text("Y->3.>4", "Y->|3.>4");
+        assert!(
+            format.contains("a minus where the value is negative; up to 3 digits, always a point, up to 4 decimals"),
+            "{format}"
+        );
+        assert!(format.contains("12.5     → Y12.5\n-0.25    → Y-.25\n3        → Y3."), "{format}");
+        assert!(text("ArcPlane", "Arc|Plane").starts_with("**ArcPlane (command)**"));
+        assert!(text("\nCancel", "\nCan|cel").starts_with("**Cancel (canned cycle)**"));
+        assert!(text("Upon [work]", "U|pon [work]").starts_with("**Upon"));
+        assert_eq!(text("# Haas", "# H|aas"), "");
+    }
+}

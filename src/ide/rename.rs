@@ -1,0 +1,103 @@
+//! New names for what a form may name as it likes: free values, and the three Custom sequences.
+
+use super::{At, Document, What};
+use crate::lang::{SequenceId, VarId};
+use crate::span::Span;
+
+/// Text that takes the place of spans.
+pub type Renamed = Vec<(Span, String)>;
+
+/// Why something keeps its name, in a sentence.
+pub type CantRename = String;
+
+const CUSTOM: [SequenceId; 3] = [SequenceId::Custom1, SequenceId::Custom2, SequenceId::Custom3];
+
+/// Is it one of `val1` to `val10`?
+fn is_free(var: VarId) -> bool {
+    var.name().strip_prefix("val").is_some_and(|number| number.parse::<u8>().is_ok())
+}
+
+impl Document {
+    /// The name at a byte of a file, where it may be another one.
+    ///
+    /// # Errors
+    /// It is a word of the language, which has one name.
+    pub fn renameable(&self, file: u32, offset: u32) -> Result<Span, CantRename> {
+        match self.at(file, offset) {
+            Some(At { span, what: What::Variable(var, _) }) if is_free(var) => Ok(name_in(self, span, var)),
+            Some(At { span, what: What::Sequence(id) }) if CUSTOM.contains(&id) => Ok(span),
+            _ => Err(
+                "only val1 to val10 and Custom1 to Custom3 can have another name: the others are words of the language"
+                    .into(),
+            ),
+        }
+    }
+
+    /// The edits that give the thing at a byte of a file another name.
+    ///
+    /// # Errors
+    /// It keeps its name; the new name is none, or is taken.
+    pub fn rename(&self, file: u32, offset: u32, name: &str) -> Result<Renamed, CantRename> {
+        self.renameable(file, offset)?;
+        let Some(At { what, .. }) = self.at(file, offset) else { return Ok(Vec::new()) };
+        let name = name.trim().trim_matches(['[', ']', '<', '>']);
+        match what {
+            What::Variable(var, _) => {
+                let new = VarId::parse(name).filter(|new| is_free(*new));
+                let new = new.ok_or_else(|| format!("`{name}` is no free value: val1 to val10 are"))?;
+                if new != var && !self.places(&What::Variable(new, None)).is_empty() {
+                    return Err(format!("[{}] is used in this form already", new.name()));
+                }
+                let places = self.places(&What::Variable(var, None));
+                Ok(places.into_iter().map(|span| (name_in(self, span, var), new.name().to_owned())).collect())
+            }
+            What::Sequence(id) => {
+                let new = SequenceId::parse(name).filter(|new| CUSTOM.contains(new));
+                let new = new.ok_or_else(|| format!("`{name}` is none of Custom1, Custom2 and Custom3"))?;
+                if new != id && self.checked.form.sequences.contains_key(&new) {
+                    return Err(format!("the form has a {} already", new.name()));
+                }
+                let places = self.places(&What::Sequence(id));
+                Ok(places.into_iter().map(|span| (span, new.name().to_owned())).collect())
+            }
+            _ => Ok(Vec::new()),
+        }
+    }
+}
+
+/// The name alone in `X[val1]`.
+fn name_in(document: &Document, span: Span, var: VarId) -> Span {
+    let text = document.slice(span).to_ascii_lowercase();
+    match text.find(var.name()) {
+        Some(at) => {
+            let start = span.start as usize + at;
+            Span::new(span.file, start, start + var.name().len())
+        }
+        None => span,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::tests::haas;
+
+    #[test]
+    fn free_values_and_customs_get_other_names() {
+        let (document, offset) = haas("T[tool] M6", "T[tool] M6 P[val1]\n(VISE [val1]) Q[va|l1]");
+        let edits = document.rename(0, offset, "[val7]").unwrap();
+        assert_eq!(edits.len(), 3);
+        assert!(edits.iter().all(|(span, text)| document.slice(*span) == "val1" && text == "val7"), "{edits:?}");
+        assert!(document.rename(0, offset, "height").unwrap_err().contains("val1 to val10"));
+        let (document, offset) = haas("Custom1   Face", "Cus|tom1   Face");
+        assert_eq!(document.rename(0, offset, "Custom3").unwrap().len(), 1);
+        assert!(document.rename(0, offset, "Drill").is_err());
+    }
+
+    #[test]
+    fn names_that_are_taken_and_words_of_the_language_stay() {
+        let (document, offset) = haas("T[tool] M6", "T[tool] M6 P[val1] Q[va|l2]");
+        assert!(document.rename(0, offset, "val1").unwrap_err().contains("already"));
+        let (document, offset) = haas("X[h]", "X[|h]");
+        assert!(document.renameable(0, offset).is_err());
+    }
+}

@@ -1,0 +1,105 @@
+//! The outline of a form.
+
+use super::Document;
+use crate::lang::{CommandId, SequenceName};
+use crate::span::Span;
+use crate::syntax::{Head, SequenceNode};
+
+/// A part of a form.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Symbol {
+    /// As the form names it: `Drill`, `Upon [work]`, `Coolant`.
+    pub name: String,
+    /// What it does, or what a command says.
+    pub detail: String,
+    /// What it is.
+    pub kind: Kind,
+    /// The whole of it.
+    pub span: Span,
+    /// Its name.
+    pub name_span: Span,
+}
+
+/// What a part of a form is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A command.
+    Command,
+    /// A letter format.
+    Format,
+    /// A sequence.
+    Sequence,
+    /// `Upon [var]`.
+    Upon,
+}
+
+impl Document {
+    /// The commands, formats and sequences of a file, in its order.
+    pub fn symbols(&self, file: u32) -> Vec<Symbol> {
+        self.items(file).iter().filter_map(|item| self.symbol(item)).collect()
+    }
+
+    fn symbol(&self, item: &Head) -> Option<Symbol> {
+        match item {
+            Head::Blank(_) | Head::StrayEnd(_) => None,
+            Head::Format { line, letter, spec } => Some(Symbol {
+                name: letter.text.clone(),
+                detail: spec.text.trim().to_owned(),
+                kind: Kind::Format,
+                span: line.span,
+                name_span: letter.span,
+            }),
+            Head::Statement(statement) => {
+                let id = CommandId::parse(&statement.name.text)?;
+                let args: Vec<&str> = statement.args.iter().map(|arg| arg.text.as_str()).collect();
+                Some(Symbol {
+                    name: id.name().to_owned(),
+                    detail: args.join(" "),
+                    kind: Kind::Command,
+                    span: statement.line.span,
+                    name_span: statement.name.span,
+                })
+            }
+            Head::Sequence(node) => Some(self.sequence(node)),
+        }
+    }
+
+    fn sequence(&self, node: &SequenceNode) -> Symbol {
+        let mut words = vec![node.name.name.text.as_str()];
+        words.extend(node.name.args.iter().map(|arg| arg.text.as_str()));
+        let (name, detail, kind) = match SequenceName::parse(&words) {
+            Some(SequenceName::Plain(id, _)) => {
+                let remark = self.checked.form.sequences.get(&id).and_then(|sequence| sequence.custom_kind());
+                let name = remark.map_or(id.name().to_owned(), |kind| format!("{} {kind}", id.name()));
+                (name, id.row().meaning, Kind::Sequence)
+            }
+            Some(SequenceName::Upon(var)) => (format!("Upon [{}]", bare(var)), "when it changes", Kind::Upon),
+            Some(SequenceName::UponEvery(var)) => (format!("Upon Every [{}]", bare(var)), "at every use", Kind::Upon),
+            None => (node.name.name.text.clone(), "no sequence", Kind::Sequence),
+        };
+        Symbol { name, detail: detail.to_owned(), kind, span: node.span(), name_span: node.name.name.span }
+    }
+}
+
+fn bare(var: &str) -> &str {
+    var.trim_matches(['[', ']', '<', '>'])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::tests::haas;
+
+    #[test]
+    fn the_outline_has_every_part_once() {
+        let (document, _) = haas("", "");
+        let all = document.symbols(0);
+        let named = |name: &str| all.iter().filter(|symbol| symbol.name == name).collect::<Vec<_>>();
+        assert_eq!(named("Units")[0].detail, "both");
+        assert_eq!(named("X")[0].detail, "->3.>4");
+        assert_eq!((named("Upon [work]").len(), named("Custom1 Face").len(), named("Drill").len()), (1, 1, 1));
+        let drill = named("Drill")[0];
+        let text = document.slice(drill.span);
+        assert!(text.starts_with("Drill\nG[retplane] G81") && text.ends_with("End Cancel"), "{text}");
+        assert_eq!(document.slice(drill.name_span), "Drill");
+    }
+}

@@ -1,0 +1,149 @@
+//! What each word of a form is, for its colour.
+
+use super::{At, Document, What};
+use crate::span::Span;
+use crate::syntax::{Head, Line, Piece, PieceKind, Tail};
+
+/// A coloured word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Token {
+    /// Where: within one line.
+    pub span: Span,
+    /// What.
+    pub kind: Kind,
+}
+
+/// What words are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// A command.
+    Command,
+    /// What a command takes.
+    Argument,
+    /// A letter format.
+    Format,
+    /// A sequence's name.
+    Sequence,
+    /// `Upon`, `End`, `Cancel`, `None`.
+    Keyword,
+    /// A word with a variable.
+    Variable,
+    /// A G or M code.
+    Code,
+    /// Another word that is typed.
+    Word,
+    /// A comment of the program.
+    Note,
+    /// A comment of the form.
+    Comment,
+    /// Text behind two blanks, which is not printed.
+    Lost,
+}
+
+impl Kind {
+    /// All of them, in their order.
+    pub const ALL: [Kind; 11] = [
+        Kind::Command,
+        Kind::Argument,
+        Kind::Format,
+        Kind::Sequence,
+        Kind::Keyword,
+        Kind::Variable,
+        Kind::Code,
+        Kind::Word,
+        Kind::Note,
+        Kind::Comment,
+        Kind::Lost,
+    ];
+}
+
+impl Document {
+    /// The words of a file, in their order, none within another.
+    pub fn tokens(&self, file: u32) -> Vec<Token> {
+        let mut tokens = Vec::new();
+        self.each(file, |At { span, what }| {
+            let kind = match what {
+                What::Command(_) => Kind::Command,
+                What::Argument(..) => Kind::Argument,
+                What::Format(_) => Kind::Format,
+                What::Sequence(_) => Kind::Sequence,
+                What::Upon | What::End | What::Cancel | What::Nothing => Kind::Keyword,
+                What::Variable(..) => Kind::Variable,
+                What::Code(_) => Kind::Code,
+                What::Word(_) => Kind::Word,
+            };
+            tokens.push(Token { span, kind });
+        });
+        let lines = self.checked.trees.get(file as usize).map(|tree| tree.lines()).unwrap_or_default();
+        tokens.extend(lines.into_iter().filter_map(tail));
+        for item in self.items(file) {
+            let Head::Sequence(node) = item else { continue };
+            let pieces = node.body.iter().flat_map(|body| &body.words).flat_map(|word| &word.pieces);
+            pieces.for_each(|piece| notes(piece, &mut tokens));
+        }
+        tokens.retain(|token| token.span.start < token.span.end);
+        tokens.sort_by_key(|token| token.span.start);
+        tokens
+    }
+}
+
+fn tail(line: &Line) -> Option<Token> {
+    match &line.tail {
+        Tail::None => None,
+        Tail::Comment(span) => Some(Token { span: *span, kind: Kind::Comment }),
+        Tail::Lost(lost) => Some(Token { span: lost.span, kind: Kind::Lost }),
+    }
+}
+
+/// The text of a comment of the program, around its variables.
+fn notes(piece: &Piece, tokens: &mut Vec<Token>) {
+    let PieceKind::Note { parts, .. } = &piece.kind else { return };
+    let mut at = piece.span.start;
+    let variables = parts.iter().filter(|part| matches!(part.kind, PieceKind::Variable { .. }));
+    for part in variables {
+        tokens.push(Token { span: Span { start: at, end: part.span.start, ..piece.span }, kind: Kind::Note });
+        at = part.span.end;
+    }
+    tokens.push(Token { span: Span { start: at, ..piece.span }, kind: Kind::Note });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::tests::{haas, marked};
+    use super::*;
+
+    #[test]
+    fn every_word_has_its_kind() {
+        let (document, _) = marked("Units mm # metric\nX->3.>4\nDrill\nG81 X[h] Q5 (TOOL [tool])\nEnd Cancel   lost\n");
+        let told: Vec<_> = document.tokens(0).iter().map(|token| (document.slice(token.span), token.kind)).collect();
+        assert_eq!(
+            told,
+            [
+                ("Units", Kind::Command),
+                ("mm", Kind::Argument),
+                ("# metric", Kind::Comment),
+                ("X->3.>4", Kind::Format),
+                ("Drill", Kind::Sequence),
+                ("G81", Kind::Code),
+                ("X[h]", Kind::Variable),
+                ("Q5", Kind::Word),
+                ("(TOOL ", Kind::Note),
+                ("[tool]", Kind::Variable),
+                (")", Kind::Note),
+                ("End", Kind::Keyword),
+                ("Cancel", Kind::Keyword),
+                ("lost", Kind::Lost),
+            ]
+        );
+    }
+
+    #[test]
+    fn no_token_lies_in_another() {
+        let (document, _) = haas("", "");
+        let tokens = document.tokens(0);
+        assert!(tokens.len() > 100);
+        for pair in tokens.windows(2) {
+            assert!(pair[0].span.end <= pair[1].span.start, "{:?}", document.slice(pair[0].span));
+        }
+    }
+}

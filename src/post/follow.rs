@@ -1,0 +1,152 @@
+//! A job printed with what each line of the form came to: for editors.
+
+use std::collections::HashMap;
+
+use super::Post;
+use super::options::Options;
+use super::program::{Program, Rendered};
+use crate::error::Error;
+use crate::job::Job;
+use crate::lang::{VARIABLES, VarId};
+use crate::render::{self, Renderer, TraceLine, TraceWord};
+use crate::span::Span;
+use crate::toolpath::{Event, Flow, Place, Sink};
+
+/// A program, with what each line of the form came to.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Followed {
+    /// The program as far as it was printed, with its source map.
+    pub program: Program,
+    /// The lines of the form that printed, in the order of the program.
+    pub seen: Vec<Seen>,
+    /// Why the program ends before its job does, where it does.
+    pub stopped: Option<Error>,
+}
+
+/// A line of the form at the block that it printed first.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Seen {
+    /// The line of the form.
+    pub form: Span,
+    /// The line of the program, from 1.
+    pub line: u64,
+    /// What its words came to, in their order.
+    pub words: Vec<TraceWord>,
+    /// What the variables held, in the program's units; variables without a value are left out.
+    pub values: Vec<(VarId, f64)>,
+}
+
+impl Post {
+    /// Prints a job and keeps what each line of the form came to. What stops the program on its way does not lose what was
+    /// printed until then: that is what somebody wants to see who writes a form.
+    ///
+    /// # Errors
+    /// An option makes no sense.
+    pub fn follow(&self, mut job: Job<'_>, options: &Options) -> Result<Followed, Error> {
+        let asked = render::Options { trace: true, words: true, ..options.for_renderer()? };
+        let mut follower = Follower {
+            renderer: Renderer::new(&self.0.program, asked),
+            text: Vec::new(),
+            trace: Vec::new(),
+            seen: Vec::new(),
+            known: HashMap::new(),
+        };
+        let read = job.read(&mut follower);
+        follower.look();
+        let mut notes = job.take_report().warnings;
+        notes.extend_from_slice(follower.renderer.notes());
+        let rendered = Rendered { notes, lines: follower.renderer.lines() };
+        let text = String::from_utf8_lossy(&follower.text).into_owned();
+        let program = Program { text, rendered, trace: follower.trace };
+        Ok(Followed { program, seen: follower.seen, stopped: read.err() })
+    }
+}
+
+struct Follower<'p> {
+    renderer: Renderer<'p>,
+    text: Vec<u8>,
+    trace: Vec<TraceLine>,
+    seen: Vec<Seen>,
+    /// Where in `seen` a line of the form is.
+    known: HashMap<Span, usize>,
+}
+
+impl Follower<'_> {
+    /// Takes what was printed since the last time.
+    fn look(&mut self) {
+        if self.renderer.text().is_empty() {
+            return;
+        }
+        self.text.append(self.renderer.text());
+        let lines = self.renderer.trace().map(std::mem::take).unwrap_or_default();
+        let mut words = self.renderer.words().map(std::mem::take).unwrap_or_default();
+        for line in &lines {
+            let Some(form) = line.form.filter(|form| !self.known.contains_key(form)) else { continue };
+            let own = |word: &TraceWord| word.line == line.line && within(word.form, form);
+            let (mut own, rest): (Vec<_>, Vec<_>) = words.into_iter().partition(own);
+            words = rest;
+            // a run of the line that printed nothing has left its words before those of this block
+            own.reverse();
+            own.sort_by_key(|word| word.form.start);
+            own.dedup_by_key(|word| word.form);
+            self.known.insert(form, self.seen.len());
+            let held = |row: &'static crate::lang::Variable| Some((row.id, self.renderer.value(row.id)?));
+            let values = VARIABLES.iter().filter_map(held).collect();
+            self.seen.push(Seen { form, line: line.line, words: own, values });
+        }
+        self.trace.extend(lines);
+    }
+}
+
+fn within(word: Span, line: Span) -> bool {
+    word.file == line.file && line.start <= word.start && word.end <= line.end
+}
+
+impl Sink for Follower<'_> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+        self.renderer.event(event, place)?;
+        self.look();
+        Flow::Continue(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::post::NoFiles;
+    use crate::source::Source;
+
+    const FORM: &str = include_str!("../../postforms/haas.pf");
+    const JOB: &str = include_str!("../../samples/bracket/job.json");
+
+    #[test]
+    fn what_a_line_came_to_is_what_the_program_says() {
+        let post = Post::compile(Source::from_text("haas.pf", FORM), &NoFiles).unwrap();
+        let followed = post.follow(Job::json(JOB), &Options::default()).unwrap();
+        let plain = post.render(Job::json(JOB), &Options::default()).unwrap();
+        assert_eq!(followed.program.text(), plain.text());
+        assert!(followed.stopped.is_none());
+        let lines: Vec<&str> = plain.text().lines().collect();
+        assert!(followed.seen.len() > 20);
+        for seen in &followed.seen {
+            let block = lines[seen.line as usize - 1];
+            for word in &seen.words {
+                assert!(block.contains(&word.text), "{block}: {word:?}");
+            }
+        }
+        let drill = followed.seen.iter().find(|seen| FORM[seen.form.range()].contains("G81")).unwrap();
+        let words: Vec<&str> = drill.words.iter().map(|word| word.text.as_str()).collect();
+        assert_eq!(words.join(" "), lines[drill.line as usize - 1].split_once(' ').unwrap().1);
+        assert!(drill.values.iter().any(|(var, _)| *var == VarId::Vclear));
+    }
+
+    #[test]
+    fn what_was_printed_before_an_error_is_kept() {
+        let post = Post::compile(Source::from_text("haas.pf", FORM), &NoFiles).unwrap();
+        let cut = &JOB[..JOB.len() * 2 / 3];
+        let followed = post.follow(Job::json(cut), &Options::default()).unwrap();
+        assert!(followed.stopped.is_some() && followed.program.text().lines().count() > 5);
+    }
+}

@@ -24,6 +24,8 @@ struct Written {
     control: Option<NamedControl>,
     limits: Option<String>,
     #[serde(default)]
+    jobs: Vec<PathBuf>,
+    #[serde(default)]
     rules: BTreeMap<String, String>,
 }
 
@@ -46,6 +48,8 @@ pub struct Config {
     pub control: Option<&'static Control>,
     /// Limits of forms.
     pub limits: Option<LimitsArg>,
+    /// What editors print with the forms of the folder.
+    pub jobs: Vec<PathBuf>,
     /// What rules count as.
     pub levels: Levels,
 }
@@ -90,9 +94,17 @@ impl Config {
         if length > LARGEST {
             return Err(format!("error: {name} is larger than 1 MB: it is no configuration"));
         }
-        let text = fs::read_to_string(path).map_err(|error| io_message("read", path, &error))?;
-        let written: Written = toml::from_str(&text).map_err(|error| {
-            let known = "it may say form, control, limits, and under [rules] codes as PF303 = \"off\"";
+        Config::from_text(path, &fs::read_to_string(path).map_err(|error| io_message("read", path, &error))?)
+    }
+
+    /// What the text of the file says.
+    ///
+    /// # Errors
+    /// A message: it makes no sense.
+    pub fn from_text(path: &Path, text: &str) -> Result<Config, String> {
+        let name = escaped(&path.to_string_lossy());
+        let written: Written = toml::from_str(text).map_err(|error| {
+            let known = "it may say form, control, limits, jobs, and under [rules] codes as PF303 = \"off\"";
             format!("error: {name}: {}\n  help: {known}", error.to_string().trim_end())
         })?;
         let limits = written.limits.as_deref().map(|value| choice(&name, "limits", value)).transpose()?;
@@ -110,7 +122,8 @@ impl Config {
         }
         let folder = path.parent().unwrap_or(Path::new(""));
         let form = written.form.map(|form| shortened(folder.join(form)));
-        Ok(Config { path: Some(path.to_path_buf()), form, control, limits, levels })
+        let jobs = written.jobs.into_iter().map(|job| shortened(folder.join(job))).collect();
+        Ok(Config { path: Some(path.to_path_buf()), form, control, limits, jobs, levels })
     }
 }
 

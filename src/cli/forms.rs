@@ -30,6 +30,12 @@ impl FormFile {
         Ok(FormFile { path: path.to_path_buf(), bytes: files::read_form(path)?, limits, called: RefCell::default() })
     }
 
+    /// A form whose text is in an editor: it comes with the changed texts.
+    pub fn open_in_editor(path: &Path, limits: LimitsArg) -> FormFile {
+        let bytes = files::read_form(path).unwrap_or_default();
+        FormFile { path: path.to_path_buf(), bytes, limits: limits.limits(), called: RefCell::default() }
+    }
+
     /// The form's text.
     pub fn source(&self) -> Source {
         Source::from_bytes(files::name(&self.path), &self.bytes)

@@ -12,6 +12,7 @@ mod fmt;
 mod forms;
 mod identity;
 mod lint;
+mod lsp;
 mod new;
 mod output;
 mod plot;
@@ -96,6 +97,7 @@ pub fn run() -> ExitCode {
         Command::New(args) => new::run(&args),
         Command::Completions(args) => shells::completions(&args),
         Command::Man => shells::man(),
+        Command::Lsp(args) => lsp::run(&args),
     };
     let ending = ending.unwrap_or_else(|text| {
         say::message(&text);

@@ -51,7 +51,7 @@ pub struct Preview {
 const MOST_LINES: usize = 24;
 
 /// The order of letters in a form: axes, arcs, cycles, feeds and tools, the program's own.
-const ORDER: &[u8] = b"XYZUVWABCIJKRQPEFSTHDONLGM";
+const ORDER: &[u8] = b"XYZUVWABCIJKRQFPESTHDONLGM";
 
 impl Document {
     /// What can be done about the findings that a span touches. `print` gives the program of the current job with changed text for
@@ -151,6 +151,12 @@ impl Document {
         self.order(&mut group, &mut edits);
         let title = "Put the letter formats in order".to_owned();
         (!edits.is_empty()).then_some(Action { title, kind: Kind::Formats, finding: None, edits, preview: None })
+    }
+
+    /// Does a span touch a letter format?
+    pub fn has_format(&self, within: Span) -> bool {
+        let touched = |item: &Head| matches!(item, Head::Format { line, .. } if touches(line.span, within));
+        self.items(within.file).iter().any(touched)
     }
 
     fn order(&self, group: &mut Vec<(&Line, u8)>, edits: &mut Vec<(Span, String)>) {

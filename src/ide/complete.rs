@@ -5,7 +5,9 @@ use super::{Current, Document};
 use crate::control::{self, Code, Control};
 use crate::diag::CODES;
 use crate::explain;
-use crate::lang::{Args, COMMANDS, CommandId, Machine, Origin, SEQUENCES, SequenceId, Unit, UnitChoice, VARIABLES};
+use crate::lang::{
+    Args, COMMANDS, CommandId, Machine, Origin, SEQUENCES, SequenceId, Unit, UnitChoice, VARIABLES, VarId,
+};
 use crate::span::Span;
 
 /// One thing that could stand here.
@@ -17,8 +19,6 @@ pub struct Completion {
     pub kind: Kind,
     /// A few words beside it.
     pub detail: String,
-    /// What is known of it, as Markdown.
-    pub documentation: String,
     /// The text that it replaces.
     pub replaces: Span,
     /// What is written there.
@@ -44,6 +44,29 @@ pub enum Kind {
     Code,
     /// The code of a finding.
     Finding,
+}
+
+/// What is known of a thing that could stand somewhere, as Markdown: made for the one that is looked at, because an example is
+/// searched for each. Nothing is known of values.
+pub fn about(kind: Kind, label: &str, control: &Control) -> Option<String> {
+    let page = match kind {
+        Kind::Command => explain::command(CommandId::parse(label)?),
+        Kind::Sequence if label == "Upon" => explain::upon(),
+        Kind::Sequence => explain::sequence(SequenceId::parse(label)?),
+        Kind::Variable => explain::variable(VarId::parse(label)?),
+        Kind::Keyword if label == "None" => explain::none(),
+        Kind::Keyword => explain::end(),
+        Kind::Code => return Some(super::hover::about_code(label.parse().ok()?, control)),
+        Kind::Finding => explain::explain(label).ok()?,
+        Kind::Value => return None,
+    };
+    Some(markdown(&page))
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Kind; 7] =
+        [Kind::Command, Kind::Value, Kind::Sequence, Kind::Keyword, Kind::Variable, Kind::Code, Kind::Finding];
 }
 
 impl Document {
@@ -78,11 +101,10 @@ impl Document {
         let comment = before.rsplit_once('#')?.1.trim_start();
         let rest = comment.strip_prefix("postform:")?.trim_start();
         let word = rest.rsplit(' ').next().unwrap_or("");
-        let new = |label: &str, detail: &str, documentation: String, kind| Completion {
+        let new = |label: &str, detail: &str, kind| Completion {
             label: label.to_owned(),
             kind,
             detail: detail.to_owned(),
-            documentation,
             replaces: span(word.len()),
             text: label.to_owned(),
             snippet: None,
@@ -90,11 +112,11 @@ impl Document {
         if !rest.contains(' ') {
             let verbs =
                 [("allow", "in this line, the next one, or the sequence below"), ("allow-file", "in the whole file")];
-            return Some(verbs.map(|(verb, detail)| new(verb, detail, String::new(), Kind::Keyword)).into());
+            return Some(verbs.map(|(verb, detail)| new(verb, detail, Kind::Keyword)).into());
         }
         let found = |name: &str| self.findings().iter().any(|diag| diag.code.name() == name);
         let rows = CODES.iter().filter(|row| row.name.starts_with("PF") && found(row.name));
-        Some(rows.map(|row| new(row.name, row.title, String::new(), Kind::Finding)).collect())
+        Some(rows.map(|row| new(row.name, row.title, Kind::Finding)).collect())
     }
 
     /// The variables of this machine, with what each holds in the current job.
@@ -111,7 +133,6 @@ impl Document {
                 label: row.name.to_owned(),
                 kind: Kind::Variable,
                 detail: format!("{}{held}: {}", counts(row.unit), row.meaning),
-                documentation: markdown(&explain::variable(row.id)),
                 replaces,
                 text: format!("{}{close}", row.name),
                 snippet: None,
@@ -127,27 +148,26 @@ impl Document {
         span: &dyn Fn(usize) -> Span,
         name: Option<&str>,
     ) -> Vec<Completion> {
-        let keyword = |label: &str, detail: &str, page: &str| Completion {
+        let keyword = |label: &str, detail: &str| Completion {
             label: label.to_owned(),
             kind: Kind::Keyword,
             detail: detail.to_owned(),
-            documentation: markdown(page),
             replaces: span(word.len()),
             text: label.to_owned(),
             snippet: None,
         };
         let is_cycle = name.and_then(SequenceId::parse).is_some_and(|id| id.row().is_cycle && id != SequenceId::Cancel);
         if let Some(rest) = first.get(..4).filter(|head| head.eq_ignore_ascii_case("End ")).map(|_| &first[4..]) {
-            let cancel = keyword("Cancel", "print Cancel behind the last hole", &explain::end());
+            let cancel = keyword("Cancel", "print Cancel behind the last hole");
             return if is_cycle && !rest.contains(' ') { vec![cancel] } else { Vec::new() };
         }
         let mut list = Vec::new();
         if first.len() == word.len() {
-            list.push(keyword("End", "ends the sequence", &explain::end()));
+            list.push(keyword("End", "ends the sequence"));
             if is_cycle {
-                list.push(keyword("End Cancel", "ends the cycle and cancels it", &explain::end()));
+                list.push(keyword("End Cancel", "ends the cycle and cancels it"));
             }
-            list.push(keyword("None", "the whole body: prints nothing", &explain::none()));
+            list.push(keyword("None", "the whole body: prints nothing"));
         }
         let letter = word.bytes().next().map(|byte| byte.to_ascii_uppercase());
         match letter {
@@ -183,7 +203,6 @@ impl Document {
                 label: row.name.to_owned(),
                 kind: Kind::Command,
                 detail: row.meaning.to_owned(),
-                documentation: markdown(&explain::command(row.id)),
                 replaces,
                 text: row.name.to_owned(),
                 snippet: Some(shape(row.id, machine)),
@@ -195,7 +214,6 @@ impl Document {
             label: row.name.to_owned(),
             kind: Kind::Sequence,
             detail: row.meaning.to_owned(),
-            documentation: markdown(&explain::sequence(row.id)),
             replaces,
             text: row.name.to_owned(),
             snippet: Some(body(row.id)),
@@ -204,7 +222,6 @@ impl Document {
             label: "Upon".to_owned(),
             kind: Kind::Sequence,
             detail: "when a variable changes, before what uses it".to_owned(),
-            documentation: markdown(&explain::upon()),
             replaces,
             text: "Upon".to_owned(),
             snippet: Some("Upon [${1:work}]\n$0\nEnd".to_owned()),
@@ -218,7 +235,6 @@ impl Document {
             label: label.to_owned(),
             kind: Kind::Value,
             detail: detail.to_owned(),
-            documentation: String::new(),
             replaces,
             text: label.to_owned(),
             snippet: None,
@@ -257,7 +273,6 @@ pub(super) fn codes(control: &Control, letter: Option<u8>, replaces: Span) -> Ve
             label: code.to_string(),
             kind: Kind::Code,
             detail: about.clone(),
-            documentation: super::hover::about_code(code, control),
             replaces,
             text: code.to_string(),
             snippet: None,

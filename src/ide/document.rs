@@ -69,15 +69,11 @@ impl Document {
         self.checked.trees.get(file as usize).map_or(&[], |tree| &tree.items)
     }
 
-    /// The sequence that a place lies in, its name line and its end included. One without an end goes on to the next item.
+    /// The sequence that a place lies in, its name line and its end included. One without an end takes the lines behind it.
     pub(super) fn sequence_at(&self, file: u32, offset: u32) -> Option<&SequenceNode> {
         let nodes = self.checked.trees.get(file as usize)?.sequences();
-        let source = self.files().get(file as usize)?;
-        nodes.filter(|node| node.span().start <= offset).last().filter(|node| {
-            let end = node.span().end;
-            // an unfinished sequence takes the lines behind it
-            offset <= end || node.end.is_none() && source.text.get(end as usize..offset as usize).is_some()
-        })
+        let above = nodes.take_while(|node| node.span().start <= offset).last();
+        above.filter(|node| node.end.is_none() || offset <= node.span().end)
     }
 
     /// The line of a file that a place is in, up to that place, and where the line begins.

@@ -70,7 +70,7 @@ impl Document {
     }
 
     /// The line of a byte, without its end.
-    pub(super) fn line_of(&self, file: u32, offset: u32) -> Option<Span> {
+    pub fn line_of(&self, file: u32, offset: u32) -> Option<Span> {
         let (start, _) = self.line_before(file, offset)?;
         let text = &self.files()[file as usize].text[start as usize..];
         let length = text.find('\n').unwrap_or(text.len());

@@ -25,7 +25,7 @@ mod words;
 
 pub use actions::{Action, Kind as ActionKind, Preview};
 pub use at::{At, What};
-pub use complete::{Completion, Kind as CompletionKind};
+pub use complete::{Completion, Kind as CompletionKind, about};
 pub use current::{Current, Printed};
 pub use document::Document;
 pub use folding::Fold;
@@ -33,5 +33,5 @@ pub use hints::Hint;
 pub use hover::Hover;
 pub use rename::{CantRename, Renamed};
 pub use signature::Signature;
-pub use symbols::{Kind as SymbolKind, Symbol};
+pub use symbols::{Kind as SymbolKind, Symbol, symbols_of};
 pub use tokens::{Kind as TokenKind, Token};

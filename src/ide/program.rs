@@ -5,8 +5,8 @@ use std::io::Cursor;
 use super::complete::{Completion, codes};
 use super::hover::{Hover, about_code};
 use crate::control::{Code, Control};
-use crate::diag::{Diag, Location};
-use crate::nc::{Kind, RunError, RunSettings, Simulator, tokens};
+use crate::diag::{Code as FindingCode, Diag, Location, Severity};
+use crate::nc::{Kind, RunError, RunSettings, Simulator, Unpointed, tokens};
 use crate::source::Source;
 use crate::span::Span;
 
@@ -28,9 +28,22 @@ const MOST_ACTIONS: usize = 3_000_000;
 /// Findings of a program; one that is wrong in each block is wrong in the same way.
 const MOST_FINDINGS: usize = 200;
 
-/// Runs a program by the rules of a control.
+/// Runs a program by the rules of a control. A length without a point, which means one thing or another by a setting of some
+/// controls, is told once, and the program run on as if it were whole units.
 pub fn check(text: &str, control: &'static Control) -> Checked {
-    let mut simulator = Simulator::new(Cursor::new(text.as_bytes()), RunSettings::new(control));
+    let mut checked = run(text, RunSettings::new(control));
+    let unpointed = |diag: &Diag| diag.code == FindingCode::PN017;
+    if let Some(mut told) = checked.diags.pop_if(|diag| unpointed(diag)) {
+        told.severity = Severity::Warning;
+        told.help = Some("write X1. for whole units; the rest is read as if each had a point".into());
+        checked = run(text, RunSettings { unpointed: Unpointed::Whole, ..RunSettings::new(control) });
+        checked.diags.insert(0, told);
+    }
+    checked
+}
+
+fn run(text: &str, settings: RunSettings) -> Checked {
+    let mut simulator = Simulator::new(Cursor::new(text.as_bytes()), settings);
     let mut checked = Checked::default();
     let (mut items, mut actions) = (Vec::new(), 0);
     loop {
@@ -142,6 +155,14 @@ mod tests {
         assert_eq!(source.line(span.start), 2);
         let right = check("G21 G90\nG1 X1 F100\nM30\n", control("grbl"));
         assert_eq!((right.refused, right.blocks, right.diags.len()), (false, 3, 0));
+    }
+
+    #[test]
+    fn lengths_without_a_point_are_told_once_and_the_rest_is_read() {
+        let checked = check("G21 G90 G54\nG1 X1 F100.\nX2\nG5.9 X1.\nM30\n", control("haas"));
+        let told: Vec<_> = checked.diags.iter().map(|diag| (diag.code.name(), diag.severity)).collect();
+        assert_eq!((told[0], checked.refused), (("PN017", Severity::Warning), true), "{told:?}");
+        assert_eq!(checked.diags.last().and_then(|diag| diag.place.as_ref()?.line), Some(4));
     }
 
     #[test]

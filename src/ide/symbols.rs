@@ -1,9 +1,11 @@
 //! The outline of a form.
 
 use super::Document;
-use crate::lang::{CommandId, SequenceName};
+use crate::lang::{CommandId, SequenceId, SequenceName};
+use crate::sema::kind_of_remark;
+use crate::source::Source;
 use crate::span::Span;
-use crate::syntax::{Head, SequenceNode};
+use crate::syntax::{Head, SequenceNode, Tail, parse};
 
 /// A part of a form.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,49 +38,58 @@ pub enum Kind {
 impl Document {
     /// The commands, formats and sequences of a file, in its order.
     pub fn symbols(&self, file: u32) -> Vec<Symbol> {
-        self.items(file).iter().filter_map(|item| self.symbol(item)).collect()
+        self.items(file).iter().filter_map(symbol).collect()
     }
+}
 
-    fn symbol(&self, item: &Head) -> Option<Symbol> {
-        match item {
-            Head::Blank(_) | Head::StrayEnd(_) => None,
-            Head::Format { line, letter, spec } => Some(Symbol {
-                name: letter.text.clone(),
-                detail: spec.text.trim().to_owned(),
-                kind: Kind::Format,
-                span: line.span,
-                name_span: letter.span,
-            }),
-            Head::Statement(statement) => {
-                let id = CommandId::parse(&statement.name.text)?;
-                let args: Vec<&str> = statement.args.iter().map(|arg| arg.text.as_str()).collect();
-                Some(Symbol {
-                    name: id.name().to_owned(),
-                    detail: args.join(" "),
-                    kind: Kind::Command,
-                    span: statement.line.span,
-                    name_span: statement.name.span,
-                })
-            }
-            Head::Sequence(node) => Some(self.sequence(node)),
+/// The same of a form that is only read.
+pub fn symbols_of(form: &Source) -> Vec<Symbol> {
+    parse(form, 0).items.iter().filter_map(symbol).collect()
+}
+
+fn symbol(item: &Head) -> Option<Symbol> {
+    match item {
+        Head::Blank(_) | Head::StrayEnd(_) => None,
+        Head::Format { line, letter, spec } => Some(Symbol {
+            name: letter.text.clone(),
+            detail: spec.text.trim().to_owned(),
+            kind: Kind::Format,
+            span: line.span,
+            name_span: letter.span,
+        }),
+        Head::Statement(statement) => {
+            let id = CommandId::parse(&statement.name.text)?;
+            let args: Vec<&str> = statement.args.iter().map(|arg| arg.text.as_str()).collect();
+            Some(Symbol {
+                name: id.name().to_owned(),
+                detail: args.join(" "),
+                kind: Kind::Command,
+                span: statement.line.span,
+                name_span: statement.name.span,
+            })
         }
+        Head::Sequence(node) => Some(sequence(node)),
     }
+}
 
-    fn sequence(&self, node: &SequenceNode) -> Symbol {
-        let mut words = vec![node.name.name.text.as_str()];
-        words.extend(node.name.args.iter().map(|arg| arg.text.as_str()));
-        let (name, detail, kind) = match SequenceName::parse(&words) {
-            Some(SequenceName::Plain(id, _)) => {
-                let remark = self.checked.form.sequences.get(&id).and_then(|sequence| sequence.custom_kind());
-                let name = remark.map_or(id.name().to_owned(), |kind| format!("{} {kind}", id.name()));
-                (name, id.row().meaning, Kind::Sequence)
-            }
-            Some(SequenceName::Upon(var)) => (format!("Upon [{}]", bare(var)), "when it changes", Kind::Upon),
-            Some(SequenceName::UponEvery(var)) => (format!("Upon Every [{}]", bare(var)), "at every use", Kind::Upon),
-            None => (node.name.name.text.clone(), "no sequence", Kind::Sequence),
-        };
-        Symbol { name, detail: detail.to_owned(), kind, span: node.span(), name_span: node.name.name.span }
-    }
+fn sequence(node: &SequenceNode) -> Symbol {
+    let mut words = vec![node.name.name.text.as_str()];
+    words.extend(node.name.args.iter().map(|arg| arg.text.as_str()));
+    let (name, detail, kind) = match SequenceName::parse(&words) {
+        Some(SequenceName::Plain(id, _)) => {
+            let is_custom = matches!(id, SequenceId::Custom1 | SequenceId::Custom2 | SequenceId::Custom3);
+            let serves = match &node.name.line.tail {
+                Tail::Lost(remark) if is_custom => kind_of_remark(&remark.text),
+                _ => None,
+            };
+            let name = serves.map_or(id.name().to_owned(), |kind| format!("{} {kind}", id.name()));
+            (name, id.row().meaning, Kind::Sequence)
+        }
+        Some(SequenceName::Upon(var)) => (format!("Upon [{}]", bare(var)), "when it changes", Kind::Upon),
+        Some(SequenceName::UponEvery(var)) => (format!("Upon Every [{}]", bare(var)), "at every use", Kind::Upon),
+        None => (node.name.name.text.clone(), "no sequence", Kind::Sequence),
+    };
+    Symbol { name, detail: detail.to_owned(), kind, span: node.span(), name_span: node.name.name.span }
 }
 
 fn bare(var: &str) -> &str {

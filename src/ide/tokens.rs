@@ -14,7 +14,7 @@ pub struct Token {
 }
 
 /// What words are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A command.
     Command,
@@ -38,23 +38,6 @@ pub enum Kind {
     Comment,
     /// Text behind two blanks, which is not printed.
     Lost,
-}
-
-impl Kind {
-    /// All of them, in their order.
-    pub const ALL: [Kind; 11] = [
-        Kind::Command,
-        Kind::Argument,
-        Kind::Format,
-        Kind::Sequence,
-        Kind::Keyword,
-        Kind::Variable,
-        Kind::Code,
-        Kind::Word,
-        Kind::Note,
-        Kind::Comment,
-        Kind::Lost,
-    ];
 }
 
 impl Document {

@@ -21,6 +21,7 @@ mod integrations;
 mod lint_command;
 mod linuxcnc;
 mod linuxcnc_random;
+mod lsp;
 mod machines;
 mod nc_golden;
 mod numbers;

@@ -1,6 +1,7 @@
 //! What can be typed.
 
 mod controls;
+mod editor;
 mod forms;
 mod jobs;
 mod pictures;
@@ -10,6 +11,7 @@ use clap::{Args, Parser, Subcommand};
 
 use super::colour::Colour;
 pub use controls::{ControlArgs, ControlParser, NoPoint};
+pub use editor::LspArgs;
 pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, NewControl};
 pub use jobs::{CheckArgs, From, ReadArgs, RenderArgs, RenderOptions, UnitsArg};
 pub use pictures::{PlotArgs, WatchArgs};
@@ -58,6 +60,8 @@ pub enum Command {
     Completions(CompletionsArgs),
     /// Print the man page
     Man,
+    /// Serve an editor: findings, completion, hover and more, over standard input and output
+    Lsp(LspArgs),
 }
 
 /// `postform completions`.

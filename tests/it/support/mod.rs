@@ -1,5 +1,6 @@
 //! What the tests share: rendering through the library, without the command line.
 
+pub mod editor;
 pub mod folder;
 pub mod nc;
 pub mod pages;

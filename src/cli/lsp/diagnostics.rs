@@ -1,0 +1,139 @@
+//! What is found in a text, as its editor shows it.
+
+use gen_lsp_types as lsp;
+use postform::control::Control;
+use postform::diag::Diag;
+use postform::ide::program;
+use postform::{Job, Source};
+
+use super::convert::{diagnostic, line, range, trouble};
+use super::server::Server;
+use super::texts::{Kind, Text};
+use super::view::View;
+use crate::cli::config::Config;
+
+/// Findings of one text that are sent.
+const MOST: usize = 1000;
+
+/// What is found in an open text.
+pub fn of(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
+    let mut found = match text.kind {
+        Kind::Form => server.view(&text.uri).map(|view| form(&view, server)).unwrap_or_default(),
+        Kind::Program => nc(text, server),
+        Kind::Settings => settings(text),
+        Kind::Other => job(text, server),
+    };
+    found.truncate(MOST);
+    found
+}
+
+/// A form: what lint says, with the levels of its folder.
+fn form(view: &View, server: &Server) -> Vec<lsp::Diagnostic> {
+    let mut found: Vec<lsp::Diagnostic> = view.trouble.iter().map(|message| trouble(message, line(0))).collect();
+    for (index, diag) in view.document.findings().iter().enumerate() {
+        let Some(label) = diag.labels.first() else { continue };
+        let (span, place) = match label.span.file == view.file {
+            true => (label.span, None),
+            // what is wrong in a file that is called is told where the call stands
+            false => match diag.labels.iter().find(|other| other.span.file == view.file) {
+                Some(other) => (other.span, Some(label.span)),
+                None if view.file == 0 => (call_of(view, label.span.file), Some(label.span)),
+                None => continue,
+            },
+        };
+        let mut shown = diagnostic(diag, range(view.source(), span), "postform");
+        let others = diag.labels.iter().skip(1).map(|label| (label.span, label.text.clone()));
+        let others = place.map(|span| (span, "found here".to_owned())).into_iter().chain(others);
+        let related = others.filter_map(|(span, message)| {
+            let uri = view.uri(span.file, &server.texts)?;
+            let source = view.document.files().get(span.file as usize)?;
+            Some(lsp::DiagnosticRelatedInformation {
+                location: lsp::Location { uri, range: range(source, span) },
+                message,
+            })
+        });
+        let related: Vec<_> = related.collect();
+        shown.related_information = (!related.is_empty()).then_some(related);
+        shown.data = Some(index.into());
+        found.push(shown);
+    }
+    found
+}
+
+/// The line that calls a file, or the beginning of the form.
+fn call_of(view: &View, file: u32) -> postform::span::Span {
+    let name = view.document.files().get(file as usize).map_or("", |source| source.name.as_str());
+    let statements = view.document.checked().trees[0].statements();
+    let mut calls = statements.filter(|statement| statement.name.text.to_ascii_lowercase().starts_with("call"));
+    let of = |statement: &&postform::syntax::Statement| {
+        statement.args.first().is_some_and(|arg| name.ends_with(arg.text.trim_start_matches("./")))
+    };
+    calls.find(of).map(|statement| statement.line.span).unwrap_or_default()
+}
+
+/// A program: what its control refuses and warns of.
+fn nc(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
+    let (control, mut found) = match server.control_of(text) {
+        Ok((control, _)) => (control, Vec::new()),
+        Err(message) => (Control::usual(), vec![trouble(&message, line(0))]),
+    };
+    let checked = program::check(&text.source.text, control);
+    let by = format!("postform ({})", control.name());
+    found.extend(checked.diags.iter().map(|diag| at_location(diag, &text.source, &by)));
+    found
+}
+
+fn at_location(diag: &Diag, source: &Source, by: &str) -> lsp::Diagnostic {
+    let span = diag.place.as_ref().map(|location| program::place(source, location)).unwrap_or_default();
+    diagnostic(diag, range(source, span), by)
+}
+
+/// A job that the folder's postform.toml names: what is wrong in it, and what its form can't print of it.
+fn job(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
+    let Some(path) = text.path.as_deref() else { return Vec::new() };
+    let Ok(config) = Config::near(path) else { return Vec::new() };
+    let own = path.canonicalize().ok();
+    if own.is_none() || !config.jobs.iter().any(|job| job.canonicalize().ok() == own) {
+        return Vec::new();
+    }
+    let Ok(mut job) = Job::open(&path.to_string_lossy(), &text.source.text) else { return Vec::new() };
+    let view = config.form.as_deref().and_then(|form| server.view_of_form(form));
+    let printed = view.as_ref().and_then(|view| view.document.print("job", job.again()));
+    let mut diags = Vec::new();
+    match &printed {
+        Some(current) => {
+            diags.extend(current.notes().iter().cloned());
+            diags.extend(current.stopped().into_iter().flat_map(|error| error.findings().diags.clone()));
+        }
+        None => {
+            let mut events = postform::toolpath::Summary::default();
+            let read = job.read(&mut events);
+            diags.extend(job.report().warnings.iter().cloned());
+            diags.extend(read.err().into_iter().flat_map(|error| error.into_findings().diags));
+            diags.extend(events.unprintable());
+        }
+    }
+    diags.dedup();
+    let source = &text.source;
+    let in_job = |diag: &Diag| {
+        let at = diag.place.as_ref().and_then(|place| place.line).unwrap_or(1).saturating_sub(1);
+        let start = source.line_starts().get(at as usize).copied().unwrap_or(0);
+        let column = diag.place.as_ref().and_then(|place| place.column).unwrap_or(1).saturating_sub(1);
+        let rest = &source.text[start as usize..];
+        let line = rest.lines().next().unwrap_or("");
+        let from = start + column.min(line.len() as u32);
+        let to = start + line.trim_end().len() as u32;
+        diagnostic(diag, range(source, postform::span::Span { file: 0, start: from, end: to.max(from) }), "postform")
+    };
+    diags.iter().map(in_job).collect()
+}
+
+/// postform.toml: what makes no sense in it.
+fn settings(text: &Text) -> Vec<lsp::Diagnostic> {
+    let Some(path) = text.path.as_deref() else { return Vec::new() };
+    let Err(message) = Config::from_text(path, &text.source.text) else { return Vec::new() };
+    // the reader of the file says `at line 3, column 5`
+    let number = message.split("at line ").nth(1).and_then(|rest| rest.split(|c: char| !c.is_ascii_digit()).next());
+    let number = number.and_then(|digits| digits.parse::<u32>().ok()).unwrap_or(1);
+    vec![trouble(&message, line(number.saturating_sub(1)))]
+}

@@ -1,0 +1,253 @@
+//! `postform lsp`: a language server for forms and programs, over standard input and output.
+//!
+//! One thread reads messages, one answers them in their order. Findings of changed texts are sent when no message waits: who
+//! types fast is answered about the last key.
+
+mod actions;
+mod convert;
+mod diagnostics;
+mod dispatch;
+mod frames;
+mod margin;
+mod places;
+mod programs;
+mod reading;
+mod server;
+mod structure;
+mod texts;
+mod uri;
+mod view;
+
+use std::io::{self, BufReader, IsTerminal};
+use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+use std::thread;
+
+use gen_lsp_types as lsp;
+use lsp_server::{ErrorCode, Message, Request};
+use serde_json::{Value, json};
+
+use super::Ending;
+use super::args::LspArgs;
+use super::say::message;
+use dispatch::Failure;
+use frames::Frame;
+use server::{Client, Server};
+
+/// Messages that wait to be answered; more wait in the pipe.
+const WAITING: usize = 256;
+
+/// How a session goes on.
+enum Next {
+    /// The next message.
+    Go,
+    /// The editor said `exit`.
+    Exit,
+}
+
+/// Serves one editor until it says `exit`, or is gone.
+///
+/// # Errors
+/// A message: nobody is at the other end, or what comes in is no language server protocol.
+pub fn run(_: &LspArgs) -> Result<Ending, String> {
+    if io::stdin().is_terminal() {
+        return Err(
+            "error: editors start `postform lsp`, and talk to it over standard input\n  help: docs/editors.md says how"
+                .into(),
+        );
+    }
+    let (send, frames) = sync_channel(WAITING);
+    // the thread ends with its input, or with the process
+    thread::spawn(move || {
+        let mut input = BufReader::new(io::stdin());
+        loop {
+            let frame = frames::read(&mut input);
+            let last = matches!(frame, Ok(Frame::Closed) | Err(_));
+            if send.send(frame).is_err() || last {
+                break;
+            }
+        }
+    });
+    let mut session = Session { server: Server::default(), state: State::New, next_id: 1 };
+    match session.serve(&frames) {
+        Ok(ending) => Ok(ending),
+        // whoever no longer listens is gone
+        Err(Stop::Out(error)) if error.kind() == io::ErrorKind::BrokenPipe => Ok(Ending::Findings),
+        Err(Stop::Out(error)) => Err(format!("error: can't write standard output: {error}")),
+        Err(Stop::In(why)) => Err(format!("error: {why}")),
+    }
+}
+
+/// Where the session stands.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum State {
+    /// Before `initialize`.
+    New,
+    /// Between `initialize` and `shutdown`.
+    Running,
+    /// After `shutdown`.
+    Over,
+}
+
+/// Why it ends before its time.
+enum Stop {
+    Out(io::Error),
+    In(String),
+}
+
+impl From<io::Error> for Stop {
+    fn from(error: io::Error) -> Stop {
+        Stop::Out(error)
+    }
+}
+
+struct Session {
+    server: Server,
+    state: State,
+    next_id: i32,
+}
+
+impl Session {
+    fn serve(&mut self, frames: &Receiver<Result<Frame, String>>) -> Result<Ending, Stop> {
+        loop {
+            let frame = match frames.try_recv() {
+                Ok(frame) => frame,
+                Err(TryRecvError::Empty) => {
+                    self.publish()?;
+                    match frames.recv() {
+                        Ok(frame) => frame,
+                        Err(_) => return Ok(self.ending()),
+                    }
+                }
+                Err(TryRecvError::Disconnected) => return Ok(self.ending()),
+            };
+            match frame.map_err(Stop::In)? {
+                Frame::Closed => {
+                    if self.state != State::Over {
+                        message("error: the editor closed the connection without `shutdown` and `exit`");
+                    }
+                    return Ok(self.ending());
+                }
+                Frame::Malformed(why) => {
+                    let error = json!({ "code": ErrorCode::ParseError as i32, "message": why });
+                    self.write(&json!({ "jsonrpc": "2.0", "id": null, "error": error }))?;
+                }
+                Frame::Message(Message::Request(request)) => self.request(request)?,
+                Frame::Message(Message::Notification(note)) => {
+                    if let Next::Exit = self.notice(&note.method, note.params)? {
+                        return Ok(self.ending());
+                    }
+                }
+                // answers of the editor: it showed a program, or asked for hints anew
+                Frame::Message(Message::Response(_)) => {}
+            }
+        }
+    }
+
+    /// `exit` without `shutdown` is an error, says the protocol.
+    fn ending(&self) -> Ending {
+        if self.state == State::Over { Ending::Clean } else { Ending::Findings }
+    }
+
+    fn write(&self, body: &Value) -> io::Result<()> {
+        frames::write(&mut io::stdout().lock(), body)
+    }
+
+    fn request(&mut self, request: Request) -> Result<(), Stop> {
+        let Request { id, method, params } = request;
+        let answer = match (self.state, method.as_str()) {
+            (State::New, "initialize") => {
+                self.state = State::Running;
+                dispatch::initialize(&mut self.server, params)
+            }
+            (State::New, _) => Err(Failure::new(ErrorCode::ServerNotInitialized, "`initialize` comes first")),
+            (State::Over, _) => Err(Failure::new(ErrorCode::InvalidRequest, "after `shutdown` comes `exit`")),
+            (State::Running, "shutdown") => {
+                self.state = State::Over;
+                Ok(Value::Null)
+            }
+            (State::Running, "initialize") => Err(Failure::new(ErrorCode::InvalidRequest, "`initialize` comes once")),
+            (State::Running, "workspace/executeCommand") => self.command(params),
+            (State::Running, _) => dispatch::request(&self.server, &method, params),
+        };
+        let body = match answer {
+            Ok(result) => json!({ "jsonrpc": "2.0", "id": id, "result": result }),
+            Err(Failure { code, message }) => {
+                json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": message } })
+            }
+        };
+        Ok(self.write(&body)?)
+    }
+
+    fn notice(&mut self, method: &str, params: Value) -> Result<Next, Stop> {
+        match (self.state, method) {
+            (_, "exit") => return Ok(Next::Exit),
+            (State::Running, "textDocument/didClose") => {
+                if let Some(uri) = dispatch::closed(&mut self.server, params) {
+                    self.send_findings(&uri, None, Vec::new())?;
+                }
+            }
+            (State::Running, "initialized") if self.server.client.watches => {
+                self.ask("client/registerCapability", dispatch::watched())?;
+            }
+            (State::Running, _) => dispatch::notice(&mut self.server, method, params),
+            _ => {}
+        }
+        Ok(Next::Go)
+    }
+
+    /// The findings of all texts that changed.
+    fn publish(&mut self) -> io::Result<()> {
+        if self.server.stale.is_empty() {
+            return Ok(());
+        }
+        for name in std::mem::take(&mut self.server.stale) {
+            let Some(text) = self.server.texts.get(&lsp::Uri(name)) else { continue };
+            let found = diagnostics::of(text, &self.server);
+            self.send_findings(&text.uri, Some(text.version), found)?;
+        }
+        if std::mem::take(&mut self.server.beside) {
+            let Client { refreshes_hints, refreshes_lenses, .. } = self.server.client;
+            if refreshes_hints {
+                self.ask("workspace/inlayHint/refresh", Value::Null)?;
+            }
+            if refreshes_lenses {
+                self.ask("workspace/codeLens/refresh", Value::Null)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn send_findings(&self, uri: &lsp::Uri, version: Option<i32>, found: Vec<lsp::Diagnostic>) -> io::Result<()> {
+        let params = lsp::PublishDiagnosticsParams { uri: uri.clone(), version, diagnostics: found };
+        self.write(&json!({ "jsonrpc": "2.0", "method": "textDocument/publishDiagnostics", "params": params }))
+    }
+
+    /// Asks the editor for something; its answer changes nothing.
+    fn ask(&mut self, method: &str, params: Value) -> io::Result<()> {
+        let id = format!("postform-{}", self.next_id);
+        self.next_id += 1;
+        self.write(&json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": params }))
+    }
+
+    /// `postform.openProgram`: the editor is asked to show the program of a form.
+    fn command(&mut self, params: Value) -> Result<Value, Failure> {
+        let params: lsp::ExecuteCommandParams = dispatch::parse("workspace/executeCommand", params)?;
+        if params.command != margin::OPEN_PROGRAM {
+            let message = format!("there is no command `{}`: {} is one", params.command, margin::OPEN_PROGRAM);
+            return Err(Failure::new(ErrorCode::InvalidParams, message));
+        }
+        let mut arguments = params.arguments.unwrap_or_default().into_iter();
+        let uri = arguments.next().and_then(|uri| uri.as_str().map(lsp::Uri::from));
+        let job = arguments.next().and_then(|job| job.as_u64()).unwrap_or(0) as usize;
+        let uri =
+            uri.ok_or_else(|| Failure::new(ErrorCode::InvalidParams, "its first argument is the name of a form"))?;
+        let opened = programs::opened(&self.server, &uri, job);
+        let opened = opened.ok_or_else(|| Failure::new(ErrorCode::RequestFailed, "the form prints no program"))?;
+        if self.server.client.shows {
+            let show = json!({ "uri": opened, "takeFocus": true });
+            self.ask("window/showDocument", show)
+                .map_err(|error| Failure::new(ErrorCode::InternalError, error.to_string()))?;
+        }
+        Ok(json!(opened))
+    }
+}

@@ -1,0 +1,181 @@
+//! What the server knows: the open texts, what was found out about them, and what the editor can do.
+
+use std::cell::RefCell;
+use std::collections::{BTreeSet, HashMap};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use gen_lsp_types as lsp;
+use postform::control::{self, Control};
+use postform::ide::program;
+use serde::Deserialize;
+
+use super::programs::{Programs, form_of};
+use super::texts::{Kind, Text, Texts};
+use super::view::{View, root_of};
+use crate::cli::config::Config;
+use crate::cli::files;
+
+/// What the editor's settings may say, under `postform`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub struct Settings {
+    /// The control of programs that name none, where no postform.toml does: a name, or a file.
+    pub control: Option<String>,
+    /// The current job of forms, before those of postform.toml: a path.
+    pub job: Option<PathBuf>,
+    /// Hints behind words: `on`, `off`, or `auto`, which is off in files over 500 lines.
+    pub inlay_hints: Option<String>,
+}
+
+impl Settings {
+    /// What is said anew; what is not said stays.
+    pub fn take(&mut self, said: Settings) {
+        self.control = said.control.or(self.control.take());
+        self.job = said.job.or(self.job.take());
+        self.inlay_hints = said.inlay_hints.or(self.inlay_hints.take());
+    }
+}
+
+/// What the editor can do.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Client {
+    /// Completions may have places to fill in.
+    pub snippets: bool,
+    /// Edits may be looked at before they are made.
+    pub annotations: bool,
+    /// It opens a file that it is asked to show.
+    pub shows: bool,
+    /// It asks for programs by `postform/program` itself, and needs no files of them.
+    pub virtual_programs: bool,
+    /// It tells of files that change on the disk, when it is asked to.
+    pub watches: bool,
+    /// It asks for hints anew when it is told to.
+    pub refreshes_hints: bool,
+    /// It asks for lenses anew when it is told to.
+    pub refreshes_lenses: bool,
+}
+
+/// Everything between two messages.
+#[derive(Default)]
+pub struct Server {
+    pub texts: Texts,
+    pub settings: Settings,
+    pub client: Client,
+    /// Folders that are open in the editor.
+    pub folders: Vec<PathBuf>,
+    /// Texts whose findings must be sent.
+    pub stale: BTreeSet<String>,
+    /// Something changed beside the form that is looked at: its hints and lenses may be others.
+    pub beside: bool,
+    /// Programs that were written for the editor to open.
+    pub programs: RefCell<Programs>,
+    views: RefCell<HashMap<String, Rc<View>>>,
+    /// What was found out when a form printed last: while a word is half typed it prints nothing.
+    last: RefCell<HashMap<String, Rc<View>>>,
+    roots: RefCell<HashMap<PathBuf, PathBuf>>,
+}
+
+impl Server {
+    /// A text changed: what was found out about forms may be wrong, because it may be one, a part of one, or its job.
+    pub fn changed(&mut self, uri: &lsp::Uri) {
+        let kind = self.texts.get(uri).map(|text| text.kind);
+        let views = std::mem::take(self.views.get_mut());
+        self.last.get_mut().extend(views.into_iter().filter(|(_, view)| view.document.post().is_some()));
+        // a form may be called by others and print jobs; a program is read by itself
+        let touched = |text: &&Text| kind == Some(Kind::Form) && matches!(text.kind, Kind::Form | Kind::Other);
+        self.stale.extend(self.texts.all().filter(touched).map(|text| text.uri.as_ref().to_owned()));
+        self.stale.insert(uri.as_ref().to_owned());
+        self.beside |= kind != Some(Kind::Form);
+    }
+
+    /// Texts came or went, files changed on the disk, settings are others: nothing that was found out holds.
+    pub fn forget(&mut self) {
+        self.roots.get_mut().clear();
+        self.views.get_mut().clear();
+        self.stale.extend(self.texts.all().map(|text| text.uri.as_ref().to_owned()));
+        self.beside = true;
+    }
+
+    /// An open form, looked at.
+    pub fn view(&self, uri: &lsp::Uri) -> Option<Rc<View>> {
+        let text = self.texts.get(uri).filter(|text| text.kind == Kind::Form)?;
+        if let Some(view) = self.views.borrow().get(uri.as_ref()) {
+            return Some(Rc::clone(view));
+        }
+        let root = text.path.as_deref().map(|path| self.root(path));
+        let view = Rc::new(View::new(text, root.as_deref(), &self.texts, self.job().as_deref()));
+        self.views.borrow_mut().insert(uri.as_ref().to_owned(), Rc::clone(&view));
+        Some(view)
+    }
+
+    /// The form as it was when it printed last.
+    pub fn last_view(&self, uri: &lsp::Uri) -> Option<Rc<View>> {
+        self.last.borrow().get(uri.as_ref()).cloned()
+    }
+
+    /// A form by its file, whether it is open or not.
+    pub fn view_of_form(&self, path: &Path) -> Option<Rc<View>> {
+        let path = std::path::absolute(path).ok()?;
+        if let Some(open) = self.texts.of_path(&path) {
+            return self.view(&open.uri.clone());
+        }
+        let bytes = files::read_form(&path).ok()?;
+        let mut closed = Texts::default();
+        let uri = super::uri::of_path(&path);
+        closed.open(uri.clone(), "postform", 0, String::from_utf8_lossy(&bytes).into_owned());
+        let text = closed.get(&uri)?;
+        Some(Rc::new(View::new(text, Some(&path), &self.texts, self.job().as_deref())))
+    }
+
+    fn root(&self, path: &Path) -> PathBuf {
+        let known = self.roots.borrow().get(path).cloned();
+        known.unwrap_or_else(|| {
+            let root = root_of(path, &self.texts);
+            self.roots.borrow_mut().insert(path.to_path_buf(), root.clone());
+            root
+        })
+    }
+
+    /// The job that the settings name, from the first open folder.
+    fn job(&self) -> Option<PathBuf> {
+        let job = self.settings.job.as_ref().filter(|job| !job.as_os_str().is_empty())?;
+        Some(self.folders.first().map_or_else(|| job.clone(), |folder| folder.join(job)))
+    }
+
+    /// The control of a program, and who named it: a comment of its own, its form, postform.toml, the editor's settings, nobody.
+    ///
+    /// # Errors
+    /// A message: there is no such control, or its file can't be read.
+    pub fn control_of(&self, text: &Text) -> Result<(&'static Control, &'static str), String> {
+        let folder = text.path.as_deref().map(files::folder).unwrap_or(Path::new("."));
+        if let Some(name) = program::named_control(&text.source.text) {
+            return Ok((self.named(name, folder)?, "named in the program"));
+        }
+        if let Some((uri, _)) = form_of(self, text) {
+            let control = self.view(&uri).and_then(|view| view.document.checked().form.settings.control);
+            return Ok((control.unwrap_or_else(Control::usual), "of its form"));
+        }
+        if let Some(path) = text.path.as_deref()
+            && let Some(control) = Config::near(path)?.control
+        {
+            return Ok((control, "of postform.toml"));
+        }
+        match self.settings.control.as_deref().filter(|name| !name.is_empty()) {
+            Some(name) => {
+                Ok((self.named(name, self.folders.first().map_or(folder, PathBuf::as_path))?, "of the settings"))
+            }
+            None => Ok((Control::usual(), "nobody named one")),
+        }
+    }
+
+    fn named(&self, name: &str, folder: &Path) -> Result<&'static Control, String> {
+        if control::is_file(name) {
+            return files::control(&folder.join(name));
+        }
+        Control::named(&name.to_ascii_lowercase()).ok_or_else(|| {
+            let known: Vec<&str> = control::names().collect();
+            format!("there is no control `{}`: it is one of {}", postform::diag::escaped(name), known.join(", "))
+        })
+    }
+}

@@ -1,0 +1,154 @@
+//! The shape of a form: outline, folding, colours, layout.
+
+use gen_lsp_types as lsp;
+use postform::ide::{Symbol, SymbolKind, TokenKind};
+use postform::span::Span;
+
+use super::convert::range;
+use super::server::Server;
+use super::texts::Kind;
+use super::uri;
+use super::view::View;
+use crate::cli::files;
+use crate::cli::forms;
+
+/// The parts of a form.
+pub fn outline(view: &View) -> Vec<lsp::DocumentSymbol> {
+    let shown = |symbol: Symbol| lsp::DocumentSymbol {
+        kind: kind(symbol.kind),
+        range: range(view.source(), symbol.span),
+        selection_range: range(view.source(), symbol.name_span),
+        detail: Some(symbol.detail).filter(|detail| !detail.is_empty()),
+        name: symbol.name,
+        tags: None,
+        #[expect(deprecated, reason = "the structure has it")]
+        deprecated: None,
+        children: None,
+    };
+    view.document.symbols(view.file).into_iter().map(shown).collect()
+}
+
+fn kind(kind: SymbolKind) -> lsp::SymbolKind {
+    match kind {
+        SymbolKind::Command => lsp::SymbolKind::Property,
+        SymbolKind::Format => lsp::SymbolKind::Number,
+        SymbolKind::Sequence => lsp::SymbolKind::Function,
+        SymbolKind::Upon => lsp::SymbolKind::Event,
+    }
+}
+
+/// Forms of the open folders that are looked at for their parts.
+const MOST_FORMS: usize = 500;
+/// Parts that are listed at most.
+const MOST_SYMBOLS: usize = 2000;
+
+/// The parts of all forms in the open folders whose name holds this text, whatever its case.
+pub fn everywhere(server: &Server, asked: &str) -> Vec<lsp::WorkspaceSymbol> {
+    let asked = asked.to_ascii_lowercase();
+    let mut paths = forms::named(&server.folders).unwrap_or_default();
+    paths.truncate(MOST_FORMS);
+    let open = server.texts.all().filter(|text| text.kind == Kind::Form).filter_map(|text| text.path.clone());
+    paths.extend(open);
+    paths.sort();
+    paths.dedup();
+    let mut found = Vec::new();
+    for path in paths {
+        let source = match server.texts.of_path(&path) {
+            Some(open) => open.source.clone(),
+            None => match files::read_form(&path) {
+                Ok(bytes) => postform::Source::from_bytes(files::name(&path), &bytes),
+                Err(_) => continue,
+            },
+        };
+        let uri = server.texts.of_path(&path).map_or_else(|| uri::of_path(&path), |text| text.uri.clone());
+        for symbol in postform::ide::symbols_of(&source) {
+            if found.len() < MOST_SYMBOLS && symbol.name.to_ascii_lowercase().contains(&asked) {
+                let place = lsp::Location { uri: uri.clone(), range: range(&source, symbol.name_span) };
+                let file = path.file_name().map(|name| name.to_string_lossy().into_owned());
+                found.push(lsp::WorkspaceSymbol {
+                    location: lsp::WorkspaceSymbolLocation::Location(place),
+                    data: None,
+                    base_symbol_information: lsp::BaseSymbolInformation {
+                        name: symbol.name,
+                        kind: kind(symbol.kind),
+                        tags: None,
+                        container_name: file,
+                    },
+                });
+            }
+        }
+    }
+    found
+}
+
+/// What can be folded away.
+pub fn folding(view: &View) -> Vec<lsp::FoldingRange> {
+    let folds = view.document.folding(view.file).into_iter();
+    folds
+        .map(|fold| lsp::FoldingRange {
+            start_line: fold.first,
+            end_line: fold.last,
+            kind: fold.comment.then_some(lsp::FoldingRangeKind::Comment),
+            ..lsp::FoldingRange::default()
+        })
+        .collect()
+}
+
+/// What editors colour, by the protocol's names.
+pub const TOKEN_TYPES: [&str; 9] =
+    ["keyword", "parameter", "type", "function", "variable", "macro", "number", "string", "comment"];
+
+fn token_type(kind: TokenKind) -> &'static str {
+    match kind {
+        TokenKind::Command | TokenKind::Keyword => "keyword",
+        TokenKind::Argument => "parameter",
+        TokenKind::Format => "type",
+        TokenKind::Sequence => "function",
+        TokenKind::Variable => "variable",
+        TokenKind::Code => "macro",
+        TokenKind::Word => "number",
+        TokenKind::Note => "string",
+        TokenKind::Comment | TokenKind::Lost => "comment",
+    }
+}
+
+/// What is lost behind two blanks is marked as such.
+pub const TOKEN_MODIFIERS: [&str; 1] = ["deprecated"];
+
+/// The words of a form with their kinds.
+pub fn tokens(view: &View, within: Option<Span>) -> lsp::SemanticTokens {
+    let mut data = Vec::new();
+    let mut last = lsp::Position::default();
+    for token in view.document.tokens(view.file) {
+        if within.is_some_and(|within| token.span.end < within.start || token.span.start > within.end) {
+            continue;
+        }
+        let place = range(view.source(), token.span);
+        if place.start.line != place.end.line {
+            continue;
+        }
+        let delta_line = place.start.line - last.line;
+        let from = if delta_line == 0 { last.character } else { 0 };
+        let index = TOKEN_TYPES.iter().position(|name| *name == token_type(token.kind)).unwrap_or(0);
+        data.push(lsp::SemanticToken {
+            delta_line,
+            delta_start: place.start.character - from,
+            length: place.end.character - place.start.character,
+            token_type: index as u32,
+            token_modifiers_bitset: u32::from(token.kind == TokenKind::Lost),
+        });
+        last = place.start;
+    }
+    lsp::SemanticTokens { result_id: None, data }
+}
+
+/// The canonical layout, as one edit; none where the form is laid out so.
+pub fn format(server: &Server, uri: &lsp::Uri) -> Option<Vec<lsp::TextEdit>> {
+    let text = server.texts.get(uri).filter(|text| text.kind == Kind::Form)?;
+    let laid_out = postform::fmt::format(&text.source);
+    if laid_out == text.source.text {
+        return Some(Vec::new());
+    }
+    let whole = Span::new(0, 0, text.source.text.len());
+    Some(vec![lsp::TextEdit { range: range(&text.source, whole), new_text: laid_out }])
+}

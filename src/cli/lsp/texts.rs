@@ -1,0 +1,98 @@
+//! The texts that are open in the editor: they stand for those of the disk.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use gen_lsp_types::Uri;
+use postform::Source;
+
+use super::uri;
+use crate::cli::files;
+
+/// What a file is, by its name or by what the editor says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A form.
+    Form,
+    /// An NC program.
+    Program,
+    /// postform.toml.
+    Settings,
+    /// Anything else: perhaps a job.
+    Other,
+}
+
+/// A text that is open.
+#[derive(Debug)]
+pub struct Text {
+    /// As the editor names it.
+    pub uri: Uri,
+    /// Its file, where it has one.
+    pub path: Option<PathBuf>,
+    /// How often it was changed, as the editor counts.
+    pub version: i32,
+    /// What it is.
+    pub kind: Kind,
+    /// The text.
+    pub source: Source,
+}
+
+/// All that are open, by their names.
+#[derive(Debug, Default)]
+pub struct Texts(BTreeMap<String, Text>);
+
+impl Texts {
+    /// A text was opened.
+    pub fn open(&mut self, uri: Uri, language: &str, version: i32, text: String) {
+        let path = uri::path(&uri);
+        let named = path.clone().unwrap_or_else(|| PathBuf::from(uri.as_ref()));
+        let kind = kind(&named, language);
+        let source = Source::from_text(files::name(&named), text);
+        self.0.insert(uri.as_ref().to_owned(), Text { uri, path, version, kind, source });
+    }
+
+    /// A text was changed as a whole; `false`: it is not open.
+    pub fn change(&mut self, uri: &Uri, version: i32, text: String) -> bool {
+        let Some(open) = self.0.get_mut(uri.as_ref()) else { return false };
+        open.version = version;
+        open.source = Source::from_text(open.source.name.clone(), text);
+        true
+    }
+
+    /// A text was closed: that of the disk counts again.
+    pub fn close(&mut self, uri: &Uri) {
+        self.0.remove(uri.as_ref());
+    }
+
+    /// A text by its name.
+    pub fn get(&self, uri: &Uri) -> Option<&Text> {
+        self.0.get(uri.as_ref())
+    }
+
+    /// The text of a file, if it is open.
+    pub fn of_path(&self, path: &Path) -> Option<&Text> {
+        self.0.values().find(|text| text.path.as_deref() == Some(path))
+    }
+
+    /// All of them.
+    pub fn all(&self) -> impl Iterator<Item = &Text> {
+        self.0.values()
+    }
+}
+
+/// What a file is: what the editor says counts before its name.
+fn kind(path: &Path, language: &str) -> Kind {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+    let extension = extension.as_deref().unwrap_or("");
+    match language {
+        "postform" => return Kind::Form,
+        "nc" | "gcode" | "postform-nc" => return Kind::Program,
+        _ => {}
+    }
+    match extension {
+        "pf" => Kind::Form,
+        "nc" | "ngc" | "tap" | "cnc" | "eia" => Kind::Program,
+        _ if path.file_name().is_some_and(|name| name == "postform.toml") => Kind::Settings,
+        _ => Kind::Other,
+    }
+}

@@ -1,0 +1,248 @@
+//! A form that is open, looked at: checked with the texts of the editor, printed with the jobs of its folder.
+
+use std::cell::OnceCell;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use gen_lsp_types::Uri;
+use postform::ide::{Current, Document};
+use postform::lint::Changed;
+use postform::post::sample_program;
+use postform::sema::Checked;
+use postform::{Job, NoFiles, Source};
+
+use super::texts::{Text, Texts};
+use super::uri;
+use crate::cli::config::Config;
+use crate::cli::files;
+use crate::cli::forms::FormFile;
+
+/// Largest job that is printed while somebody types.
+const LARGEST_JOB: u64 = 32 << 20;
+
+/// A job of the form.
+#[derive(Clone, Debug)]
+pub struct JobText {
+    /// For people: `bracket`.
+    pub name: String,
+    /// Its file.
+    pub path: PathBuf,
+    /// Its text; `Err`: why there is none.
+    pub bytes: Result<Vec<u8>, String>,
+}
+
+/// A form, looked at.
+pub struct View {
+    /// The form, with those that it calls. For a part it is the form that calls it.
+    pub document: Document,
+    /// The file of the document that is open.
+    pub file: u32,
+    /// What its folder says.
+    pub config: Config,
+    /// What is wrong with the folder's postform.toml.
+    pub trouble: Option<String>,
+    /// The jobs that it prints, the current one first.
+    pub jobs: Vec<JobText>,
+    currents: Vec<OnceCell<Option<Current>>>,
+    sample: OnceCell<Option<Current>>,
+    form: Option<FormFile>,
+    open: Changed,
+}
+
+impl View {
+    /// Looks at an open form. `root` is the form that calls it, itself for most; `job` the job that the editor's settings name.
+    pub fn new(text: &Text, root: Option<&Path>, texts: &Texts, job: Option<&Path>) -> View {
+        let Some(root) = root else { return View::without_file(text) };
+        let (config, trouble) = match Config::near(root) {
+            Ok(config) => (config, None),
+            Err(message) => (Config::default(), Some(message)),
+        };
+        let open: Changed = texts
+            .all()
+            .filter_map(|open| Some((files::name(open.path.as_deref()?), open.source.text.clone())))
+            .collect();
+        let form = FormFile::open_in_editor(root, config.limits.unwrap_or_default());
+        let checked = form.analyse(&open);
+        let own = text.path.as_deref().map(files::name).unwrap_or_default();
+        let file = checked.files.iter().position(|source| source.name == own);
+        // a form that says that it calls this one, and can't
+        let Some(file) = file.map(|file| file as u32) else { return View::new(text, text.path.as_deref(), texts, job) };
+        let document = Document::of(checked, &config.levels);
+        let jobs: Vec<JobText> = job
+            .into_iter()
+            .map(Path::to_path_buf)
+            .chain(config.jobs.iter().cloned())
+            .map(|path| job_text(path, texts))
+            .collect();
+        let currents = jobs.iter().map(|_| OnceCell::new()).collect();
+        View { document, file, config, trouble, jobs, currents, sample: OnceCell::new(), form: Some(form), open }
+    }
+
+    /// A form that was never saved: it calls none.
+    fn without_file(text: &Text) -> View {
+        let config = Config::default();
+        let limits = config.limits.unwrap_or_default().limits();
+        let document = Document::new(text.source.clone(), &NoFiles, limits, &config.levels);
+        View {
+            document,
+            file: 0,
+            config,
+            trouble: None,
+            jobs: Vec::new(),
+            currents: Vec::new(),
+            sample: OnceCell::new(),
+            form: None,
+            open: Changed::new(),
+        }
+    }
+
+    /// The text that is open.
+    pub fn source(&self) -> &Source {
+        &self.document.files()[self.file as usize]
+    }
+
+    /// The name of one of its files.
+    pub fn uri(&self, file: u32, texts: &Texts) -> Option<Uri> {
+        let path = self.path(file)?;
+        Some(texts.of_path(&path).map_or_else(|| uri::of_path(&path), |text| text.uri.clone()))
+    }
+
+    fn path(&self, file: u32) -> Option<PathBuf> {
+        let source = self.document.files().get(file as usize)?;
+        Some(self.form.as_ref()?.place(&source.name))
+    }
+
+    /// A job printed with the form; jobs count from 0, and what is behind the last is the built-in one. `None`: the form has
+    /// errors, or the job can't be read.
+    pub fn printed(&self, job: usize) -> Option<&Current> {
+        let Some(text) = self.jobs.get(job) else {
+            return self.sample.get_or_init(|| self.document.print_sample()).as_ref();
+        };
+        let print = || {
+            let bytes = text.bytes.as_ref().ok()?;
+            let job = Job::open(&text.path.to_string_lossy(), bytes).ok()?;
+            self.document.print(&text.name, job)
+        };
+        self.currents[job].get_or_init(print).as_ref()
+    }
+
+    /// The current job: the first that can be printed.
+    pub fn current(&self) -> Option<&Current> {
+        (0..=self.jobs.len()).find_map(|job| self.printed(job))
+    }
+
+    /// The same form and jobs, with another text for the file that is open.
+    pub fn with_text(&self, text: &str) -> View {
+        let changed = Changed::from([(self.source().name.clone(), text.to_owned())]);
+        let document = Document::of(self.analyse(&changed), &self.config.levels);
+        View {
+            document,
+            file: self.file,
+            config: self.config.clone(),
+            trouble: None,
+            currents: self.jobs.iter().map(|_| OnceCell::new()).collect(),
+            jobs: self.jobs.clone(),
+            sample: OnceCell::new(),
+            form: None,
+            open: changed,
+        }
+    }
+
+    /// The form with other texts for some of its files.
+    pub fn analyse(&self, changed: &Changed) -> Checked {
+        let mut all = self.open.clone();
+        all.extend(changed.iter().map(|(name, text)| (name.clone(), text.clone())));
+        match &self.form {
+            Some(form) => form.analyse(&all),
+            None => {
+                let name = self.source().name.clone();
+                let text = all.get(&name).cloned().unwrap_or_else(|| self.source().text.clone());
+                let limits = self.config.limits.unwrap_or_default().limits();
+                postform::sema::analyse(Source::from_text(name, text), limits, &mut |_| {
+                    Err("is in no folder yet".into())
+                })
+            }
+        }
+    }
+
+    /// What the current job prints with other texts; blocks have no numbers.
+    pub fn program(&self, changed: &Changed) -> Option<String> {
+        let checked = self.analyse(changed);
+        let named = self.jobs.iter().find_map(|job| Some((&job.path, job.bytes.as_ref().ok()?)));
+        let job = named.and_then(|(path, bytes)| Job::open(&path.to_string_lossy(), bytes).ok());
+        sample_program(&checked, job).ok()?.ok()
+    }
+}
+
+fn job_text(path: PathBuf, texts: &Texts) -> JobText {
+    let bytes = match texts.of_path(&path) {
+        Some(open) => Ok(open.source.text.clone().into_bytes()),
+        None => read(&path),
+    };
+    JobText { name: job_name(&path), bytes, path }
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, String> {
+    match fs::metadata(path) {
+        Ok(meta) if meta.len() > LARGEST_JOB => Err(format!(
+            "{} is larger than {} MB: it is not printed while you type",
+            files::name(path),
+            LARGEST_JOB >> 20
+        )),
+        _ => fs::read(path).map_err(|error| files::io_message("read", path, &error)),
+    }
+}
+
+/// What people call a job: its file without extension, its folder where every job is called `job`.
+fn job_name(path: &Path) -> String {
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let folder = path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+    postform::diag::escaped(&if stem == "job" { folder.unwrap_or(stem) } else { stem })
+}
+
+/// The form of a folder that calls this file, directly or by another one; itself where none does.
+pub fn root_of(path: &Path, texts: &Texts) -> PathBuf {
+    let mut root = path.to_path_buf();
+    // no deeper than forms call each other
+    for _ in 0..8 {
+        match caller(&root, texts).filter(|caller| caller != path) {
+            Some(caller) => root = caller,
+            None => break,
+        }
+    }
+    root
+}
+
+/// How many forms of a folder are looked at for calls.
+const MOST_FORMS: usize = 200;
+
+fn caller(path: &Path, texts: &Texts) -> Option<PathBuf> {
+    let mut forms: Vec<PathBuf> = Vec::new();
+    // a called form is in the folder of its caller or below
+    for folder in path.ancestors().skip(1).take(2) {
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        forms.extend(
+            entries
+                .filter(|other| other.extension().is_some_and(|end| end.eq_ignore_ascii_case("pf")))
+                .take(MOST_FORMS),
+        );
+    }
+    forms.sort();
+    forms.into_iter().filter(|other| other != path).find(|other| {
+        let text = match texts.of_path(other) {
+            Some(open) => open.source.text.clone(),
+            None => {
+                files::read_form(other).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
+            }
+        };
+        text.lines().any(|line| names(line, files::folder(other), path))
+    })
+}
+
+/// Is a line the call of a file?
+fn names(line: &str, folder: &Path, path: &Path) -> bool {
+    let line = line.split('#').next().unwrap_or(line).trim();
+    let Some((command, name)) = line.split_once([' ', '\t']) else { return false };
+    let calls = command.eq_ignore_ascii_case("Call") || command.eq_ignore_ascii_case("CallMe");
+    calls && folder.join(name.trim().trim_matches('"')) == path
+}

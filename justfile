@@ -49,3 +49,18 @@ page-bench: page
 playground:
     docs/playground/build
     cd page && node test/playground.mjs
+# the configuration of editors/neovim.md in a headless Neovim
+look-neovim:
+    cargo build
+    editors/neovim-test target/debug/postform
+
+# the configuration of editors/emacs.md in Emacs without a window
+look-emacs:
+    cargo build
+    editors/emacs-test target/debug/postform
+
+# the packed extension in a real VS Code (`npm install code-server` with node 24), pictures into FOLDER: too heavy for CI
+look-vscode code-server="code-server" folder="target/look":
+    cargo build
+    cd editors/vscode && npm ci && npm run check && npm test && npm run package
+    node editors/vscode/look.mjs {{code-server}} target/debug/postform {{folder}}

@@ -10,6 +10,7 @@ mod codes_agree;
 mod commands;
 mod cycles;
 mod diff;
+mod editors;
 mod examples;
 mod fmt;
 mod freecad;

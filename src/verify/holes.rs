@@ -145,7 +145,11 @@ fn peck_state<R: BufRead + Seek>(
         (Some(wanted), Some(is)) if peck.mode == found.mode => states::is_feed(wanted, is, hole.is_tap),
         _ => true,
     };
-    let wanted = cuts().filter(within).find(is_meant).or_else(|| meant().next()).copied().unwrap_or(*first);
+    // the job's own peck in this place, where the program pecks as the job does: holes may have thousands
+    let own =
+        pecks.get(count).filter(|peck| (peck.end()[DEPTH] > peck.from[DEPTH]) == up && within(peck) && is_meant(peck));
+    let found_one = own.or_else(|| cuts().filter(within).find(is_meant));
+    let wanted = found_one.or_else(|| meant().next()).copied().unwrap_or(*first);
     if count > 0 {
         states::compare(s, &wanted, found, hole.is_tap);
         if s.tools {

@@ -106,7 +106,7 @@ fn a_part_is_looked_at_where_it_is_called() {
     let mut editor = Editor::open(&folder.0, &able(), &Value::Null);
     folder.write("cycles.pf", "");
     // by itself it is no form: nothing of a StartCode is missed, and the open text of the caller counts
-    let found = editor.show("cycles.pf", "postform", "Q >3.>3\n");
+    let found = editor.show("cycles.pf", "postform", "# cycles of all mills\n");
     assert_eq!(codes(&found), Vec::<&str>::new(), "{found:?}");
     folder.write("cycles.pf", "Q >3.>3\nX[h\n");
     let found = editor.show("my.pf", "postform", &folder.read("my.pf"));

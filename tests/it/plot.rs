@@ -4,6 +4,8 @@ use std::fs;
 use std::io::Cursor;
 use std::process::{Command, Output};
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use postform::nc::RunSettings;
 use postform::picture::{Kind, Picture, Register, Sheet, View, draw, svg};
 
@@ -171,6 +173,23 @@ fn a_hundred_thousand_moves_in_one_place_are_a_small_picture() {
     assert!(text.len() < 20_000, "{} bytes", text.len());
 }
 
+/// A page stands alone: its scene is in it, and it asks nobody.
+#[test]
+fn a_page_stands_alone() {
+    let folder = Folder::new("plot-page");
+    let out = folder.0.join("part.html").to_str().unwrap().to_owned();
+    let program = "samples/bracket/expected.fanuc.nc";
+    let output = plot(&[program, "--units", "inch", "-o", &out]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = folder.read("part.html");
+    let scene = page.split("id=\"scene\">").nth(1).unwrap().split('<').next().unwrap();
+    let bytes = BASE64_STANDARD.decode(scene).unwrap();
+    assert!(bytes.starts_with(b"PFS1"));
+    let text = fs::read(root().join(program)).unwrap();
+    assert!(bytes.windows(text.len()).any(|part| part == text), "the program is in it");
+    assert!(page.contains("connect-src 'none'") && page.len() < 100_000, "{} bytes", page.len());
+}
+
 #[test]
 fn how_plot_ends() {
     let folder = Folder::new("plot");
@@ -193,7 +212,7 @@ fn how_plot_ends() {
     assert!(fs::read_to_string(&out).unwrap().contains("refused at line 3"));
     fs::remove_file(&out).unwrap();
     for (arguments, code, says) in [
-        (vec![program.as_str(), "-o", "picture.png"], 2, "call it .svg"),
+        (vec![program.as_str(), "-o", "picture.png"], 2, "call it .svg or .html"),
         (vec!["samples/bracket/job.json", "-o", &out], 2, "which form prints it?"),
         (vec!["no-such.nc", "-o", &out], 2, "can't read no-such.nc"),
         (vec!["tests/cmd/wrong-tool.json", "--form", "postforms/fanuc.pf", "-o", &out], 1, "tool 7"),

@@ -207,7 +207,7 @@ fn who_is_refused() {
         ("no JSON", format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: 2\r\n\r\n[}}"), 400),
         (
             "more than is asked",
-            format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: 21\r\n\r\n{{\"job\":0,\"path\":\"/\"}}"),
+            format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: 20\r\n\r\n{{\"job\":0,\"path\":\"/\"}}"),
             400,
         ),
         (
@@ -279,7 +279,7 @@ fn the_scene_is_the_program() {
     assert_eq!(form.lines().nth(packed as usize), Some("T[tool] M6"));
     let verdict = watch.post("verdict", &json!({ "job": 1 }));
     let verdict: Value = serde_json::from_slice(&verdict.body).unwrap();
-    assert_eq!(verdict["kind"], "proven");
+    assert_eq!(verdict["kind"], "proven", "{verdict}");
 }
 
 /// What is typed is shown and not written.

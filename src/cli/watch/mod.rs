@@ -120,6 +120,8 @@ impl Shared {
         let answer = match what.as_str() {
             "" => page(),
             "save" => self.save(&body(stream, &asked, read)?),
+            // a verdict is asked for as a proof
+            "verdict" => self.show("verdict", &body::<Ask>(stream, &asked, read)?.proving()),
             what => self.show(what, &body(stream, &asked, read)?),
         };
         http::write(stream, &answer);

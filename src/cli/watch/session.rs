@@ -36,6 +36,13 @@ pub struct Ask {
     proves: bool,
 }
 
+impl Ask {
+    /// The program of what is asked is proven.
+    pub fn proving(self) -> Ask {
+        Ask { proves: true, ..self }
+    }
+}
+
 /// A form to be written.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -4,7 +4,7 @@ ci:
 
 # rewrite expected programs and transcripts; read the difference before committing
 overwrite:
-    SAMPLES=overwrite cargo test --test it -- samples:: reference::
+    SAMPLES=overwrite cargo test --test it -- samples:: reference:: verdicts::
     TRYCMD=overwrite cargo test transcripts::
 
 # how time and memory grow with the input: fails where they grow faster
@@ -21,6 +21,11 @@ hunt jobs="1000000" programs="20000" seed="0":
 # ten million of them: a night
 hunt-long:
     just hunt 10000000 1000000
+
+# what the proof costs: render with it and without it, in turn
+proof-cost:
+    cargo build --release --bin postform --example floor
+    benches/proof.py target/release/postform target/release/examples/floor
 
 # figures for docs/performance.md
 bench:

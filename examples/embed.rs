@@ -1,6 +1,6 @@
 //! A job printed and proven in ten lines.
 
-use postform::{Error, Job, NoFiles, Options, Post, Source, Verdict};
+use postform::{Error, Job, NoFiles, Options, Post, Source};
 
 const FORM: &str = include_str!("../postforms/haas.pf");
 const JOB: &str = include_str!("../samples/bracket/job.json");
@@ -8,9 +8,7 @@ const JOB: &str = include_str!("../samples/bracket/job.json");
 fn main() -> Result<(), Error> {
     let post = Post::compile(Source::from_text("haas.pf", FORM), &NoFiles)?;
     let program = post.render(Job::json(JOB), &Options::default())?;
-    match post.verify(Job::json(JOB), program.text())? {
-        Verdict::Different(findings) => println!("wrong: {}", findings[0].message),
-        _ => print!("{}", program.text()),
-    }
+    print!("{}", program.text());
+    eprintln!("{}", program.verdict());
     Ok(())
 }

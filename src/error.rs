@@ -20,6 +20,8 @@ pub enum ErrorKind {
     Output,
     /// The program that is to be verified can't be read; [`std::error::Error::source`] says why.
     Program,
+    /// The program does something else than its job asks for, or a proof was required and there is none.
+    Proof,
     /// A fault of postform itself: please report it.
     Fault,
 }
@@ -44,6 +46,11 @@ impl Error {
     /// The error of a form with these errors, and its warnings.
     pub(crate) fn form(findings: Findings) -> Error {
         Error::new(ErrorKind::Form, findings, String::new(), None)
+    }
+
+    /// A program that must not run, and why: what differs, or what is not proven.
+    pub(crate) fn proof(findings: Findings) -> Error {
+        Error::new(ErrorKind::Proof, findings, String::new(), None)
     }
 
     /// What was asked for makes no sense, and what to ask instead.

@@ -4,7 +4,7 @@
 //! proven:
 //!
 //! ```
-//! use postform::{Job, NoFiles, Options, Post, Source, Verdict};
+//! use postform::{Job, NoFiles, Options, Post, Source};
 //!
 //! const FORM: &str = include_str!("../postforms/haas.pf");
 //! const JOB: &str = include_str!("../samples/bracket/job.json");
@@ -12,9 +12,8 @@
 //! # fn main() -> Result<(), postform::Error> {
 //! let post = Post::compile(Source::from_text("haas.pf", FORM), &NoFiles)?;
 //! let program = post.render(Job::json(JOB), &Options::default())?;
-//! let verdict = post.verify(Job::json(JOB), program.text())?;
 //! assert!(program.text().starts_with("%\nO"));
-//! assert!(!matches!(verdict, Verdict::Different(_)));
+//! assert!(program.verdict().is_proven());
 //! # Ok(())
 //! # }
 //! ```
@@ -22,7 +21,7 @@
 //! - [`Post`] owns its form; a clone shares it, also with other threads. A form with errors makes no post.
 //! - [`Job`] is what is to be made: JSON, JSON Lines, a CL file, an NC program, or events of your own.
 //! - [`Program`] is whole: what can't be printed is an [`Error`] with its findings, and never half a program.
-//! - [`Verdict`] says whether a program makes the motions of its job.
+//! - [`Verdict`] says whether a program makes the motions of its job. One that makes others is an [`Error`], too.
 //!
 //! A form is text; [`syntax`] reads it, [`sema`] checks it against the vocabulary of [`lang`], [`compile`] makes a flat
 //! program of it, and [`render`] runs that program over [`toolpath`] events to print the blocks of an NC program.

@@ -64,6 +64,7 @@ impl Form {
         let mut options = Options::default();
         // a CL file has no number
         options.program = Some(7);
+        options.proof = None;
         let program = self.post.render(Job::bytes(format, job), &options);
         program.map(postform::Program::into_text).map_err(|error| said(&error))
     }

@@ -23,6 +23,8 @@ struct Written {
     form: Option<PathBuf>,
     control: Option<NamedControl>,
     limits: Option<String>,
+    #[serde(default, rename = "require-proof")]
+    require_proof: bool,
     #[serde(default)]
     jobs: Vec<PathBuf>,
     #[serde(default)]
@@ -50,6 +52,8 @@ pub struct Config {
     pub limits: Option<LimitsArg>,
     /// What editors print with the forms of the folder.
     pub jobs: Vec<PathBuf>,
+    /// Programs that are not proven are not printed.
+    pub require_proof: bool,
     /// What rules count as.
     pub levels: Levels,
 }
@@ -104,7 +108,8 @@ impl Config {
     pub fn from_text(path: &Path, text: &str) -> Result<Config, String> {
         let name = escaped(&path.to_string_lossy());
         let written: Written = toml::from_str(text).map_err(|error| {
-            let known = "it may say form, control, limits, jobs, and under [rules] codes as PF303 = \"off\"";
+            let known =
+                "it may say form, control, limits, jobs, require-proof, and under [rules] codes as PF303 = \"off\"";
             format!("error: {name}: {}\n  help: {known}", error.to_string().trim_end())
         })?;
         let limits = written.limits.as_deref().map(|value| choice(&name, "limits", value)).transpose()?;
@@ -123,7 +128,8 @@ impl Config {
         let folder = path.parent().unwrap_or(Path::new(""));
         let form = written.form.map(|form| shortened(folder.join(form)));
         let jobs = written.jobs.into_iter().map(|job| shortened(folder.join(job))).collect();
-        Ok(Config { path: Some(path.to_path_buf()), form, control, limits, jobs, levels })
+        let require_proof = written.require_proof;
+        Ok(Config { path: Some(path.to_path_buf()), form, control, limits, jobs, require_proof, levels })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Input files.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Seek};
 use std::path::Path;
 
@@ -163,7 +163,9 @@ pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {
 pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, String> {
     let format = job_format(path, args)?;
     // a program is run twice, and an archive is read from its end
-    let mut job = match again || matches!(format, Format::Nc | Format::Freecad) {
+    let twice = again || matches!(format, Format::Nc | Format::Freecad);
+    let is_file = path != Path::new("-") && fs::metadata(path).is_ok_and(|meta| meta.is_file());
+    let mut job = match twice || is_file {
         true => Job::file(format, Again::open(path)?.file),
         false => Job::stream(format, open(path)?),
     };

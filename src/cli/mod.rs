@@ -1,6 +1,7 @@
 //! The rim: arguments, files, the terminal. Everything that decides is in the library.
 
 mod args;
+mod beside;
 mod check;
 mod clock;
 mod colour;
@@ -21,12 +22,14 @@ mod prepare;
 mod progress;
 mod prompt;
 mod render;
+mod rendered;
 mod report;
 mod say;
 mod shells;
 mod simulate;
 mod spool;
 mod unnamed;
+mod verdict;
 mod verify;
 mod watch;
 

@@ -1,7 +1,7 @@
 //! Where programs go. A program appears under its name, or on standard output, only when it is complete.
 
 use std::fs::{self, File};
-use std::io::{self, Seek, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use postform::diag::{escaped, steers};
@@ -58,22 +58,6 @@ impl Target {
             Target::Beside(unnamed) => unnamed.file().write_all(bytes),
             Target::Spooled(spool, _) => spool.write_all(bytes),
             Target::Stream => io::stdout().write_all(bytes),
-        }
-    }
-
-    /// What was written, to be read from its beginning; `None` where it is gone. Nothing may be written after it.
-    ///
-    /// # Errors
-    /// As the system says.
-    pub fn written(&mut self) -> io::Result<Option<File>> {
-        match self {
-            Target::Beside(unnamed) => {
-                let mut file = unnamed.file().try_clone()?;
-                file.rewind()?;
-                Ok(Some(file))
-            }
-            Target::Spooled(spool, _) => spool.again().map(Some),
-            Target::Stream => Ok(None),
         }
     }
 

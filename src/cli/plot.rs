@@ -19,9 +19,9 @@ use super::files::{self, io_message};
 use super::identity::Identity;
 use super::output::Target;
 use super::prepare::prepare;
+use super::rendered::rendered;
 use super::report::{Reporter, place_in};
 use super::say::say;
-use super::verify::rendered;
 
 /// Draws a program.
 pub fn run(args: &PlotArgs, colour: bool) -> Result<Ending, String> {

@@ -46,7 +46,7 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
     let shown: Vec<Diag> = warnings.iter().filter(|diag| args.shows(diag)).cloned().collect();
     let name = files::name(form);
     let asked = if form == standard_input { "-" } else { name.as_str() };
-    say(&report::brief(&shown, &files, asked));
+    say(&report::brief(&shown, &files, &format!("postform lint {asked}")));
     let denied = if args.denies_warnings() { warnings.len() } else { 0 };
     let stops = [(errors.len(), "error"), (denied, "warning")];
     let stops: Vec<String> = stops.iter().filter(|(n, _)| *n > 0).map(|(n, what)| report::count(*n, what)).collect();

@@ -7,10 +7,12 @@ use postform::diag::Severity;
 use postform::lint::Changed;
 use postform::render::TraceLine;
 use postform::source::Source;
-use postform::{ErrorKind, Part};
+use postform::verify::Verdict;
+use postform::{Error, ErrorKind, Part, Proven};
 
 use super::Ending;
 use super::args::{LimitsArg, RenderArgs};
+use super::beside::{self, Printed};
 use super::config::Config;
 use super::files::{self, io_message};
 use super::forms::FormFile;
@@ -21,7 +23,8 @@ use super::prepare::prepare;
 use super::progress::Progress;
 use super::report::{Reporter, place_in, stopped};
 use super::say::{message, say};
-use super::verify::Proof;
+use super::verdict::Sides;
+use super::verify::in_a_file;
 
 /// Renders a job to its output, with --watch anew when a file of it is changed.
 pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
@@ -54,7 +57,7 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     };
     let inputs = prepared.inputs.iter().chain(&config.path).chain([&args.job]);
     keep_inputs(args, &inputs.filter_map(|path| Identity::of_input(path)).collect::<Vec<_>>())?;
-    let mut job = files::job(&args.job, &args.read, args.verify)?;
+    let mut job = files::job(&args.job, &args.read, false)?;
     let mut output = Output {
         target: Target::open(&args.output, args.stream)?,
         trace: args.trace.as_deref().map(|path| Target::open(path, false)).transpose()?,
@@ -63,11 +66,19 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     };
     let mut options = prepared.options.clone();
     options.trace = args.trace.is_some();
+    let proof = (!args.no_verify && !args.stream).then(|| args.control.proof(None));
     let mut progress = Progress::new();
-    let printed = prepared.post.render_parts(job.again(), &options, &mut |part| {
+    let mut take = |part: Part<'_>| {
         progress.lines(part.lines);
         output.write(&part)
-    });
+    };
+    let (printed, proven) = match &proof {
+        Some(proof) => {
+            let Printed { rendered, proven } = beside::print(&prepared.post, job.again(), &options, proof, &mut take)?;
+            (rendered, Some((proof, proven)))
+        }
+        None => (prepared.post.render_parts(job.again(), &options, &mut take), None),
+    };
     drop(progress);
     let mut notes = match &printed {
         Ok(rendered) => rendered.notes.clone(),
@@ -88,29 +99,57 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         message("nothing was printed: --deny warnings");
         return Ok(Ending::Findings);
     }
-    if !args.verify {
-        return output.finish(args);
-    }
-    let program = output.target.written().map_err(|error| io_message("write", &args.output, &error))?;
-    let Some(program) = program else { return Err("error: a program that is streamed can't be verified".into()) };
-    let proof = Proof {
-        job: &args.job,
-        prepared: Some(&prepared),
-        traced: true,
-        proof: args.control.proof(None),
-        name: "the program".into(),
-        quiet: args.options.quiet,
-    };
-    let proven = proof.run(&mut job, program, &reporter)?;
-    if !args.options.quiet || proven.ending != Ending::Clean {
-        say(&proven.text.unwrap_or_default());
-    }
-    match proven.ending {
-        Ending::Clean => output.finish(args),
-        ending => {
-            message("nothing was printed");
-            Ok(ending)
+    if let Some((proof, proven)) = proven {
+        let sides = Sides { job: &args.job, program: "the program", files: prepared.post.files() };
+        let proven = in_a_file(proven, &mut job, &prepared, proof, &sides, &reporter)?;
+        let required = args.require_proof || config.require_proof;
+        let told = Told { required, quiet: args.options.quiet, form: &form };
+        match told.verdict(proven, &sides, &reporter)? {
+            Ending::Clean => {}
+            ending => return Ok(ending),
         }
+    } else if args.stream && !args.options.quiet {
+        message("not verified: with --stream the program is out before it is known what it does");
+    }
+    output.finish(args)
+}
+
+/// What is said of a proof.
+struct Told<'a> {
+    /// What is not proven is not printed.
+    required: bool,
+    /// Only what keeps the program from being printed is said.
+    quiet: bool,
+    form: &'a Path,
+}
+
+impl Told<'_> {
+    /// Says the verdict; `Clean`: the program may be printed.
+    fn verdict(&self, proven: Result<Proven, Error>, sides: &Sides<'_>, reporter: &Reporter) -> Result<Ending, String> {
+        let proven = match sides.tried(proven, self.quiet, reporter)? {
+            Ok(proven) => proven,
+            Err(ending) => return Ok(ending),
+        };
+        let prints = match &proven.verdict {
+            Verdict::Different(findings) => {
+                sides.show(findings, Severity::Error, reporter);
+                false
+            }
+            Verdict::NotProven(unproven) if !self.quiet || self.required => {
+                let command = format!("postform verify {} --form {}", files::name(sides.job), files::name(self.form));
+                sides.brief(&unproven.notes, &command);
+                !self.required
+            }
+            _ => true,
+        };
+        if !self.quiet || !prints {
+            say(&sides.sentence(&proven));
+        }
+        if prints {
+            return Ok(Ending::Clean);
+        }
+        message("nothing was printed");
+        Ok(Ending::Findings)
     }
 }
 

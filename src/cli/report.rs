@@ -232,11 +232,11 @@ pub fn place_in(file: &str, diag: &mut Diag) {
 /// Findings of a form that a run shows.
 const MOST: usize = 10;
 
-/// Findings of a form in a line each, the first ten; `form`: what lint is asked for the others with.
-pub fn brief(diags: &[Diag], files: &[Source], form: &str) -> String {
+/// Findings in a line each, the first ten; `command` shows the others.
+pub fn brief(diags: &[Diag], files: &[Source], command: &str) -> String {
     let mut text: String = diags.iter().take(MOST).map(|diag| diag.line(files) + "\n").collect();
     if diags.len() > MOST {
-        text += &format!("and {} more: postform lint {form}\n", diags.len() - MOST);
+        text += &format!("and {} more: {command}\n", diags.len() - MOST);
     }
     text
 }

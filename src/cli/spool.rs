@@ -17,13 +17,6 @@ impl Spool {
         tempfile::tempfile().map(Spool).map_err(named)
     }
 
-    /// A second handle on the same file, at its beginning.
-    pub fn again(&self) -> io::Result<File> {
-        let mut file = self.0.try_clone().map_err(named)?;
-        file.rewind().map_err(named)?;
-        Ok(file)
-    }
-
     /// The spooled file, to be read from its beginning.
     pub fn into_file(mut self) -> io::Result<File> {
         self.0.rewind().map_err(named)?;

@@ -142,6 +142,21 @@ impl<'a> Job<'a> {
         Job { reading: self.reading.clone(), ..Job::new(self.format, input) }
     }
 
+    /// Can the job be read only once?
+    pub fn is_stream(&self) -> bool {
+        matches!(self.input, Input::Stream(_))
+    }
+
+    /// A stream is read into memory, so that it can be read again.
+    pub(crate) fn hold(&mut self) -> Result<(), Error> {
+        if let Input::Stream(Some(input)) = &mut self.input {
+            let mut text = Vec::new();
+            input.read_to_end(&mut text)?;
+            self.input = Input::File(Box::new(Cursor::new(text)));
+        }
+        Ok(())
+    }
+
     /// The format of the job.
     pub fn format(&self) -> Format {
         self.format

@@ -1,5 +1,7 @@
 //! What a control's codes are to the simulator: their groups, the words they use.
 
+use std::fmt;
+
 pub use crate::control::Group;
 use crate::control::{AxisWords, Code, Control, Meaning, Row, Rules};
 
@@ -70,7 +72,13 @@ pub fn m_group(row: &Row) -> u8 {
     }
 }
 
-/// `G91.1` of 911.
-pub fn name_of(code: u16) -> String {
-    if code.is_multiple_of(10) { format!("G{}", code / 10) } else { format!("G{}.{}", code / 10, code % 10) }
+/// A G code by ten times its number; it shows as `G91.1` for 911.
+#[derive(Clone, Copy, Debug)]
+pub struct Name(pub u16);
+
+impl fmt::Display for Name {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (whole, tenth) = (self.0 / 10, self.0 % 10);
+        if tenth == 0 { write!(f, "G{whole}") } else { write!(f, "G{whole}.{tenth}") }
+    }
 }

@@ -3,7 +3,7 @@
 use super::action::{Action, Drilling};
 use super::arcs::{CENTERS, axes_of};
 use super::block::Block;
-use super::codes::{letters, name_of};
+use super::codes::{Name, letters};
 use super::fault::{Done, refuse};
 use super::holes::Work;
 use super::out::Out;
@@ -23,7 +23,7 @@ impl State {
         self.check_cycle(block)?;
         let same = self.modes.motion == code;
         let [_, _, across] = axes_of(self.modes.plane);
-        let name = name_of(code);
+        let name = Name(code);
         let mode = (self.modes.absolute, self.modes.plane, self.modes.units);
         let kept = self.holes.series;
         let Some(r) = block.get(b'R').or(kept.r.filter(|_| same)) else {
@@ -60,7 +60,7 @@ impl State {
             out.by_cycle = true;
             self.place.rapid_to(to, out);
         }
-        let hole = self.words(code, same, block, &name)?;
+        let hole = self.words(code, same, block, name)?;
         let hole = Drilling {
             r: plane_r,
             bottom,
@@ -172,7 +172,7 @@ impl State {
     }
 
     /// P, Q and the shift of a block, or those kept; its first block needs them.
-    fn words(&mut self, code: u16, same: bool, block: &Block, name: &str) -> Done<Drilling> {
+    fn words(&mut self, code: u16, same: bool, block: &Block, name: Name) -> Done<Drilling> {
         let missing = |letter: char| {
             let help = format!("write {letter} in the cycle's first block");
             refuse(Code::PN007, format!("{name} without {letter}"), help)

@@ -3,7 +3,7 @@
 use super::action::Drilling;
 use super::arcs::{CENTERS, axes_of};
 use super::block::Block;
-use super::codes::{letters, name_of};
+use super::codes::{Name, letters};
 use super::fault::{Done, refuse};
 use super::holes::{Series, Work};
 use super::out::Out;
@@ -35,7 +35,7 @@ impl State {
         let (Some(r), Some(bottom)) = (series.r, series.depth) else {
             let what = if series.r.is_none() { "R plane" } else { "depth" };
             let help = "write R and Z in the cycle's first block";
-            return refuse(Code::PN007, format!("{} without its {what}", name_of(code)), help);
+            return refuse(Code::PN007, format!("{} without its {what}", Name(code)), help);
         };
         self.check_fanuc_cycle(code, r, bottom)?;
         let times = match block.get(b'K').filter(|_| !matches!(code, 760 | 870)).or(block.get(b'L')) {
@@ -104,7 +104,7 @@ impl State {
         }
         if matches!(code, 760 | 870) && self.holes.series.peck.is_some_and(|q| q < 0.0) {
             let help = "Q is a distance: a parameter of the control says which way";
-            return refuse(Code::PN018, format!("{} with a negative Q", name_of(code)), help);
+            return refuse(Code::PN018, format!("{} with a negative Q", Name(code)), help);
         }
         let upward = code == 870;
         if (r < bottom) != upward && r != bottom {

@@ -1,7 +1,7 @@
 //! A line read as a block: words, values, comments, and whether its codes go together.
 
 use super::block::Block;
-use super::codes::{Group, bit, g_code, group, letters, m_code, m_group, name_of, takes_axes, why_not_run};
+use super::codes::{Group, Name, bit, g_code, group, letters, m_code, m_group, takes_axes, why_not_run};
 use super::expression::Reader;
 use super::fault::{Done, Fault, refuse};
 use super::flow::Flow;
@@ -204,7 +204,7 @@ impl Block {
         }
         // modal codes that change nothing here may come in numbers
         if let Some(before) = self.g[group].filter(|_| its_group != Group::Other) {
-            let message = format!("{} and {} are of one group", name_of(before.code.tenths), name_of(code));
+            let message = format!("{} and {} are of one group", Name(before.code.tenths), Name(code));
             return Err(Fault::at(Code::PN004, column, message, "write them in two blocks, or take one out"));
         }
         self.g[group] = Some(row);

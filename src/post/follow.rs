@@ -11,6 +11,7 @@ use crate::lang::{VARIABLES, VarId};
 use crate::render::{self, Renderer, TraceLine, TraceWord};
 use crate::span::Span;
 use crate::toolpath::{Event, Flow, Place, Sink};
+use crate::verify::Verdict;
 
 /// A program, with what each line of the form came to.
 #[derive(Debug)]
@@ -59,7 +60,8 @@ impl Post {
         notes.extend_from_slice(follower.renderer.notes());
         let rendered = Rendered { notes, lines: follower.renderer.lines() };
         let text = String::from_utf8_lossy(&follower.text).into_owned();
-        let program = Program { text, rendered, trace: follower.trace };
+        let verdict = Verdict::not_asked_for();
+        let program = Program { text, rendered, trace: follower.trace, verdict };
         Ok(Followed { program, seen: follower.seen, stopped: read.err() })
     }
 }

@@ -8,7 +8,7 @@ use crate::render::{self, Clock, Cycles};
 use crate::toolpath::Units;
 
 /// How a job is printed. All of it may stay as it is.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Options {
     /// The program's number; else the job's.
@@ -30,6 +30,26 @@ pub struct Options {
     pub job_file: Option<String>,
     /// Keep for each line of the program which form line and which item of the job printed it.
     pub trace: bool,
+    /// How [`Post::render`](super::Post::render) proves the program; `None`: it does not.
+    pub proof: Option<Proof>,
+}
+
+impl Default for Options {
+    /// As the form and the job say, and proven.
+    fn default() -> Options {
+        Options {
+            program: None,
+            units: None,
+            cycles: Cycles::default(),
+            set: Vec::new(),
+            sink_as_printed: false,
+            huge: false,
+            clock: None,
+            job_file: None,
+            trace: false,
+            proof: Some(Proof::default()),
+        }
+    }
 }
 
 impl Options {
@@ -88,4 +108,6 @@ pub struct Proof {
     pub unpointed: Unpointed,
     /// How near places must be, in the job's units; else 0.0001 inch or 0.002 mm.
     pub tolerance: Option<f64>,
+    /// A program that is not proven is not printed, either.
+    pub required: bool,
 }

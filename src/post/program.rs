@@ -2,6 +2,7 @@
 
 use crate::diag::Diag;
 use crate::render::TraceLine;
+use crate::verify::Verdict;
 
 /// A program, whole.
 #[derive(Clone, Debug)]
@@ -9,6 +10,7 @@ pub struct Program {
     pub(super) text: String,
     pub(super) rendered: Rendered,
     pub(super) trace: Vec<TraceLine>,
+    pub(super) verdict: Verdict,
 }
 
 impl Program {
@@ -20,6 +22,11 @@ impl Program {
     /// The text of the program, to keep.
     pub fn into_text(self) -> String {
         self.text
+    }
+
+    /// Does it do what its job asks for? Never [`Verdict::Different`]: such a program is an error.
+    pub fn verdict(&self) -> &Verdict {
+        &self.verdict
     }
 
     /// Warnings and notes of the job and of printing it, each kind once.

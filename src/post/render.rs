@@ -11,27 +11,39 @@ use crate::error::{Error, ErrorKind};
 use crate::job::Job;
 use crate::render::Renderer;
 use crate::toolpath::{Event, Flow, Place, Sink, Stop, flow};
+use crate::verify::{Batch, Kept, Verdict};
 
 /// How much text waits before it is passed on.
 const CHUNK: usize = 64 * 1024;
+/// How many events wait before they are passed on: with their text they stay in the cache of a processor.
+const EVENTS: usize = 1024;
 
 impl Post {
-    /// Prints a job: the whole program, or nothing.
+    /// Prints a job: the whole program, or nothing. It is proven, unless the options say otherwise: then it is run by the rules
+    /// of its control, and compared with the job, which is read a second time. A job that comes as a stream is held in memory.
     ///
     /// # Errors
-    /// The job can't be read or is wrong, or asks for what the form can't print.
-    pub fn render(&self, job: Job<'_>, options: &Options) -> Result<Program, Error> {
+    /// The job can't be read or is wrong, or asks for what the form can't print. The program does something else than the job
+    /// asks for, by the rules of the control that the form names: [`ErrorKind::Proof`].
+    pub fn render(&self, mut job: Job<'_>, options: &Options) -> Result<Program, Error> {
         let (mut text, mut trace) = (Vec::new(), Vec::new());
-        let rendered = self.render_parts(job, options, &mut |part| {
+        if options.proof.is_some() {
+            job.hold()?;
+        }
+        let rendered = self.render_parts(job.again(), options, &mut |part| {
             text.extend_from_slice(part.text);
             trace.extend_from_slice(part.trace);
             Ok(())
         })?;
         let text = String::from_utf8(text).map_err(|error| Error::from(fault(&error.to_string())))?;
-        Ok(Program { text, rendered, trace })
+        let verdict = match &options.proof {
+            Some(proof) => self.proven(job, &text, options, proof)?,
+            None => Verdict::not_asked_for(),
+        };
+        Ok(Program { text, rendered, trace, verdict })
     }
 
-    /// Prints a job as it is read, in memory that does not grow with it.
+    /// Prints a job as it is read, in memory that does not grow with it. It is not proven.
     ///
     /// # Errors
     /// As [`Post::render`], or the output fails. What was written is then a part of a program: throw it away.
@@ -39,20 +51,49 @@ impl Post {
         self.render_parts(job, options, &mut |part| out.write_all(part.text))
     }
 
-    /// Prints a job as it is read, with its source map. `take` gets the parts in their order, some 64 KB each.
+    /// Prints a job as it is read, with its source map. `take` gets the parts in their order, some 64 KB each. It is not proven.
     ///
     /// # Errors
     /// As [`Post::render`], or `take` fails. What it got is then a part of a program: throw it away.
     pub fn render_parts(
         &self,
-        mut job: Job<'_>,
+        job: Job<'_>,
         options: &Options,
         take: &mut dyn FnMut(Part<'_>) -> io::Result<()>,
     ) -> Result<Rendered, Error> {
+        self.print(job, options, take, None)
+    }
+
+    /// The same with what a proof needs: `prove` gets events and text in their order, for [`Post::prove`] on another thread, until
+    /// it wants no more and answers `false`.
+    ///
+    /// # Errors
+    /// As [`Post::render_parts`].
+    pub fn render_beside(
+        &self,
+        job: Job<'_>,
+        options: &Options,
+        take: &mut dyn FnMut(Part<'_>) -> io::Result<()>,
+        prove: &mut dyn FnMut(Batch) -> bool,
+    ) -> Result<Rendered, Error> {
+        self.print(job, options, take, Some(Tap { events: Vec::new(), prove }))
+    }
+
+    fn print(
+        &self,
+        mut job: Job<'_>,
+        options: &Options,
+        take: &mut dyn FnMut(Part<'_>) -> io::Result<()>,
+        tap: Option<Tap<'_>>,
+    ) -> Result<Rendered, Error> {
+        let mut for_renderer = options.for_renderer()?;
+        for_renderer.trace |= tap.is_some();
         let mut printer = Printer {
-            renderer: Renderer::new(&self.0.program, options.for_renderer()?),
+            renderer: Renderer::new(&self.0.program, for_renderer),
             growth: Growth { read: job.bytes_read().filter(|_| !options.huge), printed: 0 },
             take,
+            traced: options.trace,
+            tap,
             failure: None,
         };
         let mut read = job.read(&mut printer);
@@ -78,22 +119,40 @@ fn fault(what: &str) -> Box<Diag> {
     Box::new(Diag::new(Code::PX001, what).help("this is a fault of postform: please report it"))
 }
 
+/// What goes to a proof.
+struct Tap<'t> {
+    events: Vec<(Kept, Place)>,
+    prove: &'t mut dyn FnMut(Batch) -> bool,
+}
+
 /// A sink between reader and output: prints, and passes text on as it comes.
-struct Printer<'p, 't> {
+struct Printer<'p, 't, 's> {
     renderer: Renderer<'p>,
     growth: Growth,
     take: &'t mut dyn FnMut(Part<'_>) -> io::Result<()>,
+    /// Who takes the parts wants the source map.
+    traced: bool,
+    tap: Option<Tap<'s>>,
     failure: Option<io::Error>,
 }
 
-impl Printer<'_, '_> {
+impl Printer<'_, '_, '_> {
     /// Passes on what waits.
     fn drain(&mut self) {
         let lines = self.renderer.lines();
         let mut trace = self.renderer.trace().map(std::mem::take).unwrap_or_default();
         let text = self.renderer.text();
-        if let Err(error) = (self.take)(Part { text, trace: &trace, lines }) {
+        let shown = if self.traced { &trace[..] } else { &[] };
+        if let Err(error) = (self.take)(Part { text, trace: shown, lines }) {
             self.failure = Some(error);
+        }
+        if let Some(tap) = &mut self.tap {
+            let events = Vec::with_capacity(tap.events.len());
+            let batch =
+                Batch { events: std::mem::replace(&mut tap.events, events), text: text.clone(), trace: trace.clone() };
+            if !(tap.prove)(batch) {
+                self.tap = None;
+            }
         }
         text.clear();
         trace.clear();
@@ -101,17 +160,25 @@ impl Printer<'_, '_> {
             *kept = trace; // so that a part of a source map allocates nothing
         }
     }
+
+    /// Is there enough to be passed on?
+    #[inline]
+    fn is_full(&mut self) -> bool {
+        self.renderer.text().len() >= CHUNK || self.tap.as_ref().is_some_and(|tap| tap.events.len() >= EVENTS)
+    }
 }
 
-impl Sink for Printer<'_, '_> {
+impl Sink for Printer<'_, '_, '_> {
     #[inline]
     fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+        if let Some(tap) = &mut self.tap {
+            tap.events.push((Kept::from(&event), place));
+        }
         self.renderer.event(event, place)?;
-        let length = self.renderer.text().len();
-        if length < CHUNK {
+        if !self.is_full() {
             return Flow::Continue(());
         }
-        flow(self.growth.print(length, place))?;
+        flow(self.growth.print(self.renderer.text().len(), place))?;
         self.drain();
         match &self.failure {
             Some(_) => Flow::Break(Stop::Enough),

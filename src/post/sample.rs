@@ -31,7 +31,7 @@ pub fn sample_program(checked: &Checked, job: Option<Job<'_>>) -> Result<Result<
     let machine = form.settings.machine;
     let post = Post::of(compile(&form), Vec::new(), &checked.files);
     // questions are answered, so that something is printed
-    let mut options = Options { program: Some(1), ..Options::default() };
+    let mut options = Options { program: Some(1), proof: None, ..Options::default() };
     options.set = post.prompts().map(|ask| (ask.variable.to_owned(), ask.default.unwrap_or(1.0))).collect();
     match post.render(job.unwrap_or_else(|| Job::json(sample_job(machine))), &options) {
         Ok(program) => Ok(Ok(program.into_text())),

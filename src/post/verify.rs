@@ -6,12 +6,12 @@ use super::Post;
 use super::options::{Options, Proof};
 use crate::compile;
 use crate::control::Control;
-use crate::diag::Diag;
+use crate::diag::{Code, Diag, Findings};
 use crate::error::{Error, ErrorKind};
 use crate::job::Job;
 use crate::nc::RunSettings;
 use crate::toolpath::{Event, Flow, Place, Sink, Units};
-use crate::verify::{Comparer, Counts, Expectation, Verdict};
+use crate::verify::{Batch, Comparer, Counts, Expectation, Outcome, Verdict, prove_beside};
 
 /// How a proof came out.
 #[derive(Clone, Debug)]
@@ -54,6 +54,71 @@ impl Post {
     pub fn run_settings(&self, proof: &Proof, units: Units) -> RunSettings {
         proof.settings(Some(&self.0.program), units)
     }
+
+    /// Does the program that [`Post::render_beside`] prints make the motions of its job? `batches` may be the end of a channel on
+    /// another thread: it is asked for no more than is compared next, and not at all once the verdict is known. Whether the
+    /// job can be printed to its end is for the other side to say.
+    ///
+    /// # Errors
+    /// None that is known: what was printed can be read.
+    pub fn prove(
+        &self,
+        batches: impl Iterator<Item = Batch>,
+        options: &Options,
+        proof: &Proof,
+    ) -> Result<Proven, Error> {
+        let plan = Plan::new(Some(&self.0.program), options, proof);
+        let outcome = prove_beside(batches, plan.settings, plan.expectation, proof.tolerance, plan.of_job);
+        let Outcome { verdict, counts, warnings } = outcome.map_err(|error| Error::of_io(ErrorKind::Program, error))?;
+        Ok(Proven {
+            verdict: if plan.assumed { verdict.assumed(plan.settings.control.name()) } else { verdict },
+            counts,
+            warnings,
+        })
+    }
+
+    /// The verdict on a program that was just printed; one that must not run is an error.
+    pub(super) fn proven(
+        &self,
+        mut job: Job<'_>,
+        text: &str,
+        options: &Options,
+        proof: &Proof,
+    ) -> Result<Verdict, Error> {
+        let proven = self.verify_with(job.again(), Cursor::new(text), options, proof)?;
+        let verdict = self.located(proven, job, options)?.verdict;
+        let diags = match &verdict {
+            Verdict::Different(findings) => findings.iter().map(|finding| finding.diag("the program")).collect(),
+            Verdict::NotProven(unproven) if proof.required => {
+                vec![Diag::new(Code::PV020, verdict.to_string()).help(&unproven.help)]
+            }
+            _ => return Ok(verdict),
+        };
+        Err(Error::proof(Findings { diags, files: self.files().to_vec(), suppressed: 0 }))
+    }
+
+    /// The same with the form lines of its findings, by printing the job once more if there are any. `options` are those that the
+    /// program was printed with.
+    ///
+    /// # Errors
+    /// The job can't be read again, or an option makes no sense.
+    pub fn located(&self, mut proven: Proven, job: Job<'_>, options: &Options) -> Result<Proven, Error> {
+        let findings = match &mut proven.verdict {
+            Verdict::Different(findings) => findings,
+            Verdict::NotProven(unproven) => &mut unproven.notes,
+            _ => return Ok(proven),
+        };
+        let lines: Vec<u64> = findings.iter().map(|finding| finding.line).collect();
+        if lines.is_empty() {
+            return Ok(proven);
+        }
+        for (finding, origin) in findings.iter_mut().zip(self.origins(job, options, &lines)?) {
+            if let Some(origin) = origin {
+                finding.locate(origin);
+            }
+        }
+        Ok(proven)
+    }
 }
 
 impl Proof {
@@ -81,6 +146,29 @@ impl Proof {
     }
 }
 
+/// What a program is run by and compared with.
+struct Plan {
+    settings: RunSettings,
+    expectation: Expectation,
+    /// Before the program says its units they are the job's.
+    of_job: bool,
+    /// Nobody names the control.
+    assumed: bool,
+}
+
+impl Plan {
+    fn new(form: Option<&compile::Program>, options: &Options, proof: &Proof) -> Plan {
+        Plan {
+            settings: proof.settings(form, options.units.unwrap_or(Units::Mm)),
+            expectation: form.map_or_else(Expectation::default, |form| {
+                Expectation::of_form(&form.settings, options.sink_as_printed).typed(form)
+            }),
+            of_job: form.is_none() || options.units.is_none(),
+            assumed: proof.control.is_none() && form.is_some_and(|form| form.settings.control.is_none()),
+        }
+    }
+}
+
 fn prove(
     form: Option<&compile::Program>,
     mut job: Job<'_>,
@@ -88,13 +176,9 @@ fn prove(
     options: &Options,
     proof: &Proof,
 ) -> Result<Proven, Error> {
-    let settings = proof.settings(form, options.units.unwrap_or(Units::Mm));
-    let expectation = form.map_or_else(Expectation::default, |form| {
-        Expectation::of_form(&form.settings, options.sink_as_printed).typed(form)
-    });
-    let assumed = proof.control.is_none() && form.is_some_and(|form| form.settings.control.is_none());
+    let Plan { settings, expectation, of_job, assumed } = Plan::new(form, options, proof);
     let comparer = Comparer::new(program, settings, expectation, proof.tolerance);
-    let mut comparer = Started { comparer, of_job: form.is_none() || options.units.is_none() };
+    let mut comparer = Started { comparer, of_job };
     let read = job.read(&mut comparer);
     let mut comparer = comparer.comparer;
     let (counts, warnings) = (comparer.counts(), comparer.warnings());

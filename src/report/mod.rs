@@ -1,9 +1,11 @@
-//! Findings of forms as reports for programs.
+//! Findings of forms, and verdicts on programs, as reports for programs.
 
 mod github;
 mod json;
+mod proof;
 mod sarif;
 
 pub use github::annotations as github;
 pub use json::report as json;
+pub use proof::proof;
 pub use sarif::log as sarif;

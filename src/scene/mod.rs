@@ -136,7 +136,8 @@ fn made(request: &mut Request<'_>) -> Result<Made, Wrong> {
 
 /// With the source map, and with an answer to each question that nobody answered.
 fn answered(post: &Post, options: &Options) -> Options {
-    let mut options = Options { trace: true, ..options.clone() };
+    // the scene shows a program that is different, too, and proves it by itself
+    let mut options = Options { trace: true, proof: None, ..options.clone() };
     for prompt in post.prompts() {
         if !options.set.iter().any(|(name, _)| name == prompt.variable) {
             options.set.push((prompt.variable.to_owned(), prompt.default.unwrap_or(0.0)));

@@ -7,92 +7,23 @@ use std::rc::Rc;
 
 use super::comparer::Comparer;
 use super::expectation::Expectation;
-use super::finding::Verdict;
+use super::kept::Kept;
 use super::report::Counts;
+use super::verdict::Verdict;
 use crate::diag::Diag;
 use crate::nc::RunSettings;
-use crate::toolpath::{Arc, Call, CycleSpec, Event, Infeed, Place, Sink, Start, Thread, ToolChange};
+use crate::render::TraceLine;
+use crate::toolpath::{Event, Place, Sink};
 
-/// What a renderer takes and makes, in its order: one event of the job, or some bytes of the program.
-#[derive(Clone, Debug)]
-pub enum Part {
-    /// An event, with its place in the job.
-    Event(Kept, Place),
-    /// Bytes that the events so far came to; a block may be in two of them.
-    Text(Vec<u8>),
-}
-
-/// An event that outlives its reader, so that it can go to another thread.
-#[derive(Clone, Debug)]
-pub struct Kept(Own);
-
-#[derive(Clone, Debug)]
-enum Own {
-    Start(Box<Start>),
-    ToolChange(Box<ToolChange>),
-    Arc(Arc, Option<f64>),
-    Infeed(Infeed, Option<f64>),
-    Cycle(Box<CycleSpec>),
-    Comment(Box<str>),
-    Text(Box<str>),
-    Set(Box<str>, f64),
-    Call(Call),
-    Thread(Box<Thread>),
-    Plain(Event<'static>),
-}
-
-impl From<&Event<'_>> for Kept {
-    fn from(event: &Event<'_>) -> Kept {
-        Kept(match *event {
-            Event::Start(start) => Own::Start(Box::new(start.clone())),
-            Event::ToolChange(change) => Own::ToolChange(Box::new(change.clone())),
-            Event::Arc { arc, feed } => Own::Arc(*arc, feed),
-            Event::Infeed { infeed, feed } => Own::Infeed(*infeed, feed),
-            Event::CycleBegin(spec) => Own::Cycle(Box::new(spec.clone())),
-            Event::Comment(text) => Own::Comment(text.into()),
-            Event::Text(text) => Own::Text(text.into()),
-            Event::Set(name, value) => Own::Set(name.into(), value),
-            Event::SubCall(call) => Own::Call(*call),
-            Event::Thread(thread) => Own::Thread(Box::new(*thread)),
-            Event::Rapid(to) => Own::Plain(Event::Rapid(to)),
-            Event::Line { to, feed } => Own::Plain(Event::Line { to, feed }),
-            Event::Outfeed { to, feed, rapid } => Own::Plain(Event::Outfeed { to, feed, rapid }),
-            Event::Tilt(axis) => Own::Plain(Event::Tilt(axis)),
-            Event::Begin(section) => Own::Plain(Event::Begin(section)),
-            Event::End(section) => Own::Plain(Event::End(section)),
-            Event::Hole(hole) => Own::Plain(Event::Hole(hole)),
-            Event::CycleEnd => Own::Plain(Event::CycleEnd),
-            Event::Dwell(seconds) => Own::Plain(Event::Dwell(seconds)),
-            Event::Stop(kind) => Own::Plain(Event::Stop(kind)),
-            Event::Feed(feed) => Own::Plain(Event::Feed(feed)),
-            Event::Work(work) => Own::Plain(Event::Work(work)),
-            Event::Spindle(spindle) => Own::Plain(Event::Spindle(spindle)),
-            Event::Coolant(coolant) => Own::Plain(Event::Coolant(coolant)),
-            Event::SubStart(number) => Own::Plain(Event::SubStart(number)),
-            Event::SubEnd => Own::Plain(Event::SubEnd),
-            Event::Edm(action) => Own::Plain(Event::Edm(action)),
-            Event::Finish => Own::Plain(Event::Finish),
-        })
-    }
-}
-
-impl Kept {
-    /// The event as it was.
-    pub fn event(&self) -> Event<'_> {
-        match &self.0 {
-            Own::Start(start) => Event::Start(start),
-            Own::ToolChange(change) => Event::ToolChange(change),
-            Own::Arc(arc, feed) => Event::Arc { arc, feed: *feed },
-            Own::Infeed(infeed, feed) => Event::Infeed { infeed, feed: *feed },
-            Own::Cycle(spec) => Event::CycleBegin(spec),
-            Own::Comment(text) => Event::Comment(text),
-            Own::Text(text) => Event::Text(text),
-            Own::Set(name, value) => Event::Set(name, *value),
-            Own::Call(call) => Event::SubCall(call),
-            Own::Thread(thread) => Event::Thread(thread),
-            Own::Plain(event) => event.clone(),
-        }
-    }
+/// What a renderer took and what it made of it, as far as both had come.
+#[derive(Clone, Debug, Default)]
+pub struct Batch {
+    /// Events, with their places in the job.
+    pub events: Vec<(Kept, Place)>,
+    /// Bytes of the program; a block may be in two batches.
+    pub text: Vec<u8>,
+    /// Which form line and which item of the job printed each line that ends in this text; may be left out.
+    pub trace: Vec<TraceLine>,
 }
 
 /// How a proof came out.
@@ -107,31 +38,40 @@ pub struct Outcome {
     pub warnings: Vec<Diag>,
 }
 
-/// Proves a program while it is made. `parts` may be the end of a channel: it is asked for no more than is compared next,
+/// Proves a program while it is made. `batches` may be the end of a channel: it is asked for no more than is compared next,
 /// and not at all once the verdict is known. Before the program says its units they are the job's if `of_job`, else those
 /// of `settings`.
 ///
-/// A program that calls or repeats parts of itself is not proven: only a file can be gone back in.
+/// A program that calls or repeats parts of itself is not proven: only a file can be gone back in
+/// ([`Unproven::in_a_file`](super::Unproven::in_a_file)).
 ///
 /// # Errors
-/// None that `parts` does not have: text in memory can always be read.
+/// None: text in memory can always be read.
 pub fn prove_beside(
-    parts: impl Iterator<Item = Part>,
+    batches: impl Iterator<Item = Batch>,
     settings: RunSettings,
     expectation: Expectation,
     tolerance: Option<f64>,
     of_job: bool,
 ) -> io::Result<Outcome> {
-    let queue = Rc::new(RefCell::new(Queue { parts, events: VecDeque::new(), texts: VecDeque::new() }));
+    let queue = Queue { batches, events: VecDeque::new(), texts: VecDeque::new(), traces: VecDeque::new() };
+    let queue = Rc::new(RefCell::new(queue));
     let text = Text { queue: Rc::clone(&queue), chunk: Vec::new(), at: 0 };
     let mut comparer = Comparer::new(text, settings, expectation, tolerance);
+    let mut found = 0;
     loop {
         let next = queue.borrow_mut().event();
         let Some((kept, place)) = next else { break };
         if let (Event::Start(start), true) = (kept.event(), of_job) {
             comparer.begin_in(start.units);
         }
-        if comparer.event(kept.event(), place).is_break() {
+        let flow = comparer.event(kept.event(), place);
+        if comparer.found() > found {
+            found = comparer.found();
+            let queue = queue.borrow();
+            comparer.locate(|line| queue.origin(line));
+        }
+        if flow.is_break() {
             break;
         }
     }
@@ -139,20 +79,31 @@ pub fn prove_beside(
     Ok(Outcome { verdict: comparer.verdict()?, counts, warnings })
 }
 
-/// What came and was not needed yet.
-struct Queue<I> {
-    parts: I,
-    events: VecDeque<(Kept, Place)>,
-    texts: VecDeque<Vec<u8>>,
+/// How many events wait for the text that they came to.
+const MOST_WAITING: usize = 1 << 16;
+
+/// Why a program is proven only where it can be gone back in, which has an end.
+fn only_a_file(why: &'static str) -> io::Error {
+    io::Error::new(io::ErrorKind::Unsupported, why)
 }
 
-impl<I: Iterator<Item = Part>> Queue<I> {
-    /// Takes the next part in; `false`: there is none.
+/// What came and was not needed yet.
+struct Queue<I> {
+    batches: I,
+    events: VecDeque<(Kept, Place)>,
+    texts: VecDeque<Vec<u8>>,
+    /// Where the lines of the texts came from: of those that wait, of the one that is run and of the one before it.
+    traces: VecDeque<Vec<TraceLine>>,
+}
+
+impl<I: Iterator<Item = Batch>> Queue<I> {
+    /// Takes the next batch in; `false`: there is none.
     fn pull(&mut self) -> bool {
-        match self.parts.next() {
-            Some(Part::Event(kept, place)) => self.events.push_back((kept, place)),
-            Some(Part::Text(text)) => self.texts.push_back(text),
-            None => return false,
+        let Some(batch) = self.batches.next() else { return false };
+        self.events.extend(batch.events);
+        if !batch.text.is_empty() {
+            self.texts.push_back(batch.text);
+            self.traces.push_back(batch.trace);
         }
         true
     }
@@ -162,9 +113,23 @@ impl<I: Iterator<Item = Part>> Queue<I> {
         self.events.pop_front()
     }
 
-    fn text(&mut self) -> Option<Vec<u8>> {
-        while self.texts.is_empty() && self.pull() {}
-        self.texts.pop_front()
+    fn text(&mut self) -> io::Result<Option<Vec<u8>>> {
+        while self.texts.is_empty() && self.pull() {
+            if self.events.len() > MOST_WAITING {
+                return Err(only_a_file("the program prints nothing for a long part of the job"));
+            }
+        }
+        let Some(text) = self.texts.pop_front() else { return Ok(None) };
+        while self.traces.len() > self.texts.len() + 2 {
+            self.traces.pop_front();
+        }
+        Ok(Some(text))
+    }
+
+    /// Where a line came from that was run not long ago.
+    fn origin(&self, line: u64) -> Option<TraceLine> {
+        let lines = self.traces.iter().find(|lines| lines.last().is_some_and(|last| last.line >= line))?;
+        lines.iter().find(|traced| traced.line == line).copied()
     }
 }
 
@@ -175,10 +140,10 @@ struct Text<I> {
     at: usize,
 }
 
-impl<I: Iterator<Item = Part>> BufRead for Text<I> {
+impl<I: Iterator<Item = Batch>> BufRead for Text<I> {
     fn fill_buf(&mut self) -> io::Result<&[u8]> {
         while self.at == self.chunk.len() {
-            let Some(chunk) = self.queue.borrow_mut().text() else { return Ok(&[]) };
+            let Some(chunk) = self.queue.borrow_mut().text()? else { return Ok(&[]) };
             (self.chunk, self.at) = (chunk, 0);
         }
         Ok(&self.chunk[self.at..])
@@ -189,7 +154,7 @@ impl<I: Iterator<Item = Part>> BufRead for Text<I> {
     }
 }
 
-impl<I: Iterator<Item = Part>> Read for Text<I> {
+impl<I: Iterator<Item = Batch>> Read for Text<I> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.fill_buf()?.read(buffer)?;
         self.consume(count);
@@ -199,6 +164,6 @@ impl<I: Iterator<Item = Part>> Read for Text<I> {
 
 impl<I> Seek for Text<I> {
     fn seek(&mut self, _: SeekFrom) -> io::Result<u64> {
-        Err(io::ErrorKind::Unsupported.into())
+        Err(only_a_file("the program calls or repeats parts of itself"))
     }
 }

@@ -4,16 +4,17 @@ use std::io::{BufRead, Seek};
 
 use super::cut::{ACROSS, ALL, Cut, Rapid, What, distance, over, same, shown};
 use super::expectation::Expectation;
-use super::finding::{Equivalences, Unproven, Verdict};
 use super::intended::{Done, Expected, Intent, Job};
 use super::passage::{Frame, Passage};
 use super::program::Program;
 use super::report::{Counts, Report};
 use super::state::{Holes, Limits, Sides};
 use super::tables::PLACES;
+use super::verdict::{Equivalences, Unproven, Verdict};
 use super::{arcs, begin, holes, lines, pauses, ways};
 use crate::diag::{Code, Diag};
 use crate::nc::RunSettings;
+use crate::render::TraceLine;
 use crate::toolpath::{self, Event, Flow, Sink, Stop, StopKind, Units};
 
 /// Compares a program with the events of its job: push them, then ask for the verdict.
@@ -60,6 +61,21 @@ impl<R: BufRead + Seek> Comparer<R> {
     /// How much was compared so far.
     pub fn counts(&self) -> Counts {
         self.sides.report.counts
+    }
+
+    /// How many findings there are so far.
+    pub(super) fn found(&self) -> usize {
+        self.sides.report.findings.len() + self.sides.program.hazards.len()
+    }
+
+    /// Says where the lines of new findings came from.
+    pub(super) fn locate(&mut self, origin: impl Fn(u64) -> Option<TraceLine>) {
+        let hazards = self.sides.program.hazards.iter_mut();
+        for finding in self.sides.report.findings.iter_mut().chain(hazards).filter(|finding| finding.form.is_none()) {
+            if let Some(origin) = origin(finding.line) {
+                finding.locate(origin);
+            }
+        }
     }
 
     /// Warnings of the control since the last call.

@@ -147,9 +147,8 @@ impl Passage {
 
     /// The legs with their rapids.
     pub fn legs(&self) -> impl DoubleEndedIterator<Item = (&Leg, &[Rapid])> {
-        let ends = self.legs.iter().skip(1).map(|leg| leg.from).chain([self.rapids.len()]);
-        let ends: Vec<usize> = ends.collect();
-        self.legs.iter().zip(ends).map(|(leg, end)| (leg, &self.rapids[leg.from..end]))
+        let end = |next: usize| self.legs.get(next).map_or(self.rapids.len(), |leg| leg.from);
+        self.legs.iter().enumerate().map(move |(i, leg)| (leg, &self.rapids[leg.from..end(i + 1)]))
     }
 
     /// The rapids before the first change of the frame.

@@ -4,7 +4,6 @@ use std::io::{BufRead, Seek};
 
 use super::cut::{ACROSS, DEPTH, number, same, same_dwell};
 use super::passage::{Mark, Passage};
-use super::report::Counts;
 use super::state::Sides;
 use crate::diag::Code;
 use crate::toolpath::StopKind;
@@ -65,6 +64,11 @@ fn operators_change<R: BufRead + Seek>(s: &mut Sides<R>, others: &mut Vec<Mark<S
     if !s.job.new_tool || s.tools {
         return;
     }
+    let count = |stops: &[Mark<StopKind>]| stops.iter().filter(|stop| stop.what == StopKind::Program).count();
+    let is_first = s.job.start.is_none();
+    if is_first && count(others) <= count(&s.job.stops) {
+        return; // the first tool may be in the spindle already
+    }
     let before = s.job.stops_before_change(StopKind::Program);
     let mut stops = others.iter().enumerate().filter(|(_, stop)| stop.what == StopKind::Program);
     match stops.nth(before).map(|(at, _)| at) {
@@ -72,7 +76,7 @@ fn operators_change<R: BufRead + Seek>(s: &mut Sides<R>, others: &mut Vec<Mark<S
             let stop = others.remove(at);
             s.program.passage.split(&stop);
         }
-        None if s.report.counts != Counts::default() => s.found(Code::PV012, 0, "print M0 in the tool change", || {
+        None if !is_first => s.found(Code::PV012, 0, "print M0 in the tool change", || {
             "the program goes on without a stop for the next tool".to_owned()
         }),
         None => {}

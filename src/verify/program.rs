@@ -80,6 +80,8 @@ pub(super) struct Program<R> {
     /// What lies before the cut.
     pub passage: Passage,
     cuts: bool,
+    /// A code ended the program.
+    ended: bool,
     cut: Option<Cut>,
     /// Hazards on the way.
     pub hazards: Vec<Finding>,
@@ -119,6 +121,7 @@ impl<R: BufRead + Seek> Program<R> {
             coolant: expectation.coolant,
             passage: Passage::new(Some(start), Frame { tool: None, work: state.work }),
             cuts: false,
+            ended: false,
             cut: None,
             hazards: Vec::new(),
         }
@@ -152,9 +155,10 @@ impl<R: BufRead + Seek> Program<R> {
                 self.over = !goes_on?;
                 continue;
             }
-            let item = self.items[self.next].clone();
+            let items = std::mem::take(&mut self.items);
+            self.take_item(&items[self.next]);
+            self.items = items;
             self.next += 1;
-            self.take_item(&item);
         }
         Ok(self.cut)
     }
@@ -322,8 +326,12 @@ impl<R: BufRead + Seek> Program<R> {
                 }
                 self.state.rigid = self.state.rigid.map(|_| false);
             }
-            Action::End if self.cycle => {
-                self.hazard(Code::PV013, item.line, "a canned cycle is still in force at the end", "end it with G80");
+            Action::End => {
+                self.ended = true;
+                if self.cycle {
+                    let message = "a canned cycle is still in force at the end";
+                    self.hazard(Code::PV013, item.line, message, "end it with G80");
+                }
             }
             Action::Coolant(cooling) => self.state.coolant = Some(*cooling),
             Action::LeftOut(letter, tenths) => self.left_out(*letter, *tenths),
@@ -436,9 +444,11 @@ impl<R: BufRead + Seek> Program<R> {
 
     /// Notes what the program did before its end, besides cutting.
     pub fn ended(&mut self) {
+        let line = self.simulator.line();
         if self.simulator.begins_again() {
-            let line = self.simulator.line();
             self.hazard(Code::PV016, line, "the program ends with M99, which begins it again", "end it with M30 or M2");
+        } else if !self.ended && self.control.rules() == Rules::Fanuc {
+            self.hazard(Code::PV016, line, "nothing ends the program", "print M30 or M2 in EndCode");
         }
     }
 
@@ -449,7 +459,8 @@ impl<R: BufRead + Seek> Program<R> {
             return;
         }
         let block = self.text();
-        self.hazards.push(Finding { code, message: message.into(), help, place: None, line, block, times: 1 });
+        let (message, place, form) = (message.into(), None, None);
+        self.hazards.push(Finding { code, message, help, place, line, block, form, times: 1 });
     }
 }
 

@@ -1,6 +1,7 @@
 //! What was found and counted so far.
 
-use super::finding::{Equivalences, Finding, Unproven};
+use super::finding::Finding;
+use super::verdict::{Equivalences, Unproven};
 use crate::diag::Code;
 use crate::toolpath;
 
@@ -49,7 +50,8 @@ impl Report {
             Some(finding) => finding.times += 1,
             None => {
                 let (message, block) = ((difference.message)(), (difference.block)());
-                self.findings.push(Finding { code, message, help, place: Some(place), line, block, times: 1 });
+                let place = Some(place);
+                self.findings.push(Finding { code, message, help, place, line, block, form: None, times: 1 });
             }
         }
     }

@@ -3,11 +3,11 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{Cut, Place, Rapid, State};
-use super::finding::Unproven;
 use super::intended::Expected;
 use super::passage::{Frame, Passage};
 use super::program::Program;
 use super::report::{Difference, Report};
+use super::verdict::Unproven;
 use super::way::Way;
 use crate::diag::{Code, Diag};
 use crate::nc::RunError;
@@ -81,7 +81,7 @@ impl<R: BufRead + Seek> Sides<R> {
         let diag = Box::new(Diag::new(Code::PV020, why.clone()).help(help));
         let block = self.program.number_of(line);
         let place = Some(self.report.place);
-        let unproven = Unproven { why, help: help.into(), line, block, place, notes: Vec::new() };
+        let unproven = Unproven { why, help: help.into(), line, block, place, ..Unproven::default() };
         self.report.unproven.get_or_insert(unproven);
         Err(diag)
     }
@@ -100,8 +100,12 @@ impl<R: BufRead + Seek> Sides<R> {
                 self.differs(Code::PV015, line, message, "see what simulate says of the program")
             }
             Err(RunError::Io(error)) if error.kind() == std::io::ErrorKind::Unsupported => {
-                let why = "the program calls or repeats parts of itself, and is not a file that can be gone back in";
-                self.unproven(why.into(), "verify the program as a file", 0)
+                let told =
+                    self.unproven(error.to_string(), "verify the program as a file, which can be gone back in", 0);
+                if let Some(unproven) = &mut self.report.unproven {
+                    unproven.in_a_file = true;
+                }
+                told
             }
             Err(RunError::Io(error)) => {
                 let diag = Diag::new(Code::PV015, error.to_string());

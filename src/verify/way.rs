@@ -196,6 +196,21 @@ pub(super) fn leaves_hole(job: &Way, program: &Way, tolerance: f64) -> Option<Co
     None
 }
 
+/// Does the program come into a hole as the job does, with the job's moves aside, from the place over the hole on?
+pub(super) fn enters_hole(job: &Way, program: &Way, over: &Place, tolerance: f64) -> bool {
+    let Some(first) = job.corners.iter().position(|corner| same(&corner.to, over, ACROSS, tolerance)) else {
+        return false;
+    };
+    let own = &job.corners[first..];
+    let Some(begin) = program.corners.len().checked_sub(own.len()) else { return false };
+    let mut pairs = own.iter().zip(&program.corners[begin..]);
+    let comes_over = |(a, b): (&Rapid, &Rapid)| {
+        same(&a.to, &b.to, ACROSS, tolerance) && b.unknown & ACROSS == 0 && height(b) >= a.to[DEPTH] - tolerance
+    };
+    pairs.next().is_some_and(comes_over)
+        && pairs.all(|(a, b)| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance) && spins(a, b))
+}
+
 /// The program's way after a last cut: nowhere across below where the job crosses, and down only to where the job goes.
 pub(super) fn leaves_low(job: &Way, program: &Way, tolerance: f64) -> Option<(Place, f64)> {
     let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();

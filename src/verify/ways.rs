@@ -3,9 +3,9 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{ALL, Rapid, number, same, shown};
-use super::passage::Frame;
+use super::passage::{Frame, Leg};
 use super::state::Sides;
-use super::way::{Compared, compare as compare_way, leaves_hole, leaves_low};
+use super::way::{Compared, compare as compare_way, enters_hole, leaves_hole, leaves_low};
 use crate::diag::Code;
 
 /// The ways to a cut.
@@ -37,6 +37,9 @@ pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     match compare_way(job, program, known, tolerance) {
         Compared::Same => {}
         Compared::AsGood { step_by_step } if step_by_step || !s.job.aside => {
+            s.report.allowed.ways += u64::from(known);
+        }
+        Compared::AsGood { .. } if s.hole.over.is_some_and(|over| enters_hole(job, program, &over, tolerance)) => {
             s.report.allowed.ways += u64::from(known);
         }
         Compared::AsGood { .. } => stays_at_wall(s, line),
@@ -72,6 +75,12 @@ pub(super) fn moved_with<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     let tools = s.tools;
     let passage = &s.program.passage;
     let before = (s.frame_before(), s.before.length);
+    let as_before = |(leg, _): (&Leg, &[Rapid])| {
+        (leg.frame == before.0 && leg.frame.tool.is_some()) && leg.lengths.iter().all(|length| *length == before.1)
+    };
+    if passage.legs().all(as_before) {
+        return;
+    }
     let is_frame =
         |a: &Frame, b: &Frame| a.work.is_none_or(|work| Some(work) == b.work) && (!tools || a.tool == b.tool);
     let mut wrong = None;

@@ -165,32 +165,6 @@ fn a_full_disk_is_an_error_of_simulate() {
     assert!(text(&output.stderr).contains("can't write"));
 }
 
-/// Nothing of a program that differs is left, and one that does not is written whole.
-#[test]
-fn render_verify_leaves_no_program_that_differs() {
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
-    let (form, out) = (folder.join("wrong.pf"), folder.join("wrong.nc"));
-    let good = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
-    fs::write(&form, good.replace("R[vclear]", "R[rplane]")).unwrap();
-    fs::write(&out, "the program of last year\n").unwrap();
-    let run = |form: &str| {
-        let out = out.to_str().unwrap();
-        postform(&["render", "samples/bracket/job.json", "--form", form, "--verify", "-o", out])
-    };
-    let output = run(form.to_str().unwrap());
-    assert_eq!(output.status.code(), Some(1));
-    let message = text(&output.stderr);
-    for part in
-        ["PV005", "operations[2].path[0].cycle.points[0]", "R[rplane]", "the program, line", "nothing was printed"]
-    {
-        assert!(message.contains(part), "{part}\n{message}");
-    }
-    assert_eq!(fs::read_to_string(&out).unwrap(), "the program of last year\n");
-    let output = run("postforms/haas.pf");
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    assert!(fs::read(&out).unwrap() == fs::read(root().join("samples/bracket/expected.haas.nc")).unwrap());
-}
-
 /// Job and program through pipes.
 #[test]
 fn verify_reads_standard_input() {

@@ -11,7 +11,7 @@ use postform::nc::{JobOptions, RunSettings, read_program};
 use postform::render::{Cycles, Options as RenderOptions, Renderer};
 use postform::toolpath::json::read_lines;
 use postform::toolpath::{Event, Flow, Place, Sink};
-use postform::verify::{Comparer, Equivalences, Expectation, Kept, Part, UNPROVEN, Verdict, prove_beside, tolerances};
+use postform::verify::{Batch, Comparer, Equivalences, Expectation, Kept, UNPROVEN, Verdict, prove_beside, tolerances};
 
 /// A metric job of two tools.
 fn mm(operations: &str) -> String {
@@ -338,7 +338,7 @@ fn unknown_codes_are_not_proven() {
     let changed = program.replacen("G1 Z-1.", "G201 P1\nG1 Z-1.", 1);
     let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{changed}") };
     assert_eq!(unproven.why, "fanuc has no G201 that we know");
-    assert!(unproven.from().starts_with("from N") && unproven.line > 0, "{unproven:?}");
+    assert!(unproven.from().starts_with(" from N") && unproven.line > 0, "{unproven:?}");
     // LinuxCNC has no other codes than those of its file, and refuses them itself
     let form = check(&post("linuxcnc.pf"));
     let program = rendered(&form, &job, Cycles::Form);
@@ -356,7 +356,7 @@ fn forms_without_a_control_are_not_proven() {
         (output.status.code(), text(&output.stdout))
     };
     let (status, said) = run(&[]);
-    assert!(said.contains("not proven: ") && said.contains("the form names no control"), "{said}");
+    assert!(said.contains("not proven: ") && said.contains("the form names no `Control`"), "{said}");
     assert_eq!(status, Some(1));
     assert!(run(&["--control", "fanuc"]).1.starts_with("different: "));
 }
@@ -424,14 +424,14 @@ fn findings_of_others_stay_found() {
 fn a_proof_beside_the_renderer_is_the_same() {
     struct Tap<'p> {
         renderer: Renderer<'p>,
-        parts: Vec<Part>,
+        batches: Vec<Batch>,
     }
     impl Sink for Tap<'_> {
         fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
-            self.parts.push(Part::Event(Kept::from(&event), place));
+            self.batches.push(Batch { events: vec![(Kept::from(&event), place)], ..Batch::default() });
             self.renderer.event(event, place)?;
             let text = std::mem::take(self.renderer.text());
-            self.parts.extend(text.chunks(7).map(|piece| Part::Text(piece.to_vec())));
+            self.batches.extend(text.chunks(7).map(|piece| Batch { text: piece.to_vec(), ..Batch::default() }));
             Flow::Continue(())
         }
     }
@@ -441,25 +441,78 @@ fn a_proof_beside_the_renderer_is_the_same() {
         let bracket = fs::read_to_string(root().join("samples/bracket/job.json")).unwrap();
         let job = document(&bracket);
         let renderer = Renderer::new(&compiled, RenderOptions::default());
-        let mut tap = Tap { renderer, parts: Vec::new() };
+        let mut tap = Tap { renderer, batches: Vec::new() };
         assert!(job(&mut tap));
-        let text: Vec<u8> = tap
-            .parts
-            .iter()
-            .flat_map(|part| if let Part::Text(text) = part { &text[..] } else { &[] })
-            .copied()
-            .collect();
+        let text: Vec<u8> = tap.batches.iter().flat_map(|batch| &batch.text).copied().collect();
         let settings = RunSettings::new(compiled.settings.control());
         let expectation = || Expectation::of_form(&compiled.settings, false).typed(&compiled);
-        let beside = |parts: Vec<Part>| prove_beside(parts.into_iter(), settings, expectation(), None, true).unwrap();
-        let outcome = beside(tap.parts.clone());
+        let beside =
+            |batches: Vec<Batch>| prove_beside(batches.into_iter(), settings, expectation(), None, true).unwrap();
+        let outcome = beside(tap.batches.clone());
         assert!(outcome.verdict.is_proven() && outcome.counts.holes == 20, "{name}: {outcome:?}");
         assert_eq!(outcome.verdict, verified(&form, std::str::from_utf8(&text).unwrap(), &job), "{name}");
         // a digit that changes on its way
-        let wrong = |part: Part| match part {
-            Part::Text(text) => Part::Text(text.iter().map(|&byte| if byte == b'5' { b'6' } else { byte }).collect()),
-            event => event,
+        let wrong = |batch: Batch| {
+            let text = batch.text.iter().map(|&byte| if byte == b'5' { b'6' } else { byte }).collect();
+            Batch { text, ..batch }
         };
-        assert!(!beside(tap.parts.into_iter().map(wrong).collect()).verdict.is_proven());
+        assert!(!beside(tap.batches.into_iter().map(wrong).collect()).verdict.is_proven());
     }
+}
+
+/// Memory does not grow where a program prints nothing for a long part of its job.
+#[test]
+fn a_proof_beside_the_renderer_holds_no_long_job() {
+    let form = check(&post("fanuc.pf"));
+    let compiled = compile(&form.form);
+    let bracket = fs::read_to_string(root().join("samples/bracket/job.json")).unwrap();
+    struct Events(Vec<(Kept, Place)>);
+    impl Sink for Events {
+        fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+            self.0.push((Kept::from(&event), place));
+            Flow::Continue(())
+        }
+    }
+    let mut events = Events(Vec::new());
+    assert!(document(&bracket)(&mut events));
+    let cut = events.0.iter().find(|(kept, _)| matches!(kept.event(), Event::Line { .. })).unwrap().clone();
+    let head = Batch { events: events.0, text: b"%\nG20\n".to_vec(), ..Batch::default() };
+    let mut taken = 0;
+    let more = std::iter::repeat_with(|| {
+        taken += 1;
+        assert!(taken < 1000, "it goes on reading");
+        Batch { events: vec![cut.clone(); 1000], ..Batch::default() }
+    });
+    let settings = RunSettings::new(compiled.settings.control());
+    let expectation = Expectation::of_form(&compiled.settings, false).typed(&compiled);
+    let outcome = prove_beside(std::iter::once(head).chain(more), settings, expectation, None, true).unwrap();
+    assert!(matches!(&outcome.verdict, Verdict::NotProven(why) if why.in_a_file), "{:?}", outcome.verdict);
+}
+
+/// A back bore as the first hole of a tool whose place the job has not told yet.
+#[test]
+fn a_back_bore_may_come_first() {
+    let job = one(
+        r#"{"rapid":[null,null,19.22]},{"cycle":{"kind":"back","depth":11.09,"feed":128.9,"rapto":20.76,"points":[[-61.4,43.38,2.15]]}},{"rapid":[-61.4,43.38,30]}"#,
+    );
+    let form = fs::read_to_string(root().join("tests/data/forms/advanced.pf")).unwrap();
+    let (program, verdict) = of_form(&form, &job);
+    assert!(verdict.is_proven(), "{verdict:?}\n{program}");
+    // straight down at the wall
+    let (form, job) = (check(&form), document(&job));
+    let down = program.lines().filter(|line| !line.contains("X-61.9")).collect::<Vec<_>>().join("\n");
+    assert!(matches!(verified(&form, &down, &job), Verdict::Different(_)), "{down}");
+}
+
+/// On a machine without tool changes the first M0 of a job without cuts is the job's, where the form has none for its first tool.
+#[test]
+fn a_stop_of_the_job_is_not_the_first_tool_change() {
+    let job = one(
+        r#"{"rapid":[0,0,25]},{"cycle":{"kind":"manual","clear":4,"points":[[1,1,0],[5,1,0]]}},{"rapid":[5,1,25]}"#,
+    );
+    let (program, verdict) = of_post("grbl.pf", &job);
+    assert!(verdict.is_proven(), "{verdict:?}\n{program}");
+    let (form, job) = (check(&post("grbl.pf")), document(&job));
+    let changed = program.replacen("M0\n", "", 1);
+    assert!(matches!(verified(&form, &changed, &job), Verdict::Different(_)), "{changed}");
 }

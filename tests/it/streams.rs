@@ -45,7 +45,7 @@ fn long_job() -> String {
 /// Each command with something to say.
 const LINES: [&str; 17] = [
     "render job.json --form odd.pf -o out.nc",
-    "render job.json --form form.pf --verify -o out.nc",
+    "render job.json --form form.pf --require-proof -o out.nc",
     "render job.json --form wrong.pf -o out.nc",
     "render wrong.json --form form.pf -o out.nc",
     "render no.json --form form.pf",
@@ -136,7 +136,7 @@ fn errors_name_the_folder_for_temporary_files() {
         ("render job.json --form form.pf", "can't write standard output: a temporary file in /no/such (TMPDIR)"),
         ("simulate - < a.nc", "can't read standard input: a temporary file in /no/such (TMPDIR)"),
         ("check - --from nc < a.nc", "can't read standard input: a temporary file in /no/such (TMPDIR)"),
-        ("verify job.json --form form.pf", "can't write the program: a temporary file in /no/such (TMPDIR)"),
+        ("diff --forms form.pf odd.pf job.json", "can't write the program: a temporary file in /no/such (TMPDIR)"),
     ] {
         let output = shell(&folder, &format!("TMPDIR=/no/such exec \"$0\" {line}"));
         let text = String::from_utf8_lossy(&output.stderr).into_owned();

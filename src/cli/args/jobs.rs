@@ -233,16 +233,19 @@ pub struct RenderArgs {
     /// Write the source map here: for each program line its form line and job item, as JSON Lines
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
-    /// Print to standard output as it comes, even if an error cuts the program short
+    /// Print to standard output as it comes, not verified, even if an error cuts the program short
     #[arg(long, conflicts_with = "deny")]
     pub stream: bool,
-    /// Run the program, and print it only if it makes the job's motions
-    #[arg(long, conflicts_with = "stream")]
-    pub verify: bool,
+    /// Print the program without running it to see whether it does what the job asks for
+    #[arg(long)]
+    pub no_verify: bool,
+    /// Print the program only if it is proven: `not proven` is not enough
+    #[arg(long, alias = "verify", conflicts_with_all = ["no_verify", "stream"])]
+    pub require_proof: bool,
     /// Print anew whenever the form or the job is changed
     #[arg(long)]
     pub watch: bool,
-    /// How `--verify` runs it
+    /// How the program is run to prove it
     #[command(flatten)]
     pub control: ControlArgs,
 }

@@ -15,7 +15,7 @@ pub use editor::LspArgs;
 pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, NewControl};
 pub use jobs::{CheckArgs, From, ReadArgs, RenderArgs, RenderOptions, UnitsArg};
 pub use pictures::{PlotArgs, WatchArgs};
-pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, VerifyArgs};
+pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, VerifyArgs, VerifyFormat};
 
 /// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.
 #[derive(Debug, Parser)]

@@ -7,6 +7,15 @@ use clap::{Args, ValueEnum};
 use super::controls::length;
 use super::{ControlArgs, ReadArgs, RenderOptions, UnitsArg};
 
+/// How a verdict is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum VerifyFormat {
+    /// A sentence; findings on standard error
+    Text,
+    /// One JSON document
+    Json,
+}
+
 /// `postform verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
@@ -21,6 +30,9 @@ pub struct VerifyArgs {
     /// How near places must be, in the job's units [default: 0.0001 inch, 0.002 mm]
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub tolerance: Option<f64>,
+    /// How the verdict is shown
+    #[arg(long, value_name = "FORMAT", default_value = "text")]
+    pub format: VerifyFormat,
     /// How the program is run
     #[command(flatten)]
     pub control: ControlArgs,

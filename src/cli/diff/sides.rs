@@ -13,8 +13,8 @@ use postform::trace::Trace;
 use super::super::args::DiffArgs;
 use super::super::files::{self, io_message};
 use super::super::prepare::{Prepared, prepare};
+use super::super::rendered::rendered;
 use super::super::report::Reporter;
-use super::super::verify::rendered;
 
 /// A program, and what is known of it.
 pub struct Side {

@@ -3,7 +3,7 @@
 use super::fault::unsaid;
 use crate::diag::Diag;
 use crate::nc::action::Drilling;
-use crate::nc::codes::name_of;
+use crate::nc::codes::Name;
 use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole};
 
 /// Are two holes of one cycle?
@@ -31,7 +31,7 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
             return unsaid(line, "G76: to which side it leaves the wall is a parameter of the control", help);
         }
         code => {
-            let message = format!("{} has no cycle of a job that does the same", name_of(code));
+            let message = format!("{} has no cycle of a job that does the same", Name(code));
             return unsaid(line, message, "program its moves, or write the job by hand");
         }
     };

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""What the proof costs: render with it and with --no-verify, in turn, on all cores and on one.
+
+`benches/proof.py POSTFORM FLOOR [ROUNDS]` makes the jobs with the example `floor` and prints for each of them the time of
+--no-verify and what it is multiplied by: as it passes (wall) on all cores and on one, and as the processor is busy (CPU).
+The pairs run in turn and the best of each is taken, because machines are noisy. Goals: 1.25 on two cores, 2.2 on
+one, 32 MB of memory at any length.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+FORM = "postforms/linuxcnc.pf"
+JOBS = [
+    ("1,000,000 moves", "moves", 1_000_000, "jsonl", False),
+    ("the same from standard input", "moves", 1_000_000, "jsonl", True),
+    ("10,000,000 moves", "moves", 10_000_000, "jsonl", False),
+    ("2,000,000 holes", "holes", 2_000_000, "jsonl", False),
+    ("1,000,000 moves of a CL file", "cl", 1_000_000, "cl", False),
+]
+
+
+def run(command, source):
+    """Seconds that pass, seconds of the processor, and kilobytes of one run."""
+    with open(source or os.devnull, "rb") as given:
+        start = time.perf_counter()
+        child = subprocess.Popen(command, stdin=given, stderr=subprocess.PIPE)
+        told = child.stderr.read().decode()
+        _, status, used = os.wait4(child.pid, 0)
+        passed = time.perf_counter() - start
+    if status != 0 or ("--no-verify" not in command and not told.startswith(("identical", "equivalent"))):
+        sys.exit(f"{' '.join(command)}: status {status}: {told}")
+    return passed, used.ru_utime + used.ru_stime, used.ru_maxrss
+
+
+def best(runs):
+    """The best time of each kind, and the most memory."""
+    return min(run[0] for run in runs), min(run[1] for run in runs), max(run[2] for run in runs)
+
+
+def measure(postform, job, piped, rounds, prefix, out):
+    """With and without the proof, in turn."""
+    what = ["-", "--from", "jsonl"] if piped else [job]
+    command = prefix + [postform, "render", *what, "--form", FORM, "-o", out]
+    plain, proven = [], []
+    for _ in range(rounds):
+        plain.append(run(command + ["--no-verify"], job if piped else None))
+        proven.append(run(command, job if piped else None))
+    return best(plain), best(proven)
+
+
+def main():
+    postform, floor = sys.argv[1:3]
+    rounds = int(sys.argv[3]) if len(sys.argv) > 3 else 5
+    folder = tempfile.mkdtemp()
+    out = os.path.join(folder, "out.nc")
+    print("| job | --no-verify | proven | one core | CPU | memory |")
+    print("| --- | --- | --- | --- | --- | --- |")
+    try:
+        for name, kind, count, ending, piped in JOBS:
+            job = os.path.join(folder, f"{kind}-{count}.{ending}")
+            if not os.path.exists(job):
+                with open(job, "wb") as file:
+                    subprocess.run([floor, "make", kind, str(count)], stdout=file, check=True)
+            plain, proven = measure(postform, job, piped, rounds, [], out)
+            plain_one, proven_one = measure(postform, job, piped, rounds, ["taskset", "-c", "0"], out)
+            print(
+                f"| {name} | {plain[0]:.2f} s | {proven[0] / plain[0]:.2f} times | {proven_one[0] / plain_one[0]:.2f} times"
+                f" | {proven_one[1] / plain_one[1]:.2f} times | {max(proven[2], proven_one[2]) / 1024:.0f} MB |",
+                flush=True,
+            )
+    finally:
+        shutil.rmtree(folder)
+
+
+main()

@@ -1,0 +1,61 @@
+//! A program in a file that nobody sees: to be compared with another, or gone back in.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
+
+use postform::diag::{Diag, Severity};
+use postform::render::TraceLine;
+use postform::{ErrorKind, Job, Options};
+
+use super::Ending;
+use super::files::{self, io_message};
+use super::prepare::Prepared;
+use super::report::{Reporter, place_in, stopped};
+use super::say::say;
+use super::spool::Spool;
+
+/// The job rendered into a file that nobody sees; `trace`: with where each line came from. `Err` within: it can't be, which was
+/// shown.
+pub fn rendered(
+    job: &mut Job<'_>,
+    path: &Path,
+    prepared: &Prepared,
+    trace: bool,
+    reporter: &Reporter,
+) -> Result<Result<(File, Vec<TraceLine>), Ending>, String> {
+    let fail = |error: &std::io::Error| io_message("write", Path::new("the program"), error);
+    let mut file = Spool::new().map_err(|error| fail(&error))?;
+    let mut lines = Vec::new();
+    let mut options: Options = prepared.options.clone();
+    options.trace = trace;
+    let printed = prepared.post.render_parts(job.again(), &options, &mut |part| {
+        lines.extend_from_slice(part.trace);
+        file.write_all(part.text)
+    });
+    let rendered = match printed {
+        Ok(rendered) => rendered,
+        Err(error) => {
+            return match (error.kind(), error.io()) {
+                (ErrorKind::Output, Some(error)) => Err(fail(error)),
+                _ => stopped(error, path, reporter, prepared.post.files()).map(Err),
+            };
+        }
+    };
+    if denied(&rendered.notes, path, prepared, reporter) {
+        return Ok(Err(Ending::Findings));
+    }
+    Ok(Ok((file.into_file().map_err(|error| fail(&error))?, lines)))
+}
+
+/// Are there warnings of job and renderer, and may there be none? Then they are shown.
+pub fn denied(notes: &[Diag], job: &Path, prepared: &Prepared, reporter: &Reporter) -> bool {
+    let warnings = notes.iter().filter(|diag| diag.severity == Severity::Warning);
+    let mut notes: Vec<Diag> = warnings.cloned().collect();
+    if !prepared.denies || notes.is_empty() {
+        return false;
+    }
+    notes.iter_mut().for_each(|diag| place_in(&files::name(job), diag));
+    say(&reporter.text(&notes, prepared.post.files()));
+    true
+}

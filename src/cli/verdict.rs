@@ -1,0 +1,100 @@
+//! What a proof says, for people.
+
+use std::path::Path;
+
+use postform::diag::{Diag, Severity};
+use postform::source::Source;
+use postform::verify::{Finding, Verdict};
+use postform::{Error, ErrorKind, Proven};
+
+use super::Ending;
+use super::files;
+use super::report::{self, Reporter, place_in, stopped};
+use super::say::say;
+
+/// Between whom a proof is.
+pub struct Sides<'a> {
+    /// The job.
+    pub job: &'a Path,
+    /// What the program is called.
+    pub program: &'a str,
+    /// The form's files, where one is known.
+    pub files: &'a [Source],
+}
+
+impl Sides<'_> {
+    /// How a proof came out, after its warnings; or how the command ends where there is none, which is shown.
+    ///
+    /// # Errors
+    /// A message: job or program can't be read.
+    pub fn tried(
+        &self,
+        proven: Result<Proven, Error>,
+        quiet: bool,
+        reporter: &Reporter,
+    ) -> Result<Result<Proven, Ending>, String> {
+        let mut warnings = match &proven {
+            Ok(proven) => proven.warnings.clone(),
+            Err(error) => error.findings().diags.iter().filter(|diag| !diag.is_error()).cloned().collect(),
+        };
+        if !quiet {
+            warnings.iter_mut().for_each(|diag| place_in(self.program, diag));
+            say(&reporter.text(&warnings, &[]));
+        }
+        match proven {
+            Ok(proven) => Ok(Ok(proven)),
+            Err(error) => {
+                let failed = if error.kind() == ErrorKind::Program { Path::new(self.program) } else { self.job };
+                stopped(error, failed, reporter, &[]).map(Err)
+            }
+        }
+    }
+
+    /// Findings from three sides: the job's item, the form's line, the program's block.
+    pub fn show(&self, findings: &[Finding], severity: Severity, reporter: &Reporter) {
+        let diags: Vec<Diag> = findings.iter().map(|finding| self.diag(finding, severity)).collect();
+        say(&reporter.text(&diags, self.files));
+    }
+
+    /// Findings in a line each, as those of a form; `command` shows the others.
+    pub fn brief(&self, findings: &[Finding], command: &str) {
+        let diags = findings.iter().map(|finding| {
+            let mut diag = self.diag(finding, Severity::Note);
+            diag.message.truncate(diag.message.find('\n').unwrap_or(diag.message.len()));
+            diag
+        });
+        say(&report::brief(&diags.collect::<Vec<_>>(), self.files, command));
+    }
+
+    fn diag(&self, finding: &Finding, severity: Severity) -> Diag {
+        let mut diag = finding.diag(self.program);
+        diag.severity = severity;
+        place_in(&files::name(self.job), &mut diag);
+        diag
+    }
+
+    /// The verdict in a sentence.
+    pub fn sentence(&self, proven: &Proven) -> String {
+        let Sides { program, job, .. } = self;
+        let job = files::name(job);
+        let counts = proven.counts;
+        let compared =
+            format!("{}, {}", report::count(counts.cuts as usize, "cut"), report::count(counts.holes as usize, "hole"));
+        match &proven.verdict {
+            Verdict::Identical => format!("identical: {program} makes the motions of {job} ({compared})\n"),
+            Verdict::Equivalent(other) => {
+                format!("equivalent: {program} cuts what {job} asks for ({compared}): {other}\n")
+            }
+            Verdict::Different(findings) => {
+                let found = report::count(findings.len(), "finding");
+                format!("different: {program} does not do what {job} asks for: {found}\n")
+            }
+            other => format!("{other}\n"),
+        }
+    }
+
+    /// The same for programs.
+    pub fn document(&self, proven: &Proven) -> serde_json::Value {
+        postform::report::proof(&proven.verdict, proven.counts, [&files::name(self.job), self.program], self.files)
+    }
+}

@@ -16,7 +16,7 @@ pub fn markdown(page: &str) -> String {
                 example = Some(String::new());
             }
             _ => match line.split_once(' ') {
-                Some((key, value)) if matches!(key, "is" | "does") => out += &format!("\n\n{}", escape(value.trim())),
+                Some(("is" | "does", value)) => out += &format!("\n\n{}", escape(value.trim())),
                 Some((key, value)) if !line.starts_with(' ') && line.len() > 10 && line.is_char_boundary(10) => {
                     let split = line.get(..9).filter(|key| key.trim_end().len() < 9 || line[9..].starts_with(' '));
                     let (key, value) = split.map_or((key, value), |key| (key.trim_end(), &line[9..]));
@@ -35,7 +35,7 @@ pub fn markdown(page: &str) -> String {
 }
 
 fn said(facts: &mut Vec<String>) -> String {
-    if facts.is_empty() { String::new() } else { format!("\n\n{}", facts.drain(..).collect::<Vec<_>>().join("  \n")) }
+    if facts.is_empty() { String::new() } else { format!("\n\n{}", std::mem::take(facts).join("  \n")) }
 }
 
 /// Text in which nothing is Markdown.

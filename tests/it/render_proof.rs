@@ -10,9 +10,9 @@ use crate::support::{job, mill, root};
 /// A post whose drill begins to feed at another height than the job says, and one that is right.
 fn posts(folder: &Folder) {
     let right = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
-    folder.write("wrong.pf", &right.replace("R[vclear]", "R[rplane]"));
-    folder.write("right.pf", &right);
-    folder.write("job.json", &fs::read_to_string(root().join("samples/bracket/job.json")).unwrap());
+    folder.write("wrong.pf", right.replace("R[vclear]", "R[rplane]"));
+    folder.write("right.pf", right);
+    folder.write("job.json", fs::read_to_string(root().join("samples/bracket/job.json")).unwrap());
 }
 
 #[test]
@@ -73,8 +73,8 @@ fn what_is_right_is_printed_with_a_line_that_says_so() {
 #[test]
 fn what_is_not_proven_is_printed_unless_a_proof_is_required() {
     let folder = Folder::new("proof-none");
-    folder.write("form.pf", &mill("", ""));
-    folder.write("job.json", &job("{\"line\":[1,1,0]}"));
+    folder.write("form.pf", mill("", ""));
+    folder.write("job.json", job("{\"line\":[1,1,0]}"));
     let run = |more: &[&str]| folder.run(&[&["render", "job.json", "--form", "form.pf"][..], more].concat());
     let output = run(&[]);
     let said = err(&output);
@@ -99,8 +99,8 @@ fn what_is_not_proven_is_printed_unless_a_proof_is_required() {
 fn a_program_that_calls_parts_of_itself_is_gone_through_as_a_file() {
     let folder = Folder::new("proof-file");
     let form = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();
-    folder.write("form.pf", &form.replace("\nEndCode\n", "\nEndCode\no100 sub\no100 endsub\no100 call\n"));
-    folder.write("job.json", &job("{\"line\":[1,1,0]},{\"rapid\":[1,1,1]}"));
+    folder.write("form.pf", form.replace("\nEndCode\n", "\nEndCode\no100 sub\no100 endsub\no100 call\n"));
+    folder.write("job.json", job("{\"line\":[1,1,0]},{\"rapid\":[1,1,1]}"));
     let output = folder.run(&["render", "job.json", "--form", "form.pf"]);
     let said = err(&output);
     assert!(said.contains("identical: ") || said.contains("equivalent: "), "{said}");

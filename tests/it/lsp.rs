@@ -509,6 +509,11 @@ fn an_extension_asks_for_programs_itself() {
     editor.show("my.pf", "postform", HAAS);
     let program = editor.ask("postform/program", &json!({ "uri": editor.uri("my.pf"), "job": 0 }));
     assert_eq!(program["name"], "bracket");
+    let whole = json!({ "textDocument": { "uri": editor.uri("my.pf") } });
+    assert_eq!(editor.ask("postform/jobs", &whole), json!([editor.uri("bracket/job.json")]));
+    let old = json!({ "uri": editor.uri("my.pf"), "job": 0, "text": HAAS.replace("T[tool] M6", "T[tool] M06") });
+    let before = editor.ask("postform/program", &old);
+    assert!(before["text"].as_str().unwrap().contains(" M06\n"), "what another text of the form prints: {before}");
     assert!(program["text"].as_str().unwrap().starts_with("%\nO"), "{program}");
     assert!(program["outcome"].as_str().unwrap().ends_with("proven"));
     let params = json!({ "command": "postform.openProgram", "arguments": [editor.uri("my.pf"), 0] });

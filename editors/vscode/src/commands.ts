@@ -5,7 +5,7 @@ import { basename, dirname } from "node:path";
 import { promisify } from "node:util";
 import * as vscode from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
-import { Printed, program } from "./printed";
+import { Printed, jobs, program } from "./printed";
 
 const run = promisify(execFile);
 
@@ -37,13 +37,13 @@ export async function verify(client: LanguageClient): Promise<void> {
     return;
   }
   const outcomes: string[] = [];
-  for (let job = 0; ; job++) {
+  // without a job of its own a form prints the built-in one
+  const count = Math.max((await jobs(client, uri)).length, 1);
+  for (let job = 0; job < count; job++) {
     const found = await program(client, uri, job);
-    // behind the last job stands the built-in one, which counts where there is no other
-    if (found === undefined || (job > 0 && found.name === "the sample job")) {
-      break;
+    if (found !== undefined) {
+      outcomes.push(`${found.name}: ${found.outcome}`);
     }
-    outcomes.push(`${found.name}: ${found.outcome}`);
   }
   const text = outcomes.length > 0 ? outcomes.join("\n") : `${basename(uri.path)} prints nothing: look at its findings.`;
   const proven = outcomes.length > 0 && outcomes.every((outcome) => outcome.endsWith(", proven"));
@@ -70,13 +70,19 @@ export async function diff(printed: Printed): Promise<void> {
 }
 
 /** The page of the form, in the browser: `postform watch` says its address in its first line. */
-export async function page(path: string, context: vscode.ExtensionContext): Promise<void> {
+export async function page(client: LanguageClient, path: string, context: vscode.ExtensionContext): Promise<void> {
   const uri = form();
   if (uri === undefined) {
     return;
   }
-  const job = vscode.workspace.getConfiguration("postform").get<string>("job", "");
-  const args = ["watch", uri.fsPath, "--no-open", ...(job === "" ? [] : ["--job", job])];
+  let shown = await jobs(client, uri);
+  if (shown.length === 0) {
+    shown = (await vscode.window.showOpenDialog({ title: "A job for the page", canSelectMany: true })) ?? [];
+  }
+  if (shown.length === 0) {
+    return;
+  }
+  const args = ["watch", uri.fsPath, "--no-open", ...shown.flatMap((job) => ["--job", job.fsPath])];
   const child = spawn(path, args, { cwd: vscode.workspace.getWorkspaceFolder(uri)?.uri.fsPath ?? dirname(uri.fsPath) });
   context.subscriptions.push({ dispose: () => void child.kill() });
   let said = "";

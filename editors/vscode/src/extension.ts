@@ -75,7 +75,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     vscode.commands.registerCommand("postform.render", asking(() => commands.render())),
     vscode.commands.registerCommand("postform.verify", asking(commands.verify)),
     vscode.commands.registerCommand("postform.diff", asking(() => commands.diff(printed))),
-    vscode.commands.registerCommand("postform.page", asking(() => commands.page(path ?? "postform", context))),
+    vscode.commands.registerCommand("postform.page", asking((client) => commands.page(client, path ?? "postform", context))),
     vscode.commands.registerCommand("postform.restart", async () => {
       await stop();
       await start();

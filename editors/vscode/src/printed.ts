@@ -18,6 +18,12 @@ export async function program(client: LanguageClient, form: vscode.Uri, job?: nu
   return (await client.sendRequest<Program | null>("postform/program", params)) ?? undefined;
 }
 
+/** The files of the jobs that a form prints; none: it is the built-in one. */
+export async function jobs(client: LanguageClient, form: vscode.Uri): Promise<vscode.Uri[]> {
+  const params = { textDocument: { uri: client.code2ProtocolConverter.asUri(form) } };
+  return (await client.sendRequest<string[]>("postform/jobs", params)).map((uri) => vscode.Uri.parse(uri));
+}
+
 /** Documents of programs: `postform-program:/shop/my.pf.nc?0`, and `?0,HEAD` for what the committed form prints. */
 export class Printed implements vscode.TextDocumentContentProvider {
   private readonly change = new vscode.EventEmitter<vscode.Uri>();

@@ -16,6 +16,11 @@ const FIX_ALL: &str = "source.fixAll.postform";
 /// Letter formats in order.
 const ORGANISE: &str = "source.organizeFormats";
 
+/// Programs that are printed for one answer: one before all fixes, one for each of the first.
+const MOST_PROGRAMS: usize = 17;
+/// Actions of one answer: whoever selects a whole form has no list of thousands in mind.
+const MOST_ACTIONS: usize = 300;
+
 /// The kinds of actions.
 pub fn kinds() -> Vec<lsp::CodeActionKind> {
     vec![lsp::CodeActionKind::QuickFix, FIX_ALL.to_owned().into(), ORGANISE.to_owned().into()]
@@ -35,8 +40,12 @@ pub fn actions(server: &Server, params: &lsp::CodeActionParams) -> Vec<lsp::Code
     let within = span(view.source(), view.file, params.range);
     let mut found = Vec::new();
     if asked("quickfix") {
-        let all = view.document.actions(within, &mut |changed| view.program(changed));
-        found.extend(all.into_iter().filter_map(|action| quick(server, &view, action)));
+        let mut left = MOST_PROGRAMS;
+        let all = view.document.actions(within, &mut |changed| {
+            left = left.checked_sub(1)?;
+            view.program(changed)
+        });
+        found.extend(all.into_iter().take(MOST_ACTIONS).filter_map(|action| quick(server, &view, action)));
     }
     // what mends a whole form stands in no line: it is asked for by name
     if only.is_some() && asked(FIX_ALL) {
@@ -66,7 +75,7 @@ fn quick(server: &Server, view: &View, action: Action) -> Option<lsp::CodeAction
         let text = match &action.preview {
             Some(preview) if preview.blocks == 0 => "The program of the current job stays the same.".to_owned(),
             Some(preview) => format!("In the program of the current job:\n{}", preview.text),
-            None => "The program can't be printed: nobody can see what this changes.".to_owned(),
+            None => "What this changes in the program is not known.".to_owned(),
         };
         edit = confirmed(edit, &action.title, text);
     }

@@ -192,6 +192,7 @@ pub fn request(server: &Server, method: &str, params: Value) -> Result<Value, Fa
             let view = server.view(&params.text_document.uri);
             done(view.map(|view| margin::hints(server, &view, params.range)).unwrap_or_default())
         }
+        "postform/jobs" => done(programs::jobs(server, &text(method, &params)?)),
         "postform/program" => done(programs::program(server, &parse(method, params)?)),
         _ => Err(Failure::new(ErrorCode::MethodNotFound, format!("postform does not know `{method}`"))),
     }

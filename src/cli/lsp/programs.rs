@@ -94,6 +94,11 @@ fn answer(current: &Current) -> Option<ProgramAnswer> {
     Some(ProgramAnswer { name: current.name.clone(), text: current.text().to_owned(), outcome: current.outcome() })
 }
 
+/// `postform/jobs`: the files of the jobs that a form prints, the current one first; none for the built-in one.
+pub fn jobs(server: &Server, form: &lsp::Uri) -> Vec<lsp::Uri> {
+    server.view(form).map(|view| view.jobs.iter().map(|job| uri::of_path(&job.path)).collect()).unwrap_or_default()
+}
+
 /// The name of the current program of a form, as the editor opens it; lines count from 1.
 fn name_of(server: &Server, form: &lsp::Uri, job: usize, current: &Current) -> Option<lsp::Uri> {
     if server.client.virtual_programs {

@@ -108,13 +108,14 @@ fn replace(rows: &mut Vec<Row>, row: Row, key: impl Fn(&Row) -> (u8, u16)) {
 }
 
 /// Files that come with the program.
-const FILES: [(&str, &str); 6] = [
+const FILES: [(&str, &str); 7] = [
     ("fanuc", include_str!("../../controls/fanuc.toml")),
     ("haas", include_str!("../../controls/haas.toml")),
     ("fadal", include_str!("../../controls/fadal.toml")),
     ("linuxcnc", include_str!("../../controls/linuxcnc.toml")),
     ("emc2", include_str!("../../controls/emc2.toml")),
     ("grbl", include_str!("../../controls/grbl.toml")),
+    ("pathpilot", include_str!("../../controls/pathpilot.toml")),
 ];
 
 static CONTROLS: [LazyLock<Control>; FILES.len()] = [
@@ -124,6 +125,7 @@ static CONTROLS: [LazyLock<Control>; FILES.len()] = [
     LazyLock::new(|| shipped(3)),
     LazyLock::new(|| shipped(4)),
     LazyLock::new(|| shipped(5)),
+    LazyLock::new(|| shipped(6)),
 ];
 
 /// A file that comes with the program; a test reads them all.

@@ -1,5 +1,6 @@
 //! Comments, in the marks of the form.
 
+use super::plain::plain;
 use crate::diag::Code;
 use crate::render::printer::Printer;
 use crate::render::shape::Shape;
@@ -21,7 +22,7 @@ fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
 /// A comment, in as many blocks as the control's line asks for.
 pub fn comment_block(text: &str, shape: &Shape, out: &mut Printer) {
     let room = comment_room(shape);
-    for (i, line) in wrapped(text, room).enumerate() {
+    for (i, line) in wrapped(&plain(text), room).enumerate() {
         if i == 1 {
             let message = "a comment is longer than the control's line, and goes on in the next";
             out.note(Code::PR026, message.into(), "shorten it, if it is to stand in one block");

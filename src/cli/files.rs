@@ -126,11 +126,12 @@ fn job_format(path: &Path, args: &ReadArgs) -> Result<Format, String> {
     if from != Format::Freecad && args.job_name.is_some() {
         return Err(format!("error: --job is for FreeCAD documents, which {} is not", name(path)));
     }
-    if !matches!(from, Format::Cl | Format::Nc) && (args.assume_units.is_some() || args.assume_tool.is_some()) {
+    let of_both = args.assume_units.is_some() || args.assume_tool.is_some() || args.assume_start.is_some();
+    if !matches!(from, Format::Cl | Format::Nc) && of_both {
         return Err(format!("error: --assume-.. is for CL files and NC programs, which {} is not", name(path)));
     }
     if from != Format::Cl && args.assumes_of_cl() {
-        let options = "--assume-speed, -feed, -start and -end are";
+        let options = "--assume-speed, -feed and -end are";
         return Err(format!("error: {options} for CL files, which {} is not", name(path)));
     }
     if from != Format::Nc && (args.job_control.is_some() || args.job_no_point.is_some()) {

@@ -30,7 +30,8 @@ pub struct Reading {
     pub speed: Option<AssumedSpeed>,
     /// The feed of a CL file that says none: units of the file a minute.
     pub feed: Option<f64>,
-    /// Where the tool is before a CL file that begins with a cut, in units of the file.
+    /// Where the tool is before a CL file or program that begins with a cut, in its units. A program that cuts from a place
+    /// of the machine begins there too.
     pub start: Option<[f64; 3]>,
     /// A CL file is whole, though it does not end as its system ends files.
     pub end: bool,
@@ -298,7 +299,8 @@ fn read_nc(
         ..RunSettings::new(reading.control.unwrap_or_else(Control::usual))
     };
     let tool = reading.tool.as_ref().and_then(Assumed::one);
-    read_program(input, &JobOptions { settings, units: reading.units, tool }, &mut report.warnings, sink)
+    let options = JobOptions { settings, units: reading.units, tool, start: reading.start };
+    read_program(input, &options, &mut report.warnings, sink)
 }
 
 /// A document of FreeCAD: an archive is gone about in.

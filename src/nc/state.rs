@@ -122,6 +122,11 @@ impl State {
         &self.place.position
     }
 
+    /// What G92, or G52, adds to places of the program.
+    pub fn shift(&self) -> &Position {
+        &self.place.frames.shift
+    }
+
     /// Axes that stand at a place in machine coordinates, as bits.
     #[inline]
     pub fn at_machine(&self) -> u8 {

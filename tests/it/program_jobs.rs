@@ -17,7 +17,7 @@ fn printed(program: &str) -> Result<(String, Vec<String>), String> {
     let checked = check(&fs::read_to_string(root().join("postforms/haas.pf")).unwrap());
     let form = compile(&checked.form);
     let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
-    let options = JobOptions { settings: RunSettings::new(control("fanuc")), units: None, tool: None };
+    let options = JobOptions { settings: RunSettings::new(control("fanuc")), units: None, tool: None, start: None };
     let mut warnings = Vec::new();
     match read_program(Cursor::new(program), &options, &mut warnings, &mut renderer) {
         Ok(()) => {
@@ -79,8 +79,8 @@ fn stops_and_the_way_before_them_stay() {
 fn what_no_job_can_say_is_refused() {
     let cases = [
         ("G18 G81 X1. Z1. Y-1. R.1 F5.\nG80 G17", "a cycle along another axis"),
-        ("G1 Z-.1 F5.\nG52 X2. Y0\nX1.", "a frame that moves between moves"),
-        ("G1 Z-.1 F5.\nG92 X5.\nX6.", "G92 between moves"),
+        ("G1 Z-.1 F5.\nG10 L2 P1 X2.\nX1.", "a frame that moves between moves"),
+        ("G1 Z-.1 F5.\nG91 G28 Z0\nG90 G92 Z5.\nG0 Z6.", "G92 where only the machine knows the place"),
         ("G18\nG1 Z-.1 F5.\nG41 D1 X1.\nX2.\nG40 X3.", "compensation in another plane"),
         ("G44 H1 Z2.\nG1 Z-.1 F5.", "an offset that is taken off"),
         ("G41 D1 G1 X1. F5.\nX2.\nD3 X3.\nG40 X4.", "two diameter registers of one tool"),
@@ -123,4 +123,94 @@ fn what_is_left_out_is_warned_of() {
     assert_eq!(warnings, Vec::<String>::new());
     let (_, warnings) = printed(&format!("{HEAD}G1 X1. F5.\nM99\n")).unwrap();
     assert!(warnings.iter().any(|warning| warning.contains("M99")), "{warnings:?}");
+}
+
+/// Between the holes of a pattern a program may end its cycle and go on by rapids at the return height: it is one cycle.
+#[test]
+fn a_pattern_of_holes_stays_one_cycle() {
+    let each = |x: u32| format!("G81 X{x}. Z-1. R.1 F5.\nG80\n");
+    let one = ["G98 G81 X1. Y0 Z-1. R.1 F5.", "X2.", "X3.", "G80"];
+    assert_eq!(path(&format!("G0 X1.\n{}G0 X2.\n{}G0 Y0\nX3.\n{}", each(1), each(2), each(3)))[1..], one);
+    // a way round something, a lift over a clamp, a stop
+    for between in ["G0 Y5.\nX2.\nY0", "G0 Z4.\nX2.\nZ1.", "M0\nM3"] {
+        let lines = path(&format!("G0 X1.\n{}{between}\n{}", each(1), each(2)));
+        assert_eq!(lines.iter().filter(|line| line.contains("G81")).count(), 2, "{between}: {lines:?}");
+        let said = between.lines().next().unwrap().rsplit(' ').next().unwrap();
+        assert!(lines.iter().any(|line| line.contains(said)), "{between}: {lines:?}");
+    }
+    // what is switched on the way is switched there
+    let lines = path(&format!("G0 X1.\n{}G0 X2.\nG55\n{}", each(1), each(2)));
+    let [moved, work] = ["X2.", "G55"].map(|word| lines.iter().position(|line| line.contains(word)).unwrap());
+    assert!(moved < work, "{lines:?}");
+    // another depth is a hole of the pattern, another feed is not
+    let deeper = path(&format!("G0 X1.\n{}G0 X2.\nG81 X2. Z-2. R.1 F6.\nG80", each(1)));
+    assert_eq!(deeper.iter().filter(|line| line.contains("G81")).count(), 2, "{deeper:?}");
+    // what is behind the last hole is done
+    assert_eq!(path(&format!("G0 X1.\n{}G0 X7.\nG1 Z.5 F9.", each(1))).last().unwrap(), "G1 Z.5 F9.");
+    assert!(path(&format!("G0 X1.\n{}G0 X7.\nG1 Z.5 F9.", each(1))).contains(&"G0 X7.".to_owned()));
+}
+
+#[test]
+fn stops_before_the_first_move_of_a_tool_stay() {
+    let (text, warnings) =
+        printed("G20 G90\nT1 M6\nM0 (oil)\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z1.\nG1 Z-.1 F5.\nM30\n").unwrap();
+    let (change, stop, cut) = (text.find("T1 M6").unwrap(), text.find(" M0\n").unwrap(), text.find("Z-.1").unwrap());
+    assert!(change < stop && stop < cut, "{text}");
+    assert!(warnings.is_empty(), "{warnings:?}");
+    let (text, warnings) = printed(&format!("{HEAD}G1 Z-.1 F5.\nG0 Z1.\nG91 G28 Z0\nT2 M6\nM0\nG90\nM30\n")).unwrap();
+    assert!(
+        !text.contains(" M0\n") && warnings.iter().any(|w| w.contains("nothing moves after")),
+        "{text}{warnings:?}"
+    );
+}
+
+#[test]
+fn a_warning_is_counted() {
+    let home = "G91 G28 Z0\nG90\nG0 X1. Y1.\nG43 H1 Z1.\nG1 Z-.1 F5.\nG0 Z1.\n";
+    let program = format!("G20 G17 G90\nT1 M6\nG54 S1000 M3\nG0 X0 Y0\nM8\nM7\nM8\nM7\n{home}{home}M30\n");
+    let (_, warnings) = printed(&program).unwrap();
+    let both: Vec<&String> = warnings.iter().filter(|w| w.contains("flood and mist")).collect();
+    assert_eq!(both.len(), 1, "{warnings:?}");
+    assert!(both[0].ends_with("(3 times, the first here)"), "{both:?}");
+}
+
+/// A program may begin with a cut, or cut from the machine's Z0, as Fusion's free licence has it: the caller says where that is.
+#[test]
+fn a_cut_from_an_unknown_place_begins_where_the_caller_says() {
+    let read = |program: &str, start| {
+        let checked = check(&fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap());
+        let form = compile(&checked.form);
+        let mut renderer = Renderer::new(&form, Options::default());
+        let settings = RunSettings::new(control("fanuc"));
+        let options = JobOptions { settings, units: None, tool: None, start };
+        let mut warnings = Vec::new();
+        let read = read_program(Cursor::new(program), &options, &mut warnings, &mut renderer);
+        let text = String::from_utf8(std::mem::take(renderer.text())).unwrap();
+        read.map(|()| text.lines().map(str::to_owned).collect::<Vec<_>>()).map_err(|error| match error {
+            ReadError::Job(diag) => diag.message,
+            other => panic!("{other:?}"),
+        })
+    };
+    let program =
+        "G21 G17 G90\nG53 G0 Z0\nT1 M6\nG54 S1000 M3\nG43 H1\nG1 X10. Y5. F500.\nX20.\nZ0 F50.\nX30.\nG0 Z5.\nM30\n";
+    let refused = read(program, None).unwrap_err();
+    assert_eq!(refused, "a cut begins at a place that only the machine knows");
+    let lines = read(program, Some([0.0, 0.0, 40.0])).unwrap();
+    let from = lines.iter().position(|line| line.contains("X0 Y0")).unwrap_or_else(|| panic!("{lines:?}"));
+    let cuts: Vec<&str> =
+        lines[from..].iter().map(String::as_str).filter(|line| line.contains('X') || line.contains('Z')).collect();
+    // the height is the caller's until the program says one
+    assert_eq!(cuts[..6], ["G0 G54 X0 Y0", "Z40. M9", "G1 X10. Y5. F500.", "X20.", "Z0 F50.", "X30."], "{lines:?}");
+}
+
+/// A frame that G52 or G92 moves between moves is followed: a job counts all places in that of the first move.
+#[test]
+fn frames_that_move_between_moves_are_followed() {
+    let lines = path(
+        "G1 Z-.1 F5.\nG52 X2. Z-1.\nG1 X1.\nG2 X3. I1. J0\nG0 Z2.\nG81 X4. Z.5 R1.1 F6.\nG80\nG52 X0 Z0\nG0 Z2.\nX1.",
+    );
+    let followed =
+        ["G1 Z-.1 F5.", "X3.", "G17 G2 X5. Y0 I1. J0", "G0 Z1.", "G98 G81 X6. Y0 Z-.5 R.1 F6.", "G80", "G0 Z2.", "X1."];
+    assert_eq!(lines, followed);
+    assert_eq!(path("G1 Z-.1 F5.\nG92 X5.\nG1 X6.\nG92 X0\nG1 X2."), ["G1 Z-.1 F5.", "X1.", "X3."]);
 }

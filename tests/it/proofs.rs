@@ -201,7 +201,7 @@ fn programs_are_identical_to_themselves() {
         let program = format!("{head}{body}M30\n%\n");
         let settings = RunSettings::new(control("fanuc"));
         let mut comparer = Comparer::new(Cursor::new(program.clone()), settings, Expectation::default(), None);
-        let options = JobOptions { settings, units: None, tool: None };
+        let options = JobOptions { settings, units: None, tool: None, start: None };
         let read = read_program(Cursor::new(program.clone()), &options, &mut Vec::new(), &mut comparer);
         let verdict = comparer.verdict().unwrap();
         assert!(verdict.is_proven(), "{name}: {read:?} {verdict:#?}");

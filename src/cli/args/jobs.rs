@@ -55,8 +55,8 @@ pub struct ReadArgs {
     /// Feed of a CL file that says none: units of the file a minute
     #[arg(long, value_name = "FEED", value_parser = positive)]
     pub assume_feed: Option<f64>,
-    /// Where the tool is before a CL file that begins with a cut
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_position, allow_hyphen_values = true)]
+    /// Where the tool is before a CL file or program that begins with a cut
+    #[arg(long, visible_alias = "start", value_name = "X,Y,Z", value_parser = parse_position, allow_hyphen_values = true)]
     pub assume_start: Option<[f64; 3]>,
     /// A CL file is whole, though it does not end as its system ends files
     #[arg(long)]
@@ -106,7 +106,7 @@ impl ReadArgs {
 
     /// Is something assumed that only a CL file can leave open?
     pub fn assumes_of_cl(&self) -> bool {
-        self.assume_speed.is_some() || self.assume_feed.is_some() || self.assume_start.is_some() || self.assume_end
+        self.assume_speed.is_some() || self.assume_feed.is_some() || self.assume_end
     }
 }
 

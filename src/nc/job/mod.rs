@@ -1,10 +1,14 @@
 //! An NC program as a job: its motions, with its cycles kept as cycles, for another form to print.
 
+mod behind;
 mod cycles;
 mod fault;
+mod holes;
 mod operations;
 mod options;
+mod pattern;
 mod reader;
+mod shift;
 mod survey;
 mod switches;
 
@@ -14,6 +18,7 @@ use super::settings::RunSettings;
 use super::simulator::Simulator;
 use crate::diag::Diag;
 use crate::toolpath::{ReadError, Sink};
+use behind::Behind;
 use fault::refused;
 pub use options::JobOptions;
 use reader::Reader;
@@ -31,6 +36,36 @@ pub fn read_program(
     warnings: &mut Vec<Diag>,
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
+    let mut said = Vec::new();
+    let read = read_twice(input, options, &mut said, sink);
+    warnings.extend(counted(said));
+    read
+}
+
+/// The same warning once, with its count.
+fn counted(warnings: Vec<Diag>) -> Vec<Diag> {
+    let mut kinds: Vec<(Diag, u64)> = Vec::new();
+    for warning in warnings {
+        match kinds.iter_mut().find(|(kind, _)| kind.code == warning.code && kind.message == warning.message) {
+            Some((_, count)) => *count += 1,
+            None => kinds.push((warning, 1)),
+        }
+    }
+    let told = |(mut warning, count): (Diag, u64)| {
+        if count > 1 {
+            warning.message += &format!(" ({count} times, the first here)");
+        }
+        warning
+    };
+    kinds.into_iter().map(told).collect()
+}
+
+fn read_twice(
+    input: impl BufRead + Seek,
+    options: &JobOptions,
+    warnings: &mut Vec<Diag>,
+    sink: &mut dyn Sink,
+) -> Result<(), ReadError> {
     // off the wall to the side that a job's bore has at angle zero
     let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..options.settings };
     let mut simulator = Simulator::new(input, settings);
@@ -41,8 +76,9 @@ pub fn read_program(
     loop {
         items.clear();
         let more = simulator.step(&mut items).map_err(refused)?;
+        let behind = Behind::of(simulator.state());
         for item in &items {
-            reader.take(item, simulator.text())?;
+            reader.take(item, simulator.text(), behind)?;
         }
         if !more {
             return Ok(reader.finish()?);

@@ -1,7 +1,7 @@
 //! Operations, one for each tool and one where the feed mode changes; and what is switched inside them.
 
 use super::fault::{Done, unsaid, warning};
-use super::reader::Reader;
+use super::reader::{Reader, Waiting};
 use super::switches::Switches;
 use crate::nc::action::{Cooling, Rotation};
 use crate::toolpath::{Coolant, Event, First, Tool, ToolChange};
@@ -40,8 +40,12 @@ impl Reader<'_> {
         };
         self.said = wanted;
         self.push(Event::ToolChange(&change))?;
-        for text in std::mem::take(&mut self.comments) {
-            self.push(Event::Comment(&text))?;
+        for waiting in std::mem::take(&mut self.waiting) {
+            match waiting {
+                Waiting::Comment(text) => self.push(Event::Comment(&text))?,
+                Waiting::Dwell(seconds) => self.push(Event::Dwell(seconds))?,
+                Waiting::Stop(kind) => self.push(Event::Stop(kind))?,
+            }
         }
         Ok(())
     }

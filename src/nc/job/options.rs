@@ -12,4 +12,6 @@ pub struct JobOptions {
     pub units: Option<Units>,
     /// Number of the first tool, for a program that cuts before it loads one.
     pub tool: Option<f64>,
+    /// Where the tool is before a cut that begins at a place that only the machine knows.
+    pub start: Option<[f64; 3]>,
 }

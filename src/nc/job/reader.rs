@@ -1,14 +1,26 @@
 //! The second run: actions become events.
 
-use super::cycles::{hole_of, is_same, spec_of};
+use super::behind::Behind;
 use super::fault::{Done, unsaid, warning};
 use super::options::JobOptions;
+use super::pattern::Pattern;
 use super::survey::Survey;
 use super::switches::Switches;
 use crate::diag::{Code, Diag, Location};
 use crate::lang::Machine;
-use crate::nc::action::{Action, Drilling, Item, Position, Rotation, Turn};
-use crate::toolpath::{About, Arc, Axes, CycleSpec, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Start};
+use crate::nc::action::{Action, Item, Position, Turn};
+use crate::toolpath::{About, Arc, Axes, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Start, StopKind};
+
+/// What stands before the first move of an operation.
+pub(super) enum Waiting {
+    Comment(String),
+    /// Seconds.
+    Dwell(f64),
+    Stop(StopKind),
+}
+
+/// Most that stands there: comments beyond are left out.
+const MOST_WAITING: usize = 1000;
 
 /// Actions to events.
 pub(super) struct Reader<'a> {
@@ -27,21 +39,25 @@ pub(super) struct Reader<'a> {
     pub(super) said: Switches,
     pub(super) mode: FeedMode,
     plane: Plane,
-    at: Position,
+    pub(super) at: Position,
     /// Axes whose place a job knows.
-    known: u8,
+    pub(super) known: u8,
     /// The tool went to its reference point, at this line.
     pub(super) home: Option<u64>,
-    cycle: Option<(CycleSpec, Drilling)>,
+    pub(super) cycle: Option<Pattern>,
     pub(super) side: Option<Side>,
     pub(super) turning: Option<Option<Side>>,
-    rigid: bool,
-    framed: bool,
-    pub(super) comments: Vec<String>,
+    pub(super) rigid: bool,
+    pub(super) framed: bool,
     /// The last comment and its line.
     pub(super) remark: (u64, String),
     /// What stands behind the tool's T word.
     pub(super) tool_name: Option<String>,
+    /// What G52 and G92 had added by the first move, and what they have added since.
+    pub(super) frame: [f64; 3],
+    pub(super) shift: [f64; 3],
+    /// What stands before the next operation, and is done in it.
+    pub(super) waiting: Vec<Waiting>,
 }
 
 impl<'a> Reader<'a> {
@@ -73,14 +89,23 @@ impl<'a> Reader<'a> {
             turning: None,
             rigid: false,
             framed: false,
-            comments: Vec::new(),
             remark: (0, String::new()),
             tool_name: None,
+            frame: [0.0; 3],
+            shift: [0.0; 3],
+            waiting: Vec::new(),
         }
     }
 
-    /// Takes an action; `block` is the text of its line.
-    pub fn take(&mut self, item: &Item, block: &[u8]) -> Done {
+    /// Takes an action of a block, whose text is `block`; `behind`: how the machine stands after it.
+    pub fn take(&mut self, item: &Item, block: &[u8], behind: Behind) -> Done {
+        match self.shifted(&item.action) {
+            Some(action) => self.action(&Item { action, ..*item }, block, behind),
+            None => self.action(item, block, behind),
+        }
+    }
+
+    fn action(&mut self, item: &Item, block: &[u8], behind: Behind) -> Done {
         self.place.line = item.line;
         self.place.column = 1;
         if item.by_cycle {
@@ -91,15 +116,16 @@ impl<'a> Reader<'a> {
             }
             return Ok(());
         }
+        self.settle_way(&item.action)?;
         match &item.action {
             Action::Rapid { to, machine } => self.rapid(to, *machine),
             Action::Feed { lead: Some(_), .. } => {
                 unsaid(item.line, "a thread that follows the spindle", "a mill's job has no such move")
             }
-            Action::Feed { to, feed, .. } => self.feed(to, *feed),
-            Action::Arc(turn) => self.arc(turn),
+            Action::Feed { to, feed, .. } => self.feed(to, *feed, behind.unknown),
+            Action::Arc(turn) => self.arc(turn, behind.unknown),
             Action::Hole(hole) => self.hole(hole),
-            Action::CycleOff => self.end_cycle(),
+            Action::CycleOff => Ok(()), // what comes says whether the next hole is another cycle's
             Action::Dwell(seconds) => self.between(Event::Dwell(*seconds)),
             Action::Stop(kind) => self.between(Event::Stop(*kind)),
             Action::Tool(number) => self.tool_change(*number),
@@ -145,7 +171,7 @@ impl<'a> Reader<'a> {
                 self.rigid = true;
                 Ok(())
             }
-            Action::Frame => self.frame(item.line),
+            Action::Frame => self.frame(behind),
             Action::Orient(_) => {
                 unsaid(item.line, "M19, a stop of the spindle at an angle", "only a bore of a job does it")
             }
@@ -157,35 +183,26 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn feed(&mut self, to: &Position, feed: f64) -> Done {
+    fn feed(&mut self, to: &Position, feed: f64, unknown: u8) -> Done {
         if *to == self.at && self.turning.is_none() {
             return Ok(());
         }
         self.cut_begins()?;
+        let to = &self.from_start(to, unknown);
         let axes = self.axes(to);
         self.at = *to;
         self.known |= 0b111;
         self.moves(axes, Some(feed))
     }
 
-    /// The program moves its coordinate frame: before the first move at the machine, later not in a job.
-    fn frame(&mut self, line: u64) -> Done {
-        if self.place.operation > 0 {
-            let help = "write the places in one frame: a job has no G10, G52 or G92";
-            return unsaid(line, "the program moves its coordinate frame between its moves", help);
-        }
-        if !std::mem::replace(&mut self.framed, true) {
-            let message = "the program sets its work offsets (G10, G52 or G92), which a job can't say";
-            let help = "set them at the machine: positions are those that the program writes";
-            self.warnings.push(warning(line, message, help));
-        }
-        Ok(())
-    }
-
     /// The program is over.
     pub fn finish(&mut self) -> Done {
         self.end_cycle()?;
         self.start()?;
+        if self.waiting.iter().any(|waiting| matches!(waiting, Waiting::Stop(_))) {
+            let message = "a stop behind a tool change that nothing moves after is left out";
+            self.warnings.push(warning(self.place.line, message, "print it in the form's EndCode"));
+        }
         self.push(Event::Finish)
     }
 
@@ -216,13 +233,13 @@ impl<'a> Reader<'a> {
     }
 
     /// A target with the axes that a job knows.
-    fn axes(&self, to: &Position) -> Axes {
+    pub(super) fn axes(&self, to: &Position) -> Axes {
         let rotary = self.survey.rotary & 0b11_1000;
         Axes { values: *to, given: 0b111 | rotary }
     }
 
     /// What comes before a move: the operation that the move begins, and what was switched.
-    fn move_begins(&mut self, first: First) -> Done {
+    pub(super) fn move_begins(&mut self, first: First) -> Done {
         self.start()?;
         if std::mem::take(&mut self.operation) {
             self.begin_operation(first)?;
@@ -230,7 +247,10 @@ impl<'a> Reader<'a> {
         self.switch()
     }
 
-    fn rapid(&mut self, to: &Position, machine: u8) -> Done {
+    pub(super) fn rapid(&mut self, to: &Position, machine: u8) -> Done {
+        if self.leads_on(to, machine) {
+            return Ok(());
+        }
         self.end_cycle()?;
         let machine = machine & 0b111;
         // a place of the machine: a form goes there by itself, before a tool change and at the end
@@ -281,7 +301,7 @@ impl<'a> Reader<'a> {
         self.push(Event::Rapid(above))
     }
 
-    fn step(&mut self) {
+    pub(super) fn step(&mut self) {
         self.place.item += 1;
     }
 
@@ -289,7 +309,10 @@ impl<'a> Reader<'a> {
     fn cut_begins(&mut self) -> Done {
         self.end_cycle()?;
         if self.home.is_some() || self.known & 0b111 != 0b111 {
-            let help = "write a rapid with X, Y and Z before it";
+            if let Some(start) = self.options.start {
+                return self.cut_from(start);
+            }
+            let help = "write a rapid with X, Y and Z before it, or say where the tool is with `--assume-start X,Y,Z`";
             return unsaid(self.place.line, "a cut begins at a place that only the machine knows", help);
         }
         self.move_begins(First::Cut)?;
@@ -297,8 +320,38 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn arc(&mut self, turn: &Turn) -> Done {
+    /// Before a cut from a place of the machine: the tool is where the caller says, on the axes that the program does not.
+    fn cut_from(&mut self, start: [f64; 3]) -> Done {
+        let message = "a cut begins at a place that only the machine knows";
+        let help = "it begins at the place of `--assume-start`: look whether the tool comes there past the clamps";
+        self.warnings.push(warning(self.place.line, message, help));
+        let unknown = if self.home.take().is_some() { self.known & 0b011 } else { self.known };
+        for axis in (0..3).filter(|axis| unknown & 1 << axis == 0) {
+            self.at[axis] = start[axis];
+        }
+        self.known = 0b111;
+        let axes = self.axes(&self.at);
+        self.move_begins(First::Rapid(axes))?;
+        self.step();
+        self.push(Event::Rapid(axes))?;
+        self.step();
+        Ok(())
+    }
+
+    /// A place of which axes stand where the caller said that the tool begins: the program has not said them since.
+    fn from_start(&self, to: &Position, unknown: u8) -> Position {
+        let mut to = *to;
+        if self.options.start.is_some() {
+            for axis in (0..3).filter(|axis| unknown & 1 << axis != 0) {
+                to[axis] = self.at[axis];
+            }
+        }
+        to
+    }
+
+    fn arc(&mut self, turn: &Turn, unknown: u8) -> Done {
         self.cut_begins()?;
+        let turn = &Turn { to: self.from_start(&turn.to, unknown), ..*turn };
         if self.turning.take().is_some() {
             let help = "turn it on and off by straight moves";
             return unsaid(self.place.line, "cutter compensation is switched on an arc", help);
@@ -315,72 +368,16 @@ impl<'a> Reader<'a> {
         self.push(Event::Arc { arc: &arc, feed: Some(turn.feed) })
     }
 
-    fn hole(&mut self, hole: &Drilling) -> Done {
-        if hole.plane != Plane::Xy {
-            let help = "program its moves: a job's cycles go along Z";
-            return unsaid(self.place.line, "a canned cycle outside G17", help);
-        }
-        self.low_approach(hole)?;
-        // a rigid tap turns the spindle its own way
-        match hole.code {
-            840 if !self.wanted.turns() => self.wanted.rotation = Some(Rotation::Cw),
-            740 if self.wanted.rotation != Some(Rotation::Ccw) => self.wanted.rotation = Some(Rotation::Ccw),
-            _ => {}
-        }
-        let first = match &self.cycle {
-            Some((_, first)) if is_same(first, hole) && self.said == self.wanted => *first,
-            _ => {
-                self.end_cycle()?;
-                // a new tool has been brought back by its change
-                let new_tool = self.operation && self.tool_is_new();
-                if let Some(line) = self.home.take().filter(|_| !new_tool) {
-                    return unsaid(line, "a cycle begins at the reference point", "write a rapid with Z before it");
-                }
-                let spec = spec_of(hole, self.rigid, self.place.line)?;
-                self.rigid = false;
-                let point = hole_of(hole, hole, self.axes(&hole.at).given);
-                self.move_begins(First::Hole(Box::new(spec.clone()), point))?;
-                self.step();
-                self.place.point = 0;
-                self.push(Event::CycleBegin(&spec))?;
-                self.cycle = Some((spec, *hole));
-                *hole
-            }
-        };
-        self.place.point += 1;
-        let point = hole_of(hole, &first, self.axes(&hole.at).given);
-        self.push(Event::Hole(point))
-    }
-
-    /// A Fanuc goes across below the R plane, and up to it over the hole; a job's cycle goes up first.
-    fn low_approach(&mut self, hole: &Drilling) -> Done {
-        let begun = !self.operation && self.home.is_none() && self.known & 0b111 == 0b111;
-        let across = self.at[..2] != hole.at[..2];
-        if !begun || !across || self.at[2] >= hole.r || self.options.settings.control.is_linuxcnc() {
-            return Ok(());
-        }
-        self.end_cycle()?;
-        let mut to = hole.at;
-        to[2] = self.at[2];
-        self.rapid(&to, 0)
-    }
-
-    pub(super) fn end_cycle(&mut self) -> Done {
-        if self.cycle.take().is_none() {
-            return Ok(());
-        }
-        self.place.point = 0;
-        self.push(Event::CycleEnd)
-    }
-
     /// What is done where the tool stands.
     fn between(&mut self, event: Event<'_>) -> Done {
         self.end_cycle()?;
         if self.operation && (self.place.operation == 0 || self.tool_is_new()) {
-            // the tool change of the form has its own stops and waits
-            let message = "a stop or dwell before a tool's first move is left out";
-            self.warnings.push(warning(self.place.line, message, "print it in the form's tool change"));
-            return Ok(());
+            // behind the tool change of the form
+            return match event {
+                Event::Stop(kind) => self.wait(Waiting::Stop(kind)),
+                Event::Dwell(seconds) => self.wait(Waiting::Dwell(seconds)),
+                _ => Ok(()),
+            };
         }
         if let Some(line) = self.home.take() {
             // the operator finds the tool there
@@ -401,18 +398,25 @@ impl<'a> Reader<'a> {
     }
 
     fn comment(&mut self, text: &str) -> Done {
-        const MOST: usize = 200;
         if text.is_empty() {
             return Ok(());
         }
         self.remark = (self.place.line, text.to_owned());
         if self.operation {
-            if self.comments.len() < MOST {
-                self.comments.push(text.to_owned());
-            }
-            return Ok(());
+            return self.wait(Waiting::Comment(text.to_owned()));
         }
         self.end_cycle()?;
         self.push(Event::Comment(text))
+    }
+
+    /// What stands before the next operation is done in it.
+    fn wait(&mut self, waiting: Waiting) -> Done {
+        if self.waiting.len() < MOST_WAITING {
+            self.waiting.push(waiting);
+        } else if !matches!(waiting, Waiting::Comment(_)) {
+            let message = format!("more than {MOST_WAITING} stops, dwells and comments before a tool's first move");
+            return unsaid(self.place.line, message, "take out those that nobody needs");
+        }
+        Ok(())
     }
 }

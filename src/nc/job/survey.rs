@@ -43,9 +43,11 @@ pub(super) fn survey(
     let mut items = Vec::new();
     let (mut length, mut told, mut named) = (false, false, false);
     let (mut units, mut moved, mut last) = (options.units, false, [0.0; 6]);
+    let mut base = None;
     loop {
         items.clear();
         let more = simulator.step(&mut items).map_err(refused)?;
+        let shift = simulator.state().shift()[2];
         for item in &items {
             if let Action::Feed { .. } | Action::Arc(_) = &item.action
                 && !length
@@ -67,7 +69,8 @@ pub(super) fn survey(
                 }
                 last = *to;
                 if machine & 0b100 == 0 {
-                    survey.top = survey.top.max(to[2]);
+                    // in the frame of the first move, as the job has it
+                    survey.top = survey.top.max(to[2] + shift - *base.get_or_insert(shift));
                 }
             };
             match &item.action {

@@ -1,0 +1,19 @@
+//! How a machine stands behind a block.
+
+use crate::nc::state::State;
+
+/// How the machine stands behind a block.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Behind {
+    /// Axes that stand at a place of the machine, as bits.
+    pub unknown: u8,
+    /// What G52 and G92 add to places.
+    pub shift: [f64; 3],
+}
+
+impl Behind {
+    pub fn of(state: &State) -> Behind {
+        let [x, y, z, ..] = *state.shift();
+        Behind { unknown: state.at_machine(), shift: [x, y, z] }
+    }
+}

@@ -1,0 +1,110 @@
+//! Holes of a program as cycles of a job: those of one pattern are one cycle, whatever leads from one to the next.
+
+use super::cycles::{hole_of, is_same, spec_of};
+use super::fault::{Done, unsaid};
+use super::pattern::Pattern;
+use super::reader::Reader;
+use crate::nc::action::{Action, Drilling, Position, Rotation};
+use crate::toolpath::{Event, First, Plane};
+
+impl Reader<'_> {
+    /// Takes a rapid that may only lead to the next hole.
+    pub(super) fn leads_on(&mut self, to: &Position, machine: u8) -> bool {
+        if self.operation || self.turning.is_some() {
+            return false;
+        }
+        let place = self.place;
+        let Some(pattern) = &mut self.cycle else { return false };
+        if machine & 0b111 != 0 || !pattern.may_lead(to) {
+            return false;
+        }
+        pattern.way.push((*to, place));
+        true
+    }
+
+    /// What is switched behind rapids that may lead to the next hole is switched behind them.
+    pub(super) fn settle_way(&mut self, action: &Action) -> Done {
+        let leads = matches!(
+            action,
+            Action::Rapid { .. } | Action::Hole(_) | Action::CycleOff | Action::Length(_) | Action::LeftOut(..)
+        );
+        match &self.cycle {
+            Some(pattern) if !leads && !pattern.way.is_empty() => self.end_cycle(),
+            _ => Ok(()),
+        }
+    }
+
+    pub(super) fn hole(&mut self, hole: &Drilling) -> Done {
+        if hole.plane != Plane::Xy {
+            let help = "program its moves: a job's cycles go along Z";
+            return unsaid(self.place.line, "a canned cycle outside G17", help);
+        }
+        self.low_approach(hole)?;
+        // a rigid tap turns the spindle its own way
+        match hole.code {
+            840 if !self.wanted.turns() => self.wanted.rotation = Some(Rotation::Cw),
+            740 if self.wanted.rotation != Some(Rotation::Ccw) => self.wanted.rotation = Some(Rotation::Ccw),
+            _ => {}
+        }
+        let goes_on = !self.operation && !self.rigid && self.turning.is_none() && self.said == self.wanted;
+        let first = match &mut self.cycle {
+            Some(pattern) if goes_on && is_same(&pattern.first, hole) && pattern.leads_to(hole) => {
+                pattern.way.clear();
+                pattern.last = *hole;
+                pattern.first
+            }
+            _ => {
+                self.begin_cycle(hole)?;
+                *hole
+            }
+        };
+        self.place.point += 1;
+        let point = hole_of(hole, &first, self.axes(&hole.at).given);
+        self.push(Event::Hole(point))
+    }
+
+    fn begin_cycle(&mut self, hole: &Drilling) -> Done {
+        self.end_cycle()?;
+        // a new tool has been brought back by its change
+        let new_tool = self.operation && self.tool_is_new();
+        if let Some(line) = self.home.take().filter(|_| !new_tool) {
+            return unsaid(line, "a cycle begins at the reference point", "write a rapid with Z before it");
+        }
+        let spec = spec_of(hole, self.rigid, self.place.line)?;
+        self.rigid = false;
+        let point = hole_of(hole, hole, self.axes(&hole.at).given);
+        self.move_begins(First::Hole(Box::new(spec.clone()), point))?;
+        self.step();
+        self.place.point = 0;
+        self.push(Event::CycleBegin(&spec))?;
+        self.cycle = Some(Pattern { first: *hole, last: *hole, way: Vec::new() });
+        Ok(())
+    }
+
+    /// A Fanuc goes across below the R plane, and up to it over the hole; a job's cycle goes up first.
+    fn low_approach(&mut self, hole: &Drilling) -> Done {
+        let begun = !self.operation && self.home.is_none() && self.known & 0b111 == 0b111;
+        let across = self.at[..2] != hole.at[..2];
+        if !begun || !across || self.at[2] >= hole.r || self.options.settings.control.is_linuxcnc() {
+            return Ok(());
+        }
+        self.end_cycle()?;
+        let mut to = hole.at;
+        to[2] = self.at[2];
+        self.rapid(&to, 0)
+    }
+
+    /// The cycle is over, and the rapids behind its last hole are made.
+    pub(super) fn end_cycle(&mut self) -> Done {
+        let Some(pattern) = self.cycle.take() else { return Ok(()) };
+        self.place.point = 0;
+        self.push(Event::CycleEnd)?;
+        let now = self.place;
+        for (to, place) in pattern.way {
+            (self.place.line, self.place.column) = (place.line, place.column);
+            self.rapid(&to, 0)?;
+        }
+        (self.place.line, self.place.column) = (now.line, now.column);
+        Ok(())
+    }
+}

@@ -44,6 +44,7 @@ pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>
         [x, y, z, i, j, k, rest @ ..] => ([*x, *y, *z], [*i, *j, *k], rest.first().copied()),
         _ => return fault(Code::PL001, "a CIRCLE that can't be read", "write CIRCLE/x,y,z,i,j,k,r"),
     };
+    let axis = motion.shift.turned(axis);
     let along = (0..3).find(|&i| axis[i].abs() > 0.999_999);
     let Some(along) = along else {
         return fault(Code::PL004, "an arc in a tilted plane", "let the CAM system write lines for it");

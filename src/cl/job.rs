@@ -50,6 +50,10 @@ pub(super) struct Job<'s> {
     feed: Option<f64>,
     /// The sink is in a cycle.
     in_cycle: bool,
+    /// What comes belongs to a setup that is not read: no event of it is made.
+    pub aside: bool,
+    /// The tool that was loaded last.
+    in_use: Option<Tool>,
 }
 
 impl<'s> Job<'s> {
@@ -71,6 +75,8 @@ impl<'s> Job<'s> {
             waiting: Vec::new(),
             feed: None,
             in_cycle: false,
+            aside: false,
+            in_use: None,
         }
     }
 
@@ -143,6 +149,9 @@ impl<'s> Job<'s> {
 
     /// What is printed where it stands, once the tool change before it is complete.
     pub fn wait(&mut self, waiting: Waiting) -> Done {
+        if self.aside {
+            return Ok(());
+        }
         if self.started && self.change.is_none() {
             return self.push_waiting(&waiting, self.notes.place);
         }
@@ -174,6 +183,9 @@ impl<'s> Job<'s> {
     /// An event; what waits for it goes first.
     #[inline]
     pub fn push(&mut self, event: Event<'_>) -> Done {
+        if self.aside {
+            return Ok(());
+        }
         if self.change.is_some() || !self.started || self.operations == 0 {
             self.release()?;
         }
@@ -275,14 +287,25 @@ impl<'s> Job<'s> {
             before.length_offset = tool.length_offset.or(before.length_offset);
             return Ok(());
         }
-        if self.change.as_ref().is_some_and(|(change, _)| change.tool.is_some()) {
+        if !self.aside && self.change.as_ref().is_some_and(|(change, _)| change.tool.is_some()) {
             self.release()?;
         }
+        self.in_use.clone_from(&tool);
         if tool.is_some() && self.operations == 0 {
             self.leave_out_rapids();
         }
         self.change = Some((self.operation(tool), self.notes.place));
         Ok(())
+    }
+
+    /// The setup that is read begins: with the tool that is there, unless another one is being loaded.
+    pub fn begin_setup(&mut self) {
+        self.aside = false;
+        if self.change.is_none()
+            && let Some(tool) = self.in_use.clone()
+        {
+            self.change = Some((self.operation(Some(tool)), self.notes.place));
+        }
     }
 
     /// Rapids before the first tool go to where it is loaded, which is the machine's to know.
@@ -350,6 +373,10 @@ impl<'s> Job<'s> {
     pub fn finish(&mut self) -> Done {
         if !self.has_operation() && self.is_unmoved() {
             return fault(Code::PJ009, "the file has no motion", "look whether this is a CL file");
+        }
+        if std::mem::take(&mut self.aside) {
+            self.change = None; // for what is not read
+            self.waiting.clear();
         }
         self.push(Event::Finish)
     }

@@ -8,6 +8,7 @@ use super::job::{Job, Waiting};
 use super::load::{load, tool_path};
 use super::machine::{coolnt, cutcom, spindl, units};
 use super::motion::{from, godlta, gohome, goto_words, rapid, tlaxis, trans};
+use super::setup::Setups;
 use super::setups::{csys, msys};
 use super::state::State;
 use super::tlon::{indirv, tlon};
@@ -103,7 +104,10 @@ pub(super) fn major(name: &str) -> Major {
 
 /// Does what a statement asks for.
 pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_>) -> Done {
-    let State { job, motion, arcs, cycle, .. } = state;
+    if state.job.aside && is_aside(major, state) {
+        return Ok(());
+    }
+    let State { job, motion, arcs, cycle, setups, .. } = state;
     match major {
         Major::Goto => goto_words(words, state),
         Major::Godlta => godlta(words, state),
@@ -115,7 +119,7 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         }
         Major::Circle => circle(words, None, state),
         Major::Movarc => circle(words, Some(Sense::RightHand), state),
-        Major::Indirv => indirv(words, arcs),
+        Major::Indirv => indirv(words, arcs, &motion.shift),
         Major::Tlon => tlon(words, state),
         Major::Fedrat => fedrat(words, state),
         Major::Spindl => spindl(words, cycle, job),
@@ -130,7 +134,7 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         Major::Opstop => job.between(Event::Stop(StopKind::Optional)),
         Major::Trans => trans(words, &mut motion.shift, false),
         Major::Origin => trans(words, &mut motion.shift, true),
-        Major::Tlaxis => tlaxis(words, &mut motion.axis, job),
+        Major::Tlaxis => tlaxis(words, state),
         Major::Set => set(name, words, job),
         Major::Auxfun => code('M', name, words, job),
         Major::Prefun => code('G', name, words, job),
@@ -144,7 +148,7 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         }
         Major::Csys => {
             job.notes.fact(shown(name, words));
-            csys(words, motion, job);
+            csys(words, motion, setups, job);
             Ok(())
         }
         Major::Turret => {
@@ -174,6 +178,19 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
             let message = format!("{name} moves, shifts or turns something that postform can't follow");
             fault(Code::PL004, message, "let the CAM system write plain motions instead")
         }
+    }
+}
+
+/// What belongs to its setup alone, which is not read. What goes on behind it is done.
+fn is_aside(major: Major, state: &State<'_>) -> bool {
+    match major {
+        Major::Circle | Major::Movarc | Major::Indirv | Major::Tlon | Major::Cutcom | Major::Nurbs | Major::Thread => {
+            true
+        }
+        Major::Stop | Major::Opstop | Major::Delay | Major::Auxfun | Major::Prefun => true,
+        // where setups are only listed nothing else counts
+        Major::Cycle | Major::Refused | Major::Msys => state.setups.as_ref().is_some_and(Setups::are_listed),
+        _ => false,
     }
 }
 

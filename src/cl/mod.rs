@@ -20,6 +20,7 @@ mod motion;
 mod options;
 mod reader;
 mod report;
+mod setup;
 mod setups;
 mod spec;
 mod state;
@@ -30,5 +31,6 @@ mod words;
 
 pub use dialect::Dialect;
 pub use options::{Assumed, AssumedSpeed, Options, parse_position};
-pub use reader::read_cl;
+pub use reader::{read_cl, setups};
 pub use report::Report;
+pub use setup::Setup;

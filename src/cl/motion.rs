@@ -5,8 +5,9 @@ use super::fault::{Done, fault};
 use super::feed::{approach, feed_on_goto, feed_to_say};
 use super::holes::point;
 use super::job::{Job, Waiting};
+use super::setup::Setups;
 use super::setups::must_agree;
-use super::state::{Axis, Feeds, Heading, Motion, Shift, State};
+use super::state::{Feeds, Heading, Motion, Shift, State};
 use super::words::{Word, numbers};
 use crate::diag::Code;
 use crate::toolpath::{Axes, Event, Infeed};
@@ -28,7 +29,7 @@ pub(super) fn goto(values: &[f64], state: &mut State<'_>) -> Done {
         }
     };
     if let Some(axis) = tail {
-        set_axis([axis[0], axis[1], axis[2]], &mut state.motion.axis, &mut state.job)?;
+        set_axis([axis[0], axis[1], axis[2]], state)?;
     }
     if let Some(feed) = feed {
         feed_on_goto(feed, &mut state.feeds)?;
@@ -47,10 +48,23 @@ pub(super) fn goto_words(words: &[Word], state: &mut State<'_>) -> Done {
 /// Goes to a position, by what is in force.
 #[inline]
 fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
+    let place = state.job.notes.place.line;
     let motion = &mut state.motion;
     let rapid = std::mem::take(&mut motion.rapid) | std::mem::take(&mut motion.rapid_after_cycle);
     motion.point = Some(to);
     state.job.spindle.is_new = false;
+    if let Some(setups) = &mut state.setups {
+        let begins = std::mem::take(&mut setups.is_fresh);
+        setups.motion(place);
+        if !setups.is_chosen() {
+            state.arcs.pending = None;
+            return Ok(());
+        }
+        if begins && !rapid && !state.cycle.is_active() {
+            let help = "a program for one setup can't begin inside a cut: the rest is a job for five axes";
+            return fault(Code::PL004, "the tool axis turns while the tool cuts", help);
+        }
+    }
     if let Some(arc) = state.arcs.pending.take() {
         return arc_to(&arc, to, rapid, state);
     }
@@ -97,7 +111,7 @@ pub(super) fn gohome(words: &[Word], state: &mut State<'_>) -> Done {
         return fault(Code::PL004, "GOHOME to a place that only the machine knows", help);
     };
     if let [i, j, k] = axis {
-        set_axis([*i, *j, *k], &mut state.motion.axis, &mut state.job)?;
+        set_axis([*i, *j, *k], state)?;
     }
     let to = state.motion.shift.of([*x, *y, *z]);
     // away from the part: up on mills, outward on lathes
@@ -135,20 +149,21 @@ pub(super) fn godlta(words: &[Word], state: &mut State<'_>) -> Done {
         }
         _ => return fault(Code::PL001, "GODLTA takes one, three or four numbers", "write dx, dy, dz"),
     };
+    let delta = state.motion.shift.turned(delta);
     go([from[0] + delta[0], from[1] + delta[1], from[2] + delta[2]], state)
 }
 
 /// Where the tool is to begin with: no motion.
 pub(super) fn from(words: &[Word], state: &mut State<'_>) -> Done {
-    let State { job, motion, cycle, .. } = state;
-    if cycle.is_active() {
-        job.notes.warn(Code::PC058, "FROM inside a cycle", "take it out, or end the cycle before");
+    if state.cycle.is_active() {
+        state.job.notes.warn(Code::PC058, "FROM inside a cycle", "take it out, or end the cycle before");
     }
     match numbers(words).as_deref() {
         Some([x, y, z, axis @ ..]) => {
             if let [i, j, k, ..] = axis {
-                set_axis([*i, *j, *k], &mut motion.axis, job)?;
+                set_axis([*i, *j, *k], state)?;
             }
+            let motion = &mut state.motion;
             motion.position = Some(motion.shift.of([*x, *y, *z]));
             motion.point = motion.position;
             Ok(())
@@ -169,7 +184,9 @@ pub(super) fn rapid(words: &[Word], state: &mut State<'_>) -> Done {
 
 /// A tool axis other than the one so far is told, so that a machine that can't tilt refuses it.
 #[inline]
-fn set_axis(to: [f64; 3], axis: &mut Axis, job: &mut Job<'_>) -> Done {
+fn set_axis(to: [f64; 3], state: &mut State<'_>) -> Done {
+    let State { job, motion, setups, .. } = state;
+    let axis = &mut motion.axis;
     if to == axis.0 || job.turns_part() {
         return Ok(());
     }
@@ -182,13 +199,36 @@ fn set_axis(to: [f64; 3], axis: &mut Axis, job: &mut Job<'_>) -> Done {
         return Ok(());
     }
     axis.0 = unit;
-    job.between(Event::Tilt(unit))
+    match setups {
+        Some(setups) => another_setup(setups, motion, job),
+        None => job.between(Event::Tilt(unit)),
+    }
+}
+
+/// The tool axis of a file of several setups turns: what comes is read in a frame of its own, or not at all.
+fn another_setup(setups: &mut Setups, motion: &mut Motion, job: &mut Job<'_>) -> Done {
+    job.close_holes()?;
+    if !setups.turn(motion.axis.0) {
+        return Ok(());
+    }
+    if motion.cutcom.on {
+        let help = "turn it off before";
+        return fault(Code::PL004, "the tool axis turns under cutter compensation", help);
+    }
+    (motion.position, motion.point) = (None, None);
+    motion.shift.frame = setups.frame().filter(|_| setups.is_chosen());
+    if setups.is_chosen() {
+        job.begin_setup();
+    } else {
+        job.aside = true;
+    }
+    Ok(())
 }
 
 /// In files for three axes TLAXIS is information; elsewhere motions follow it.
-pub(super) fn tlaxis(words: &[Word], axis: &mut Axis, job: &mut Job<'_>) -> Done {
+pub(super) fn tlaxis(words: &[Word], state: &mut State<'_>) -> Done {
     match numbers(words).as_deref() {
-        Some([i, j, k]) => set_axis([*i, *j, *k], axis, job),
+        Some([i, j, k]) => set_axis([*i, *j, *k], state),
         _ => fault(Code::PL001, "TLAXIS takes a vector", "write i, j, k"),
     }
 }

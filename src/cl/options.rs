@@ -20,6 +20,8 @@ pub struct Options {
     pub start: Option<[f64; 3]>,
     /// The file is whole, though it does not end as its system ends files.
     pub end: bool,
+    /// Which of its setups is read, counted from 1, in a frame of its own; else the file is one setup.
+    pub setup: Option<usize>,
 }
 
 /// Largest spindle speed.

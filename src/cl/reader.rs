@@ -11,11 +11,12 @@ use super::majors::{Major, major, run};
 use super::motion::{goto, goto_words};
 use super::options::Options;
 use super::report::Report;
+use super::setup::{Setup, Setups};
 use super::state::{Arcs, Cycle, Feeds, Motion, State};
 use super::texts::{Insert, lone_insert, text};
 use super::words::{Word, plain_goto, words};
 use crate::diag::Code;
-use crate::toolpath::{Place, ReadError, Sink, Stop};
+use crate::toolpath::{Event, Flow, Place, ReadError, Sink, Stop};
 
 /// Lines within which the system that wrote a file shows.
 const HEAD: usize = 50;
@@ -41,8 +42,35 @@ struct Reader<'s> {
 /// # Errors
 /// What is wrong with the file, or with what the sink was asked to do, and where. Warnings up to there are in the report.
 pub fn read_cl(input: impl Read, options: &Options, report: &mut Report, sink: &mut dyn Sink) -> Result<(), ReadError> {
+    read(input, options, options.setup.map(|setup| Setups::new(Some(setup))), report, sink).map(drop)
+}
+
+/// The setups of a file: runs of motions with one tool axis. What stands in the file besides is not looked at.
+///
+/// # Errors
+/// The input fails; what is no statement.
+pub fn setups(input: impl Read, options: &Options) -> Result<Vec<Setup>, ReadError> {
+    struct Nothing;
+    impl Sink for Nothing {
+        fn event(&mut self, _: Event<'_>, _: Place) -> Flow {
+            Flow::Continue(())
+        }
+    }
+    let found = read(input, options, Some(Setups::new(None)), &mut Report::default(), &mut Nothing)?;
+    Ok(found.map_or_else(Vec::new, |setups| setups.found().to_vec()))
+}
+
+/// Reads a file, or a setup of it.
+fn read(
+    input: impl Read,
+    options: &Options,
+    setups: Option<Setups>,
+    report: &mut Report,
+    sink: &mut dyn Sink,
+) -> Result<Option<Setups>, ReadError> {
     let mut lines = Lines::new(input);
     let mut job = Job::new(options, report, sink);
+    job.aside = setups.as_ref().is_some_and(|setups| !setups.is_chosen());
     job.notes.look_at(lines.ahead(HEAD).map_err(ReadError::Io)?);
     let mut reader = Reader {
         state: State {
@@ -51,6 +79,7 @@ pub fn read_cl(input: impl Read, options: &Options, report: &mut Report, sink: &
             arcs: Arcs::default(),
             feeds: Feeds { feed: options.feed.map(Feed::Minute), cut_off: None },
             cycle: Cycle::default(),
+            setups,
         },
         joined: Vec::new(),
         continues: false,
@@ -71,7 +100,8 @@ pub fn read_cl(input: impl Read, options: &Options, report: &mut Report, sink: &
     }
     let end = reader.finish();
     reader.state.job.notes.tell_unknown();
-    end.map_err(|stop| reader.placed(stop))
+    end.map_err(|stop| reader.placed(stop))?;
+    Ok(reader.state.setups)
 }
 
 impl Reader<'_> {
@@ -188,7 +218,10 @@ impl Reader<'_> {
             return fault(Code::PL007, message, help);
         }
         cycle::end(&mut self.state.cycle, &mut self.state.job)?;
-        self.state.job.finish()
+        match &self.state.setups {
+            Some(setups) => setups.end(&mut self.state.job),
+            None => self.state.job.finish(),
+        }
     }
 
     fn placed(&self, stop: Stop) -> ReadError {

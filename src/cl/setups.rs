@@ -2,8 +2,9 @@
 
 use super::fault::{Done, fault};
 use super::job::Job;
+use super::setup::Setups;
 use super::state::Motion;
-use super::words::Word;
+use super::words::{Word, numbers};
 use crate::diag::Code;
 
 /// Components of unit vectors that differ by less are one.
@@ -24,7 +25,13 @@ pub(super) fn msys(words: &[Word], job: &mut Job<'_>) -> Done {
 }
 
 /// CSYS of SolidWorks CAM: three rows of a rotation, each with a distance behind it.
-pub(super) fn csys(words: &[Word], motion: &mut Motion, job: &mut Job<'_>) {
+pub(super) fn csys(words: &[Word], motion: &mut Motion, setups: &mut Option<Setups>, job: &mut Job<'_>) {
+    if let Some(setups) = setups {
+        if let (Some(rows), 12) = (numbers(words), words.len()) {
+            setups.csys([rows[0], rows[4], rows[8]], [rows[2], rows[6], rows[10]]);
+        }
+        return;
+    }
     if let Some(Word::Number(up)) = words.get(10).filter(|_| words.len() == 12) {
         motion.frame = Some((*up, job.notes.place.line));
     }

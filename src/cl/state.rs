@@ -5,6 +5,7 @@ use super::cycle_dialects::Heights;
 use super::dialect::Sense;
 use super::feed_unit::Feed;
 use super::job::Job;
+use super::setup::{Frame, Setups};
 use crate::toolpath::{CycleSpec, LastDwell, Side};
 
 /// All parts. A statement's function takes those that it touches; the whole where a motion may mean any of them.
@@ -14,6 +15,8 @@ pub(super) struct State<'s> {
     pub arcs: Arcs,
     pub feeds: Feeds,
     pub cycle: Cycle,
+    /// Where one setup of several is read, or all are listed.
+    pub setups: Option<Setups>,
 }
 
 /// Where the tool is, and how it goes to the next point.
@@ -49,6 +52,8 @@ impl Default for Axis {
 pub(super) struct Shift {
     pub trans: [f64; 3],
     pub origin: [f64; 3],
+    /// The setup that is read has a frame of its own.
+    pub frame: Option<Frame>,
 }
 
 impl Shift {
@@ -59,7 +64,16 @@ impl Shift {
         for (i, value) in to.iter_mut().enumerate() {
             *value += self.trans[i] - self.origin[i];
         }
-        to
+        self.turned(to)
+    }
+
+    /// A direction of the file as one of the job.
+    #[inline]
+    pub fn turned(&self, vector: [f64; 3]) -> [f64; 3] {
+        match &self.frame {
+            Some(frame) => frame.of(vector),
+            None => vector,
+        }
     }
 }
 

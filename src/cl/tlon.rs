@@ -2,15 +2,15 @@
 
 use super::arcs::{arc_event, cross};
 use super::fault::{Done, fault};
-use super::state::{Arcs, PendingArc, State};
+use super::state::{Arcs, PendingArc, Shift, State};
 use super::words::{Word, numbers};
 use crate::diag::Code;
 
 /// INDIRV: the direction in which the next TLON leaves.
-pub(super) fn indirv(words: &[Word], arcs: &mut Arcs) -> Done {
+pub(super) fn indirv(words: &[Word], arcs: &mut Arcs, shift: &Shift) -> Done {
     match numbers(words).as_deref() {
         Some([i, j, k]) => {
-            arcs.direction = Some([*i, *j, *k]);
+            arcs.direction = Some(shift.turned([*i, *j, *k]));
             Ok(())
         }
         _ => fault(Code::PL001, "INDIRV takes a vector", "write i, j, k"),

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 
 use postform::Format;
-use postform::cl::{Dialect, Report};
+use postform::cl::{Dialect, Report, Setup};
 use postform::diag::Diag;
 use postform::toolpath::json::schema;
 use postform::toolpath::{Summary, Units};
@@ -24,7 +24,9 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
         return Ok(Ending::Clean);
     };
     let mut summary = Summary::default();
-    let mut job = files::job(path, &args.read, false)?;
+    let mut job = files::job(path, &args.read, true)?;
+    // of a file that can't be read there is nothing to list
+    let setups = job.setups().unwrap_or_default();
     let read = job.read(&mut summary);
     let report = job.report();
     let placed = |mut diag: Diag| {
@@ -36,14 +38,39 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     match read {
         Ok(()) => {
             let unprintable = summary.unprintable();
-            let text = describe(&files::name(path), job.format(), &summary, report);
+            let mut text = describe(&files::name(path), job.format(), &summary, report);
+            text += &listed(&setups);
             output::standard_output(|out| out.write_all(text.as_bytes()))?;
             let unprintable: Vec<Diag> = unprintable.into_iter().map(placed).collect();
             say(&Reporter::new(colour).text(&unprintable, &[]));
             Ok(unprintable.first().map_or(Ending::Clean, Ending::of))
         }
-        Err(error) => stopped(error, path, &Reporter::new(colour), &[]),
+        Err(error) => {
+            let text = listed(&setups);
+            output::standard_output(|out| out.write_all(text.as_bytes()))?;
+            stopped(error, path, &Reporter::new(colour), &[])
+        }
     }
+}
+
+/// Most setups that are listed.
+const MOST_SETUPS: usize = 12;
+
+/// The setups of a file whose tool points several ways, or another way than up.
+fn listed(setups: &[Setup]) -> String {
+    if setups.iter().all(|setup| setup.axis == [0.0, 0.0, 1.0]) {
+        return String::new();
+    }
+    let mut text: String = setups
+        .iter()
+        .take(MOST_SETUPS)
+        .enumerate()
+        .map(|(i, setup)| format!("  --setup {:<3} {setup}\n", i + 1))
+        .collect();
+    if setups.len() > MOST_SETUPS {
+        _ = writeln!(text, "              and more: the tool axis turns all the time");
+    }
+    text
 }
 
 /// The summary as a machinist reads it.

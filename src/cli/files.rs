@@ -117,9 +117,15 @@ pub fn control(path: &Path) -> Result<&'static Control, String> {
     Control::own(&name(path), &text).map_err(|wrong| format!("error: {wrong}"))
 }
 
-/// The format of a job: as said, else by its extension.
+/// The format of a job: as said, else by its extension, else by how it begins.
 fn job_format(path: &Path, args: &ReadArgs) -> Result<Format, String> {
     let from = format_of(path, args.from)?;
+    fits(from, path, args)?;
+    Ok(from)
+}
+
+/// Are the options for a job of this format?
+fn fits(from: Format, path: &Path, args: &ReadArgs) -> Result<(), String> {
     if from != Format::Cl && args.dialect.is_some() {
         return Err(format!("error: --dialect is for CL files, which {} is not", name(path)));
     }
@@ -131,7 +137,7 @@ fn job_format(path: &Path, args: &ReadArgs) -> Result<Format, String> {
         return Err(format!("error: --assume-.. is for CL files and NC programs, which {} is not", name(path)));
     }
     if from != Format::Cl && args.assumes_of_cl() {
-        let options = "--assume-speed, -feed and -end are";
+        let options = "--assume-speed, -feed and -end and --setup are";
         return Err(format!("error: {options} for CL files, which {} is not", name(path)));
     }
     if from != Format::Nc && (args.job_control.is_some() || args.job_no_point.is_some()) {
@@ -140,7 +146,7 @@ fn job_format(path: &Path, args: &ReadArgs) -> Result<Format, String> {
     if from == Format::Nc && args.assume_tool.as_ref().is_some_and(|tool| tool.one().is_none()) {
         return Err(format!("error: --assume-tool takes one number for an NC program, which {} is", name(path)));
     }
-    Ok(from)
+    Ok(())
 }
 
 fn format_of(path: &Path, from: Option<From>) -> Result<Format, String> {
@@ -148,12 +154,29 @@ fn format_of(path: &Path, from: Option<From>) -> Result<Format, String> {
     match from.map(From::format).or_else(by_name) {
         Some(format) => Ok(format),
         None if path == Path::new("-") => Ok(Format::Json),
-        None => Err(format!(
-            "error: can't tell what {} is by its name: say it with --from json, jsonl, cl, nc or freecad",
-            name(path)
-        )),
+        None => by_content(path)?.ok_or_else(|| {
+            let name = name(path);
+            format!(
+                "error: can't tell what {name} is by its name or how it begins: say it with --from json, jsonl, cl, nc or freecad"
+            )
+        }),
     }
 }
+
+/// By how a file begins; what can't be gone back in is not looked at.
+fn by_content(path: &Path) -> Result<Option<Format>, String> {
+    let fail = |error: io::Error| io_message("read", path, &error);
+    let file = File::open(path).map_err(fail)?;
+    if !file.metadata().map_err(fail)?.is_file() {
+        return Ok(None);
+    }
+    let mut start = Vec::new();
+    file.take(LOOKED_AT).read_to_end(&mut start).map_err(fail)?;
+    Ok(Format::of_content(&start))
+}
+
+/// So many bytes tell what a job is.
+const LOOKED_AT: u64 = 4096;
 
 /// Is the format of a job known, and are the options for it?
 pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {

@@ -9,7 +9,7 @@ use std::fmt;
 use std::io::{self, BufReader, Cursor, Read, Seek};
 use std::rc::Rc;
 
-use crate::cl::{self, Assumed, AssumedSpeed, Dialect, Report, read_cl};
+use crate::cl::{self, Assumed, AssumedSpeed, Dialect, Report, Setup, read_cl};
 use crate::control::Control;
 use crate::error::Error;
 use crate::nc::{JobOptions, RunSettings, Unpointed, read_program};
@@ -35,6 +35,8 @@ pub struct Reading {
     pub start: Option<[f64; 3]>,
     /// A CL file is whole, though it does not end as its system ends files.
     pub end: bool,
+    /// Which setup of a CL file is read, counted from 1: the motions of one tool axis, in a frame of their own.
+    pub setup: Option<usize>,
     /// Whose rules an NC program follows; else Fanuc's.
     pub control: Option<&'static Control>,
     /// The name or label of the job of a FreeCAD document that has several.
@@ -205,6 +207,29 @@ impl<'a> Job<'a> {
         Ok(first.0)
     }
 
+    /// The setups of a CL file: runs of motions with one tool axis, of which `reading.setup` names one. None where the job
+    /// is no CL file, or comes as a stream.
+    ///
+    /// # Errors
+    /// The input fails; a line of it is no statement.
+    pub fn setups(&mut self) -> Result<Vec<Setup>, Error> {
+        let options = cl::Options { dialect: self.reading.dialect, ..cl::Options::default() };
+        let found = match &mut self.input {
+            Input::Bytes(bytes) if self.format == Format::Cl => cl::setups(*bytes, &options),
+            Input::File(input) if self.format == Format::Cl => {
+                input.rewind()?;
+                cl::setups(input, &options)
+            }
+            _ => Ok(Vec::new()),
+        };
+        match found {
+            Ok(setups) => Ok(setups),
+            Err(ReadError::Stopped) => Ok(Vec::new()),
+            Err(ReadError::Io(error)) => Err(error.into()),
+            Err(ReadError::Job(diag)) => Err(diag.into()),
+        }
+    }
+
     fn read_on(&mut self, sink: &mut dyn Sink) -> Result<(), ReadError> {
         let count = Rc::clone(&self.read);
         let (format, reading, report) = (self.format, &self.reading, &mut self.report);
@@ -279,6 +304,7 @@ fn read_once(
                 feed: reading.feed,
                 start: reading.start,
                 end: reading.end,
+                setup: reading.setup,
             };
             read_cl(input, &options, report, sink)
         }

@@ -70,7 +70,7 @@ impl Summary {
             let places = if self.tilts == 1 { "here".into() } else { format!("{} places, the first here", self.tilts) };
             let message = format!("no form can print this, because the tool is tilted ({places})");
             let help =
-                "a form has no words for that: post the operations of each tool axis by themselves, each as a setup";
+                "a form has no words for that: post the operations of each tool axis by themselves, each as a setup; of a CL file `--setup N` takes one";
             at(place, Code::PR008, message, help)
         });
         let idle = self.idle.map(|place| {

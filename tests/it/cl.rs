@@ -604,3 +604,99 @@ fn tools_that_are_only_named_need_numbers() {
     assert!(by(&setups, "1")[0].starts_with("PL004 this MSYS is not that of line 2"));
     assert!(by(&setups.replace(&other, msys), "1")[0].starts_with("G0"));
 }
+
+/// A part that is milled from above, then drilled and milled from the front: its y points into the front's z.
+const TWO_SIDES: &str = "UNITS/MM\nFEDRAT/100,MMPM\n\
+    LOADTL/1\nSPINDL/1000,RPM,CLW\nRAPID\nGOTO/0,0,10\nGOTO/5,0,-1\nSTOP\nRAPID\nGOTO/5,0,50\n\
+    LOADTL/2\nSPINDL/2000,RPM,CLW\nCOOLNT/MIST\nRAPID\nGOTO/10,-30,5,0,-1,0\nGOTO/10,-8,5\n\
+    INDIRV/0,0,1\nTLON,GOFWD/(CIRCLE/15,-8,5,5),ON,(LINE/15,-8,5,20,-8,5)\n\
+    CYCLE/DRILL,DEPTH,5,MMPM,100,CLEAR,2\nGOTO/30,0,5\nGOTO/40,0,5\nCYCLE/OFF\nRAPID\nGOTO/40,-50,5\n\
+    RAPID\nGOTO/0,0,50,0,0,1\nGOTO/0,0,1\nFINI\n";
+
+/// The blocks of a setup, without its coolant.
+fn front_of(text: &str, setup: usize) -> Vec<String> {
+    let mut blocks = read(text, Options { setup: Some(setup), ..Options::default() });
+    blocks.retain(|block| block != "M7");
+    blocks
+}
+
+#[test]
+fn a_setup_is_read_in_a_frame_of_its_own() {
+    let setup = |n| front_of(TWO_SIDES, n);
+    assert_eq!(setup(1), ["G0 X0 Y0 Z10.", "G1 X5. Z-1. F100.", "M0", "S1000 M3", "G0 Z50."]);
+    let front = [
+        "G0 X10. Y5. Z30.",
+        "G1 Z8. F100.",
+        "G17 G2 X20. Y5. I15. J5.",
+        "G98 G81 X30. Y5. Z-5. R2. F100.",
+        "X40.",
+        "G80",
+        "G0 Z50.",
+    ];
+    assert_eq!(setup(2), front);
+    // the tool that is there goes on
+    assert_eq!(setup(3), ["G0 X0 Y0 Z50.", "G1 Z1. F100."]);
+    let none = setup(4);
+    assert_eq!(none.len(), 1);
+    assert!(none[0].starts_with("PL004 the file has no setup 4 at "), "{none:?}");
+    let whole = read(TWO_SIDES, Options::default());
+    assert!(whole[0].starts_with("PR008 the tool is tilted"), "{whole:?}");
+}
+
+#[test]
+fn setups_are_listed_whatever_is_in_them() {
+    let found = postform::cl::setups(TWO_SIDES.as_bytes(), &Options::default()).unwrap();
+    let said: Vec<String> = found.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        said,
+        [
+            "tool axis 0 0 1, its x is 1 0 0, 3 motions in lines 6 to 10",
+            "tool axis 0 -1 0, its x is 1 0 0, 5 motions in lines 15 to 24",
+            "tool axis 0 0 1, its x is 1 0 0, 2 motions in lines 26 to 27",
+        ]
+    );
+    let arc = TWO_SIDES.replace("INDIRV/0,0,1", "CIRCLE/0,0,0,.6,0,.8,5\nTRACUT/1\nCYCLE/NONSENSE");
+    assert_eq!(postform::cl::setups(arc.as_bytes(), &Options::default()).unwrap().len(), 3);
+}
+
+/// Where the file says how the CAM system looks at a setup, its x is taken.
+#[test]
+fn a_setup_lies_as_its_csys_does() {
+    let csys = "CSYS/0,1,0,0,0,0,-1,0,-1,0,0,0\n"; // by rows: its x is -z of the part, its z -y
+    let text = TWO_SIDES.replace("RAPID\nGOTO/10,-30,5,0,-1,0", &format!("{csys}RAPID\nGOTO/10,-30,5,0,-1,0"));
+    let front = front_of(&text, 2);
+    assert_eq!(front[0], "G0 X-5. Y10. Z30.");
+    assert!(front.contains(&"G98 G81 X-5. Y30. Z-5. R2. F100.".to_owned()), "{front:?}");
+}
+
+#[test]
+fn a_setup_does_not_begin_inside_a_cut() {
+    let text = TWO_SIDES.replace("RAPID\nGOTO/10,-30,5,0,-1,0", "GOTO/10,-30,5,0,-1,0");
+    let refused = read(&text, Options { setup: Some(2), ..Options::default() });
+    assert!(refused[0].starts_with("PL004 the tool axis turns while the tool cuts at "), "{refused:?}");
+    let text = TWO_SIDES.replace("STOP\n", "CUTCOM/LEFT\nGOTO/9,9,-1\n");
+    let refused = read(&text, Options { setup: Some(1), ..Options::default() });
+    assert!(refused[0].starts_with("PL004 the tool axis turns under cutter compensation"), "{refused:?}");
+}
+
+/// A job whose name says nothing is known by how it begins: one of each kind.
+#[test]
+fn jobs_are_known_by_how_they_begin() {
+    use postform::{Format, Job};
+    let root = support::root();
+    let mut kinds = vec![
+        ("tests/data/freecad/holes-1.1.FCStd".to_owned(), Format::Freecad),
+        ("tests/data/fusion.jsonl".to_owned(), Format::JsonLines),
+        ("samples/bracket/job.json".to_owned(), Format::Json),
+        ("samples/bracket/expected.haas.nc".to_owned(), Format::Nc),
+    ];
+    for entry in fs::read_dir(root.join("tests/data/cl")).unwrap() {
+        kinds.push((format!("tests/data/cl/{}", entry.unwrap().file_name().to_string_lossy()), Format::Cl));
+    }
+    for (name, format) in kinds {
+        let bytes = fs::read(root.join(&name)).unwrap();
+        assert_eq!(Format::of_content(&bytes), Some(format), "{name}");
+        assert_eq!(Job::open("export", &bytes).unwrap().format(), format, "{name}");
+    }
+    assert!(Job::open("export", b"hello, world").is_err());
+}

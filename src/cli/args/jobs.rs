@@ -61,12 +61,21 @@ pub struct ReadArgs {
     /// A CL file is whole, though it does not end as its system ends files
     #[arg(long)]
     pub assume_end: bool,
+    /// Which setup of a CL file whose tool points several ways: `check` lists them
+    #[arg(long, value_name = "N", value_parser = setup)]
+    pub setup: Option<usize>,
     /// Whose rules a job that is an NC program follows [default: fanuc]
     #[arg(long, value_name = "CONTROL", value_parser = ControlParser)]
     pub job_control: Option<&'static Control>,
     /// What a length without a point means in a job that is an NC program [default: it is an error]
     #[arg(long, value_name = "MEANING")]
     pub job_no_point: Option<NoPoint>,
+}
+
+/// The number of a setup.
+fn setup(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|n| *n > 0);
+    number.ok_or_else(|| "write its number, from 1 on; `postform check` lists the setups of a file".to_owned())
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -101,12 +110,13 @@ impl ReadArgs {
         reading.feed = self.assume_feed;
         reading.start = self.assume_start;
         reading.end = self.assume_end;
+        reading.setup = self.setup;
         reading
     }
 
     /// Is something assumed that only a CL file can leave open?
     pub fn assumes_of_cl(&self) -> bool {
-        self.assume_speed.is_some() || self.assume_feed.is_some() || self.assume_end
+        self.assume_speed.is_some() || self.assume_feed.is_some() || self.assume_end || self.setup.is_some()
     }
 }
 

@@ -80,5 +80,9 @@ pub fn tilt(axis: [f64; 3]) -> Done {
     }
     let [i, j, k] = axis;
     let message = format!("the tool is tilted to {i:.6}, {j:.6}, {k:.6}, and a form has no words for that");
-    fault(Code::PR008, message, "render the parts of the job that keep the tool upright")
+    fault(
+        Code::PR008,
+        message,
+        "take one setup of a CL file by `--setup N` (`check` lists them), or render the parts that keep the tool upright",
+    )
 }

@@ -1,0 +1,194 @@
+//! Setups of a file whose tool points several ways. The part is turned by hand between them, so each is a job of its own, in
+//! a frame whose z is its tool axis.
+
+use std::fmt;
+
+use super::arcs::cross;
+use super::fault::{Done, fault};
+use super::job::Job;
+use crate::diag::Code;
+
+/// Components of unit vectors that differ by less are one.
+const SAME: f64 = 1e-6;
+/// A coordinate system belongs to an axis that differs from its z by less.
+const LIKE: f64 = 1e-3;
+/// Most setups that are told apart: files of five axes have one for each motion.
+const MOST: usize = 1000;
+/// Most that a message names.
+const MOST_SAID: usize = 8;
+
+/// Motions of a file, one after the other, with one tool axis.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Setup {
+    /// The tool axis in the file's coordinates, a unit vector: the setup's z.
+    pub axis: [f64; 3],
+    /// The setup's x: of the file's CSYS with this z, else level and to the right of whoever looks along the tool.
+    pub x: [f64; 3],
+    /// Lines of its first and last motion.
+    pub lines: (u64, u64),
+    /// How many motions it has.
+    pub motions: u64,
+}
+
+impl fmt::Display for Setup {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [axis, x] =
+            [self.axis, self.x].map(|v| v.map(|c| (c * 1e6).round() / 1e6 + 0.0).map(|c| c.to_string()).join(" "));
+        let Setup { motions, lines: (first, last), .. } = self;
+        write!(f, "tool axis {axis}, its x is {x}, {motions} motions in lines {first} to {last}")
+    }
+}
+
+/// A frame of its own: its three directions in the file's coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Frame([[f64; 3]; 3]);
+
+impl Frame {
+    /// A vector of the file in this frame.
+    pub fn of(&self, vector: [f64; 3]) -> [f64; 3] {
+        self.0.map(|direction| direction.iter().zip(vector).map(|(a, b)| a * b).sum())
+    }
+}
+
+/// The setups so far, and which of them is read.
+#[derive(Debug)]
+pub(super) struct Setups {
+    /// Counted from 1; none where they are only listed.
+    chosen: Option<usize>,
+    found: Vec<Setup>,
+    /// x and z of the CSYS in force.
+    csys: Option<[[f64; 3]; 2]>,
+    /// Another setup came before this one, and this one has no motion yet.
+    pub is_fresh: bool,
+}
+
+impl Setups {
+    pub fn new(chosen: Option<usize>) -> Setups {
+        let mut setups = Setups { chosen, found: Vec::new(), csys: None, is_fresh: false };
+        setups.turn([0.0, 0.0, 1.0]);
+        setups
+    }
+
+    /// The tool axis is another one; a setup without a motion never was.
+    /// Answers whether another setup begins.
+    pub fn turn(&mut self, axis: [f64; 3]) -> bool {
+        if self.found.last().is_some_and(|last| last.motions == 0) {
+            self.found.pop();
+            self.is_fresh = false;
+        }
+        let is_last = |last: &Setup| last.axis.iter().zip(axis).all(|(a, b)| (a - b).abs() < SAME);
+        let begins = !self.found.last().is_some_and(is_last) && self.found.len() < MOST;
+        if begins {
+            // a file may begin with a cut
+            self.is_fresh = !self.found.is_empty();
+            self.found.push(Setup { axis, x: self.x_of(axis), lines: (0, 0), motions: 0 });
+        }
+        begins
+    }
+
+    /// CSYS: x and z of a coordinate system.
+    pub fn csys(&mut self, x: [f64; 3], z: [f64; 3]) {
+        self.csys = Some([x, z]);
+        if let Some(Setup { axis, .. }) = self.found.last().filter(|last| last.motions == 0) {
+            let axis = *axis;
+            self.turn(axis);
+        }
+    }
+
+    /// The x of a setup: the CSYS's where its z is the axis; else level, as Fanuc's G68.3 has it.
+    fn x_of(&self, axis: [f64; 3]) -> [f64; 3] {
+        if let Some([x, z]) = self.csys
+            && z.iter().zip(axis).all(|(a, b)| (a - b).abs() < LIKE)
+        {
+            // square to the axis that the motions have
+            return unit(cross(cross(axis, x), axis)).unwrap_or(x);
+        }
+        unit(cross([0.0, 0.0, 1.0], axis)).unwrap_or([1.0, 0.0, 0.0])
+    }
+
+    /// A motion at this line.
+    pub fn motion(&mut self, line: u64) {
+        if let Some(last) = self.found.last_mut() {
+            last.motions += 1;
+            self.is_fresh = false;
+            last.lines = (if last.motions == 1 { line } else { last.lines.0 }, line);
+        }
+    }
+
+    /// Is the setup of the motions that come the one that is read?
+    pub fn is_chosen(&self) -> bool {
+        self.chosen == Some(self.found.len())
+    }
+
+    /// Are they only listed?
+    pub fn are_listed(&self) -> bool {
+        self.chosen.is_none()
+    }
+
+    /// The file is read.
+    pub fn end(&self, job: &mut Job<'_>) -> Done {
+        let Some(chosen) = self.chosen else { return Ok(()) };
+        let found = self.found();
+        if (1..=found.len()).contains(&chosen) {
+            return job.finish();
+        }
+        let list: Vec<String> =
+            found.iter().take(MOST_SAID).enumerate().map(|(i, setup)| format!("{}: {setup}", i + 1)).collect();
+        let help = format!("it has {}: {}", found.len(), list.join("; "));
+        fault(Code::PL004, format!("the file has no setup {chosen}"), help)
+    }
+
+    /// Its frame.
+    pub fn frame(&self) -> Option<Frame> {
+        let Setup { axis, x, .. } = self.found.last()?;
+        Some(Frame([*x, cross(*axis, *x), *axis]))
+    }
+
+    /// Those that have motions.
+    pub fn found(&self) -> &[Setup] {
+        let moved = self.found.iter().rposition(|setup| setup.motions > 0).map_or(0, |last| last + 1);
+        &self.found[..moved]
+    }
+}
+
+fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+    let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+    (length > SAME).then(|| v.map(|c| c / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_that_nothing_moved_along_is_no_setup() {
+        let mut setups = Setups::new(Some(2));
+        setups.turn([1.0, 0.0, 0.0]);
+        setups.turn([0.0, 0.0, 1.0]);
+        setups.motion(5);
+        assert!(!setups.is_chosen());
+        setups.turn([0.0, -1.0, 0.0]);
+        setups.turn([0.0, 0.0, 1.0]);
+        setups.motion(6);
+        assert_eq!(setups.found().len(), 1);
+        setups.turn([0.0, -1.0, 0.0]);
+        assert!(setups.is_chosen());
+        setups.motion(7);
+        assert_eq!(setups.found()[1].to_string(), "tool axis 0 -1 0, its x is 1 0 0, 1 motions in lines 7 to 7");
+    }
+
+    #[test]
+    fn a_frame_turns_its_axis_upright() {
+        let mut setups = Setups::new(Some(1));
+        setups.turn([0.6, 0.0, 0.8]);
+        let frame = setups.frame().unwrap();
+        let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+        assert!(near(frame.of([0.6, 0.0, 0.8]), [0.0, 0.0, 1.0]));
+        // level: its x is the part's y
+        assert!(near(frame.of([0.0, 1.0, 0.0]), [1.0, 0.0, 0.0]));
+        // as the CAM system has it, where it says so
+        setups.csys([0.8, 0.0, -0.6], [0.6, 0.0, 0.8]);
+        assert!(near(setups.frame().unwrap().of([0.0, 1.0, 0.0]), [0.0, 1.0, 0.0]));
+    }
+}

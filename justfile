@@ -26,6 +26,10 @@ hunt-long:
 proof-cost:
     cargo build --release --bin postform --example floor
     benches/proof.py target/release/postform target/release/examples/floor
+# mutated jobs of all formats through their readers: a panic is printed with its seed
+readers count="1000000" seed="0":
+    git rev-parse --short HEAD; date -u +%F
+    cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin readers {{count}} {{seed}}
 
 # figures for docs/performance.md
 bench:

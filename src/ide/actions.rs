@@ -13,13 +13,13 @@ use crate::syntax::{Head, Line, Tail};
 pub struct Action {
     /// In the imperative.
     pub title: String,
-    /// What it does.
+    /// What the action does.
     pub kind: Kind,
     /// The finding that it is about: its place in [`Document::findings`].
     pub finding: Option<usize>,
     /// The text that it changes.
     pub edits: Vec<(Span, String)>,
-    /// What it does to the program of the current job, where it does anything.
+    /// What the action does to the program of the current job, where it does anything.
     pub preview: Option<Preview>,
 }
 

@@ -39,7 +39,7 @@ pub enum What {
     Variable(VarId, Option<u8>),
     /// A code that is typed.
     Code(Code),
-    /// Another word that is typed, of this letter.
+    /// A typed word of this letter that is none of the others.
     Word(u8),
 }
 

@@ -23,7 +23,7 @@ pub struct Completion {
     pub replaces: Span,
     /// What is written there.
     pub text: String,
-    /// The same as a snippet of the Language Server Protocol, where there is something to fill in.
+    /// The completion as a snippet of the Language Server Protocol, where there is something to fill in.
     pub snippet: Option<String>,
 }
 

@@ -116,7 +116,7 @@ impl Current {
         self.proven.as_ref().map(|proven| &proven.verdict)
     }
 
-    /// How it came out, in a few words: `119 blocks, proven`.
+    /// How printing the job came out, in a few words: `119 blocks, proven`.
     pub fn outcome(&self) -> String {
         let blocks = match self.lines() {
             1 => "1 block".to_owned(),

@@ -10,7 +10,7 @@ pub struct Fold {
     pub first: u32,
     /// The last line.
     pub last: u32,
-    /// They are comments.
+    /// The folded lines are comments.
     pub comment: bool,
 }
 

@@ -9,7 +9,7 @@ use crate::span::Span;
 pub struct Hint {
     /// The word.
     pub span: Span,
-    /// What it printed in the first block of its line; empty where it was left out, because the control held it already.
+    /// What the line printed in its first block; empty where it was left out, because the control held it already.
     pub text: String,
 }
 

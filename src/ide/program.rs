@@ -13,13 +13,13 @@ use crate::span::Span;
 /// What a control says of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checked {
-    /// What it warns of, and what it refuses at the end.
+    /// What the control warns of, and what it refuses at the end.
     pub diags: Vec<Diag>,
     /// Blocks that were run.
     pub blocks: u64,
-    /// It refuses one: what stands behind that is not looked at.
+    /// The control refuses a block: what stands behind that is not looked at.
     pub refused: bool,
-    /// It was not run to its end, because that would take too long while somebody types.
+    /// The program was not run to its end, because that would take too long while somebody types.
     pub cut: bool,
 }
 

@@ -12,13 +12,13 @@ use crate::syntax::{Head, SequenceNode, Tail, parse};
 pub struct Symbol {
     /// As the form names it: `Drill`, `Upon [work]`, `Coolant`.
     pub name: String,
-    /// What it does, or what a command says.
+    /// What the symbol does, or what a command says.
     pub detail: String,
-    /// What it is.
+    /// What the symbol is.
     pub kind: Kind,
     /// The whole of it.
     pub span: Span,
-    /// Its name.
+    /// The name of the symbol in the text.
     pub name_span: Span,
 }
 
@@ -42,7 +42,7 @@ impl Document {
     }
 }
 
-/// The same of a form that is only read.
+/// Symbols of a form that is only read.
 pub fn symbols_of(form: &Source) -> Vec<Symbol> {
     parse(form, 0).items.iter().filter_map(symbol).collect()
 }

@@ -30,7 +30,7 @@ pub enum Kind {
     Variable,
     /// A G or M code.
     Code,
-    /// Another word that is typed.
+    /// A typed word that is none of the others.
     Word,
     /// A comment of the program.
     Note,

@@ -37,15 +37,15 @@ pub enum Kind {
 /// A move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
-    /// Its end, X Y Z in program coordinates and the picture's units; NaN where only the machine knows.
+    /// End of the move, X Y Z in program coordinates and the picture's units; NaN where only the machine knows.
     pub to: [f64; 3],
     /// Line of the program, from 1.
     pub line: u32,
-    /// Its arc in [`Picture::arcs`].
+    /// Arc of the move in [`Picture::arcs`].
     pub arc: u32,
     /// The tool, as a place in [`Picture::tools`].
     pub tool: u16,
-    /// What it is.
+    /// What the move is.
     pub kind: Kind,
     /// A canned cycle makes it.
     pub by_cycle: bool,
@@ -56,9 +56,9 @@ pub struct Move {
 pub struct Hole {
     /// Line of the program, from 1.
     pub line: u32,
-    /// Where it is drilled from, X Y Z.
+    /// Where the hole is drilled from, X Y Z in the picture's units.
     pub top: [f64; 3],
-    /// Its bottom, X Y Z.
+    /// Bottom of the hole, X Y Z in the picture's units.
     pub bottom: [f64; 3],
     /// The tool, as a place in [`Picture::tools`].
     pub tool: u16,

@@ -40,7 +40,8 @@ pub struct Change {
     pub line: u32,
     /// Which register.
     pub register: Register,
-    /// What it holds: the number of a code, or a value; NaN for nothing. The spindle and coolant are numbers of M codes.
+    /// What the register holds: the number of a code, or a value; NaN for nothing. The spindle and coolant are numbers
+    /// of M codes.
     pub value: f64,
 }
 

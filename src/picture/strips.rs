@@ -16,9 +16,9 @@ const MOST_PIECES: f64 = 20_000.0;
 /// A straight piece of a move; it begins at the point before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// Its end, X Y Z.
+    /// End of the piece, X Y Z in the picture's units.
     pub to: [f64; 3],
-    /// Its move, as a place in [`Picture::moves`].
+    /// Move of the piece, as a place in [`Picture::moves`].
     pub of: u32,
 }
 

@@ -5,14 +5,14 @@ use std::fmt::Write as _;
 use super::{Kind, Picture, Strips, View};
 use crate::diag::escaped;
 
-/// How it is drawn.
+/// How a picture is drawn.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// What it is called.
+    /// Title of the drawing.
     pub title: String,
     /// From where it is looked at.
     pub view: View,
-    /// Its width in pixels.
+    /// Width of the drawing in pixels.
     pub width: f64,
 }
 
@@ -53,7 +53,7 @@ pub fn svg(picture: &Picture, sheet: &Sheet) -> String {
     svg_over(None, picture, sheet)
 }
 
-/// The same over the picture of another program, which is drawn wide and grey.
+/// A picture over that of another program, which is drawn wide and grey.
 pub fn svg_over(old: Option<&Picture>, picture: &Picture, sheet: &Sheet) -> String {
     let strips = picture.strips();
     let old = old.map(|old| (old, old.strips()));

@@ -22,7 +22,7 @@ impl View {
     pub const ALL: [(View, &'static str); 5] =
         [(View::Top, "top"), (View::Front, "front"), (View::Side, "side"), (View::Iso, "iso"), (View::Lathe, "lathe")];
 
-    /// Its name.
+    /// Name of the view.
     pub fn name(self) -> &'static str {
         View::ALL.iter().find(|(view, _)| *view == self).map_or("", |(_, name)| name)
     }

@@ -34,7 +34,7 @@ pub struct Request<'a> {
     pub form: Source,
     /// The forms that it calls.
     pub files: &'a dyn Files,
-    /// Its limits.
+    /// Limits of the form.
     pub limits: Limits,
     /// What rules count as.
     pub levels: &'a Levels,
@@ -42,11 +42,11 @@ pub struct Request<'a> {
     pub job: Job<'a>,
     /// What the job is called.
     pub job_name: &'a str,
-    /// How it is printed.
+    /// How the job is printed.
     pub options: Options,
     /// How the program is run.
     pub proof: Proof,
-    /// Another program of this job, by its name: it is shown under the new one.
+    /// Another program of the job, with its name: it is shown under the new one.
     pub against: Option<(&'a str, &'a [u8])>,
     /// The form as it was saved and those that it calls, where they are others: its program is compared with the new one.
     pub saved: Option<(Source, &'a dyn Files)>,

@@ -24,7 +24,7 @@ pub fn references(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<
     spans.into_iter().filter_map(|span| location(server, &view, span)).collect()
 }
 
-/// The same within the open text.
+/// The same name at all its places within the open text.
 pub fn highlights(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<lsp::DocumentHighlight> {
     let Some(view) = server.view(&at.text_document.uri) else { return Vec::new() };
     let place = offset(view.source(), at.position);

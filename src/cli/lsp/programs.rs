@@ -64,7 +64,7 @@ pub struct ProgramParams {
     /// Which of its jobs, from 0; else the current one.
     #[serde(default)]
     job: Option<usize>,
-    /// Another text of the form: what the committed one printed.
+    /// The text of the form, where it is not the open one: what the committed one printed.
     #[serde(default)]
     text: Option<String>,
 }
@@ -171,7 +171,7 @@ pub fn origin(server: &Server, text: &Text, number: u32) -> Option<Origin> {
     Some(Origin { form, item })
 }
 
-/// The same program, whatever its line ends.
+/// Are two programs the same, whatever their line ends?
 fn same_lines(one: &str, other: &str) -> bool {
     one.lines().eq(other.lines())
 }

@@ -44,15 +44,15 @@ pub struct Client {
     pub snippets: bool,
     /// Edits may be looked at before they are made.
     pub annotations: bool,
-    /// It opens a file that it is asked to show.
+    /// The editor opens a file that it is asked to show.
     pub shows: bool,
-    /// It asks for programs by `postform/program` itself, and needs no files of them.
+    /// The editor asks for programs by `postform/program` itself, and needs no files of them.
     pub virtual_programs: bool,
-    /// It tells of files that change on the disk, when it is asked to.
+    /// The editor tells of files that change on the disk, when it is asked to.
     pub watches: bool,
-    /// It asks for hints anew when it is told to.
+    /// The editor asks for hints anew when it is told to.
     pub refreshes_hints: bool,
-    /// It asks for lenses anew when it is told to.
+    /// The editor asks for lenses anew when it is told to.
     pub refreshes_lenses: bool,
 }
 

@@ -27,11 +27,11 @@ pub enum Kind {
 pub struct Text {
     /// As the editor names it.
     pub uri: Uri,
-    /// Its file, where it has one.
+    /// The file of the text, where it has one.
     pub path: Option<PathBuf>,
     /// How often it was changed, as the editor counts.
     pub version: i32,
-    /// What it is.
+    /// What the text is.
     pub kind: Kind,
     /// The text.
     pub source: Source,

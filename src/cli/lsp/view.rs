@@ -25,9 +25,9 @@ const LARGEST_JOB: u64 = 32 << 20;
 pub struct JobText {
     /// For people: `bracket`.
     pub name: String,
-    /// Its file.
+    /// The file of the job.
     pub path: PathBuf,
-    /// Its text; `Err`: why there is none.
+    /// The text of the job; `Err`: why there is none.
     pub bytes: Result<Vec<u8>, String>,
 }
 
@@ -131,7 +131,7 @@ impl View {
         (0..=self.jobs.len()).find_map(|job| self.printed(job))
     }
 
-    /// The same form and jobs, with another text for the file that is open.
+    /// A view of this form and these jobs, with another text for the file that is open.
     pub fn with_text(&self, text: &str) -> View {
         let changed = Changed::from([(self.source().name.clone(), text.to_owned())]);
         let document = Document::of(self.analyse(&changed), &self.config.levels);

@@ -39,7 +39,7 @@ impl Asked {
 pub struct Answer {
     /// 200, 404.
     pub status: u16,
-    /// Its `Content-Type`.
+    /// The `Content-Type` of the answer.
     pub kind: &'static str,
     /// What comes behind the head.
     pub body: Vec<u8>,

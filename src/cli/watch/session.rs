@@ -47,9 +47,9 @@ impl Ask {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {
-    /// Its name, as the scene gave it.
+    /// Name of the file, as the scene gave it.
     name: String,
-    /// Its text.
+    /// The text to save.
     text: String,
     /// What was on the disk when it was read.
     was: String,
@@ -57,9 +57,9 @@ pub struct Save {
 
 /// Why a form was not written.
 pub enum NotSaved {
-    /// It is none of the form's files.
+    /// The file is none of the form's.
     Unknown,
-    /// It was changed meanwhile, or can't be written as it is.
+    /// The file was changed meanwhile, or can't be written as it is.
     Conflict(String),
 }
 

@@ -26,6 +26,7 @@ hunt-long:
 proof-cost:
     cargo build --release --bin postform --example floor
     benches/proof.py target/release/postform target/release/examples/floor
+
 # mutated jobs of all formats through their readers: a panic is printed with its seed
 readers count="1000000" seed="0":
     git rev-parse --short HEAD; date -u +%F

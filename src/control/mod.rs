@@ -107,32 +107,21 @@ fn replace(rows: &mut Vec<Row>, row: Row, key: impl Fn(&Row) -> (u8, u16)) {
     }
 }
 
-/// Files that come with the program.
-const FILES: [(&str, &str); 7] = [
-    ("fanuc", include_str!("../../controls/fanuc.toml")),
-    ("haas", include_str!("../../controls/haas.toml")),
-    ("fadal", include_str!("../../controls/fadal.toml")),
-    ("linuxcnc", include_str!("../../controls/linuxcnc.toml")),
-    ("emc2", include_str!("../../controls/emc2.toml")),
-    ("grbl", include_str!("../../controls/grbl.toml")),
-    ("pathpilot", include_str!("../../controls/pathpilot.toml")),
-];
+macro_rules! shipped {
+    ($($name:literal)*) => {
+        /// Files that come with the program.
+        const FILES: [(&str, &str); [$($name),*].len()] =
+            [$(($name, include_str!(concat!("../../controls/", $name, ".toml")))),*];
 
-static CONTROLS: [LazyLock<Control>; FILES.len()] = [
-    LazyLock::new(|| shipped(0)),
-    LazyLock::new(|| shipped(1)),
-    LazyLock::new(|| shipped(2)),
-    LazyLock::new(|| shipped(3)),
-    LazyLock::new(|| shipped(4)),
-    LazyLock::new(|| shipped(5)),
-    LazyLock::new(|| shipped(6)),
-];
-
-/// A file that comes with the program; a test reads them all.
-fn shipped(at: usize) -> Control {
-    let (name, text) = FILES[at];
-    Control::read(name, text).unwrap_or_else(|_| Control::empty())
+        /// Controls of the files, read when they are asked for; a test reads them all.
+        static CONTROLS: [LazyLock<Control>; FILES.len()] = [$(LazyLock::new(|| {
+            let text = include_str!(concat!("../../controls/", $name, ".toml"));
+            Control::read($name, text).unwrap_or_else(|_| Control::empty())
+        })),*];
+    };
 }
+
+shipped! { "fanuc" "haas" "fadal" "linuxcnc" "emc2" "grbl" "pathpilot" }
 
 /// Does a control's name mean a file that describes it?
 pub fn is_file(name: &str) -> bool {

@@ -4,6 +4,7 @@ use super::dialect::{Dialect, Sense};
 use super::fault::{Done, fault};
 use super::feed::{approach, feed_to_say};
 use super::state::{Arcs, Heading, PendingArc, State};
+use super::vector::{cross, dot};
 use super::words::{Word, numbers};
 use crate::diag::Code;
 use crate::toolpath::{Arc, Direction, Event, Plane, Units};
@@ -15,15 +16,6 @@ const ANGLE_OFF: f64 = 0.5;
 
 /// Cosine of the angle under which an arc still leaves the motion before it along its tangent: 8 degrees.
 const TANGENT: f64 = 0.99;
-
-/// The vector product.
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
 
 /// CIRCLE/x,y,z[,i,j,k][,r,..]: the centre, the axis; its end is the next GOTO.
 pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>) -> Done {

@@ -27,6 +27,7 @@ mod state;
 mod texts;
 mod tlon;
 mod tools;
+mod vector;
 mod words;
 
 pub use dialect::Dialect;

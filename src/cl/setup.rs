@@ -3,9 +3,9 @@
 
 use std::fmt;
 
-use super::arcs::cross;
 use super::fault::{Done, fault};
 use super::job::Job;
+use super::vector::cross;
 use crate::diag::Code;
 
 /// Components of unit vectors that differ by less are one.

@@ -1,8 +1,9 @@
 //! CATIA's arcs: INDIRV, then TLON,GOFWD.
 
-use super::arcs::{arc_event, cross};
+use super::arcs::arc_event;
 use super::fault::{Done, fault};
 use super::state::{Arcs, PendingArc, Shift, State};
+use super::vector::cross;
 use super::words::{Word, numbers};
 use crate::diag::Code;
 

@@ -627,8 +627,10 @@ fn a_setup_is_read_in_a_frame_of_its_own() {
     let front = [
         "G0 X10. Y5. Z30.",
         "G1 Z8. F100.",
-        "G17 G2 X20. Y5. I15. J5.",
-        "G98 G81 X30. Y5. Z-5. R2. F100.",
+        "G17 G2 X20. I5. J0",
+        "G0 X30.",
+        "Z2.",
+        "G99 G81 X30. Y5. Z-5. R2. F100.",
         "X40.",
         "G80",
         "G0 Z50.",
@@ -666,7 +668,7 @@ fn a_setup_lies_as_its_csys_does() {
     let text = TWO_SIDES.replace("RAPID\nGOTO/10,-30,5,0,-1,0", &format!("{csys}RAPID\nGOTO/10,-30,5,0,-1,0"));
     let front = front_of(&text, 2);
     assert_eq!(front[0], "G0 X-5. Y10. Z30.");
-    assert!(front.contains(&"G98 G81 X-5. Y30. Z-5. R2. F100.".to_owned()), "{front:?}");
+    assert!(front.contains(&"G99 G81 X-5. Y30. Z-5. R2. F100.".to_owned()), "{front:?}");
 }
 
 #[test]

@@ -210,7 +210,7 @@ fn frames_that_move_between_moves_are_followed() {
         "G1 Z-.1 F5.\nG52 X2. Z-1.\nG1 X1.\nG2 X3. I1. J0\nG0 Z2.\nG81 X4. Z.5 R1.1 F6.\nG80\nG52 X0 Z0\nG0 Z2.\nX1.",
     );
     let followed =
-        ["G1 Z-.1 F5.", "X3.", "G17 G2 X5. Y0 I1. J0", "G0 Z1.", "G98 G81 X6. Y0 Z-.5 R.1 F6.", "G80", "G0 Z2.", "X1."];
+        ["G1 Z-.1 F5.", "X3.", "G17 G2 X5. I1. J0", "G0 Z1.", "G98 G81 X6. Y0 Z-.5 R.1 F6.", "G80", "G0 Z2.", "X1."];
     assert_eq!(lines, followed);
     assert_eq!(path("G1 Z-.1 F5.\nG92 X5.\nG1 X6.\nG92 X0\nG1 X2."), ["G1 Z-.1 F5.", "X1.", "X3."]);
 }

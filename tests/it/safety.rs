@@ -252,7 +252,7 @@ fn other_units_need_a_printed_unit_code() {
 /// A comment can't end early and let its rest move the machine.
 #[test]
 fn comments_keep_their_marks() {
-    assert_eq!(path_lines("", "", "{\"comment\":\"a) G0 Z-9 (b\\u0007é%\"}"), ["(A] G0 Z-9 [B??_)"]);
+    assert_eq!(path_lines("", "", "{\"comment\":\"a) G0 Z-9 (b\\u0007é%\"}"), ["(A] G0 Z-9 [B?E_)"]);
     assert_eq!(path_lines("Comment ;", "", "{\"comment\":\"a (b)\"}"), [";A (B)"]);
 }
 

@@ -45,7 +45,7 @@ mod tests {
         for (text, ascii) in [
             ("Bohrung Ø5 – Maß ±0,1 90°", "Bohrung D5 - Mass +-0,1 90 deg"),
             ("Größe, ÄÖÜ, naïve, Łódź, Čeština, İstanbul", "Groesse, AeOeUe, naive, Lodz, Cestina, Istanbul"),
-            ("e\u{301}t\u{e9} „Zitat“ ½ € 25 µm 6×7", "ete ,,Zitat\" 1/2 EUR 25 um 6x7"),
+            ("e\u{301}t\u{e9} „Zitat“ ½ € 25 µm 6×7", "ete \"Zitat\" 1/2 EUR 25 um 6x7"),
             ("Отверстие 穴", "Otverstie Xue"),
             ("a\u{e000}b", "a_b"),
             ("plain", "plain"),

@@ -18,6 +18,11 @@ hunt jobs="1000000" programs="20000" seed="0":
     cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin jobs {{jobs}} {{seed}}
     cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin programs {{programs}} {{seed}}
 
+# the same for one kind of job: mill, rotary, subprograms, lathe, wire
+hunt-kind kind jobs="20000" programs="5000" seed="0":
+    cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin jobs {{jobs}} {{seed}} {{kind}}
+    cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin programs {{programs}} {{seed}} {{kind}}
+
 # ten million of them: a night
 hunt-long:
     just hunt 10000000 1000000

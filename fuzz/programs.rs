@@ -9,8 +9,8 @@ use std::time::Instant;
 
 use postform_fuzz::case::{Asked, Case, End};
 use postform_fuzz::forms::forms;
+use postform_fuzz::judge::Act;
 use postform_fuzz::judge::pair::{Class, difference};
-use postform_fuzz::judge::{Act, run};
 use postform_fuzz::mutate::{Mutant, mutant};
 use postform_fuzz::tally::Tally;
 
@@ -36,7 +36,7 @@ fn main() {
         if !proof.holds() {
             continue;
         }
-        let Ok(right) = run(&program, &case.form.control, case.job["units"] == "inch") else {
+        let Ok(right) = case.form.run(&program, case.job["units"] == "inch") else {
             hunt.tally.count("not run", case.form.name.clone());
             continue;
         };
@@ -70,7 +70,7 @@ impl Hunt {
         if !proof.holds() {
             return;
         }
-        let judged = run(&mutant.text, &case.form.control, case.job["units"] == "inch");
+        let judged = case.form.run(&mutant.text, case.job["units"] == "inch");
         let (class, why) = match judged.map(|acts| difference(right, &acts, 0.004)) {
             Ok(None) => return self.tally.count("quiet", format!("{}: does the same", proof.name())),
             Ok(Some((class, why))) => (Ok(class), why),

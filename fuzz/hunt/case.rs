@@ -6,7 +6,7 @@ use serde_json::Value;
 use crate::cl::for_cl;
 use crate::job::{Kind, job};
 use crate::judge::rs274::interpreted;
-use crate::judge::{Wanted, against, run, wants};
+use crate::judge::{Wanted, against, wants};
 use crate::prove::{Form, Proof, Said};
 use crate::random::Random;
 use crate::text::written;
@@ -119,7 +119,8 @@ impl<'f> Case<'f> {
     pub fn judged(&self, program: &str) -> Option<Result<(), String>> {
         let wants = self.wants()?;
         let inch = self.job["units"] == "inch";
-        let against = match run(program, &self.form.control, inch) {
+        let ran = self.form.run(program, inch);
+        let against = match ran {
             Err((line, why)) => Some(format!("line {line}: {why}")),
             Ok(mut acts) if self.form.renames => {
                 acts.iter_mut().for_each(|act| {

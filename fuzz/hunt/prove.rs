@@ -5,6 +5,7 @@ use postform::verify::Finding;
 use postform::{Error, Format, Job, NoFiles, Options, Post, Source, Verdict};
 
 use crate::job::{Kind, Takes};
+use crate::judge::{Act, lathe, run};
 
 /// A form that prints.
 pub struct Form {
@@ -20,6 +21,8 @@ pub struct Form {
     pub within: f64,
     /// The job's A is another letter of the program's.
     pub renames: bool,
+    /// X of a lathe counts diameters.
+    pub by_diameter: bool,
     post: Post,
 }
 
@@ -52,8 +55,20 @@ impl Form {
             takes: Takes { inch: inch.map(|(_, inch)| inch), customs: ["Custom1", "Custom2", "Custom3"].map(says) },
             within: if text.contains("X->5.>2") { 0.011 } else { 0.0035 },
             renames: says("Rename A B"),
+            by_diameter: !says("ByDiameter? N"),
             post,
         })
+    }
+
+    /// Runs a program of this form by the judge's own machine.
+    ///
+    /// # Errors
+    /// The line, and why it stops there.
+    pub fn run(&self, program: &str, inch: bool) -> Result<Vec<Act>, (usize, String)> {
+        match self.kinds.contains(&Kind::Lathe) {
+            true => lathe::run(program, self.by_diameter, inch),
+            false => run(program, &self.control, inch),
+        }
     }
 
     /// Prints a job.

@@ -10,7 +10,7 @@ use super::arcs::{Arcs, Tolerance};
 use super::code::Code;
 use super::hole::Hole;
 use super::meaning::Meaning;
-use super::traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, WithoutPoint};
+use super::traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, Turns, WithoutPoint};
 use super::words::Words;
 use super::{Control, Row, Rows};
 
@@ -49,6 +49,7 @@ struct File {
     title: Option<String>,
     like: Option<Spanned<String>>,
     rules: Option<Rules>,
+    machine: Option<Turns>,
     complete: Option<bool>,
     #[serde(default)]
     numbers: Numbers,
@@ -282,6 +283,7 @@ impl Reader<'_> {
             *to = said.unwrap_or(*to);
         }
         take(&mut traits.rules, file.rules);
+        take(&mut traits.turns, file.machine);
         traits.longest_line = file.text.line.or(traits.longest_line);
         take(&mut traits.stops_at_longer, file.text.longer.map(|longer| longer == Longer::Stops));
         take(&mut traits.complete, file.complete);

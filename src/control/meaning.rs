@@ -138,6 +138,7 @@ meanings! {
     PerRev           "per-rev"           Some(G::FeedMode), Free, "feeds are per revolution";
     SurfaceSpeed     "surface-speed"     Some(G::SpeedMode), Free, "S is a surface speed";
     Revolutions      "revolutions"       Some(G::SpeedMode), Free, "S is revolutions per minute";
+    SpeedLimit       "speed-limit"       None,            Data,   "S is the highest speed of the spindle";
     Work             "work"              Some(G::Work), Free,     "positions count from another work offset";
     ToInitial        "to-initial"        Some(G::Return), Free,   "cycles return to the initial level";
     ToR              "to-r"              Some(G::Return), Free,   "cycles return to the R plane";

@@ -19,7 +19,7 @@ pub use code::{Code, NoCode};
 pub use file::Wrong;
 pub use hole::Hole;
 pub use meaning::{AxisWords, Frame, GROUPS, Group, Meaning};
-pub use traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, WithoutPoint};
+pub use traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, Turns, WithoutPoint};
 pub use words::Words;
 
 /// A control.
@@ -121,7 +121,7 @@ macro_rules! shipped {
     };
 }
 
-shipped! { "fanuc" "haas" "fadal" "linuxcnc" "emc2" "grbl" "pathpilot" }
+shipped! { "fanuc" "fanuc-lathe" "haas" "haas-lathe" "fadal" "linuxcnc" "emc2" "grbl" "pathpilot" }
 
 /// Does a control's name mean a file that describes it?
 pub fn is_file(name: &str) -> bool {
@@ -190,6 +190,18 @@ impl Control {
 
     fn empty() -> Control {
         Control { chain: Vec::new(), title: String::new(), traits: Traits::default(), rows: Rows::default() }
+    }
+
+    /// The lathe of the same maker, where a file describes one: forms of lathes name it as they name the mill.
+    pub fn of_lathe(&'static self) -> &'static Control {
+        let lathe = |name: &String| Control::named(&format!("{name}-lathe"));
+        if self.is_lathe() { self } else { self.chain.iter().find_map(lathe).unwrap_or(self) }
+    }
+
+    /// Is it a lathe's?
+    #[inline]
+    pub fn is_lathe(&self) -> bool {
+        self.traits.turns == Turns::Part
     }
 
     /// Name of the control, as forms and options write it.

@@ -92,6 +92,18 @@ pub enum Kept {
     Lost,
 }
 
+/// What its spindle turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+pub enum Turns {
+    /// The tool, as of a mill.
+    #[default]
+    #[serde(rename = "mill")]
+    Tool,
+    /// The part: X is a diameter, U and W are increments, T changes the tool at once.
+    #[serde(rename = "lathe")]
+    Part,
+}
+
 /// What a control is besides its codes.
 #[derive(Clone, Debug, Default)]
 pub struct Traits {
@@ -133,6 +145,8 @@ pub struct Traits {
     pub no_mist: bool,
     /// How far an arc's numbers may be from one circle.
     pub arcs: Arcs,
+    /// What its spindle turns.
+    pub turns: Turns,
     /// All its codes are known: it refuses others.
     pub complete: bool,
 }

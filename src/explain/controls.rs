@@ -50,8 +50,11 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
         true => "refused",
         false => UNKNOWN,
     };
+    let axes = "X is a diameter, U and W are increments, and T changes the tool with its register";
+    let machine = if control.is_lathe() { format!("a lathe: {axes}") } else { "a mill".to_owned() };
     vec![
         ("programs", rules.to_owned()),
+        ("what it drives", machine),
         ("longest block", line),
         ("M codes in a block", if traits.one_m { "one" } else { UNKNOWN }.to_owned()),
         ("small letters", if traits.small_letters { "read" } else { "not to be counted on" }.to_owned()),

@@ -65,6 +65,8 @@ pub enum Action {
     Compensation(Option<(Side, Option<f64>)>),
     /// Surface speed instead of revolutions.
     SurfaceSpeed(Option<f64>),
+    /// Highest speed of the spindle.
+    SpeedLimit(f64),
     /// The coordinate frame was moved by G10, G52 or G92.
     Frame,
     /// A hole of a canned cycle; its moves follow.

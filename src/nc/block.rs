@@ -77,6 +77,11 @@ impl Block {
         self.g[group as usize].map(|row| row.code.tenths)
     }
 
+    /// What the G code of a group means.
+    pub fn g_meaning(&self, group: Group) -> Option<Meaning> {
+        self.g[group as usize].map(|row| row.meaning)
+    }
+
     /// Has the block G codes besides motions and cycles?
     #[inline]
     pub fn has_modes(&self) -> bool {

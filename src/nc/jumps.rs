@@ -300,6 +300,21 @@ impl<R: BufRead + Seek> Simulator<R> {
         }
     }
 
+    /// Passes over the programs before the main one.
+    pub(super) fn pass_programs(&mut self) -> Result<(), RunError> {
+        let mut left = std::mem::take(&mut self.passing);
+        while left > 0 {
+            if !self.read_line()? {
+                return self.go(Spot { byte: 0, line: 0 }); // they have no O words
+            }
+            if let Some((label, Step::Program)) = Flow::head(&self.line) {
+                self.labels.insert(label, self.at);
+                left -= 1;
+            }
+        }
+        Ok(())
+    }
+
     /// A subprogram of M98, which may stand behind the main program.
     pub(super) fn find(&mut self, label: String, times: u32) -> Result<(), RunError> {
         let back = self.at;

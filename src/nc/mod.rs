@@ -18,6 +18,7 @@ mod grbl;
 mod holes;
 mod job;
 mod jumps;
+mod lathe;
 mod modal;
 mod modes;
 mod motion;

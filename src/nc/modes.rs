@@ -6,15 +6,15 @@ use super::codes::{Group, bit, letters};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
-use crate::control::Rules;
+use crate::control::{Meaning, Rules};
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane, Units};
 
 impl State {
     pub(super) fn feed_mode(&mut self, block: &Block, out: &mut Out<'_>) {
-        let mode = match block.g(Group::FeedMode) {
-            Some(930) => FeedMode::InverseTime,
-            Some(950) => FeedMode::PerRev,
+        let mode = match block.g_meaning(Group::FeedMode) {
+            Some(Meaning::InverseTime) => FeedMode::InverseTime,
+            Some(Meaning::PerRev) => FeedMode::PerRev,
             _ => FeedMode::PerMinute,
         };
         // LinuxCNC forgets F at every such word, others where the mode changes
@@ -40,7 +40,8 @@ impl State {
                 let help = "write the dwell in a block of its own: X is its time, too";
                 return refuse(Code::PN004, "G4 and axis words in one block", help);
             }
-            let seconds = match (block.get(b'P'), block.get(b'X')) {
+            let time = block.get(b'X').or(block.get(b'U'));
+            let seconds = match (block.get(b'P'), time) {
                 (Some(p), _) => self.seconds(p, block),
                 (None, Some(x)) if !self.control.is_linuxcnc() => x,
                 _ => return refuse(Code::PN007, "G4 without its time", "write G4 P1. for a second"),

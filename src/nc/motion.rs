@@ -40,7 +40,19 @@ impl State {
         if block.polar != [None; 2] {
             self.polar(block, &mut to)?;
         }
+        if self.control.is_lathe() {
+            for (axis, place) in to.iter_mut().enumerate() {
+                *place += self.increment(block, axis).unwrap_or(0.0);
+            }
+        }
         Ok(to)
+    }
+
+    /// A lathe's word of an increment: U along X, as a diameter; W along Z.
+    pub(super) fn increment(&self, block: &Block, axis: usize) -> Option<f64> {
+        let letter = [b'U', b'V', b'W'].get(axis).filter(|_| self.control.is_lathe())?;
+        let value = block.get(*letter)?;
+        Some(if self.modes.diameter && axis == 0 { value / 2.0 } else { value })
     }
 
     /// Polar coordinates: `@` radius, `^` angle.

@@ -20,6 +20,7 @@ impl State {
                 Ok(())
             }
             Some(520 | 920..=923) => self.shift_frame(block, out),
+            Some(500) if block.has_axes() => self.shift_frame(block, out),
             _ => Ok(()),
         }
     }
@@ -110,7 +111,8 @@ impl State {
         if self.tool.side.is_some() {
             return refuse(Code::PN013, "G28 or G30 under cutter compensation", "end the compensation with G40 first");
         }
-        let named: u8 = (0..6).filter(|&axis| self.axis_word(block, axis).is_some()).map(|axis| 1 << axis).sum();
+        let is_named = |axis: usize| self.axis_word(block, axis).or(self.increment(block, axis)).is_some();
+        let named: u8 = (0..6).filter(|&axis| is_named(axis)).map(|axis| 1 << axis).sum();
         if named == 0 && !self.control.is_linuxcnc() {
             return refuse(Code::PN006, "G28 or G30 without axes", "write the axes that go home, as G91 G28 Z0");
         }

@@ -165,7 +165,7 @@ impl Block {
                 if self.given & at != 0 {
                     return twice(letter, column);
                 }
-                if at & letters("UVW") != 0 {
+                if at & letters("UVW") != 0 && !(control.is_lathe() && letter != b'V') {
                     let help = "axes are X Y Z A B C";
                     return Err(Fault::at(Code::PN016, column, format!("the word {}", char::from(letter)), help));
                 }

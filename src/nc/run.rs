@@ -88,7 +88,8 @@ impl State {
             Some(code) => code == 200,
             None => self.modes.units == Units::Inch,
         };
-        if block.g(Group::Other).is_some() || block.means(Meaning::Orient) {
+        let own = matches!(block.g_meaning(Group::Motion), Some(Meaning::ThreadCycle));
+        if own || block.g(Group::Other).is_some() || block.means(Meaning::Orient) {
             return Ok(()); // their words are no lengths
         }
         let cycle =
@@ -134,7 +135,7 @@ impl State {
                 let help = "write them in two blocks";
                 return refuse(Code::PN004, "two codes that both use the axis words", help);
             }
-            let needs_axes = is_cycle(code) || matches!(code, 330 | 331 | 760);
+            let needs_axes = is_cycle(code) || matches!(code, 330 | 331) || code == 760 && !self.control.is_lathe();
             if needs_axes && !block.has_axes() {
                 return refuse(Code::PN006, "the code needs axis words and has none", "write where, as X and Y");
             }
@@ -192,9 +193,11 @@ impl State {
             return self.fanuc_cycle(code, block, out);
         }
         match motion {
+            Some(760) if self.control.is_lathe() && !block.has_axes() => self.first_block(block),
             Some(_) if !block.has_axes() && !block.has(letters("IJKR")) => Ok(()),
             Some(code @ (0 | 10)) => self.straight(code, block, out),
             Some(code @ (20 | 30)) => self.arc(code, block, out),
+            Some(code @ (320 | 760 | 920)) if self.control.is_lathe() => self.lathe_thread(code, block, out),
             _ => Ok(()),
         }
     }

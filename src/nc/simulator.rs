@@ -68,6 +68,8 @@ pub struct Simulator<R> {
     /// The block has more to do.
     unfinished: bool,
     blocks: u64,
+    /// O words to pass over before the first block.
+    pub(super) passing: usize,
 }
 
 impl<R: BufRead + Seek> Simulator<R> {
@@ -92,12 +94,31 @@ impl<R: BufRead + Seek> Simulator<R> {
             repeated: 0,
             unfinished: false,
             blocks: 0,
+            passing: 0,
         }
     }
 
     /// The program counts in these units until it says others; before the first block.
     pub fn begin_in(&mut self, units: crate::toolpath::Units) {
         self.state.begin_in(units);
+    }
+
+    /// So many programs stand before the main one, as subprograms that the control knows; before the first block.
+    pub fn begin_behind(&mut self, programs: usize) {
+        self.passing = if programs == 0 { 0 } else { programs + 1 };
+    }
+
+    /// The program is a lathe's, and its control is the lathe of its maker; before the first block. Whether X is a diameter is
+    /// a parameter of such a machine; LinuxCNC says it by G7.
+    pub fn is_of_lathe(&mut self, by_diameter: bool) {
+        let units = self.state.units();
+        let control = self.state.settings.control.of_lathe();
+        self.state = State::new(RunSettings { control, ..self.state.settings });
+        self.state.begin_in(units);
+        if control.is_lathe() {
+            self.state.modes.diameter = by_diameter;
+        }
+        self.parameters = Parameters::new(control);
     }
 
     /// The state of the control.
@@ -157,6 +178,9 @@ impl<R: BufRead + Seek> Simulator<R> {
     pub fn step(&mut self, items: &mut Vec<Item>) -> Result<bool, RunError> {
         if self.over {
             return Ok(false);
+        }
+        if self.passing > 0 {
+            self.pass_programs()?;
         }
         if !self.unfinished && !self.read_line()? {
             return self.at_end().map_err(|fault| self.refused(fault));

@@ -4,6 +4,7 @@ use super::action::{Position, Rotation};
 use super::block::Block;
 use super::fault::{Done, refuse};
 use super::holes::Holes;
+use super::lathe::Threads;
 use super::place::Place;
 use super::settings::RunSettings;
 use crate::control::{Control, Rules};
@@ -23,6 +24,8 @@ pub struct State {
     pub(super) drive: Drive,
     pub(super) tool: Tool,
     pub(super) holes: Holes,
+    /// Threads of a lathe: what is kept from block to block.
+    pub(super) threads: Threads,
     /// Warnings of the block: what a machinist should know though the control does it.
     pub(super) warnings: Vec<(Code, &'static str)>,
 }
@@ -93,19 +96,20 @@ impl State {
             control,
             modes: Modes {
                 motion: if control.rules() == Rules::Grbl { 0 } else { NO_MOTION },
-                plane: Plane::Xy,
+                plane: if control.is_lathe() { Plane::Xz } else { Plane::Xy },
                 units: settings.units,
                 absolute: true,
                 centers_absolute: settings.centers_absolute,
                 feed_mode: FeedMode::PerMinute,
                 to_initial: !control.is_linuxcnc(),
-                diameter: false,
+                diameter: control.is_lathe(),
             },
             place: Place::new(
                 if settings.places_unknown { 0b111 } else { 0 },
                 control.traits().work_letter.is_none().then_some(54.0),
             ),
             drive: Drive { feed: 0.0, spindle: Rotation::Stop, speed: 0.0 },
+            threads: Threads::default(),
             tool: Tool::default(),
             holes: Holes::default(),
             warnings: Vec::new(),

@@ -43,7 +43,10 @@ impl State {
                     "write the speed without the minus, the direction as M3 or M4",
                 );
             }
-            self.drive.speed = speed;
+            match block.g_meaning(Group::Once) {
+                Some(Meaning::SpeedLimit) => out.push(Action::SpeedLimit(speed)),
+                _ => self.drive.speed = speed,
+            }
         }
         match block.g(Group::SpeedMode) {
             Some(960) => out.push(Action::SurfaceSpeed(Some(block.get(b'D').unwrap_or(0.0)))),
@@ -55,6 +58,9 @@ impl State {
                 return refuse(Code::PN018, format!("T{tool} is no tool"), "tools are whole numbers");
             }
             self.tool.number = Some(tool);
+            if self.control.is_lathe() {
+                self.turn_turret(tool, out);
+            }
         }
         if block.means(Meaning::ToolChange) {
             self.change_tool(out)?;
@@ -92,7 +98,8 @@ impl State {
         if let Some(code) = block.g(Group::Other) {
             out.push(Action::LeftOut(b'G', code));
         }
-        if speed.is_some() && !turned {
+        let limits = block.g_meaning(Group::Once) == Some(Meaning::SpeedLimit);
+        if speed.is_some() && !turned && !limits {
             out.push(Action::Spindle(self.drive.spindle, self.drive.speed));
         }
         Ok(())
@@ -145,7 +152,7 @@ impl State {
             _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.number),
             _ => self.tool.diameter_register,
         };
-        if register.is_none() && !self.control.is_linuxcnc() {
+        if register.is_none() && !self.control.is_linuxcnc() && !self.control.is_lathe() {
             let help = "write D with the tool's register: G41 D1";
             return refuse(Code::PN007, "cutter compensation without D", help);
         }

@@ -3,7 +3,7 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{ALL, Cut, What, same, shown};
-use super::intended::Done;
+use super::intent::Done;
 use super::state::Sides;
 use super::states;
 use crate::diag::Code;

@@ -3,7 +3,7 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, number, over, same, shown};
-use super::intended::{Done, Expected};
+use super::intent::{Done, Expected};
 use super::state::Sides;
 use super::{pauses, states, ways};
 use crate::diag::Code;
@@ -108,7 +108,7 @@ fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Opt
         let message = format!("a feed move goes to {}, where the job has a rapid", shown(&found_end, 0b111));
         return s.differs(Code::PV008, line, message, "print the rapid code (G0) for this move");
     }
-    if found.by_cycle && hole.is_none() {
+    if found.by_cycle && found.lead.is_none() && hole.is_none() {
         let place = over(&found.from);
         let message = format!("the canned cycle is still in force: it drills at {place}, where the job has no hole");
         return s.differs(Code::PV013, line, message, "end the cycle: print G80 in Cancel, and `End Cancel`");

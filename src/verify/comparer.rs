@@ -4,14 +4,15 @@ use std::io::{BufRead, Seek};
 
 use super::cut::{ACROSS, ALL, Cut, Rapid, What, distance, over, same, shown};
 use super::expectation::Expectation;
-use super::intended::{Done, Expected, Intent, Job};
+use super::intended::Job;
+use super::intent::{Done, Expected, Intent, Threaded};
 use super::passage::{Frame, Passage};
 use super::program::Program;
 use super::report::{Counts, Report};
 use super::state::{Holes, Limits, Sides};
 use super::tables::PLACES;
 use super::verdict::{Equivalences, Unproven, Verdict};
-use super::{arcs, begin, holes, lines, pauses, ways};
+use super::{arcs, begin, holes, lines, pauses, threads, ways};
 use crate::diag::{Code, Diag};
 use crate::nc::RunSettings;
 use crate::render::TraceLine;
@@ -23,6 +24,8 @@ use crate::toolpath::{self, Event, Flow, Sink, Stop, StopKind, Units};
 pub struct Comparer<R> {
     job: Job,
     sides: Sides<R>,
+    /// The first operation has begun.
+    begun: bool,
 }
 
 impl<R: BufRead + Seek> Comparer<R> {
@@ -35,6 +38,7 @@ impl<R: BufRead + Seek> Comparer<R> {
         let frame = Frame { tool: None, work: job.state.work };
         Comparer {
             job,
+            begun: false,
             sides: Sides {
                 program,
                 job: Passage::new(None, frame),
@@ -46,6 +50,7 @@ impl<R: BufRead + Seek> Comparer<R> {
                 slipped: None,
                 slips: 0,
                 tools,
+                lathe: false,
                 typed,
                 report: Report::default(),
                 failure: None,
@@ -108,6 +113,9 @@ impl<R: BufRead + Seek> Sink for Comparer<R> {
     /// Has seen enough when nothing more can be compared: [`Comparer::verdict`] tells why.
     fn event(&mut self, event: Event<'_>, place: toolpath::Place) -> Flow {
         self.sides.report.place = place;
+        if matches!(event, Event::ToolChange(_)) && !std::mem::replace(&mut self.begun, true) {
+            self.sides.program.begin_behind(self.job.subprograms_first());
+        }
         let Err(diag) = self.job.event(event, &mut self.sides) else { return Flow::Continue(()) };
         if diag.code == Code::PV020 {
             let help = diag.help.clone().unwrap_or_default();
@@ -225,6 +233,23 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         if tool {
             self.hole.last = None;
         }
+    }
+
+    fn thread(&mut self, cut: &Cut, thread: &Threaded) -> Done {
+        threads::thread(self, cut, thread)
+    }
+
+    fn is_of_lathe(&mut self, by_diameter: bool) {
+        self.lathe = true;
+        self.program.is_of_lathe(by_diameter);
+    }
+
+    fn place(&self) -> toolpath::Place {
+        self.report.place
+    }
+
+    fn comes_from(&mut self, place: toolpath::Place) {
+        self.report.place = place;
     }
 
     fn finish(&mut self) -> Done {

@@ -76,6 +76,8 @@ pub(super) struct State {
     pub diameter: Option<f64>,
     /// The speed is a surface speed.
     pub css: bool,
+    /// Highest revolutions, which a surface speed comes to near the axis.
+    pub limit: Option<f64>,
     /// The plane that compensation is in.
     pub plane: Plane,
     /// The control keeps feed and spindle in step.
@@ -91,6 +93,8 @@ pub(super) struct Cut {
     pub what: What,
     pub feed: Option<f64>,
     pub mode: FeedMode,
+    /// It follows the spindle, by so much a turn.
+    pub lead: Option<f64>,
     pub state: State,
     /// A canned cycle of the control makes it.
     pub by_cycle: bool,
@@ -121,6 +125,8 @@ impl Cut {
 
 /// The axes as bits.
 pub(super) const ALL: u8 = 0b11_1111;
+/// The axis across a lathe's part, as an index: the radius.
+pub(super) const RADIUS: usize = 0;
 /// The axis along which holes go, as an index.
 pub(super) const DEPTH: usize = 2;
 /// All but the depth.

@@ -35,6 +35,10 @@ pub struct Expectation {
     pub rigid_tap: Option<bool>,
     /// The form types M29, which makes its taps rigid: without it they are not.
     pub types_m29: bool,
+    /// A lathe's X is a diameter.
+    pub by_diameter: bool,
+    /// Subprograms stand before the main program.
+    pub subs_first: bool,
     /// Feeds that the form types itself.
     pub feeds: Vec<f64>,
     /// Speeds that the form types itself.
@@ -57,6 +61,8 @@ impl Default for Expectation {
             coolant: [8.0, 9.0, 7.0],
             rigid_tap: None,
             types_m29: false,
+            by_diameter: true,
+            subs_first: false,
             feeds: Vec::new(),
             speeds: Vec::new(),
         }
@@ -80,6 +86,8 @@ impl Expectation {
             axes: rotary_axes(&settings.rename),
             coolant: settings.coolant,
             rigid_tap: settings.rigid_tap.then_some(true),
+            by_diameter: settings.by_diameter,
+            subs_first: settings.subs_first,
             ..Expectation::default()
         }
     }

@@ -3,7 +3,7 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell, shown};
-use super::intended::{Done, Expected};
+use super::intent::{Done, Expected};
 use super::state::Sides;
 use super::states;
 use super::tables::{LEFT, LONGER};

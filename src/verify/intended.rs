@@ -2,65 +2,19 @@
 
 use super::cut::{Cut, Place, Rapid, Spin, State, What};
 use super::expectation::Expectation;
+use super::intent::{Done, Intent, unproven};
 use super::passage::Frame;
+use super::subprograms::Subprograms;
 use super::tables::Unmodelled;
 use crate::control::{Control, Group, Meaning};
 use crate::cycle::{Steps, check};
-use crate::diag::{Code, Diag};
+use crate::diag::Diag;
 use crate::lang::{Machine, work_code};
 use crate::nc::{Cooling, Kind, Rotation, Turn, tokens};
 use crate::toolpath::{
-    Arc, Axes, CycleSpec, Direction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start, StopKind,
+    Arc, Axes, CycleSpec, Direction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start, StopKind, Tool,
     ToolChange, Units,
 };
-
-/// What the job's side tells, in the order of its motions.
-pub(super) trait Intent {
-    /// Units of the job, and how far lines may leave an arc in them.
-    fn units(&mut self, units: Units, chord: f64);
-    /// A rapid.
-    fn rapid(&mut self, rapid: Rapid) -> Done;
-    /// A cut.
-    fn cut(&mut self, cut: &Cut, hole: Option<&Expected>) -> Done;
-    /// A rapid that may feed, as it turns compensation on or off.
-    fn rapid_or_feed(&mut self, cut: &Cut) -> Done;
-    /// A dwell in seconds; not a number: of any length.
-    fn wait(&mut self, seconds: f64, hole: bool);
-    /// A stop.
-    fn stop(&mut self, kind: StopKind);
-    /// The moves of a hole begin.
-    fn hole_begins(&mut self, hole: &Expected);
-    /// The moves of a hole end.
-    fn hole_ends(&mut self, hole: &Expected) -> Done;
-    /// The tool or the work offset changes: places are others from here on. `length`: the tool's register.
-    fn changed(&mut self, frame: Frame, length: Option<f64>, tool: bool);
-    /// The job is over.
-    fn finish(&mut self) -> Done;
-}
-
-/// What goes well, or a finding that ends the comparison.
-pub(super) type Done<T = ()> = Result<T, Box<Diag>>;
-
-/// What a hole must be.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Expected {
-    /// The place over the hole.
-    pub at: Place,
-    /// Where the feed begins.
-    pub plane: f64,
-    pub bottom: f64,
-    pub dwell: Option<f64>,
-    /// The hole may be made in other pecks.
-    pub pecks: bool,
-    /// The tool comes out of the hole between pecks.
-    pub retracts: bool,
-    /// A tap: feed and speed are its pitch.
-    pub is_tap: bool,
-    /// The hole may be left at feed farther up than the job does.
-    pub feeds_out: bool,
-    /// The moves of the hole are known to the form alone.
-    pub custom: bool,
-}
 
 /// An open cycle.
 pub(super) struct Open {
@@ -80,11 +34,15 @@ pub(super) struct Job {
     pub(super) feed: Option<f64>,
     pub(super) mode: FeedMode,
     pub state: State,
-    css: bool,
+    pub(super) css: bool,
     pub(super) cycle: Option<Open>,
     diameter: Option<f64>,
     pub(super) steps: Steps,
     compensation: bool,
+    lathe: bool,
+    /// The tool by the job's number.
+    tool: Option<f64>,
+    pub(super) subprograms: Subprograms,
 }
 
 impl Job {
@@ -105,6 +63,9 @@ impl Job {
             diameter: None,
             steps: Steps::default(),
             compensation: false,
+            lathe: false,
+            tool: None,
+            subprograms: Subprograms::default(),
         }
     }
 
@@ -114,6 +75,11 @@ impl Job {
     /// What can't be proven; what the intent found.
     pub fn event(&mut self, event: Event<'_>, to: &mut impl Intent) -> Done {
         self.order.follow(&event)?;
+        if self.subprograms.hold(&event, to.place())? { Ok(()) } else { self.act(event, to) }
+    }
+
+    /// Does what an event asks for.
+    pub(super) fn act(&mut self, event: Event<'_>, to: &mut impl Intent) -> Done {
         match event {
             Event::Start(start) => self.start(start, to),
             Event::ToolChange(change) => self.tool_change(change, to),
@@ -175,17 +141,28 @@ impl Job {
             }
             Event::Text(text) => self.text(text, to),
             Event::Tilt(_) => unproven(Unmodelled::Tilted),
-            Event::SubStart(_) | Event::SubCall(_) => unproven(Unmodelled::Subprograms),
+            Event::SubCall(call) => self.call(call, to),
+            Event::Thread(thread) if self.lathe => self.thread(thread, to),
             Event::Thread(_) => unproven(Unmodelled::Threads),
             Event::Edm(_) => unproven(Unmodelled::Wire),
-            Event::Begin(_) | Event::End(_) | Event::Comment(_) | Event::Set(..) | Event::SubEnd => Ok(()),
+            Event::Begin(_)
+            | Event::End(_)
+            | Event::Comment(_)
+            | Event::Set(..)
+            | Event::SubStart(_)
+            | Event::SubEnd => Ok(()),
             Event::Finish => to.finish(),
         }
     }
 
     fn start(&mut self, start: &Start, to: &mut impl Intent) -> Done {
-        if start.machine != Machine::Mill {
+        if start.machine == Machine::Edm {
             return unproven(Unmodelled::Machine);
+        }
+        self.lathe = start.machine == Machine::Lathe;
+        self.state.plane = if self.lathe { Plane::Xz } else { Plane::Xy };
+        if self.lathe {
+            to.is_of_lathe(self.expectation.by_diameter);
         }
         self.units = Some(start.units);
         to.units(start.units, self.expectation.chord[usize::from(start.units == Units::Mm)]);
@@ -193,12 +170,17 @@ impl Job {
     }
 
     fn tool_change(&mut self, change: &ToolChange, to: &mut impl Intent) -> Done {
-        if let Some(tool) = change.tool.as_ref().filter(|tool| self.state.tool != Some(tool.number)) {
+        if let Some(tool) = change.tool.as_ref().filter(|tool| self.tool != Some(tool.number)) {
+            self.tool = Some(tool.number);
             self.state.tool = Some(tool.number);
             let [length, diameter] =
                 self.expectation.registers.map_or([None; 2], |by| by.map(|by| Some(tool.number + by)));
             self.state.length = tool.length_offset.or(length).filter(|_| self.expectation.tools);
-            self.diameter = tool.diameter_offset.or(diameter);
+            self.diameter = tool.diameter_offset.or(diameter).filter(|_| !self.lathe);
+            if self.lathe && self.control.of_lathe().is_lathe() {
+                let [number, register] = turret(tool, length);
+                (self.state.tool, self.state.length) = (number, register);
+            }
             (self.state.speed, self.state.rotation) = (None, None);
             self.state.coolant = Some(Cooling::Off);
             self.at = Axes { given: self.at.given & !0b111, ..self.at };
@@ -218,8 +200,12 @@ impl Job {
         Ok(())
     }
 
-    fn work(&mut self, work: f64, to: &mut impl Intent) {
-        let work = work_code(self.expectation.first_work, work);
+    pub(super) fn work(&mut self, work: f64, to: &mut impl Intent) {
+        self.work_is(work_code(self.expectation.first_work, work), to);
+    }
+
+    /// The work offset by its code.
+    pub(super) fn work_is(&mut self, work: Option<f64>, to: &mut impl Intent) {
         if std::mem::replace(&mut self.state.work, work) != work {
             self.changed(false, to);
         }
@@ -260,15 +246,36 @@ impl Job {
     }
 
     fn spindle(&mut self, spindle: &Spindle) {
-        self.css = spindle.css.unwrap_or(self.css);
+        let counts = spindle.css.unwrap_or(self.css);
+        if counts != self.css {
+            self.state.speed = None;
+        }
+        self.css = counts;
         self.state.css = self.css;
+        self.state.limit = spindle.max.or(self.state.limit);
         if let Some(turn) = spindle.turn {
             self.state.rotation = Some(rotation(turn));
         }
-        self.state.speed = spindle.speed.or(self.state.speed).filter(|_| !self.css);
+        self.state.speed = spindle.speed.or(self.state.speed);
+    }
+
+    /// A place of the job: a lathe's are Z and radius.
+    pub(super) fn place(&self, to: &Axes) -> Axes {
+        if !self.lathe {
+            return *to;
+        }
+        let [z, x, y, a, b, c] = to.values;
+        let moved = (to.given & 0b001) << 2 | (to.given & 0b010) >> 1 | (to.given & 0b100) >> 1;
+        Axes { values: [x, y, z, a, b, c], given: to.given & !0b111 | moved }
+    }
+
+    /// Axes whose place nobody said.
+    fn unknown(&self) -> u8 {
+        !self.at.given & if self.lathe { 0b101 } else { 0b111 }
     }
 
     pub(super) fn target(&self, to: &Axes) -> Axes {
+        let to = self.place(to);
         let mut target = self.at;
         for axis in 0..6 {
             if let Some(value) = to.get(axis) {
@@ -279,16 +286,17 @@ impl Job {
     }
 
     pub(super) fn rapid_to(&self, to: Place, spin: Option<Spin>) -> Rapid {
-        Rapid { to, unknown: !self.at.given & 0b111, spin }
+        Rapid { to, unknown: self.unknown(), spin }
     }
 
     pub(super) fn cut(&self, what: What) -> Cut {
         Cut {
             from: self.at.values,
-            unknown: !self.at.given & 0b111,
+            unknown: self.unknown(),
             what,
             feed: self.feed,
             mode: self.mode,
+            lead: None,
             state: self.state,
             by_cycle: false,
             line: 0,
@@ -320,10 +328,12 @@ impl Job {
     fn arc(&mut self, arc: &Arc, to: &mut impl Intent) -> Done {
         let target = self.target(&arc.to);
         let from = self.at.values;
-        let [first, second, _] = crate::nc::axes_of(arc.plane);
+        let plane = if self.lathe { Plane::Xz } else { arc.plane };
+        let [first, second, _] = crate::nc::axes_of(plane);
         let mut center = [from[0], from[1], from[2]];
         match (arc.center, arc.radius) {
             (Some(at), _) => {
+                let at = self.place(&at);
                 for axis in [first, second] {
                     center[axis] = at.get(axis).unwrap_or(from[axis]);
                 }
@@ -339,19 +349,11 @@ impl Job {
             }
             (None, None) => return unproven(Unmodelled::ArcWithout),
         }
-        let (plane, direction): (Plane, Direction) = (arc.plane, arc.direction);
+        let direction = arc.direction;
         let turn =
             Turn { to: target.values, center, plane, direction, turns: arc.turns, feed: self.feed.unwrap_or(0.0) };
         self.cut_to(target, What::Arc(turn), to)
     }
-}
-
-/// Something whose motions are not known well enough to prove them.
-pub(super) fn unproven<T>(what: Unmodelled) -> Done<T> {
-    Err(Box::new(
-        Diag::new(Code::PV020, what.why())
-            .help("docs/verify.md lists what is not proven; prove the rest as a job of its own"),
-    ))
 }
 
 /// A dwell of no length is none.
@@ -366,5 +368,16 @@ pub(super) fn rotation(turn: SpindleTurn) -> Rotation {
         SpindleTurn::Cw => Rotation::Cw,
         SpindleTurn::Ccw => Rotation::Ccw,
         SpindleTurn::Off => Rotation::Stop,
+    }
+}
+
+/// A lathe's tool as T names it: its place in the turret, and its register in the last two digits.
+fn turret(tool: &Tool, register: Option<f64>) -> [Option<f64>; 2] {
+    const STATIONS: f64 = 100.0;
+    let whole = tool.number >= STATIONS;
+    match tool.length_offset {
+        None if whole => [Some((tool.number / STATIONS).trunc()), Some(tool.number % STATIONS)],
+        own if whole => [Some((tool.number / STATIONS).trunc()), own.map(|own| own % STATIONS)],
+        own => [Some(tool.number), own.or(register).or(Some(tool.number))],
     }
 }

@@ -3,7 +3,7 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, lies_between, number, over, same, shown, turn_as_far};
-use super::intended::{Done, Expected};
+use super::intent::{Done, Expected};
 use super::state::Sides;
 use super::states;
 use crate::diag::Code;

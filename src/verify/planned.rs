@@ -1,7 +1,8 @@
 //! The job's holes: the steps that its cycles plan.
 
 use super::cut::{DEPTH, Spin, What};
-use super::intended::{Done, Expected, Intent, Job, rotation, unproven, wait};
+use super::intended::{Job, rotation, wait};
+use super::intent::{Done, Expected, Intent, unproven};
 use super::tables::Unmodelled;
 use crate::cycle::{Plan, Step, plan};
 use crate::diag::Diag;
@@ -11,6 +12,7 @@ use crate::toolpath::{Axes, CycleKind, FeedMode, Hole, StopKind, Units, impossib
 impl Job {
     /// A hole of the open cycle.
     pub(super) fn hole(&mut self, hole: &Hole, to: &mut impl Intent) -> Done {
+        let at = self.place(&hole.at);
         let Some(open) = &mut self.cycle else { return impossible("a hole outside a cycle") };
         let defaults = self.expectation.defaults[usize::from(self.units == Some(Units::Mm))];
         let rpm = self.state.speed;
@@ -18,7 +20,7 @@ impl Job {
         if self.mode == FeedMode::PerRev {
             planes.lead = Some(planes.feed);
         }
-        let Some(point) = hole.at.get(DEPTH).or(open.point) else { return unproven(Unmodelled::HoleWithout) };
+        let Some(point) = at.get(DEPTH).or(open.point) else { return unproven(Unmodelled::HoleWithout) };
         open.point = Some(point);
         let clear = point + planes.clear;
         let first = open.spec.return_height.map(|height| *open.first_return.get_or_insert(point + height));

@@ -7,10 +7,11 @@ use super::expectation::Expectation;
 use super::finding::Finding;
 use super::passage::{Frame, Passage};
 use super::recent::Recent;
+use super::scale::Scale;
 use crate::control::{Control, Meaning, Rules};
 use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator};
-use crate::toolpath::{self, FeedMode, StopKind, Units};
+use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
 
 /// What the program has not said yet, and what was told of that.
 #[derive(Clone, Copy, Debug)]
@@ -19,41 +20,6 @@ struct Due {
     lengths: bool,
     length_told: bool,
     units: bool,
-}
-
-/// How the numbers of the program become the job's.
-#[derive(Clone, Copy, Debug)]
-struct Scale {
-    /// Units that the program counts in.
-    units: Units,
-    /// Units that places are wanted in.
-    wanted: Units,
-    /// The axes as the form prints them: the job's first is the program's so-and-so-many-th.
-    axes: [u8; 6],
-}
-
-impl Scale {
-    fn factor(self) -> f64 {
-        match (self.units, self.wanted) {
-            (Units::Inch, Units::Mm) => 25.4,
-            (Units::Mm, Units::Inch) => 1.0 / 25.4,
-            _ => 1.0,
-        }
-    }
-
-    fn place(self, to: &Position) -> Place {
-        let factor = self.factor();
-        let mut place = self.axes.map(|axis| to[usize::from(axis)]);
-        place[..3].iter_mut().for_each(|value| *value *= factor);
-        place
-    }
-
-    fn axes(self, bits: u8) -> u8 {
-        if bits == 0 {
-            return 0;
-        }
-        (0..6).filter(|&axis| bits & 1 << self.axes[axis] != 0).map(|axis| 1 << axis).sum()
-    }
 }
 
 /// A program that is run as far as it was asked for.
@@ -75,6 +41,8 @@ pub(super) struct Program<R> {
     before_tap: Option<Option<Rotation>>,
     due: Due,
     scale: Scale,
+    /// The lead of the cut that is made.
+    lead: Option<f64>,
     /// Codes of the coolant that are the form's own: on, off, mist.
     coolant: [f64; 3],
     /// What lies before the cut.
@@ -117,7 +85,8 @@ impl<R: BufRead + Seek> Program<R> {
             cycle: false,
             before_tap: None,
             due: Due { lengths: expectation.tools, length_told: false, units: expectation.units_due },
-            scale: Scale { units: settings.units, wanted: settings.units, axes: expectation.axes },
+            scale: Scale { units: settings.units, wanted: settings.units, axes: expectation.axes, lathe: false },
+            lead: None,
             coolant: expectation.coolant,
             passage: Passage::new(Some(start), Frame { tool: None, work: state.work }),
             cuts: false,
@@ -131,6 +100,22 @@ impl<R: BufRead + Seek> Program<R> {
     pub fn begin_in(&mut self, units: Units) {
         self.simulator.begin_in(units);
         self.scale.units = units;
+    }
+
+    /// So many subprograms stand before the main program, each with its O word.
+    pub fn begin_behind(&mut self, subprograms: usize) {
+        self.simulator.begin_behind(subprograms);
+    }
+
+    /// It is a lathe's; before the first block.
+    pub fn is_of_lathe(&mut self, by_diameter: bool) {
+        self.scale.lathe = true;
+        self.simulator.is_of_lathe(by_diameter);
+        self.control = self.control.of_lathe();
+        self.state.plane = Plane::Xz;
+        self.unknown = 0b101;
+        let start = Rapid { to: [0.0; 6], unknown: 0b101, spin: None };
+        self.passage = Passage::new(Some(start), self.frame());
     }
 
     /// Gives the units in which places are wanted.
@@ -256,11 +241,13 @@ impl<R: BufRead + Seek> Program<R> {
                     return; // a move of no length cuts nothing
                 }
                 let rigid = self.state.rigid;
+                self.lead = *lead;
                 if lead.is_some() {
                     self.state.rigid = rigid.map(|_| true);
                 }
                 self.cuts_now(What::Line { to }, feed, item);
                 self.state.rigid = rigid;
+                self.lead = None;
             }
             Action::Arc(turn) => {
                 let mut turn = *turn;
@@ -294,7 +281,11 @@ impl<R: BufRead + Seek> Program<R> {
                 self.scale.units = *units;
                 self.due.units = false;
             }
-            Action::SurfaceSpeed(limit) => self.state.css = limit.is_some(),
+            Action::SurfaceSpeed(limit) => {
+                self.state.css = limit.is_some();
+                self.state.limit = limit.filter(|limit| *limit > 0.0).or(self.state.limit);
+            }
+            Action::SpeedLimit(limit) => self.state.limit = Some(*limit),
             Action::Plane(plane) => self.state.plane = *plane,
             Action::Frame | Action::LeftOut(b'G', 100) => {
                 let message = "the program moves its coordinate frame: the job's places lie elsewhere then";
@@ -369,6 +360,8 @@ impl<R: BufRead + Seek> Program<R> {
             self.without_length(item.line, "the tool cuts, and its length offset is not on");
         }
         self.units_are_due(item.line, "the program cuts before it says its units");
+        let surface = if self.state.css { self.scale.surface() } else { 1.0 };
+        let speed = self.state.speed.map(|speed| speed * surface);
         let factor = if self.mode == FeedMode::InverseTime { 1.0 } else { self.scale.factor() };
         self.cut = Some(Cut {
             from: self.at,
@@ -376,7 +369,8 @@ impl<R: BufRead + Seek> Program<R> {
             what,
             feed: Some(feed * factor),
             mode: self.mode,
-            state: self.state,
+            lead: self.lead.map(|lead| lead * self.scale.factor()),
+            state: State { speed, ..self.state },
             by_cycle: item.by_cycle,
             line: item.line,
         });
@@ -403,6 +397,10 @@ impl<R: BufRead + Seek> Program<R> {
             self.state.length = None;
             self.due.length_told = false;
             self.changed();
+        }
+        if self.scale.lathe {
+            self.unknown |= 0b101; // a turret turns, and the spindle with it
+            return;
         }
         self.state.rotation = Some(Rotation::Stop);
         self.spin = Spin::Turns(Rotation::Stop);

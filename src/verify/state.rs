@@ -3,7 +3,7 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{Cut, Place, Rapid, State};
-use super::intended::Expected;
+use super::intent::Expected;
 use super::passage::{Frame, Passage};
 use super::program::Program;
 use super::report::{Difference, Report};
@@ -54,6 +54,8 @@ pub(super) struct Sides<R> {
     pub slips: u32,
     /// The machine loads tools.
     pub tools: bool,
+    /// It is a lathe.
+    pub lathe: bool,
     /// Feeds and speeds that the form types itself.
     pub typed: [Vec<f64>; 2],
     pub report: Report,

@@ -70,7 +70,10 @@ fn turning([wanted, is]: &[State; 2]) -> Option<Differs> {
         return Some((Code::PV011, "print M[direct] with the speed", message));
     }
     if wanted.speed.is_none() || wanted.css == is.css {
-        return None;
+        let limit = wanted.limit.filter(|limit| wanted.css && is.limit != Some(*limit))?;
+        let said = is.limit.map_or("none".to_owned(), |is| number(is).to_string());
+        let message = format!("the highest speed of the spindle is {said}, the job's {}", number(limit));
+        return Some((Code::PV011, "print G50 S[maxrpm] before the surface speed", message));
     }
     let counts = if is.css { "at the surface (G96)" } else { "turns" };
     Some((Code::PV011, "print G[speedtype]", format!("the speed counts {counts}, the job's does not")))
@@ -122,8 +125,12 @@ fn compensation([wanted, is]: &[State; 2]) -> Option<Differs> {
         let message = format!("cutter compensation is {}, the job wants {}", name(b), name(a));
         return Some((Code::PV018, "look at InFeed and OutFeed", message));
     }
-    if wanted.side.flatten().is_some() && is.plane != Plane::Xy {
-        return Some((Code::PV018, "print G17 before it", "cutter compensation is in another plane than XY".into()));
+    if wanted.side.flatten().is_some() && is.plane != wanted.plane {
+        let (help, name) = match wanted.plane {
+            Plane::Xz => ("print G18 before it", "ZX"),
+            _ => ("print G17 before it", "XY"),
+        };
+        return Some((Code::PV018, help, format!("cutter compensation is in another plane than {name}")));
     }
     let a = wanted.diameter.filter(|_| wanted.diameter != is.diameter)?;
     let b = is.diameter.map_or("none".to_owned(), |b| format!("D{}", number(b)));

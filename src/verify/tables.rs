@@ -65,11 +65,12 @@ macro_rules! unmodelled {
 }
 
 unmodelled! {
-    Machine "the job is for a lathe or a wire EDM machine, which are not modelled";
+    Machine "the job is for a wire EDM machine, which is not modelled";
     Wire "the job is for wire EDM";
-    Threads "the job cuts a thread on a lathe";
+    Threads "a thread is not cut on a lathe";
     Tilted "the tool axis changes";
-    Subprograms "the job has subprograms";
+    MissingSubprogram "the job calls a subprogram that it does not have";
+    LongSubprograms "subprograms of the job call each other without an end, or are longer than is held";
     Text "text of the job moves the tool, or changes what moves mean";
     ArcWithout "an arc has neither centre nor radius";
     HoleWithout "a hole has no height";

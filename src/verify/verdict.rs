@@ -43,6 +43,7 @@ allowed! {
     stops   "stop" "of the form" "Stops outside cuts that the job does not have.";
     feeds   "feed" "of the form" "Cuts at a feed that the form types itself.";
     speeds  "speed" "of the form" "Cuts at a speed that the form types itself.";
+    threads "thread" "with other passes" "Threads whose passes differ: no coarser than the job's, to the same depth.";
     custom  "hole" "of a custom cycle" "Holes of custom cycles: the form's own moves along the axis of the hole, to the job's depth.";
 }
 

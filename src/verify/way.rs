@@ -60,6 +60,30 @@ impl Way {
                 .all(|(a, b)| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance))
     }
 
+    /// Follows another way corner by corner: how often it goes round a corner of a slanted rapid, at the greater of the two
+    /// heights; or the first corners that differ, this way's and the other's.
+    pub fn is_followed(&self, other: &Way, tolerance: f64) -> Result<u64, Box<[Option<Rapid>; 2]>> {
+        let near = |a: f64, b: f64| (a - b).abs() <= tolerance;
+        let round = |from: &Rapid, at: &Rapid, to: &Rapid| {
+            near(at.to[DEPTH], from.to[DEPTH].max(to.to[DEPTH]))
+                && [from, to].iter().any(|end| near(at.to[0], end.to[0]))
+        };
+        let (mut own, mut made, mut rounds) = (0, 0, 0);
+        loop {
+            match (self.corners.get(own), other.corners.get(made)) {
+                (None, None) => return Ok(rounds),
+                (Some(a), Some(b)) if same(&a.to, &b.to, ALL, tolerance) => (own, made) = (own + 1, made + 1),
+                (Some(a), Some(b)) if own > 0 && round(&self.corners[own - 1], b, a) => {
+                    (rounds, made) = (rounds + 1, made + 1);
+                    // straight on from there, past the job's corner
+                    let on = other.corners.get(made).filter(|next| !same(&a.to, &next.to, ALL, tolerance));
+                    own += usize::from(on.is_some_and(|next| lies_between(&b.to, &a.to, &next.to, tolerance)));
+                }
+                (a, b) => return Err(Box::new([a.copied(), b.copied()])),
+            }
+        }
+    }
+
     /// Does nothing move across at this height or below?
     pub fn stays_above(&self, height: f64) -> bool {
         let known = |rapid: &Rapid| rapid.unknown & 1 << DEPTH == 0;
@@ -241,6 +265,17 @@ mod tests {
 
     fn compared(job: &[[f64; 3]], program: &[[f64; 3]]) -> Compared {
         compare(&way(job), &way(program), true, 1e-4)
+    }
+
+    #[test]
+    fn a_slanted_rapid_may_go_round_its_corner_farther_out() {
+        let job = way(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.2], [0.0, 0.0, 0.1]]);
+        let followed = |points: &[[f64; 3]]| job.is_followed(&way(points), 1e-4).ok();
+        assert_eq!(followed(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.2], [0.0, 0.0, 0.1]]), Some(0));
+        assert_eq!(followed(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.4], [0.0, 0.0, 0.1]]), Some(1));
+        assert_eq!(followed(&[[1.5, 0.0, 0.4], [1.5, 0.0, 0.2], [0.0, 0.0, 0.1]]), None);
+        assert_eq!(followed(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.4], [0.0, 0.0, 0.15]]), None);
+        assert_eq!(followed(&[[1.5, 0.0, 0.4]]), None);
     }
 
     #[test]

@@ -15,6 +15,9 @@ pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
         return;
     }
     moved_with(s, line);
+    if s.lathe {
+        return beside_the_part(s, line);
+    }
     let (lost, changed) = (s.job.changed(), s.program.passage.changed());
     if lost {
         let leaving = if changed { s.program.passage.leaving().len() } else { 0 };
@@ -177,6 +180,9 @@ fn between<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
 
 /// The way after the last cut, to the end of the program.
 pub(super) fn end<R: BufRead + Seek>(s: &mut Sides<R>) {
+    if s.lathe {
+        return beside_the_part(s, 0);
+    }
     let passage = &s.program.passage;
     let changed = passage.changed();
     let until = if s.job.changed() && changed { passage.leaving().len() } else { passage.rapids.len() };
@@ -185,4 +191,28 @@ pub(super) fn end<R: BufRead + Seek>(s: &mut Sides<R>) {
     }
     let as_job = leave(s, until, 0);
     s.report.allowed.tails += u64::from(!as_job);
+}
+
+/// On a lathe no side is free of the part: the tool goes where the job goes, in its order, and to places of the machine. A
+/// slanted rapid may go round its corner, farther from the chuck.
+fn beside_the_part<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+    let tolerance = s.limits.tolerance;
+    let known = |rapids: &[Rapid]| -> Vec<Rapid> {
+        rapids.iter().filter(|rapid| rapid.unknown == 0).map(|rapid| Rapid { spin: None, ..*rapid }).collect()
+    };
+    let [own, made] = [known(&s.job.rapids), known(&s.program.passage.rapids)];
+    let [job, program] = &mut s.ways;
+    job.set(s.job.start.filter(|start| start.unknown == 0), &own, tolerance);
+    program.set(s.program.passage.start.filter(|start| start.unknown == 0), &made, tolerance);
+    let [wanted, is] = match job.is_followed(program, tolerance) {
+        Ok(rounds) => {
+            s.report.allowed.ways += rounds;
+            return;
+        }
+        Err(corners) => *corners,
+    };
+    let shown = |corner: Option<Rapid>| corner.map_or("nowhere".to_owned(), |corner| shown(&corner.to, 0b101));
+    s.found(Code::PV001, line, "look at what the form prints for the rapids here", || {
+        format!("a rapid goes to {}, the job's to {}", shown(is), shown(wanted))
+    });
 }

@@ -24,6 +24,7 @@ mod linuxcnc;
 mod linuxcnc_random;
 mod lsp;
 mod machines;
+mod machines_proven;
 mod nc_golden;
 mod numbers;
 mod own_control;

@@ -13,7 +13,7 @@ pub fn difference(wants: &[Wanted], acts: &[Act], within: f64) -> Option<String>
 }
 
 fn cuts(what: &What) -> bool {
-    matches!(what, What::Feed | What::Arc { .. } | What::Hole { .. })
+    matches!(what, What::Feed | What::Arc { .. } | What::Hole { .. } | What::Thread(_))
 }
 
 fn shown(place: &Place) -> String {
@@ -103,6 +103,7 @@ impl Judge<'_> {
             Want::Line => self.line(wanted),
             Want::Arc { .. } => self.arc(wanted),
             Want::Hole { .. } => self.hole(wanted),
+            Want::Thread { .. } => self.thread(wanted),
         }
     }
 
@@ -181,6 +182,33 @@ impl Judge<'_> {
         (known && !same(&act.from, &wanted.from, self.within)).then(|| {
             format!("line {}: a cut begins at {}, the job's at {}", act.line, shown(&act.from), shown(&wanted.from))
         })
+    }
+
+    /// All passes of a thread.
+    fn thread(&mut self, wanted: &Wanted) -> Option<String> {
+        let Want::Thread { begin, crest, depth, lead } = wanted.want else { return None };
+        let inward = if depth < 0.0 { 1.0 } else { -1.0 };
+        let (mut reached, mut passes) = (0.0f64, 0);
+        while let Some(act) = self.next() {
+            let What::Thread(is) = act.what else { break };
+            let along = near(act.from[2], begin, self.within) && near(act.to[2], wanted.to[2], self.within);
+            if !along {
+                return Some(format!("line {}: a pass from {} to {}", act.line, shown(&act.from), shown(&act.to)));
+            }
+            if (is - lead).abs() > 0.003 * lead {
+                return Some(format!("line {}: a lead of {is:.4} for {lead:.4}", act.line));
+            }
+            if let Some(difference) = self.state(wanted, &act).filter(|text| !text.contains(": G9")) {
+                return Some(difference);
+            }
+            reached = reached.max((act.to[0] - crest) * inward);
+            passes += 1;
+            self.take();
+        }
+        if passes == 0 || !near(reached, depth.abs(), 2.0 * self.within) {
+            return Some(format!("a thread {reached:.4} deep in {passes} passes, the job's {:.4}", depth.abs()));
+        }
+        None
     }
 
     /// Feeds straight down again to where the cut goes on, after the tool was taken out.

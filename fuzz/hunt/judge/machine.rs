@@ -39,6 +39,8 @@ pub enum What {
     Feed,
     /// An arc: its plane, its centre in the plane, whether it turns counter-clockwise, full turns besides.
     Arc { plane: f64, center: [f64; 2], ccw: bool, turns: f64 },
+    /// A pass of a thread, with its lead.
+    Thread(f64),
     /// A canned cycle: its code, R and Z, where it ends, Q and P, and its jog.
     Hole { code: f64, r: f64, z: f64, out: f64, q: f64, p: f64, jog: [f64; 2] },
     /// A dwell in seconds.
@@ -74,7 +76,7 @@ impl Act {
         match self.what {
             What::Feed => !super::same(&self.from, &self.to, 1e-6),
             What::Hole { r, z, .. } => (r - z).abs() > 1e-6,
-            What::Arc { .. } => true,
+            What::Arc { .. } | What::Thread(_) => true,
             _ => false,
         }
     }

@@ -135,6 +135,8 @@ fn cut(left: &Act, other: &Act, within: f64) -> Option<(Class, String)> {
     let places = || format!("{:.4?} to {:.4?}, not {:.4?} to {:.4?}", other.from, other.to, left.from, left.to);
     match (left.what, other.what) {
         (What::Feed, What::Feed) => {}
+        (What::Thread(lead), What::Thread(is)) if near(lead, is, 0.003 * lead) => {}
+        (What::Thread(_), What::Thread(_)) => return Some((Class::Feed, format!("{:?}", other.what))),
         (What::Arc { plane, center, ccw, turns }, What::Arc { plane: p, center: c, ccw: w, turns: t }) => {
             if plane != p || ccw != w || turns != t || !near(center[0], c[0], 0.01) || !near(center[1], c[1], 0.01) {
                 return Some((Class::Cut, format!("{:?}, not {:?}", other.what, left.what)));

@@ -13,6 +13,8 @@ pub enum Want {
     Arc { plane: &'static str, center: [f64; 2], ccw: bool, turns: f64 },
     /// A hole: where the feed begins and ends, and the kind.
     Hole { kind: String, clear: f64, bottom: f64, out: f64 },
+    /// A thread: where its passes begin along the axis, radius of the crest at the end, depth with its sign, lead.
+    Thread { begin: f64, crest: f64, depth: f64, lead: f64 },
     /// A stop: 0 or 1.
     Stop(f64),
     /// A dwell.
@@ -57,11 +59,18 @@ struct Reader {
     list: Vec<Wanted>,
     /// The tool left the hole beside its axis.
     jogged: bool,
+    /// Subprograms by their numbers.
+    subs: Vec<Value>,
+    /// A lathe: no way is free.
+    lathe: bool,
 }
 
 /// The list, or nothing for a job that this does not read: with calls, custom cycles, or codes as text.
 pub fn wants(job: &Value) -> Option<Vec<Wanted>> {
-    if job.get("machine").is_some_and(|machine| machine != "mill") || job.get("subprograms").is_some() {
+    let lathe = job.get("machine").is_some_and(|machine| machine == "lathe");
+    let turned = lathe.then(|| super::lathe::as_mill(job));
+    let job = turned.as_ref().unwrap_or(job);
+    if job.get("machine").is_some_and(|machine| machine != "mill") {
         return None;
     }
     let unit = if job["units"] == "mm" { 1.0 } else { INCH };
@@ -77,7 +86,12 @@ pub fn wants(job: &Value) -> Option<Vec<Wanted>> {
         side: 40.0,
         list: Vec::new(),
         jogged: false,
+        subs: job["subprograms"].as_array().cloned().unwrap_or_default(),
+        lathe,
     };
+    if lathe {
+        reader.at[1] = 0.0;
+    }
     for operation in job["operations"].as_array()? {
         reader.head(operation, job);
         for item in operation["path"].as_array()? {
@@ -95,6 +109,9 @@ impl Reader {
                 job["tools"].as_array().and_then(|tools| tools.iter().find(|row| row["number"].as_f64() == Some(tool)));
             self.length = row.and_then(|row| row.get("length_offset")).and_then(Value::as_f64).unwrap_or(tool);
             self.at[..3].fill(f64::NAN);
+            if self.lathe {
+                self.at[1] = 0.0;
+            }
         }
         if let Some(work) = operation.get("work").and_then(Value::as_f64) {
             self.work(work);
@@ -144,7 +161,8 @@ impl Reader {
 
     fn put(&mut self, want: Want, to: Place) {
         let back = matches!(&want, Want::Hole { kind, .. } if kind == "back");
-        let low = if back || self.jogged { f64::NEG_INFINITY } else { self.low.min(self.at[2]).min(to[2]) };
+        let low =
+            if back || self.jogged || self.lathe { f64::NEG_INFINITY } else { self.low.min(self.at[2]).min(to[2]) };
         self.jogged = false;
         self.list.push(Wanted {
             want,
@@ -195,11 +213,57 @@ impl Reader {
         } else if let Some(seconds) = item.get("dwell").and_then(Value::as_f64) {
             let at = self.at;
             self.put(Want::Dwell(seconds), at);
-        } else if item.get("call").is_some()
-            || item.get("text").is_some_and(|text| !text.as_str().unwrap_or("").starts_with('('))
-        {
+        } else if let Some(call) = item.get("call") {
+            self.call(call)?;
+        } else if let Some(thread) = item.get("thread") {
+            self.thread(thread)?;
+        } else if item.get("text").is_some_and(|text| !text.as_str().unwrap_or("").starts_with('(')) {
             return None;
         }
+        Some(())
+    }
+
+    /// A subprogram, as often as it is called; what it switches is the caller's again after each run.
+    fn call(&mut self, call: &Value) -> Option<()> {
+        let number = call["sub"].as_f64();
+        let path = self.subs.iter().find(|sub| sub["number"].as_f64() == number)?["path"].as_array()?.clone();
+        let of_caller = self.work;
+        if let Some(work) = call.get("work").and_then(Value::as_f64) {
+            self.work(work);
+        }
+        if let Some(at) = call.get("at") {
+            self.low = self.low.min(self.at[2]);
+            self.at = self.target(at);
+            self.low = self.low.min(self.at[2]);
+        }
+        let kept = (self.work, self.spindle, self.feed);
+        for _ in 0..call.get("times").and_then(Value::as_u64).unwrap_or(1) {
+            for item in &path {
+                self.item(item)?;
+            }
+            (self.work, self.spindle, self.feed) = kept;
+        }
+        self.work = of_caller;
+        Some(())
+    }
+
+    /// Of one start, whose end may leave its radius open.
+    fn thread(&mut self, thread: &Value) -> Option<()> {
+        let number = |key: &str| thread.get(key).and_then(Value::as_f64).map(|number| number * self.unit);
+        let at =
+            |key: &str, axis: usize| thread[key].get(axis).and_then(Value::as_f64).map(|number| number * self.unit);
+        let (begin, from) = (at("from", 0)?, at("from", 1)?);
+        let end = at("to", 0)?;
+        let crest = at("to", 1).unwrap_or(from - number("taper").unwrap_or(0.0));
+        if thread.get("starts").is_some() {
+            return None;
+        }
+        let want = Want::Thread { begin, crest, depth: number("depth")?, lead: number("pitch")? };
+        let mut to = self.at;
+        to[2] = end;
+        self.at[2] = begin;
+        self.put(want, to);
+        self.at[2] = begin;
         Some(())
     }
 

@@ -19,7 +19,7 @@ use super::simulator::Simulator;
 use crate::diag::Diag;
 use crate::toolpath::{ReadError, Sink};
 use behind::Behind;
-use fault::refused;
+use fault::{refused, unsaid};
 pub use options::JobOptions;
 use reader::Reader;
 use survey::survey;
@@ -36,6 +36,9 @@ pub fn read_program(
     warnings: &mut Vec<Diag>,
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
+    if options.settings.control.is_lathe() {
+        return unsaid(1, "the program is a lathe's", "programs of mills can be read as jobs");
+    }
     let mut said = Vec::new();
     let read = read_twice(input, options, &mut said, sink);
     warnings.extend(counted(said));

@@ -179,7 +179,7 @@ impl<'a> Reader<'a> {
                 let text = block.get(*start..*end).unwrap_or_default();
                 self.comment(String::from_utf8_lossy(text).trim())
             }
-            Action::Units(_) | Action::Length(_) | Action::End | Action::LeftOut(..) => Ok(()),
+            Action::Units(_) | Action::Length(_) | Action::End | Action::LeftOut(..) | Action::SpeedLimit(_) => Ok(()),
         }
     }
 
@@ -188,7 +188,7 @@ impl<'a> Reader<'a> {
             return Ok(());
         }
         self.cut_begins()?;
-        let to = &self.from_start(to, unknown);
+        let to = &self.counted_from_start(to, unknown);
         let axes = self.axes(to);
         self.at = *to;
         self.known |= 0b111;
@@ -339,7 +339,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A place of which axes stand where the caller said that the tool begins: the program has not said them since.
-    fn from_start(&self, to: &Position, unknown: u8) -> Position {
+    fn counted_from_start(&self, to: &Position, unknown: u8) -> Position {
         let mut to = *to;
         if self.options.start.is_some() {
             for axis in (0..3).filter(|axis| unknown & 1 << axis != 0) {
@@ -351,7 +351,7 @@ impl<'a> Reader<'a> {
 
     fn arc(&mut self, turn: &Turn, unknown: u8) -> Done {
         self.cut_begins()?;
-        let turn = &Turn { to: self.from_start(&turn.to, unknown), ..*turn };
+        let turn = &Turn { to: self.counted_from_start(&turn.to, unknown), ..*turn };
         if self.turning.take().is_some() {
             let help = "turn it on and off by straight moves";
             return unsaid(self.place.line, "cutter compensation is switched on an arc", help);

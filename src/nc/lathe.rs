@@ -1,0 +1,146 @@
+//! Lathes of Fanuc's kind: the turret, and threads by G32, G92 and G76 (system A).
+
+use super::action::{Action, Rotation};
+use super::block::Block;
+use super::codes::{Group, letters};
+use super::fault::{Done, refuse};
+use super::out::Out;
+use super::state::State;
+use crate::diag::Code;
+use crate::toolpath::Units;
+
+/// Most passes of a thread.
+const MOST: u32 = 10_000;
+
+/// What the first block of G76 says: it stays until another says otherwise.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FirstBlock {
+    /// How often the last pass is made.
+    last: u32,
+    /// The least cut, on the radius.
+    least: f64,
+    /// What is left for the last pass, on the radius.
+    allowance: f64,
+}
+
+/// What a lathe keeps of its threads.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Threads {
+    first: Option<FirstBlock>,
+    /// Where a pass of G92 ends, radius and Z, and its taper.
+    pass: Option<[f64; 3]>,
+}
+
+impl State {
+    /// T with its offset in the last two digits: the turret turns at once.
+    pub(super) fn turn_turret(&mut self, word: f64, out: &mut Out<'_>) {
+        const STATIONS: f64 = 100.0;
+        let offset = word % STATIONS;
+        self.tool.length_on = offset != 0.0;
+        if self.settings.places_unknown {
+            self.place.at_machine |= 0b111;
+        }
+        out.push(Action::Tool((word / STATIONS).trunc()));
+        out.push(Action::Length(Some(offset).filter(|offset| *offset != 0.0)));
+    }
+
+    /// Least increments as a length.
+    fn increments(&self, count: f64) -> f64 {
+        count * if self.modes.units == Units::Inch { 1e-4 } else { 1e-3 }
+    }
+
+    /// The first block of G76: P in pairs of digits, passes, chamfer, angle; Q the least cut; R what is left for the last.
+    pub(super) fn first_block(&mut self, block: &Block) -> Done {
+        let Some(packed) = block.get(b'P').filter(|p| (0.0..=999_999.0).contains(p) && p.fract() == 0.0) else {
+            return refuse(Code::PN007, "the first block of G76 without P", "write P010060: passes, chamfer, angle");
+        };
+        self.threads.first = Some(FirstBlock {
+            last: (packed / 10_000.0) as u32,
+            least: self.increments(block.get(b'Q').unwrap_or(0.0)),
+            allowance: block.get(b'R').unwrap_or(0.0).abs(),
+        });
+        Ok(())
+    }
+
+    /// G32: a cut that follows the spindle. G92: a pass and the way back. G76: all passes.
+    pub(super) fn lathe_thread(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+        if self.drive.spindle == Rotation::Stop {
+            return refuse(Code::PN012, "a thread, and the spindle stands", "write M3 or M4 before it");
+        }
+        if self.drive.feed <= 0.0 {
+            return refuse(Code::PN008, "a thread without its lead", "write F with it");
+        }
+        if self.tool.side.is_some() {
+            return refuse(Code::PN013, "a thread under cutter compensation", "end it with G40 first");
+        }
+        let lead = Some(self.drive.feed);
+        let begin = self.place.position;
+        let mut end = self.target(block)?;
+        if code == 320 {
+            self.place.position = end;
+            out.push(Action::Feed { to: end, feed: self.drive.feed, lead });
+            return Ok(());
+        }
+        let mut taper = block.get(b'R').or(block.get(b'I')).unwrap_or(0.0);
+        if code == 920 {
+            // the next passes say what is another
+            let kept = self.threads.pass.filter(|_| block.g(Group::Motion).is_none());
+            if let Some([radius, z, before]) = kept {
+                end[0] = if block.has(letters("XU")) { end[0] } else { radius };
+                end[2] = if block.has(letters("ZW")) { end[2] } else { z };
+                taper = if block.has(letters("RI")) { taper } else { before };
+            }
+            self.threads.pass = Some([end[0], end[2], taper]);
+        }
+        let mut ways = vec![end[0]];
+        if code == 760 {
+            ways = self.passes(begin, end, taper, block)?;
+        }
+        out.by_cycle = true;
+        for radius in ways {
+            let mut to = begin;
+            to[0] = radius + taper;
+            self.place.rapid_to(to, out);
+            (to[0], to[2]) = (radius, end[2]);
+            self.place.position = to;
+            out.push(Action::Feed { to, feed: self.drive.feed, lead });
+            to[0] = begin[0];
+            self.place.rapid_to(to, out);
+            self.place.rapid_to(begin, out);
+        }
+        out.by_cycle = false;
+        Ok(())
+    }
+
+    /// The radii of the ends of all passes of G76: the n-th goes to the first cut times the square root of n.
+    fn passes(&self, begin: [f64; 6], end: [f64; 6], taper: f64, block: &Block) -> Done<Vec<f64>> {
+        let Some(first) = self.threads.first else {
+            return refuse(Code::PN007, "G76 without its first block", "write G76 P010060 Q.. R.. before it");
+        };
+        let (Some(depth), Some(cut)) = (block.get(b'P'), block.get(b'Q')) else {
+            return refuse(Code::PN007, "G76 without P or Q", "G76 X Z R P(depth) Q(first cut) F(lead)");
+        };
+        let (depth, cut) = (self.increments(depth), self.increments(cut));
+        if depth <= 0.0 || cut <= 0.0 || block.has(letters("K")) {
+            return refuse(Code::PN018, "P and Q of G76 are above 0", "P is the depth, Q the first cut, on the radius");
+        }
+        // from the crest to the end: towards the axis, or away from it
+        let inward = if begin[0] >= end[0].max(end[0] + taper) { -1.0 } else { 1.0 };
+        let crest = end[0] - inward * depth;
+        let whole = depth - first.allowance;
+        let mut list = Vec::new();
+        let mut reached = 0.0f64;
+        let mut count = 0u32;
+        while reached < whole - 1e-9 {
+            count += 1;
+            if count > MOST {
+                return refuse(Code::PN018, "a thread of over 10000 passes", "write a larger Q");
+            }
+            reached = (cut * f64::from(count).sqrt()).max(reached + first.least).min(whole);
+            list.push(crest + inward * reached);
+        }
+        let again = if first.allowance > 0.0 { first.last.max(1) } else { first.last.saturating_sub(1) };
+        list.extend(std::iter::repeat_n(end[0], again.min(MOST) as usize));
+        Ok(list)
+    }
+}

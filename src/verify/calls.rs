@@ -1,0 +1,74 @@
+//! Calls of subprograms of the job: what each does again.
+
+use super::intended::Job;
+use super::intent::{Done, Intent, unproven};
+use super::kept::Kept;
+use super::tables::Unmodelled;
+use crate::toolpath::{Call, Place};
+
+/// Items that calls may come to.
+const MOST_DONE: u64 = 20_000_000;
+/// How deep calls may lie in each other.
+const DEEPEST: u32 = 64;
+
+impl Job {
+    /// How many subprograms the program begins with.
+    pub(super) fn subprograms_first(&self) -> usize {
+        if self.expectation.subs_first { self.subprograms.count() } else { 0 }
+    }
+
+    /// A call: its work offset, its place, and the subprogram's items as often as it says. What the subprogram switches is
+    /// the operation's again after each run.
+    pub(super) fn call(&mut self, call: &Call, to: &mut impl Intent) -> Done {
+        let Some(index) = self.subprograms.defined.iter().position(|sub| sub.number == call.sub) else {
+            return unproven(Unmodelled::MissingSubprogram);
+        };
+        self.subprograms.depth += 1;
+        if self.subprograms.depth > DEEPEST {
+            return unproven(Unmodelled::LongSubprograms);
+        }
+        let of_caller = self.state.work;
+        if let Some(work) = call.work {
+            self.work(work, to);
+        }
+        if call.at.given != 0 {
+            self.at = self.target(&call.at);
+            to.rapid(self.rapid_to(self.at.values, None))?;
+        }
+        let items = std::mem::take(&mut self.subprograms.defined[index].items);
+        let mut done = Ok(());
+        let called_at = to.place();
+        for _ in 0..call.times as u64 {
+            done = self.run(&items, to);
+            if done.is_err() {
+                break;
+            }
+        }
+        self.subprograms.defined[index].items = items;
+        self.subprograms.depth -= 1;
+        if done.is_ok() {
+            to.comes_from(called_at); // else the item that differs stays in sight
+            self.work_is(of_caller, to);
+        }
+        done
+    }
+
+    fn run(&mut self, items: &[(Kept, Place)], to: &mut impl Intent) -> Done {
+        let (state, feed, mode, css) = (self.state, self.feed, self.mode, self.css);
+        self.feed = None;
+        for (kept, place) in items {
+            self.subprograms.done += 1;
+            if self.subprograms.done > MOST_DONE {
+                return unproven(Unmodelled::LongSubprograms);
+            }
+            to.comes_from(*place);
+            self.act(kept.event(), to)?;
+        }
+        let work = self.state.work;
+        self.state = super::cut::State { work, ..state };
+        (self.feed, self.mode, self.css) = (feed, mode, css);
+        self.cycle = None;
+        self.work_is(state.work, to);
+        Ok(())
+    }
+}

@@ -1,0 +1,128 @@
+//! Threads of a lathe: other passes make the same thread, if they are no coarser and end at its depth.
+
+use std::io::{BufRead, Seek};
+
+use super::cut::{Cut, DEPTH, RADIUS, Rapid, number, same, shown};
+use super::intent::{Done, Threaded};
+use super::state::Sides;
+use super::states;
+use super::tables::{LONGER, PITCH};
+use crate::diag::Code;
+
+impl Threaded {
+    /// How deep a cut of the program goes; `None`: it is no pass of this thread.
+    fn depth(&self, found: &Cut, tolerance: f64) -> Option<f64> {
+        let near = |a: f64, b: f64| (a - b).abs() <= 2.0 * tolerance;
+        let to = found.end();
+        let along = near(found.from[DEPTH], self.begin[DEPTH]) && near(to[DEPTH], self.end);
+        let across = near(found.from[RADIUS] - to[RADIUS], self.taper);
+        let is_one = found.lead.is_some() && found.unknown == 0 && along && across;
+        is_one.then(|| (to[RADIUS] - self.crest) * self.inward)
+    }
+
+    /// Does a rapid between passes go through what is not cut? Along the axis the tool goes beside the crest.
+    fn is_crossed(&self, a: &Rapid, b: &Rapid, tolerance: f64) -> bool {
+        let outermost = [self.crest, self.crest + self.taper].map(|crest| crest * self.inward).into_iter();
+        let crest = outermost.fold(f64::INFINITY, f64::min);
+        let beside = |rapid: &Rapid| rapid.to[RADIUS] * self.inward <= crest + tolerance;
+        let moves_along = (a.to[DEPTH] - b.to[DEPTH]).abs() > tolerance;
+        (a.unknown | b.unknown) != 0 || moves_along && !(beside(a) && beside(b))
+    }
+}
+
+/// All passes of a thread.
+pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Threaded) -> Done {
+    let tolerance = s.limits.tolerance;
+    let whole = thread.passes.last().copied().unwrap_or(0.0);
+    let help = "look at what the form prints for the thread: AutoThread, CanThread, or Thread and ThreadPasses";
+    let (mut reached, mut coarsest, mut count, mut line) = (0.0f64, 0.0f64, 0usize, 0);
+    let mut as_job = true;
+    while let Some(found) = s.next()? {
+        let Some(depth) = thread.depth(&found, tolerance) else { break };
+        let from = Rapid { to: found.from, unknown: found.unknown, spin: None };
+        if count == 0 {
+            // in from beside the thread
+            s.job.rapids.push(from);
+            super::pauses::compare(s);
+            super::ways::compare(s, found.line);
+        } else {
+            between(s, thread, from, found.line)?;
+        }
+        states::compare(s, &cut_of(cut, &found), &found, false);
+        let lead = found.lead.unwrap_or(0.0);
+        if (lead - thread.lead).abs() > PITCH * thread.lead {
+            s.found(Code::PV006, found.line, "print F[frate] with the thread", || {
+                format!("the thread's lead is {}, the job's {}", number(lead), number(thread.lead))
+            });
+        }
+        as_job &= thread.passes.get(count).is_some_and(|pass| (pass - depth).abs() <= 2.0 * tolerance);
+        coarsest = coarsest.max(depth - reached);
+        reached = reached.max(depth);
+        count += 1;
+        line = found.line;
+        s.program.take();
+    }
+    if count == 0 {
+        let found = s.next()?;
+        let (line, is) = found.map_or((0, "nothing".into()), |found| {
+            (found.line, format!("a cut from {} to {}", shown(&found.from, 0b101), shown(&found.end(), 0b101)))
+        });
+        let message = format!(
+            "the job cuts a thread from Z{} to Z{}, the program {is}",
+            number(thread.begin[DEPTH]),
+            number(thread.end)
+        );
+        return s.differs(Code::PV017, line, message, help);
+    }
+    if (reached - whole).abs() > 2.0 * tolerance {
+        s.found(Code::PV004, line, help, || {
+            format!("the thread is cut {} deep, the job's is {}", number(reached), number(whole))
+        });
+    }
+    let longest =
+        thread.passes.iter().fold((0.0, 0.0f64), |(before, longest), pass| (*pass, longest.max(pass - before))).1;
+    if coarsest > LONGER * longest + 2.0 * tolerance {
+        s.found(Code::PV023, line, help, || {
+            format!("a pass of the thread cuts {}, the job's at most {}", number(coarsest), number(longest))
+        });
+    }
+    s.report.counts.cuts += 1;
+    s.report.allowed.threads += u64::from(!as_job || count != thread.passes.len());
+    // out of the last pass, and back beside the beginning
+    let mut out = thread.begin;
+    out[DEPTH] = thread.end;
+    let end =
+        Rapid { to: [thread.crest + thread.inward * whole, 0.0, thread.end, 0.0, 0.0, 0.0], unknown: 0, spin: None };
+    s.job.begin(end);
+    s.job.rapids.push(Rapid { to: out, unknown: 0, spin: None });
+    s.job.rapids.push(Rapid { to: thread.begin, unknown: 0, spin: None });
+    Ok(())
+}
+
+/// What must hold at a pass: its lead is compared for itself.
+fn cut_of(cut: &Cut, found: &Cut) -> Cut {
+    Cut { feed: None, line: found.line, ..*cut }
+}
+
+/// From pass to pass: out across, back along beside the crest, in again.
+fn between<R: BufRead + Seek>(s: &mut Sides<R>, thread: &Threaded, to: Rapid, line: u64) -> Done {
+    let tolerance = s.limits.tolerance;
+    let passage = &s.program.passage;
+    let mut at = s.program.start();
+    let mut low = None;
+    for rapid in passage.rapids.iter().chain([&to]) {
+        low = low.or(thread.is_crossed(&at, rapid, tolerance).then_some(rapid.to));
+        at = *rapid;
+    }
+    let changed = passage.changed() || !passage.stops.is_empty() || !passage.waits.is_empty();
+    if changed || !same(&at.to, &to.to, super::cut::ALL, tolerance) {
+        let message = "a stop, a dwell or another tool between the passes of a thread".to_owned();
+        return s.differs(Code::PV001, line, message, "look at what the form prints between the passes");
+    }
+    if let Some(to) = low {
+        s.found(Code::PV009, line, "retract across the thread first", || {
+            format!("between passes of a thread a rapid goes to {} through its crest", shown(&to, 0b101))
+        });
+    }
+    Ok(())
+}

@@ -166,7 +166,7 @@ fn seeds(root: &Path) -> Vec<Seed> {
 /// The list of objects first, then the paths; geometry is not read.
 fn members(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     let mut zip = zip::ZipArchive::new(Cursor::new(bytes)).expect("an archive");
-    let mut names: Vec<String> = zip.file_names().map(str::to_owned).collect();
+    let mut names: Vec<String> = zip.file_names().flatten().map(Into::into).collect();
     names.retain(|name| name == "Document.xml" || name.ends_with(".nc"));
     names.sort_by_key(|name| name != "Document.xml");
     let mut read = |name: &str| {

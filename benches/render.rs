@@ -5,12 +5,12 @@ use std::fmt::Write;
 
 use divan::Bencher;
 use divan::counter::{BytesCount, ItemsCount};
-use postform::compile::compile;
-use postform::number::{LetterFormat, quantise, write_number};
-use postform::render::{Options, Renderer};
-use postform::sema::{Checked, analyse};
-use postform::source::Source;
-use postform::toolpath::json::read_lines;
+use postform::internals::compile::compile;
+use postform::internals::json::read_lines;
+use postform::internals::number::{LetterFormat, quantise, write_number};
+use postform::internals::render::{Options, Renderer};
+use postform::internals::sema::{Checked, analyse};
+use postform::internals::source::Source;
 
 fn main() {
     divan::main();
@@ -118,6 +118,6 @@ fn scan_a_program(bencher: Bencher) {
     }
     bencher.counter(BytesCount::of_str(&text)).bench_local(|| {
         let lines = text.as_bytes().split_inclusive(|&byte| byte == b'\n');
-        lines.map(|line| postform::nc::tokens(line).count()).sum::<usize>()
+        lines.map(|line| postform::internals::nc::tokens(line).count()).sum::<usize>()
     });
 }

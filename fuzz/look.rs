@@ -1,12 +1,12 @@
 //! What is asked of every form, whatever it is: it is read, looked at, mended and laid out, and its programs stay the same.
 
-use postform::compile::compile;
-use postform::fmt::format;
-use postform::lint::{Changed, Found, Levels, lint, mend};
-use postform::render::{Options, Renderer};
-use postform::sema::{Checked, Limits, analyse};
-use postform::source::Source;
-use postform::toolpath::json::read_document;
+use postform::internals::compile::compile;
+use postform::internals::fmt::format;
+use postform::internals::lint::{Changed, Found, Levels, lint, mend};
+use postform::internals::render::{Options, Renderer};
+use postform::internals::sema::{Checked, Limits, analyse};
+use postform::internals::source::Source;
+use postform::internals::json::read_document;
 
 const JOB: &str = include_str!("../samples/drill-machine/job.json");
 

@@ -1,7 +1,7 @@
 //! A form as the hunt uses it: it prints jobs and compares programs with them.
 
 use postform::toolpath::Place;
-use postform::verify::Finding;
+use postform::internals::verify::Finding;
 use postform::{Error, Format, Job, NoFiles, Options, Post, Source, Verdict};
 
 use crate::job::{Kind, Takes};

@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 
 use postform::Format;
-use postform::cl::{Dialect, Report, Setup};
 use postform::diag::Diag;
-use postform::toolpath::json::schema;
+use postform::internals::cl::{Dialect, Report, Setup};
+use postform::internals::json::schema;
 use postform::toolpath::{Summary, Units};
 
 use super::args::CheckArgs;

@@ -2,7 +2,7 @@
 
 use jiff::civil::{Date, DateTime};
 use jiff::{Timestamp, Zoned};
-use postform::render::Clock;
+use postform::internals::render::Clock;
 
 /// Reads --date.
 pub fn parse(text: &str) -> Result<Clock, String> {

@@ -9,9 +9,9 @@ use clap::ValueEnum;
 use serde::Deserialize;
 
 use postform::diag::escaped;
-use postform::lint::{Level, Levels};
+use postform::internals::lint::{Level, Levels};
 
-use postform::control::{self, Control};
+use postform::internals::control::{self, Control};
 
 use super::args::LimitsArg;
 use super::files::{self, io_message};

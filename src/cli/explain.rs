@@ -3,7 +3,7 @@
 use std::io::Write as _;
 
 use postform::diag::escaped;
-use postform::explain;
+use postform::internals::explain;
 
 use super::args::ExplainArgs;
 use super::{Ending, output};

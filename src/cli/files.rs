@@ -4,9 +4,9 @@ use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Seek};
 use std::path::Path;
 
-use postform::control::Control;
 use postform::diag::escaped;
-use postform::sema::MOST_TEXT;
+use postform::internals::control::Control;
+use postform::internals::sema::MOST_TEXT;
 use postform::{Format, Job};
 
 use super::args::{From, ReadArgs};

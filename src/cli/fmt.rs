@@ -3,8 +3,8 @@
 use std::io::Write as _;
 use std::path::Path;
 
-use postform::fmt::format;
-use postform::source::Source;
+use postform::internals::fmt::format;
+use postform::internals::source::Source;
 use rayon::prelude::*;
 
 use super::args::FmtArgs;

@@ -5,8 +5,8 @@ use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use postform::lint::{Changed, parts};
-use postform::sema::{Checked, Limits, analyse};
+use postform::internals::lint::{Changed, parts};
+use postform::internals::sema::{Checked, Limits, analyse};
 use postform::{Files, Source};
 
 use super::args::LimitsArg;

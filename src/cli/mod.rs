@@ -94,9 +94,9 @@ pub fn run() -> ExitCode {
         Command::Watch(args) => watch::run(args),
         Command::Fmt(args) => fmt::run(&args),
         Command::Explain(args) => explain::run(&args),
-        Command::Controls => {
-            output::shown(|out| std::io::Write::write_all(out, postform::explain::controls::list().as_bytes()))
-        }
+        Command::Controls => output::shown(|out| {
+            std::io::Write::write_all(out, postform::internals::explain::controls::list().as_bytes())
+        }),
         Command::New(args) => new::run(&args),
         Command::Completions(args) => shells::completions(&args),
         Command::Man => shells::man(),

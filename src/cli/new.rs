@@ -2,7 +2,7 @@
 
 use std::io::{self, Write as _};
 
-use postform::explain::controls;
+use postform::internals::explain::controls;
 
 use super::args::{NewArgs, NewControl};
 use super::files::{io_message, name};

@@ -6,9 +6,9 @@ use std::path::Path;
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD as BASE64;
-use postform::nc::RunSettings;
-use postform::picture::{self, Picture, Sheet};
-use postform::scene::of_program;
+use postform::internals::nc::RunSettings;
+use postform::internals::picture::{self, Picture, Sheet};
+use postform::internals::scene::of_program;
 use postform::toolpath::Units;
 use postform::{Format, Job, Proof};
 

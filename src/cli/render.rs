@@ -4,10 +4,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use postform::diag::Severity;
-use postform::lint::Changed;
-use postform::render::TraceLine;
-use postform::source::Source;
-use postform::verify::Verdict;
+use postform::internals::lint::Changed;
+use postform::internals::render::TraceLine;
+use postform::internals::source::Source;
+use postform::internals::verify::Verdict;
 use postform::{Error, ErrorKind, Part, Proven};
 
 use super::Ending;

@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::Path;
 
 use postform::diag::{Diag, Severity};
-use postform::render::TraceLine;
+use postform::internals::render::TraceLine;
 use postform::{ErrorKind, Job, Options};
 
 use super::Ending;

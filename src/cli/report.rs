@@ -10,7 +10,7 @@ use miette::{
 };
 
 use postform::diag::{Diag, Severity, steers};
-use postform::source::Source;
+use postform::internals::source::Source;
 use postform::{Error, ErrorKind};
 
 use super::Ending;

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use postform::diag::{Diag, Severity};
-use postform::source::Source;
-use postform::verify::{Finding, Verdict};
+use postform::internals::source::Source;
+use postform::internals::verify::{Finding, Verdict};
 use postform::{Error, ErrorKind, Proven};
 
 use super::Ending;
@@ -95,6 +95,11 @@ impl Sides<'_> {
 
     /// The same for programs.
     pub fn document(&self, proven: &Proven) -> serde_json::Value {
-        postform::report::proof(&proven.verdict, proven.counts, [&files::name(self.job), self.program], self.files)
+        postform::internals::report::proof(
+            &proven.verdict,
+            proven.counts,
+            [&files::name(self.job), self.program],
+            self.files,
+        )
     }
 }

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use postform::diag::Severity;
-use postform::verify::Verdict;
+use postform::internals::verify::Verdict;
 use postform::{Error, Job, Proof, Proven};
 
 use super::args::{ControlArgs, VerifyArgs, VerifyFormat};

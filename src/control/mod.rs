@@ -230,17 +230,20 @@ impl Control {
     }
 
     /// What the control is besides its codes.
+    #[doc(hidden)]
     pub fn traits(&self) -> &Traits {
         &self.traits
     }
 
     /// By whose rules its programs are run.
     #[inline]
+    #[doc(hidden)]
     pub fn rules(&self) -> Rules {
         self.traits.rules
     }
 
     /// How far an arc's numbers may be from one circle, in programs in inches or in millimetres.
+    #[doc(hidden)]
     pub fn arc_tolerance(&self, inch: bool) -> Tolerance {
         self.traits.arcs.tolerance(inch)
     }
@@ -251,6 +254,7 @@ impl Control {
     }
 
     /// Has it a code of this meaning?
+    #[doc(hidden)]
     pub fn has(&self, meaning: Meaning) -> bool {
         self.rows().any(|row| row.meaning == meaning && self.is_there(row))
     }
@@ -266,6 +270,7 @@ impl Control {
 
     /// What the control knows of a code: the code's own row, else the row of its whole number, else the row of its
     /// letter. `None`: nobody knows.
+    #[doc(hidden)]
     pub fn row(&self, code: Code) -> Option<&Row> {
         let rows = &self.rows;
         rows.own(code)
@@ -280,17 +285,20 @@ impl Control {
 
     /// What a code means on it. `None`: nobody knows.
     #[inline]
+    #[doc(hidden)]
     pub fn meaning(&self, code: Code) -> Option<Meaning> {
         self.row(code).map(|row| row.meaning)
     }
 
     /// The modal group of a code on it. `None`: the code is of none, or nobody knows it.
     #[inline]
+    #[doc(hidden)]
     pub fn group(&self, code: Code) -> Option<Group> {
         self.meaning(code)?.group()
     }
 
     /// Does a code call what is written elsewhere? Of those that nobody knows, the machine builder's may: from G100 on.
+    #[doc(hidden)]
     pub fn calls(&self, code: Code) -> bool {
         match self.meaning(code).filter(|&meaning| meaning != Meaning::Unsaid) {
             Some(meaning) => meaning.is_call(),
@@ -299,16 +307,19 @@ impl Control {
     }
 
     /// Does it move by itself after a G code: in a cycle, in a thread, which it feeds by its pitch, in what it calls?
+    #[doc(hidden)]
     pub fn moves_by_itself(&self, code: Code) -> bool {
         code.letter == b'G' && (self.meaning(code).is_some_and(Meaning::moves_by_itself) || self.calls(code))
     }
 
     /// Is it known to refuse a code?
+    #[doc(hidden)]
     pub fn refuses(&self, code: Code) -> bool {
         self.traits.complete && self.row(code).is_none()
     }
 
     /// Rows of single codes, in the order of the codes.
+    #[doc(hidden)]
     pub fn rows(&self) -> impl Iterator<Item = &Row> {
         self.rows.one.iter()
     }

@@ -12,6 +12,5 @@ mod thread;
 pub use check::check;
 pub use pecks::stepped_pecks;
 pub use plan::{Defaults, Plan, Step};
-pub use problem::Problem;
 pub use steps::{Steps, plan};
 pub use thread::thread_passes;

@@ -105,6 +105,7 @@ sequences! {
 
 impl SequenceId {
     /// The row of the sequence in the table.
+    #[doc(hidden)]
     pub fn row(self) -> &'static Sequence {
         &SEQUENCES[self as usize]
     }

@@ -196,6 +196,7 @@ const ALSO: [(&str, VarId); 2] = [("lastrotang", VarId::Lastrotangle), ("etplane
 
 impl VarId {
     /// The row of the variable in the table.
+    #[doc(hidden)]
     pub fn row(self) -> &'static Variable {
         &VARIABLES[self as usize]
     }

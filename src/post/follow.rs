@@ -15,7 +15,6 @@ use crate::verify::Verdict;
 
 /// A program, with what each line of the form came to.
 #[derive(Debug)]
-#[non_exhaustive]
 pub struct Followed {
     /// The program as far as it was printed, with its source map.
     pub program: Program,
@@ -27,7 +26,6 @@ pub struct Followed {
 
 /// A line of the form at the block that it printed first.
 #[derive(Clone, Debug)]
-#[non_exhaustive]
 pub struct Seen {
     /// The line of the form.
     pub form: Span,
@@ -45,7 +43,7 @@ impl Post {
     ///
     /// # Errors
     /// An option makes no sense.
-    pub fn follow(&self, mut job: Job<'_>, options: &Options) -> Result<Followed, Error> {
+    pub(crate) fn follow(&self, mut job: Job<'_>, options: &Options) -> Result<Followed, Error> {
         let asked = render::Options { trace: true, words: true, ..options.for_renderer()? };
         let mut follower = Follower {
             renderer: Renderer::new(&self.0.program, asked),

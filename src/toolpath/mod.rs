@@ -17,17 +17,17 @@ mod summary;
 mod thread;
 mod tool;
 
-pub mod json;
+pub(crate) mod json;
 
 pub use axes::{Axes, Units};
 pub use cycle::{CycleSpec, Hole, Orient, Peck};
-pub use dwell::LastDwell;
+pub(crate) use dwell::LastDwell;
 pub use event::{Call, EdmAction, Event, StopKind};
-pub use hold::Hold;
+pub(crate) use hold::Hold;
 pub use kind::CycleKind;
 pub use moves::{Arc, Direction, Infeed, Plane, Section, Side};
 pub use operation::{First, ToolChange};
-pub use order::{Order, impossible};
+pub(crate) use order::{Order, impossible};
 pub use place::Place;
 pub use read::ReadError;
 pub use sink::{Flow, Sink, Stop, flow};

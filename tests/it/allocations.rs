@@ -5,9 +5,9 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use crate::support::{check, mill};
-use postform::compile::compile;
-use postform::render::{Options, Renderer};
-use postform::toolpath::json::read_lines;
+use postform::internals::compile::compile;
+use postform::internals::json::read_lines;
+use postform::internals::render::{Options, Renderer};
 use postform::toolpath::{Arc, Axes, CycleKind, CycleSpec, Direction, Event, Hole, Place, Plane, Sink};
 
 thread_local!(static COUNT: Cell<u64> = const { Cell::new(0) });

@@ -486,7 +486,8 @@ fn long_questions_are_answered() {
 /// Of a long list of tools a message names some.
 #[test]
 fn many_tools() {
-    use postform::toolpath::{ReadError, Summary, json::read_document};
+    use postform::internals::json::read_document;
+    use postform::toolpath::{ReadError, Summary};
     let tools: Vec<String> = (2..=60_000).map(|number| format!("{{\"number\":{number}}}")).collect();
     let text = job("{\"line\":[1,1,0]}").replace("{\"number\":2}", &tools.join(","));
     read_document(text.as_bytes(), &mut Summary::default()).unwrap();

@@ -4,9 +4,9 @@ use crate::support;
 use std::fs;
 
 use crate::support::mill;
-use postform::cl::{Assumed, AssumedSpeed, Dialect, Options, Report, read_cl};
-use postform::compile::compile;
-use postform::render::Renderer;
+use postform::internals::cl::{Assumed, AssumedSpeed, Dialect, Options, Report, read_cl};
+use postform::internals::compile::compile;
+use postform::internals::render::Renderer;
 use postform::toolpath::{ReadError, Summary, Units};
 
 const DRILL: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -17,7 +17,7 @@ fn read(text: &str, options: Options) -> Vec<String> {
     let checked = support::check(&form.replace("%0\n", "%0\nG[unitmode]\n"));
     assert!(!checked.has_errors(), "{:?}", checked.diags);
     let program = compile(&checked.form);
-    let mut renderer = Renderer::new(&program, postform::render::Options::default());
+    let mut renderer = Renderer::new(&program, postform::internals::render::Options::default());
     let mut report = Report::default();
     let read = read_cl(text.as_bytes(), &options, &mut report, &mut renderer);
     let mut lines: Vec<String> =
@@ -397,7 +397,8 @@ fn coordinate_systems_agree_with_the_tool() {
 fn turning_is_a_job_for_a_lathe() {
     let text = fs::read_to_string(support::root().join("tests/data/cl/catia-turning.aptsource")).unwrap();
     let form = support::check_file(&support::root().join("postforms/fanuc-lathe.pf"));
-    let metric = postform::render::Options { units: Some(Units::Inch), program: Some(1), ..Default::default() };
+    let metric =
+        postform::internals::render::Options { units: Some(Units::Inch), program: Some(1), ..Default::default() };
     let rendered = support::render_kind(&form, text.as_bytes(), support::Kind::Cl, metric).unwrap().text;
     for block in ["G96", "Z-1.5748", "F.0118"] {
         assert!(rendered.contains(block), "{block} in\n{rendered}");
@@ -498,7 +499,7 @@ fn surface_speeds_have_units_and_their_code() {
         &support::check(&form),
         text.as_bytes(),
         support::Kind::Cl,
-        postform::render::Options::default(),
+        postform::internals::render::Options::default(),
     );
     assert!(rendered.unwrap().text.contains("G96\nT1 M6\nS30"), "30.48 metres a minute");
 }
@@ -647,7 +648,7 @@ fn a_setup_is_read_in_a_frame_of_its_own() {
 
 #[test]
 fn setups_are_listed_whatever_is_in_them() {
-    let found = postform::cl::setups(TWO_SIDES.as_bytes(), &Options::default()).unwrap();
+    let found = postform::internals::cl::setups(TWO_SIDES.as_bytes(), &Options::default()).unwrap();
     let said: Vec<String> = found.iter().map(ToString::to_string).collect();
     assert_eq!(
         said,
@@ -658,7 +659,7 @@ fn setups_are_listed_whatever_is_in_them() {
         ]
     );
     let arc = TWO_SIDES.replace("INDIRV/0,0,1", "CIRCLE/0,0,0,.6,0,.8,5\nTRACUT/1\nCYCLE/NONSENSE");
-    assert_eq!(postform::cl::setups(arc.as_bytes(), &Options::default()).unwrap().len(), 3);
+    assert_eq!(postform::internals::cl::setups(arc.as_bytes(), &Options::default()).unwrap().len(), 3);
 }
 
 /// Where the file says how the CAM system looks at a setup, its x is taken.

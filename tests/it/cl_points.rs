@@ -5,9 +5,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use postform::cl::{Assumed, AssumedSpeed, Options, Report, read_cl};
-use postform::compile::compile;
-use postform::render::Renderer;
+use postform::internals::cl::{Assumed, AssumedSpeed, Options, Report, read_cl};
+use postform::internals::compile::compile;
+use postform::internals::render::Renderer;
 use postform::toolpath::{ReadError, Units};
 
 use crate::support::{check_file, root};
@@ -205,7 +205,8 @@ fn options(text: &str) -> Options {
 fn program(text: &str, options: &Options) -> Result<String, ReadError> {
     let checked = check_file(&root().join("postforms/linuxcnc.pf"));
     let form = compile(&checked.form);
-    let mut renderer = Renderer::new(&form, postform::render::Options { program: Some(1), ..Default::default() });
+    let mut renderer =
+        Renderer::new(&form, postform::internals::render::Options { program: Some(1), ..Default::default() });
     read_cl(text.as_bytes(), options, &mut Report::default(), &mut renderer)?;
     Ok(String::from_utf8(renderer.text().clone()).unwrap())
 }

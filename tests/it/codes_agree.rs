@@ -2,9 +2,9 @@
 //! between two cuts. What the renderer prints after it must make the motions of the job when the simulator runs it, but
 //! for what the code itself does: a stop, a dwell, a frame that moves.
 
-use postform::control::{Control, Meaning, names};
 use postform::diag::Code;
-use postform::verify::Finding;
+use postform::internals::control::{Control, Meaning, names};
+use postform::internals::verify::Finding;
 use postform::{Job, NoFiles, Options, Post, Source, Verdict};
 
 /// Cuts, a row whose beginning types the code, an arc, two holes and a rapid.

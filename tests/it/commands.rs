@@ -241,17 +241,17 @@ fn the_next_tool_comes_from_the_list_of_tools() {
 fn called_forms_are_part_of_the_form() {
     let main = mill("Call common.pf", "");
     let mut asked = 0;
-    let checked = postform::sema::analyse(
-        postform::source::Source::from_text("main.pf", main),
+    let checked = postform::internals::sema::analyse(
+        postform::internals::source::Source::from_text("main.pf", main),
         Default::default(),
         &mut |name| {
             asked += 1;
             assert_eq!(name, "common.pf");
-            Ok(postform::source::Source::from_text(name, "Drill\nG81 X[h] Y[v]\nEnd\n"))
+            Ok(postform::internals::source::Source::from_text(name, "Drill\nG81 X[h] Y[v]\nEnd\n"))
         },
     );
     assert_eq!((checked.diags.as_slice(), asked), (&[][..], 1));
-    assert!(checked.form.sequences.contains_key(&postform::lang::SequenceId::Drill));
+    assert!(checked.form.sequences.contains_key(&postform::internals::lang::SequenceId::Drill));
 }
 
 #[test]

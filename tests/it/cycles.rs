@@ -4,9 +4,9 @@
 use crate::support;
 use std::fs;
 
-use postform::cl::{Options as ClOptions, Report, read_cl};
-use postform::compile::compile;
-use postform::render::{Cycles, Options, Renderer};
+use postform::internals::cl::{Options as ClOptions, Report, read_cl};
+use postform::internals::compile::compile;
+use postform::internals::render::{Cycles, Options, Renderer};
 use postform::toolpath::{ReadError, Units};
 use serde_json::Value;
 

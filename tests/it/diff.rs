@@ -8,10 +8,10 @@ use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
 use crate::support::root;
-use postform::diff::{Comparison, Deadline, Edit, Ignore, Options, Program, compare};
-use postform::nc::RunSettings;
+use postform::internals::diff::{Comparison, Deadline, Edit, Ignore, Options, Program, compare};
+use postform::internals::nc::RunSettings;
+use postform::internals::verify::compare_motions;
 use postform::toolpath::Units;
-use postform::verify::compare_motions;
 use proptest::prelude::*;
 
 const BASE: &str = "%\nO100 (BRACKET)\nN10 G21 G17 G40 G49 G80 G90\nN20 T1 M6\nN30 G54 G0 X10. Y5.5 S1000 M3\nN40 G43 H1 Z50. M8\n\
@@ -175,7 +175,7 @@ fn tolerance_moves_and_words() {
     let comparison = compared(BASE, &moved, Ignore::USUAL, 0.0);
     let edits: Vec<Edit> = comparison.edits().copied().collect();
     assert_eq!(edits, [Edit::Moved(9, 14), Edit::Moved(9, 14)]);
-    let spans = postform::diff::changed_spans(b"N1 G1 X1. F5.", b"N2 G1 X1. F6. M8", &Ignore::USUAL, None);
+    let spans = postform::internals::diff::changed_spans(b"N1 G1 X1. F5.", b"N2 G1 X1. F6. M8", &Ignore::USUAL, None);
     let places =
         |list: &[std::ops::Range<usize>]| -> Vec<(usize, usize)> { list.iter().map(|r| (r.start, r.end)).collect() };
     assert_eq!(places(&spans[0]), [(10, 13)]);
@@ -204,7 +204,7 @@ fn long_blocks_are_compared_in_bounded_time() {
     let began = Instant::now();
     let options = Options { deadline: within(Duration::from_millis(800)), ..Options::default() };
     let comparison = compare(&old, &new, &options);
-    let spans = postform::diff::changed_spans(old.line(0), new.line(0), &Ignore::USUAL, comparison.until);
+    let spans = postform::internals::diff::changed_spans(old.line(0), new.line(0), &Ignore::USUAL, comparison.until);
     assert_eq!(spans.map(|list| list.len()), [60_000; 2]);
     assert!(began.elapsed().as_secs() < 10, "{:?}", began.elapsed());
 }

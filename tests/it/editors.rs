@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use postform::lang::{COMMANDS, SEQUENCES};
+use postform::internals::lang::{COMMANDS, SEQUENCES};
 use serde_json::Value;
 
 use crate::support::root;

@@ -7,11 +7,11 @@ use std::process::{Command, Stdio};
 
 use crate::support::pages::{Page, checked};
 use crate::support::{root, sample_form, samples};
-use postform::fmt::format;
-use postform::lint::Levels;
-use postform::render::Options;
-use postform::sema::Checked;
-use postform::source::Source;
+use postform::internals::fmt::format;
+use postform::internals::lint::Levels;
+use postform::internals::render::Options;
+use postform::internals::sema::Checked;
+use postform::internals::source::Source;
 use proptest::prelude::*;
 
 fn laid_out(text: &str) -> String {
@@ -51,7 +51,7 @@ fn what_ships_renders_the_same_and_stays_as_it_is() {
         // findings stay, but for those of the layout itself; those of words that are lost stay in any case
         let layout = ["PF102", "PF103", "PF107", "PF204"];
         let codes = |form: &Checked| {
-            let found = postform::lint::lint(form, &Levels::default()).diags;
+            let found = postform::internals::lint::lint(form, &Levels::default()).diags;
             found.iter().map(|diag| diag.code.name()).filter(|code| !layout.contains(code)).collect::<Vec<_>>()
         };
         assert_eq!(codes(&before), codes(&after), "{text}\n--- laid out\n{once}");

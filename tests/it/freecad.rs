@@ -5,7 +5,7 @@
 use std::io::{Cursor, Write as _};
 use std::path::PathBuf;
 
-use postform::freecad::{Options, Report, read_freecad};
+use postform::internals::freecad::{Options, Report, read_freecad};
 use postform::toolpath::{Axes, Coolant, CycleSpec, Event, Flow, Place, ReadError, Sink, SpindleTurn, StopKind};
 use serde_json::Value;
 

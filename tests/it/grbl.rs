@@ -4,8 +4,8 @@ use std::fs;
 use std::io::Cursor;
 
 use crate::support::{check_file, control, job, render_checked, render_sample, root, sample_form, samples};
-use postform::control::Control;
-use postform::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator, Turn};
+use postform::internals::control::Control;
+use postform::internals::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator, Turn};
 use postform::toolpath::{Direction, FeedMode, Plane, Units};
 use serde_json::Value;
 
@@ -284,7 +284,7 @@ fn grbl_takes_every_sample_that_its_post_prints() {
     for folder in samples() {
         // a lathe's form has other axes
         let mill = sample_form(&folder)
-            .is_none_or(|form| check_file(&form).form.settings.machine == postform::lang::Machine::Mill);
+            .is_none_or(|form| check_file(&form).form.settings.machine == postform::internals::lang::Machine::Mill);
         let Some(rendered) = mill.then(|| render_sample(&folder, &form).ok()).flatten() else { continue };
         let (_, refused) = Run::new(&rendered.text, Control::named("grbl").unwrap()).all();
         assert_eq!(refused, None, "{}\n{}", folder.display(), rendered.text);
@@ -297,7 +297,8 @@ fn grbl_takes_every_sample_that_its_post_prints() {
 #[test]
 fn what_grbl_lacks_is_an_error_of_the_job() {
     let form = check_file(&root().join("postforms/grbl.pf"));
-    let rendered = |text: &str| render_checked(&form, text.as_bytes(), false, postform::render::Options::default());
+    let rendered =
+        |text: &str| render_checked(&form, text.as_bytes(), false, postform::internals::render::Options::default());
     let start = r#"{"rapid":[0,0,5]},{"rapid":[0,0,-1]}"#;
     let bore = r#"{"cycle":{"kind":"bore","depth":1,"orient":0,"offset":0.1,"clear":1,"feed":5,"points":[[1,1,0]]}}"#;
     let tap = r#"{"cycle":{"kind":"tap","rigid":true,"depth":1,"clear":1,"feed":5,"points":[[1,1,0]]}}"#;

@@ -7,11 +7,11 @@ use std::path::Path;
 
 use crate::support::nc::{self, difference, simulated};
 use crate::support::{Kind, root, sample_job, samples};
-use postform::nc::RunSettings;
-use postform::render::{Cycles, Options};
+use postform::internals::json::{read_document, read_lines};
+use postform::internals::nc::RunSettings;
+use postform::internals::render::{Cycles, Options};
+use postform::internals::verify::{Comparer, Expectation, Verdict};
 use postform::toolpath::Sink;
-use postform::toolpath::json::{read_document, read_lines};
-use postform::verify::{Comparer, Expectation, Verdict};
 
 /// What the interpreter makes of a program: its canonical calls, or its error.
 fn interpreted(program: &Path, tools: &str) -> String {
@@ -94,7 +94,7 @@ fn cycles_of_the_control_go_where_the_moves_go() {
 fn samples_run_in_the_interpreter_as_their_jobs_ask() {
     let form = root().join("postforms/linuxcnc.pf");
     let checked = support::check_file(&form);
-    let settings = postform::compile::compile(&checked.form).settings;
+    let settings = postform::internals::compile::compile(&checked.form).settings;
     let (mut run, mut compensated) = (0, 0);
     for folder in samples() {
         let (job, kind) = sample_job(&folder);
@@ -103,8 +103,14 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
             Kind::Document => read_document(&bytes[..], sink).is_ok(),
             Kind::Lines => read_lines(&bytes[..], sink).is_ok(),
             Kind::Cl => {
-                let mut report = postform::cl::Report::default();
-                postform::cl::read_cl(&bytes[..], &postform::cl::Options::default(), &mut report, sink).is_ok()
+                let mut report = postform::internals::cl::Report::default();
+                postform::internals::cl::read_cl(
+                    &bytes[..],
+                    &postform::internals::cl::Options::default(),
+                    &mut report,
+                    sink,
+                )
+                .is_ok()
             }
         };
         // registers of diameters are tools of the table too

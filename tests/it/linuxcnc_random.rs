@@ -5,7 +5,7 @@ use crate::support::control;
 use std::path::Path;
 
 use crate::support::nc::{self, difference, interpreted, simulated};
-use postform::nc::RunSettings;
+use postform::internals::nc::RunSettings;
 
 /// A generator of its own, so that a failing program can be made again from its number.
 struct Random(u64);

@@ -382,7 +382,7 @@ fn formats_are_organised_and_forms_laid_out() {
     let params = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
     let edits = editor.ask("textDocument/formatting", &params);
     let laid_out = edited(&text, &edits);
-    assert_eq!(laid_out, postform::fmt::format(&postform::Source::from_text("my.pf", text)));
+    assert_eq!(laid_out, postform::internals::fmt::format(&postform::Source::from_text("my.pf", text)));
     editor.change("my.pf", &laid_out);
     assert_eq!(editor.ask("textDocument/formatting", &params), json!([]));
     editor.quit();

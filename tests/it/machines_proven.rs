@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::support::root;
-use postform::verify::Verdict;
+use postform::internals::verify::Verdict;
 use postform::{Job, NoFiles, Options, Post, Source};
 
 /// The form's file, what stands in its program, what is put there instead, and the finding that comes of it.

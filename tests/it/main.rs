@@ -33,6 +33,7 @@ mod program_commands;
 mod program_jobs;
 mod proofs;
 mod properties;
+mod public_items;
 mod real_programs;
 mod reference;
 mod render_proof;

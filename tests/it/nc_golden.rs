@@ -6,7 +6,7 @@ use std::io::Cursor;
 use std::path::PathBuf;
 
 use crate::support::nc::{difference, interpreted, simulated};
-use postform::nc::{RunSettings, Simulator};
+use postform::internals::nc::{RunSettings, Simulator};
 use serde_json::Value;
 
 /// What is wrong with one program, if anything.

@@ -1,6 +1,6 @@
 //! The number writer against decimal arithmetic on text: another way to the same digits, slow and plain.
 
-use postform::number::{LetterFormat, Point, Sign, quantise, write_number};
+use postform::internals::number::{LetterFormat, Point, Sign, quantise, write_number};
 
 /// The shortest decimal of a value, as digits before and after the point.
 fn decimal(value: f64) -> (String, String) {

@@ -6,8 +6,8 @@ use std::process::{Command, Output};
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
-use postform::nc::RunSettings;
-use postform::picture::{Kind, Picture, Register, Sheet, View, draw, svg};
+use postform::internals::nc::RunSettings;
+use postform::internals::picture::{Kind, Picture, Register, Sheet, View, draw, svg};
 
 use crate::support::folder::Folder;
 use crate::support::{control, root};

@@ -5,9 +5,9 @@ use std::fs;
 use std::io::Cursor;
 
 use crate::support::{check, root};
-use postform::compile::compile;
-use postform::nc::{JobOptions, RunSettings, read_program};
-use postform::render::{Options, Renderer};
+use postform::internals::compile::compile;
+use postform::internals::nc::{JobOptions, RunSettings, read_program};
+use postform::internals::render::{Options, Renderer};
 use postform::toolpath::ReadError;
 
 const HEAD: &str = "G20 G17 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z1. M8\n";

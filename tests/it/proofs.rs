@@ -6,12 +6,14 @@ use std::io::Cursor;
 use crate::program_commands::{postform, text};
 use crate::support::{check, control, root};
 use crate::verify::{document, inches, post, rendered, verified};
-use postform::compile::compile;
-use postform::nc::{JobOptions, RunSettings, read_program};
-use postform::render::{Cycles, Options as RenderOptions, Renderer};
-use postform::toolpath::json::read_lines;
+use postform::internals::compile::compile;
+use postform::internals::json::read_lines;
+use postform::internals::nc::{JobOptions, RunSettings, read_program};
+use postform::internals::render::{Cycles, Options as RenderOptions, Renderer};
+use postform::internals::verify::{
+    Batch, Comparer, Equivalences, Expectation, Kept, UNPROVEN, Verdict, prove_beside, tolerances,
+};
 use postform::toolpath::{Event, Flow, Place, Sink};
-use postform::verify::{Batch, Comparer, Equivalences, Expectation, Kept, UNPROVEN, Verdict, prove_beside, tolerances};
 
 /// A metric job of two tools.
 fn mm(operations: &str) -> String {

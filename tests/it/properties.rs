@@ -4,10 +4,10 @@ use crate::support;
 use std::io::Read;
 
 use crate::support::{check, mill, render_checked};
-use postform::compile::compile;
-use postform::render::{Options, Renderer};
-use postform::syntax::{Head, Tail};
-use postform::toolpath::json::{read_document, read_lines};
+use postform::internals::compile::compile;
+use postform::internals::json::{read_document, read_lines};
+use postform::internals::render::{Options, Renderer};
+use postform::internals::syntax::{Head, Tail};
 use proptest::prelude::*;
 
 /// Gives its bytes in pieces, as a pipe does.
@@ -47,7 +47,7 @@ fn item() -> impl Strategy<Value = String> {
 const START: &str = "\"postform\":1,\"program\":7,\"tools\":[{\"number\":1}]";
 const OPERATION: &str = "\"tool\":1,\"work\":54,\"spindle\":{\"speed\":9,\"direction\":\"cw\"},\"feed\":5";
 
-fn form() -> postform::sema::Checked {
+fn form() -> postform::internals::sema::Checked {
     check(&mill(
         "Sequence#s N 1 1\nX->9.>4\nY->9.>4\nZ->9.>4\nP->9.>3",
         "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel",
@@ -111,7 +111,7 @@ proptest! {
             }
         }
         prop_assert_eq!(lines, text.lines().count().max(usize::from(text.is_empty())));
-        for diag in postform::lint::lint(&checked, &Default::default()).diags {
+        for diag in postform::internals::lint::lint(&checked, &Default::default()).diags {
             for label in diag.labels {
                 prop_assert!(text.get(label.span.range()).is_some(), "{:?}", label);
             }
@@ -126,9 +126,9 @@ proptest! {
         let mut bytes = std::fs::read(path).unwrap();
         let at = at % bytes.len();
         bytes[at] = byte;
-        let source = postform::source::Source::from_bytes("f.pf", &bytes);
-        let checked = postform::sema::analyse(source, Default::default(), &mut |_| Err("no".into()));
-        postform::lint::lint(&checked, &Default::default());
+        let source = postform::internals::source::Source::from_bytes("f.pf", &bytes);
+        let checked = postform::internals::sema::analyse(source, Default::default(), &mut |_| Err("no".into()));
+        postform::internals::lint::lint(&checked, &Default::default());
         if !checked.has_errors() {
             let job = std::fs::read(support::root().join("samples/bracket/job.json")).unwrap();
             _ = render_checked(&checked, &job, false, Options::default());
@@ -145,6 +145,6 @@ fn read_errors_are_no_empty_jobs() {
             Err(std::io::Error::other("the disk"))
         }
     }
-    let read = postform::toolpath::json::read_document(Failing, &mut postform::toolpath::Summary::default());
+    let read = postform::internals::json::read_document(Failing, &mut postform::toolpath::Summary::default());
     assert!(matches!(read, Err(postform::toolpath::ReadError::Io(_))), "{read:?}");
 }

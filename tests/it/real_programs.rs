@@ -7,11 +7,11 @@ use std::fs;
 use std::io::Cursor;
 
 use crate::support::root;
-use postform::compile::compile;
-use postform::nc::{JobOptions, RunError, RunSettings, Simulator, Tally, Unpointed, read_program};
-use postform::render::{Options, Renderer};
+use postform::internals::compile::compile;
+use postform::internals::nc::{JobOptions, RunError, RunSettings, Simulator, Tally, Unpointed, read_program};
+use postform::internals::render::{Options, Renderer};
+use postform::internals::verify::{Comparer, Expectation, Verdict};
 use postform::toolpath::{Sink, Units};
-use postform::verify::{Comparer, Expectation, Verdict};
 
 /// Holes and tools, or the code and line of a refusal.
 type Outcome = Result<(u64, u64), (&'static str, u64)>;

@@ -5,10 +5,10 @@ use crate::support;
 use std::fs;
 
 use crate::support::root;
-use postform::control::{self, Control};
 use postform::diag::CODES;
-use postform::explain::{controls, explain, list, reference};
-use postform::lang::{COMMANDS, SEQUENCES, VARIABLES};
+use postform::internals::control::{self, Control};
+use postform::internals::explain::{controls, explain, list, reference};
+use postform::internals::lang::{COMMANDS, SEQUENCES, VARIABLES};
 
 #[test]
 fn generated_pages_are_current() {

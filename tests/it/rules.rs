@@ -8,8 +8,8 @@ use std::fs;
 use crate::support::pages::{Fence, Page, checked, codes, found, mended};
 use crate::support::{mill, root, sample_form, samples};
 use postform::diag::{CODES, Code, CodeRow, Severity};
-use postform::lint::{Level, Levels, RULES, lint};
-use postform::render::Options;
+use postform::internals::lint::{Level, Levels, RULES, lint};
+use postform::internals::render::Options;
 use proptest::prelude::*;
 
 fn forms() -> impl Iterator<Item = &'static CodeRow> {
@@ -90,7 +90,7 @@ fn fixes_do_what_their_pages_say() {
 }
 
 /// The program of a sample by a form, or why there is none.
-fn program(folder: &std::path::Path, form: &postform::sema::Checked) -> Result<String, String> {
+fn program(folder: &std::path::Path, form: &postform::internals::sema::Checked) -> Result<String, String> {
     let options = Options { program: Some(1), ..Options::default() };
     match support::render_checked_sample(folder, form, options) {
         Ok(rendered) => Ok(rendered.text),
@@ -302,7 +302,7 @@ proptest! {
             }
         }
         mended(&form, true);
-        postform::fmt::format(&form.files[0]);
+        postform::internals::fmt::format(&form.files[0]);
     }
 }
 

@@ -3,10 +3,10 @@
 
 use crate::support;
 use crate::support::{job, mill, path_lines, program, wrong};
-use postform::compile::compile;
 use postform::diag::Location;
-use postform::render::{Options, Renderer};
-use postform::toolpath::json::read_lines;
+use postform::internals::compile::compile;
+use postform::internals::json::read_lines;
+use postform::internals::render::{Options, Renderer};
 use postform::toolpath::{Axes, Event, Hole, Place, Sink, Summary, Units};
 
 const DRILL: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";

@@ -7,8 +7,8 @@ use std::fs;
 use std::path::Path;
 
 use crate::support::{assert_same, check_file, render_sample, render_sample_with, root, sample_form, samples};
-use postform::control::Meaning;
-use postform::render::{Cycles, Options};
+use postform::internals::control::Meaning;
+use postform::internals::render::{Cycles, Options};
 use postform::toolpath::Place;
 use serde_json::Value;
 
@@ -62,11 +62,11 @@ fn every_post_that_ships_is_clean_and_prints_its_part() {
     for entry in fs::read_dir(root().join("postforms")).unwrap() {
         let path = entry.unwrap().path();
         let checked = support::check_file(&path);
-        let found = postform::lint::lint(&checked, &Default::default()).diags;
+        let found = postform::internals::lint::lint(&checked, &Default::default()).diags;
         assert!(found.is_empty(), "{}: {found:?}", path.display());
         posts += 1;
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
-        if checked.form.settings.machine == postform::lang::Machine::Mill {
+        if checked.form.settings.machine == postform::internals::lang::Machine::Mill {
             // a control without compensation prints the part by the path of the tool's centre
             let control = checked.form.settings.control();
             let part = if control.has(Meaning::SideLeft) { "bracket" } else { "plate" };

@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::support::{check_file, render_sample, root, sample_form};
-use postform::lang::SEQUENCES;
+use postform::internals::lang::SEQUENCES;
 
 #[test]
 fn no_sequence_is_without_a_sample_that_prints_it() {
@@ -20,7 +20,7 @@ fn no_sequence_is_without_a_sample_that_prints_it() {
 }
 
 /// Does some line of a sample's program come from this sequence?
-fn printed(sample: &str, id: postform::lang::SequenceId) -> bool {
+fn printed(sample: &str, id: postform::internals::lang::SequenceId) -> bool {
     let folder = root().join("samples").join(sample);
     let own = sample_form(&folder);
     let posts = fs::read_dir(&folder).unwrap().filter_map(|e| {

@@ -3,11 +3,11 @@
 //! LinuxCNC's own rules are held by recorded programs (`nc_golden.rs`) and by its interpreter (`linuxcnc_random.rs`).
 
 use crate::support::control;
-use postform::control::Control;
+use postform::internals::control::Control;
 use std::io::Cursor;
 
 use crate::support::nc::{Call, simulated};
-use postform::nc::{Action, RunError, RunSettings, Simulator, Unpointed};
+use postform::internals::nc::{Action, RunError, RunSettings, Simulator, Unpointed};
 
 /// Motions as text: `T` rapid, `F` feed.
 fn motions(control: &'static Control, program: &str) -> Vec<String> {
@@ -337,7 +337,7 @@ fn mutilated_programs_get_an_answer() {
                 bytes[at] = [b'[', b']', b'#', b'(', b'%', b'-', b'9', b'G', b'o', b'\n', 0, 0xff][random(12)];
             }
         }
-        for control in postform::control::names().map(control) {
+        for control in postform::internals::control::names().map(control) {
             let _ended = simulated(&bytes, RunSettings::new(control)).1;
         }
     }

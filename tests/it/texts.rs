@@ -1,7 +1,7 @@
 //! Backquoted text and texts of the job: what is printed, what is left out, what is refused.
 
 use crate::support::{check, mill, program, render, render_checked};
-use postform::render::{Clock, Options};
+use postform::internals::render::{Clock, Options};
 
 /// A form whose tool change prints these lines.
 fn form(head: &str, lines: &str) -> String {

@@ -2,8 +2,8 @@
 
 use crate::support;
 use crate::support::{check_file, render_sample, root};
+use postform::internals::trace::Trace;
 use postform::toolpath::Place;
-use postform::trace::Trace;
 
 #[test]
 fn a_program_line_leads_to_its_form_line_and_item_and_back() {

@@ -6,14 +6,14 @@ use std::fs;
 use std::io::Cursor;
 
 use crate::support::{check, root, wrong};
-use postform::compile::compile;
-use postform::control::Control;
-use postform::nc::{JobOptions, RunSettings, read_program};
-use postform::render::{Cycles, Options, Renderer};
-use postform::sema::Checked;
+use postform::internals::compile::compile;
+use postform::internals::control::Control;
+use postform::internals::json::{read_document, read_lines};
+use postform::internals::nc::{JobOptions, RunSettings, read_program};
+use postform::internals::render::{Cycles, Options, Renderer};
+use postform::internals::sema::Checked;
+use postform::internals::verify::{Comparer, Equivalences, Expectation, Verdict};
 use postform::toolpath::Sink;
-use postform::toolpath::json::{read_document, read_lines};
-use postform::verify::{Comparer, Equivalences, Expectation, Verdict};
 
 /// A job for verifying: it pushes its events into a sink.
 pub type Job<'a> = &'a dyn Fn(&mut dyn Sink) -> bool;

@@ -6,9 +6,9 @@
 use std::collections::HashMap;
 use std::io::{self, Read, Write};
 
-use postform::lint::Levels;
-use postform::scene::{Request, scene};
-use postform::sema::Limits;
+use postform::internals::lint::Levels;
+use postform::internals::scene::{Request, scene};
+use postform::internals::sema::Limits;
 use postform::{Files, Job, Options, Proof, Source};
 use serde::Deserialize;
 use serde_json::json;

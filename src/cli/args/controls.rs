@@ -8,8 +8,8 @@ use clap::error::ErrorKind;
 use clap::{Arg, Args, Command, ValueEnum};
 
 use postform::Proof;
-use postform::control::{self, Control};
-use postform::nc::{RunSettings, Unpointed};
+use postform::internals::control::{self, Control};
+use postform::internals::nc::{RunSettings, Unpointed};
 use postform::toolpath::Units;
 
 use super::super::files;

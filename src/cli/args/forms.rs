@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use postform::control::Control;
+use postform::internals::control::Control;
 
 use super::ControlParser;
 
-use postform::sema::Limits;
+use postform::internals::sema::Limits;
 
 /// Classic or extended limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

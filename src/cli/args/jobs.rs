@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use postform::cl::{Assumed, AssumedSpeed, Dialect, parse_position};
 use postform::diag::{Diag, Severity};
-use postform::render::{Clock, Cycles};
+use postform::internals::cl::{Assumed, AssumedSpeed, Dialect, parse_position};
+use postform::internals::render::{Clock, Cycles};
 use postform::toolpath::Units;
 use postform::{Format, Options, Reading};
 
-use postform::control::Control;
-use postform::nc::Unpointed;
+use postform::internals::control::Control;
+use postform::internals::nc::Unpointed;
 
 use super::super::clock;
 use super::{ControlArgs, ControlParser, LimitsArg, NoPoint};

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use postform::picture::View;
+use postform::internals::picture::View;
 
 use super::{ControlArgs, ReadArgs, RenderOptions};
 

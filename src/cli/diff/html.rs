@@ -6,9 +6,9 @@ use std::ops::Range;
 use std::time::Instant;
 
 use postform::diag::escaped;
-use postform::diff::{Comparison, Edit, Hunk, Options, Program, Summary, changed_spans};
-use postform::nc::RunSettings;
-use postform::picture::{Sheet, View, draw, svg_over};
+use postform::internals::diff::{Comparison, Edit, Hunk, Options, Program, Summary, changed_spans};
+use postform::internals::nc::RunSettings;
+use postform::internals::picture::{Sheet, View, draw, svg_over};
 
 use super::sides::Side;
 use super::text::{grouped, sentence};

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use postform::diff::{Comparison, Edit, Options, Summary, changed_spans};
-use postform::verify::Motions;
+use postform::internals::diff::{Comparison, Edit, Options, Summary, changed_spans};
+use postform::internals::verify::Motions;
 
 use super::super::output;
 use super::sides::Side;

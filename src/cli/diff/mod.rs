@@ -8,10 +8,10 @@ mod text;
 use std::io::{Cursor, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-use postform::diff::{Deadline, Ignore, Options, Program, Summary, compare};
-use postform::nc::{Kind, RunError, RunSettings, tokens};
+use postform::internals::diff::{Deadline, Ignore, Options, Program, Summary, compare};
+use postform::internals::nc::{Kind, RunError, RunSettings, tokens};
+use postform::internals::verify::{Motions, NoMotion, compare_motions};
 use postform::toolpath::Units;
-use postform::verify::{Motions, NoMotion, compare_motions};
 
 use super::args::{DiffArgs, DiffFormat, Layout};
 use super::colour::Colour;

@@ -4,11 +4,11 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use postform::control::Control;
-use postform::diff::Program;
-use postform::render::TraceLine;
-use postform::source::Source;
-use postform::trace::Trace;
+use postform::internals::control::Control;
+use postform::internals::diff::Program;
+use postform::internals::render::TraceLine;
+use postform::internals::source::Source;
+use postform::internals::trace::Trace;
 
 use super::super::args::DiffArgs;
 use super::super::files::{self, io_message};

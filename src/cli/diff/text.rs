@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use postform::diag::escaped;
-use postform::diff::{Comparison, Edit, Hunk, Options, Summary, changed_spans};
-use postform::verify::Motions;
+use postform::internals::diff::{Comparison, Edit, Hunk, Options, Summary, changed_spans};
+use postform::internals::verify::Motions;
 
 use super::super::args::DiffArgs;
 use super::super::report::count;

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use postform::diag::{Diag, escaped_lines};
-use postform::lint::{Changed, Levels, Mended, lint, mend};
-use postform::post::sample_program;
-use postform::sema::Checked;
+use postform::internals::lint::{Changed, Levels, Mended, lint, mend};
+use postform::internals::post::sample_program;
+use postform::internals::sema::Checked;
 use similar::TextDiff;
 
 use super::super::args::{LintArgs, ReadArgs};

@@ -6,9 +6,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use postform::diag::{Findings, Severity};
-use postform::lint::{Changed, Found, lint};
-use postform::report as reports;
-use postform::sema::Checked;
+use postform::internals::lint::{Changed, Found, lint};
+use postform::internals::report as reports;
+use postform::internals::sema::Checked;
 use rayon::prelude::*;
 
 use super::args::{Format, LintArgs};

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use gen_lsp_types as lsp;
-use postform::ide::{Action, ActionKind};
-use postform::lint::mend;
-use postform::span::Span;
+use postform::Span;
+use postform::internals::ide::{Action, ActionKind};
+use postform::internals::lint::mend;
 
 use super::convert::{diagnostic, range, span};
 use super::server::Server;

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use gen_lsp_types as lsp;
 use postform::Source;
+use postform::Span;
 use postform::diag::{Diag, Severity};
-use postform::ide::utf16;
-use postform::span::Span;
+use postform::internals::ide::utf16;
 
 /// A place.
 pub fn position(place: utf16::Place) -> lsp::Position {

@@ -1,9 +1,9 @@
 //! What is found in a text, as its editor shows it.
 
 use gen_lsp_types as lsp;
-use postform::control::Control;
 use postform::diag::Diag;
-use postform::ide::program;
+use postform::internals::control::Control;
+use postform::internals::ide::program;
 use postform::{Job, Source};
 
 use super::convert::{diagnostic, line, range, trouble};
@@ -61,11 +61,11 @@ fn form(view: &View, server: &Server) -> Vec<lsp::Diagnostic> {
 }
 
 /// The line that calls a file, or the beginning of the form.
-fn call_of(view: &View, file: u32) -> postform::span::Span {
+fn call_of(view: &View, file: u32) -> postform::Span {
     let name = view.document.files().get(file as usize).map_or("", |source| source.name.as_str());
     let statements = view.document.checked().trees[0].statements();
     let mut calls = statements.filter(|statement| statement.name.text.to_ascii_lowercase().starts_with("call"));
-    let of = |statement: &&postform::syntax::Statement| {
+    let of = |statement: &&postform::internals::syntax::Statement| {
         statement.args.first().is_some_and(|arg| name.ends_with(arg.text.trim_start_matches("./")))
     };
     calls.find(of).map(|statement| statement.line.span).unwrap_or_default()
@@ -123,7 +123,7 @@ fn job(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
         let line = rest.lines().next().unwrap_or("");
         let from = start + column.min(line.len() as u32);
         let to = start + line.trim_end().len() as u32;
-        diagnostic(diag, range(source, postform::span::Span { file: 0, start: from, end: to.max(from) }), "postform")
+        diagnostic(diag, range(source, postform::Span { file: 0, start: from, end: to.max(from) }), "postform")
     };
     diags.iter().map(in_job).collect()
 }

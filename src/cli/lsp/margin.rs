@@ -1,7 +1,7 @@
 //! What stands beside the text: hints behind words, and the verdict of each job above the form.
 
 use gen_lsp_types as lsp;
-use postform::ide::program;
+use postform::internals::ide::program;
 use serde_json::json;
 
 use super::convert::{line, position, range, span};
@@ -22,7 +22,7 @@ pub fn hints(server: &Server, view: &View, within: lsp::Range) -> Vec<lsp::Inlay
     };
     let Some(current) = view.current().filter(|_| shown) else { return Vec::new() };
     let hints = view.document.hints(span(source, view.file, within), current);
-    let shown = |hint: postform::ide::Hint| {
+    let shown = |hint: postform::internals::ide::Hint| {
         let repeats = hint.text.is_empty();
         let label = if repeats { "→ ·".to_owned() } else { format!("→ {}", hint.text) };
         let tooltip = match repeats {
@@ -104,7 +104,7 @@ fn of_program(server: &Server, text: &Text) -> lsp::CodeLens {
         }
         Err(message) => message,
     };
-    let at = position(postform::ide::utf16::Place::default());
+    let at = position(postform::internals::ide::utf16::Place::default());
     let command = lsp::Command { title, tooltip: None, command: String::new(), arguments: None };
     lsp::CodeLens { range: lsp::Range { start: at, end: at }, command: Some(command), data: None }
 }

@@ -1,7 +1,7 @@
 //! Where else a thing stands, and other names for it.
 
 use gen_lsp_types as lsp;
-use postform::span::Span;
+use postform::Span;
 
 use super::convert::{edit, offset, range};
 use super::programs;
@@ -70,7 +70,7 @@ pub fn implementation(server: &Server, at: &lsp::TextDocumentPositionParams) -> 
 /// The file that the line of a place calls.
 fn called(view: &View, place: u32) -> Option<u32> {
     let tree = view.document.checked().trees.get(view.file as usize)?;
-    let on_line = |statement: &&postform::syntax::Statement| {
+    let on_line = |statement: &&postform::internals::syntax::Statement| {
         statement.line.span.start <= place && place <= statement.line.span.end
     };
     let statement = tree.statements().find(on_line)?;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use gen_lsp_types as lsp;
-use postform::ide::Current;
+use postform::internals::ide::Current;
 use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 

@@ -1,7 +1,7 @@
 //! What is told while somebody reads and types: hover, completion, the word of a command.
 
 use gen_lsp_types as lsp;
-use postform::ide::{Completion, CompletionKind, about, program};
+use postform::internals::ide::{Completion, CompletionKind, about, program};
 use serde_json::json;
 
 use super::convert::{markdown, offset, range};

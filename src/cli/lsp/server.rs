@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use gen_lsp_types as lsp;
-use postform::control::{self, Control};
-use postform::ide::program;
+use postform::internals::control::{self, Control};
+use postform::internals::ide::program;
 use serde::Deserialize;
 
 use super::programs::{Programs, form_of};

@@ -1,8 +1,8 @@
 //! The shape of a form: outline, folding, colours, layout.
 
 use gen_lsp_types as lsp;
-use postform::ide::{Symbol, SymbolKind, TokenKind};
-use postform::span::Span;
+use postform::Span;
+use postform::internals::ide::{Symbol, SymbolKind, TokenKind};
 
 use super::convert::range;
 use super::server::Server;
@@ -61,7 +61,7 @@ pub fn everywhere(server: &Server, asked: &str) -> Vec<lsp::WorkspaceSymbol> {
             },
         };
         let uri = server.texts.of_path(&path).map_or_else(|| uri::of_path(&path), |text| text.uri.clone());
-        for symbol in postform::ide::symbols_of(&source) {
+        for symbol in postform::internals::ide::symbols_of(&source) {
             if found.len() < MOST_SYMBOLS && symbol.name.to_ascii_lowercase().contains(&asked) {
                 let place = lsp::Location { uri: uri.clone(), range: range(&source, symbol.name_span) };
                 let file = path.file_name().map(|name| name.to_string_lossy().into_owned());
@@ -145,7 +145,7 @@ pub fn tokens(view: &View, within: Option<Span>) -> lsp::SemanticTokens {
 /// The canonical layout, as one edit; none where the form is laid out so.
 pub fn format(server: &Server, uri: &lsp::Uri) -> Option<Vec<lsp::TextEdit>> {
     let text = server.texts.get(uri).filter(|text| text.kind == Kind::Form)?;
-    let laid_out = postform::fmt::format(&text.source);
+    let laid_out = postform::internals::fmt::format(&text.source);
     if laid_out == text.source.text {
         return Some(Vec::new());
     }

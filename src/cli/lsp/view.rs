@@ -5,10 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use gen_lsp_types::Uri;
-use postform::ide::{Current, Document};
-use postform::lint::Changed;
-use postform::post::sample_program;
-use postform::sema::Checked;
+use postform::internals::ide::{Current, Document};
+use postform::internals::lint::Changed;
+use postform::internals::post::sample_program;
+use postform::internals::sema::Checked;
 use postform::{Job, NoFiles, Source};
 
 use super::texts::{Text, Texts};
@@ -158,7 +158,7 @@ impl View {
                 let name = self.source().name.clone();
                 let text = all.get(&name).cloned().unwrap_or_else(|| self.source().text.clone());
                 let limits = self.config.limits.unwrap_or_default().limits();
-                postform::sema::analyse(Source::from_text(name, text), limits, &mut |_| {
+                postform::internals::sema::analyse(Source::from_text(name, text), limits, &mut |_| {
                     Err("is in no folder yet".into())
                 })
             }

@@ -1,6 +1,6 @@
 //! Actions as JSON Lines.
 
-use postform::nc::{Action, Item};
+use postform::internals::nc::{Action, Item};
 
 use super::{plane_name, stop_name, turn_name};
 

@@ -7,7 +7,7 @@ mod text;
 use std::io::{self, Write};
 use std::path::Path;
 
-use postform::nc::{RunError, Simulator, Tally};
+use postform::internals::nc::{RunError, Simulator, Tally};
 use postform::toolpath::{Direction, Plane, StopKind};
 
 use super::Ending;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use postform::nc::{Tally, clock, rapid_rate};
+use postform::internals::nc::{Tally, clock, rapid_rate};
 
 /// The summary as a machinist reads it.
 pub fn describe(tally: &Tally, blocks: u64) -> String {

@@ -1,7 +1,7 @@
 //! Actions as lines of text.
 
-use postform::nc::{Action, Item};
-use postform::number::quantise;
+use postform::internals::nc::{Action, Item};
+use postform::internals::number::quantise;
 
 use super::{plane_name, stop_name, turn_name};
 

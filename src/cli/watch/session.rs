@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use postform::diff::Deadline;
-use postform::lint::Levels;
-use postform::scene::{Request, Scene, scene};
+use postform::internals::diff::Deadline;
+use postform::internals::lint::Levels;
+use postform::internals::scene::{Request, Scene, scene};
 use postform::{Files, Options, Proof, Source};
 use serde::Deserialize;
 use serde_json::json;

@@ -8,14 +8,14 @@ pub mod pages;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use postform::cl::read_cl;
-use postform::compile::compile;
-use postform::control::Control;
 use postform::diag::Diag;
-use postform::render::{Options, Renderer, TraceLine};
-use postform::sema::{Checked, Limits, analyse};
-use postform::source::Source;
-use postform::toolpath::json::{read_document, read_lines};
+use postform::internals::cl::read_cl;
+use postform::internals::compile::compile;
+use postform::internals::control::Control;
+use postform::internals::json::{read_document, read_lines};
+use postform::internals::render::{Options, Renderer, TraceLine};
+use postform::internals::sema::{Checked, Limits, analyse};
+use postform::internals::source::Source;
 use postform::toolpath::{Flow, ReadError, Stop};
 
 /// A control that ships; for a name that is none, the usual one.
@@ -69,9 +69,12 @@ pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) 
     let read = match kind {
         Kind::Lines => read_lines(job, &mut renderer),
         Kind::Document => read_document(job, &mut renderer),
-        Kind::Cl => {
-            read_cl(job, &postform::cl::Options::default(), &mut postform::cl::Report::default(), &mut renderer)
-        }
+        Kind::Cl => read_cl(
+            job,
+            &postform::internals::cl::Options::default(),
+            &mut postform::internals::cl::Report::default(),
+            &mut renderer,
+        ),
     };
     match read {
         Ok(()) => Ok(Rendered {

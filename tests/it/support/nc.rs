@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::Mutex;
 
-use postform::nc::{Action, Item, Rotation, RunError, RunSettings, Simulator};
+use postform::internals::nc::{Action, Item, Rotation, RunError, RunSettings, Simulator};
 
 /// Runs LinuxCNC's interpreter on files that are written first. One at a time: it keeps its tool table in the home folder.
 pub fn rs274(files: &[(&Path, &str)], arguments: &[&OsStr]) -> Output {

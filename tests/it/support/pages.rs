@@ -4,11 +4,11 @@
 use std::fs;
 
 use postform::diag::Diag;
-use postform::lang::{CommandId, SequenceId};
-use postform::lint::{Changed, Found, Levels, lint, mend};
-use postform::sema::{Checked, Limits, analyse};
-use postform::source::Source;
-use postform::syntax::{Form, Head, parse};
+use postform::internals::lang::{CommandId, SequenceId};
+use postform::internals::lint::{Changed, Found, Levels, lint, mend};
+use postform::internals::sema::{Checked, Limits, analyse};
+use postform::internals::source::Source;
+use postform::internals::syntax::{Form, Head, parse};
 
 use super::root;
 

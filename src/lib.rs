@@ -31,6 +31,7 @@
 
 mod cl;
 mod compile;
+mod config;
 mod control;
 mod cycle;
 pub mod diag;
@@ -62,6 +63,7 @@ mod verify;
 
 // what is public besides these two modules: tests/data/public-items.txt lists it all
 pub use cl::{Assumed, AssumedSpeed, Dialect, Options as ClOptions, Report as ClReport, Setup as ClSetup};
+pub use config::{Config, ControlName};
 pub use control::{Control, Wrong as WrongControl};
 pub use diag::{Diag, Findings};
 pub use error::{Error, ErrorKind};

@@ -9,7 +9,6 @@ use postform::internals::lint::{Changed, parts};
 use postform::internals::sema::{Checked, Limits, analyse};
 use postform::{Files, Source};
 
-use super::args::LimitsArg;
 use super::files::{self, io_message};
 use super::say::message;
 
@@ -25,15 +24,14 @@ pub struct FormFile {
 
 impl FormFile {
     /// Reads a form. `Err` is a message: the file can't be read.
-    pub fn read(path: &Path, limits: LimitsArg) -> Result<FormFile, String> {
-        let limits = limits.limits();
+    pub fn read(path: &Path, limits: Limits) -> Result<FormFile, String> {
         Ok(FormFile { path: path.to_path_buf(), bytes: files::read_form(path)?, limits, called: RefCell::default() })
     }
 
     /// A form whose text is in an editor: it comes with the changed texts.
-    pub fn open_in_editor(path: &Path, limits: LimitsArg) -> FormFile {
+    pub fn open_in_editor(path: &Path, limits: Limits) -> FormFile {
         let bytes = files::read_form(path).unwrap_or_default();
-        FormFile { path: path.to_path_buf(), bytes, limits: limits.limits(), called: RefCell::default() }
+        FormFile { path: path.to_path_buf(), bytes, limits, called: RefCell::default() }
     }
 
     /// The form's text.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use postform::diag::Diag;
 use postform::{Options, Post};
 
-use super::args::RenderOptions;
+use super::args::{LimitsArg, RenderOptions};
 use super::config::Config;
 use super::files::{self, io_message};
 use super::forms::FormFile;
@@ -34,9 +34,9 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         return Err("error: form and job can't both be standard input".into());
     }
     let config = Config::near(form)?;
-    let limits = args.limits.or(config.limits).unwrap_or_default();
+    let limits = args.limits.map(LimitsArg::limits).or(config.limits).unwrap_or_default();
     let file = FormFile::read(form, limits)?;
-    let (post, found) = match Post::compile_with(file.source(), &file, limits.limits(), &config.levels) {
+    let (post, found) = match Post::compile_with(file.source(), &file, limits, &config.levels) {
         Ok(post) => (Some(post.clone()), post.warnings().clone()),
         Err(error) => (None, error.into_findings()),
     };

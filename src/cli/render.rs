@@ -11,7 +11,7 @@ use postform::internals::verify::Verdict;
 use postform::{Error, ErrorKind, Part, Proven};
 
 use super::Ending;
-use super::args::{LimitsArg, RenderArgs};
+use super::args::RenderArgs;
 use super::beside::{self, Printed};
 use super::config::Config;
 use super::files::{self, io_message};
@@ -36,7 +36,7 @@ fn inputs(args: &RenderArgs) -> Vec<PathBuf> {
     let config = Config::near(&args.job).unwrap_or_default();
     let form = args.form.clone().or(config.form);
     let mut paths: Vec<PathBuf> = config.path.into_iter().chain([args.job.clone()]).chain(form.clone()).collect();
-    if let Some(file) = form.and_then(|form| FormFile::read(&form, LimitsArg::default()).ok()) {
+    if let Some(file) = form.and_then(|form| FormFile::read(&form, postform::Limits::default()).ok()) {
         file.analyse(&Changed::new());
         paths.extend(file.paths());
     }

@@ -21,6 +21,17 @@ pub const MOST_LINES: usize = 150;
 /// Most bytes of a form, with all that it calls: no form has a tenth of that.
 pub const MOST_TEXT: usize = 512 << 10;
 
+impl Limits {
+    /// Names of the limits.
+    pub const NAMES: [&'static str; 2] = ["classic", "extended"];
+
+    /// The limits of a name, in either case.
+    pub fn parse(name: &str) -> Option<Limits> {
+        let at = Limits::NAMES.iter().position(|known| known.eq_ignore_ascii_case(name))?;
+        Some([Limits::Classic, Limits::Extended][at])
+    }
+}
+
 impl Analysis {
     /// Counts the line of a sequence, and its words.
     pub(super) fn limits_of(&mut self, body: &Body) {

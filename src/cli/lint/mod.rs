@@ -11,7 +11,7 @@ use postform::internals::report as reports;
 use postform::internals::sema::Checked;
 use rayon::prelude::*;
 
-use super::args::{Format, LintArgs};
+use super::args::{Format, LimitsArg, LintArgs};
 use super::colour::Colour;
 use super::config::Config;
 use super::forms::{self, FormFile};
@@ -92,7 +92,7 @@ fn report(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
 
 /// The text of a form, with the limits that hold for it.
 fn read(path: &Path, args: &LintArgs) -> Result<FormFile, String> {
-    FormFile::read(path, args.limits.or(Config::near(path)?.limits).unwrap_or_default())
+    FormFile::read(path, args.limits.map(LimitsArg::limits).or(Config::near(path)?.limits).unwrap_or_default())
 }
 
 /// One form: mended if that is asked for, and looked at.

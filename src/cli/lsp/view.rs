@@ -81,7 +81,7 @@ impl View {
     /// A form that was never saved: it calls none.
     fn without_file(text: &Text) -> View {
         let config = Config::default();
-        let limits = config.limits.unwrap_or_default().limits();
+        let limits = config.limits.unwrap_or_default();
         let document = Document::new(text.source.clone(), &NoFiles, limits, &config.levels);
         View {
             document,
@@ -157,7 +157,7 @@ impl View {
             None => {
                 let name = self.source().name.clone();
                 let text = all.get(&name).cloned().unwrap_or_else(|| self.source().text.clone());
-                let limits = self.config.limits.unwrap_or_default().limits();
+                let limits = self.config.limits.unwrap_or_default();
                 postform::internals::sema::analyse(Source::from_text(name, text), limits, &mut |_| {
                     Err("is in no folder yet".into())
                 })

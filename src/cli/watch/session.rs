@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use postform::internals::diff::Deadline;
 use postform::internals::lint::Levels;
 use postform::internals::scene::{Request, Scene, scene};
-use postform::{Files, Options, Proof, Source};
+use postform::{Files, Limits, Options, Proof, Source};
 use serde::Deserialize;
 use serde_json::json;
 
@@ -69,7 +69,7 @@ pub struct Session {
     jobs: Vec<PathBuf>,
     against: Option<PathBuf>,
     read: ReadArgs,
-    limits: LimitsArg,
+    limits: Limits,
     levels: Levels,
     options: Options,
     proof: Proof,
@@ -83,7 +83,7 @@ impl Session {
     /// A message: a file can't be read, or an option makes no sense.
     pub fn open(args: WatchArgs) -> Result<Session, String> {
         let config = Config::near(&args.form)?;
-        let limits = args.options.limits.or(config.limits).unwrap_or_default();
+        let limits = args.options.limits.map(LimitsArg::limits).or(config.limits).unwrap_or_default();
         for path in [Some(&args.form), args.against.as_ref()].into_iter().flatten().chain(&args.job) {
             if path == Path::new("-") {
                 return Err("error: watch reads files that can be read again: - is none".into());
@@ -145,7 +145,7 @@ impl Session {
         let mut scene = scene(Request {
             form: now,
             files: &typed,
-            limits: self.limits.limits(),
+            limits: self.limits,
             levels: &self.levels,
             job,
             job_name: &files::name(path),

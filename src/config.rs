@@ -1,0 +1,110 @@
+//! What `postform.toml` says: what a shop wants everywhere. Finding and reading the file is the caller's.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::control::{self, Control};
+use crate::diag::escaped;
+use crate::error::Error;
+use crate::lint::{Level, Levels};
+use crate::sema::Limits;
+
+/// What holds for the files of a folder and below it. Paths are as written: from the folder of the file.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Config {
+    /// The form of `render` and `verify`.
+    pub form: Option<String>,
+    /// Whose rules programs are run by.
+    pub control: Option<ControlName>,
+    /// Limits of forms.
+    pub limits: Option<Limits>,
+    /// What editors print with the forms of the folder.
+    pub jobs: Vec<String>,
+    /// Programs that are not proven are not printed.
+    pub require_proof: bool,
+    /// What rules count as.
+    pub levels: Levels,
+}
+
+/// A control that comes with postform, or a shop's own.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum ControlName {
+    /// It comes with postform.
+    Known(&'static Control),
+    /// The path of a file that describes it: see [`Control::own`].
+    File(String),
+}
+
+/// What the file may say.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    form: Option<String>,
+    control: Option<WrittenControl>,
+    limits: Option<String>,
+    #[serde(default, rename = "require-proof")]
+    require_proof: bool,
+    #[serde(default)]
+    jobs: Vec<String>,
+    #[serde(default)]
+    rules: BTreeMap<String, String>,
+}
+
+/// `control = "haas"`, or a file that describes one.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum WrittenControl {
+    Name(String),
+    File { file: String },
+}
+
+impl Config {
+    /// Reads the text of the file.
+    ///
+    /// # Errors
+    /// It is not TOML, has a key that there is not, or a value that makes no sense.
+    pub fn parse(text: &str) -> Result<Config, Error> {
+        let written: Written = toml::from_str(text).map_err(|error| {
+            let known =
+                "it may say form, control, limits, jobs, require-proof, and under [rules] codes as PF303 = \"off\"";
+            Error::usage(format!("{}\n  help: {known}", error.to_string().trim_end()))
+        })?;
+        let mut levels = Levels::default();
+        // a family first, so that its codes can be told apart whatever the order
+        let mut rules: Vec<_> = written.rules.iter().collect();
+        rules.sort_by_key(|(code, _)| code.len());
+        for (code, level) in rules {
+            let Some(parsed) = Level::parse(level) else {
+                let levels = "off, note, warning or error";
+                return Err(Error::usage(format!("{} = {level:?}: a rule is {levels}", escaped(code))));
+            };
+            levels.set(code, parsed).map_err(|why| Error::usage(format!("{} {why}", escaped(code))))?;
+        }
+        let one_of = |key: &str, value: &str, known: &[&str]| {
+            Error::usage(format!("{key} = {value:?}: it is one of {}", known.join(", ")))
+        };
+        let control = match written.control {
+            Some(WrittenControl::File { file }) => Some(ControlName::File(file)),
+            Some(WrittenControl::Name(name)) if control::is_file(&name) => Some(ControlName::File(name)),
+            Some(WrittenControl::Name(name)) => {
+                let control = Control::named(&name.to_ascii_lowercase());
+                let known: Vec<&str> = control::names().collect();
+                Some(ControlName::Known(control.ok_or_else(|| one_of("control", &name, &known))?))
+            }
+            None => None,
+        };
+        let limits =
+            written.limits.map(|name| Limits::parse(&name).ok_or_else(|| one_of("limits", &name, &Limits::NAMES)));
+        Ok(Config {
+            form: written.form,
+            control,
+            limits: limits.transpose()?,
+            jobs: written.jobs,
+            require_proof: written.require_proof,
+            levels,
+        })
+    }
+}

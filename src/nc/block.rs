@@ -6,6 +6,7 @@ use super::flow::Flow;
 use super::parameters::Target;
 use crate::control::{Control, GROUPS, Meaning, Row};
 use crate::diag::Code;
+use crate::toolpath::Plane;
 
 /// Most G codes and M codes of a block that are kept.
 pub(super) const MOST: usize = 16;
@@ -71,15 +72,28 @@ impl Block {
     /// The G code of a group, times ten.
     #[inline]
     pub fn g(&self, group: Group) -> Option<u16> {
-        if !self.has_g {
-            return None;
-        }
-        self.g[group as usize].map(|row| row.code.tenths)
+        self.row(group).map(|row| row.code.tenths)
+    }
+
+    /// What the control has of the G code of a group.
+    #[inline]
+    pub fn row(&self, group: Group) -> Option<&'static Row> {
+        if self.has_g { self.g[group as usize] } else { None }
     }
 
     /// What the G code of a group means.
+    #[inline]
     pub fn g_meaning(&self, group: Group) -> Option<Meaning> {
-        self.g[group as usize].map(|row| row.meaning)
+        self.row(group).map(|row| row.meaning)
+    }
+
+    /// The plane that the block says.
+    pub fn plane(&self) -> Option<Plane> {
+        Some(match self.g_meaning(Group::Plane)? {
+            Meaning::PlaneXz => Plane::Xz,
+            Meaning::PlaneYz => Plane::Yz,
+            _ => Plane::Xy,
+        })
     }
 
     /// Has the block G codes besides motions and cycles?
@@ -192,9 +206,12 @@ impl Block {
         }
         let spindle =
             self.m().any(|(_, row)| row.meaning == Meaning::Orient || row.meaning.group() == Some(Group::Spindle))
-                || [Group::Motion, Group::SpeedMode, Group::FeedMode]
-                    .iter()
-                    .any(|&group| matches!(self.g(group), Some(330 | 331 | 760 | 950 | 960 | 970)));
+                || self.g_meaning(Group::SpeedMode).is_some()
+                || self.g_meaning(Group::FeedMode) == Some(Meaning::PerRev)
+                || matches!(
+                    self.g_meaning(Group::Motion),
+                    Some(Meaning::Thread | Meaning::RigidTap | Meaning::ThreadCycle)
+                );
         if self.spindle && !spindle {
             return refuse(Code::PN005, "$ is there, and no code that uses it", "take it out");
         }

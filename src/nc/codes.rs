@@ -42,12 +42,40 @@ pub fn takes_axes(row: &Row, rules: Rules) -> bool {
 /// The row of ten times a G number; `None`: the control has no such code, or it is not run.
 #[inline]
 pub fn g_code(control: &'static Control, code: u16) -> Option<&'static Row> {
-    control.row(Code { letter: b'G', tenths: code }).filter(|row| row.not_run.is_none())
+    control
+        .row(Code { letter: b'G', tenths: code })
+        .filter(|row| row.not_run.is_none() && is_simulated(row.meaning, code))
 }
 
 /// Why a G code that this control has is not run.
 pub fn why_not_run(control: &Control, code: u16) -> Option<&str> {
-    control.row(Code { letter: b'G', tenths: code })?.not_run.as_deref()
+    let row = control.row(Code { letter: b'G', tenths: code })?;
+    let by_number = (!is_simulated(row.meaning, code)).then_some("its meaning is simulated for the usual numbers only");
+    row.not_run.as_deref().or(by_number)
+}
+
+/// Is a G code of this meaning simulated under this number? A meaning says what a code switches; how exactly a cycle drills,
+/// and which work offset or reference point is meant, is known by the number, as LinuxCNC, Fanuc and Haas document it.
+#[inline]
+fn is_simulated(meaning: Meaning, code: u16) -> bool {
+    use Meaning as M;
+    match meaning {
+        M::Rapid => code == 0,
+        M::Line => code == 10,
+        M::ArcCw => code == 20,
+        M::ArcCcw => code == 30,
+        M::Thread => matches!(code, 320 | 330),
+        M::RigidTap => code == 331,
+        M::ThreadCycle => matches!(code, 760 | 920),
+        M::Cycle => matches!(code, 730 | 740 | 760 | 810 | 820 | 830 | 840 | 850 | 860 | 870 | 880 | 890),
+        M::CycleEnd => code == 800,
+        M::Work => matches!(code, 540 | 541 | 550 | 560 | 570 | 580 | 590..=593 | 1540),
+        M::Reference => matches!(code, 280 | 300),
+        M::SetReference => matches!(code, 281 | 301),
+        M::Frame | M::Preset => matches!(code, 520 | 920 | 500),
+        M::FrameOff => matches!(code, 921..=923),
+        _ => true,
+    }
 }
 
 /// The row of an M number.

@@ -8,7 +8,7 @@ use super::fault::{Done, refuse};
 use super::holes::Work;
 use super::out::Out;
 use super::state::State;
-use crate::control::Rules;
+use crate::control::{Meaning, Rules};
 use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
@@ -196,7 +196,7 @@ impl State {
             if word.is_none() && !same && !matches!(code, 740 | 840) {
                 return missing('P');
             }
-            if word.is_some() && block.g(super::codes::Group::Once) == Some(40) {
+            if word.is_some() && block.g_meaning(super::codes::Group::Once) == Some(Meaning::Dwell) {
                 self.warnings.push((Code::PN033, "P is the dwell of G4 and of the cycle at once"));
             }
             self.holes.series.dwell = word.or(self.holes.series.dwell);

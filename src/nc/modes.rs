@@ -8,7 +8,7 @@ use super::out::Out;
 use super::state::State;
 use crate::control::{Meaning, Rules};
 use crate::diag::Code;
-use crate::toolpath::{FeedMode, Plane, Units};
+use crate::toolpath::{FeedMode, Units};
 
 impl State {
     pub(super) fn feed_mode(&mut self, block: &Block, out: &mut Out<'_>) {
@@ -34,7 +34,7 @@ impl State {
     /// Everything between feed and motion.
     pub(super) fn set_up(&mut self, block: &Block, motion: Option<u16>, out: &mut Out<'_>) -> Done {
         self.spindle_and_tool(block, out)?;
-        if block.g(Group::Once) == Some(40) {
+        if block.g_meaning(Group::Once) == Some(Meaning::Dwell) {
             let x_is_no_time = block.has(bit(b'X')) && block.has(bit(b'P'));
             if !self.control.is_linuxcnc() && (block.has(letters("YZABC")) || x_is_no_time) {
                 let help = "write the dwell in a block of its own: X is its time, too";
@@ -51,37 +51,30 @@ impl State {
             }
             out.push(Action::Dwell(seconds));
         }
-        let plane = match block.g(Group::Plane) {
-            Some(180) => Plane::Xz,
-            Some(190) => Plane::Yz,
-            Some(_) => Plane::Xy,
-            None => self.modes.plane,
-        };
+        let plane = block.plane().unwrap_or(self.modes.plane);
         if plane != self.modes.plane {
             self.modes.plane = plane;
             out.push(Action::Plane(plane));
         }
         let feed = block.get(b'F').filter(|_| !self.control.is_linuxcnc());
-        match block.g(Group::Units) {
-            Some(200) => self.set_units(Units::Inch, feed, out),
-            Some(210) => self.set_units(Units::Mm, feed, out),
+        match block.g_meaning(Group::Units) {
+            Some(Meaning::Inch) => self.set_units(Units::Inch, feed, out),
+            Some(Meaning::Mm) => self.set_units(Units::Mm, feed, out),
             _ => {}
         }
-        match block.g(Group::Diameter) {
-            Some(70) => self.modes.diameter = true,
-            Some(80) => self.modes.diameter = false,
-            _ => {}
+        if let Some(meaning) = block.g_meaning(Group::Diameter) {
+            self.modes.diameter = meaning == Meaning::Diameter;
         }
         self.compensation(block, motion, out)?;
         self.length(block, out)?;
         self.work_offset(block, out)?;
-        if let Some(code) = block.g(Group::Distance) {
-            self.modes.absolute = code == 900;
+        if let Some(meaning) = block.g_meaning(Group::Distance) {
+            self.modes.absolute = meaning == Meaning::Absolute;
         }
-        if let Some(code) = block.g(Group::ArcDistance) {
-            self.modes.centers_absolute = code == 901;
+        if let Some(meaning) = block.g_meaning(Group::ArcDistance) {
+            self.modes.centers_absolute = meaning == Meaning::CentresAbsolute;
         }
-        if let Some(code) = block.g(Group::Return) {
+        if let Some(meaning) = block.g_meaning(Group::Return) {
             if self.tool.side.is_some() && self.control.is_linuxcnc() {
                 return refuse(
                     Code::PN013,
@@ -89,7 +82,7 @@ impl State {
                     "end the compensation with G40 first",
                 );
             }
-            self.modes.to_initial = code == 980;
+            self.modes.to_initial = meaning == Meaning::ToInitial;
         }
         Ok(())
     }

@@ -6,7 +6,7 @@ use super::codes::{Group, bit};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
-use crate::control::Rules;
+use crate::control::{Meaning, Rules};
 use crate::diag::Code;
 use crate::toolpath::Plane;
 
@@ -88,7 +88,7 @@ impl State {
     /// G0 or G1.
     #[inline]
     pub(super) fn straight(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
-        if block.g(Group::Once) == Some(530) {
+        if block.g_meaning(Group::Once) == Some(Meaning::Machine) {
             return self.in_machine(code, block, out);
         }
         if code == 0 {

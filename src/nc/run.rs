@@ -47,7 +47,9 @@ impl State {
         if set_up || block.has_modes() {
             self.set_up(block, motion, &mut out)?;
         }
-        if block.g(Group::Once) == Some(530) && (!matches!(motion, Some(0 | 10)) || in_force.is_some()) {
+        if block.g_meaning(Group::Once) == Some(Meaning::Machine)
+            && (!matches!(motion, Some(0 | 10)) || in_force.is_some())
+        {
             return refuse(Code::PN006, "G53 without G0 or G1", "write G0 with it, and end a cycle with G80 before");
         }
         if block.axes_are_taken() || block.g(Group::Once).is_some() {
@@ -84,10 +86,8 @@ impl State {
 
     /// Lengths without a point.
     fn unpointed(&self, block: &mut Block) -> Done {
-        let inch = match block.g(Group::Units) {
-            Some(code) => code == 200,
-            None => self.modes.units == Units::Inch,
-        };
+        let said = block.g_meaning(Group::Units).map(|meaning| meaning == Meaning::Inch);
+        let inch = said.unwrap_or(self.modes.units == Units::Inch);
         let own = matches!(block.g_meaning(Group::Motion), Some(Meaning::ThreadCycle));
         if own || block.g(Group::Other).is_some() || block.means(Meaning::Orient) {
             return Ok(()); // their words are no lengths

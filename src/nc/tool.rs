@@ -48,10 +48,10 @@ impl State {
                 _ => self.drive.speed = speed,
             }
         }
-        match block.g(Group::SpeedMode) {
-            Some(960) => out.push(Action::SurfaceSpeed(Some(block.get(b'D').unwrap_or(0.0)))),
-            Some(970) => out.push(Action::SurfaceSpeed(None)),
-            _ => {}
+        match block.g_meaning(Group::SpeedMode) {
+            Some(Meaning::SurfaceSpeed) => out.push(Action::SurfaceSpeed(Some(block.get(b'D').unwrap_or(0.0)))),
+            Some(_) => out.push(Action::SurfaceSpeed(None)),
+            None => {}
         }
         if let Some(tool) = block.get(b'T') {
             if tool < 0.0 || tool.fract() != 0.0 {
@@ -127,14 +127,14 @@ impl State {
         if !self.control.is_linuxcnc() {
             self.tool.diameter_register = block.get(b'D').or(self.tool.diameter_register);
         }
-        let Some(code) = block.g(Group::Compensation) else {
+        let Some(row) = block.row(Group::Compensation) else {
             // another register while it is on
             if let (Some(side), Some(_), false) = (self.tool.side, block.get(b'D'), self.control.is_linuxcnc()) {
                 out.push(Action::Compensation(Some((side, self.tool.diameter_register))));
             }
             return Ok(());
         };
-        if code == 400 {
+        if row.meaning == Meaning::SideOff {
             self.tool.side = None;
             out.push(Action::Compensation(None));
             return Ok(());
@@ -145,9 +145,9 @@ impl State {
         if !self.control.is_linuxcnc() && matches!(motion, Some(20 | 30)) {
             return refuse(Code::PN013, "cutter compensation begins on an arc", "begin it on a straight move");
         }
-        let side = if matches!(code, 410 | 411) { Side::Left } else { Side::Right };
+        let side = if row.meaning == Meaning::SideLeft { Side::Left } else { Side::Right };
         // LinuxCNC takes the tool's own diameter where no register is named
-        let register = match code {
+        let register = match row.code.tenths {
             411 | 421 => None, // a diameter, and no register
             _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.number),
             _ => self.tool.diameter_register,
@@ -162,8 +162,8 @@ impl State {
     }
 
     pub(super) fn length(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
-        let code = match block.g(Group::Length) {
-            Some(code) => code,
+        let row = match block.row(Group::Length) {
+            Some(row) => row,
             // a Fanuc changes the offset in force by H alone, a FADAL turns it on
             None => {
                 let counts = self.tool.length_on || self.control.traits().height_is_machine;
@@ -175,13 +175,13 @@ impl State {
             }
         };
         let place = self.place.frames.to_machine(&self.place.position);
-        self.tool.length_on = code != 490;
-        match code {
-            490 => {
+        self.tool.length_on = row.meaning != Meaning::LengthOff;
+        match row.meaning {
+            Meaning::LengthOff => {
                 self.place.frames.tool = [0.0; 3];
                 out.push(Action::Length(None));
             }
-            431 => {
+            Meaning::LengthData => {
                 for (axis, letter) in (*b"XYZ").into_iter().enumerate() {
                     if let Some(value) = block.get(letter) {
                         self.place.frames.tool[axis] = value;
@@ -190,20 +190,21 @@ impl State {
                 out.push(Action::Length(Some(0.0)));
             }
             _ => {
+                let number = row.code.tenths;
                 let register = block.get(b'H').or(self.tool.number);
                 if block.get(b'H').is_none() && !self.control.is_linuxcnc() {
                     let help = "write H with the tool's register: G43 H1";
                     return refuse(Code::PN007, "a tool length offset without H", help);
                 }
-                if code == 432 && block.get(b'H').is_none() {
+                if number == 432 && block.get(b'H').is_none() {
                     return refuse(Code::PN007, "G43.2 without H", "write H with the tool's number");
                 }
-                if code != 432 {
+                if number != 432 {
                     self.place.frames.tool = [0.0; 3]; // what G43.1 set is gone
                 }
                 // no table of tools tells its length: it counts as zero; G44 takes it off instead
                 let register = register.unwrap_or(0.0);
-                out.push(Action::Length(Some(if code == 440 { -register } else { register })));
+                out.push(Action::Length(Some(if number == 440 { -register } else { register })));
             }
         }
         self.place.position = self.place.frames.to_program(&place);

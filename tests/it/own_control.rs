@@ -121,3 +121,31 @@ fn what_is_wrong_in_the_file_is_said_with_line_and_column() {
         assert!(out(&lint).contains(why) || err(&lint).contains(why), "{}{}", out(&lint), err(&lint));
     }
 }
+
+/// What a code switches is known by its meaning, under any number; how it moves, by the usual numbers only.
+#[test]
+fn codes_of_other_numbers_switch_as_their_meaning_says_and_never_move_by_guess() {
+    let folder = Folder::new("own_control_numbers");
+    let codes = [("G70", "inch"), ("G71", "mm"), ("G500", "plane-xz"), ("G191", "increments"), ("G190", "absolute")];
+    let moves = [("G6", "rapid"), ("G181", "cycle"), ("G505", "work"), ("G5", "work"), ("G128", "reference")];
+    let rows: Vec<String> =
+        codes.iter().chain(&moves).map(|(code, meaning)| format!("\"{code}\" = {{ is = \"{meaning}\" }}\n")).collect();
+    folder.write("own.toml", format!("name = \"own\"\ntitle = \"Own\"\nlike = \"haas\"\n\n[codes]\n{}", rows.concat()));
+    folder.write(
+        "switches.nc",
+        "%\nG71 G190 G94\nG0 X10. Y0 Z0\nG191 G1 X5. F100.\nG500 G2 X10. Z0 I5. K0\nG70\nM30\n%\n",
+    );
+    folder.write("usual.nc", "%\nG21 G90 G94\nG0 X10. Y0 Z0\nG91 G1 X5. F100.\nG18 G2 X10. Z0 I5. K0\nG20\nM30\n%\n");
+    let [own, usual] = ["switches.nc", "usual.nc"].map(|program| {
+        let run = folder.run(&["simulate", program, "--control", "own.toml"]);
+        assert_eq!(run.status.code(), Some(0), "{}", err(&run));
+        out(&run).replace(program, "PROGRAM")
+    });
+    assert_eq!(own, usual);
+    for (code, _) in moves {
+        folder.write("moves.nc", format!("%\nG21 G90 G94\nG0 X0 Y0 Z5.\n{code} X1. Y1. Z-1. R1. F100.\nM30\n%\n"));
+        let run = folder.run(&["simulate", "moves.nc", "--control", "own.toml"]);
+        let said = err(&run);
+        assert!(run.status.code() == Some(1) && said.contains("PN016") && said.contains(code), "{code}: {said}");
+    }
+}

@@ -1,6 +1,7 @@
 //! Whether the words of a block go together, found before any of them acts.
 
 use super::error::refuse;
+use crate::control::Meaning;
 use crate::nc::arcs::axes_of;
 use crate::nc::block::Block;
 use crate::nc::codes::{Group, bit, letters};
@@ -32,7 +33,7 @@ pub(super) fn check(block: &Block, state: &State) -> Done<Option<u16>> {
     if mode == FeedMode::InverseTime && cuts && !block.has(bit(b'F')) {
         return refuse(22);
     }
-    if block.g(Group::Once) == Some(40) && !block.has(bit(b'P')) {
+    if block.g_meaning(Group::Once) == Some(Meaning::Dwell) && !block.has(bit(b'P')) {
         return refuse(28);
     }
     if length == Some(431) && block.given & letters("XYZ") != bit(b'Z') {
@@ -84,18 +85,13 @@ fn check_cut(block: &Block, motion: u16, mode: FeedMode, state: &State) -> Done 
 }
 
 fn feed_mode(block: &Block, state: &State) -> FeedMode {
-    match block.g(Group::FeedMode) {
-        Some(930) => FeedMode::InverseTime,
+    match block.g_meaning(Group::FeedMode) {
+        Some(Meaning::InverseTime) => FeedMode::InverseTime,
         Some(_) => FeedMode::PerMinute,
         None => state.modes.feed_mode,
     }
 }
 
 fn plane(block: &Block, state: &State) -> Plane {
-    match block.g(Group::Plane) {
-        Some(180) => Plane::Xz,
-        Some(190) => Plane::Yz,
-        Some(_) => Plane::Xy,
-        None => state.modes.plane,
-    }
+    block.plane().unwrap_or(state.modes.plane)
 }

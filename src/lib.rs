@@ -95,6 +95,9 @@ pub mod internals {
     pub mod control {
         pub use crate::control::*;
     }
+    pub mod cycle {
+        pub use crate::cycle::*;
+    }
     pub mod diff {
         pub use crate::diff::*;
     }

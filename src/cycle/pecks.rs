@@ -139,7 +139,7 @@ fn stepped(
 /// A step that is not above zero, or steps that shrink to nothing.
 ///
 /// ```
-/// use postform::cycle::stepped_pecks;
+/// use postform::internals::cycle::stepped_pecks;
 /// let depths = |pecks: Vec<postform::toolpath::Peck>| pecks.iter().map(|p| p.to).collect::<Vec<_>>();
 /// assert_eq!(stepped_pecks(7.0, &[(4.0, None), (2.0, None)], None, None).map(depths), Ok(vec![4.0, 6.0, 7.0]));
 /// ```

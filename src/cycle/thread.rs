@@ -15,7 +15,7 @@ const MOST_PASSES: usize = 1000;
 /// Nothing that says how many passes, or too many of them.
 ///
 /// ```
-/// use postform::cycle::thread_passes;
+/// use postform::internals::cycle::thread_passes;
 /// assert_eq!(thread_passes(4.0, None, Some(4), 0.0).map(|p| p.len()), Ok(4));
 /// assert_eq!(thread_passes(4.0, Some(2.0), None, 0.0).map(|p| p.len()), Ok(4));
 /// ```

@@ -26,7 +26,7 @@ const EXACT: f64 = 9_007_199_254_740_992.0;
 /// digits: `None`.
 ///
 /// ```
-/// use postform::number::quantise;
+/// use postform::internals::number::quantise;
 /// assert_eq!(quantise(1.00005, 4), Some(10001));
 /// assert_eq!(quantise(-0.5, 0), Some(-1));
 /// assert_eq!(quantise(f64::NAN, 3), None);

@@ -117,6 +117,8 @@ impl Object {
 pub(super) struct Document {
     /// FreeCAD's version, as `0.20R` or `1.1R20260725 (Git shallow)`.
     pub version: String,
+    /// Properties of the document itself.
+    pub own: Object,
     /// The objects of the document by name, in the order of the file.
     pub objects: IndexMap<String, Object>,
 }
@@ -184,6 +186,7 @@ impl Cursor {
         match tag.name().as_ref() {
             "Document" => document.version = attribute(tag, "ProgramVersion")?.unwrap_or_default(),
             "ObjectData" => self.data = true,
+            "Properties" if !self.data => self.object = Some(Default::default()),
             "Object" if self.data => {
                 self.object = attribute(tag, "name")?.map(|name| (name, Object::default()));
             }
@@ -243,6 +246,7 @@ impl Cursor {
                     object.properties.insert(name, value);
                 }
             }
+            "Properties" if !self.data => document.own = self.object.take().unwrap_or_default().1,
             "Object" => {
                 if let Some((name, object)) = self.object.take() {
                     document.objects.insert(name, object);

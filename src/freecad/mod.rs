@@ -52,11 +52,12 @@ pub fn read_freecad(
     let document = Document::parse(&archive.whole("Document.xml", archive::LARGEST_DOCUMENT)?)?;
     let job = choose::job(&document, options.job.as_deref(), report)?;
     let steps = order::steps(&document, &job, report)?;
+    let said = |property: &str| document.own.text(property).filter(|text| !text.is_empty()).map(str::to_owned);
     let mut hold = Hold::new(sink);
     let start = Start {
         program: None,
         name: Some(job.label.clone()),
-        about: About::default(),
+        about: About { part: said("Label"), author: said("CreatedBy"), ..About::default() },
         units: Units::Mm,
         machine: crate::lang::Machine::Mill,
         set: Vec::new(),

@@ -361,6 +361,33 @@ impl Sink for Lenient<'_> {
 }
 
 #[test]
+fn the_label_and_the_author_of_a_document_are_told() {
+    struct Heads(Vec<Option<String>>);
+    impl Sink for Heads {
+        fn event(&mut self, event: Event<'_>, _: Place) -> Flow {
+            if let Event::Start(start) = event {
+                self.0.extend([start.name.clone(), start.about.part.clone(), start.about.author.clone()]);
+            }
+            Flow::Continue(())
+        }
+    }
+    let properties = |author: &str| {
+        let said = [("Label", "Bracket &amp; pin"), ("CreatedBy", author), ("Company", "")];
+        let said =
+            said.map(|(name, value)| format!("<Property name=\"{name}\"><String value=\"{value}\"/></Property>"));
+        format!("<Properties>{}</Properties><ObjectData>", said.concat())
+    };
+    for (author, told) in [("E. Muster", Some("E. Muster".to_owned())), ("", None)] {
+        let text = document(&[("Job", JOB), ("Operations", OPERATIONS), ("Op", OPERATION), ("Tool", TOOL)]);
+        let text = text.replacen("<ObjectData>", &properties(author), 1);
+        let bytes = archive(&[("Document.xml", text.as_bytes()), ("Op.nc", b"G0 X1 Y1 Z5\nG1 Z-1 F2\n")]);
+        let mut heads = Heads(Vec::new());
+        read_freecad(Cursor::new(bytes), &Options::default(), &mut Report::default(), &mut heads).unwrap();
+        assert_eq!(heads.0, [Some("Setup <1>".to_owned()), Some("Bracket & pin".to_owned()), told]);
+    }
+}
+
+#[test]
 fn broken_documents_are_refused() {
     let none = &Options::default();
     let starts = |bytes: &[u8], text: &str| {

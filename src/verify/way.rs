@@ -153,6 +153,17 @@ fn across(corners: &[Rapid], tolerance: f64) -> impl Iterator<Item = (&Rapid, &R
     pairs.filter(move |(a, b)| !same(&a.to, &b.to, ACROSS, tolerance) || turns(a, b))
 }
 
+/// Is a corner over a straight rapid across, or on it?
+fn is_over(corner: &Rapid, from: &Place, to: &Place, tolerance: f64) -> bool {
+    let way = |axis: &usize| (to[*axis] - from[*axis]).abs();
+    let Some(longest) = (0..6).filter(|&axis| axis != DEPTH).max_by(|a, b| way(a).total_cmp(&way(b))) else {
+        return false;
+    };
+    let part = ((corner.to[longest] - from[longest]) / (to[longest] - from[longest])).clamp(0.0, 1.0);
+    let beside = std::array::from_fn(|axis| from[axis] + part * (to[axis] - from[axis]));
+    same(&corner.to, &beside, ACROSS, tolerance) && height(corner) >= beside[DEPTH] - tolerance
+}
+
 /// `start`: so many corners of the program are where its last cut ended.
 fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: usize, tolerance: f64) -> Compared {
     if known_start && job.len() == program.len() {
@@ -189,12 +200,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     // other corners: nowhere across below what the job crosses at, and not at all where the job stays
     let stays = across(job, tolerance).next().is_none();
     let is_the_jobs = |a: &Rapid, b: &Rapid| {
-        across(job, tolerance).any(|(c, d)| {
-            same(&a.to, &c.to, ACROSS, tolerance)
-                && same(&b.to, &d.to, ACROSS, tolerance)
-                && height(a) >= c.to[DEPTH] - tolerance
-                && height(b) >= d.to[DEPTH] - tolerance
-        })
+        across(job, tolerance).any(|(c, d)| [a, b].iter().all(|corner| is_over(corner, &c.to, &d.to, tolerance)))
     };
     for (a, b) in across(program, tolerance).filter(|(a, b)| !is_the_jobs(a, b)) {
         let low = height(a).min(height(b));
@@ -276,6 +282,18 @@ mod tests {
         assert_eq!(followed(&[[1.5, 0.0, 0.4], [1.5, 0.0, 0.2], [0.0, 0.0, 0.1]]), None);
         assert_eq!(followed(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.4], [0.0, 0.0, 0.15]]), None);
         assert_eq!(followed(&[[1.5, 0.0, 0.4]]), None);
+    }
+
+    #[test]
+    fn parts_of_a_straight_rapid_are_the_jobs() {
+        // the job's two rapids lie on one line, down to the hole; the program goes across before it goes down
+        let job = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 5.0], [0.0, 0.0, 3.0]];
+        let program = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 5.0], [0.0, 0.0, 5.0], [0.0, 0.0, 3.0]];
+        assert_eq!(compared(&job, &program), Compared::AsGood { step_by_step: false });
+        let low = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 4.9], [0.0, 0.0, 4.9], [0.0, 0.0, 3.0]];
+        assert!(matches!(compared(&job, &low), Compared::Elsewhere(_) | Compared::Lower(..)));
+        let beside = [[-1.0, -1.0, 7.0], [-0.5, -0.6, 5.0], [0.0, 0.0, 5.0], [0.0, 0.0, 3.0]];
+        assert!(matches!(compared(&job, &beside), Compared::Elsewhere(_)));
     }
 
     #[test]

@@ -8,7 +8,7 @@ mod pages;
 pub mod reference;
 mod words;
 
-pub use words::{command, end, none, sequence, takes, upon, variable};
+pub use words::{command, end, none, sequence, takes, text, upon, variable};
 
 use crate::control::{self, Control};
 use crate::diag::{CODES, CodeRow};

@@ -2,7 +2,7 @@
 
 use super::Document;
 use crate::control::Code;
-use crate::lang::{CommandId, SequenceId, SequenceName, VarId};
+use crate::lang::{CommandId, SequenceId, SequenceName, TextId, TextVar, VarId};
 use crate::span::Span;
 use crate::syntax::{Body, End, Head, Piece, PieceKind, SequenceNode, Spanned, Statement};
 
@@ -37,6 +37,10 @@ pub enum What {
     Nothing,
     /// A variable, with the letter that prints it.
     Variable(VarId, Option<u8>),
+    /// A text of the job, with whatever width.
+    Text(TextId),
+    /// Text in backquotes.
+    Quote,
     /// A code that is typed.
     Code(Code),
     /// A typed word of this letter that is none of the others.
@@ -142,7 +146,13 @@ fn piece(part: &Piece, alone: bool, found: &mut dyn FnMut(At)) {
         PieceKind::Stray(text) if alone && text.eq_ignore_ascii_case("None") => {
             found(At { span: part.span, what: What::Nothing });
         }
-        PieceKind::TextVariable { .. } | PieceKind::Quote(_) | PieceKind::Stray(_) => {}
+        PieceKind::TextVariable { name, .. } => {
+            if let Some(TextVar { id, .. }) = TextVar::parse(&name.text) {
+                found(At { span: part.span, what: What::Text(id) });
+            }
+        }
+        PieceKind::Quote(_) => found(At { span: part.span, what: What::Quote }),
+        PieceKind::Stray(_) => {}
         PieceKind::Note { parts, .. } => parts.iter().for_each(|part| piece(part, false, found)),
     }
 }
@@ -173,6 +183,11 @@ mod tests {
         );
         assert_eq!(at("G81", "G|81"), found("G81", What::Code(Code::g(81))));
         assert_eq!(at("G53 Z0", "G53 Z0|"), found("Z0", What::Word(b'Z')));
+        assert_eq!(
+            at("G81 X[h]", "(DRILL [tool|name:12]) G81 X[h]"),
+            found("[toolname:12]", What::Text(TextId::Toolname))
+        );
+        assert_eq!(at("G81 X[h]", "`MCALL #|1` G81 X[h]"), found("`MCALL #1`", What::Quote));
         assert_eq!(at("# Haas", "# Ha|as"), None);
     }
 }

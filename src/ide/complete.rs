@@ -6,7 +6,8 @@ use crate::control::{self, Code, Control};
 use crate::diag::CODES;
 use crate::explain;
 use crate::lang::{
-    Args, COMMANDS, CommandId, Machine, Origin, SEQUENCES, SequenceId, Unit, UnitChoice, VARIABLES, VarId,
+    Args, COMMANDS, CommandId, Machine, Origin, SEQUENCES, SequenceId, TEXTS, TextId, Unit, UnitChoice, VARIABLES,
+    VarId,
 };
 use crate::span::Span;
 
@@ -38,7 +39,7 @@ pub enum Kind {
     Sequence,
     /// `End`, `None`, `Cancel`.
     Keyword,
-    /// A variable.
+    /// A variable, or a text of the job.
     Variable,
     /// A G or M code.
     Code,
@@ -53,7 +54,10 @@ pub fn about(kind: Kind, label: &str, control: &Control) -> Option<String> {
         Kind::Command => explain::command(CommandId::parse(label)?),
         Kind::Sequence if label == "Upon" => explain::upon(),
         Kind::Sequence => explain::sequence(SequenceId::parse(label)?),
-        Kind::Variable => explain::variable(VarId::parse(label)?),
+        Kind::Variable => match VarId::parse(label) {
+            Some(var) => explain::variable(var),
+            None => explain::text(TextId::parse(label)?),
+        },
         Kind::Keyword if label == "None" => explain::none(),
         Kind::Keyword => explain::end(),
         Kind::Code => return Some(super::hover::about_code(label.parse().ok()?, control)),
@@ -119,26 +123,28 @@ impl Document {
         Some(rows.map(|row| new(row.name, row.title, Kind::Finding)).collect())
     }
 
-    /// The variables of this machine, with what each holds in the current job.
+    /// The variables of this machine, with what each holds in the current job, and the texts of jobs.
     fn variables(&self, replaces: Span, bracket: u8, line: Span, current: Option<&Current>) -> Vec<Completion> {
         let machine = self.checked.form.settings.machine;
         let close = if bracket == b'[' { "]" } else { ">" };
         let source = &self.files()[replaces.file as usize].text;
         let close = if source[replaces.end as usize..].starts_with(close) { "" } else { close };
+        let one = |name: &str, detail: String| Completion {
+            label: name.to_owned(),
+            kind: Kind::Variable,
+            detail,
+            replaces,
+            text: format!("{name}{close}"),
+            snippet: None,
+        };
         let rows = VARIABLES.iter().filter(|row| row.machines.has(machine));
-        rows.map(|row| {
+        let numbers = rows.map(|row| {
             let value = current.and_then(|current| Some((&current.name, self.value(line, row.id, current)?)));
             let held = value.map(|(job, value)| format!(" = {value} in {job}")).unwrap_or_default();
-            Completion {
-                label: row.name.to_owned(),
-                kind: Kind::Variable,
-                detail: format!("{}{held}: {}", counts(row.unit), row.meaning),
-                replaces,
-                text: format!("{}{close}", row.name),
-                snippet: None,
-            }
-        })
-        .collect()
+            one(row.name, format!("{}{held}: {}", counts(row.unit), row.meaning))
+        });
+        let texts = TEXTS.iter().map(|row| one(row.name, format!("text: {}", row.meaning)));
+        numbers.chain(texts).collect()
     }
 
     fn in_sequence(
@@ -365,6 +371,10 @@ mod tests {
         );
         assert_eq!((document.slice(vclear.replaces), vclear.text.as_str()), ("vc", "vclear]"));
         assert!(list.iter().all(|item| item.label != "h2"), "a wire's variable on a mill");
+        let name = list.iter().find(|item| item.label == "toolname").unwrap();
+        assert_eq!((name.detail.as_str(), name.text.as_str()), ("text: the tool's name", "toolname]"));
+        let page = about(Kind::Variable, "toolname", document.control()).unwrap();
+        assert!(page.starts_with("**[toolname] (text)**"), "{page}");
         let (document, offset) = haas("G81 X[h] Y[v]", "G81 X[| Y[v]");
         assert_eq!(listed(&document, offset).iter().find(|item| item.label == "h").unwrap().text, "h]");
     }

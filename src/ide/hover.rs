@@ -18,6 +18,10 @@ pub struct Hover {
     pub text: String,
 }
 
+/// What backquotes do.
+const QUOTE: &str = "**text in backquotes**\n\nprints as it stands, with its blanks, `#` and brackets; two backquotes in it are one. \
+    `Replace`, `Rename`, `Spaces` and `UpperCaseComments` leave it alone.";
+
 /// Blocks of a line that are shown.
 const MOST_BLOCKS: usize = 3;
 
@@ -50,6 +54,8 @@ impl Document {
             What::End | What::Cancel => markdown(&explain::end()),
             What::Nothing => markdown(&explain::none()),
             What::Variable(var, _) => markdown(&explain::variable(*var)),
+            What::Text(id) => markdown(&explain::text(*id)),
+            What::Quote => QUOTE.to_owned(),
             What::Code(code) => about_code(*code, self.control()),
             What::Format(letter) | What::Word(letter) => self.format(*letter),
         }
@@ -166,6 +172,9 @@ mod tests {
         assert!(text("ArcPlane", "Arc|Plane").starts_with("**ArcPlane (command)**"));
         assert!(text("\nCancel", "\nCan|cel").starts_with("**Cancel (canned cycle)**"));
         assert!(text("Upon [work]", "U|pon [work]").starts_with("**Upon"));
+        let tool = text("G81 X[h]", "(DRILL [tool|name:12]) G81 X[h]");
+        assert!(tool.starts_with("**[toolname] (text)**\n\nthe tool's name"), "{tool}");
+        assert!(text("G81 X[h]", "`MCALL #|1` G81 X[h]").starts_with("**text in backquotes**"));
         assert_eq!(text("# Haas", "# H|aas"), "");
     }
 }

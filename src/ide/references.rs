@@ -56,7 +56,7 @@ fn same(at: &At, what: &What) -> bool {
         (What::Word(one) | What::Format(one), What::Word(other) | What::Format(other)) => one == other,
         (What::Variable(_, Some(one)), What::Format(other)) => one == other,
         (What::Cancel, What::Sequence(SequenceId::Cancel)) | (What::Sequence(SequenceId::Cancel), What::Cancel) => true,
-        (What::End | What::Nothing, _) => false,
+        (What::End | What::Nothing | What::Quote, _) => false,
         (one, other) => one == other,
     }
 }

@@ -1,6 +1,7 @@
 //! What each word of a form is, for its colour.
 
 use super::{At, Document, What};
+use crate::lang::{TextVar, VarId};
 use crate::span::Span;
 use crate::syntax::{Head, Line, Piece, PieceKind, Tail};
 
@@ -32,7 +33,7 @@ pub enum Kind {
     Code,
     /// A typed word that is none of the others.
     Word,
-    /// A comment of the program.
+    /// A comment of the program, text in backquotes.
     Note,
     /// A comment of the form.
     Comment,
@@ -51,7 +52,8 @@ impl Document {
                 What::Format(_) => Kind::Format,
                 What::Sequence(_) => Kind::Sequence,
                 What::Upon | What::End | What::Cancel | What::Nothing => Kind::Keyword,
-                What::Variable(..) => Kind::Variable,
+                What::Variable(..) | What::Text(_) => Kind::Variable,
+                What::Quote => Kind::Note,
                 What::Code(_) => Kind::Code,
                 What::Word(_) => Kind::Word,
             };
@@ -82,7 +84,12 @@ fn tail(line: &Line) -> Option<Token> {
 fn notes(piece: &Piece, tokens: &mut Vec<Token>) {
     let PieceKind::Note { parts, .. } = &piece.kind else { return };
     let mut at = piece.span.start;
-    let variables = parts.iter().filter(|part| matches!(part.kind, PieceKind::Variable { .. }));
+    let is_variable = |part: &&Piece| match &part.kind {
+        PieceKind::Variable { name, .. } => VarId::parse(&name.text).is_some(),
+        PieceKind::TextVariable { name, .. } => TextVar::parse(&name.text).is_some(),
+        _ => false,
+    };
+    let variables = parts.iter().filter(is_variable);
     for part in variables {
         tokens.push(Token { span: Span { start: at, end: part.span.start, ..piece.span }, kind: Kind::Note });
         at = part.span.end;
@@ -97,7 +104,9 @@ mod tests {
 
     #[test]
     fn every_word_has_its_kind() {
-        let (document, _) = marked("Units mm # metric\nX->3.>4\nDrill\nG81 X[h] Q5 (TOOL [tool])\nEnd Cancel   lost\n");
+        let (document, _) = marked(
+            "Units mm # metric\nX->3.>4\nDrill\nG81 X[h] Q5 (TOOL [tool] [toolname:8]) `#1 IN`\nEnd Cancel   lost\n",
+        );
         let told: Vec<_> = document.tokens(0).iter().map(|token| (document.slice(token.span), token.kind)).collect();
         assert_eq!(
             told,
@@ -112,7 +121,10 @@ mod tests {
                 ("Q5", Kind::Word),
                 ("(TOOL ", Kind::Note),
                 ("[tool]", Kind::Variable),
+                (" ", Kind::Note),
+                ("[toolname:8]", Kind::Variable),
                 (")", Kind::Note),
+                ("`#1 IN`", Kind::Note),
                 ("End", Kind::Keyword),
                 ("Cancel", Kind::Keyword),
                 ("lost", Kind::Lost),

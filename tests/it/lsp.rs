@@ -206,6 +206,34 @@ fn variables_come_with_unit_meaning_and_value_in_the_current_job() {
 }
 
 #[test]
+fn texts_of_the_job_are_completed_and_explained() {
+    let mut desk = Desk::new("texts", "T[tool] M6", "(NEXT [tool|name:12]) `#1 = 0` T[tool] M6");
+    assert_eq!(codes(&desk.findings), Vec::<&str>::new());
+    let list = desk.ask("textDocument/completion");
+    assert_eq!(item(&list, "toolname").unwrap()["detail"], "text: the tool's name");
+    let known = desk.editor.ask("completionItem/resolve", item(&list, "toolname").unwrap());
+    assert!(known["documentation"]["value"].as_str().unwrap().starts_with("**[toolname] (text)**"), "{known}");
+    let hover = desk.ask("textDocument/hover");
+    assert!(hover["contents"]["value"].as_str().unwrap().starts_with("**[toolname] (text)**"), "{hover}");
+    assert_eq!(desk.text_of(&hover["range"]), "[toolname:12]");
+    desk.cursor = place(&desk.text, desk.text.find("`#1").unwrap() + 2);
+    let hover = desk.ask("textDocument/hover");
+    assert!(hover["contents"]["value"].as_str().unwrap().starts_with("**text in backquotes**"), "{hover}");
+    desk.editor.quit();
+}
+
+#[test]
+fn what_may_be_allowed_is_completed() {
+    let mut desk = Desk::new("allowances", "Z[d] R[vclear] F[frate]\nEnd Cancel", "Z[d] R[vclear] F[frate]\nEnd");
+    let text = desk.text.replacen("G[retplane] G81", "# postform: allow \nG[retplane] G81", 1);
+    desk.editor.change("my.pf", &text);
+    desk.cursor = place(&text, text.find("allow \n").unwrap() + "allow ".len());
+    let list = desk.ask("textDocument/completion");
+    assert!(item(&list, "PF409").is_some(), "what is found: {list}");
+    desk.editor.quit();
+}
+
+#[test]
 fn codes_of_the_control_and_the_end_of_a_cycle() {
     let mut desk = Desk::new("codes", "G53 Z0 M5", "G53 Z0 M5 G18|");
     let list = desk.ask("textDocument/completion");

@@ -1,11 +1,31 @@
 //! What lies under `editors/`: colours that know every name, and versions that agree.
 
 use std::fs;
+use std::process::Command;
 
 use postform::internals::lang::{COMMANDS, SEQUENCES};
 use serde_json::Value;
 
 use crate::support::root;
+
+/// Runs a script that tries the configuration of an editor's page, with this program.
+fn tried(script: &str) {
+    let ran = Command::new(root().join("editors").join(script)).arg(env!("CARGO_BIN_EXE_postform")).output().unwrap();
+    let said = String::from_utf8_lossy(&[ran.stdout, ran.stderr].concat()).into_owned();
+    assert!(ran.status.success() && said.contains(": all of it"), "{said}");
+}
+
+#[test_with::executable(nvim)]
+#[test]
+fn the_page_of_neovim_is_tried_in_neovim() {
+    tried("neovim-test");
+}
+
+#[test_with::executable(emacs)]
+#[test]
+fn the_page_of_emacs_is_tried_in_emacs() {
+    tried("emacs-test");
+}
 
 fn json(name: &str) -> Value {
     serde_json::from_str(&fs::read_to_string(root().join("editors/vscode").join(name)).unwrap()).unwrap()

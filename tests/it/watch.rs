@@ -147,6 +147,7 @@ fn who_is_refused() {
         ("another token", format!("GET /{}/ HTTP/1.1\r\nHost: {host}\r\n\r\n", "0".repeat(32)), 404),
         ("half a token", format!("GET /{}/ HTTP/1.1\r\nHost: {host}\r\n\r\n", &token[..16]), 404),
         ("another name of this machine", format!("GET /{token}/ HTTP/1.1\r\nHost: evil.example\r\n\r\n"), 403),
+        ("this machine's, at no port", format!("GET /{token}/ HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"), 403),
         ("no name", format!("GET /{token}/ HTTP/1.1\r\n\r\n"), 403),
         ("two names", format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\nHost: evil.example\r\n\r\n"), 403),
         (
@@ -174,6 +175,18 @@ fn who_is_refused() {
             403,
         ),
         (
+            "a page of another port of this machine",
+            format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\nSec-Fetch-Site: same-site\r\n\r\n"),
+            403,
+        ),
+        (
+            "this address by TLS",
+            with(&format!(
+                "POST /{token}/save HTTP/1.1\r\nHost: {host}\r\nOrigin: https://{host}\r\nContent-Type: application/json\r\n"
+            )),
+            403,
+        ),
+        (
             "a form of a page",
             with(&format!(
                 "POST /{token}/scene HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nContent-Type: text/plain\r\n"
@@ -198,6 +211,11 @@ fn who_is_refused() {
         ),
         ("no number", format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: +9\r\n\r\n{body}"), 400),
         ("in pieces", format!("POST /{token}/scene HTTP/1.1\r\n{own}Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n"), 501),
+        (
+            "a byte too large",
+            format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: {}\r\n\r\n", (8 << 20) + 1),
+            413,
+        ),
         ("too large", format!("POST /{token}/scene HTTP/1.1\r\n{own}Content-Length: 99999999999\r\n\r\n"), 413),
         ("a long head", format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\nCookie: {long}\r\n\r\n"), 431),
         ("a long path", format!("GET /{token}/{long} HTTP/1.1\r\nHost: {host}\r\n\r\n"), 431),
@@ -253,6 +271,33 @@ fn idle_connections_are_bounded() {
         assert!(Instant::now() < until, "there is room again");
         sleep(Duration::from_millis(50));
     }
+}
+
+/// A head and a body that come a byte at a time are waited for no longer than others.
+#[test]
+fn a_slow_request_is_ended() {
+    let folder = bracket("watch-slow");
+    let watch = Watch::new(&folder, &[]);
+    let (host, token) = (watch.address, &watch.token);
+    let body = format!(
+        "POST /{token}/scene HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nContent-Type: application/json\r\nContent-Length: 900\r\n\r\n"
+    );
+    let slow = ["GET / HTTP/1.1\r\nA: ".to_owned(), body].map(|begins| {
+        let mut stream = TcpStream::connect(watch.address).unwrap();
+        stream.write_all(begins.as_bytes()).unwrap();
+        stream.set_read_timeout(Some(Duration::from_millis(500))).unwrap();
+        stream
+    });
+    let until = Instant::now() + Duration::from_secs(60);
+    for mut stream in slow {
+        let mut byte = [0];
+        // what was sent behind the end may have the answer thrown away: the connection is closed in any case
+        while stream.read(&mut byte).is_err_and(|error| error.kind() == std::io::ErrorKind::WouldBlock) {
+            assert!(Instant::now() < until, "a request of any length of time");
+            _ = stream.write_all(b"x");
+        }
+    }
+    assert_eq!(watch.get(&format!("/{token}/")).status, 200);
 }
 
 /// The scene has the program byte for byte, where each block comes from, and the verdict.

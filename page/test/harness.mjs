@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
 export const root = fileURLToPath(new URL("../..", import.meta.url));
-const postform = process.env.POSTFORM ?? join(root, "target/debug/postform");
+export const postform = process.env.POSTFORM ?? join(root, "target/debug/postform");
 
 function installed() {
   const names = ["chromium", "chromium-headless-shell", "google-chrome", "chrome"];
@@ -43,7 +43,7 @@ export async function watch(path, ...more) {
     child.stdout.once("data", (line) => resolve(String(line).trim()));
     child.once("exit", (code) => reject(new Error(`postform watch ended with ${code}: ${said}`)));
   });
-  return { address, end: () => (child.removeAllListeners("exit"), child.kill()) };
+  return { address, pid: child.pid, end: () => (child.removeAllListeners("exit"), child.kill()) };
 }
 
 const tests = [];

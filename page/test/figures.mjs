@@ -1,11 +1,13 @@
-// How the page does with many moves: milliseconds to the first picture and verdict, frames, memory, and from a key to a new picture.
-// Frames are told as a ratio to drawing all lines once with gl.LINES in the same browser, which has no GPU here.
+// How the page does with the bracket and with many moves: milliseconds to the first picture and verdict, frames, memory, and from a key
+// to a new picture and verdict. Frames are told as a ratio to drawing all lines once with gl.LINES in the same browser, which has no GPU
+// here; the verdict as a ratio to a whole `postform render` of the same job, which proves it too and is run in turn with the keys.
 //
-//   node test/million.mjs [MOVES..]
-import { createWriteStream, rmSync } from "node:fs";
+//   node test/figures.mjs [MOVES..]     0: the bracket
+import { spawnSync } from "node:child_process";
+import { createWriteStream, readFileSync, rmSync } from "node:fs";
 import { once } from "node:events";
 import { join } from "node:path";
-import { browser, folder, ready, watch } from "./harness.mjs";
+import { browser, folder, postform, ready, watch } from "./harness.mjs";
 
 /** A finishing pass over a wave: short moves, line by line. */
 async function job(path, moves) {
@@ -26,9 +28,9 @@ async function job(path, moves) {
 }
 
 const found = await browser();
-for (const moves of process.argv.slice(2).map(Number).filter(Boolean).length ? process.argv.slice(2).map(Number) : [100_000, 1_000_000]) {
+for (const moves of process.argv.length > 2 ? process.argv.slice(2).map(Number) : [0, 100_000, 1_000_000]) {
   const path = folder();
-  await job(join(path, "bracket.json"), moves);
+  if (moves) await job(join(path, "bracket.json"), moves);
   const served = await watch(path);
   const page = await found.newPage({ viewport: { width: 1280, height: 800 } });
   await page.addInitScript(() => {
@@ -90,7 +92,12 @@ for (const moves of process.argv.slice(2).map(Number).filter(Boolean).length ? p
     return { frame: middle(frames), pieces, near, plain, memory: performance.memory?.usedJSHeapSize / 1e6 };
   });
   const keys = [];
-  for (let i = 0; i < 5; i++) {
+  const commands = [];
+  for (let i = 0; i < (moves > 200_000 ? 5 : 15); i++) {
+    const began = performance.now();
+    const { status } = spawnSync(postform, ["render", "bracket.json", "--form", "my.pf", "-o", "part.nc"], { cwd: path });
+    if (status !== 0) throw new Error(`postform render ended with ${status}`);
+    commands.push(performance.now() - began);
     keys.push(await page.evaluate(async () => {
       const { page } = window;
       const before = page.times.length;
@@ -103,10 +110,13 @@ for (const moves of process.argv.slice(2).map(Number).filter(Boolean).length ? p
       return [page.times[page.times.length - 1], performance.now() - began];
     }));
   }
-  const middle = (at) => keys.map((times) => times[at]).sort((a, b) => a - b)[2].toFixed(0);
-  console.log(`${moves} moves: first picture ${first.toFixed(0)} ms, verdict ${verdict.toFixed(0)} ms; ` +
+  const median = (times) => times.sort((a, b) => a - b)[times.length >> 1];
+  const [picture, proven, command] = [keys.map((times) => times[0]), keys.map((times) => times[1]), commands].map(median);
+  const most = Number(/VmHWM:\s*(\d+)/.exec(readFileSync(`/proc/${served.pid}/status`, "utf8"))?.[1]) / 1000;
+  console.log(`${moves ? `${moves} moves` : "the bracket"}: first picture ${first.toFixed(0)} ms, verdict ${verdict.toFixed(0)} ms; ` +
     `a frame ${drawn.frame.toFixed(1)} ms for ${drawn.pieces} lines (${(drawn.frame / drawn.plain).toFixed(2)} of drawing all lines once, ${drawn.plain.toFixed(1)} ms), ` +
-    `from near ${drawn.near.toFixed(1)} ms; heap ${drawn.memory?.toFixed(0)} MB; from a key to the picture ${middle(0)} ms, to the verdict ${middle(1)} ms`);
+    `from near ${drawn.near.toFixed(1)} ms; heap ${drawn.memory?.toFixed(0)} MB, postform ${most.toFixed(0)} MB at most; from a key to the picture ${picture.toFixed(0)} ms, ` +
+    `to the verdict ${proven.toFixed(0)} ms (${(proven / command).toFixed(2)} of a whole render, ${command.toFixed(0)} ms)`);
   await page.close();
   served.end();
   rmSync(path, { recursive: true });

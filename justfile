@@ -55,15 +55,16 @@ page-test: page
     cargo build --locked
     cd page && node test/page.mjs
 
-# the page with a hundred thousand moves and a million: figures for docs/watch.md
-page-bench: page
+# the page with the bracket, a hundred thousand moves and a million: figures for docs/performance.md
+page-figures: page
     cargo build --release --locked
-    cd page && POSTFORM=../target/release/postform node test/million.mjs
+    cd page && POSTFORM=../target/release/postform node test/figures.mjs
 
 # the page without a server, in docs/playground
 playground:
     docs/playground/build
     cd page && node test/playground.mjs
+
 # the configuration of editors/neovim.md in a headless Neovim
 look-neovim:
     cargo build
@@ -74,8 +75,11 @@ look-emacs:
     cargo build
     editors/emacs-test target/debug/postform
 
-# the packed extension in a real VS Code (`npm install code-server` with node 24), pictures into FOLDER: too heavy for CI
-look-vscode code-server="code-server" folder="target/look":
-    cargo build
+# the extension for VS Code as one file, editors/vscode/postform.vsix
+vsix:
     cd editors/vscode && npm ci && npm run check && npm test && npm run package
+
+# that file in a real VS Code (`npm install code-server` with node 24), pictures into FOLDER: too heavy for CI
+vscode-shot code-server="code-server" folder="docs/images": vsix
+    cargo build
     node editors/vscode/look.mjs {{code-server}} target/debug/postform {{folder}}

@@ -2,7 +2,9 @@
 //! by a judge that shares no code with it.
 //!
 //! `jobs COUNT SEED KIND FORM`, of which each may be missing; `FOUND=FOLDER` keeps what is found. What goes wrong is printed as the
-//! smallest such job, with its seed (`jobs 1 SEED` makes it again). It fails where a program is wrong though it was proven.
+//! smallest such job, with its seed (`jobs 1 SEED` makes it again). It fails where a program is wrong though it was proven, where one
+//! is called different that the judge finds right, and where one is wrong for another reason than digits that lint or the renderer
+//! names.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -19,6 +21,8 @@ use postform_fuzz::text::ending;
 const SHOWN: u64 = 2;
 /// One program in so many goes through LinuxCNC's interpreter.
 const INTERPRETED: u64 = 16;
+/// How near places must be for `verify`, in millimetres.
+const PLACES: f64 = 0.002;
 
 fn main() -> ExitCode {
     let asked = Asked::of(std::env::args().skip(1), forms());
@@ -31,10 +35,14 @@ fn main() -> ExitCode {
         }
     }
     hunt.tally.print();
-    let [wrong, alarms] = ["wrong", "alarms"].map(|group| hunt.tally.total(group));
+    let [wrong, alarms, defects, rounded] =
+        ["wrong", "alarms", "defects", "rounded"].map(|group| hunt.tally.total(group));
     let seconds = start.elapsed().as_secs_f64();
-    println!("{} jobs: {wrong} wrong though proven, {alarms} called different, {seconds:.0} s", asked.count);
-    if wrong > 0 { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+    println!(
+        "{} jobs: {wrong} wrong though proven, {alarms} false alarms, {defects} wrong and found, {rounded} rounded by their form, {seconds:.0} s",
+        asked.count
+    );
+    if wrong + alarms + defects > 0 { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
 struct Hunt {
@@ -46,6 +54,19 @@ struct Hunt {
 fn gist(why: &str) -> String {
     let text: String = why.chars().filter(|c| c.is_alphabetic() || *c == ' ').collect();
     text.split_whitespace().take(6).collect::<Vec<_>>().join(" ")
+}
+
+/// What a program that is called different is: `rounded` where the judge sees it too and lint or the renderer names the digits that are
+/// lost, `defects` where the judge sees it too, else one of the `alarms`.
+fn called(case: &Case<'_>, end: &End) -> &'static str {
+    let End::Printed(program, Proof::Different(list), lost) = end else { return "alarms" };
+    let feeds = list.iter().all(|(code, _)| code == "PV006");
+    let is_wrong = |within: f64| matches!(case.judged_within(program, within), Some(Err(_)));
+    match lost {
+        true if feeds || is_wrong(PLACES) => "rounded",
+        false if is_wrong(case.form.within) => "defects",
+        _ => "alarms",
+    }
 }
 
 impl Hunt {
@@ -61,12 +82,21 @@ impl Hunt {
         match &end {
             End::Refused(_) => {}
             End::Panicked => self.found(case, "wrong", "panic", &mut |end, _| matches!(end, End::Panicked)),
-            End::Printed(program, proof) => {
+            End::Printed(program, proof, _) => {
                 if let Proof::Different(_) = proof {
-                    self.found(case, "alarms", &name, &mut |end, _| end.name() == name);
+                    self.different(case, &end, &name);
                 }
                 self.judge(case, program, &name);
             }
+        }
+    }
+
+    /// Something is called different: a false alarm, or a wrong program.
+    fn different(&mut self, case: &Case<'_>, end: &End, name: &str) {
+        let group = called(case, end);
+        match group {
+            "rounded" => self.tally.count(group, format!("{} {name}", case.form.name)),
+            _ => self.found(case, group, name, &mut |end, case| end.name() == name && called(case, end) == group),
         }
     }
 
@@ -101,7 +131,7 @@ impl Hunt {
         if let (Some(Err(why)), true) = (judged, verdict != "different") {
             let gist = gist(&why);
             self.found(case, "wrong", &format!("judge, {verdict}: {gist}"), &mut |end, case| match end {
-                End::Printed(program, proof) => {
+                End::Printed(program, proof, _) => {
                     let same = |why: &str| self::gist(why) == gist;
                     proof.name().starts_with(verdict) && matches!(case.judged(program), Some(Err(why)) if same(&why))
                 }
@@ -115,7 +145,7 @@ impl Hunt {
             if let Err(why) = done {
                 let gist = gist(&why);
                 self.found(case, "wrong", &format!("interpreter, {verdict}: {gist}"), &mut |end, case| match end {
-                    End::Printed(program, _) => {
+                    End::Printed(program, ..) => {
                         matches!(case.interpreted(program), Some(Err(why)) if self::gist(&why) == gist)
                     }
                     _ => false,
@@ -143,7 +173,7 @@ impl Hunt {
         }));
         println!("== seed {}: {} ({}, {}) {what}", case.seed, case.form.name, case.kind.name(), ending(case.format));
         println!("{}", small.text().trim_end());
-        if let End::Printed(program, proof) = small.end() {
+        if let End::Printed(program, proof, _) = small.end() {
             if let Proof::Different(list) = proof {
                 list.iter().take(2).for_each(|(code, what)| println!("{code} {what}"));
             }

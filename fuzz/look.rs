@@ -2,11 +2,11 @@
 
 use postform::internals::compile::compile;
 use postform::internals::fmt::format;
+use postform::internals::json::read_document;
 use postform::internals::lint::{Changed, Found, Levels, lint, mend};
 use postform::internals::render::{Options, Renderer};
 use postform::internals::sema::{Checked, Limits, analyse};
 use postform::internals::source::Source;
-use postform::internals::json::read_document;
 
 const JOB: &str = include_str!("../samples/drill-machine/job.json");
 

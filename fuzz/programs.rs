@@ -32,7 +32,7 @@ fn main() {
             break;
         }
         let Some((case, mut random)) = asked.case(seed) else { continue };
-        let End::Printed(program, proof) = case.end() else { continue };
+        let End::Printed(program, proof, _) = case.end() else { continue };
         if !proof.holds() {
             continue;
         }

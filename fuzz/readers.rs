@@ -14,29 +14,172 @@ use postform_fuzz::random::Random;
 
 /// Pieces that mean something in the wrong place, by format.
 const CL: &[&str] = &[
-    "\n", "\r\n", "$", "$$", "$$*", "~", "/", ",", "GOTO/", "GODLTA/1,2,3", "RAPID\n", "CYCLE/DRILL,DEPTH,5,MMPM,100,CLEAR,2\n",
-    "CYCLE/OFF\n", "CYCLE/DEEP,5,1,100,MMPM\n", "CIRCLE/0,0,0,0,0,1,5\n", "TIMES,1000", "MOVARC/0,0,0,0,0,1,5,ANGLE,90\n",
-    "LOADTL/2\n", "LOAD/TOOL,3\n", "TLON,GOFWD/(CIRCLE/0,0,0,5)\n", "INDIRV/1,0,0\n", "SPINDL/1000,RPM,CLW\n", "FEDRAT/1e308,MMPM\n",
-    "CUTCOM/LEFT\n", "CUTCOM/OFF\n", "TRANS/1e300,0,0\n", "UNITS/MM\n", "UNITS/INCHES\n", "FINI\n", "END\n", "TLAXIS/0,1,0\n",
-    "CSYS/1,0,0,0,0,1,0,0,0,0,1,0\n", "MSYS/0,0,0,1,0,0,0,1,0\n", "-", "1e999", "nan", ".", "\u{0}", "é", "999999999999999999999",
+    "\n",
+    "\r\n",
+    "$",
+    "$$",
+    "$$*",
+    "~",
+    "/",
+    ",",
+    "GOTO/",
+    "GODLTA/1,2,3",
+    "RAPID\n",
+    "CYCLE/DRILL,DEPTH,5,MMPM,100,CLEAR,2\n",
+    "CYCLE/OFF\n",
+    "CYCLE/DEEP,5,1,100,MMPM\n",
+    "CIRCLE/0,0,0,0,0,1,5\n",
+    "TIMES,1000",
+    "MOVARC/0,0,0,0,0,1,5,ANGLE,90\n",
+    "LOADTL/2\n",
+    "LOAD/TOOL,3\n",
+    "TLON,GOFWD/(CIRCLE/0,0,0,5)\n",
+    "INDIRV/1,0,0\n",
+    "SPINDL/1000,RPM,CLW\n",
+    "FEDRAT/1e308,MMPM\n",
+    "CUTCOM/LEFT\n",
+    "CUTCOM/OFF\n",
+    "TRANS/1e300,0,0\n",
+    "UNITS/MM\n",
+    "UNITS/INCHES\n",
+    "FINI\n",
+    "END\n",
+    "TLAXIS/0,1,0\n",
+    "CSYS/1,0,0,0,0,1,0,0,0,0,1,0\n",
+    "MSYS/0,0,0,1,0,0,0,1,0\n",
+    "-",
+    "1e999",
+    "nan",
+    ".",
+    "\u{0}",
+    "é",
+    "999999999999999999999",
 ];
 const NC: &[&str] = &[
-    "\n", "\r\n", "%\n", "(", ")", "/", "G0", "G1", "G2", "G3", "G17", "G18", "G20", "G21", "G28", "G40", "G41", "G43H1", "G52X1", "G53",
-    "G54", "G80", "G81X1Y1Z-1R1F9", "G83Q.1", "G84", "G90", "G91", "G98", "G99", "M0", "M6T2", "M98P1", "M99", "M30\n", "I1", "R-1", "K9",
-    "#1=", "[", "]", "O1", "X1e9", "Z-.0001", "F0", "S1", "L999999", "-", ".", "99999999999999999999", "\u{0}", "é",
+    "\n",
+    "\r\n",
+    "%\n",
+    "(",
+    ")",
+    "/",
+    "G0",
+    "G1",
+    "G2",
+    "G3",
+    "G17",
+    "G18",
+    "G20",
+    "G21",
+    "G28",
+    "G40",
+    "G41",
+    "G43H1",
+    "G52X1",
+    "G53",
+    "G54",
+    "G80",
+    "G81X1Y1Z-1R1F9",
+    "G83Q.1",
+    "G84",
+    "G90",
+    "G91",
+    "G98",
+    "G99",
+    "M0",
+    "M6T2",
+    "M98P1",
+    "M99",
+    "M30\n",
+    "I1",
+    "R-1",
+    "K9",
+    "#1=",
+    "[",
+    "]",
+    "O1",
+    "X1e9",
+    "Z-.0001",
+    "F0",
+    "S1",
+    "L999999",
+    "-",
+    ".",
+    "99999999999999999999",
+    "\u{0}",
+    "é",
 ];
 const XML: &[&str] = &[
-    "<", ">", "/>", "&", "&amp;", "&#x0;", "\"", "<![CDATA[", "<!--", "<!DOCTYPE a [<!ENTITY b \"c\">]>", "&b;", "<Object name=\"Job\">",
-    "</Object>", "<Property name=\"Group\">", "</Property>", "<Link value=\"Job\"/>", "<Bool value=\"false\"/>", "<Float value=\"nan\"/>",
-    "<Float value=\"1e999\"/>", "<Integer value=\"-1\" CustomEnum=\"true\"/>", "<Path file=\"Document.xml\"/>", "ObjectJob", "Base",
+    "<",
+    ">",
+    "/>",
+    "&",
+    "&amp;",
+    "&#x0;",
+    "\"",
+    "<![CDATA[",
+    "<!--",
+    "<!DOCTYPE a [<!ENTITY b \"c\">]>",
+    "&b;",
+    "<Object name=\"Job\">",
+    "</Object>",
+    "<Property name=\"Group\">",
+    "</Property>",
+    "<Link value=\"Job\"/>",
+    "<Bool value=\"false\"/>",
+    "<Float value=\"nan\"/>",
+    "<Float value=\"1e999\"/>",
+    "<Integer value=\"-1\" CustomEnum=\"true\"/>",
+    "<Path file=\"Document.xml\"/>",
+    "ObjectJob",
+    "Base",
 ];
 const PATH: &[&str] = &[
-    "\n", "G0 Z5\n", "G1 X1 F1\n", "G2 I1 F1\n", "G81 X1 Y1 Z-1 R2 F1\n", "G84 X1 Y1 Z-1 R2 F1 S1\n", "G80\n", "G98\n", "G99\n", "(a)\n", "M0\n",
-    "G4 P1\n", "G41 D1\n", "G40\n", "M3 S1\n", "1e999", "nan", "-", "X", " ; RetractMode:'G98'\n", "é", "\u{0}",
+    "\n",
+    "G0 Z5\n",
+    "G1 X1 F1\n",
+    "G2 I1 F1\n",
+    "G81 X1 Y1 Z-1 R2 F1\n",
+    "G84 X1 Y1 Z-1 R2 F1 S1\n",
+    "G80\n",
+    "G98\n",
+    "G99\n",
+    "(a)\n",
+    "M0\n",
+    "G4 P1\n",
+    "G41 D1\n",
+    "G40\n",
+    "M3 S1\n",
+    "1e999",
+    "nan",
+    "-",
+    "X",
+    " ; RetractMode:'G98'\n",
+    "é",
+    "\u{0}",
 ];
 const JSON: &[&str] = &[
-    "{", "}", "[", "]", ",", ":", "null", "true", "1e999", "-", "\"", "\"rapid\":[1,2,3]", "{\"line\":[1,2,3]},", "\"operations\":[", "\\ud800", "é",
-    "{\"end\":true}\n", "\n", "\"path\":[", "\"points\":[[1,1,0]]", "\"kind\":\"deep\",", "\"step\":1e-300,",
+    "{",
+    "}",
+    "[",
+    "]",
+    ",",
+    ":",
+    "null",
+    "true",
+    "1e999",
+    "-",
+    "\"",
+    "\"rapid\":[1,2,3]",
+    "{\"line\":[1,2,3]},",
+    "\"operations\":[",
+    "\\ud800",
+    "é",
+    "{\"end\":true}\n",
+    "\n",
+    "\"path\":[",
+    "\"points\":[[1,1,0]]",
+    "\"kind\":\"deep\",",
+    "\"step\":1e-300,",
 ];
 
 /// Something to mutate.
@@ -83,7 +226,11 @@ fn mutated(seeds: &[Seed], random: &mut Random) -> (Format, Vec<u8>) {
         }
         Seed::Packed(bytes) => {
             let mut bytes = bytes.clone();
-            mutate(&mut bytes, &["PK\u{3}\u{4}", "PK\u{1}\u{2}", "PK\u{5}\u{6}", "Document.xml", "\u{0}\u{0}\u{0}\u{0}"], random);
+            mutate(
+                &mut bytes,
+                &["PK\u{3}\u{4}", "PK\u{1}\u{2}", "PK\u{5}\u{6}", "Document.xml", "\u{0}\u{0}\u{0}\u{0}"],
+                random,
+            );
             (Format::Freecad, bytes)
         }
         Seed::Archive(members) => {
@@ -139,7 +286,8 @@ fn read(format: Format, bytes: &[u8], assume: bool) -> bool {
 fn seeds(root: &Path) -> Vec<Seed> {
     let mut seeds = Vec::new();
     let mut files: Vec<PathBuf> = Vec::new();
-    let mut folders: Vec<PathBuf> = ["samples", "tests/data/cl", "tests/data/freecad"].map(|folder| root.join(folder)).into();
+    let mut folders: Vec<PathBuf> =
+        ["samples", "tests/data/cl", "tests/data/freecad"].map(|folder| root.join(folder)).into();
     folders.push(root.join("tests/data/fusion.jsonl"));
     while let Some(folder) = folders.pop() {
         match fs::read_dir(&folder) {
@@ -201,7 +349,12 @@ fn main() {
             }
         }
         if seed % 500_000 == 499_999 {
-            println!("{} mutations, {:.0} s, {:?} MB at most", seed + 1 - first, start.elapsed().as_secs_f64(), most_memory());
+            println!(
+                "{} mutations, {:.0} s, {:?} MB at most",
+                seed + 1 - first,
+                start.elapsed().as_secs_f64(),
+                most_memory()
+            );
         }
     }
     let seconds = start.elapsed().as_secs_f64();

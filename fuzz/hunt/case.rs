@@ -71,8 +71,8 @@ pub enum End {
     Refused(Said),
     /// A panic.
     Panicked,
-    /// The program, and what comparing says of it.
-    Printed(String, Proof),
+    /// The program, what comparing says of it, and whether lint or the renderer says that its digits are too few.
+    Printed(String, Proof, bool),
 }
 
 impl End {
@@ -81,7 +81,7 @@ impl End {
         match self {
             End::Refused((code, _)) => format!("refused {code}"),
             End::Panicked => "panic".into(),
-            End::Printed(_, proof) => proof.name(),
+            End::Printed(_, proof, _) => proof.name(),
         }
     }
 }
@@ -107,9 +107,9 @@ impl<'f> Case<'f> {
         let text = self.text();
         let run = || match self.form.render(&text, self.format) {
             Err(said) => End::Refused(said),
-            Ok(program) => {
+            Ok((program, lost)) => {
                 let proof = self.form.verify(&program, &text, self.format);
-                End::Printed(program, proof)
+                End::Printed(program, proof, lost)
             }
         };
         std::panic::catch_unwind(std::panic::AssertUnwindSafe(run)).unwrap_or(End::Panicked)
@@ -117,6 +117,11 @@ impl<'f> Case<'f> {
 
     /// What the judge says of a program; `None` where it does not read such jobs.
     pub fn judged(&self, program: &str) -> Option<Result<(), String>> {
+        self.judged_within(program, self.form.within)
+    }
+
+    /// The same, with places within so many millimetres.
+    pub fn judged_within(&self, program: &str, within: f64) -> Option<Result<(), String>> {
         let wants = self.wants()?;
         let inch = self.job["units"] == "inch";
         let ran = self.form.run(program, inch);
@@ -127,9 +132,9 @@ impl<'f> Case<'f> {
                     act.from.swap(3, 4);
                     act.to.swap(3, 4);
                 });
-                against::difference(&wants, &acts, self.form.within)
+                against::difference(&wants, &acts, within)
             }
-            Ok(acts) => against::difference(&wants, &acts, self.form.within),
+            Ok(acts) => against::difference(&wants, &acts, within),
         };
         Some(against.map_or(Ok(()), Err))
     }

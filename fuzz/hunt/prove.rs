@@ -1,11 +1,11 @@
 //! A form as the hunt uses it: it prints jobs and compares programs with them.
 
-use postform::toolpath::Place;
 use postform::internals::verify::Finding;
+use postform::toolpath::Place;
 use postform::{Error, Format, Job, NoFiles, Options, Post, Source, Verdict};
 
 use crate::job::{Kind, Takes};
-use crate::judge::{Act, lathe, run};
+use crate::judge::{Act, lathe, run, wire};
 
 /// A form that prints.
 pub struct Form {
@@ -23,6 +23,8 @@ pub struct Form {
     pub renames: bool,
     /// X of a lathe counts diameters.
     pub by_diameter: bool,
+    /// `lint` says that its formats round away what a job may say.
+    pub cuts_digits: bool,
     post: Post,
 }
 
@@ -36,6 +38,7 @@ impl Form {
     /// What is wrong with it.
     pub fn read(name: &str, text: &str) -> Result<Form, Error> {
         let post = Post::compile(Source::from_text(name, text), &NoFiles)?;
+        let cuts_digits = post.warnings().diags.iter().any(|diag| diag.code.name() == "PF306");
         let says = |line: &str| text.lines().any(|other| other.trim_end() == line);
         let inch = [("Units inch", true), ("Units mm", false)].into_iter().find(|(line, _)| says(line));
         let control = text.lines().find_map(|line| line.strip_prefix("Control ")).unwrap_or("fanuc");
@@ -56,6 +59,7 @@ impl Form {
             within: if text.contains("X->5.>2") { 0.011 } else { 0.0035 },
             renames: says("Rename A B"),
             by_diameter: !says("ByDiameter? N"),
+            cuts_digits,
             post,
         })
     }
@@ -65,23 +69,30 @@ impl Form {
     /// # Errors
     /// The line, and why it stops there.
     pub fn run(&self, program: &str, inch: bool) -> Result<Vec<Act>, (usize, String)> {
-        match self.kinds.contains(&Kind::Lathe) {
-            true => lathe::run(program, self.by_diameter, inch),
-            false => run(program, &self.control, inch),
+        match self.kinds.first() {
+            Some(Kind::Lathe) => lathe::run(program, self.by_diameter, inch),
+            Some(Kind::Wire) => wire::run(program, inch),
+            _ => run(program, &self.control, inch),
         }
     }
 
-    /// Prints a job.
+    /// Prints a job; true where it says that digits were lost.
     ///
     /// # Errors
     /// The code and the message of what it refuses.
-    pub fn render(&self, job: &str, format: Format) -> Result<String, Said> {
+    pub fn render(&self, job: &str, format: Format) -> Result<(String, bool), Said> {
         let mut options = Options::default();
         // a CL file has no number
         options.program = Some(7);
         options.proof = None;
         let program = self.post.render(Job::bytes(format, job), &options);
-        program.map(postform::Program::into_text).map_err(|error| said(&error))
+        let lost = |program: &postform::Program| program.notes().iter().any(|note| note.code.name() == "PR025");
+        program
+            .map(|program| {
+                let lost = self.cuts_digits || lost(&program);
+                (program.into_text(), lost)
+            })
+            .map_err(|error| said(&error))
     }
 
     /// Compares a program with its job.

@@ -52,12 +52,17 @@ fn outside(pen: &mut Pen<'_>) -> [f64; 3] {
     [pen.length(0.05, 0.5), pen.length(1.2, 2.0), 0.0]
 }
 
-/// Positions of two numbers.
+/// Positions of two numbers, and arcs of one turn.
 fn flat(mut item: Value) -> Value {
-    for key in ["rapid", "line"] {
-        if let Some(list) = item.get_mut(key).and_then(Value::as_array_mut) {
+    let two = |value: Option<&mut Value>| {
+        if let Some(list) = value.and_then(Value::as_array_mut) {
             list.truncate(2);
         }
+    };
+    ["rapid", "line"].into_iter().for_each(|key| two(item.get_mut(key)));
+    if let Some(arc) = item.get_mut("arc").and_then(Value::as_object_mut) {
+        ["to", "center"].into_iter().for_each(|key| two(arc.get_mut(key)));
+        arc.remove("turns");
     }
     item
 }

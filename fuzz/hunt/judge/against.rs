@@ -192,6 +192,10 @@ impl Judge<'_> {
         while let Some(act) = self.next() {
             let What::Thread(is) = act.what else { break };
             let along = near(act.from[2], begin, self.within) && near(act.to[2], wanted.to[2], self.within);
+            // the next thread's
+            if !along && passes > 0 && near(reached, depth.abs(), 2.0 * self.within) {
+                break;
+            }
             if !along {
                 return Some(format!("line {}: a pass from {} to {}", act.line, shown(&act.from), shown(&act.to)));
             }

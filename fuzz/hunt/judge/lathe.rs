@@ -59,6 +59,8 @@ struct Lathe {
     at: Place,
     state: State,
     motion: f64,
+    /// Where the cycle in force ends along the axis.
+    end: f64,
     taper: f64,
     first: [f64; 3],
     acts: Vec<Act>,
@@ -75,6 +77,7 @@ pub fn run(program: &str, by_diameter: bool, inch: bool) -> Result<Vec<Act>, (us
         at: [f64::NAN, 0.0, f64::NAN, 0.0, 0.0, 0.0],
         state: State { direction: 5.0, side: (40.0, 0.0), feed: (f64::NAN, 94.0), work: 54.0, ..State::default() },
         motion: 0.0,
+        end: f64::NAN,
         taper: 0.0,
         first: [0.0; 3],
         acts: Vec::new(),
@@ -171,7 +174,8 @@ impl Lathe {
             }
             return Ok(());
         }
-        if get(b'X').is_none() && get(b'Z').is_none() {
+        let circle = matches!(self.motion, 2.0 | 3.0) && (get(b'I').is_some() || get(b'K').is_some());
+        if get(b'X').is_none() && get(b'Z').is_none() && !circle {
             return Ok(());
         }
         if self.motion != 0.0 && self.state.feed.0.is_nan() {
@@ -195,6 +199,10 @@ impl Lathe {
             }
             32.0 => self.act(line, What::Thread(lead), to),
             code => {
+                match get(b'Z') {
+                    Some(_) => self.end = to[2],
+                    None => to[2] = self.end,
+                }
                 if let Some(taper) = get(b'R').or(get(b'I')) {
                     self.taper = taper * self.scale;
                 }

@@ -6,6 +6,7 @@ mod machine;
 mod modes;
 mod scan;
 mod wants;
+pub mod wire;
 
 pub mod against;
 pub mod pair;

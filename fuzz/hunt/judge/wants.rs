@@ -61,14 +61,15 @@ struct Reader {
     jogged: bool,
     /// Subprograms by their numbers.
     subs: Vec<Value>,
-    /// A lathe: no way is free.
+    /// A lathe or a wire: no way is free.
     lathe: bool,
 }
 
 /// The list, or nothing for a job that this does not read: with calls, custom cycles, or codes as text.
 pub fn wants(job: &Value) -> Option<Vec<Wanted>> {
     let lathe = job.get("machine").is_some_and(|machine| machine == "lathe");
-    let turned = lathe.then(|| super::lathe::as_mill(job));
+    let wire = job.get("machine").is_some_and(|machine| machine == "edm");
+    let turned = lathe.then(|| super::lathe::as_mill(job)).or_else(|| wire.then(|| super::wire::as_mill(job)));
     let job = turned.as_ref().unwrap_or(job);
     if job.get("machine").is_some_and(|machine| machine != "mill") {
         return None;
@@ -87,7 +88,7 @@ pub fn wants(job: &Value) -> Option<Vec<Wanted>> {
         list: Vec::new(),
         jogged: false,
         subs: job["subprograms"].as_array().cloned().unwrap_or_default(),
-        lathe,
+        lathe: lathe || wire,
     };
     if lathe {
         reader.at[1] = 0.0;
@@ -213,6 +214,9 @@ impl Reader {
         } else if let Some(seconds) = item.get("dwell").and_then(Value::as_f64) {
             let at = self.at;
             self.put(Want::Dwell(seconds), at);
+        } else if let Some(action) = item.get("edm").and_then(Value::as_str) {
+            let at = self.at;
+            self.put(Want::Stop(super::wire::code(action)), at);
         } else if let Some(call) = item.get("call") {
             self.call(call)?;
         } else if let Some(thread) = item.get("thread") {

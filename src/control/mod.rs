@@ -121,7 +121,7 @@ macro_rules! shipped {
     };
 }
 
-shipped! { "fanuc" "fanuc-lathe" "haas" "haas-lathe" "fadal" "linuxcnc" "emc2" "grbl" "pathpilot" }
+shipped! { "fanuc" "fanuc-lathe" "fanuc-wire" "haas" "haas-lathe" "fadal" "linuxcnc" "emc2" "grbl" "pathpilot" }
 
 /// Does a control's name mean a file that describes it?
 pub fn is_file(name: &str) -> bool {
@@ -202,6 +202,24 @@ impl Control {
     #[inline]
     pub fn is_lathe(&self) -> bool {
         self.traits.turns == Turns::Part
+    }
+
+    /// The wire EDM machine of the same maker, where a file describes one: forms of such machines name it as they name the mill.
+    pub fn of_wire(&'static self) -> &'static Control {
+        let wire = |name: &String| Control::named(&format!("{name}-wire"));
+        if self.is_wire() { self } else { self.chain.iter().find_map(wire).unwrap_or(self) }
+    }
+
+    /// Is it a wire EDM machine's?
+    #[inline]
+    pub fn is_wire(&self) -> bool {
+        self.traits.turns == Turns::Nothing
+    }
+
+    /// The letters of its axes, in the order of a position.
+    #[inline]
+    pub fn axes(&self) -> &'static [u8; 6] {
+        if self.is_wire() { b"XYUVAB" } else { b"XYZABC" }
     }
 
     /// Name of the control, as forms and options write it.

@@ -102,6 +102,9 @@ pub enum Turns {
     /// The part: X is a diameter, U and W are increments, T changes the tool at once.
     #[serde(rename = "lathe")]
     Part,
+    /// Nothing: the wire of an EDM machine, with X Y at its lower guide and U V at the upper one.
+    #[serde(rename = "wire")]
+    Nothing,
 }
 
 /// What a control is besides its codes.

@@ -335,6 +335,7 @@ codes! {
     PV022 Error "units that are not said"
     PV023 Error "other pecks"
     PV024 Error "other coolant"
+    PV025 Error "the wire is not threaded or cut as the job says"
     // PX: postform itself
     PX001 Error "an event that can't be"
 }

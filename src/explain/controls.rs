@@ -1,6 +1,8 @@
 //! What is known of a control, and what is not: for `explain`, for docs/controls, and as a file to start from.
 
-use crate::control::{Centres, Code, Control, DwellUnit, Kept, Row, Rules, ToolLength, WithoutPoint, Words, names};
+use crate::control::{
+    Centres, Code, Control, DwellUnit, Kept, Row, Rules, ToolLength, Turns, WithoutPoint, Words, names,
+};
 
 /// What nothing public says.
 const UNKNOWN: &str = "not known";
@@ -50,11 +52,14 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
         true => "refused",
         false => UNKNOWN,
     };
-    let axes = "X is a diameter, U and W are increments, and T changes the tool with its register";
-    let machine = if control.is_lathe() { format!("a lathe: {axes}") } else { "a mill".to_owned() };
+    let machine = match traits.turns {
+        Turns::Tool => "a mill",
+        Turns::Part => "a lathe: X is a diameter, U and W are increments, and T changes the tool with its register",
+        Turns::Nothing => "a wire EDM machine: X and Y are places of the lower guide, U and V of the upper one",
+    };
     vec![
         ("programs", rules.to_owned()),
-        ("what it drives", machine),
+        ("what it drives", machine.to_owned()),
         ("longest block", line),
         ("M codes in a block", if traits.one_m { "one" } else { UNKNOWN }.to_owned()),
         ("small letters", if traits.small_letters { "read" } else { "not to be counted on" }.to_owned()),

@@ -10,14 +10,11 @@ use crate::control::{Meaning, Rules};
 use crate::diag::Code;
 use crate::toolpath::Plane;
 
-/// Letters of the axes.
-const LETTERS: [u8; 6] = *b"XYZABC";
-
 impl State {
     /// The word of an axis as a length: X in diameters is halved.
     #[inline]
     pub(super) fn axis_word(&self, block: &Block, axis: usize) -> Option<f64> {
-        let value = block.get(LETTERS[axis])?;
+        let value = block.get(self.control.axes()[axis])?;
         Some(if self.modes.diameter && axis == 0 { value / 2.0 } else { value })
     }
 

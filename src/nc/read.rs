@@ -8,7 +8,7 @@ use super::flow::Flow;
 use super::parameters::Parameters;
 use super::scan::{Kind, tokens, tokens_from};
 use super::settings::RunSettings;
-use crate::control::Control;
+use crate::control::{Control, Turns};
 use crate::diag::Code;
 
 /// G80.
@@ -165,7 +165,12 @@ impl Block {
                 if self.given & at != 0 {
                     return twice(letter, column);
                 }
-                if at & letters("UVW") != 0 && !(control.is_lathe() && letter != b'V') {
+                let own = match control.traits().turns {
+                    Turns::Tool => 0,
+                    Turns::Part => letters("UW"),
+                    Turns::Nothing => letters("UV"),
+                };
+                if at & letters("UVW") & !own != 0 {
                     let help = "axes are X Y Z A B C";
                     return Err(Fault::at(Code::PN016, column, format!("the word {}", char::from(letter)), help));
                 }

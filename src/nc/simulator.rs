@@ -121,6 +121,15 @@ impl<R: BufRead + Seek> Simulator<R> {
         self.parameters = Parameters::new(control);
     }
 
+    /// The program is a wire EDM machine's, and its control is that of its maker; before the first block.
+    pub fn is_of_wire(&mut self) {
+        let units = self.state.units();
+        let control = self.state.settings.control.of_wire();
+        self.state = State::new(RunSettings { control, ..self.state.settings });
+        self.state.begin_in(units);
+        self.parameters = Parameters::new(control);
+    }
+
     /// The state of the control.
     pub fn state(&self) -> &State {
         &self.state

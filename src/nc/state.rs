@@ -105,7 +105,11 @@ impl State {
                 diameter: control.is_lathe(),
             },
             place: Place::new(
-                if settings.places_unknown { 0b111 } else { 0 },
+                match settings.places_unknown {
+                    true if control.is_wire() => 0b1111,
+                    true => 0b111,
+                    false => 0,
+                },
                 control.traits().work_letter.is_none().then_some(54.0),
             ),
             drive: Drive { feed: 0.0, spindle: Rotation::Stop, speed: 0.0 },

@@ -158,9 +158,9 @@ fn distance(from: &Position, to: &Position) -> f64 {
 }
 
 /// Angle that an arc turns, in radians; a whole turn where it ends as it begins.
-pub(crate) fn sweep(from: &Position, turn: &Turn) -> f64 {
+pub(crate) fn sweep(from: &[f64], turn: &Turn) -> f64 {
     let [first, second, _] = axes_of(turn.plane);
-    let angle = |at: &Position| (at[second] - turn.center[second]).atan2(at[first] - turn.center[first]);
+    let angle = |at: &[f64]| (at[second] - turn.center[second]).atan2(at[first] - turn.center[first]);
     let sign = if turn.direction == Direction::Ccw { 1.0 } else { -1.0 };
     let part = (sign * (angle(&turn.to) - angle(from))).rem_euclid(std::f64::consts::TAU);
     let closed = !(1e-9..=std::f64::consts::TAU - 1e-9).contains(&part);

@@ -6,7 +6,7 @@ use super::codes::Group;
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
-use crate::control::Meaning;
+use crate::control::{Meaning, Turns};
 use crate::diag::Code;
 use crate::toolpath::Side;
 
@@ -152,7 +152,7 @@ impl State {
             _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.number),
             _ => self.tool.diameter_register,
         };
-        if register.is_none() && !self.control.is_linuxcnc() && !self.control.is_lathe() {
+        if register.is_none() && !self.control.is_linuxcnc() && self.control.traits().turns == Turns::Tool {
             let help = "write D with the tool's register: G41 D1";
             return refuse(Code::PN007, "cutter compensation without D", help);
         }

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ALL, Cut, What, same, shown};
+use super::cut::{ALL, Cut, What, position, same, shown};
 use super::intent::Done;
 use super::state::Sides;
 use super::states;
@@ -24,7 +24,7 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
     let (mut swept, mut parts) = (0.0, 0);
     loop {
         let Some(found) = s.next()? else {
-            let message = format!("the program is over inside the arc to {}", shown(&turn.to, 0b111));
+            let message = format!("the program is over inside the arc to {}", shown(&cut.end(), 0b111));
             return s.differs(Code::PV017, 0, message, "look at the arcs of the form");
         };
         if parts > 0 && !s.program.passage.is_plain() {
@@ -35,7 +35,7 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
             states::compare(s, cut, &found, false);
         }
         let end = found.end();
-        let part = Turn { to: end, turns: 0, ..*turn };
+        let part = Turn { to: position(&end), turns: 0, ..*turn };
         // from where the program stands: its digits may close a circle that the job's do not, and the other way
         let mut angle = sweep(&found.from, &part);
         let mut bulge = radius * (1.0 - (angle.min(std::f64::consts::TAU) / 2.0).cos());
@@ -45,7 +45,7 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
                     let name = if turn.direction == Direction::Cw { "clockwise" } else { "counter-clockwise" };
                     let message = format!(
                         "the arc to {} turns the other way, or in another plane: the job's {name}",
-                        shown(&turn.to, 0b111)
+                        shown(&cut.end(), 0b111)
                     );
                     return s.differs(
                         Code::PV001,
@@ -67,8 +67,11 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
         let height = cut.from[across] + (turn.to[across] - cut.from[across]) * (swept / whole).min(1.0);
         let off = off.max((end[across] - height).abs() * f64::from(u8::from(parts > 0 || swept < whole - 1e-6)));
         if off > slack || swept > whole + slack_angle {
-            let message =
-                format!("a cut goes to {}, not along the job's arc to {}", shown(&end, 0b111), shown(&turn.to, 0b111));
+            let message = format!(
+                "a cut goes to {}, not along the job's arc to {}",
+                shown(&end, 0b111),
+                shown(&cut.end(), 0b111)
+            );
             return s.differs(Code::PV001, found.line, message, "look at CtrCode, CtrIncremental? and the radius");
         }
         let share = if cut.mode == FeedMode::InverseTime { angle / whole } else { 1.0 };
@@ -76,7 +79,7 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
         states::feeds(s, &part, &found, false);
         s.program.take();
         parts += 1;
-        if same(&end, &turn.to, ALL, tolerance) && swept > whole - slack_angle {
+        if same(&end, &cut.end(), ALL, tolerance) && swept > whole - slack_angle {
             s.report.allowed.arcs += u64::from(parts > 1);
             return Ok(());
         }

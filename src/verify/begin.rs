@@ -2,10 +2,10 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, number, over, same, shown};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, NAMES, Rapid, What, number, over, same, shown};
 use super::intent::{Done, Expected};
 use super::state::Sides;
-use super::{pauses, states, ways};
+use super::{pauses, states, ways, wire};
 use crate::diag::Code;
 
 /// The program's next cut, whose way, beginning and state are compared.
@@ -28,6 +28,7 @@ pub(super) fn meet<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, hole: Option<
     let Some(found) = s.next()? else { return is_missing(s, cut, hole) };
     begins(s, cut, &found, hole)?;
     pauses::compare(s);
+    wire::compare(s, found.line);
     ways::compare(s, found.line);
     states::compare(s, cut, &found, hole.is_some_and(|hole| hole.is_tap));
     s.slipped = None;
@@ -148,6 +149,6 @@ fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Opt
 /// The names of axes, unless there are none.
 fn unsaid(axes: u8) -> Option<String> {
     let names: Vec<String> =
-        (0..6).filter(|axis| axes & 1 << axis != 0).map(|axis| char::from(b"XYZABC"[axis]).to_string()).collect();
+        (0..8).filter(|axis| axes & 1 << axis != 0).map(|axis| char::from(NAMES[axis]).to_string()).collect();
     (!names.is_empty()).then(|| names.join(" and "))
 }

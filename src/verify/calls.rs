@@ -33,7 +33,7 @@ impl Job {
         }
         if call.at.given != 0 {
             self.at = self.target(&call.at);
-            to.rapid(self.rapid_to(self.at.values, None))?;
+            to.rapid(self.rapid_to(&self.at, None))?;
         }
         let items = std::mem::take(&mut self.subprograms.defined[index].items);
         let mut done = Ok(());

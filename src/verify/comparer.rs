@@ -12,8 +12,10 @@ use super::report::{Counts, Report};
 use super::state::{Holes, Limits, Sides};
 use super::tables::PLACES;
 use super::verdict::{Equivalences, Unproven, Verdict};
-use super::{arcs, begin, holes, lines, pauses, threads, ways};
+use super::wire::Coded;
+use super::{arcs, begin, holes, lines, pauses, threads, ways, wire};
 use crate::diag::{Code, Diag};
+use crate::lang::Machine;
 use crate::nc::RunSettings;
 use crate::render::TraceLine;
 use crate::toolpath::{self, Event, Flow, Sink, Stop, StopKind, Units};
@@ -50,7 +52,7 @@ impl<R: BufRead + Seek> Comparer<R> {
                 slipped: None,
                 slips: 0,
                 tools,
-                lathe: false,
+                machine: Machine::Mill,
                 typed,
                 report: Report::default(),
                 failure: None,
@@ -240,8 +242,18 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
     }
 
     fn is_of_lathe(&mut self, by_diameter: bool) {
-        self.lathe = true;
+        self.machine = Machine::Lathe;
         self.program.is_of_lathe(by_diameter);
+    }
+
+    fn is_of_wire(&mut self) {
+        self.machine = Machine::Edm;
+        self.program.is_of_wire();
+    }
+
+    fn wire(&mut self, code: Coded) {
+        let mark = self.job.mark(code, 0, self.at());
+        self.job.does.push(mark);
     }
 
     fn place(&self) -> toolpath::Place {
@@ -270,6 +282,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             return self.differs(Code::PV016, found.line, message, "look at EndCode");
         }
         pauses::compare(self);
+        wire::compare(self, 0);
         ways::end(self);
         self.program.ended();
         Ok(())

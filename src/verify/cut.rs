@@ -1,11 +1,26 @@
 //! Cuts and the ways to them: what job and program are compared by.
 
 use super::tables::{ANGLE, MOMENT, ORIENTED, ROUNDED};
-use crate::nc::{Cooling, Rotation, Turn, axes_of, sweep};
+use crate::nc::{Cooling, Position, Rotation, Turn, axes_of, sweep};
 use crate::toolpath::{FeedMode, Plane, Side};
 
-/// A place: X Y Z in the job's units and A B C in degrees.
-pub(super) type Place = [f64; 6];
+/// A place: X Y Z in the job's units, A B C in degrees, and U V, the upper guide of a wire, in the job's units.
+pub(super) type Place = [f64; 8];
+
+/// A place as the program counts it.
+pub(super) fn position(place: &Place) -> Position {
+    let [x, y, z, a, b, c, ..] = *place;
+    [x, y, z, a, b, c]
+}
+
+/// U or V of a wire that nobody guides: it goes straight down.
+pub(super) const UNSAID: f64 = 1e9;
+
+/// The place of a mill or a lathe.
+pub(super) fn place(position: &Position) -> Place {
+    let [x, y, z, a, b, c] = *position;
+    [x, y, z, a, b, c, UNSAID, UNSAID]
+}
 
 /// A rapid on the way to a cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +70,7 @@ impl What {
     pub fn end(&self) -> Place {
         match self {
             What::Line { to } => *to,
-            What::Arc(turn) => turn.to,
+            What::Arc(turn) => place(&turn.to),
         }
     }
 }
@@ -124,7 +139,9 @@ impl Cut {
 }
 
 /// The axes as bits.
-pub(super) const ALL: u8 = 0b11_1111;
+pub(super) const ALL: u8 = 0xff;
+/// The names of the axes.
+pub(super) const NAMES: [u8; 8] = *b"XYZABCUV";
 /// The axis across a lathe's part, as an index: the radius.
 pub(super) const RADIUS: usize = 0;
 /// The axis along which holes go, as an index.
@@ -134,10 +151,11 @@ pub(super) const ACROSS: u8 = ALL & !(1 << DEPTH);
 
 /// Are two places one, on these axes? An angle and the same after a whole turn are.
 pub(super) fn same(a: &Place, b: &Place, axes: u8, tolerance: f64) -> bool {
-    (0..6).filter(|axis| axes & 1 << axis != 0).all(|axis| {
+    (0..8).filter(|axis| axes & 1 << axis != 0).all(|axis| {
         let difference = a[axis] - b[axis];
         difference.abs() <= tolerance
-            || (axis >= 3 && (difference - 360.0 * (difference / 360.0).round()).abs() <= tolerance.max(ANGLE))
+            || ((3..6).contains(&axis)
+                && (difference - 360.0 * (difference / 360.0).round()).abs() <= tolerance.max(ANGLE))
     })
 }
 
@@ -149,7 +167,7 @@ pub(super) fn turn_as_far(a: [&Place; 2], b: [&Place; 2]) -> bool {
 /// Is b on the straight way from a to c?
 pub(super) fn lies_between(a: &Place, b: &Place, c: &Place, tolerance: f64) -> bool {
     let (mut along, mut length) = (0.0, 0.0);
-    for axis in 0..6 {
+    for axis in 0..8 {
         along += (b[axis] - a[axis]) * (c[axis] - a[axis]);
         length += (c[axis] - a[axis]).powi(2);
     }
@@ -158,7 +176,7 @@ pub(super) fn lies_between(a: &Place, b: &Place, c: &Place, tolerance: f64) -> b
     }
     let part = along / length;
     (0.0..=1.0).contains(&part)
-        && (0..6).all(|axis| (a[axis] + part * (c[axis] - a[axis]) - b[axis]).abs() <= tolerance)
+        && (0..8).all(|axis| (a[axis] + part * (c[axis] - a[axis]) - b[axis]).abs() <= tolerance)
 }
 
 /// How far apart two places are along their farthest axis.
@@ -168,9 +186,10 @@ pub(super) fn distance(a: &Place, b: &Place) -> f64 {
 
 /// `X1 Y2.5 Z-0.1`, with angles where there are any.
 pub(super) fn shown(place: &Place, axes: u8) -> String {
-    let words = (0..6).filter(|&axis| axes & 1 << axis != 0);
-    let list: Vec<String> =
-        words.map(|axis| format!("{}{}", char::from(b"XYZABC"[axis]), number(place[axis]))).collect();
+    // a guided wire has no height
+    let axes = if place[6] == UNSAID && place[7] == UNSAID { axes } else { 0b1100_0011 };
+    let words = (0..8).filter(|&axis| axes & 1 << axis != 0);
+    let list: Vec<String> = words.map(|axis| format!("{}{}", char::from(NAMES[axis]), number(place[axis]))).collect();
     list.join(" ")
 }
 

@@ -1,9 +1,10 @@
 //! What a form fills in where its job is silent, and what it says of its own.
 
 use super::tables::CHORDS;
+use super::wire::{self, Codes};
 use crate::compile::{Op, Program};
 use crate::cycle::Defaults;
-use crate::lang::UnitChoice;
+use crate::lang::{Machine, UnitChoice};
 use crate::nc::Cooling;
 use crate::render::cycle_defaults;
 use crate::sema::Settings;
@@ -39,6 +40,8 @@ pub struct Expectation {
     pub by_diameter: bool,
     /// Subprograms stand before the main program.
     pub subs_first: bool,
+    /// The codes by which the form threads and cuts a wire, if there is a form.
+    pub(super) wire: Option<Codes>,
     /// Feeds that the form types itself.
     pub feeds: Vec<f64>,
     /// Speeds that the form types itself.
@@ -63,6 +66,7 @@ impl Default for Expectation {
             types_m29: false,
             by_diameter: true,
             subs_first: false,
+            wire: None,
             feeds: Vec::new(),
             speeds: Vec::new(),
         }
@@ -96,6 +100,7 @@ impl Expectation {
     #[must_use]
     pub fn typed(mut self, program: &Program) -> Expectation {
         let settings = &program.settings;
+        self.wire = (settings.machine == Machine::Edm).then(|| wire::codes_of(program));
         for op in &program.ops {
             let Op::Literal { index, .. } = op else { continue };
             let Some(literal) = program.literals.get(*index as usize) else { continue };

@@ -1,6 +1,6 @@
 //! The job's side: events as intended cuts and ways.
 
-use super::cut::{Cut, Place, Rapid, Spin, State, What};
+use super::cut::{Cut, Place, Rapid, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
 use super::intent::{Done, Intent, unproven};
 use super::passage::Frame;
@@ -12,8 +12,8 @@ use crate::diag::Diag;
 use crate::lang::{Machine, work_code};
 use crate::nc::{Cooling, Kind, Rotation, Turn, tokens};
 use crate::toolpath::{
-    Arc, Axes, CycleSpec, Direction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start, StopKind, Tool,
-    ToolChange, Units,
+    Arc, Axes, CycleSpec, Direction, EdmAction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start,
+    StopKind, Tool, ToolChange, Units,
 };
 
 /// An open cycle.
@@ -39,7 +39,7 @@ pub(super) struct Job {
     diameter: Option<f64>,
     pub(super) steps: Steps,
     compensation: bool,
-    lathe: bool,
+    machine: Machine,
     /// The tool by the job's number.
     tool: Option<f64>,
     pub(super) subprograms: Subprograms,
@@ -63,7 +63,7 @@ impl Job {
             diameter: None,
             steps: Steps::default(),
             compensation: false,
-            lathe: false,
+            machine: Machine::Mill,
             tool: None,
             subprograms: Subprograms::default(),
         }
@@ -86,12 +86,12 @@ impl Job {
             Event::Rapid(target) => {
                 let target = self.target(&target);
                 self.at = target;
-                to.rapid(self.rapid_to(target.values, None))
+                to.rapid(self.rapid_to(&target, None))
             }
             Event::Line { to: target, feed } => {
                 self.feed = feed.or(self.feed);
                 let target = self.target(&target);
-                let what = What::Line { to: target.values };
+                let what = What::Line { to: self.whole(&target) };
                 self.cut_to(target, what, to)
             }
             Event::Arc { arc, feed } => {
@@ -142,9 +142,9 @@ impl Job {
             Event::Text(text) => self.text(text, to),
             Event::Tilt(_) => unproven(Unmodelled::Tilted),
             Event::SubCall(call) => self.call(call, to),
-            Event::Thread(thread) if self.lathe => self.thread(thread, to),
+            Event::Thread(thread) if self.is_lathe() => self.thread(thread, to),
             Event::Thread(_) => unproven(Unmodelled::Threads),
-            Event::Edm(_) => unproven(Unmodelled::Wire),
+            Event::Edm(action) => self.wire(action, to),
             Event::Begin(_)
             | Event::End(_)
             | Event::Comment(_)
@@ -156,17 +156,21 @@ impl Job {
     }
 
     fn start(&mut self, start: &Start, to: &mut impl Intent) -> Done {
-        if start.machine == Machine::Edm {
-            return unproven(Unmodelled::Machine);
-        }
-        self.lathe = start.machine == Machine::Lathe;
-        self.state.plane = if self.lathe { Plane::Xz } else { Plane::Xy };
-        if self.lathe {
-            to.is_of_lathe(self.expectation.by_diameter);
+        self.machine = start.machine;
+        self.state.plane = if self.is_lathe() { Plane::Xz } else { Plane::Xy };
+        match start.machine {
+            Machine::Mill => {}
+            Machine::Lathe => to.is_of_lathe(self.expectation.by_diameter),
+            Machine::Edm if self.control.of_wire().is_wire() => to.is_of_wire(),
+            Machine::Edm => return unproven(Unmodelled::Machine),
         }
         self.units = Some(start.units);
         to.units(start.units, self.expectation.chord[usize::from(start.units == Units::Mm)]);
         Ok(())
+    }
+
+    fn is_lathe(&self) -> bool {
+        self.machine == Machine::Lathe
     }
 
     fn tool_change(&mut self, change: &ToolChange, to: &mut impl Intent) -> Done {
@@ -176,8 +180,8 @@ impl Job {
             let [length, diameter] =
                 self.expectation.registers.map_or([None; 2], |by| by.map(|by| Some(tool.number + by)));
             self.state.length = tool.length_offset.or(length).filter(|_| self.expectation.tools);
-            self.diameter = tool.diameter_offset.or(diameter).filter(|_| !self.lathe);
-            if self.lathe && self.control.of_lathe().is_lathe() {
+            self.diameter = tool.diameter_offset.or(diameter).filter(|_| !self.is_lathe());
+            if self.is_lathe() && self.control.of_lathe().is_lathe() {
                 let [number, register] = turret(tool, length);
                 (self.state.tool, self.state.length) = (number, register);
             }
@@ -261,7 +265,7 @@ impl Job {
 
     /// A place of the job: a lathe's are Z and radius.
     pub(super) fn place(&self, to: &Axes) -> Axes {
-        if !self.lathe {
+        if !self.is_lathe() {
             return *to;
         }
         let [z, x, y, a, b, c] = to.values;
@@ -271,7 +275,12 @@ impl Job {
 
     /// Axes whose place nobody said.
     fn unknown(&self) -> u8 {
-        !self.at.given & if self.lathe { 0b101 } else { 0b111 }
+        !self.at.given
+            & match self.machine {
+                Machine::Mill => 0b111,
+                Machine::Lathe => 0b101,
+                Machine::Edm => 0b011,
+            }
     }
 
     pub(super) fn target(&self, to: &Axes) -> Axes {
@@ -285,13 +294,23 @@ impl Job {
         target
     }
 
-    pub(super) fn rapid_to(&self, to: Place, spin: Option<Spin>) -> Rapid {
-        Rapid { to, unknown: self.unknown(), spin }
+    /// A place as both sides compare it.
+    pub(super) fn whole(&self, at: &Axes) -> Place {
+        let [x, y, u, v, ..] = at.values;
+        let guide = |axis: usize, value: f64| if at.given & 1 << axis == 0 { UNSAID } else { value };
+        if self.machine == Machine::Edm {
+            return [x, y, 0.0, 0.0, 0.0, 0.0, guide(2, u), guide(3, v)];
+        }
+        place(&at.values)
+    }
+
+    pub(super) fn rapid_to(&self, to: &Axes, spin: Option<Spin>) -> Rapid {
+        Rapid { to: self.whole(to), unknown: self.unknown(), spin }
     }
 
     pub(super) fn cut(&self, what: What) -> Cut {
         Cut {
-            from: self.at.values,
+            from: self.whole(&self.at),
             unknown: self.unknown(),
             what,
             feed: self.feed,
@@ -318,17 +337,20 @@ impl Job {
         self.state.diameter = self.diameter.filter(|_| side.is_some());
         self.compensation = side.is_some();
         if rapid {
-            let cut = self.cut(What::Line { to: target.values });
+            let cut = self.cut(What::Line { to: self.whole(&target) });
             self.at = target;
             return intent.rapid_or_feed(&cut);
         }
-        self.cut_to(target, What::Line { to: target.values }, intent)
+        self.cut_to(target, What::Line { to: self.whole(&target) }, intent)
     }
 
     fn arc(&mut self, arc: &Arc, to: &mut impl Intent) -> Done {
         let target = self.target(&arc.to);
+        if self.machine == Machine::Edm && target.given & 0b1100 != 0 {
+            return unproven(Unmodelled::SlantedArc);
+        }
         let from = self.at.values;
-        let plane = if self.lathe { Plane::Xz } else { arc.plane };
+        let plane = if self.is_lathe() { Plane::Xz } else { arc.plane };
         let [first, second, _] = crate::nc::axes_of(plane);
         let mut center = [from[0], from[1], from[2]];
         match (arc.center, arc.radius) {
@@ -353,6 +375,15 @@ impl Job {
         let turn =
             Turn { to: target.values, center, plane, direction, turns: arc.turns, feed: self.feed.unwrap_or(0.0) };
         self.cut_to(target, What::Arc(turn), to)
+    }
+
+    /// The wire is threaded or cut, its start hole drilled, the tank filled: by the codes of the form's sequence.
+    fn wire(&mut self, action: EdmAction, to: &mut impl Intent) -> Done {
+        if self.expectation.wire.is_none() {
+            return unproven(Unmodelled::Wire);
+        }
+        self.expectation.wire_codes(action).for_each(|code| to.wire(code));
+        Ok(())
     }
 }
 

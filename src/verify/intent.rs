@@ -3,6 +3,7 @@
 use super::cut::{Cut, Place, Rapid};
 use super::passage::Frame;
 use super::tables::Unmodelled;
+use super::wire::Coded;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{self, StopKind, Units};
 
@@ -32,6 +33,10 @@ pub(super) trait Intent {
     fn changed(&mut self, frame: Frame, length: Option<f64>, tool: bool);
     /// The job is over.
     fn finish(&mut self) -> Done;
+    /// The job is for a wire EDM machine.
+    fn is_of_wire(&mut self);
+    /// A code that threads or cuts the wire, drills its start hole or fills the tank.
+    fn wire(&mut self, code: Coded);
     /// The item of the job that is looked at.
     fn place(&self) -> toolpath::Place;
     /// What comes now is this item's.

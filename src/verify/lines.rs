@@ -84,7 +84,7 @@ fn ends<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Optio
 fn in_parts(cut: &Cut, part: &Cut) -> Cut {
     let length = |cut: &Cut| {
         let end = cut.end();
-        (0..6).map(|axis| (end[axis] - cut.from[axis]).powi(2)).sum::<f64>().sqrt()
+        (0..8).map(|axis| (end[axis] - cut.from[axis]).powi(2)).sum::<f64>().sqrt()
     };
     let share = length(part) / length(cut);
     match cut.mode {

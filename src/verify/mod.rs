@@ -33,6 +33,7 @@ mod threads;
 mod verdict;
 mod way;
 mod ways;
+mod wire;
 
 pub use beside::{Batch, Outcome, prove_beside};
 pub use comparer::Comparer;

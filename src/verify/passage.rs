@@ -1,6 +1,7 @@
 //! What lies between two cuts: rapids, changes of tool and work offset, stops, dwells. Job and program have one each.
 
 use super::cut::{ALL, Rapid, same};
+use super::wire::Coded;
 use crate::nc::Rotation;
 use crate::toolpath::{self, StopKind};
 
@@ -52,6 +53,8 @@ pub(super) struct Passage {
     pub turns: Vec<Rotation>,
     /// Codes of the program that are not simulated: letter, and ten times the number.
     pub codes: Vec<(u8, u16)>,
+    /// Codes that thread and cut a wire.
+    pub does: Vec<Mark<Coded>>,
     /// The tool was changed.
     pub new_tool: bool,
     /// The job's way leaves the axis of its hole.
@@ -74,6 +77,7 @@ impl Passage {
             waits: Vec::new(),
             turns: Vec::new(),
             codes: Vec::new(),
+            does: Vec::new(),
             new_tool: false,
             aside: false,
             left_aside: false,
@@ -96,6 +100,7 @@ impl Passage {
         self.waits.clear();
         self.turns.clear();
         self.codes.clear();
+        self.does.clear();
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 
@@ -125,9 +130,15 @@ impl Passage {
         self.legs.insert(behind + 1, leg);
     }
 
-    /// How many stops come before the first change of the frame.
-    pub fn stops_before_change(&self, kind: StopKind) -> usize {
-        self.stops.iter().filter(|stop| stop.what == kind && stop.leg == 0).count()
+    /// How many stops come before a leg.
+    pub fn stops_before(&self, leg: usize, kind: StopKind) -> usize {
+        self.stops.iter().filter(|stop| stop.what == kind && stop.leg < leg).count()
+    }
+
+    /// The legs that begin with another tool, and whether it is the first of all.
+    pub fn tool_changes(&self) -> Vec<(usize, bool)> {
+        let pairs = self.legs.windows(2).enumerate().filter(|(_, pair)| pair[0].frame.tool != pair[1].frame.tool);
+        pairs.map(|(at, pair)| (at + 1, pair[0].frame.tool.is_none())).collect()
     }
 
     /// The last leg, which goes on.
@@ -193,6 +204,10 @@ impl Passage {
 
     /// Does the next cut follow on the last without anything between?
     pub fn is_plain(&self) -> bool {
-        self.rapids.is_empty() && self.legs.len() == 1 && self.stops.is_empty() && self.waits.is_empty()
+        self.rapids.is_empty()
+            && self.legs.len() == 1
+            && self.stops.is_empty()
+            && self.waits.is_empty()
+            && self.does.is_empty()
     }
 }

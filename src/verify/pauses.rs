@@ -59,27 +59,30 @@ fn stops<R: BufRead + Seek>(s: &mut Sides<R>) {
     }
 }
 
-/// A machine without tool changes stops for the next tool: behind the job's stops with the last one.
+/// A machine without tool changes stops for each next tool: behind the job's stops with the one before.
 fn operators_change<R: BufRead + Seek>(s: &mut Sides<R>, others: &mut Vec<Mark<StopKind>>) {
     if !s.job.new_tool || s.tools {
         return;
     }
     let count = |stops: &[Mark<StopKind>]| stops.iter().filter(|stop| stop.what == StopKind::Program).count();
-    let is_first = s.job.start.is_none();
-    if is_first && count(others) <= count(&s.job.stops) {
-        return; // the first tool may be in the spindle already
-    }
-    let before = s.job.stops_before_change(StopKind::Program);
-    let mut stops = others.iter().enumerate().filter(|(_, stop)| stop.what == StopKind::Program);
-    match stops.nth(before).map(|(at, _)| at) {
-        Some(at) => {
-            let stop = others.remove(at);
-            s.program.passage.split(&stop);
+    let changes = s.job.tool_changes();
+    for (number, (leg, is_first)) in changes.iter().enumerate() {
+        let later = changes.len() - number - 1;
+        if *is_first && count(others) <= count(&s.job.stops) + later {
+            continue; // the first tool may be in the spindle already
         }
-        None if !is_first => s.found(Code::PV012, 0, "print M0 in the tool change", || {
-            "the program goes on without a stop for the next tool".to_owned()
-        }),
-        None => {}
+        let before = s.job.stops_before(*leg, StopKind::Program);
+        let mut stops = others.iter().enumerate().filter(|(_, stop)| stop.what == StopKind::Program);
+        match stops.nth(before).map(|(at, _)| at) {
+            Some(at) => {
+                let stop = others.remove(at);
+                s.program.passage.split(&stop);
+            }
+            None if !is_first => s.found(Code::PV012, 0, "print M0 in the tool change", || {
+                "the program goes on without a stop for the next tool".to_owned()
+            }),
+            None => {}
+        }
     }
 }
 
@@ -100,7 +103,9 @@ fn told<R: BufRead + Seek, T>(
 /// The job's dwells are made; others only where the tool does not stand in a cut, or while the spindle spins up.
 fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
     let tolerance = s.limits.tolerance;
-    let wanted = std::mem::take(&mut s.job.waits);
+    let mut wanted = std::mem::take(&mut s.job.waits);
+    // what may be of any length takes what is left
+    wanted.sort_by_key(|wait| wait.what.is_nan());
     let mut others = s.program.passage.waits.clone();
     let is_one = |wanted: f64, is: f64| wanted.is_nan() || same_dwell(wanted, is);
     for wait in &wanted {
@@ -135,8 +140,12 @@ fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
             }),
         }
     }
+    // at the bottom of a hole that only the form knows
+    let own = s.hole.last.is_some_and(|last| {
+        last.custom && s.program.passage.start.is_some_and(|start| same(&start.to, &last.at, ACROSS, tolerance))
+    });
     for other in &others {
-        if s.program.passage.in_cut(other, tolerance) && !other.started {
+        if s.program.passage.in_cut(other, tolerance) && !other.started && !own {
             let seconds = number(other.what);
             s.found(Code::PV010, other.line, "take the dwell out, or retract before it", || {
                 format!("a dwell of {seconds} s that the job does not have")

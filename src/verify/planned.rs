@@ -52,7 +52,7 @@ impl Job {
         let plane = steps.list.iter().take_while(|step| matches!(step, Step::Rapid(_))).last();
         let plane = if let Some(Step::Rapid(height)) = plane { point + height } else { clear };
         let expected = Expected {
-            at: target.values,
+            at: self.whole(&target),
             plane,
             bottom: point + planes.bottom,
             dwell: planes.dwell,
@@ -80,7 +80,7 @@ impl Job {
         // how a tap leaves the spindle outside its hole does not matter
         let mut spin = self.state.rotation.map(Spin::Turns).filter(|_| !hole.is_tap);
         self.at = target;
-        to.rapid(self.rapid_to(target.values, None))?;
+        to.rapid(self.rapid_to(&target, None))?;
         to.hole_begins(hole);
         for step in steps {
             let mut at = target;
@@ -88,21 +88,22 @@ impl Job {
                 Step::Rapid(height) => {
                     at.set(DEPTH, point + height);
                     self.at = at;
-                    to.rapid(self.rapid_to(at.values, spin))?;
+                    to.rapid(self.rapid_to(&at, spin))?;
                 }
                 Step::RapidAside(height, x, y) => {
                     at.set(DEPTH, point + height);
                     at.values[0] += x;
                     at.values[1] += y;
                     self.at = at;
-                    to.rapid(self.rapid_to(at.values, spin))?;
+                    to.rapid(self.rapid_to(&at, spin))?;
                 }
                 Step::Feed(height, feed) => {
                     at.set(DEPTH, point + height);
                     self.feed = Some(feed);
-                    let cut = self.cut(What::Line { to: at.values });
+                    let to_there = self.whole(&at);
+                    let cut = self.cut(What::Line { to: to_there });
                     self.at = at;
-                    if cut.from != at.values {
+                    if cut.from != to_there {
                         to.cut(&cut, Some(hole))?;
                     }
                 }

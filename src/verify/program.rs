@@ -2,12 +2,13 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{Cut, Place, Rapid, Spin, State, What};
+use super::cut::{Cut, Place, Rapid, Spin, State, What, place};
 use super::expectation::Expectation;
 use super::finding::Finding;
 use super::passage::{Frame, Passage};
 use super::recent::Recent;
 use super::scale::Scale;
+use super::wire::Codes;
 use crate::control::{Control, Meaning, Rules};
 use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator};
@@ -43,6 +44,8 @@ pub(super) struct Program<R> {
     scale: Scale,
     /// The lead of the cut that is made.
     lead: Option<f64>,
+    /// Codes of the form that thread and cut a wire.
+    pub wire: Codes,
     /// Codes of the coolant that are the form's own: on, off, mist.
     coolant: [f64; 3],
     /// What lies before the cut.
@@ -69,7 +72,8 @@ impl<R: BufRead + Seek> Program<R> {
             rigid: taps_by_m29(settings.control).then_some(false),
             ..State::default()
         };
-        let start = Rapid { to: [0.0; 6], unknown: 0b111, spin: None };
+        let start = Rapid { to: place(&[0.0; 6]), unknown: 0b111, spin: None };
+        let wire = settings.control.is_wire().then_some(0b1100);
         Program {
             simulator: Simulator::new(input, settings),
             control: settings.control,
@@ -77,7 +81,7 @@ impl<R: BufRead + Seek> Program<R> {
             next: 0,
             over: false,
             recent: Recent::default(),
-            at: [0.0; 6],
+            at: place(&[0.0; 6]),
             unknown: 0b111,
             state,
             spin: Spin::Turns(Rotation::Stop),
@@ -85,8 +89,9 @@ impl<R: BufRead + Seek> Program<R> {
             cycle: false,
             before_tap: None,
             due: Due { lengths: expectation.tools, length_told: false, units: expectation.units_due },
-            scale: Scale { units: settings.units, wanted: settings.units, axes: expectation.axes, lathe: false },
+            scale: Scale { units: settings.units, wanted: settings.units, axes: expectation.axes, lathe: false, wire },
             lead: None,
+            wire: expectation.wire.clone().unwrap_or_default(),
             coolant: expectation.coolant,
             passage: Passage::new(Some(start), Frame { tool: None, work: state.work }),
             cuts: false,
@@ -113,8 +118,21 @@ impl<R: BufRead + Seek> Program<R> {
         self.simulator.is_of_lathe(by_diameter);
         self.control = self.control.of_lathe();
         self.state.plane = Plane::Xz;
-        self.unknown = 0b101;
-        let start = Rapid { to: [0.0; 6], unknown: 0b101, spin: None };
+        self.begins(0b101);
+    }
+
+    /// It is a wire EDM machine's; before the first block.
+    pub fn is_of_wire(&mut self) {
+        self.scale.wire = Some(0b1100);
+        self.simulator.is_of_wire();
+        self.control = self.control.of_wire();
+        self.begins(0b011);
+    }
+
+    /// It begins at a place that only the machine knows.
+    fn begins(&mut self, unknown: u8) {
+        self.unknown = unknown;
+        let start = Rapid { to: place(&[0.0; 6]), unknown, spin: None };
         self.passage = Passage::new(Some(start), self.frame());
     }
 
@@ -227,6 +245,9 @@ impl<R: BufRead + Seek> Program<R> {
 
     fn take_item(&mut self, item: &Item) {
         let turned = self.state.rotation;
+        if let Some(unsaid) = &mut self.scale.wire {
+            *unsaid = self.simulator.state().at_machine();
+        }
         match &item.action {
             Action::Rapid { to, machine } => self.rapid(to, *machine, item.line),
             Action::Feed { to, feed, lead } => {
@@ -251,7 +272,7 @@ impl<R: BufRead + Seek> Program<R> {
             }
             Action::Arc(turn) => {
                 let mut turn = *turn;
-                turn.to = self.scale.place(&turn.to);
+                turn.to = self.scale.end_of_arc(&turn.to);
                 let factor = self.scale.factor();
                 turn.center.iter_mut().for_each(|value| *value *= factor);
                 self.cuts_now(What::Arc(turn), turn.feed, item);
@@ -325,7 +346,13 @@ impl<R: BufRead + Seek> Program<R> {
                 }
             }
             Action::Coolant(cooling) => self.state.coolant = Some(*cooling),
-            Action::LeftOut(letter, tenths) => self.left_out(*letter, *tenths),
+            Action::LeftOut(letter, tenths) => {
+                if self.wire.iter().any(|(_, codes)| codes.contains(&(*letter, *tenths))) {
+                    let mark = self.passage.mark((*letter, *tenths), item.line, toolpath::Place::default());
+                    self.passage.does.push(mark);
+                }
+                self.left_out(*letter, *tenths);
+            }
             _ => {}
         }
         if self.state.rotation != turned {

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ALL, Cut, State, What, number, same, same_dwell, shown};
+use super::cut::{ALL, Cut, State, What, number, place, same, same_dwell, shown};
 use super::expectation::Expectation;
 use super::passage::Mark;
 use super::program::Program;
@@ -130,7 +130,7 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64) -> Option<Stri
             let [first, second, _] = axes_of(a.plane);
             let centre = near(a.center[first], b.center[first]) && near(a.center[second], b.center[second]);
             if (a.plane, a.direction, a.turns) != (b.plane, b.direction, b.turns) || !centre {
-                return Some(format!("another arc to {}", shown(&b.to, 0b111)));
+                return Some(format!("another arc to {}", shown(&place(&b.to), 0b111)));
             }
         }
         (What::Line { .. }, What::Line { .. }) => {}

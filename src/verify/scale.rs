@@ -1,6 +1,6 @@
 //! How the numbers of a program become the job's: units, renamed axes, surface speeds.
 
-use super::cut::Place;
+use super::cut::{Place, UNSAID, place, position};
 use crate::nc::Position;
 use crate::toolpath::Units;
 
@@ -15,6 +15,8 @@ pub(super) struct Scale {
     pub axes: [u8; 6],
     /// There is no Y.
     pub lathe: bool,
+    /// The third and fourth axis are U and V; bits of those that nobody said.
+    pub wire: Option<u8>,
 }
 
 impl Scale {
@@ -37,14 +39,34 @@ impl Scale {
 
     pub fn place(self, to: &Position) -> Place {
         let factor = self.factor();
-        let mut place = self.axes.map(|axis| to[usize::from(axis)]);
-        place[..3].iter_mut().for_each(|value| *value *= factor);
-        place
+        if let Some(unsaid) = self.wire {
+            let [x, y, u, v, ..] = *to;
+            let guide = |axis: u8, value: f64| if unsaid & 1 << axis == 0 { value * factor } else { UNSAID };
+            return [x * factor, y * factor, 0.0, 0.0, 0.0, 0.0, guide(2, u), guide(3, v)];
+        }
+        let mut at = self.axes.map(|axis| to[usize::from(axis)]);
+        at[..3].iter_mut().for_each(|value| *value *= factor);
+        place(&at)
+    }
+
+    /// Where an arc ends: a guide that goes along is told as a height.
+    pub fn end_of_arc(self, to: &Position) -> Position {
+        let end = self.place(to);
+        let mut at = position(&end);
+        for (axis, guide) in [(2, end[6]), (3, end[7])] {
+            if guide != UNSAID {
+                at[axis] = guide;
+            }
+        }
+        at
     }
 
     pub fn axes(self, bits: u8) -> u8 {
         if bits == 0 {
             return 0;
+        }
+        if self.wire.is_some() {
+            return bits & 0b11;
         }
         let bits = if self.lathe { bits & !0b010 } else { bits };
         (0..6).filter(|&axis| bits & 1 << self.axes[axis] != 0).map(|axis| 1 << axis).sum()

@@ -27,9 +27,9 @@ impl Job {
             let mut beside = self.at;
             beside.set(DEPTH, begin + back);
             self.at = beside;
-            to.rapid(self.rapid_to(beside.values, None))?;
+            to.rapid(self.rapid_to(&beside, None))?;
             let expected = Threaded {
-                begin: beside.values,
+                begin: self.whole(&beside),
                 end: end.values[DEPTH],
                 crest,
                 taper: slope * (begin + back - end.values[DEPTH]).abs(),
@@ -37,7 +37,7 @@ impl Job {
                 passes: passes.clone(),
                 lead: thread.pitch * starts,
             };
-            let cut = self.cut(What::Line { to: beside.values });
+            let cut = self.cut(What::Line { to: self.whole(&beside) });
             to.thread(&cut, &expected)?;
         }
         Ok(())

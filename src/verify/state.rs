@@ -10,6 +10,7 @@ use super::report::{Difference, Report};
 use super::verdict::Unproven;
 use super::way::Way;
 use crate::diag::{Code, Diag};
+use crate::lang::Machine;
 use crate::nc::RunError;
 use crate::toolpath;
 
@@ -54,8 +55,8 @@ pub(super) struct Sides<R> {
     pub slips: u32,
     /// The machine loads tools.
     pub tools: bool,
-    /// It is a lathe.
-    pub lathe: bool,
+    /// What it is.
+    pub machine: Machine,
     /// Feeds and speeds that the form types itself.
     pub typed: [Vec<f64>; 2],
     pub report: Report,

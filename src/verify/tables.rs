@@ -65,8 +65,9 @@ macro_rules! unmodelled {
 }
 
 unmodelled! {
-    Machine "the job is for a wire EDM machine, which is not modelled";
-    Wire "the job is for wire EDM";
+    Machine "the job is for a wire EDM machine, and its control is described as a mill's alone";
+    Wire "the job threads or cuts the wire, and no form says by which codes";
+    SlantedArc "a wire that slants goes along an arc";
     Threads "a thread is not cut on a lathe";
     Tilted "the tool axis changes";
     MissingSubprogram "the job calls a subprogram that it does not have";

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{Cut, DEPTH, RADIUS, Rapid, number, same, shown};
+use super::cut::{Cut, DEPTH, RADIUS, Rapid, number, place, same, shown};
 use super::intent::{Done, Threaded};
 use super::state::Sides;
 use super::states;
@@ -91,8 +91,11 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
     // out of the last pass, and back beside the beginning
     let mut out = thread.begin;
     out[DEPTH] = thread.end;
-    let end =
-        Rapid { to: [thread.crest + thread.inward * whole, 0.0, thread.end, 0.0, 0.0, 0.0], unknown: 0, spin: None };
+    let end = Rapid {
+        to: place(&[thread.crest + thread.inward * whole, 0.0, thread.end, 0.0, 0.0, 0.0]),
+        unknown: 0,
+        spin: None,
+    };
     s.job.begin(end);
     s.job.rapids.push(Rapid { to: out, unknown: 0, spin: None });
     s.job.rapids.push(Rapid { to: thread.begin, unknown: 0, spin: None });

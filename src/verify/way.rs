@@ -61,8 +61,8 @@ impl Way {
     }
 
     /// Follows another way corner by corner: how often it goes round a corner of a slanted rapid, at the greater of the two
-    /// heights; or the first corners that differ, this way's and the other's.
-    pub fn is_followed(&self, other: &Way, tolerance: f64) -> Result<u64, Box<[Option<Rapid>; 2]>> {
+    /// heights, where it may; or the first corners that differ, this way's and the other's.
+    pub fn is_followed(&self, other: &Way, may_round: bool, tolerance: f64) -> Result<u64, Box<[Option<Rapid>; 2]>> {
         let near = |a: f64, b: f64| (a - b).abs() <= tolerance;
         let round = |from: &Rapid, at: &Rapid, to: &Rapid| {
             near(at.to[DEPTH], from.to[DEPTH].max(to.to[DEPTH]))
@@ -73,7 +73,13 @@ impl Way {
             match (self.corners.get(own), other.corners.get(made)) {
                 (None, None) => return Ok(rounds),
                 (Some(a), Some(b)) if same(&a.to, &b.to, ALL, tolerance) => (own, made) = (own + 1, made + 1),
-                (Some(a), Some(b)) if own > 0 && round(&self.corners[own - 1], b, a) => {
+                // the way goes straight on through the job's corner
+                (Some(a), Some(b))
+                    if own > 0 && made > 0 && lies_between(&other.corners[made - 1].to, &a.to, &b.to, tolerance) =>
+                {
+                    own += 1;
+                }
+                (Some(a), Some(b)) if may_round && own > 0 && round(&self.corners[own - 1], b, a) => {
                     (rounds, made) = (rounds + 1, made + 1);
                     // straight on from there, past the job's corner
                     let on = other.corners.get(made).filter(|next| !same(&a.to, &next.to, ALL, tolerance));
@@ -164,6 +170,28 @@ fn is_over(corner: &Rapid, from: &Place, to: &Place, tolerance: f64) -> bool {
     same(&corner.to, &beside, ACROSS, tolerance) && height(corner) >= beside[DEPTH] - tolerance
 }
 
+/// Ways of more corners are not looked at so closely: the work grows with the corners of one times those of the other.
+const MOST_REFINED: usize = 1 << 12;
+
+/// A way with the corners of another one that it goes straight through.
+fn refined(own: &[Rapid], other: &[Rapid], tolerance: f64) -> Vec<Rapid> {
+    let mut list: Vec<Rapid> = own.first().copied().into_iter().collect();
+    for pair in own.windows(2) {
+        let [a, b] = [&pair[0], &pair[1]];
+        let is_end = |place: &Place| [a, b].iter().any(|end| same(&end.to, place, ALL, tolerance));
+        let far = |place: &Place| (0..8).map(|axis| (place[axis] - a.to[axis]).powi(2)).sum::<f64>();
+        let known = (a.unknown | b.unknown) == 0;
+        let passed = other.iter().filter(|corner| {
+            known && corner.unknown == 0 && !is_end(&corner.to) && lies_between(&a.to, &corner.to, &b.to, tolerance)
+        });
+        let mut passed: Vec<Place> = passed.map(|corner| corner.to).collect();
+        passed.sort_by(|a, b| far(a).total_cmp(&far(b)));
+        list.extend(passed.into_iter().map(|to| Rapid { to, ..*b }));
+        list.push(*b);
+    }
+    list
+}
+
 /// `start`: so many corners of the program are where its last cut ended.
 fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: usize, tolerance: f64) -> Compared {
     if known_start && job.len() == program.len() {
@@ -172,6 +200,10 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
             return if pairs().all(|(a, b)| spins(a, b)) { Compared::Same } else { Compared::Turning };
         }
     }
+    // each with the corners of the other that it goes straight through
+    let both = (job.len() * program.len() <= MOST_REFINED)
+        .then(|| (refined(job, program, tolerance), refined(program, job, tolerance)));
+    let [job, program] = both.as_ref().map_or([job, program], |(job, program)| [job, program]);
     let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
     let crossing = across(job, tolerance).map(|(a, b)| height(a).min(height(b))).fold(highest, f64::min);
     // at a place the way may be as low as the job's is there, and elsewhere as low as the job crosses
@@ -213,13 +245,20 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     if turns { Compared::Turning } else { Compared::AsGood { step_by_step: false } }
 }
 
-/// Out of a hole whose cycle says how the spindle stands and where it moves: are the job's corners there, with it?
+/// Out of a hole whose cycle says how the spindle stands and where it moves: are the job's corners there, in their order
+/// and with it?
 pub(super) fn leaves_hole(job: &Way, program: &Way, tolerance: f64) -> Option<Compared> {
-    let told = job.corners.iter().skip(1).filter(|corner| corner.spin.is_some());
-    for corner in told {
-        match program.corners.iter().skip(1).find(|other| same(&other.to, &corner.to, ALL, tolerance)) {
-            Some(other) if !spins(corner, other) => return Some(Compared::Turning),
-            Some(_) => {}
+    let mut from = 0;
+    for corner in job.corners.iter().skip(1).filter(|corner| corner.spin.is_some()) {
+        let passes = |pair: &[Rapid]| {
+            let [a, b] = [&pair[0], &pair[1]];
+            let on_it = || a.unknown == 0 && lies_between(&a.to, &corner.to, &b.to, tolerance);
+            b.unknown == 0 && (same(&b.to, &corner.to, ALL, tolerance) || on_it())
+        };
+        let pairs = || program.corners.windows(2).enumerate().skip(from).filter(|(_, pair)| passes(pair));
+        match pairs().find(|(_, pair)| spins(corner, &pair[1])) {
+            Some((at, _)) => from = at,
+            None if pairs().next().is_some() => return Some(Compared::Turning),
             None => return Some(Compared::AsGood { step_by_step: false }),
         }
     }
@@ -259,11 +298,14 @@ pub(super) fn leaves_low(job: &Way, program: &Way, tolerance: f64) -> Option<(Pl
 
 #[cfg(test)]
 mod tests {
+    use super::super::cut::place;
     use super::*;
 
     fn way(points: &[[f64; 3]]) -> Way {
-        let rapids: Vec<Rapid> =
-            points.iter().map(|&[x, y, z]| Rapid { to: [x, y, z, 0.0, 0.0, 0.0], unknown: 0, spin: None }).collect();
+        let rapids: Vec<Rapid> = points
+            .iter()
+            .map(|&[x, y, z]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, spin: None })
+            .collect();
         let mut way = Way::default();
         way.set(None, &rapids, 1e-4);
         way
@@ -276,7 +318,7 @@ mod tests {
     #[test]
     fn a_slanted_rapid_may_go_round_its_corner_farther_out() {
         let job = way(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.2], [0.0, 0.0, 0.1]]);
-        let followed = |points: &[[f64; 3]]| job.is_followed(&way(points), 1e-4).ok();
+        let followed = |points: &[[f64; 3]]| job.is_followed(&way(points), true, 1e-4).ok();
         assert_eq!(followed(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.2], [0.0, 0.0, 0.1]]), Some(0));
         assert_eq!(followed(&[[1.5, 0.0, 0.4], [0.0, 0.0, 0.4], [0.0, 0.0, 0.1]]), Some(1));
         assert_eq!(followed(&[[1.5, 0.0, 0.4], [1.5, 0.0, 0.2], [0.0, 0.0, 0.1]]), None);

@@ -7,6 +7,7 @@ use super::passage::{Frame, Leg};
 use super::state::Sides;
 use super::way::{Compared, compare as compare_way, enters_hole, leaves_hole, leaves_low};
 use crate::diag::Code;
+use crate::lang::Machine;
 
 /// The ways to a cut.
 pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
@@ -15,7 +16,7 @@ pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
         return;
     }
     moved_with(s, line);
-    if s.lathe {
+    if s.machine != Machine::Mill {
         return beside_the_part(s, line);
     }
     let (lost, changed) = (s.job.changed(), s.program.passage.changed());
@@ -42,7 +43,10 @@ pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
         Compared::AsGood { step_by_step } if step_by_step || !s.job.aside => {
             s.report.allowed.ways += u64::from(known);
         }
-        Compared::AsGood { .. } if s.hole.over.is_some_and(|over| enters_hole(job, program, &over, tolerance)) => {
+        Compared::AsGood { .. }
+            if leaves_hole(job, program, tolerance).is_none()
+                && s.hole.over.is_none_or(|over| enters_hole(job, program, &over, tolerance)) =>
+        {
             s.report.allowed.ways += u64::from(known);
         }
         Compared::AsGood { .. } => stays_at_wall(s, line),
@@ -180,7 +184,7 @@ fn between<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
 
 /// The way after the last cut, to the end of the program.
 pub(super) fn end<R: BufRead + Seek>(s: &mut Sides<R>) {
-    if s.lathe {
+    if s.machine != Machine::Mill {
         return beside_the_part(s, 0);
     }
     let passage = &s.program.passage;
@@ -193,7 +197,7 @@ pub(super) fn end<R: BufRead + Seek>(s: &mut Sides<R>) {
     s.report.allowed.tails += u64::from(!as_job);
 }
 
-/// On a lathe no side is free of the part: the tool goes where the job goes, in its order, and to places of the machine. A
+/// On a lathe no side is free of the part, and no way is free of a wire: the tool goes where the job goes, in its order, and to places of the machine. A
 /// slanted rapid may go round its corner, farther from the chuck.
 fn beside_the_part<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     let tolerance = s.limits.tolerance;
@@ -204,14 +208,15 @@ fn beside_the_part<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     let [job, program] = &mut s.ways;
     job.set(s.job.start.filter(|start| start.unknown == 0), &own, tolerance);
     program.set(s.program.passage.start.filter(|start| start.unknown == 0), &made, tolerance);
-    let [wanted, is] = match job.is_followed(program, tolerance) {
+    let [wanted, is] = match job.is_followed(program, s.machine == Machine::Lathe, tolerance) {
         Ok(rounds) => {
             s.report.allowed.ways += rounds;
             return;
         }
         Err(corners) => *corners,
     };
-    let shown = |corner: Option<Rapid>| corner.map_or("nowhere".to_owned(), |corner| shown(&corner.to, 0b101));
+    let axes = if s.machine == Machine::Lathe { 0b101 } else { 0b11 };
+    let shown = |corner: Option<Rapid>| corner.map_or("nowhere".to_owned(), |corner| shown(&corner.to, axes));
     s.found(Code::PV001, line, "look at what the form prints for the rapids here", || {
         format!("a rapid goes to {}, the job's to {}", shown(is), shown(wanted))
     });

@@ -78,6 +78,46 @@ fn lathes() {
 }
 
 #[test]
+fn wires() {
+    let slanted = fs::read_to_string(root().join("samples/wire/job.json")).unwrap();
+    let form = "wire-edm.pf";
+    changes_are_found(
+        &slanted,
+        &[
+            (form, "M60\n", "(none)\n", "PV025"),
+            (form, "M60\n", "M50\n", "PV025"),
+            (form, "M66\nM60\n", "M60\nM66\n", "PV025"),
+            (form, "M50\n", "(none)\n", "PV025"),
+            (form, "G0 X0 Y0 U0 V0\nM78\nM66\nM60\n", "M78\nM66\nM60\nG0 X0 Y0 U0 V0\n", "PV025"),
+            (form, "U4.5 V0", "U4.6 V0", "PV001"),
+            (form, "V9.5", "V-9.5", "PV001"),
+            (form, "G0 X0 Y0 U0 V0", "G0 X0 Y0", "PV001"),
+            (form, "Y10. V10.", "V10.\nY10.", "PV001"),
+            (form, "G41", "G42", "PV018"),
+            (form, "G1 G40", "G1", "PV018"),
+            (form, "F3.", "F30.", "PV006"),
+            (form, "M1\n", "(none)\n", "PV019"),
+            (form, "G0 X0", "G1 X0", "PV015"),
+        ],
+    );
+    let upright = r#"{"postform":1,"program":7,"units":"mm","machine":"edm","operations":[{"feed":3,"path":[{"rapid":[0,0]},{"edm":"thread"},
+        {"line":[5,0]},{"arc":{"to":[10,5],"center":[5,5],"direction":"ccw"}},{"line":[10,20]},{"edm":"cut"},{"rapid":[30,0]},{"edm":"thread"},
+        {"line":[35,0]},{"edm":"cut"}]}]}"#;
+    changes_are_found(
+        upright,
+        &[
+            (form, "J5.", "J5.1", "PV015"),
+            (form, "G3 X10. Y5.", "G2 X10. Y5.", "PV001"),
+            (form, "G3 X10. Y5.", "G3 X10. Y5. U5.", "PV001"),
+            (form, "G0 X30. Y0", "G0 X31. Y0", "PV001"),
+            (form, "G0 X30. Y0", "G0 X30.\nY0", "PV001"),
+            (form, "G0 X30. Y0", "G0 X30. Y0 U1.", "PV001"),
+            (form, "G1 X35.", "G1 X35. V.5", "PV001"),
+        ],
+    );
+}
+
+#[test]
 fn rotary_axes() {
     let job = r#"{"postform":1,"program":7,"units":"inch","tools":[{"number":1}],"operations":[{"tool":1,"work":54,
         "spindle":{"speed":3000,"direction":"cw"},"coolant":"flood","feed":20,"path":[{"rapid":[0,0,3,0]},{"rapid":[0,0,1.2,0]},

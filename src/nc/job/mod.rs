@@ -39,6 +39,9 @@ pub fn read_program(
     if options.settings.control.is_lathe() {
         return unsaid(1, "the program is a lathe's", "programs of mills can be read as jobs");
     }
+    if options.settings.control.is_wire() {
+        return unsaid(1, "the program is a wire EDM machine's", "programs of mills can be read as jobs");
+    }
     let mut said = Vec::new();
     let read = read_twice(input, options, &mut said, sink);
     warnings.extend(counted(said));

@@ -78,6 +78,10 @@ fn turn_for_tap(spec: &CycleSpec, shape: &Shape, want: &mut Want, said: &mut Sai
         None => return Ok(None),
     };
     let (rigid, before) = (is_rigid(spec, shape), want.get(VarId::Direct));
+    if before.is_none() && inwards == ccw && said.sub_stopped.is_some() {
+        let message = "a left-hand tap in a subprogram that does not say how the spindle turns";
+        return fault(Code::PR033, message, "say its direction in the subprogram, or tap in the main program");
+    }
     if before == Some(off) && !rigid {
         turning(before, shape)?;
     }

@@ -65,7 +65,9 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
         let off = points.fold(distance([end[first], end[second]]), f64::max).max(bulge);
         swept += angle;
         let height = cut.from[across] + (turn.to[across] - cut.from[across]) * (swept / whole).min(1.0);
-        let off = off.max((end[across] - height).abs() * f64::from(u8::from(parts > 0 || swept < whole - 1e-6)));
+        let ends = same(&end, &cut.end(), ALL, tolerance);
+        let in_it = !ends && (parts > 0 || swept < whole - 1e-6);
+        let off = off.max((end[across] - height).abs() * f64::from(u8::from(in_it)));
         if off > slack || swept > whole + slack_angle {
             let message = format!(
                 "a cut goes to {}, not along the job's arc to {}",
@@ -79,7 +81,7 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
         states::feeds(s, &part, &found, false);
         s.program.take();
         parts += 1;
-        if same(&end, &cut.end(), ALL, tolerance) && swept > whole - slack_angle {
+        if ends && swept > whole - slack_angle {
             s.report.allowed.arcs += u64::from(parts > 1);
             return Ok(());
         }

@@ -17,6 +17,7 @@ pub(super) fn meet<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, hole: Option<
         } else if !found.by_cycle
             && s.is_nothing(&found)
             && !cut.is_short(s.limits.tolerance)
+            && !is_itself(s, cut, &found)
             && !is_part(s, cut, &found)
         {
             s.report.allowed.short += 1;
@@ -33,6 +34,14 @@ pub(super) fn meet<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, hole: Option<
     states::compare(s, cut, &found, hole.is_some_and(|hole| hole.is_tap));
     s.slipped = None;
     Ok(found)
+}
+
+/// Is a short cut of the program the job's, which is a little longer?
+fn is_itself<R: BufRead + Seek>(s: &Sides<R>, cut: &Cut, found: &Cut) -> bool {
+    let tolerance = s.limits.tolerance;
+    s.program.passage.rapids.is_empty() == s.job.rapids.is_empty()
+        && same(&cut.from, &found.from, ALL, tolerance)
+        && same(&cut.end(), &found.end(), ALL, tolerance)
 }
 
 /// Is a short cut of the program the beginning of the job's cut?

@@ -298,13 +298,13 @@ impl<R: BufRead + Seek> Sides<R> {
             && self.program.passage.rapids.is_empty() == self.job.rapids.is_empty()
             && same(&found.from, &cut.from, ALL, tolerance)
             && same(&found.end(), &cut.end(), ALL, tolerance);
-        let nearer = distance(&found.end(), &cut.end()) <= distance(&found.from, &cut.end());
+        let nearer = distance(&found.end(), &cut.end()) <= distance(&found.from, &cut.end()) + 1e-9;
         let circle = matches!(found.what, What::Arc(_)) && !found.is_short(tolerance);
         Ok(!joins || !nearer || circle)
     }
 
-    /// Is a cut of the program too short to count?
+    /// Is a cut of the program too short to count? The digits of both its ends may make a short one twice as long.
     pub(super) fn is_nothing(&self, found: &Cut) -> bool {
-        found.unknown == 0 && found.is_short(self.limits.tolerance)
+        found.unknown == 0 && found.is_short(2.0 * self.limits.tolerance)
     }
 }

@@ -29,7 +29,7 @@ pub(super) fn line<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, first: &Cut, 
         let next = s.next()?.filter(|next| {
             matches!(next.what, What::Line { .. })
                 && s.program.passage.is_plain()
-                && lies_between(&to, &next.end(), &end, tolerance)
+                && (same(&next.end(), &end, ALL, tolerance) || lies_between(&to, &next.end(), &end, tolerance))
         });
         let Some(next) = next else { return ends(s, cut, &found, hole) };
         found = next;

@@ -8,8 +8,9 @@ use super::finding::Finding;
 use super::passage::{Frame, Passage};
 use super::recent::Recent;
 use super::scale::Scale;
+use super::states;
 use super::wire::Codes;
-use crate::control::{Control, Meaning, Rules};
+use crate::control::{Control, Rules};
 use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
@@ -69,7 +70,7 @@ impl<R: BufRead + Seek> Program<R> {
             speed: Some(0.0),
             coolant: Some(Cooling::Off),
             work: settings.control.traits().work_letter.is_none().then_some(54.0),
-            rigid: taps_by_m29(settings.control).then_some(false),
+            rigid: states::taps_by_m29(settings.control).then_some(false),
             ..State::default()
         };
         let start = Rapid { to: place(&[0.0; 6]), unknown: 0b111, spin: None };
@@ -325,6 +326,11 @@ impl<R: BufRead + Seek> Program<R> {
                 self.cycle = true;
                 if matches!(hole.code, 740 | 840) {
                     self.before_tap.get_or_insert(self.state.rotation);
+                    // a rigid one turns the spindle itself, however it stood
+                    if self.state.rigid != Some(false) {
+                        let own = if hole.code == 840 { Rotation::Cw } else { Rotation::Ccw };
+                        self.state.rotation = Some(own);
+                    }
                 }
             }
             Action::CycleOff => {
@@ -487,11 +493,4 @@ impl<R: BufRead + Seek> Program<R> {
         let (message, place, form) = (message.into(), None, None);
         self.hazards.push(Finding { code, message, help, place, line, block, form, times: 1 });
     }
-}
-
-/// Does M29 make a tap rigid, and nothing else does? A Haas and a Fadal tap rigidly by G84 alone.
-fn taps_by_m29(control: &Control) -> bool {
-    let m29 = crate::control::Code { letter: b'M', tenths: 290 };
-    let by_itself = control.is_like("haas") || control.is_like("fadal") || control.is_linuxcnc();
-    !by_itself && control.row(m29).is_some_and(|row| row.meaning == Meaning::Harmless && row.text.contains("rigid"))
 }

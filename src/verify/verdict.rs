@@ -35,7 +35,7 @@ allowed! {
     tails   "tail" "that ends elsewhere" "Programs that go elsewhere after their last cut, and nowhere lower.";
     arcs    "arc" "made of parts" "Arcs made of parts.";
     parts   "straight cut" "made of parts" "Straight cuts made of parts.";
-    short   "cut" "shorter than the tolerance left out or put in" "Cuts shorter than the tolerance that only one side has.";
+    short   "cut" "shorter than the tolerance left out or put in" "Cuts shorter than the tolerance that only one side has; of the program, than twice the tolerance.";
     outs    "hole" "left at feed farther up" "Taps and reamed holes that are left at feed up to the return plane.";
     entries "cut" "left and entered again" "Cuts that were left and entered again where they go on.";
     slow    "rapid" "at feed that turn compensation on or off" "Feeds where the job has a rapid that turns compensation on or off.";

@@ -1,6 +1,6 @@
 //! Ways: rapids from one cut to the next.
 
-use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, same};
+use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, distance, lies_between, same};
 
 /// How a program's way compares with the job's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +16,9 @@ pub(super) enum Compared {
     /// The job's way with the spindle turning otherwise.
     Turning,
 }
+
+/// So many tolerances long is a rapid whose direction its digits tell.
+const LEG: f64 = 4.0;
 
 /// A way as corners: the start, if it is known, and the ends of its rapids.
 #[derive(Debug, Default)]
@@ -39,7 +42,11 @@ impl Way {
             {
                 continue;
             }
+            // a leg as short as the tolerance may lead anywhere
+            let leads = |a: &Rapid, b: &Rapid| distance(&a.to, &b.to) > LEG * tolerance;
             if let [.., before, last] = self.corners.as_slice()
+                && leads(before, last)
+                && leads(last, rapid)
                 && last.spin == rapid.spin
                 && (before.unknown | last.unknown | rapid.unknown) == 0
                 && lies_between(&before.to, &last.to, &rapid.to, tolerance)
@@ -208,7 +215,9 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     let crossing = across(job, tolerance).map(|(a, b)| height(a).min(height(b))).fold(highest, f64::min);
     // at a place the way may be as low as the job's is there, and elsewhere as low as the job crosses
     for corner in program.iter().skip(start) {
-        let there = job.iter().filter(|other| same(&other.to, &corner.to, ACROSS, tolerance));
+        // where the job says its height alone, it may be anywhere
+        let there =
+            job.iter().filter(|other| other.unknown & 0b11 != 0 || same(&other.to, &corner.to, ACROSS, tolerance));
         let floor = there.map(|other| other.to[DEPTH]).reduce(f64::min).unwrap_or(crossing);
         if height(corner) < floor - tolerance {
             return Compared::Lower(corner.to, floor);
@@ -248,17 +257,21 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
 /// Out of a hole whose cycle says how the spindle stands and where it moves: are the job's corners there, in their order
 /// and with it?
 pub(super) fn leaves_hole(job: &Way, program: &Way, tolerance: f64) -> Option<Compared> {
+    let corners = &program.corners;
     let mut from = 0;
     for corner in job.corners.iter().skip(1).filter(|corner| corner.spin.is_some()) {
-        let passes = |pair: &[Rapid]| {
-            let [a, b] = [&pair[0], &pair[1]];
-            let on_it = || a.unknown == 0 && lies_between(&a.to, &corner.to, &b.to, tolerance);
-            b.unknown == 0 && (same(&b.to, &corner.to, ALL, tolerance) || on_it())
+        let is = |at: &Rapid| at.unknown == 0 && same(&at.to, &corner.to, ALL, tolerance);
+        // on the way there, not where it begins
+        let passes = |at: usize| {
+            at > 0
+                && (corners[at - 1].unknown | corners[at].unknown) == 0
+                && !is(&corners[at - 1])
+                && lies_between(&corners[at - 1].to, &corner.to, &corners[at].to, tolerance)
         };
-        let pairs = || program.corners.windows(2).enumerate().skip(from).filter(|(_, pair)| passes(pair));
-        match pairs().find(|(_, pair)| spins(corner, &pair[1])) {
-            Some((at, _)) => from = at,
-            None if pairs().next().is_some() => return Some(Compared::Turning),
+        let there = || (from..corners.len()).filter(|&at| is(&corners[at]) || passes(at));
+        match there().find(|&at| spins(corner, &corners[at])) {
+            Some(at) => from = at,
+            None if there().next().is_some() => return Some(Compared::Turning),
             None => return Some(Compared::AsGood { step_by_step: false }),
         }
     }

@@ -16,6 +16,11 @@ pub fn code(action: &str) -> f64 {
     ACTIONS.iter().find(|(name, _)| *name == action).map_or(f64::NAN, |(_, code)| *code)
 }
 
+/// A stop, or one of the actions.
+fn is_done(code: f64) -> bool {
+    code < 2.0 || ACTIONS.iter().any(|(_, own)| *own == code)
+}
+
 /// The job with V as an angle.
 pub fn as_mill(job: &Value) -> Value {
     let mut job = job.clone();
@@ -94,6 +99,8 @@ impl Wire {
                 (b'G', other) => return Err(format!("G{other}")),
                 (b'F', feed) => self.state.feed.0 = feed * self.scale,
                 (b'M', 0.0 | 1.0 | 2.0 | 30.0) => {}
+                // there is no spindle and no coolant of a mill
+                (b'M', 3.0..=5.0 | 7.0..=9.0 | 19.0) => {}
                 (b'M', code) if ACTIONS.iter().any(|(_, own)| *own == code) => {}
                 (b'M', other) => return Err(format!("M{other}")),
                 _ => {}
@@ -106,7 +113,7 @@ impl Wire {
         } else {
             self.moves(&get, line)?;
         }
-        for &(_, code) in list.iter().filter(|(letter, code)| *letter == b'M' && !matches!(*code, 2.0 | 30.0)) {
+        for &(_, code) in list.iter().filter(|(letter, code)| *letter == b'M' && is_done(*code)) {
             let at = self.at;
             self.act(line, What::Stop(code), at);
         }

@@ -12,7 +12,7 @@ use super::report::{Counts, Report};
 use super::state::{Holes, Limits, Sides};
 use super::tables::PLACES;
 use super::verdict::{Equivalences, Unproven, Verdict};
-use super::wire::Coded;
+use super::wire_codes::Coded;
 use super::{arcs, begin, holes, lines, pauses, threads, ways, wire};
 use crate::diag::{Code, Diag};
 use crate::lang::Machine;

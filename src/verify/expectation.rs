@@ -1,14 +1,15 @@
 //! What a form fills in where its job is silent, and what it says of its own.
 
 use super::tables::CHORDS;
-use super::wire::{self, Codes};
+use super::wire_codes::{self, Coded, Codes};
 use crate::compile::{Op, Program};
+use crate::control::{Control, Meaning};
 use crate::cycle::Defaults;
 use crate::lang::{Machine, UnitChoice};
 use crate::nc::Cooling;
 use crate::render::cycle_defaults;
 use crate::sema::Settings;
-use crate::toolpath::{Coolant, Units};
+use crate::toolpath::{Coolant, EdmAction, Units};
 
 /// What the form says of the job's numbers.
 #[derive(Clone, Debug)]
@@ -100,7 +101,7 @@ impl Expectation {
     #[must_use]
     pub fn typed(mut self, program: &Program) -> Expectation {
         let settings = &program.settings;
-        self.wire = (settings.machine == Machine::Edm).then(|| wire::codes_of(program));
+        self.wire = (settings.machine == Machine::Edm).then(|| wire_codes::codes_of(program));
         for op in &program.ops {
             let Op::Literal { index, .. } = op else { continue };
             let Some(literal) = program.literals.get(*index as usize) else { continue };
@@ -145,4 +146,19 @@ impl Expectation {
         let usual = [(8.0, Cooling::Flood), (7.0, Cooling::Mist), (9.0, Cooling::Off)];
         usual.into_iter().find(|(usual, _)| *usual == code).map_or(named, |(_, cooling)| cooling)
     }
+}
+
+impl Expectation {
+    /// The codes of an action.
+    pub(super) fn wire_codes(&self, action: EdmAction) -> impl Iterator<Item = Coded> {
+        let row = self.wire.iter().flatten().find(|(own, _)| *own == action);
+        row.map(|(_, codes)| codes.clone()).unwrap_or_default().into_iter()
+    }
+}
+
+/// Does M29 make a tap rigid, and nothing else does? A Haas and a Fadal tap rigidly by G84 alone.
+pub(super) fn taps_by_m29(control: &Control) -> bool {
+    let m29 = crate::control::Code { letter: b'M', tenths: 290 };
+    let by_itself = control.is_like("haas") || control.is_like("fadal") || control.is_linuxcnc();
+    !by_itself && control.row(m29).is_some_and(|row| row.meaning == Meaning::Harmless && row.text.contains("rigid"))
 }

@@ -3,7 +3,7 @@
 use super::cut::{Cut, Place, Rapid};
 use super::passage::Frame;
 use super::tables::Unmodelled;
-use super::wire::Coded;
+use super::wire_codes::Coded;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{self, StopKind, Units};
 

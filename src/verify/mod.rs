@@ -34,6 +34,7 @@ mod verdict;
 mod way;
 mod ways;
 mod wire;
+mod wire_codes;
 
 pub use beside::{Batch, Outcome, prove_beside};
 pub use comparer::Comparer;

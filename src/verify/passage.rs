@@ -1,7 +1,7 @@
 //! What lies between two cuts: rapids, changes of tool and work offset, stops, dwells. Job and program have one each.
 
 use super::cut::{ALL, Rapid, same};
-use super::wire::Coded;
+use super::wire_codes::Coded;
 use crate::nc::Rotation;
 use crate::toolpath::{self, StopKind};
 

@@ -3,13 +3,12 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{Cut, Place, Rapid, Spin, State, What, place};
-use super::expectation::Expectation;
+use super::expectation::{Expectation, taps_by_m29};
 use super::finding::Finding;
 use super::passage::{Frame, Passage};
 use super::recent::Recent;
 use super::scale::Scale;
-use super::states;
-use super::wire::Codes;
+use super::wire_codes::Codes;
 use crate::control::{Control, Rules};
 use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator};
@@ -70,7 +69,7 @@ impl<R: BufRead + Seek> Program<R> {
             speed: Some(0.0),
             coolant: Some(Cooling::Off),
             work: settings.control.traits().work_letter.is_none().then_some(54.0),
-            rigid: states::taps_by_m29(settings.control).then_some(false),
+            rigid: taps_by_m29(settings.control).then_some(false),
             ..State::default()
         };
         let start = Rapid { to: place(&[0.0; 6]), unknown: 0b111, spin: None };

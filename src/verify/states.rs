@@ -5,7 +5,6 @@ use std::io::{BufRead, Seek};
 use super::cut::{Cut, State, number};
 use super::state::Sides;
 use super::tables::{PITCH, ROUNDED};
-use crate::control::{Control, Meaning};
 use crate::diag::Code;
 use crate::nc::{Cooling, Rotation};
 use crate::toolpath::{self, FeedMode, Plane};
@@ -172,11 +171,4 @@ pub(super) fn feeds<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut,
 /// Is a feed the wanted one, but for its digits?
 pub(super) fn is_feed(wanted: f64, is: f64, tap: bool) -> bool {
     (wanted - is).abs() <= (if tap { PITCH } else { ROUNDED } * wanted).max(1e-9)
-}
-
-/// Does M29 make a tap rigid, and nothing else does? A Haas and a Fadal tap rigidly by G84 alone.
-pub(super) fn taps_by_m29(control: &Control) -> bool {
-    let m29 = crate::control::Code { letter: b'M', tenths: 290 };
-    let by_itself = control.is_like("haas") || control.is_like("fadal") || control.is_linuxcnc();
-    !by_itself && control.row(m29).is_some_and(|row| row.meaning == Meaning::Harmless && row.text.contains("rigid"))
 }

@@ -40,6 +40,8 @@ for (const moves of process.argv.length > 2 ? process.argv.slice(2).map(Number) 
     };
     requestAnimationFrame(look);
   });
+  // the page as it was built last, in a program that was built before
+  if (process.env.PAGE) await page.route(served.address, (route) => route.fulfill({ path: process.env.PAGE, contentType: "text/html" }));
   await page.goto(served.address);
   await page.waitForFunction(() => window.firstPicture, null, { timeout: 120_000 });
   const first = await page.evaluate(() => window.firstPicture);

@@ -1,14 +1,21 @@
-// Lines by WebGL2: a piece is an instance, four corners around it are made in the shader.
+// Lines by WebGL2: a piece is two triangles, whose corners the shader makes of points and kinds that it fetches from textures.
+// Instances would say it shorter, but where there is no GPU each instance is drawn by itself, and 100,000 take most of a minute.
 
 import type { Camera } from "./camera.ts";
 import { type Colours, TOOLS } from "./colours.ts";
 import { count, type Level } from "./levels.ts";
 import type { Painter, Stroke } from "./painter.ts";
 
+/** Cells of a row of a texture: every WebGL2 has as many. */
+const WIDE = 2048;
+
 const VERTEX = `#version 300 es
-layout(location=0) in vec3 a;
-layout(location=1) in vec3 b;
-layout(location=2) in uvec4 kind;
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp usampler2D;
+uniform sampler2D points;
+uniform usampler2D kinds;
 uniform mat3 axes;
 uniform vec3 target;
 uniform vec2 half_size;
@@ -18,14 +25,21 @@ uniform vec4 one;
 out vec3 colour;
 out float along;
 flat out uint dashes;
+ivec2 cell(int i) { return ivec2(i % ${WIDE}, i / ${WIDE}); }
 void main() {
+  int piece = gl_VertexID / 6;
+  int corner = gl_VertexID % 6;
+  corner = corner > 2 ? 6 - corner : corner; // 0 1 2, 3 2 1
+  vec3 a = texelFetch(points, cell(piece), 0).xyz;
+  vec3 b = texelFetch(points, cell(piece + 1), 0).xyz;
+  uvec4 kind = texelFetch(kinds, cell(piece), 0);
   vec2 from = ((a - target) * axes).xy * scale;
   vec2 to = ((b - target) * axes).xy * scale;
   vec2 way = to - from;
   float length_ = length(way);
   vec2 ahead = length_ > 1e-4 ? way / length_ : vec2(1, 0);
   vec2 side = vec2(-ahead.y, ahead.x);
-  float end = float(gl_VertexID & 1), edge = float(gl_VertexID >> 1) * 2. - 1.;
+  float end = float(corner & 1), edge = float(corner >> 1) * 2. - 1.;
   vec2 cap = ahead * width * .5 * (end * 2. - 1.) * (kind.x == 0u ? 0. : .8);
   vec2 at = mix(from, to, end) + side * edge * width * .5 + cap;
   along = end * length_;
@@ -50,13 +64,13 @@ export class GlPainter implements Painter {
   readonly name = "WebGL2";
   private readonly program: WebGLProgram;
   private readonly at: Record<string, WebGLUniformLocation | null> = {};
-  private readonly kept = new Map<Level, { array: WebGLVertexArrayObject; buffers: WebGLBuffer[] }>();
+  private readonly kept = new Map<Level, WebGLTexture[]>();
   private ratio = 1;
   private bound: Level | null = null;
 
   private constructor(private readonly gl: WebGL2RenderingContext) {
     this.program = link(gl);
-    for (const name of ["axes", "target", "half_size", "scale", "width", "palette", "one", "alpha", "dash"]) {
+    for (const name of ["axes", "target", "half_size", "scale", "width", "palette", "one", "alpha", "dash", "points", "kinds"]) {
       this.at[name] = gl.getUniformLocation(this.program, name);
     }
     gl.enable(gl.BLEND);
@@ -89,51 +103,52 @@ export class GlPainter implements Painter {
     if (to <= from) return;
     const gl = this.gl;
     if (this.bound !== level) {
-      gl.bindVertexArray(this.array(level).array);
+      this.textures(level).forEach((texture, unit) => {
+        gl.activeTexture(gl.TEXTURE0 + unit);
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+      });
+      gl.uniform1i(this.at.points, 0);
+      gl.uniform1i(this.at.kinds, 1);
       this.bound = level;
     }
-    // attributes begin at the first piece that is drawn
-    const points = this.array(level).buffers;
-    gl.bindBuffer(gl.ARRAY_BUFFER, points[0]);
-    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 12, from * 12);
-    gl.vertexAttribPointer(1, 3, gl.FLOAT, false, 12, from * 12 + 12);
-    gl.bindBuffer(gl.ARRAY_BUFFER, points[1]);
-    gl.vertexAttribIPointer(2, 4, gl.UNSIGNED_BYTE, 4, from * 4);
     gl.uniform1f(this.at.width, width * this.ratio);
     gl.uniform1f(this.at.alpha, alpha);
     gl.uniform1f(this.at.dash, dashed ? this.ratio : 0);
     gl.uniform4f(this.at.one, ...(colour ?? [0, 0, 0]), colour ? 1 : 0);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, to - from);
+    gl.drawArrays(gl.TRIANGLES, from * 6, (to - from) * 6);
   }
 
   forget(levels: Level[]): void {
     for (const level of levels) {
       const kept = this.kept.get(level);
       if (!kept) continue;
-      this.gl.deleteVertexArray(kept.array);
-      kept.buffers.forEach((buffer) => this.gl.deleteBuffer(buffer));
+      kept.forEach((texture) => this.gl.deleteTexture(texture));
       this.kept.delete(level);
     }
   }
 
-  private array(level: Level) {
+  /** Points and kinds of a level. */
+  private textures(level: Level): WebGLTexture[] {
     const known = this.kept.get(level);
     if (known) return known;
     const gl = this.gl;
-    const array = gl.createVertexArray()!;
-    gl.bindVertexArray(array);
-    const buffers = [level.points, count(level) ? level.kinds : new Uint8Array(4)].map((data) => {
-      const buffer = gl.createBuffer()!;
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
-      return buffer;
-    });
-    for (const attribute of [0, 1, 2]) {
-      gl.enableVertexAttribArray(attribute);
-      gl.vertexAttribDivisor(attribute, 1);
-    }
-    const kept = { array, buffers };
+    const rows = Math.ceil((count(level) + 1) / WIDE);
+    const made = (form: number, channels: number, type: number, cells: Float32Array | Uint8Array) => {
+      const texture = gl.createTexture()!;
+      gl.activeTexture(gl.TEXTURE0);
+      gl.bindTexture(gl.TEXTURE_2D, texture);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+      gl.texImage2D(gl.TEXTURE_2D, 0, form, WIDE, rows, 0, channels, type, cells);
+      return texture;
+    };
+    const points = new Float32Array(rows * WIDE * 3);
+    points.set(level.points);
+    const kinds = new Uint8Array(rows * WIDE * 4);
+    kinds.set(level.kinds);
+    const kept = [made(gl.RGB32F, gl.RGB, gl.FLOAT, points), made(gl.RGBA8UI, gl.RGBA_INTEGER, gl.UNSIGNED_BYTE, kinds)];
     this.kept.set(level, kept);
+    this.bound = null;
     return kept;
   }
 }

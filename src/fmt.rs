@@ -3,7 +3,12 @@
 use crate::lang::{CommandId, SequenceName, TextVar, VarId};
 use crate::source::Source;
 use crate::span::Span;
-use crate::syntax::{self, Body, End, Head, Line, Piece, PieceKind, SequenceNode, Spanned, Statement, Tail};
+use crate::syntax::{
+    self, Body, Directive, DirectiveKind, End, Head, Line, Piece, PieceKind, SequenceNode, Spanned, Statement, Tail,
+};
+
+/// What sets the lines of a branch apart.
+const INDENT: &str = "  ";
 
 /// A form in the canonical layout. Lines that make no sense stay as they are.
 pub fn format(source: &Source) -> String {
@@ -138,9 +143,15 @@ impl Page<'_> {
         let name = self.name_line(&node.name);
         self.push(name, &node.name.line);
         let first = self.lines.len();
+        let mut depth = 0_usize;
         for body in &node.body {
-            if !body.words.is_empty() {
-                let words = self.words(body);
+            if let Some(directive) = &body.directive {
+                let own = depth.saturating_sub(usize::from(directive.kind.closes()));
+                depth = if directive.kind == DirectiveKind::End { own } else { depth };
+                depth += usize::from(directive.kind.opens());
+                self.push(INDENT.repeat(own) + &self.directive(directive), &body.line);
+            } else if !body.words.is_empty() {
+                let words = INDENT.repeat(depth) + &self.words(body);
                 self.push(words, &body.line);
             } else if self.lines.len() > first || body.line.tail != Tail::None {
                 self.remark(&body.line);
@@ -153,6 +164,15 @@ impl Page<'_> {
             let words = self.end(end);
             self.push(words, &end.line);
         }
+    }
+
+    /// `@if [cool] = through`; what stands behind the name is the author's.
+    fn directive(&self, directive: &Directive) -> String {
+        let name = match directive.kind {
+            DirectiveKind::Unknown => directive.name.text.clone(),
+            _ => directive.name.text.to_ascii_lowercase(),
+        };
+        if directive.rest.text.is_empty() { name } else { format!("{name} {}", directive.rest.text) }
     }
 
     fn end(&self, end: &End) -> String {
@@ -207,11 +227,20 @@ impl Page<'_> {
                 text.push(char::from(*letter));
                 text.push_str(&number.text); // without the brackets of the first forms
             }
+            PieceKind::Expression { letter, text: inner, expr } if expr.is_ok() => {
+                text.extend(letter.map(char::from));
+                text.push('[');
+                text.push_str(inner.text.trim_matches([' ', '\t']));
+                text.push(']');
+            }
             PieceKind::TextVariable { letter: None, name } => match TextVar::parse(&name.text) {
                 Some(var) => text.push_str(&var.to_string()),
                 None => text.push_str(self.source.slice(piece.span)),
             },
-            PieceKind::TextVariable { .. } | PieceKind::Quote(_) | PieceKind::Stray(_) => {
+            PieceKind::Expression { .. }
+            | PieceKind::TextVariable { .. }
+            | PieceKind::Quote(_)
+            | PieceKind::Stray(_) => {
                 text.push_str(self.source.slice(piece.span));
             }
         }

@@ -1,11 +1,14 @@
 //! Lowering: lines of words become operations.
 
 use super::letters::LetterTable;
-use super::program::{CycleStyle, Literal, Op, Program, Routine, Upon};
+use super::program::{CycleStyle, Literal, Op, Program, Upon};
+use super::routine::{Branch, Flow, Node, Routine};
 use super::work;
-use crate::control::{Code, Control, Group, Meaning};
+use std::sync::Arc;
+
+use crate::control::{Code, Group, Meaning};
 use crate::lang::{SequenceId, TextSet, VarId, VarSet};
-use crate::sema::{Form, Line, Sequence, Word, WordKind};
+use crate::sema::{Form, Formula, Line, Sequence, Step, WordKind, line_counts};
 use crate::span::Span;
 
 /// Compiles a form that was checked without errors.
@@ -16,6 +19,7 @@ pub fn compile(form: &Form) -> Program {
         spans: Vec::new(),
         literals: Vec::new(),
         texts: Vec::new(),
+        formulas: Vec::new(),
         texts_printed: TextSet::default(),
         name: String::new(),
         hash: String::new(),
@@ -23,6 +27,7 @@ pub fn compile(form: &Form) -> Program {
         upons: Vec::new(),
         upon_vars: VarSet::default(),
         printed: VarSet::default(),
+        asked: VarSet::default(),
         speaks_g: false,
         switches_spindle: false,
         work_word: work::of(form),
@@ -42,7 +47,7 @@ pub fn compile(form: &Form) -> Program {
         program.custom[custom].clone_from(&sequence.remark);
     }
     for upon in &form.upons {
-        let routine = lower(&mut program, &upon.lines, upon.span);
+        let routine = lower(&mut program, &upon.lines, upon.steps.as_deref(), None, upon.span);
         program.printed = program.printed.with(routine.vars);
         program.upon_vars.insert(upon.var);
         program.upons.push(Upon { var: upon.var, every: upon.every, routine });
@@ -100,82 +105,122 @@ fn switches_spindle(program: &Program) -> bool {
 }
 
 fn lower_sequence(program: &mut Program, sequence: &Sequence) -> Routine {
-    let mut routine = lower(program, &sequence.lines, sequence.span);
+    let mut routine = lower(program, &sequence.lines, sequence.steps.as_deref(), sequence.count, sequence.span);
     routine.cancel = sequence.cancel.is_some();
-    routine.style = match (sequence.is_none, sequence.count, sequence.lines.len()) {
+    let lines = sequence.steps.as_ref().map_or(sequence.lines.len(), |steps| line_counts(steps).1);
+    routine.style = match (sequence.is_none, sequence.count, lines) {
         (true, ..) => CycleStyle::Generated,
         (_, Some(_), _) => CycleStyle::Advanced,
         (_, None, 0 | 1) if routine.cancel => CycleStyle::Machine,
         (_, None, 0 | 1) => CycleStyle::WholeLine,
         _ => CycleStyle::Emulated,
     };
-    if let Some(count) = sequence.count {
-        let mut begins = (routine.ops.clone()).filter(|&i| matches!(program.ops[i], Op::Line { .. }));
-        routine.repeat = begins.nth(count).unwrap_or(routine.ops.end);
-        let repeated = vars_of(&program.ops[routine.repeat..routine.ops.end]);
-        routine.setup_vars = vars_of(&program.ops[routine.ops.start..routine.repeat]).without(repeated);
-    }
     routine
 }
 
-fn lower(program: &mut Program, lines: &[Line], span: Span) -> Routine {
+/// The lines of a body, `count` of which print at the first hole only.
+fn lower(program: &mut Program, lines: &[Line], steps: Option<&[Step]>, count: Option<usize>, span: Span) -> Routine {
     let start = program.ops.len();
-    let mut prints_g98 = false;
-    let mut texts = TextSet::default();
-    for line in lines {
-        program.ops.push(Op::Line { droppable: line.words.iter().all(|w| is_motion_or_no_code(&w.kind)) });
-        program.spans.push(line.span);
-        for word in &line.words {
-            let glued = word.glued;
-            let op = match &word.kind {
-                WordKind::Var(letter, var) => Op::Var { letter: *letter, var: *var, glued },
-                WordKind::Value(var) => Op::Value { var: *var, glued },
-                WordKind::Remark(var) => {
-                    program.printed.insert(*var);
-                    Op::Remark { var: *var, glued }
-                }
-                WordKind::Literal(letter, text, value) => {
-                    let code = Code::of(program.letters[0][*letter].printed, *value);
-                    prints_g98 |= *letter == b'G' && *value == program.settings.return_plane[1];
-                    let literal = Literal { letter: *letter, text: text.clone(), value: *value, code };
-                    Op::Literal { index: push(&mut program.literals, literal), glued }
-                }
-                WordKind::Text(text) | WordKind::Note(text) => {
-                    Op::Text { index: push(&mut program.texts, text.clone()), glued }
-                }
-                WordKind::Quote(text) => Op::Quote { index: push(&mut program.texts, text.clone()), glued },
-                WordKind::TextVar(var) | WordKind::RemarkText(var) => {
-                    texts.insert(var.id);
-                    Op::TextVar { var: *var, in_comment: matches!(word.kind, WordKind::RemarkText(_)), glued }
-                }
-                WordKind::Comment(words) => Op::Comment { words: *words as u32 },
-            };
-            program.ops.push(op);
-            program.spans.push(word.span);
+    let flow = match steps {
+        None => {
+            lines.iter().for_each(|line| lower_line(program, line));
+            None
         }
-    }
-    program.texts_printed = program.texts_printed.with(texts);
-    let ops = start..program.ops.len();
-    let vars = vars_of(&program.ops[ops.clone()]);
-    Routine {
+        Some(steps) => Some(Arc::new(Flow { nodes: lower_steps(program, lines, steps, &mut 0) })),
+    };
+    let mut routine = Routine {
+        ops: start..program.ops.len(),
+        left_out: None,
+        branches: 0,
+        flow,
+        count,
         repeat: start,
-        vars,
-        texts,
+        vars: VarSet::default(),
+        texts: TextSet::default(),
         setup_vars: VarSet::default(),
         cancel: false,
-        stays: stays_in_cycle(program.settings.codes(), lines),
+        stays: false,
         style: CycleStyle::Emulated,
-        returns: prints_g98 || vars.has(VarId::Retplane) || vars.has(VarId::Rplane),
+        returns: false,
         span,
-        ops,
-    }
+    };
+    routine.look_at(program);
+    program.texts_printed = program.texts_printed.with(routine.texts);
+    routine
 }
 
-/// Do these lines leave the control in a motion of its own? The last code that says so counts.
-fn stays_in_cycle(control: &Control, lines: &[Line]) -> bool {
-    let mut codes = lines.iter().flat_map(|line| &line.words).filter_map(Word::code);
-    let ends = |code: Code| control.meaning(code).is_some_and(Meaning::ends_cycle);
-    codes.rfind(|&code| control.moves_by_itself(code) || ends(code)).is_some_and(|code| control.moves_by_itself(code))
+fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: &mut u32) -> Vec<Node> {
+    let mut nodes = Vec::new();
+    for step in steps {
+        match step {
+            Step::Lines(range) => lines[range.clone()].iter().for_each(|line| lower_line(program, line)),
+            Step::Set(var, value, span) => {
+                let index = asked(program, value);
+                program.ops.push(Op::Set { var: *var, index });
+                program.spans.push(*span);
+                nodes.push(Node::Set(*var, index));
+            }
+            Step::If(arms) => {
+                let branches = arms.iter().map(|arm| {
+                    let number = *branches;
+                    *branches += 1;
+                    let condition = arm.condition.as_ref().map(|condition| asked(program, condition));
+                    let start = program.ops.len();
+                    let nodes = lower_steps(program, lines, &arm.steps, branches);
+                    Branch { number, condition, ops: start..program.ops.len(), nodes, span: arm.span }
+                });
+                nodes.push(Node::If(branches.collect()));
+            }
+        }
+    }
+    nodes
+}
+
+/// Adds what is asked, and returns its row.
+fn asked(program: &mut Program, formula: &Formula) -> u32 {
+    program.texts_printed = program.texts_printed.with(formula.texts());
+    program.asked = program.asked.with(formula.vars());
+    push(&mut program.formulas, formula.clone())
+}
+
+/// Adds what is printed, and returns its row.
+fn formula(program: &mut Program, formula: &Formula) -> u32 {
+    program.printed = program.printed.with(formula.vars());
+    asked(program, formula)
+}
+
+fn lower_line(program: &mut Program, line: &Line) {
+    program.ops.push(Op::Line { droppable: line.words.iter().all(|w| is_motion_or_no_code(&w.kind)) });
+    program.spans.push(line.span);
+    for word in &line.words {
+        let glued = word.glued;
+        let op = match &word.kind {
+            WordKind::Var(letter, var) => Op::Var { letter: *letter, var: *var, glued },
+            WordKind::Value(var) => Op::Value { var: *var, glued },
+            WordKind::Remark(var) => {
+                program.printed.insert(*var);
+                Op::Remark { var: *var, glued }
+            }
+            WordKind::Literal(letter, text, value) => {
+                let code = Code::of(program.letters[0][*letter].printed, *value);
+                let literal = Literal { letter: *letter, text: text.clone(), value: *value, code };
+                Op::Literal { index: push(&mut program.literals, literal), glued }
+            }
+            WordKind::Text(text) | WordKind::Note(text) => {
+                Op::Text { index: push(&mut program.texts, text.clone()), glued }
+            }
+            WordKind::Quote(text) => Op::Quote { index: push(&mut program.texts, text.clone()), glued },
+            WordKind::Formula(Some(letter), of) => Op::Formula { letter: *letter, index: formula(program, of), glued },
+            WordKind::Formula(None, of) => Op::ValueFormula { index: formula(program, of), glued },
+            WordKind::RemarkFormula(of) => Op::RemarkFormula { index: formula(program, of), glued },
+            WordKind::TextVar(var) | WordKind::RemarkText(var) => {
+                Op::TextVar { var: *var, in_comment: matches!(word.kind, WordKind::RemarkText(_)), glued }
+            }
+            WordKind::Comment(words) => Op::Comment { words: *words as u32 },
+        };
+        program.ops.push(op);
+        program.spans.push(word.span);
+    }
 }
 
 /// Adds a row to a table and returns its index.
@@ -188,18 +233,11 @@ fn push<T>(table: &mut Vec<T>, item: T) -> u32 {
 fn is_motion_or_no_code(word: &WordKind) -> bool {
     match word {
         WordKind::Literal(b'G' | b'g', _, value) => [0.0, 1.0, 2.0, 3.0].contains(value),
-        WordKind::Literal(letter, ..) | WordKind::Var(letter, _) => !b"GgMm".contains(letter),
+        WordKind::Literal(letter, ..) | WordKind::Var(letter, _) | WordKind::Formula(Some(letter), _) => {
+            !b"GgMm".contains(letter)
+        }
+        WordKind::Formula(None, _) | WordKind::RemarkFormula(_) => true,
         WordKind::Value(_) | WordKind::Remark(_) | WordKind::Text(_) | WordKind::Note(_) => true,
         WordKind::Quote(_) | WordKind::TextVar(_) | WordKind::RemarkText(_) | WordKind::Comment(_) => true,
     }
-}
-
-fn vars_of(ops: &[Op]) -> VarSet {
-    let mut set = VarSet::default();
-    for op in ops {
-        if let Op::Var { var, .. } | Op::Value { var, .. } = op {
-            set.insert(*var);
-        }
-    }
-    set
 }

@@ -3,9 +3,11 @@
 mod letters;
 mod lower;
 mod program;
+mod routine;
 mod work;
 
 pub use letters::{Letter, LetterKind, LetterTable};
 pub use lower::compile;
-pub use program::{CycleStyle, Literal, Op, Program, Routine, Upon};
+pub use program::{CycleStyle, Literal, Op, Program, Upon};
+pub use routine::{Branch, Flow, Node, Routine};
 pub use work::WorkWord;

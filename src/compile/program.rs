@@ -1,14 +1,13 @@
 //! The compiled form.
 
-use std::ops::Range;
-
 use sha2::{Digest, Sha256};
 
 use super::letters::LetterTable;
+use super::routine::Routine;
 use super::work::WorkWord;
 use crate::control::Code;
 use crate::lang::{SEQUENCES, SequenceId, TextId, TextSet, TextVar, VarId, VarSet};
-use crate::sema::Settings;
+use crate::sema::{Formula, Settings};
 use crate::source::Source;
 use crate::span::Span;
 
@@ -67,6 +66,36 @@ pub enum Op {
         /// No blank before it.
         glued: bool,
     },
+    /// A letter and a calculated value.
+    Formula {
+        /// The letter as the form writes it.
+        letter: u8,
+        /// Its row in [`Program::formulas`].
+        index: u32,
+        /// No blank before it.
+        glued: bool,
+    },
+    /// A calculated value alone.
+    ValueFormula {
+        /// Its row in [`Program::formulas`].
+        index: u32,
+        /// No blank before it.
+        glued: bool,
+    },
+    /// A calculated value inside a comment of the program.
+    RemarkFormula {
+        /// Its row in [`Program::formulas`].
+        index: u32,
+        /// No blank before it.
+        glued: bool,
+    },
+    /// A variable of the form has another value from here on.
+    Set {
+        /// The variable.
+        var: VarId,
+        /// The value's row in [`Program::formulas`].
+        index: u32,
+    },
     /// A text of the job.
     TextVar {
         /// Which.
@@ -111,31 +140,6 @@ pub enum CycleStyle {
     Generated,
 }
 
-/// A sequence's operations.
-#[derive(Clone, Debug)]
-pub struct Routine {
-    /// Which part of [`Program::ops`].
-    pub ops: Range<usize>,
-    /// Where the lines begin that an advanced cycle repeats; else the start.
-    pub repeat: usize,
-    /// The variables it prints outside comments.
-    pub vars: VarSet,
-    /// The texts of the job that it prints.
-    pub texts: TextSet,
-    /// The variables that only the lines before `repeat` print.
-    pub setup_vars: VarSet,
-    /// `End Cancel`.
-    pub cancel: bool,
-    /// The lines leave the control in a cycle, a macro or another motion of its own.
-    pub stays: bool,
-    /// How the routine prints as a cycle.
-    pub style: CycleStyle,
-    /// The routine prints `[retplane]`, `[rplane]` or G98: the tool comes back to the return plane.
-    pub returns: bool,
-    /// The name line.
-    pub span: Span,
-}
-
 /// A sequence printed when a variable changes.
 #[derive(Clone, Debug)]
 pub struct Upon {
@@ -160,6 +164,8 @@ pub struct Program {
     pub literals: Vec<Literal>,
     /// Texts.
     pub texts: Vec<String>,
+    /// What is calculated: values and conditions.
+    pub formulas: Vec<Formula>,
     /// The texts of the job that the form prints anywhere.
     pub texts_printed: TextSet,
     /// Name of the form: as it says, else as its file is called.
@@ -174,6 +180,8 @@ pub struct Program {
     pub upon_vars: VarSet,
     /// The variables that the form prints anywhere.
     pub printed: VarSet,
+    /// The variables that conditions and calculations ask.
+    pub asked: VarSet,
     /// The form says motions by G codes: its sequences type G0 to G3, or blocks of moves are generated.
     pub speaks_g: bool,
     /// The form's own sequences switch the spindle along the path (torch, laser): none is generated between them.

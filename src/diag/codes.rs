@@ -159,6 +159,13 @@ codes! {
     // PF7: what posts say
     PF701 Error "a text of the job where none can stand"
     PF702 Error "a width that is none"
+    PF703 Error "an expression that can't be read"
+    PF704 Error "a value of another kind"
+    PF705 Error "a division by zero"
+    PF706 Error "an unknown name of a value"
+    PF707 Error "a directive that does not fit"
+    PF708 Warning "a condition that never changes"
+    PF709 Error "a branch that does not fit its sequence"
     // PJ: the job
     PJ001 Error "the job is not well-formed"
     PJ002 Error "an unknown key"
@@ -283,6 +290,7 @@ codes! {
     PR040 Error "positions among increments, or increments among positions"
     PR041 Error "a control that reads lengths in other units, or otherwise"
     PR050 Note "a text of the job that is printed otherwise"
+    PR051 Error "a division by zero"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

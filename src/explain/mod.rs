@@ -13,7 +13,7 @@ pub use words::{command, end, none, sequence, takes, text, upon, variable};
 use crate::control::{self, Control};
 use crate::diag::{CODES, CodeRow};
 use crate::lang::{
-    COMMANDS, CommandId, LONGEST_NAME, SEQUENCES, SequenceId, TEXTS, TextId, VARIABLES, VarId, did_you_mean,
+    COMMANDS, CommandId, DIRECTIVES, LONGEST_NAME, SEQUENCES, SequenceId, TEXTS, TextId, VARIABLES, VarId, did_you_mean,
 };
 
 /// The text for a code, command, variable, sequence, cycle or control, whatever the case it is asked for in.
@@ -43,6 +43,7 @@ pub fn explain(what: &str) -> Result<String, String> {
         "none" => texts.push(words::none()),
         _ => {}
     }
+    texts.extend(DIRECTIVES.iter().find(|row| row.name.eq_ignore_ascii_case(asked)).map(words::directive));
     texts.extend(VarId::parse(bare).map(words::variable));
     texts.extend(TextId::parse(bare.split(':').next().unwrap_or(bare)).map(words::text));
     if asked == bare {
@@ -81,6 +82,8 @@ pub fn list() -> String {
     ];
     let rows = SEQUENCES.iter().map(|row| (row.name, row.meaning)).chain(upons);
     rows.for_each(|(name, meaning)| text += &format!("  {name:<20} {meaning}\n"));
+    text += "\nDirectives\n";
+    DIRECTIVES.iter().for_each(|row| text += &format!("  {:<20} {}\n", row.name, row.meaning));
     text += "\nCycles of a job\n";
     words::CYCLES.iter().for_each(|row| text += &format!("  {:<20} {}\n", row.name, row.meaning));
     text += "\nControls\n";

@@ -2,7 +2,8 @@
 
 use super::examples::{self, Example};
 use crate::lang::{
-    Args, Command, CommandId, Machine, Machines, Origin, SequenceId, Standing, TextId, Unit, UnitChoice, VarId,
+    Args, Command, CommandId, DirectiveRow, Machine, Machines, Origin, SequenceId, Standing, TextId, Unit, UnitChoice,
+    VarId,
 };
 use crate::toolpath::CycleKind;
 
@@ -167,6 +168,23 @@ pub fn text(id: TextId) -> String {
     let example =
         Example { text: format!("({} [{}])", row.name.to_uppercase(), row.name), form: "in a comment of the program" };
     page(&format!("[{}] (text)", row.name), &lines, Some(example))
+}
+
+/// The text of a directive.
+pub fn directive(row: &DirectiveRow) -> String {
+    let lines = [
+        ("does", row.meaning.to_owned()),
+        ("takes", row.takes.replace('`', "")),
+        ("stands", "at the beginning of a line inside a sequence".to_owned()),
+        ("standing", standing(Standing::Ours).to_owned()),
+        ("sample", "samples/conditions".to_owned()),
+    ];
+    let text = match row.name {
+        "@set" => "@set val1 = [val1]+1",
+        _ => "@if [cool] = mist\n  M7\n@elif [cool] = on and [speed] > 2000\n  M88\n@else\n  M9\n@end",
+    };
+    let example = Example { text: text.to_owned(), form: "inside a sequence" };
+    page(&format!("{} (directive)", row.name), &lines, Some(example))
 }
 
 /// The page of a sequence, as `explain` prints it.

@@ -4,7 +4,7 @@ use super::Document;
 use crate::control::Code;
 use crate::lang::{CommandId, SequenceId, SequenceName, TextId, TextVar, VarId};
 use crate::span::Span;
-use crate::syntax::{Body, End, Head, Piece, PieceKind, SequenceNode, Spanned, Statement};
+use crate::syntax::{Body, DirectiveKind, End, Expr, Head, Piece, PieceKind, SequenceNode, Spanned, Statement, Unread};
 
 /// What stands at a place.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,10 +126,26 @@ fn sequence(node: &SequenceNode, found: &mut dyn FnMut(At)) {
 }
 
 fn body(line: &Body, found: &mut dyn FnMut(At)) {
+    match line.directive.as_ref().map(|directive| &directive.kind) {
+        Some(DirectiveKind::If(asked) | DirectiveKind::Elif(asked) | DirectiveKind::Set(_, asked)) => {
+            expression(asked, found);
+        }
+        _ => {}
+    }
     for word in &line.words {
         let alone = line.words.len() == 1 && word.pieces.len() == 1;
         word.pieces.iter().for_each(|part| piece(part, alone, found));
     }
+}
+
+/// The variables of an expression.
+fn expression(expr: &Result<Expr, Unread>, found: &mut dyn FnMut(At)) {
+    let Ok(expr) = expr else { return };
+    expr.variables(&mut |name, span| {
+        if let Some(var) = VarId::parse(name) {
+            found(At { span, what: What::Variable(var, None) });
+        }
+    });
 }
 
 fn piece(part: &Piece, alone: bool, found: &mut dyn FnMut(At)) {
@@ -146,6 +162,7 @@ fn piece(part: &Piece, alone: bool, found: &mut dyn FnMut(At)) {
         PieceKind::Stray(text) if alone && text.eq_ignore_ascii_case("None") => {
             found(At { span: part.span, what: What::Nothing });
         }
+        PieceKind::Expression { expr, .. } => expression(expr, found),
         PieceKind::TextVariable { name, .. } => {
             if let Some(TextVar { id, .. }) = TextVar::parse(&name.text) {
                 found(At { span: part.span, what: What::Text(id) });

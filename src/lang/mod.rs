@@ -3,6 +3,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod commands;
+mod directives;
 mod machine;
 mod sequences;
 mod suggest;
@@ -12,6 +13,7 @@ mod work;
 
 pub(crate) use commands::command_rows;
 pub use commands::{Args, COMMANDS, Command, CommandId, Used, Without};
+pub use directives::{DIRECTIVES, DirectiveRow};
 pub use machine::{Machine, Machines, UnitChoice};
 pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
 pub use suggest::{LONGEST_NAME, did_you_mean, nearest};

@@ -3,7 +3,7 @@
 use crate::compile::LetterTable;
 use crate::control::{Code, Control, Meaning, Traits};
 use crate::lang::{CommandId, Machine, SequenceId, UnitChoice, VarId, VarSet};
-use crate::sema::{Checked, Form, Line, Sequence, Settings, Word, before_remark};
+use crate::sema::{Checked, Form, Line, Sequence, Settings, Step, Word, before_remark, each_formula, line_counts};
 use crate::span::Span;
 use crate::syntax::{self, Piece, SequenceNode, Statement};
 use crate::toolpath::CycleKind;
@@ -56,6 +56,8 @@ pub struct Body<'a> {
     pub span: Span,
     /// The lines that print.
     pub lines: &'a [Line],
+    /// Which of them print when, where directives say it.
+    pub steps: Option<&'a [Step]>,
     /// The sequence itself; none for an Upon.
     pub sequence: Option<&'a Sequence>,
     /// The control whose codes it has.
@@ -72,6 +74,7 @@ impl<'a> View<'a> {
             index: 0,
             span: sequence.span,
             lines: &sequence.lines,
+            steps: sequence.steps.as_deref(),
             sequence: Some(sequence),
             codes,
         });
@@ -80,6 +83,7 @@ impl<'a> View<'a> {
             index: 0,
             span: upon.span,
             lines: &upon.lines,
+            steps: upon.steps.as_deref(),
             sequence: None,
             codes,
         });
@@ -87,9 +91,16 @@ impl<'a> View<'a> {
             sequences.chain(upons).enumerate().map(|(index, body)| Body { index, ..body }).collect();
         let (mut printed, mut told, mut has_words) = (VarSet::default(), VarSet::default(), [false; 256]);
         for word in bodies.iter().flat_map(|body| body.words()) {
-            word.printed_var().into_iter().for_each(|var| printed.insert(var));
-            word.var().into_iter().for_each(|var| told.insert(var));
+            printed = printed.with(word.printed_vars());
+            told = told.with(word.told_vars());
             word.letter().into_iter().for_each(|letter| has_words[usize::from(letter)] = true);
+        }
+        for body in &bodies {
+            // what a condition asks decides what is printed
+            each_formula(body.steps.unwrap_or_default(), &mut |formula| {
+                printed = printed.with(formula.vars());
+                told = told.with(formula.vars());
+            });
         }
         let has_cycles = bodies.iter().any(|body| body.cycle_word().is_some());
         let mut has_format = [false; 256];
@@ -259,6 +270,11 @@ impl<'a> View<'a> {
 }
 
 impl<'a> Body<'a> {
+    /// How many lines it prints at most: the branches of a condition do not print together.
+    pub fn most_lines(&self) -> usize {
+        self.steps.map_or(self.lines.len(), |steps| line_counts(steps).1)
+    }
+
     /// Name of the body in messages.
     pub fn name(&self) -> String {
         match self.purpose {
@@ -280,7 +296,7 @@ impl<'a> Body<'a> {
 
     /// Does the body print this variable, for the control to read?
     pub fn prints(&self, var: VarId) -> bool {
-        self.words().any(|word| word.printed_var() == Some(var))
+        self.words().any(|word| word.printed_vars().has(var))
     }
 
     /// Does the body print one of these variables?
@@ -315,7 +331,7 @@ impl<'a> Body<'a> {
         let starts = |word: &Word| word.code().and_then(|code| self.codes.meaning(code)).is_some_and(Meaning::is_cycle);
         let cycle = self.lines.iter().position(|line| line.words.iter().any(starts));
         let mut words = self.lines[..cycle.map_or(self.lines.len(), |at| at + 1)].iter().flat_map(|line| &line.words);
-        words.any(|word| word.printed_var().is_some_and(|var| vars.contains(&var)))
+        words.any(|word| word.printed_vars().meets(VarSet::of(vars)))
     }
 }
 

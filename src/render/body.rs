@@ -9,13 +9,16 @@ use super::printer::Printer;
 use super::said::{Line, Said};
 use super::shape::Shape;
 use super::texts;
+use super::values::{Now, rpm_as_limit};
 use super::vars::MOVED;
 use super::want::Want;
+use super::ways::division_by_zero;
 use super::words::check_feed;
 use crate::compile::{Letter, LetterKind, Op, Routine};
 use crate::diag::Code;
 use crate::lang::{Origin, SequenceId, VarId, VarSet};
 use crate::number::quantise;
+use crate::sema::Without;
 
 /// Which words of a line print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,21 +76,51 @@ const FEEDS: VarSet = VarSet::of(&[VarId::Frate, VarId::Plunge, VarId::Pitch, Va
 
 /// Runs a whole sequence in which every word prints.
 pub fn run_all(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    run(routine.ops.clone(), Mode::All, shape, want, said, out)
+    run(routine, Mode::All, shape, want, said, out)
 }
 
-/// Runs the operations of a sequence; each line is a block.
-pub fn run(ops: Range<usize>, mode: Mode, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+/// Runs a whole sequence; each line is a block.
+pub fn run(routine: &Routine, mode: Mode, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    run_part(routine, routine.ops.clone(), mode, shape, want, said, out)
+}
+
+/// Runs the first operations of a sequence.
+pub fn run_part(
+    routine: &Routine,
+    ops: Range<usize>,
+    mode: Mode,
+    shape: &Shape,
+    want: &Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
     said.begin_sequence();
-    go_on(ops, mode, shape, want, said, out)
+    go_on(routine, ops, mode, shape, want, said, out)
 }
 
 /// Runs further operations of the same sequence.
-pub fn go_on(ops: Range<usize>, mode: Mode, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn go_on(
+    routine: &Routine,
+    ops: Range<usize>,
+    mode: Mode,
+    shape: &Shape,
+    want: &Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
     let begin = ops.start;
+    let mut left_out = routine.left_out.as_deref().unwrap_or_default();
     let mut body = Body { shape, want, said, out, mode, line: begin, drops: false };
     let mut i = ops.start;
-    while i < ops.end {
+    loop {
+        while let [first, rest @ ..] = left_out
+            && first.start <= i
+        {
+            (i, left_out) = (i.max(first.end), rest);
+        }
+        if i >= ops.end {
+            break;
+        }
         match shape.program.ops[i] {
             Op::Line { droppable } => {
                 body.end_line();
@@ -131,7 +164,8 @@ impl Body<'_, '_> {
     fn end_line(&mut self) {
         self.said.end_line(self.shape);
         if self.out.has_words() {
-            let number = self.shape.program.settings.number_last || Some(self.line) != last_line(self.shape);
+            let number = self.shape.program.settings.number_last
+                || Some(self.line) != last_line(self.shape, self.want, self.said);
             self.out.finish(number, Some(self.shape.program.spans[self.line]));
         }
     }
@@ -152,8 +186,28 @@ impl Body<'_, '_> {
             Op::Line { .. } => {}
             Op::Var { letter, var, glued } => self.var_word(letter, var, glued)?,
             Op::Literal { index, glued } => self.literal_word(index as usize, glued),
-            Op::Value { .. } | Op::Remark { .. } | Op::Text { .. } | Op::Quote { .. } | Op::TextVar { .. }
+            Op::Set { var, index } => {
+                let set = self.calculated(index, b' ')?;
+                set.into_iter().for_each(|value| self.said.kept.set(var, value));
+            }
+            Op::Formula { letter, index, glued } => self.formula_word(letter, index, glued)?,
+            Op::Value { .. }
+            | Op::Remark { .. }
+            | Op::Text { .. }
+            | Op::Quote { .. }
+            | Op::TextVar { .. }
+            | Op::ValueFormula { .. }
+            | Op::RemarkFormula { .. }
                 if next_hole => {}
+            Op::ValueFormula { index, glued } => {
+                if let Some(value) = self.calculated(index, b' ')? {
+                    self.out.bare(value, &self.shape.letters.bare, glued)?;
+                }
+            }
+            Op::RemarkFormula { index, glued } => {
+                let value = self.calculated(index, b' ');
+                self.remark(value, glued)?;
+            }
             Op::Comment { .. } => {}
             Op::Quote { index, glued } => self.out.quote(&self.shape.program.texts[index as usize], glued),
             Op::TextVar { var, in_comment, glued } => {
@@ -161,7 +215,7 @@ impl Body<'_, '_> {
                 texts::print(var, self.want.texts.get(var.id), behind, glued, self.shape, self.out);
             }
             Op::Value { var, glued } => self.bare_word(var, glued)?,
-            Op::Remark { var, glued } => self.remark(var, glued)?,
+            Op::Remark { var, glued } => self.remark(self.value_of(var, b' '), glued)?,
             Op::Text { index, glued } => {
                 let text = &self.shape.program.texts[index as usize];
                 self.out.text(text, glued);
@@ -278,13 +332,12 @@ impl Body<'_, '_> {
 
     /// The value a variable prints, or none where its word is optional.
     fn value_of(&self, var: VarId, letter: u8) -> Done<Option<f64>> {
-        if let Some(value) = self.known_value(var, letter) {
+        if let Some(value) = self.now(letter).get(var) {
             return Ok(Some(value));
         }
         match var {
-            // revolutions are their own limit
-            VarId::Maxrpm if self.want.get(VarId::Speedtype) == Some(self.shape.program.settings.speed_type[1]) => {
-                return Ok(self.want.get(VarId::Speed));
+            VarId::Maxrpm if rpm_as_limit(self.shape, self.want).is_some() => {
+                return Ok(rpm_as_limit(self.shape, self.want));
             }
             VarId::Block => return Ok(Some(self.out.number() as f64)),
             // a two-axis job has no upper guide
@@ -296,18 +349,61 @@ impl Body<'_, '_> {
         no_value(var)
     }
 
-    fn known_value(&self, var: VarId, letter: u8) -> Option<f64> {
-        let stand = &self.said.stand;
-        match var {
-            VarId::Rotangle | VarId::Lastrotangle => {
-                let axis = self.shape.rotary().find(|&axis| self.shape.axes[axis] == letter);
-                axis.and_then(|axis| stand.angles.printed(var, axis)).or(self.want.get(var))
-            }
-            _ => {
-                let increment = MOVED.iter().position(|&moved| moved == var);
-                self.want.get(var).filter(|_| !increment.is_some_and(|axis| stand.is_astray(axis)))
-            }
+    /// The values of variables for a word of this letter.
+    fn now(&self, letter: u8) -> Now<'_, '_> {
+        let block = Some(self.out.number());
+        Now { shape: self.shape, want: self.want, said: self.said, letter, block, set: &[] }
+    }
+
+    /// A calculated value, or none where the word of a variable in it is optional.
+    fn calculated(&self, index: u32, letter: u8) -> Done<Option<f64>> {
+        match self.shape.program.formulas[index as usize].number(&self.now(letter)) {
+            Ok(value) => Ok(Some(value)),
+            Err(Without::Value(var)) => self.value_of(var, letter),
+            Err(Without::Divisor(_)) => division_by_zero(None),
         }
+    }
+
+    /// A letter and a calculated value. On an axis the control counts it like a typed one: it may stand in another frame.
+    fn formula_word(&mut self, letter: u8, index: u32, glued: bool) -> Done {
+        let (shape, settings) = (self.shape, &self.shape.program.settings);
+        let info = &shape.letters[letter];
+        let Some(value) = self.calculated(index, letter)? else { return Ok(()) };
+        let units = quantised(info, value)?;
+        if let Some(var) = FEEDS.iter().find(|&var| shape.program.formulas[index as usize].vars().has(var)) {
+            check_feed(info, var, value, units, self.out)?;
+        }
+        let feed = self.want.inverse_time() && letter == settings.feed_code;
+        let drops = match self.mode {
+            Mode::All => false,
+            Mode::Motion | Mode::ArcMotion => match info.kind {
+                LetterKind::GCode | LetterKind::MCode => {
+                    control::Code::of(info.printed, value).is_some_and(|code| self.said.code_drops(code, shape))
+                }
+                _ => info.modal && self.said.holds(info, units) && !feed,
+            },
+            Mode::NextHole { .. } => settings.modality && self.said.holds_value(info, units, value),
+            Mode::Hole => self.drops && self.said.holds_value(info, units, value),
+        };
+        if drops {
+            return Ok(());
+        }
+        self.out.letter(info, units, glued)?;
+        match info.kind {
+            LetterKind::GCode | LetterKind::MCode => {
+                self.said.code_word(info, value, self.line(), self.want, shape);
+            }
+            LetterKind::Axis => {
+                self.said.forget(info);
+                self.said.displaced(shape.axis_bit(letter), shape);
+            }
+            LetterKind::Other => self.said.word(info, units),
+        }
+        if Some(info.printed) == settings.numbers.letter {
+            self.out.prints_number();
+        }
+        self.said.speed_word(letter, Some(value), shape);
+        Ok(())
     }
 
     /// A value without a letter, which the control reads.
@@ -322,8 +418,8 @@ impl Body<'_, '_> {
     }
 
     /// A value in a comment, which says what is known.
-    fn remark(&mut self, var: VarId, glued: bool) -> Done {
-        match self.value_of(var, b' ') {
+    fn remark(&mut self, value: Done<Option<f64>>, glued: bool) -> Done {
+        match value {
             Ok(Some(value)) => self.out.bare(value, &self.shape.letters.bare, glued),
             Ok(None) => Ok(()),
             Err(_) => {
@@ -408,10 +504,10 @@ fn no_value<T>(var: VarId) -> Done<T> {
 }
 
 /// The last line of EndCode that may have a block number: `%` is none.
-fn last_line(shape: &Shape) -> Option<usize> {
-    let routine = shape.program.routine(SequenceId::EndCode)?;
+fn last_line(shape: &Shape, want: &Want, said: &Said) -> Option<usize> {
+    let routine = shape.routine(SequenceId::EndCode, want, said)?;
     let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
-    routine.ops.clone().rev().filter(is_line).find(|&line| !is_percent(line, shape))
+    routine.steps().rev().filter(is_line).find(|&line| !is_percent(line, shape))
 }
 
 /// Is the line that begins here a `%`?

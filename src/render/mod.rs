@@ -19,8 +19,10 @@ mod shape;
 mod targets;
 mod texts;
 mod upon;
+mod values;
 mod vars;
 mod want;
+mod ways;
 mod words;
 
 use crate::compile::Program;
@@ -173,7 +175,12 @@ impl Sink for Renderer<'_> {
     #[inline]
     fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         self.out.place = place;
-        let done = self.order.follow(&event).and_then(|()| self.take(event)).and_then(|()| self.out.blocks_fit());
+        let done = self
+            .order
+            .follow(&event)
+            .and_then(|()| self.take(event))
+            .and_then(|()| self.out.blocks_fit())
+            .and_then(|()| self.shape.ways.check());
         flow(done.map_err(|diag| Stop::from(diag).placed(|| place.into())))
     }
 }

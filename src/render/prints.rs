@@ -7,7 +7,7 @@ use crate::lang::{Origin, VarId};
 
 /// Does a sequence print a code as typed that answers this?
 pub fn prints_code(routine: &Routine, asked: impl Fn(Code) -> bool, shape: &Shape) -> bool {
-    routine.ops.clone().any(|i| match shape.program.ops[i] {
+    routine.steps().any(|i| match shape.program.ops[i] {
         Op::Literal { index, .. } => shape.program.literals[index as usize].code.is_some_and(&asked),
         _ => false,
     })
@@ -21,8 +21,7 @@ pub fn prints_motion(routine: &Routine, shape: &Shape) -> bool {
         }
         _ => false,
     };
-    prints_code(routine, |code| shape.group_of(code) == Some(Group::Motion), shape)
-        || routine.ops.clone().any(by_variable)
+    prints_code(routine, |code| shape.group_of(code) == Some(Group::Motion), shape) || routine.steps().any(by_variable)
 }
 
 /// Does a sequence print a motion code, or one of no group, which may move by itself?
@@ -35,8 +34,7 @@ pub fn prints_own_motion(routine: &Routine, shape: &Shape) -> bool {
 /// itself.
 pub fn moves_without_motion(routine: &Routine, shape: &Shape) -> bool {
     let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
-    let mut start = routine.ops.start;
-    while start < routine.ops.end {
+    for start in routine.steps().filter(is_line) {
         let end = (start + 1..routine.ops.end).find(is_line).unwrap_or(routine.ops.end);
         let line = Routine { ops: start..end, ..routine.clone() };
         if prints_motion(&line, shape) {
@@ -45,7 +43,6 @@ pub fn moves_without_motion(routine: &Routine, shape: &Shape) -> bool {
         if prints_axis_words(&line, false, shape) && !prints_own_motion(&line, shape) {
             return true;
         }
-        start = end;
     }
     false
 }
@@ -69,10 +66,11 @@ pub fn prints_axis(routine: &Routine, axis: usize, shape: &Shape) -> bool {
 
 /// Does a sequence print words of axes? `typed`: with numbers of its own, so that the tool leaves its place.
 pub fn prints_axis_words(routine: &Routine, typed: bool, shape: &Shape) -> bool {
-    routine.ops.clone().any(|i| {
+    routine.steps().any(|i| {
         let letter = match shape.program.ops[i] {
             Op::Var { letter, .. } if !typed => letter,
             Op::Literal { index, .. } => shape.program.literals[index as usize].letter,
+            Op::Formula { letter, .. } => letter,
             _ => return false,
         };
         shape.letters[letter].kind == LetterKind::Axis
@@ -81,7 +79,7 @@ pub fn prints_axis_words(routine: &Routine, typed: bool, shape: &Shape) -> bool 
 
 /// Does a sequence print the angle of a rotary axis?
 pub fn prints_angle(routine: &Routine, axis: usize, shape: &Shape) -> bool {
-    routine.ops.clone().any(|i| {
+    routine.steps().any(|i| {
         matches!(shape.program.ops[i], Op::Var { letter, var: VarId::Rotangle | VarId::Lastrotangle, .. }
             if letter == shape.axes[axis] || !shape.axes.contains(&letter))
     })

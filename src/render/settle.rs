@@ -211,9 +211,9 @@ pub fn check_reading(shape: &Shape, want: &Want, said: &Said) -> Done {
 
 /// A sequence that prints words of axes before a G90 or G91 of its own prints them in the mode that is in force.
 pub fn check_reading_of(routine: &Routine, shape: &Shape, want: &Want, said: &Said) -> Done {
-    for i in routine.ops.clone() {
+    for i in routine.steps() {
         let letter = match shape.program.ops[i] {
-            Op::Var { letter, .. } => letter,
+            Op::Var { letter, .. } | Op::Formula { letter, .. } => letter,
             Op::Literal { index, .. } => {
                 let literal = &shape.program.literals[index as usize];
                 let distances = shape.program.settings.inc_abs;

@@ -5,6 +5,7 @@ use super::defaults::{cycle_defaults, factor, form_units, no_defaults};
 use super::fault::{Done, fault};
 use super::options::Options;
 use super::vars::{LAST_VARS, MEASURES, MOVE_VARS};
+use super::ways::Ways;
 use crate::compile::{LetterTable, Program};
 use crate::control::{Code, Group, Meaning, Row};
 use crate::cycle::Defaults;
@@ -19,7 +20,6 @@ pub const ROTARY: std::ops::Range<usize> = 3..6;
 pub const ROTARY_BITS: u8 = 0b111_000;
 
 /// What does not change while a program is printed.
-#[derive(Debug)]
 pub(super) struct Shape<'p> {
     pub program: &'p Program,
     pub options: Options,
@@ -46,6 +46,8 @@ pub(super) struct Shape<'p> {
     pub measures: bool,
     /// Every move sets the position variables; else they are set when a sequence is about to print.
     pub sets_targets: bool,
+    /// The ways through sequences that were taken so far.
+    pub ways: Ways,
 }
 
 impl<'p> Shape<'p> {
@@ -68,8 +70,9 @@ impl<'p> Shape<'p> {
             units: Units::Inch,
             defaults: no_defaults(),
             watches_moves: program.upon_vars.meets(MOVE_VARS),
-            measures: program.printed.with(program.upon_vars).meets(MEASURES),
+            measures: program.printed.with(program.asked).with(program.upon_vars).meets(MEASURES),
             sets_targets: sets_targets(program),
+            ways: Ways::default(),
         }
     }
 
@@ -78,7 +81,9 @@ impl<'p> Shape<'p> {
         let settings = &self.program.settings;
         self.units = self.options.units.unwrap_or(job);
         let form = form_units(settings);
-        if form.is_some_and(|form| form != self.units) && !self.program.printed.has(VarId::Unitmode) {
+        if form.is_some_and(|form| form != self.units)
+            && !self.program.printed.with(self.program.asked).has(VarId::Unitmode)
+        {
             let (program, form) = (self.units.name(), form.map_or("", Units::name));
             let message = format!("the program would be in {program}, the form is for {form} and prints no [unitmode]");
             let help = format!(
@@ -143,7 +148,7 @@ impl<'p> Shape<'p> {
 /// Must every move set the position variables?
 fn sets_targets(program: &Program) -> bool {
     let moves = [SequenceId::RapidCode, SequenceId::LineCode, SequenceId::CwCode, SequenceId::CcwCode];
-    program.printed.with(program.upon_vars).meets(LAST_VARS)
+    program.printed.with(program.asked).with(program.upon_vars).meets(LAST_VARS)
         || moves.iter().any(|&id| program.routine(id).is_some())
         || !program.settings.limits.is_empty()
         || program.upon_vars.meets(MOVE_VARS)

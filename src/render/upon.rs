@@ -23,7 +23,8 @@ pub fn upon_is_due(used: VarSet, moving: bool, shape: &Shape, want: &Want, said:
     shape.program.upon_vars.meets(used)
         && shape.program.upons.iter().zip(&said.upon_used).any(|(upon, before)| {
             let Some(value) = want.get(upon.var).filter(|_| used.has(upon.var)) else { return false };
-            is_due(upon, *before, value) && (!moving || prints_axis_words(&upon.routine, false, shape))
+            let routine = shape.way(&upon.routine, want, said);
+            is_due(upon, *before, value) && (!moving || prints_axis_words(routine, false, shape))
         })
 }
 
@@ -34,7 +35,7 @@ pub fn index_replaces_work_upon(shape: &Shape) -> bool {
     let retracts =
         shape.program.routine(SequenceId::Index).is_some_and(|routine| prints_axis_words(routine, true, shape));
     let only_moves = |upon: &Upon| {
-        upon.routine.ops.clone().all(|i| match shape.program.ops[i] {
+        upon.routine.steps().all(|i| match shape.program.ops[i] {
             Op::Line { .. } => true,
             Op::Var { letter, var, .. } => var == VarId::Work || shape.letters[letter].kind == LetterKind::Axis,
             Op::Literal { index, .. } => {
@@ -43,7 +44,9 @@ pub fn index_replaces_work_upon(shape: &Shape) -> bool {
             }
             Op::Remark { .. } => true,
             Op::Value { .. } | Op::Text { .. } => false,
+            Op::Set { .. } | Op::RemarkFormula { .. } => true,
             Op::Quote { .. } | Op::TextVar { .. } | Op::Comment { .. } => false,
+            Op::Formula { .. } | Op::ValueFormula { .. } => false,
         })
     };
     retracts && shape.program.upons.iter().filter(|upon| upon.var == VarId::Work).all(only_moves)
@@ -86,18 +89,19 @@ pub fn upons(used: VarSet, shape: &Shape, want: &mut Want, said: &mut Said, out:
         let Some(value) = want.get(upon.var) else { continue };
         let before = said.upon_used[i].replace(value);
         if is_due(upon, before, value) {
-            let moves = prints_axis_words(&upon.routine, false, shape);
+            let routine = shape.way(&upon.routine, want, said);
+            let moves = prints_axis_words(routine, false, shape);
             if moves && want.compensated {
                 let message = format!("Upon [{}] moves the tool under cutter compensation", upon.var.name());
                 let help = "end the compensation with an `outfeed` before the change";
-                return fault_at(Code::PR030, message, help, Some(upon.routine.span));
+                return fault_at(Code::PR030, message, help, Some(routine.span));
             }
             let placed = std::mem::take(&mut said.stand.placed);
-            way_before(&upon.routine, shape, want, said, out)?;
-            run_all(&upon.routine, shape, want, said, out)?;
+            way_before(routine, shape, want, said, out)?;
+            run_all(routine, shape, want, said, out)?;
             stands_where_it_was_put(shape, want, said);
             said.stand.placed |= placed;
-            if prints_axis_words(&upon.routine, true, shape) {
+            if prints_axis_words(routine, true, shape) {
                 said.stand.moved_by = Some(upon.routine.span);
             }
         }

@@ -2,9 +2,11 @@
 
 use indexmap::IndexMap;
 
+use super::formula::Formula;
 use super::settings::Settings;
+use super::step::Step;
 use crate::control::Code;
-use crate::lang::{SequenceId, TextVar, VarId};
+use crate::lang::{SequenceId, TextVar, VarId, VarSet};
 use crate::number::LetterFormat;
 use crate::span::Span;
 
@@ -40,6 +42,8 @@ pub struct Sequence {
     pub cancel: Option<Span>,
     /// The lines that print.
     pub lines: Vec<Line>,
+    /// Which of them print when, where directives say it.
+    pub steps: Option<Vec<Step>>,
 }
 
 impl Sequence {
@@ -66,6 +70,8 @@ pub struct Upon {
     pub span: Span,
     /// The lines that print.
     pub lines: Vec<Line>,
+    /// Which of them print when, where directives say it.
+    pub steps: Option<Vec<Step>>,
 }
 
 /// A line with words.
@@ -105,6 +111,10 @@ pub enum WordKind {
     Note(String),
     /// Text in backquotes: nothing about it is looked at or changed.
     Quote(String),
+    /// A calculated value, with its letter if it has one.
+    Formula(Option<u8>, Box<Formula>),
+    /// A calculated value inside a comment of the program.
+    RemarkFormula(Box<Formula>),
     /// A text of the job.
     TextVar(TextVar),
     /// A text of the job inside a comment of the program.
@@ -118,6 +128,7 @@ impl Word {
     pub fn letter(&self) -> Option<u8> {
         match self.kind {
             WordKind::Var(letter, _) | WordKind::Literal(letter, ..) => Some(letter),
+            WordKind::Formula(letter, _) => letter,
             _ => None,
         }
     }
@@ -135,6 +146,22 @@ impl Word {
         match self.kind {
             WordKind::Var(_, var) | WordKind::Value(var) => Some(var),
             _ => None,
+        }
+    }
+
+    /// The variables whose values it prints outside comments, by themselves or calculated with.
+    pub fn printed_vars(&self) -> VarSet {
+        match &self.kind {
+            WordKind::Formula(_, formula) => formula.vars(),
+            _ => self.printed_var().map_or_else(VarSet::default, |var| VarSet::of(&[var])),
+        }
+    }
+
+    /// The variables whose values it prints, be it in a comment.
+    pub fn told_vars(&self) -> VarSet {
+        match &self.kind {
+            WordKind::Formula(_, formula) | WordKind::RemarkFormula(formula) => formula.vars(),
+            _ => self.var().map_or_else(VarSet::default, |var| VarSet::of(&[var])),
         }
     }
 

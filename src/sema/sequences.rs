@@ -4,10 +4,13 @@ use indexmap::map::Entry;
 
 use super::args::Arguments;
 use super::check::Analysis;
+use super::flow::Flow;
 use super::messages::{duplicate_sequence, is_word, no_name_line, unknown_name};
 use super::model::{Line, Sequence, Upon};
+use super::names::{Context, variable};
 use super::settings::Settings;
-use super::words::{Context, resolve, variable};
+use super::step::{Step, line_counts};
+use super::words::resolve;
 use crate::diag::{Code, Diag};
 use crate::lang::{Args, CommandId, Machines, SequenceId, SequenceName};
 use crate::span::Span;
@@ -26,18 +29,28 @@ impl Analysis {
         let mut words = vec![node.name.name.text.as_str()];
         words.extend(node.name.args.iter().map(|arg| arg.text.as_str()));
         let machine = self.form.settings.machine;
-        let comment = self.form.settings.comment.clone();
-        let context = Context { machine, comment: &comment };
-        let mut lines = Vec::new();
         for body in &node.body {
-            if body.words.is_empty() {
-                continue;
+            if body.directive.is_some() {
+                self.limits_of(body);
             }
-            self.limits_of(body);
-            self.glued_end(body);
-            self.command_inside(body);
-            lines.push(resolve(body, &context, &mut self.diags));
+            if !body.words.is_empty() {
+                self.limits_of(body);
+                self.glued_end(body);
+                self.command_inside(body);
+            }
         }
+        let settings = &self.form.settings;
+        let context = Context { machine, comment: &settings.comment, settings };
+        let (mut lines, mut flow) = (Vec::new(), Flow::default());
+        for body in &node.body {
+            if let Some(directive) = &body.directive {
+                flow.directive(directive, &context, &mut self.diags);
+            } else if !body.words.is_empty() {
+                flow.line(lines.len());
+                lines.push(resolve(body, &context, &mut self.diags));
+            }
+        }
+        let lines = Lines { lines, steps: flow.finish(&mut self.diags) };
         match SequenceName::parse(&words) {
             None if is_word(&node.name.name.text) => self.report(no_name_line(span)),
             None => self.report(unknown_name(&node.name.name.text, node.name.name.span)),
@@ -57,13 +70,13 @@ impl Analysis {
                         self.report(diag);
                         return;
                     }
-                    self.form.upons.push(Upon { var, every, span, lines });
+                    self.form.upons.push(Upon { var, every, span, lines: lines.lines, steps: lines.steps });
                 }
             }
         }
     }
 
-    fn plain_sequence(&mut self, node: &SequenceNode, id: SequenceId, count: Option<&str>, lines: Vec<Line>) {
+    fn plain_sequence(&mut self, node: &SequenceNode, id: SequenceId, count: Option<&str>, lines: Lines) {
         let span = node.name.line.span;
         let cancel = if id.row().is_cycle && id != SequenceId::Cancel {
             self.end_cancel(node.end.as_ref())
@@ -71,14 +84,31 @@ impl Analysis {
             self.plain_end(node.end.as_ref());
             None
         };
+        let Lines { lines, steps } = lines;
         let is_none = lines.len() == 1 && is_none(&node.body);
-        let count = count.and_then(|text| self.count(node, id, text, lines.len()));
+        let (least, most) = steps.as_ref().map_or((lines.len(), lines.len()), |steps| line_counts(steps));
+        let counted = count.is_some();
+        let count = count.and_then(|text| self.count(node, id, text, least));
+        if id.row().is_cycle && id != SequenceId::Cancel && !counted && least <= 1 && most > 1 {
+            self.report(
+                Diag::new(Code::PF709, format!("{} prints {least} lines or {most}: two kinds of cycles", id.name()))
+                    .at(span, "one line is repeated by the control, several are printed for each hole")
+                    .help("give all branches one line, or all of them several, or the sequence a count"),
+            );
+        }
+        if least == 0 && most > 0 && must_print(id) {
+            self.report(
+                Diag::new(Code::PF709, format!("a way through {} prints nothing", id.name()))
+                    .at(span, "where no condition holds, or in a branch without lines")
+                    .help("add `@else` with what is printed then: a move, a hole or a tool change would be lost"),
+            );
+        }
         let remark = match &node.name.line.tail {
             Tail::Lost(lost) => Some(lost.text.trim().to_owned()),
             _ => None,
         };
         let lines = if is_none { Vec::new() } else { lines };
-        let sequence = Sequence { id, span, count, remark, is_none, cancel, lines };
+        let sequence = Sequence { id, span, count, remark, is_none, cancel, lines, steps };
         match self.form.sequences.entry(id) {
             Entry::Occupied(first) => {
                 let diag = duplicate_sequence(id.name(), span, first.get().span);
@@ -183,6 +213,20 @@ impl Analysis {
             self.report(diag.at(span, "this would be printed").help("move it above the first sequence"));
         }
     }
+}
+
+/// Would something of the job be lost where the sequence prints nothing?
+fn must_print(id: SequenceId) -> bool {
+    use SequenceId as S;
+    let moves = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed, S::Index, S::Unwind];
+    let changes = [S::FirstToolChange, S::ToolChange, S::SubCall, S::SubEnd, S::Stop, S::EndCode, S::Cancel];
+    id.row().is_cycle || moves.contains(&id) || changes.contains(&id)
+}
+
+/// What a sequence prints, and when, where directives say it.
+struct Lines {
+    lines: Vec<Line>,
+    steps: Option<Vec<Step>>,
 }
 
 fn is_none(body: &[Body]) -> bool {

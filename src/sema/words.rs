@@ -1,18 +1,13 @@
 //! Words of a line: variables found, texts put together, what can't be read reported.
 
+use super::expression::number;
+use super::formula::Formula;
 use super::model::{Line, Word, WordKind};
+use super::names::{Context, variable};
 use crate::diag::{Code, Diag, steers};
-use crate::lang::{Machine, TEXTS, TextVar, VARIABLES, VarId, WIDEST, did_you_mean};
+use crate::lang::{TextVar, WIDEST};
 use crate::span::Span;
 use crate::syntax::{self, Body, Piece, PieceKind, Spanned};
-
-/// What the words of a form have in common.
-pub struct Context<'a> {
-    /// The form's machine.
-    pub machine: Machine,
-    /// The marks around comments; the second is empty where they run to the end of the block.
-    pub comment: &'a [String; 2],
-}
 
 /// The words of one body line.
 pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
@@ -47,30 +42,6 @@ pub fn before_remark(words: &[syntax::Word], comment: &[String; 2]) -> usize {
     at.unwrap_or(words.len())
 }
 
-/// Reads the name of a variable; reports it when there is none, or none on this machine.
-pub fn variable(name: &Spanned, machine: Machine, diags: &mut Vec<Diag>) -> Option<VarId> {
-    let Some(var) = VarId::parse(&name.text) else {
-        let known = VARIABLES.iter().filter(|v| v.machines.has(machine)).map(|v| v.name);
-        let known = known.chain(TEXTS.iter().map(|text| text.name));
-        let mut diag = Diag::new(Code::PF202, format!("`{}` is no variable", name.text)).at(name.span, "unknown");
-        diag.help = did_you_mean(&name.text, known);
-        if name.text.split_once(':').is_some_and(|(name, _)| VarId::parse(name).is_some()) {
-            diag.help = Some("only texts have a width: that of a number comes from its letter's format".into());
-        }
-        diags.push(diag);
-        return None;
-    };
-    let machines = var.row().machines;
-    if !machines.has(machine) {
-        diags.push(
-            Diag::new(Code::PF604, format!("`{}` is for {machines}, this form is for {}", var.name(), machine.name()))
-                .at(name.span, format!("not on a {}", machine.name()))
-                .help("take another variable, or say with `Machine` what the form is for"),
-        );
-    }
-    Some(var)
-}
-
 fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut Vec<Word>, diags: &mut Vec<Diag>) {
     // only between two words is a blank missing; texts stick to their variables
     let glued = previous.is_some_and(|before| !piece.lacks_blank_after(before));
@@ -79,6 +50,12 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
             let Some(var) = variable(name, context.machine, diags) else { return };
             letter.map_or(WordKind::Value(var), |letter| WordKind::Var(letter, var))
         }
+        PieceKind::Expression { letter, expr, .. } => match number(expr, context, diags) {
+            // a name in blanks or brackets is the name
+            Some(Formula::Var(var)) => letter.map_or(WordKind::Value(var), |letter| WordKind::Var(letter, var)),
+            Some(formula) => WordKind::Formula(*letter, Box::new(formula)),
+            None => return,
+        },
         PieceKind::Literal { letter: b'%', number } if number.text == "0" => WordKind::Text("%".into()),
         PieceKind::Literal { letter, number } => match number.text.parse::<f64>() {
             Ok(value) => WordKind::Literal(*letter, format!("{}{}", char::from(*letter), number.text), value),
@@ -205,6 +182,12 @@ impl<'a> Note<'a> {
                         self.push(piece.span, WordKind::Remark(var));
                     }
                 }
+                PieceKind::Expression { letter, expr, .. } => {
+                    self.text.extend(letter.map(char::from));
+                    if let Some(formula) = number(expr, context, diags) {
+                        self.push(piece.span, WordKind::RemarkFormula(Box::new(formula)));
+                    }
+                }
                 PieceKind::TextVariable { letter, name } => {
                     self.text.extend(letter.map(char::from));
                     if let Some(var) = text_variable(name, diags) {
@@ -261,9 +244,9 @@ impl<'a> Note<'a> {
 fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
     if text.contains(['[', ']', '<', '>']) {
         diags.push(
-            Diag::new(Code::PF001, format!("`{}` is no word", text))
-                .at(span, "a bracket without its partner")
-                .help("variables are written `X[h]`"),
+            Diag::new(Code::PF001, format!("`{}` is no word", text)).at(span, "a bracket without its partner").help(
+                "variables are written `X[h]`, what is calculated `X[h+1]`; text with brackets stands in backquotes",
+            ),
         );
     } else if text.contains('`') {
         diags.push(

@@ -1,5 +1,6 @@
 //! The tree: every name, letter, variable, number, comment and lost tail with its span.
 
+use super::expression::{Expr, Unread};
 use crate::span::Span;
 
 /// Text of the form with its place.
@@ -130,8 +131,52 @@ impl SequenceNode {
 pub struct Body {
     /// The line.
     pub line: Line,
-    /// Words of the line; none on an empty line or a comment.
+    /// Words of the line; none on an empty line, a comment or a directive.
     pub words: Vec<Word>,
+    /// What the line says of those behind it, instead of words.
+    pub directive: Option<Box<Directive>>,
+}
+
+/// `@if [cool] = through`: which lines print.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Directive {
+    /// `@if`, as typed.
+    pub name: Spanned,
+    /// What stands behind the name, without a comment.
+    pub rest: Spanned,
+    /// Which directive.
+    pub kind: DirectiveKind,
+}
+
+/// The kinds of directives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum DirectiveKind {
+    /// `@if`: the lines behind it print where the condition holds.
+    If(Result<Expr, Unread>),
+    /// `@elif`: else these, where that condition holds.
+    Elif(Result<Expr, Unread>),
+    /// `@else`: else these.
+    Else,
+    /// `@end` of `@if` or `@for`.
+    End,
+    /// `@for`: the lines behind it print once for each.
+    For,
+    /// `@set NAME = value`.
+    Set(Spanned, Result<Expr, Unread>),
+    /// None of these.
+    Unknown,
+}
+
+impl DirectiveKind {
+    /// Does the directive begin lines that `@end` closes?
+    pub fn opens(&self) -> bool {
+        matches!(self, DirectiveKind::If(_) | DirectiveKind::For)
+    }
+
+    /// Do lines of a branch end before the directive?
+    pub fn closes(&self) -> bool {
+        matches!(self, DirectiveKind::Elif(_) | DirectiveKind::Else | DirectiveKind::End)
+    }
 }
 
 /// `End`, `End Cancel`.
@@ -180,6 +225,15 @@ pub enum PieceKind {
         /// The number as typed.
         number: Spanned,
     },
+    /// `[h+1]`: a value that is calculated.
+    Expression {
+        /// The letter, if any.
+        letter: Option<u8>,
+        /// What stands between the brackets.
+        text: Spanned,
+        /// The same as a tree.
+        expr: Box<Result<Expr, Unread>>,
+    },
     /// `[toolname]`, `[toolname:12]`: a variable that is text.
     TextVariable {
         /// The letter, where one stands before it; none belongs there.
@@ -203,14 +257,14 @@ pub enum PieceKind {
 impl Piece {
     /// Is it a word of its own, with a letter and a value?
     pub fn is_word(&self) -> bool {
-        matches!(self.kind, PieceKind::Variable { .. } | PieceKind::Literal { .. })
+        matches!(self.kind, PieceKind::Variable { .. } | PieceKind::Expression { .. } | PieceKind::Literal { .. })
     }
 
     /// Is a blank missing between the piece before and this one? Both are printed as words all the same. A value without
     /// a letter could belong to either, which nobody guesses.
     pub fn lacks_blank_after(&self, before: &Piece) -> bool {
         let begins = match self.kind {
-            PieceKind::Variable { letter, .. } => letter.is_some(),
+            PieceKind::Variable { letter, .. } | PieceKind::Expression { letter, .. } => letter.is_some(),
             PieceKind::Literal { .. } | PieceKind::Note { .. } => true,
             PieceKind::TextVariable { .. } | PieceKind::Quote(_) | PieceKind::Stray(_) => false,
         };

@@ -1,20 +1,15 @@
-//! Lines through the grammar. Nothing outside this file knows of pest.
+//! Lines through the grammar. Nothing outside this file and that of expressions knows of pest.
 
 use pest::Parser;
 use pest::iterators::Pair;
 
 use super::ast::*;
+use super::directive::directive;
+use super::expression::expression;
+use super::grammar::{FormGrammar, Rule};
 use crate::lang::{CommandId, SequenceId, SequenceName, TextVar};
 use crate::source::Source;
 use crate::span::Span;
-
-mod grammar {
-    #![allow(missing_docs)]
-    #[derive(pest_derive::Parser)]
-    #[grammar = "../grammar/postform.pest"]
-    pub struct FormGrammar;
-}
-use grammar::{FormGrammar, Rule};
 
 /// Stack that must be there: with less than 64 KB left pest refuses what it is given.
 const LEAST_STACK: usize = 128 << 10;
@@ -31,17 +26,32 @@ fn lines(source: &Source, file: u32) -> Form {
     let mut around = Around { lines: &lines, marks: vec![None; lines.len()], has_sequence: false };
     let mut form = Form::default();
     let mut open: Option<SequenceNode> = None;
+    // how many directives of the open sequence wait for their @end
+    let mut depth = 0_usize;
     for (index, &(start, text)) in lines.iter().enumerate() {
         let at = At { file, start };
         if let Some(sequence) = &mut open {
-            match body_line(at, text) {
-                Ok(body) if !begins_sequence(&body, text, start) => sequence.body.push(body),
+            // between a directive and its @end blanks at the beginning of a line are no comment
+            let inner = if depth > 0 { text.trim_start_matches([' ', '\t']) } else { text };
+            let inner_start = start + text.len() - inner.len();
+            match body_line(At { file, start: inner_start }, inner) {
+                Ok(mut body) if !begins_sequence(&body, inner, inner_start) => {
+                    body.line.span.start = start as u32;
+                    match body.directive.as_ref().map(|directive| &directive.kind) {
+                        Some(kind) if kind.opens() => depth += 1,
+                        Some(DirectiveKind::End) => depth = depth.saturating_sub(1),
+                        _ => {}
+                    }
+                    sequence.body.push(body);
+                }
                 Ok(_) => {
+                    depth = 0;
                     // a sequence name on a line of its own: the End before it is missing
                     form.items.extend(open.take().map(boxed));
                     open = head(at, text, index, &mut around, &mut form);
                 }
                 Err(end) => {
+                    depth = 0;
                     sequence.end = Some(end);
                     form.items.extend(open.take().map(boxed));
                 }
@@ -250,7 +260,7 @@ fn begins_sequence(body: &Body, text: &str, start: usize) -> bool {
 
 /// A line inside a sequence, or its end.
 fn body_line(at: At, text: &str) -> Result<Body, End> {
-    let mut body = Body { line: at.line(text), words: Vec::new() };
+    let mut body = Body { line: at.line(text), words: Vec::new(), directive: None };
     for pair in pairs(Rule::body_line, text) {
         match pair.as_rule() {
             Rule::end => {
@@ -278,6 +288,17 @@ fn body_line(at: At, text: &str) -> Result<Body, End> {
                 }
                 body.words.shrink_to_fit(); // a push makes room for four
             }
+            Rule::directive => {
+                let (mut name, mut rest) = (None, Spanned { text: String::new(), span: at.span(&pair) });
+                for part in pair.into_inner() {
+                    match part.as_rule() {
+                        Rule::at_name => name = Some(at.spanned(&part)),
+                        Rule::asked => rest = at.spanned(&part),
+                        _ => body.line.tail = tail(at, &part),
+                    }
+                }
+                body.directive = name.map(|name| Box::new(directive(name, rest)));
+            }
             Rule::remark => body.line.tail = remark(at, &pair),
             _ => {}
         }
@@ -300,6 +321,10 @@ fn piece(at: At, pair: Pair<Rule>) -> Piece {
             match letter {
                 // the first forms have every number in brackets
                 Some(letter) if old && is_number(&name.text) => PieceKind::Literal { letter, number: name },
+                _ if !old && is_calculated(&name.text) => {
+                    let expr = Box::new(expression(&name.text, name.span, true));
+                    PieceKind::Expression { letter, text: name, expr }
+                }
                 _ if TextVar::is_text(&name.text) => PieceKind::TextVariable { letter, name },
                 _ => PieceKind::Variable { letter, name },
             }
@@ -322,6 +347,11 @@ fn piece(at: At, pair: Pair<Rule>) -> Piece {
         _ => PieceKind::Stray(pair.as_str().to_owned()),
     };
     Piece { span, kind }
+}
+
+/// Is it more than a name? A text may have a width.
+fn is_calculated(text: &str) -> bool {
+    text.contains(['+', '*', '/', '(', ' ', '\t']) || text.contains('-') && !TextVar::is_text(text)
 }
 
 /// Digits with a sign and a point.

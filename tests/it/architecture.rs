@@ -68,7 +68,8 @@ fn only_the_parser_knows_the_grammar() {
     files(&root().join("src"), &mut sources);
     for path in sources {
         let text = fs::read_to_string(&path).unwrap();
-        if (text.contains("pest::") || text.contains("pest_derive")) && !path.ends_with("syntax/parse.rs") {
+        let may = ["grammar", "parse", "expression"].iter().any(|name| path.ends_with(format!("syntax/{name}.rs")));
+        if (text.contains("pest::") || text.contains("pest_derive")) && !may {
             panic!("{} knows of the grammar crate", path.display());
         }
     }

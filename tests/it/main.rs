@@ -8,6 +8,7 @@ mod cl;
 mod cl_points;
 mod codes_agree;
 mod commands;
+mod conditions;
 mod cycles;
 mod diff;
 mod editors;

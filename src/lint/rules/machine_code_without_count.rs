@@ -8,7 +8,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some((word, code)) = body.cycle_word() else { continue };
         let ends = view.works_once(code) || body.meaning(|meaning| meaning == Meaning::CycleEnd).is_some();
-        if ends || sequence.count.is_some() || sequence.lines.len() < 2 {
+        if ends || sequence.count.is_some() || body.most_lines() < 2 {
             continue;
         }
         let below = &view.blocks(body)[body.line_of(word) + 1..];

@@ -78,7 +78,7 @@ fn candidate(spec: &CycleSpec, shape: &Shape) -> Option<SequenceId> {
 }
 
 /// What a cycle asks for that its sequence does not print.
-fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<&'static str> {
+pub fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<&'static str> {
     if routine.style == CycleStyle::Generated {
         return None;
     }

@@ -1,15 +1,15 @@
 //! One hole: where it is, how the tool comes there, and what prints it.
 
-use super::choose::scaled;
+use super::choose::{cannot_say, scaled};
 use super::generated::generated_hole;
 use super::open::{Drilling, leave_cycle};
-use super::planned::{Heights, Planned};
+use super::planned::{Heights, Planned, hole_variables};
 use super::sequence::sequence_hole;
 use crate::compile::Routine;
 use crate::cycle::Plan;
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
-use crate::render::fault::{Done, fault};
+use crate::render::fault::{Done, fault, fault_at};
 use crate::render::moves::rapid_blocks::split_rapid;
 use crate::render::moves::reach::stand_as_left;
 use crate::render::moves::rotary::turn_to;
@@ -41,7 +41,7 @@ pub fn hole(
     out: &mut Printer,
     drill: &mut Drilling,
 ) -> Done {
-    if !shape.program.printed.has(VarId::Lasthole) {
+    if !shape.program.printed.with(shape.program.asked).has(VarId::Lasthole) {
         return make_hole(hole, shape, want, said, out, drill);
     }
     let place = out.place;
@@ -101,6 +101,18 @@ pub fn make_hole(
             return fault(Code::PR006, "the hole's position is unknown", "give both coordinates of the first point");
         }
     }
+    let mut planned = Planned { target, planes, heights };
+    let routine = match routine.filter(|routine| routine.flow.is_some()) {
+        Some(routine) => {
+            // conditions ask for the hole
+            set_targets(&target, shape, want, said)?;
+            hole_variables(&planned, shape, want, drill);
+            let way = shape.way(routine, want, said);
+            says_the_hole(way, drill, shape)?;
+            Some(way)
+        }
+        None => routine,
+    };
     let lost = routine.is_some_and(|routine| sequence_loses(routine, &target, shape, said));
     if said.turns(&target, shape) || lost {
         // no cycle turns the part: the control leaves it, and begins it again there
@@ -118,7 +130,6 @@ pub fn make_hole(
         stand_as_left(&target, true, shape, want, said, out)?;
     }
     said.stand.moved_by = None; // every hole is approached by rapids
-    let mut planned = Planned { target, planes, heights };
     match routine {
         Some(routine) => {
             for start in 0..starts {
@@ -135,6 +146,13 @@ pub fn make_hole(
         cycle.left = (cycle.spec.kind != CycleKind::Manual).then_some(heights.return_plane);
     }
     Ok(())
+}
+
+/// The way through a sequence must say what the cycle asks for, as the whole sequence does.
+fn says_the_hole(way: &Routine, drill: &Drilling, shape: &Shape) -> Done {
+    let Some(what) = drill.open.as_ref().and_then(|cycle| cannot_say(&cycle.spec, way, shape)) else { return Ok(()) };
+    let message = format!("this way through the sequence does not print {what}");
+    fault_at(Code::PR017, message, "print it in every branch", Some(way.span))
 }
 
 /// Does a hole lie at a place across the tool that its sequence does not print, as on a lathe?

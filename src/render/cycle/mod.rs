@@ -54,6 +54,7 @@ pub fn cycle_begin(
         sequence,
         holes: 0,
         in_force: false,
+        branches: 0,
         setup: Vars::default(),
         last: None,
         exit_known: false,

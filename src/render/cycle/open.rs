@@ -24,6 +24,8 @@ pub struct ActiveCycle {
     pub holes: u64,
     /// The control is in the cycle: it needs its Cancel.
     pub in_force: bool,
+    /// Which way through the sequence the control is in.
+    pub branches: u128,
     /// Values at the last start, for advanced cycles.
     pub setup: Vars,
     /// The last hole: where, and the height at which the tool left it.
@@ -86,7 +88,7 @@ pub fn cancel(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer
     let cancels = cycle.sequence.and_then(|id| program.routine(id)).is_some_and(|routine| routine.cancel);
     if std::mem::take(&mut cycle.in_force)
         && cancels
-        && let Some(routine) = program.routine(SequenceId::Cancel)
+        && let Some(routine) = shape.routine(SequenceId::Cancel, want, said)
     {
         run_with_upons(routine, shape, want, said, out)?;
         said.say_motion_again();

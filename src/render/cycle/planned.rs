@@ -61,6 +61,7 @@ pub fn hole_variables(hole: &Planned, shape: &Shape, want: &mut Want, drill: &Dr
     let higher = hole.heights.return_plane > hole.heights.clear + SAME;
     want.set(VarId::Retplane, if higher { initial_level } else { r_level });
     want.set(VarId::D, hole.heights.bottom);
+    want.set(VarId::Isfirsthole, f64::from(u8::from(cycle.holes == 0)));
     want.set(VarId::Pointd, hole.heights.point);
     want.set(VarId::Vclear, hole.heights.clear);
     want.set(VarId::Rplane, hole.heights.return_plane);

@@ -7,7 +7,7 @@ use crate::control;
 use crate::diag::Code;
 use crate::lang::{VarId, VarSet};
 use crate::render::before::{motion_block, plane_block};
-use crate::render::body::{Mode, go_on, run};
+use crate::render::body::{Mode, go_on, run, run_part};
 use crate::render::fault::Done;
 use crate::render::moves::rapid_blocks::{is_below, raise, split_rapid};
 use crate::render::numbers::quantised;
@@ -57,6 +57,7 @@ pub fn sequence_hole(
         let snapshot = want.values().clone();
         if let Some(cycle) = &mut drill.open {
             cycle.setup = snapshot;
+            cycle.branches = routine.branches;
             cycle.initial_level = hole.heights.return_plane;
             cycle.in_force = true;
         }
@@ -65,22 +66,22 @@ pub fn sequence_hole(
         CycleStyle::Advanced => {
             said.forget_letters();
             if starts {
-                run(routine.ops.start..routine.repeat, Mode::All, shape, want, said, out)?;
+                run_part(routine, routine.ops.start..routine.repeat, Mode::All, shape, want, said, out)?;
                 if !drills_at_once(routine, shape) {
                     said.forget_letters(); // the first hole needs its lines whole
                 }
             }
             let rest = routine.repeat..routine.ops.end;
             match starts {
-                true => go_on(rest, Mode::Hole, shape, want, said, out)?,
-                false => run(rest, Mode::Hole, shape, want, said, out)?,
+                true => go_on(routine, rest, Mode::Hole, shape, want, said, out)?,
+                false => run_part(routine, rest, Mode::Hole, shape, want, said, out)?,
             }
         }
         CycleStyle::Machine if !starts => {
             let position = !changes_position(routine, shape, want, said)?;
-            run(routine.ops.clone(), Mode::NextHole { position }, shape, want, said, out)?;
+            run(routine, Mode::NextHole { position }, shape, want, said, out)?;
         }
-        _ => run(routine.ops.clone(), Mode::All, shape, want, said, out)?,
+        _ => run(routine, Mode::All, shape, want, said, out)?,
     }
     let exit = exit_of_cycle(routine, hole.heights, shape, drill);
     left_hole(&hole.target, Some(exit), shape, said, drill)
@@ -103,7 +104,7 @@ fn emulated_hole(
     want.set(VarId::D, hole.heights.bottom);
     said.forget_letters();
     way_to_hole(routine, shape, want, said, out)?;
-    run(routine.ops.clone(), Mode::Hole, shape, want, said, out)?;
+    run(routine, Mode::Hole, shape, want, said, out)?;
     if let Some(cycle) = &mut drill.open {
         cycle.in_force = routine.stays;
     }
@@ -137,13 +138,13 @@ fn stays_at_clearance(routine: &Routine, heights: Heights, shape: &Shape) -> boo
         return false;
     }
     let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
-    let cycle = routine.ops.clone().rfind(|&i| match shape.program.ops[i] {
+    let cycle = routine.steps().rfind(|&i| match shape.program.ops[i] {
         Op::Literal { index, .. } => {
             shape.program.literals[index as usize].code.is_some_and(|code| shape.is_cycle(code))
         }
         _ => false,
     });
-    let Some(end) = cycle.and_then(|cycle| (cycle..routine.ops.end).find(is_line)) else { return true };
+    let Some(end) = cycle.and_then(|cycle| routine.steps_in(cycle..routine.ops.end).find(is_line)) else { return true };
     !prints_axis_words(&Routine { ops: end..routine.ops.end, ..routine.clone() }, false, shape)
 }
 
@@ -177,14 +178,14 @@ fn way_to_hole(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, o
     let is_line = |i: &usize| matches!(program.ops[*i], Op::Line { .. });
     let moves = |i: usize| {
         let letter = match program.ops[i] {
-            Op::Var { letter, .. } => letter,
+            Op::Var { letter, .. } | Op::Formula { letter, .. } => letter,
             Op::Literal { index, .. } => program.literals[index as usize].letter,
             _ => return false,
         };
         shape.letters[letter].kind == LetterKind::Axis
     };
-    let Some(first) = routine.ops.clone().find(|&i| moves(i)) else { return Ok(()) };
-    let end = (first..routine.ops.end).find(is_line).unwrap_or(routine.ops.end);
+    let Some(first) = routine.steps().find(|&i| moves(i)) else { return Ok(()) };
+    let end = routine.steps_in(first..routine.ops.end).find(is_line).unwrap_or(routine.ops.end);
     let begin = Routine { ops: routine.ops.start..end, ..routine.clone() };
     if !prints_own_motion(&begin, shape) {
         motion_block(&program.settings.rapid, &begin, shape, want, said, out)?;
@@ -195,7 +196,7 @@ fn way_to_hole(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, o
 /// Do the first lines of a counted cycle drill a hole themselves? K0 and L0 keep the control from it.
 fn drills_at_once(routine: &Routine, shape: &Shape) -> bool {
     let typed = |asked: &dyn Fn(&Literal) -> bool| {
-        (routine.ops.start..routine.repeat).any(|i| match shape.program.ops[i] {
+        routine.steps_in(routine.ops.start..routine.repeat).any(|i| match shape.program.ops[i] {
             Op::Literal { index, .. } => asked(&shape.program.literals[index as usize]),
             _ => false,
         })
@@ -247,7 +248,7 @@ fn settle_between_holes(
 /// Must the whole cycle be printed at this hole?
 fn starts_cycle(routine: &Routine, heights: Heights, shape: &Shape, want: &Want, drill: &Drilling) -> bool {
     let Some(cycle) = &drill.open else { return true };
-    if !cycle.in_force {
+    if !cycle.in_force || cycle.branches != routine.branches {
         return true;
     }
     // the control would rapid there through the material
@@ -260,7 +261,7 @@ fn starts_cycle(routine: &Routine, heights: Heights, shape: &Shape, want: &Want,
 
 /// Does a word of the position change at this hole? A block without one would drill on no control, or only on some.
 fn changes_position(routine: &Routine, shape: &Shape, want: &Want, said: &Said) -> Done<bool> {
-    for i in routine.ops.clone() {
+    for i in routine.steps() {
         let crate::compile::Op::Var { letter, var, .. } = shape.program.ops[i] else { continue };
         let (info, Some(value)) = (&shape.letters[letter], want.get(var)) else { continue };
         if info.kind != LetterKind::Axis {

@@ -89,7 +89,7 @@ fn radius_letter(piece: &Piece, ccw: bool, shape: &Shape) -> Option<u8> {
     let program = shape.program;
     match program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
         Some(routine) if routine.vars.meets(CENTRES) => None,
-        Some(routine) => routine.ops.clone().find_map(|i| match program.ops[i] {
+        Some(routine) => routine.steps().find_map(|i| match program.ops[i] {
             Op::Var { letter, var: VarId::Arcrad, .. } => Some(letter),
             _ => None,
         }),
@@ -118,7 +118,7 @@ pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, 
     let settings = &shape.program.settings;
     let reversed = |axis: usize| shape.letters[shape.axes[axis]].reversed;
     let centre = |axis: usize| match (routine, centre_by(settings, piece.arc.sweep.abs())) {
-        (Some(routine), _) => routine.ops.clone().find_map(|i| match shape.program.ops[i] {
+        (Some(routine), _) => routine.steps().find_map(|i| match shape.program.ops[i] {
             Op::Var { letter, var, .. } if var == VALUES[axis] => Some(letter),
             _ => None,
         }),

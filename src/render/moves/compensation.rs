@@ -90,9 +90,9 @@ fn compensate(to: &Axes, switch: &Switch, shape: &Shape, want: &mut Want, said: 
     if shape.measures {
         measure(&target, !rapid, want, said);
     }
-    if let Some(routine) = program.routine(id) {
+    if let Some(routine) = shape.routine(id, want, said) {
         let tapers = shape.linear == 4 && (2..4).any(|axis| to.get(axis).is_some());
-        let blocks = routine.ops.clone().filter(|&i| matches!(program.ops[i], crate::compile::Op::Line { .. })).count();
+        let blocks = routine.steps().filter(|&i| matches!(program.ops[i], crate::compile::Op::Line { .. })).count();
         if tapers && blocks > 1 {
             let message = format!("{} has {blocks} blocks, a four-axis wire takes one", id.name());
             return fault_at(Code::PR008, message, "write the sequence on one line", Some(routine.span));

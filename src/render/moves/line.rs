@@ -47,12 +47,12 @@ pub fn line_to(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, o
     if shape.measures {
         measure(target, true, want, said);
     }
-    match program.routine(SequenceId::LineCode) {
+    match shape.routine(SequenceId::LineCode, want, said) {
         Some(routine) if said.differs_from(target, 0x3f, shape) => {
             check_prints(routine, target, shape, said)?;
             upons(routine.vars, shape, want, said, out)?;
             feed_block(&program.settings.feed, routine, shape, want, said, out)?;
-            run(routine.ops.clone(), Mode::Motion, shape, want, said, out)?;
+            run(routine, Mode::Motion, shape, want, said, out)?;
         }
         Some(_) => {}
         None => {

@@ -50,7 +50,7 @@ pub fn pieces(
         arc.quadrant_parts(parts);
     } else {
         let sequence = if arc.sweep > 0.0 { SequenceId::CcwCode } else { SequenceId::CwCode };
-        let routine = shape.program.routine(sequence);
+        let routine = shape.routine(sequence, want, said);
         // a sequence that prints the radius and no centre can't say more than half a turn
         let radius_only = match routine {
             Some(routine) => routine.vars.has(VarId::Arcrad) && !routine.vars.meets(CENTRES),
@@ -112,7 +112,7 @@ fn print_piece(piece: &Piece, shape: &Shape, want: &mut Want, said: &mut Said, o
     if said.last_move == LastMove::Rapid && !settings.force.is_empty() {
         said.force(shape);
     }
-    let routine = program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode });
+    let routine = shape.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }, want, said);
     check_signs(piece, routine, code, ccw, shape)?;
     check_centres(shape, said)?;
     if let Some(routine) = routine {
@@ -125,7 +125,7 @@ fn print_piece(piece: &Piece, shape: &Shape, want: &mut Want, said: &mut Said, o
         plane_block(piece.plane.code, routine, shape, want, said, out)?;
         check_arc_code(routine, code, shape, said)?;
         feed_block(code, routine, shape, want, said, out)?;
-        run(routine.ops.clone(), Mode::ArcMotion, shape, want, said, out)?;
+        run(routine, Mode::ArcMotion, shape, want, said, out)?;
         if polar {
             // the control knows where it is, and the letters of these axes say something older
             for axis in piece.axes {

@@ -71,10 +71,11 @@ pub fn rapid_block(
             }
             set_targets(&whole, shape, want, said)?;
             measure(target, false, want, said);
+            let routine = shape.way(routine, want, said);
             check_prints(routine, target, shape, said)?;
             upons(routine.vars, shape, want, said, out)?;
             motion_block(&program.settings.rapid, routine, shape, want, said, out)?;
-            run(routine.ops.clone(), Mode::Motion, shape, want, said, out)?;
+            run(routine, Mode::Motion, shape, want, said, out)?;
         }
         Some(_) => {}
         None => {

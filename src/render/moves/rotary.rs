@@ -16,8 +16,9 @@ use crate::toolpath::Axes;
 
 /// A rapid to another rotary view: Index, where the form has it.
 pub fn turn_to(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    let program = shape.program;
-    let Some(routine) = program.routine(SequenceId::Index) else { return rapid_to(target, shape, want, said, out) };
+    let Some(routine) = shape.routine(SequenceId::Index, want, said) else {
+        return rapid_to(target, shape, want, said, out);
+    };
     if let Some(axis) = said.turned_axes(target, shape).find(|&axis| !prints_angle(routine, axis, shape)) {
         let letter = char::from(shape.axes[axis]);
         let message = format!("{letter} turns to {}, which Index does not print", target.values[axis]);
@@ -56,7 +57,7 @@ pub fn change_turns(
     said: &mut Said,
     out: &mut Printer,
 ) -> Done<Axes> {
-    let down = routine.ops.clone().find(|&i| matches!(shape.program.ops[i], Op::Var { var: VarId::D, .. }));
+    let down = routine.steps().find(|&i| matches!(shape.program.ops[i], Op::Var { var: VarId::D, .. }));
     let before = Routine { ops: routine.ops.start..down.unwrap_or(routine.ops.end), ..routine.clone() };
     let says = |axis: &usize| prints_angle(&before, *axis, shape);
     let lost = said.turned_axes(target, shape).find(|axis| !says(axis));

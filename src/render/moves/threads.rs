@@ -5,7 +5,7 @@ use crate::compile::{Op, Routine};
 use crate::cycle::thread_passes;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
-use crate::render::body::{Mode, go_on, run};
+use crate::render::body::{Mode, go_on, run_part};
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::printer::Printer;
 use crate::render::said::{LastMove, Said};
@@ -41,14 +41,14 @@ impl Cut {
 
 /// A thread of the path. AutoThread goes before CanThread, both before passes made here.
 pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    let program = shape.program;
     check_state(shape, want, out)?;
     let cut = planned(thread, shape, said)?;
     check_beside(thread, &cut, shape, said)?;
     let starts = thread.starts.unwrap_or(1.0);
     let begin = said.stand.target(&thread.from, shape).values[0];
     thread_variables(thread, &cut, shape, want);
-    let cycle = program.routine(SequenceId::AutoThread).or(program.routine(SequenceId::CanThread));
+    let routine = |id: SequenceId| shape.routine(id, want, said);
+    let cycle = routine(SequenceId::AutoThread).or(routine(SequenceId::CanThread));
     if let Some(routine) = cycle {
         check_thread_words(thread, &cut, routine, shape, want)?;
     } else if thread.chamfer.is_some_and(|length| length != 0.0) {
@@ -68,7 +68,7 @@ pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Sa
         }
         rapid_to(&at, shape, want, said, out)?;
         let here = said.stand.position;
-        match (program.routine(SequenceId::AutoThread), program.routine(SequenceId::CanThread)) {
+        match (shape.routine(SequenceId::AutoThread, want, said), shape.routine(SequenceId::CanThread, want, said)) {
             (Some(routine), _) => {
                 pass_variables(&cut, cut.passes[cut.passes.len() - 1], shape, want, said)?;
                 run_with_upons(routine, shape, want, said, out)?;
@@ -77,7 +77,7 @@ pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Sa
             (None, None) => own_passes(&cut, &here, shape, want, said, out)?,
         }
         if cycle.is_some_and(|routine| routine.cancel)
-            && let Some(cancel) = program.routine(SequenceId::Cancel)
+            && let Some(cancel) = shape.routine(SequenceId::Cancel, want, said)
         {
             run_with_upons(cancel, shape, want, said, out)?; // else the rapid behind it would be a pass
         }
@@ -219,7 +219,7 @@ fn check_thread_words(thread: &Thread, cut: &Cut, routine: &Routine, shape: &Sha
 
 /// The digits of a packed `[tparams]` word: finishing passes, chamfer, angle, two each.
 fn packed_parameters(routine: &Routine, shape: &Shape, want: &Want) -> Option<String> {
-    let letter = routine.ops.clone().find_map(|i| match shape.program.ops[i] {
+    let letter = routine.steps().find_map(|i| match shape.program.ops[i] {
         Op::Var { letter, var: VarId::Tparams, .. } => Some(letter),
         _ => None,
     })?;
@@ -252,12 +252,12 @@ fn canned_passes(
         pass_variables(cut, depth, shape, want, said)?;
         said.forget_letters();
         if i == 0 {
-            run(routine.ops.start..routine.repeat, Mode::All, shape, want, said, out)?;
+            run_part(routine, routine.ops.start..routine.repeat, Mode::All, shape, want, said, out)?;
         }
         let rest = routine.repeat..routine.ops.end;
         match i {
-            0 => go_on(rest, Mode::Hole, shape, want, said, out)?,
-            _ => run(rest, Mode::Hole, shape, want, said, out)?,
+            0 => go_on(routine, rest, Mode::Hole, shape, want, said, out)?,
+            _ => run_part(routine, rest, Mode::Hole, shape, want, said, out)?,
         }
     }
     Ok(())

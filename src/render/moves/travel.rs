@@ -102,6 +102,7 @@ pub fn unwind(axis: usize, shape: &Shape, want: &mut Want, said: &mut Said, out:
     }
     said.stand.angles.was(axis, here.get(axis));
     want.put(VarId::Lastrotangle, here.get(axis));
+    let routine = shape.way(routine, want, said);
     run_elsewhere(routine, shape, want, said, out)?;
     said.stand.position.set(axis, here.values[axis]);
     Ok(())

@@ -51,7 +51,7 @@ pub fn sub_call(
     if let Some(from) = from {
         subs.calls.push(Called { from, to: call.sub, place: out.place, unknown });
     }
-    let Some(routine) = shape.program.routine(SequenceId::SubCall) else {
+    let Some(base) = shape.program.routine(SequenceId::SubCall) else {
         return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
     };
     let called = subs.index(call.sub);
@@ -61,10 +61,12 @@ pub fn sub_call(
     if let Some(work) = call.work {
         want.set_work(work, shape)?;
     }
+    let routine = shape.way(base, want, said);
     let place = go_to_call(call, routine, shape, want, said, out)?;
     want.set(VarId::Sub, printed);
     want.set(VarId::Times, call.times);
     want.put(VarId::Subline, first_block);
+    let routine = shape.way(base, want, said);
     let leaves = called.is_none_or(|i| subs.defined[i].calls_ahead || !subs.defined[i].left.is_nothing());
     // a sequence that does not print how often is printed as often; so is one whose next run must begin as the first
     let together = routine.vars.has(VarId::Times) && !(leaves && call.times > 1.0);
@@ -74,6 +76,7 @@ pub fn sub_call(
     }
     for run in 0..calls {
         set_targets(&place, shape, want, said)?;
+        let routine = shape.way(base, want, said);
         if run > 0 && leaves {
             knows_after_stop(shape, want, said)?;
             print_conditions(shape, want, said, out)?;

@@ -8,7 +8,7 @@ use super::table::Subprograms;
 use crate::compile::{Op, Routine};
 use crate::diag::Code;
 use crate::lang::SequenceId;
-use crate::render::body::{Mode, go_on, is_percent, run};
+use crate::render::body::{Mode, go_on, is_percent, run_part};
 use crate::render::fault::{Done, fault};
 use crate::render::printer::Printer;
 use crate::render::said::Said;
@@ -42,7 +42,7 @@ pub fn finish(
     begin_main(shape, want, said, out, subs)?;
     check_calls(subs)?;
     set_here(shape, want, said)?;
-    let Some(routine) = shape.program.routine(SequenceId::EndCode) else { return Ok(()) };
+    let Some(routine) = shape.routine(SequenceId::EndCode, want, said) else { return Ok(()) };
     check_reading_of(routine, shape, want, said)?;
     if !has_waiting(subs) {
         return run_with_upons(routine, shape, want, said, out);
@@ -50,13 +50,13 @@ pub fn finish(
     // subprograms stand after the main program, before the `%` that ends the tape
     let percent = closing_percent(routine, shape);
     upons(routine.vars, shape, want, said, out)?;
-    run(routine.ops.start..percent, Mode::All, shape, want, said, out)?;
+    run_part(routine, routine.ops.start..percent, Mode::All, shape, want, said, out)?;
     append_waiting(out, subs);
-    go_on(percent..routine.ops.end, Mode::All, shape, want, said, out)
+    go_on(routine, percent..routine.ops.end, Mode::All, shape, want, said, out)
 }
 
 /// Where the `%` at the end of EndCode begins; its end, when there is none.
 fn closing_percent(routine: &Routine, shape: &Shape) -> usize {
-    let mut lines = routine.ops.clone().rev().filter(|&i| matches!(shape.program.ops[i], Op::Line { .. }));
+    let mut lines = routine.steps().rev().filter(|&i| matches!(shape.program.ops[i], Op::Line { .. }));
     lines.next().filter(|&line| is_percent(line, shape)).unwrap_or(routine.ops.end)
 }

@@ -84,6 +84,7 @@ fn run_section(id: SequenceId, shape: &Shape, want: &mut Want, said: &mut Said, 
     match shape.program.routine(id) {
         Some(routine) => {
             set_here(shape, want, said)?;
+            let routine = shape.way(routine, want, said);
             // an arc's code would want a centre; among cuts it stays a cut
             if matches!(said.last_move, LastMove::Cw | LastMove::Ccw) {
                 want.cutting = true;

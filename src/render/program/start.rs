@@ -2,10 +2,10 @@
 
 use super::table::Subprograms;
 use super::variables::{set_named, set_variable};
-use crate::compile::Op;
+use crate::compile::{Op, Routine};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
-use crate::render::body::{Mode, is_percent, run};
+use crate::render::body::{Mode, is_percent, run_part};
 use crate::render::fault::{Done, fault};
 use crate::render::printer::Printer;
 use crate::render::said::Said;
@@ -44,11 +44,12 @@ pub fn start(
         out.text(text, false);
         out.end_block();
     }
-    if let Some(routine) = program.routine(SequenceId::StartCode) {
+    let shape = &*shape;
+    if let Some(routine) = shape.routine(SequenceId::StartCode, want, said) {
         upons(routine.vars, shape, want, said, out)?;
         // with subprograms first only the leading `%` comes now
-        let now = if settings.subs_first { start_code_rest(shape) } else { routine.ops.end };
-        run(routine.ops.start..now, Mode::All, shape, want, said, out)?;
+        let now = if settings.subs_first { start_code_rest(routine, shape) } else { routine.ops.end };
+        run_part(routine, routine.ops.start..now, Mode::All, shape, want, said, out)?;
         subs.start_waits = settings.subs_first;
     }
     Ok(())
@@ -80,10 +81,9 @@ pub fn answers(start: &Start, shape: &Shape, want: &mut Want, out: &mut Printer)
 }
 
 /// Where StartCode is divided when subprograms come first: after its leading `%` line.
-fn start_code_rest(shape: &Shape) -> usize {
-    let Some(routine) = shape.program.routine(SequenceId::StartCode) else { return 0 };
+fn start_code_rest(routine: &Routine, shape: &Shape) -> usize {
     let ops = &shape.program.ops;
-    let mut lines = routine.ops.clone().filter(|&i| matches!(ops[i], Op::Line { .. }));
+    let mut lines = routine.steps().filter(|&i| matches!(ops[i], Op::Line { .. }));
     match lines.next() {
         Some(first) if is_percent(first, shape) => lines.next().unwrap_or(routine.ops.end),
         _ => routine.ops.start,
@@ -95,16 +95,15 @@ pub fn begin_main(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Pri
     if !std::mem::take(&mut subs.start_waits) {
         return Ok(());
     }
-    let program = shape.program;
     if !subs.defined.is_empty()
-        && let Some(routine) = program.routine(SequenceId::Between)
+        && let Some(routine) = shape.routine(SequenceId::Between, want, said)
     {
         run_with_upons(routine, shape, want, said, out)?;
     }
-    if let Some(routine) = program.routine(SequenceId::StartCode) {
+    if let Some(routine) = shape.routine(SequenceId::StartCode, want, said) {
         said.forget_words();
-        let rest = start_code_rest(shape);
-        run(rest..routine.ops.end, Mode::All, shape, want, said, out)?;
+        let rest = start_code_rest(routine, shape);
+        run_part(routine, rest..routine.ops.end, Mode::All, shape, want, said, out)?;
     }
     said.forget_place();
     want.forget(&PLACE);

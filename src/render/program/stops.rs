@@ -29,6 +29,7 @@ pub fn stop(kind: StopKind, shape: &Shape, want: &mut Want, said: &mut Said, out
     match shape.program.routine(SequenceId::Stop) {
         Some(routine) => {
             set_here(shape, want, said)?;
+            let routine = shape.way(routine, want, said);
             run_with_upons(routine, shape, want, said, out)?;
             if !routine.vars.has(VarId::Stop)
                 && !prints_code(routine, |code| shape.meaning_of(code).is_some_and(Meaning::is_stop), shape)

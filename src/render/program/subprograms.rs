@@ -58,7 +58,7 @@ pub fn sub_start(
     }
     leave_main(shape, want, said, subs);
     want.set(VarId::Sub, printed);
-    run_with_upons(routine, shape, want, said, out)
+    run_with_upons(shape.way(routine, want, said), shape, want, said, out)
 }
 
 /// Forgets what the main program knows: in a subprogram nothing is known but what it says itself.
@@ -118,7 +118,7 @@ pub fn sub_end(
         let help = "unwind in the main program: a call would leave the axis turned otherwise than the next expects";
         return fault(Code::PR033, "a rotary axis was unwound inside a subprogram", help);
     }
-    match shape.program.routine(SequenceId::SubEnd) {
+    match shape.routine(SequenceId::SubEnd, want, said) {
         Some(routine) => run_with_upons(routine, shape, want, said, out)?,
         None => return fault(Code::PR008, "the form has no SubEnd", "add SubEnd to the form"),
     }

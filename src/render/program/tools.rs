@@ -5,6 +5,7 @@ use super::sections::check_sections_closed;
 use super::start::begin_main;
 use super::table::Subprograms;
 use super::variables::set_named;
+use crate::compile::Routine;
 use crate::control::Meaning;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, TextId, VarId, VarSet};
@@ -43,17 +44,21 @@ pub fn tool_change(
     }
     set_conditions(change, changes, shape, want, out)?;
     want.texts.operation(change, shape);
-    let routine = if changes { shape.program.routine(change_of(want)) } else { None };
+    match &change.tool {
+        Some(tool) if changes => change_tool(tool, change, shape, want, said, out),
+        tool => {
+            operation_comment(change, None, shape, out);
+            tool.as_ref().map_or(Ok(()), |tool| same_registers(tool, want))
+        }
+    }
+}
+
+/// The operation's comment, unless the tool change says it.
+fn operation_comment(change: &ToolChange, routine: Option<&Routine>, shape: &Shape, out: &mut Printer) {
     let by_form = routine.is_some_and(|routine| routine.texts.has(TextId::Optext));
     if let Some(comment) = change.comment.as_ref().filter(|_| !by_form) {
         comment_block(comment, shape, out);
     }
-    match &change.tool {
-        Some(tool) if changes => change_tool(tool, &change.first, shape, want, said, out)?,
-        Some(tool) => same_registers(tool, want)?,
-        None => {}
-    }
-    Ok(())
 }
 
 /// The sequence of the next tool change.
@@ -119,13 +124,13 @@ fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut
 
 fn change_tool(
     tool: &Tool,
-    first: &First,
+    change: &ToolChange,
     shape: &mut Shape,
     want: &mut Want,
     said: &mut Said,
     out: &mut Printer,
 ) -> Done {
-    let program = shape.program;
+    let (program, first) = (shape.program, &change.first);
     if want.compensated {
         let help = "end the compensation with an `outfeed` before";
         return fault(Code::PR030, "the tool changes under cutter compensation", help);
@@ -135,7 +140,9 @@ fn change_tool(
     want.tool = Some(tool.number);
     said.stand.fresh_tool = true;
     want.tool_changes += 1;
-    let routine = program.routine(id);
+    let shape = &*shape;
+    let routine = shape.routine(id, want, said);
+    operation_comment(change, routine, shape, out);
     let first_target = match first {
         First::Rapid(to) => Some((said.stand.target(to, shape), to.given)),
         First::Hole(spec, hole) => {
@@ -150,11 +157,14 @@ fn change_tool(
     // another tool has no last position that a first rapid could keep
     said.forget_tool();
     want.forget(&[VarId::H, VarId::V, VarId::D]);
-    let Some(routine) = routine else { return Ok(()) };
+    if let Some(target) = &target {
+        set_targets(target, shape, want, said)?;
+    }
+    let Some(routine) = shape.routine(id, want, said) else { return Ok(()) };
     match &target {
-        Some(target) => set_targets(target, shape, want, said)?,
+        Some(_) => {}
         None if routine.vars.meets(POSITION) => {
-            let at = program.spans[routine.ops.clone()].first().copied();
+            let at = routine.steps().next().map(|first| program.spans[first]);
             let help = "begin the operation with a rapid to above its first cut";
             return match first {
                 First::Cut => {
@@ -214,6 +224,7 @@ fn tool_variables(tool: &Tool, shape: &mut Shape, want: &mut Want) -> Done {
     if want.tool.is_none() {
         want.set(VarId::Tool1, tool.number);
     }
+    want.set(VarId::Isfirsttool, f64::from(u8::from(want.tool.is_none())));
     want.set(VarId::Tool, tool.number);
     want.put(VarId::Toold, tool.diameter.map(|d| d * shape.scale));
     want.set(VarId::Lcomp, tool.length_offset.unwrap_or(tool.number + settings.lcomp));
@@ -226,7 +237,9 @@ fn tool_variables(tool: &Tool, shape: &mut Shape, want: &mut Want) -> Done {
             return fault(Code::PJ012, message, "list the tools in the order of their use");
         }
         let next = order.get(want.tool_changes + 1).or_else(|| order.first()).copied();
+        let is_last = want.tool_changes + 1 == order.len();
         want.put(VarId::Nexttool, next);
+        want.set(VarId::Islasttool, f64::from(u8::from(is_last)));
     }
     Ok(())
 }

@@ -44,6 +44,7 @@ impl Line {
         let ops = &shape.program.ops[begin..];
         ops.iter().take_while(|op| !matches!(op, Op::Line { .. })).any(|op| match *op {
             Op::Var { letter, var, .. } => asked(letter, Some(var)),
+            Op::Formula { letter, .. } => asked(letter, None),
             Op::Literal { index, .. } => asked(shape.program.literals[index as usize].letter, None),
             _ => false,
         })

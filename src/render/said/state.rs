@@ -9,6 +9,7 @@ use crate::control::{Code, Group, Meaning};
 use crate::lang::{Machine, VarId};
 use crate::number::quantise;
 use crate::render::shape::Shape;
+use crate::render::values::Kept;
 use crate::render::want::Want;
 use crate::sema;
 use crate::toolpath::Axes;
@@ -36,6 +37,8 @@ pub struct Said {
     pub conditions: Conditions,
     /// Where the tool stands.
     pub stand: Stand,
+    /// What the form itself has set.
+    pub kept: Kept,
     /// The value of each Upon's variable when it was used last.
     pub upon_used: Vec<Option<f64>>,
     /// The plane that the control is in: what was printed last, also before a tool change.
@@ -65,6 +68,7 @@ impl Said {
             registers: Registers::default(),
             conditions: Conditions::default(),
             stand: Stand::default(),
+            kept: Kept::default(),
             upon_used: vec![None; upons],
             plane: Code::g(17),
             distance: None,

@@ -1,0 +1,212 @@
+//! A sequence's operations, and the ways through them.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::program::{CycleStyle, Op, Program};
+use crate::control::{Code, Meaning};
+use crate::lang::{TextSet, VarId, VarSet};
+use crate::span::Span;
+
+/// A sequence's operations.
+#[derive(Clone, Debug)]
+pub struct Routine {
+    /// Which part of [`Program::ops`].
+    pub ops: Range<usize>,
+    /// Parts of `ops` that this way through the sequence leaves out, in their order.
+    pub left_out: Option<Arc<[Range<usize>]>>,
+    /// Which branches this way takes, a bit each; none: all ways together.
+    pub branches: u128,
+    /// Where directives say which lines print.
+    pub flow: Option<Arc<Flow>>,
+    /// How many lines of a cycle print at its first hole only, if it has a count.
+    pub count: Option<usize>,
+    /// Where the lines begin that an advanced cycle repeats; else the start.
+    pub repeat: usize,
+    /// The variables it prints outside comments.
+    pub vars: VarSet,
+    /// The texts of the job that it prints.
+    pub texts: TextSet,
+    /// The variables that only the lines before `repeat` print.
+    pub setup_vars: VarSet,
+    /// `End Cancel`.
+    pub cancel: bool,
+    /// The lines leave the control in a cycle, a macro or another motion of its own.
+    pub stays: bool,
+    /// How the routine prints as a cycle.
+    pub style: CycleStyle,
+    /// The routine prints `[retplane]`, `[rplane]` or G98: the tool comes back to the return plane.
+    pub returns: bool,
+    /// The name line.
+    pub span: Span,
+}
+
+/// The ways through a sequence.
+#[derive(Clone, Debug)]
+pub struct Flow {
+    /// Its parts in their order.
+    pub nodes: Vec<Node>,
+}
+
+/// A part of a sequence.
+#[derive(Clone, Debug)]
+pub enum Node {
+    /// A variable gets a value, which conditions behind it ask.
+    Set(VarId, u32),
+    /// The first branch whose condition holds.
+    If(Vec<Branch>),
+}
+
+/// A branch.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// Its bit.
+    pub number: u32,
+    /// Its row in [`Program::formulas`]; `None`: else.
+    pub condition: Option<u32>,
+    /// Which operations it has.
+    pub ops: Range<usize>,
+    /// What is in it.
+    pub nodes: Vec<Node>,
+    /// The directive.
+    pub span: Span,
+}
+
+impl Routine {
+    /// What its operations say together.
+    pub(super) fn look_at(&mut self, program: &Program) {
+        let (mut vars, mut texts, mut setup_vars) = (VarSet::default(), TextSet::default(), VarSet::default());
+        let (mut lines, mut returns, mut stays) = (0, false, false);
+        let control = program.settings.codes();
+        let mut repeat = self.ops.start;
+        for i in self.steps() {
+            let op = program.ops[i];
+            if let Op::Line { .. } = op {
+                if self.count == Some(lines) {
+                    (setup_vars, repeat) = (std::mem::take(&mut vars), i);
+                }
+                lines += 1;
+            }
+            vars = vars.with(vars_of(op, program));
+            if let Op::TextVar { var, .. } = op {
+                texts.insert(var.id);
+            }
+            if let Op::Literal { index, .. } = op {
+                let literal = &program.literals[index as usize];
+                returns |= literal.letter == b'G' && literal.value == program.settings.return_plane[1];
+            }
+            // the last code that says whether the control moves by itself counts
+            if let Some(code) = typed_code(op, program) {
+                let moves = control.moves_by_itself(code);
+                if moves || control.meaning(code).is_some_and(Meaning::ends_cycle) {
+                    stays = moves;
+                }
+            }
+        }
+        if self.count.is_some_and(|count| count >= lines) {
+            (setup_vars, repeat) = (std::mem::take(&mut vars), self.ops.end);
+        }
+        self.repeat = repeat;
+        self.setup_vars = setup_vars.without(vars);
+        self.vars = vars.with(setup_vars);
+        self.texts = texts;
+        self.stays = stays;
+        self.returns = returns || self.vars.has(VarId::Retplane) || self.vars.has(VarId::Rplane);
+    }
+
+    /// The way that takes these branches.
+    pub fn way(&self, branches: u128, program: &Program) -> Routine {
+        let mut left_out = Vec::new();
+        if let Some(flow) = &self.flow {
+            leave_out(&flow.nodes, branches, &mut left_out);
+        }
+        let mut way = Routine { left_out: Some(left_out.into()), branches, flow: None, ..self.clone() };
+        way.look_at(program);
+        way
+    }
+
+    /// Its operations.
+    #[inline]
+    pub fn steps(&self) -> Steps<'_> {
+        self.steps_in(self.ops.clone())
+    }
+
+    /// Those of its operations that lie in this part.
+    #[inline]
+    pub fn steps_in(&self, part: Range<usize>) -> Steps<'_> {
+        let left_out = self.left_out.as_deref().unwrap_or_default();
+        Steps { left: part, left_out }
+    }
+}
+
+/// The operations of a routine by their places.
+#[derive(Clone, Debug)]
+pub struct Steps<'r> {
+    left: Range<usize>,
+    left_out: &'r [Range<usize>],
+}
+
+impl Iterator for Steps<'_> {
+    type Item = usize;
+
+    #[inline]
+    fn next(&mut self) -> Option<usize> {
+        while let [first, rest @ ..] = self.left_out
+            && first.start <= self.left.start
+        {
+            self.left.start = self.left.start.max(first.end);
+            self.left_out = rest;
+        }
+        self.left.next()
+    }
+}
+
+impl DoubleEndedIterator for Steps<'_> {
+    fn next_back(&mut self) -> Option<usize> {
+        loop {
+            let last = self.left.next_back()?;
+            if !self.left_out.iter().any(|part| part.contains(&last)) {
+                return Some(last);
+            }
+        }
+    }
+}
+
+/// The operations of branches that are not taken.
+fn leave_out(nodes: &[Node], branches: u128, left_out: &mut Vec<Range<usize>>) {
+    for node in nodes {
+        let Node::If(all) = node else { continue };
+        for branch in all {
+            if branches & 1 << branch.number == 0 {
+                left_out.push(branch.ops.clone());
+            } else {
+                leave_out(&branch.nodes, branches, left_out);
+            }
+        }
+    }
+}
+
+/// The variables that an operation prints outside comments.
+fn vars_of(op: Op, program: &Program) -> VarSet {
+    match op {
+        Op::Var { var, .. } | Op::Value { var, .. } => VarSet::of(&[var]),
+        Op::Formula { index, .. } | Op::ValueFormula { index, .. } => program.formulas[index as usize].vars(),
+        _ => VarSet::default(),
+    }
+}
+
+/// The G or M code that an operation types; behind the slash of block delete, too.
+fn typed_code(op: Op, program: &Program) -> Option<Code> {
+    match op {
+        Op::Literal { index, .. } => {
+            let literal = &program.literals[index as usize];
+            Code::of(literal.letter, literal.value).filter(|_| literal.letter.is_ascii_uppercase())
+        }
+        Op::Text { index, .. } => {
+            let word = program.texts[index as usize].strip_prefix('/')?;
+            let letter = *word.as_bytes().first()?;
+            Code::of(letter, word.get(1..)?.parse().ok()?).filter(|_| letter.is_ascii_uppercase())
+        }
+        _ => None,
+    }
+}

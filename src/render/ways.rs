@@ -1,0 +1,103 @@
+//! Which way through a sequence is taken now: its conditions are asked before any of it prints.
+
+use std::cell::OnceCell;
+
+use elsa::FrozenMap;
+
+use super::fault::{Done, fault_at};
+use super::said::Said;
+use super::shape::Shape;
+use super::values::Now;
+use super::want::Want;
+use crate::compile::{Node, Routine};
+use crate::diag::{Code, Diag};
+use crate::lang::{SequenceId, VarId};
+use crate::sema::{Formula, Without};
+use crate::span::Span;
+
+/// The ways that were taken so far, each made once, by the sequence and its branches.
+#[derive(Default)]
+pub struct Ways {
+    known: FrozenMap<(usize, usize, u128), Box<Routine>>,
+    /// A condition could not be asked.
+    fault: OnceCell<Box<Diag>>,
+}
+
+impl Ways {
+    /// Were all conditions so far such that they can be asked?
+    #[inline]
+    pub fn check(&self) -> Done {
+        self.fault.get().map_or(Ok(()), |diag| Err(diag.clone()))
+    }
+}
+
+impl Shape<'_> {
+    /// The way through a sequence that is taken now, if the form has the sequence.
+    #[inline]
+    pub fn routine(&self, id: SequenceId, want: &Want, said: &Said) -> Option<&Routine> {
+        self.program.routine(id).map(|routine| self.way(routine, want, said))
+    }
+
+    /// The way through a routine that is taken now.
+    #[inline]
+    pub fn way<'s>(&'s self, routine: &'s Routine, want: &Want, said: &Said) -> &'s Routine {
+        if routine.flow.is_none() { routine } else { self.chosen(routine, want, said) }
+    }
+
+    fn chosen<'s>(&'s self, routine: &'s Routine, want: &Want, said: &Said) -> &'s Routine {
+        let mut branches = 0;
+        if let Some(flow) = &routine.flow {
+            choose(&flow.nodes, &mut Vec::new(), &mut branches, self, want, said);
+        }
+        let key = (routine.ops.start, routine.ops.end, branches);
+        self.ways
+            .known
+            .get(&key)
+            .unwrap_or_else(|| self.ways.known.insert(key, Box::new(routine.way(branches, self.program))))
+    }
+}
+
+/// Asks the conditions of a sequence in their order; `set` is what its directives have set before.
+fn choose(nodes: &[Node], set: &mut Vec<(VarId, f64)>, branches: &mut u128, shape: &Shape, want: &Want, said: &Said) {
+    for node in nodes {
+        match node {
+            Node::Set(var, index) => {
+                let now = Now { shape, want, said, letter: b' ', block: None, set };
+                // printing it says what is wrong
+                if let Ok(value) = shape.program.formulas[*index as usize].number(&now) {
+                    set.push((*var, value));
+                }
+            }
+            Node::If(all) => {
+                let taken = all.iter().find(|branch| {
+                    let now = Now { shape, want, said, letter: b' ', block: None, set };
+                    branch
+                        .condition
+                        .is_none_or(|index| holds(&shape.program.formulas[index as usize], branch.span, &now))
+                });
+                if let Some(branch) = taken {
+                    *branches |= 1 << branch.number;
+                    choose(&branch.nodes, set, branches, shape, want, said);
+                }
+            }
+        }
+    }
+}
+
+fn holds(condition: &Formula, span: Span, now: &Now) -> bool {
+    match condition.holds(now) {
+        Ok(holds) => holds,
+        Err(without) => {
+            if let (Without::Divisor(_), Err(diag)) = (without, division_by_zero::<()>(Some(span))) {
+                _ = now.shape.ways.fault.set(diag);
+            }
+            false
+        }
+    }
+}
+
+/// The error of a division by zero.
+#[cold]
+pub fn division_by_zero<T>(at: Option<Span>) -> Done<T> {
+    fault_at(Code::PR051, "a division by zero", "ask before it, as `@if [pitch] > 0`", at)
+}

@@ -1,0 +1,265 @@
+//! Expressions of a form: names found, types checked, what is wrong reported.
+
+use super::formula::{Arithmetic, Comparison, Formula, Function, NoValues};
+use super::names::{Context, variable};
+use super::value_names::names_of;
+use crate::diag::{Code, Diag};
+use crate::lang::{TextVar, VarId, VarSet, did_you_mean};
+use crate::span::Span;
+use crate::syntax::{Expr, ExprKind, Operator, Spanned, Unread};
+
+/// Variables that are 1 or 0: a condition asks them as they are.
+const YES_OR_NO: VarSet =
+    VarSet::of(&[VarId::Lasthole, VarId::Isfirsthole, VarId::Rigid, VarId::Isfirsttool, VarId::Islasttool]);
+
+/// What an expression is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Number,
+    Text,
+    YesNo,
+}
+
+impl Kind {
+    fn name(self) -> &'static str {
+        match self {
+            Kind::Number => "a number",
+            Kind::Text => "a text",
+            Kind::YesNo => "yes or no",
+        }
+    }
+}
+
+/// A number, as between the brackets of a word.
+pub fn number(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
+    let expr = read(expr, diags)?;
+    let (formula, kind) = typed(expr, context, diags)?;
+    wants(kind, Kind::Number, expr.span, diags)?;
+    Some(formula)
+}
+
+/// A condition. A variable alone asks whether it has a value.
+pub fn condition(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
+    asked(read(expr, diags)?, context, diags)
+}
+
+fn read<'a>(expr: &'a Result<Expr, Unread>, diags: &mut Vec<Diag>) -> Option<&'a Expr> {
+    match expr {
+        Ok(expr) => Some(expr),
+        Err(unread) => {
+            let help = "write names, numbers, + - * / and brackets, as `[vclear-pointd]`; text of the control with brackets \
+                        stands in backquotes";
+            diags.push(
+                Diag::new(Code::PF703, format!("the expression can't be read: {}", unread.why))
+                    .at(unread.span, "here")
+                    .help(help),
+            );
+            None
+        }
+    }
+}
+
+fn wants(kind: Kind, wanted: Kind, span: Span, diags: &mut Vec<Diag>) -> Option<()> {
+    if kind == wanted {
+        return Some(());
+    }
+    let help = match (kind, wanted) {
+        (Kind::Text, Kind::Number) => {
+            "a text is compared with `=` and `like`; printed, it stands by itself: `[toolname]`"
+        }
+        (Kind::YesNo, Kind::Number) => "ask it in a condition: `@if`",
+        _ => "compare it: `[speed] > 0`, `[toolname] like \"DRILL*\"`",
+    };
+    diags.push(
+        Diag::new(Code::PF704, format!("{} where {} is needed", kind.name(), wanted.name()))
+            .at(span, format!("this is {}", kind.name()))
+            .help(help),
+    );
+    None
+}
+
+/// A part that is asked whether it holds.
+fn asked(expr: &Expr, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
+    let (formula, kind) = typed(expr, context, diags)?;
+    match (formula, kind) {
+        (Formula::Var(var), _) if YES_OR_NO.has(var) => Some(Formula::True(var)),
+        (Formula::Var(var), _) => Some(Formula::Has(var)),
+        (Formula::TextVar(id), _) => Some(Formula::HasText(id)),
+        (formula, kind) => wants(kind, Kind::YesNo, expr.span, diags).map(|()| formula),
+    }
+}
+
+fn typed(expr: &Expr, context: &Context, diags: &mut Vec<Diag>) -> Option<(Formula, Kind)> {
+    Some(match &expr.kind {
+        ExprKind::Number(text) => (Formula::Number(text.parse().ok()?), Kind::Number),
+        ExprKind::Text(text) => (Formula::Text(text.clone()), Kind::Text),
+        ExprKind::Variable(name) => match TextVar::parse(name) {
+            Some(text) => (Formula::TextVar(text.id), Kind::Text),
+            None => {
+                let name = Spanned { text: name.clone(), span: expr.span };
+                (Formula::Var(variable(&name, context.machine, diags)?), Kind::Number)
+            }
+        },
+        ExprKind::Word(word) => {
+            let help = match VarId::parse(word) {
+                Some(var) => format!("a variable stands between brackets: `[{}]`", var.name()),
+                None => {
+                    "a name of a value is compared with its variable: `[direct] = cw`; text stands in quotes".into()
+                }
+            };
+            diags
+                .push(Diag::new(Code::PF706, format!("`{word}` is no value")).at(expr.span, "a name alone").help(help));
+            return None;
+        }
+        ExprKind::Call(name, args) => (call(name, args, context, diags)?, Kind::Number),
+        ExprKind::Unary(Operator::Not, of) => (Formula::Not(Box::new(asked(of, context, diags)?)), Kind::YesNo),
+        ExprKind::Unary(_, of) => {
+            let (formula, kind) = typed(of, context, diags)?;
+            wants(kind, Kind::Number, of.span, diags)?;
+            (Formula::Negative(Box::new(formula)), Kind::Number)
+        }
+        ExprKind::Binary(operator, sides) => return binary(*operator, sides, context, diags),
+    })
+}
+
+fn call(name: &Spanned, args: &[Expr], context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
+    let names = || Function::ALL.iter().map(|(name, _)| *name);
+    let Some(function) = Function::parse(&name.text) else {
+        let help = did_you_mean(&name.text, names());
+        let all = || format!("there are {}", names().collect::<Vec<_>>().join(", "));
+        diags.push(
+            Diag::new(Code::PF703, format!("`{}` is no function", name.text))
+                .at(name.span, "unknown")
+                .help(help.unwrap_or_else(all)),
+        );
+        return None;
+    };
+    if args.len() > 1 && !function.takes_several() {
+        diags.push(
+            Diag::new(Code::PF703, format!("{} takes one number", name.text))
+                .at(args[1].span, "one too many")
+                .help("take it out; `min` and `max` take several"),
+        );
+        return None;
+    }
+    let numbers = args.iter().map(|arg| {
+        let (formula, kind) = typed(arg, context, diags)?;
+        wants(kind, Kind::Number, arg.span, diags)?;
+        Some(formula)
+    });
+    Some(Formula::Call(function, numbers.collect::<Option<Vec<_>>>()?))
+}
+
+fn binary(operator: Operator, sides: &[Expr; 2], context: &Context, diags: &mut Vec<Diag>) -> Option<(Formula, Kind)> {
+    let [left, right] = sides;
+    let arithmetic = match operator {
+        Operator::Add => Arithmetic::Add,
+        Operator::Subtract => Arithmetic::Subtract,
+        Operator::Multiply => Arithmetic::Multiply,
+        Operator::Divide => Arithmetic::Divide,
+        Operator::And | Operator::Or => {
+            let both = Box::new([asked(left, context, diags)?, asked(right, context, diags)?]);
+            let formula = if operator == Operator::And { Formula::And(both) } else { Formula::Or(both) };
+            return Some((formula, Kind::YesNo));
+        }
+        _ => return compared(operator, left, right, context, diags).map(|formula| (formula, Kind::YesNo)),
+    };
+    let mut number = |side: &Expr| {
+        let (formula, kind) = typed(side, context, diags)?;
+        wants(kind, Kind::Number, side.span, diags).map(|()| formula)
+    };
+    let both = Box::new([number(left)?, number(right)?]);
+    let zero = both[1].is_constant() && both[1].number(&NoValues) == Ok(0.0);
+    if arithmetic == Arithmetic::Divide && zero {
+        diags.push(
+            Diag::new(Code::PF705, "a division by zero").at(right.span, "this is 0").help("divide by something else"),
+        );
+        return None;
+    }
+    let span = Span { start: left.span.end, end: right.span.start, ..left.span };
+    Some((Formula::Arithmetic(arithmetic, both, span), Kind::Number))
+}
+
+fn compared(
+    operator: Operator,
+    left: &Expr,
+    right: &Expr,
+    context: &Context,
+    diags: &mut Vec<Diag>,
+) -> Option<Formula> {
+    let word = |side: &Expr| if let ExprKind::Word(word) = &side.kind { Some(word.clone()) } else { None };
+    // a bare name is what its partner makes of it
+    let both = match (word(left), word(right)) {
+        (None, Some(word)) => {
+            let (formula, kind) = typed(left, context, diags)?;
+            let named = named(&word, right.span, &formula, kind, context, diags)?;
+            [(formula, kind), named]
+        }
+        (Some(word), None) => {
+            let (formula, kind) = typed(right, context, diags)?;
+            let named = named(&word, left.span, &formula, kind, context, diags)?;
+            [named, (formula, kind)]
+        }
+        _ => [typed(left, context, diags)?, typed(right, context, diags)?],
+    };
+    let [(left_formula, left_kind), (right_formula, right_kind)] = both;
+    if operator == Operator::Like {
+        wants(left_kind, Kind::Text, left.span, diags)?;
+        let Formula::Text(pattern) = right_formula else {
+            diags.push(
+                Diag::new(Code::PF704, "`like` compares with a pattern in quotes")
+                    .at(right.span, "this is none")
+                    .help("write `[toolname] like \"DRILL*\"`; `*` stands for any text, `?` for one character"),
+            );
+            return None;
+        };
+        return Some(Formula::Like(Box::new(left_formula), pattern));
+    }
+    if left_kind != right_kind {
+        wants(right_kind, left_kind, right.span, diags)?;
+    }
+    let comparison = match operator {
+        Operator::Unequal => Comparison::Unequal,
+        Operator::Less => Comparison::Less,
+        Operator::AtMost => Comparison::AtMost,
+        Operator::Greater => Comparison::Greater,
+        Operator::AtLeast => Comparison::AtLeast,
+        _ => Comparison::Equal,
+    };
+    Some(Formula::Compare(comparison, Box::new([left_formula, right_formula])))
+}
+
+/// What a bare name is beside this.
+fn named(
+    word: &str,
+    span: Span,
+    beside: &Formula,
+    kind: Kind,
+    context: &Context,
+    diags: &mut Vec<Diag>,
+) -> Option<(Formula, Kind)> {
+    if kind == Kind::Text {
+        return Some((Formula::Text(word.to_owned()), Kind::Text));
+    }
+    let names = match beside {
+        Formula::Var(var) if YES_OR_NO.has(*var) => vec![("yes", 1.0), ("no", 0.0)],
+        Formula::Var(var) => names_of(*var, context.settings),
+        _ => Vec::new(),
+    };
+    if let Some((_, value)) = names.iter().find(|(name, _)| name.eq_ignore_ascii_case(word)) {
+        return Some((Formula::Number(*value), Kind::Number));
+    }
+    let shown = match beside {
+        Formula::Var(var) => format!("[{}]", var.name()),
+        _ => "what it is compared with".to_owned(),
+    };
+    let list = || names.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+    let help = match names.is_empty() {
+        true => "compare it with a number; a text stands in quotes".to_owned(),
+        false => {
+            did_you_mean(word, names.iter().map(|(name, _)| *name)).unwrap_or_else(|| format!("take one of {}", list()))
+        }
+    };
+    diags.push(Diag::new(Code::PF706, format!("`{word}` is no value of {shown}")).at(span, "unknown").help(help));
+    None
+}

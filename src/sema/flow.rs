@@ -1,0 +1,211 @@
+//! Directives of a sequence: which of its lines print when.
+
+use super::expression::{condition, number};
+use super::formula::{Formula, NoValues};
+use super::names::Context;
+use super::step::{Arm, Step};
+use crate::diag::{Code, Diag};
+use crate::lang::{DIRECTIVES, Origin, Unit, VarId, did_you_mean};
+use crate::span::Span;
+use crate::syntax::{Directive, DirectiveKind, Spanned};
+
+/// How deep directives may lie in each other.
+pub const DEEPEST: usize = 8;
+/// How many branches a sequence may have: each has its bit.
+pub const MOST_ARMS: usize = 128;
+
+/// Puts the lines of a sequence and its directives together.
+#[derive(Default)]
+pub struct Flow {
+    /// What is closed so far, on each level that is open.
+    levels: Vec<Level>,
+    /// The outermost level.
+    steps: Vec<Step>,
+    arms: usize,
+    /// A directive was there.
+    any: bool,
+}
+
+/// An `@if` that waits for its `@end`.
+struct Level {
+    /// The `@if`.
+    span: Span,
+    arms: Vec<Arm>,
+    has_else: bool,
+}
+
+impl Flow {
+    fn steps(&mut self) -> &mut Vec<Step> {
+        match self.levels.last_mut().and_then(|level| level.arms.last_mut()) {
+            Some(arm) => &mut arm.steps,
+            None => &mut self.steps,
+        }
+    }
+
+    /// A line that prints.
+    pub fn line(&mut self, index: usize) {
+        match self.steps().last_mut() {
+            Some(Step::Lines(lines)) => lines.end = index + 1,
+            _ => self.steps().push(Step::Lines(index..index + 1)),
+        }
+    }
+
+    /// A directive.
+    pub fn directive(&mut self, directive: &Directive, context: &Context, diags: &mut Vec<Diag>) {
+        self.any = true;
+        let at = directive.name.span;
+        let name = &directive.name.text;
+        let mut wrong = |message: String, label: &str, help: &str| {
+            diags.push(Diag::new(Code::PF707, message).at(at, label).help(help));
+        };
+        match &directive.kind {
+            DirectiveKind::If(asked) => {
+                if self.levels.len() == DEEPEST {
+                    wrong(
+                        format!("directives lie more than {DEEPEST} deep"),
+                        "one too many",
+                        "ask for both with `and`, or go on with `@elif`",
+                    );
+                }
+                let condition = self.condition(asked, directive, context, diags);
+                let arm = Arm { span: at.to(directive.rest.span), condition, steps: Vec::new() };
+                self.levels.push(Level { span: at, arms: vec![arm], has_else: false });
+                self.count_arm(at, diags);
+            }
+            DirectiveKind::Elif(_) | DirectiveKind::Else | DirectiveKind::End if self.levels.is_empty() => {
+                wrong(format!("{name} without its @if"), "no @if is open here", "take it out, or write `@if` above it");
+            }
+            DirectiveKind::Elif(asked) => {
+                self.no_more_behind_else(name, at, diags);
+                let condition = self.condition(asked, directive, context, diags);
+                self.arm(Arm { span: at.to(directive.rest.span), condition, steps: Vec::new() }, diags);
+            }
+            DirectiveKind::Else => {
+                self.nothing_behind(directive, diags);
+                self.no_more_behind_else(name, at, diags);
+                self.arm(Arm { span: at, condition: None, steps: Vec::new() }, diags);
+                if let Some(level) = self.levels.last_mut() {
+                    level.has_else = true;
+                }
+            }
+            DirectiveKind::End => {
+                self.nothing_behind(directive, diags);
+                self.close();
+            }
+            DirectiveKind::Set(target, value) => {
+                let target = settable(target, diags);
+                let value = number(value, context, diags);
+                if let (Some(var), Some(value)) = (target, value) {
+                    self.steps().push(Step::Set(var, value, directive.rest.span));
+                }
+            }
+            DirectiveKind::For | DirectiveKind::Unknown => {
+                let names = || DIRECTIVES.iter().map(|row| row.name);
+                let all = || names().collect::<Vec<_>>().join(", ");
+                let all = || format!("there are {}; other text with @ stands in backquotes", all());
+                let help = did_you_mean(name, names()).unwrap_or_else(all);
+                wrong(format!("`{name}` is no directive"), "unknown", &help);
+            }
+        }
+    }
+
+    /// All of it, as far as directives make it more than lines. An open `@if` is reported.
+    pub fn finish(mut self, diags: &mut Vec<Diag>) -> Option<Vec<Step>> {
+        if let Some(level) = self.levels.last() {
+            diags.push(
+                Diag::new(Code::PF707, "@if without its @end")
+                    .at(level.span, "open to the end of the sequence")
+                    .help("write `@end` behind its last line"),
+            );
+        }
+        while !self.levels.is_empty() {
+            self.close();
+        }
+        self.any.then_some(self.steps)
+    }
+
+    fn close(&mut self) {
+        if let Some(level) = self.levels.pop() {
+            self.steps().push(Step::If(level.arms));
+        }
+    }
+
+    fn arm(&mut self, arm: Arm, diags: &mut Vec<Diag>) {
+        self.count_arm(arm.span, diags);
+        if let Some(level) = self.levels.last_mut() {
+            level.arms.push(arm);
+        }
+    }
+
+    fn count_arm(&mut self, at: Span, diags: &mut Vec<Diag>) {
+        self.arms += 1;
+        if self.arms == MOST_ARMS + 1 {
+            diags.push(
+                Diag::new(Code::PF707, format!("a sequence with more than {MOST_ARMS} branches"))
+                    .at(at, "one too many")
+                    .help("make it simpler: nobody can try them all"),
+            );
+        }
+    }
+
+    fn no_more_behind_else(&self, name: &str, at: Span, diags: &mut Vec<Diag>) {
+        if self.levels.last().is_some_and(|level| level.has_else) {
+            diags.push(
+                Diag::new(Code::PF707, format!("{name} behind @else"))
+                    .at(at, "this would never print")
+                    .help("`@else` is the last branch: put it behind this one"),
+            );
+        }
+    }
+
+    fn nothing_behind(&self, directive: &Directive, diags: &mut Vec<Diag>) {
+        if !directive.rest.text.is_empty() {
+            let name = directive.name.text.to_ascii_lowercase();
+            let help = if name == "@else" { "write `@elif` for another condition" } else { "take it out" };
+            diags.push(
+                Diag::new(Code::PF707, format!("words behind {name}"))
+                    .at(directive.rest.span, "nothing stands here")
+                    .help(help),
+            );
+        }
+    }
+
+    fn condition(
+        &self,
+        asked: &Result<crate::syntax::Expr, crate::syntax::Unread>,
+        directive: &Directive,
+        context: &Context,
+        diags: &mut Vec<Diag>,
+    ) -> Option<Formula> {
+        // one that can't be read holds like any other: the form does not print
+        let formula = condition(asked, context, diags).unwrap_or(Formula::Has(VarId::H));
+        if formula.is_constant()
+            && let Ok(holds) = formula.holds(&NoValues)
+        {
+            let what = if holds { "always true" } else { "never true" };
+            let help = if holds { "take the condition out" } else { "take its lines out" };
+            diags.push(
+                Diag::new(Code::PF708, format!("a condition that is {what}"))
+                    .at(directive.rest.span, "nothing in it changes")
+                    .help(format!("{help}, or ask for a variable: `[speed] > 0`")),
+            );
+        }
+        Some(formula)
+    }
+}
+
+/// The variable that `@set` gives a value.
+fn settable(target: &Spanned, diags: &mut Vec<Diag>) -> Option<VarId> {
+    let free = |var: &VarId| {
+        var.row().origin == Origin::Job && var.row().unit == Unit::Number && var.name().starts_with("val")
+    };
+    let var = VarId::parse(&target.text).filter(free);
+    if var.is_none() {
+        diags.push(
+            Diag::new(Code::PF707, format!("`{}` can't be set by a form", target.text))
+                .at(target.span, "no variable of its own")
+                .help("val1 to val10 are free: `@set val1 = [h]+2`"),
+        );
+    }
+    var
+}

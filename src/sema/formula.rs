@@ -1,0 +1,359 @@
+//! Expressions with their names resolved and their types known, and the one function that calculates them.
+
+use std::borrow::Cow;
+
+use crate::lang::{TextId, TextSet, VarId, VarSet};
+use crate::span::Span;
+
+/// A calculation or a condition.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Formula {
+    /// A number.
+    Number(f64),
+    /// A text.
+    Text(String),
+    /// Yes or no.
+    Yes(bool),
+    /// A variable's value.
+    Var(VarId),
+    /// A text of the job.
+    TextVar(TextId),
+    /// Has the variable a value?
+    Has(VarId),
+    /// Is the variable, which is 1 or 0, 1?
+    True(VarId),
+    /// Is the text there?
+    HasText(TextId),
+    /// The other sign.
+    Negative(Box<Formula>),
+    /// Two numbers make one; the place is the operator's.
+    Arithmetic(Arithmetic, Box<[Formula; 2]>, Span),
+    /// A function of numbers.
+    Call(Function, Vec<Formula>),
+    /// Two values compared.
+    Compare(Comparison, Box<[Formula; 2]>),
+    /// A text compared with a pattern.
+    Like(Box<Formula>, String),
+    /// The contrary.
+    Not(Box<Formula>),
+    /// Both.
+    And(Box<[Formula; 2]>),
+    /// One of them, or both.
+    Or(Box<[Formula; 2]>),
+}
+
+/// What makes one number of two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// `+`.
+    Add,
+    /// `-`.
+    Subtract,
+    /// `*`.
+    Multiply,
+    /// `/`.
+    Divide,
+}
+
+/// How two values are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comparison {
+    /// `=`.
+    Equal,
+    /// `<>`.
+    Unequal,
+    /// `<`.
+    Less,
+    /// `<=`.
+    AtMost,
+    /// `>`.
+    Greater,
+    /// `>=`.
+    AtLeast,
+}
+
+/// Functions of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Function {
+    /// Without its sign.
+    Abs,
+    /// The least.
+    Min,
+    /// The greatest.
+    Max,
+    /// To the nearest whole number, half away from zero.
+    Round,
+    /// To the whole number below.
+    Floor,
+    /// To the whole number above.
+    Ceil,
+}
+
+impl Function {
+    /// All functions by their names.
+    pub const ALL: [(&'static str, Function); 6] = [
+        ("abs", Function::Abs),
+        ("min", Function::Min),
+        ("max", Function::Max),
+        ("round", Function::Round),
+        ("floor", Function::Floor),
+        ("ceil", Function::Ceil),
+    ];
+
+    /// Finds a name in any case.
+    pub fn parse(name: &str) -> Option<Function> {
+        Function::ALL.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, function)| *function)
+    }
+
+    /// Does it take several numbers?
+    pub fn takes_several(self) -> bool {
+        matches!(self, Function::Min | Function::Max)
+    }
+
+    fn of(self, values: &[f64]) -> f64 {
+        let first = values.first().copied().unwrap_or_default();
+        match self {
+            Function::Abs => first.abs(),
+            Function::Min => values.iter().copied().fold(first, f64::min),
+            Function::Max => values.iter().copied().fold(first, f64::max),
+            Function::Round => first.round(),
+            Function::Floor => first.floor(),
+            Function::Ceil => first.ceil(),
+        }
+    }
+}
+
+/// Where values come from.
+pub trait Values {
+    /// The value that a variable prints now; `None`: it has none.
+    fn number(&self, var: VarId) -> Option<f64>;
+    /// A text; empty where the job has none.
+    fn text(&self, id: TextId) -> &str;
+}
+
+/// No values: what is calculated without them is always the same.
+pub struct NoValues;
+
+impl Values for NoValues {
+    fn number(&self, _: VarId) -> Option<f64> {
+        None
+    }
+
+    fn text(&self, _: TextId) -> &str {
+        ""
+    }
+}
+
+/// What comes out.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value<'a> {
+    /// A number.
+    Number(f64),
+    /// A text.
+    Text(Cow<'a, str>),
+    /// Yes or no.
+    Yes(bool),
+}
+
+/// Why nothing comes out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Without {
+    /// A variable has no value.
+    Value(VarId),
+    /// A division by zero, at this operator.
+    Divisor(Span),
+}
+
+impl Formula {
+    /// Calculates.
+    ///
+    /// # Errors
+    /// A variable has no value, or something is divided by zero.
+    pub fn value<'a>(&'a self, values: &'a dyn Values) -> Result<Value<'a>, Without> {
+        Ok(match self {
+            Formula::Text(text) => Value::Text(Cow::Borrowed(text)),
+            Formula::TextVar(id) => Value::Text(Cow::Borrowed(values.text(*id))),
+            Formula::Yes(_)
+            | Formula::Has(_)
+            | Formula::True(_)
+            | Formula::HasText(_)
+            | Formula::Compare(..)
+            | Formula::Like(..)
+            | Formula::Not(_)
+            | Formula::And(_)
+            | Formula::Or(_) => Value::Yes(self.holds(values)?),
+            _ => Value::Number(self.number(values)?),
+        })
+    }
+
+    /// Calculates a number.
+    ///
+    /// # Errors
+    /// As [`Formula::value`].
+    pub fn number(&self, values: &dyn Values) -> Result<f64, Without> {
+        match self {
+            Formula::Number(number) => Ok(*number),
+            Formula::Var(var) => values.number(*var).ok_or(Without::Value(*var)),
+            Formula::Negative(of) => Ok(-of.number(values)?),
+            Formula::Arithmetic(operator, sides, span) => {
+                let (left, right) = (sides[0].number(values)?, sides[1].number(values)?);
+                match operator {
+                    Arithmetic::Add => Ok(left + right),
+                    Arithmetic::Subtract => Ok(left - right),
+                    Arithmetic::Multiply => Ok(left * right),
+                    Arithmetic::Divide if right == 0.0 => Err(Without::Divisor(*span)),
+                    Arithmetic::Divide => Ok(left / right),
+                }
+            }
+            Formula::Call(function, args) => {
+                let args: Result<Vec<f64>, Without> = args.iter().map(|arg| arg.number(values)).collect();
+                Ok(function.of(&args?))
+            }
+            // sema has checked the types
+            _ => Ok(f64::from(u8::from(self.holds(values)?))),
+        }
+    }
+
+    /// Does a condition hold? A comparison with a variable that has no value does not.
+    ///
+    /// # Errors
+    /// Something is divided by zero.
+    pub fn holds(&self, values: &dyn Values) -> Result<bool, Without> {
+        let without = |error| match error {
+            Without::Value(_) => Ok(false),
+            Without::Divisor(_) => Err(error),
+        };
+        match self {
+            Formula::Yes(yes) => Ok(*yes),
+            Formula::Has(var) => Ok(values.number(*var).is_some()),
+            Formula::True(var) => Ok(values.number(*var).is_some_and(|value| value != 0.0)),
+            Formula::HasText(id) => Ok(!values.text(*id).is_empty()),
+            Formula::Compare(comparison, sides) => match (sides[0].value(values), sides[1].value(values)) {
+                (Ok(left), Ok(right)) => Ok(comparison.holds(&left, &right)),
+                (Err(error), _) | (_, Err(error)) => without(error),
+            },
+            Formula::Like(text, pattern) => match text.value(values) {
+                Ok(Value::Text(text)) => Ok(is_like(&text, pattern)),
+                Ok(_) => Ok(false),
+                Err(error) => without(error),
+            },
+            Formula::Not(of) => Ok(!of.holds(values)?),
+            Formula::And(both) => Ok(both[0].holds(values)? && both[1].holds(values)?),
+            Formula::Or(both) => Ok(both[0].holds(values)? || both[1].holds(values)?),
+            // sema has checked the types
+            _ => Ok(false),
+        }
+    }
+
+    /// Takes every part, the whole first.
+    pub fn each(&self, take: &mut dyn FnMut(&Formula)) {
+        take(self);
+        match self {
+            Formula::Negative(of) | Formula::Not(of) | Formula::Like(of, _) => of.each(take),
+            Formula::Arithmetic(_, both, _) | Formula::Compare(_, both) | Formula::And(both) | Formula::Or(both) => {
+                both.iter().for_each(|side| side.each(take));
+            }
+            Formula::Call(_, args) => args.iter().for_each(|arg| arg.each(take)),
+            _ => {}
+        }
+    }
+
+    /// The variables that it asks.
+    pub fn vars(&self) -> VarSet {
+        let mut vars = VarSet::default();
+        self.each(&mut |part| {
+            if let Formula::Var(var) | Formula::Has(var) | Formula::True(var) = part {
+                vars.insert(*var);
+            }
+        });
+        vars
+    }
+
+    /// The texts that it asks.
+    pub fn texts(&self) -> TextSet {
+        let mut texts = TextSet::default();
+        self.each(&mut |part| {
+            if let Formula::TextVar(id) | Formula::HasText(id) = part {
+                texts.insert(*id);
+            }
+        });
+        texts
+    }
+
+    /// Is it always the same?
+    pub fn is_constant(&self) -> bool {
+        self.vars().is_empty() && self.texts() == TextSet::default()
+    }
+}
+
+impl Comparison {
+    fn holds(self, left: &Value, right: &Value) -> bool {
+        use std::cmp::Ordering::{Equal, Greater, Less};
+        let order = match (left, right) {
+            (Value::Number(left), Value::Number(right)) => left.partial_cmp(right),
+            (Value::Text(left), Value::Text(right)) => Some(left.cmp(right)),
+            (Value::Yes(left), Value::Yes(right)) => Some(left.cmp(right)),
+            _ => None,
+        };
+        let Some(order) = order else { return false };
+        match self {
+            Comparison::Equal => order == Equal,
+            Comparison::Unequal => order != Equal,
+            Comparison::Less => order == Less,
+            Comparison::AtMost => order != Greater,
+            Comparison::Greater => order == Greater,
+            Comparison::AtLeast => order != Less,
+        }
+    }
+}
+
+/// Is a text like a pattern? `*` stands for any text, `?` for one character; case does not count.
+fn is_like(text: &str, pattern: &str) -> bool {
+    let text: Vec<char> = text.chars().flat_map(char::to_lowercase).collect();
+    let pattern: Vec<char> = pattern.chars().flat_map(char::to_lowercase).collect();
+    let (mut at, mut asked) = (0, 0);
+    // where the last `*` stands, and how much of the text it covers so far
+    let mut star: Option<(usize, usize)> = None;
+    while at < text.len() {
+        match pattern.get(asked) {
+            Some('*') => {
+                star = Some((asked, at));
+                asked += 1;
+            }
+            Some(&c) if c == '?' || c == text[at] => {
+                at += 1;
+                asked += 1;
+            }
+            _ => {
+                let Some((before, covered)) = star else { return false };
+                star = Some((before, covered + 1));
+                (asked, at) = (before + 1, covered + 1);
+            }
+        }
+    }
+    pattern[asked..].iter().all(|&c| c == '*')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_have_stars() {
+        for pattern in ["DRILL 8", "drill*", "*8", "*ill*", "d?ill ?", "*", "**8", "d*i*8"] {
+            assert!(is_like("Drill 8", pattern), "{pattern}");
+        }
+        for pattern in ["drill", "", "*9", "d?ll*", "?", "drill 8?"] {
+            assert!(!is_like("Drill 8", pattern), "{pattern}");
+        }
+        assert!(is_like("", "") && is_like("", "*") && !is_like("", "?"));
+        assert!(!is_like(&"a".repeat(5000), &format!("{}b", "a*".repeat(100))));
+    }
+
+    #[test]
+    fn functions_round_half_away_from_zero() {
+        let of = |name: &str, values: &[f64]| Function::parse(name).unwrap().of(values);
+        assert_eq!([of("Round", &[-2.5]), of("floor", &[-2.5]), of("ceil", &[-2.5])], [-3.0, -3.0, -2.0]);
+        assert_eq!([of("min", &[3.0, 1.0, 2.0]), of("max", &[3.0, 1.0]), of("abs", &[-1.0])], [1.0, 3.0, 1.0]);
+    }
+}

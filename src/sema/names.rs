@@ -1,0 +1,40 @@
+//! What words and conditions of a form have in common, and the names of variables in them.
+
+use super::settings::Settings;
+use crate::diag::{Code, Diag};
+use crate::lang::{Machine, TEXTS, VARIABLES, VarId, did_you_mean};
+use crate::syntax::Spanned;
+
+/// What the words of a form have in common.
+pub struct Context<'a> {
+    /// The form's machine.
+    pub machine: Machine,
+    /// The marks around comments; the second is empty where they run to the end of the block.
+    pub comment: &'a [String; 2],
+    /// What the form's commands say.
+    pub settings: &'a Settings,
+}
+
+/// Reads the name of a variable; reports it when there is none, or none on this machine.
+pub fn variable(name: &Spanned, machine: Machine, diags: &mut Vec<Diag>) -> Option<VarId> {
+    let Some(var) = VarId::parse(&name.text) else {
+        let known = VARIABLES.iter().filter(|v| v.machines.has(machine)).map(|v| v.name);
+        let known = known.chain(TEXTS.iter().map(|text| text.name));
+        let mut diag = Diag::new(Code::PF202, format!("`{}` is no variable", name.text)).at(name.span, "unknown");
+        diag.help = did_you_mean(&name.text, known);
+        if name.text.split_once(':').is_some_and(|(name, _)| VarId::parse(name).is_some()) {
+            diag.help = Some("only texts have a width: that of a number comes from its letter's format".into());
+        }
+        diags.push(diag);
+        return None;
+    };
+    let machines = var.row().machines;
+    if !machines.has(machine) {
+        diags.push(
+            Diag::new(Code::PF604, format!("`{}` is for {machines}, this form is for {}", var.name(), machine.name()))
+                .at(name.span, format!("not on a {}", machine.name()))
+                .help("take another variable, or say with `Machine` what the form is for"),
+        );
+    }
+    Some(var)
+}

@@ -1,0 +1,64 @@
+//! Parts of a sequence: lines, and what says which of them print.
+
+use std::ops::Range;
+
+use super::formula::Formula;
+use crate::lang::VarId;
+use crate::span::Span;
+
+/// A part of a sequence.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step {
+    /// These of its lines.
+    Lines(Range<usize>),
+    /// The first arm whose condition holds; without one nothing.
+    If(Vec<Arm>),
+    /// A variable has this value from here on.
+    Set(VarId, Formula, Span),
+}
+
+/// A branch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arm {
+    /// The directive.
+    pub span: Span,
+    /// When it prints; `None`: else.
+    pub condition: Option<Formula>,
+    /// What is in it.
+    pub steps: Vec<Step>,
+}
+
+/// How many lines a sequence prints, on its shortest and on its longest way.
+pub fn line_counts(steps: &[Step]) -> (usize, usize) {
+    let mut both = (0, 0);
+    for step in steps {
+        let (least, most) = match step {
+            Step::Lines(lines) => (lines.len(), lines.len()),
+            Step::Set(..) => (0, 0),
+            Step::If(arms) => {
+                let counts = || arms.iter().map(|arm| line_counts(&arm.steps));
+                let else_is_said = arms.last().is_some_and(|arm| arm.condition.is_none());
+                let least = counts().map(|(least, _)| least).min().unwrap_or_default();
+                (if else_is_said { least } else { 0 }, counts().map(|(_, most)| most).max().unwrap_or_default())
+            }
+        };
+        both = (both.0 + least, both.1 + most);
+    }
+    both
+}
+
+/// All formulas of steps.
+pub fn each_formula(steps: &[Step], take: &mut dyn FnMut(&Formula)) {
+    for step in steps {
+        match step {
+            Step::Lines(_) => {}
+            Step::Set(_, value, _) => take(value),
+            Step::If(arms) => {
+                for arm in arms {
+                    arm.condition.iter().for_each(&mut *take);
+                    each_formula(&arm.steps, take);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,331 @@
+//! Expressions: what stands between brackets beside a plain name, and what a directive asks.
+
+use std::sync::LazyLock;
+
+use pest::Parser;
+use pest::error::InputLocation;
+use pest::iterators::{Pair, Pairs};
+use pest::pratt_parser::{Assoc, Op, PrattParser};
+
+use super::ast::Spanned;
+use super::grammar::{FormGrammar, Rule};
+use crate::span::Span;
+
+/// How deep brackets may lie in each other.
+pub const DEEPEST: usize = 32;
+/// How long an expression may be: nobody reads a longer one.
+pub const LONGEST: usize = 500;
+
+/// An expression.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Expr {
+    /// Where.
+    pub span: Span,
+    /// What.
+    pub kind: ExprKind,
+}
+
+/// The kinds of expressions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ExprKind {
+    /// A number as typed.
+    Number(String),
+    /// Text between quotes.
+    Text(String),
+    /// A name between brackets: a variable.
+    Variable(String),
+    /// A name outside brackets: what a variable may be, as `through`.
+    Word(String),
+    /// `max(h, 0)`.
+    Call(Spanned, Vec<Expr>),
+    /// `-h`, `not [lasthole]`.
+    Unary(Operator, Box<Expr>),
+    /// `h+1`, `[cool] = through`.
+    Binary(Operator, Box<[Expr; 2]>),
+}
+
+impl Expr {
+    /// Takes the name of each variable, with its place.
+    pub fn variables(&self, take: &mut dyn FnMut(&str, Span)) {
+        match &self.kind {
+            ExprKind::Variable(name) => take(name, self.span),
+            ExprKind::Call(_, parts) => parts.iter().for_each(|part| part.variables(take)),
+            ExprKind::Unary(_, of) => of.variables(take),
+            ExprKind::Binary(_, sides) => sides.iter().for_each(|side| side.variables(take)),
+            ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Word(_) => {}
+        }
+    }
+}
+
+/// Operators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// `+`.
+    Add,
+    /// `-`, between two and before one.
+    Subtract,
+    /// `*`.
+    Multiply,
+    /// `/`.
+    Divide,
+    /// `=`.
+    Equal,
+    /// `<>`.
+    Unequal,
+    /// `<`.
+    Less,
+    /// `<=`.
+    AtMost,
+    /// `>`.
+    Greater,
+    /// `>=`.
+    AtLeast,
+    /// `like`.
+    Like,
+    /// `and`.
+    And,
+    /// `or`.
+    Or,
+    /// `not`.
+    Not,
+}
+
+/// An expression that can't be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unread {
+    /// Where reading it stopped.
+    pub span: Span,
+    /// Why.
+    pub why: String,
+}
+
+/// Loosest first.
+static OPERATORS: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
+    let infix = |rule| Op::infix(rule, Assoc::Left);
+    PrattParser::new()
+        .op(infix(Rule::or))
+        .op(infix(Rule::and))
+        .op(Op::prefix(Rule::not))
+        .op(infix(Rule::equal)
+            | infix(Rule::unequal)
+            | infix(Rule::less)
+            | infix(Rule::at_most)
+            | infix(Rule::greater)
+            | infix(Rule::at_least)
+            | infix(Rule::like))
+        .op(infix(Rule::add) | infix(Rule::subtract))
+        .op(infix(Rule::multiply) | infix(Rule::divide))
+        .op(Op::prefix(Rule::negative))
+});
+
+/// Reads an expression that stands at `span`; `in_brackets`: names are variables.
+///
+/// # Errors
+/// It can't be read: where, and why.
+pub fn expression(text: &str, span: Span, in_brackets: bool) -> Result<Expr, Unread> {
+    if text.len() > LONGEST {
+        return Err(Unread { span, why: format!("it has more than {LONGEST} characters") });
+    }
+    let mut depth = 0_usize;
+    for (at, c) in text.char_indices() {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if depth > DEEPEST {
+            let here = Span { start: span.start + at as u32, end: span.start + at as u32 + 1, ..span };
+            return Err(Unread { span: here, why: format!("its brackets lie more than {DEEPEST} deep") });
+        }
+    }
+    let read = Reading { start: span.start, file: span.file };
+    match FormGrammar::parse(Rule::expression, text) {
+        Ok(mut pairs) => {
+            let terms = pairs.next().and_then(|pair| pair.into_inner().find(|pair| pair.as_rule() == Rule::terms));
+            terms.map(|terms| read.terms(terms.into_inner(), in_brackets)).ok_or_else(|| unread(text, 0, span))
+        }
+        Err(error) => {
+            let at = match error.location {
+                InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
+            };
+            Err(unread(text, at, span))
+        }
+    }
+}
+
+/// Where reading stopped, and what stands there.
+fn unread(text: &str, at: usize, span: Span) -> Unread {
+    let rest = text.get(at..).unwrap_or_default();
+    match rest.chars().next() {
+        Some(c) => {
+            let start = span.start + at as u32;
+            let here = Span { start, end: start + c.len_utf8() as u32, ..span };
+            Unread { span: here, why: format!("`{c}` makes no sense here") }
+        }
+        None => Unread { span, why: "something is missing at its end".into() },
+    }
+}
+
+/// Where the text of an expression stands.
+#[derive(Clone, Copy)]
+struct Reading {
+    file: u32,
+    start: u32,
+}
+
+impl Reading {
+    fn span(self, pair: &Pair<Rule>) -> Span {
+        let inner = pair.as_span();
+        let at = |byte: usize| self.start as usize + byte;
+        Span::new(self.file, at(inner.start()), at(inner.end()))
+    }
+
+    fn terms(self, pairs: Pairs<Rule>, in_brackets: bool) -> Expr {
+        OPERATORS
+            .map_primary(|pair| self.primary(pair, in_brackets))
+            .map_prefix(|pair, of| {
+                let operator = if pair.as_rule() == Rule::not { Operator::Not } else { Operator::Subtract };
+                Expr { span: self.span(&pair).to(of.span), kind: ExprKind::Unary(operator, Box::new(of)) }
+            })
+            .map_infix(|left, pair, right| {
+                let span = left.span.to(right.span);
+                Expr { span, kind: ExprKind::Binary(operator(pair.as_rule()), Box::new([left, right])) }
+            })
+            .parse(pairs)
+    }
+
+    fn primary(self, pair: Pair<Rule>, in_brackets: bool) -> Expr {
+        let span = self.span(&pair);
+        let text = pair.as_str();
+        let kind = match pair.as_rule() {
+            Rule::value => ExprKind::Number(text.to_owned()),
+            Rule::text => ExprKind::Text(text[1..text.len() - 1].to_owned()),
+            Rule::term if in_brackets => ExprKind::Variable(text.to_owned()),
+            Rule::call => {
+                let mut parts = pair.into_inner();
+                let name = parts.next().map_or(Spanned { text: String::new(), span }, |name| Spanned {
+                    text: name.as_str().to_owned(),
+                    span: self.span(&name),
+                });
+                ExprKind::Call(name, parts.map(|part| self.terms(part.into_inner(), in_brackets)).collect())
+            }
+            Rule::bracketed => {
+                let inner = pair.into_inner().next().map(|terms| self.terms(terms.into_inner(), true));
+                return inner.map_or(Expr { span, kind: ExprKind::Word(String::new()) }, |of| Expr { span, ..of });
+            }
+            Rule::terms => {
+                return Expr { span, ..self.terms(pair.into_inner(), in_brackets) };
+            }
+            _ => ExprKind::Word(text.to_owned()),
+        };
+        Expr { span, kind }
+    }
+}
+
+fn operator(rule: Rule) -> Operator {
+    match rule {
+        Rule::add => Operator::Add,
+        Rule::subtract => Operator::Subtract,
+        Rule::multiply => Operator::Multiply,
+        Rule::divide => Operator::Divide,
+        Rule::unequal => Operator::Unequal,
+        Rule::less => Operator::Less,
+        Rule::at_most => Operator::AtMost,
+        Rule::greater => Operator::Greater,
+        Rule::at_least => Operator::AtLeast,
+        Rule::like => Operator::Like,
+        Rule::and => Operator::And,
+        Rule::or => Operator::Or,
+        _ => Operator::Equal,
+    }
+}
+
+impl Operator {
+    /// As it is written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Operator::Add => "+",
+            Operator::Subtract => "-",
+            Operator::Multiply => "*",
+            Operator::Divide => "/",
+            Operator::Equal => "=",
+            Operator::Unequal => "<>",
+            Operator::Less => "<",
+            Operator::AtMost => "<=",
+            Operator::Greater => ">",
+            Operator::AtLeast => ">=",
+            Operator::Like => "like",
+            Operator::And => "and",
+            Operator::Or => "or",
+            Operator::Not => "not",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With a bracket around each part.
+    fn shown(text: &str) -> String {
+        fn show(expr: &Expr) -> String {
+            match &expr.kind {
+                ExprKind::Number(text) | ExprKind::Variable(text) => text.clone(),
+                ExprKind::Word(text) => format!("'{text}"),
+                ExprKind::Text(text) => format!("{text:?}"),
+                ExprKind::Call(name, args) => {
+                    format!("{}({})", name.text, args.iter().map(show).collect::<Vec<_>>().join(","))
+                }
+                ExprKind::Unary(operator, of) => format!("({} {})", operator.name(), show(of)),
+                ExprKind::Binary(operator, sides) => {
+                    format!("({} {} {})", show(&sides[0]), operator.name(), show(&sides[1]))
+                }
+            }
+        }
+        match expression(text, Span::new(0, 0, text.len()), false) {
+            Ok(expr) => show(&expr),
+            Err(unread) => format!("{}: {}", unread.span.start, unread.why),
+        }
+    }
+
+    #[test]
+    fn operators_bind_as_in_arithmetic() {
+        let table = [
+            ("[h]+[v]*2", "(h + (v * 2))"),
+            ("[h+v*2-d]", "((h + (v * 2)) - d)"),
+            ("[(h+hmax)/2]", "((h + hmax) / 2)"),
+            ("[-h*2]", "((- h) * 2)"),
+            ("[h - -v]", "(h - (- v))"),
+            ("[max(h, 0, v-1)]", "max(h,0,(v - 1))"),
+            ("[cool] = through and [speed] > 0", "((cool = 'through) and (speed > 0))"),
+            ("not [a] = 1 or [b] and [c]", "((not (a = 1)) or (b and c))"),
+            ("[toolname] like \"DRILL*\"", "(toolname like \"DRILL*\")"),
+            ("[a]<>[b]", "(a <> b)"),
+            ("[android] = orange", "(android = 'orange)"),
+            ("( [a] <= .5 )", "(a <= .5)"),
+        ];
+        for (text, tree) in table {
+            assert_eq!(shown(text), tree, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_can_not_be_read_has_its_place() {
+        let table = [
+            ("", "0: something is missing at its end"),
+            ("[h]+", "0: something is missing at its end"),
+            ("[h]+*2", "4: `*` makes no sense here"),
+            ("[h", "0: something is missing at its end"),
+            ("[h]]", "3: `]` makes no sense here"),
+            ("[h] [v]", "4: `[` makes no sense here"),
+            ("[h] == 1", "5: `=` makes no sense here"),
+        ];
+        for (text, why) in table {
+            assert_eq!(shown(text), why, "{text}");
+        }
+        let deep = |n: usize| format!("{}1{}", "(".repeat(n), ")".repeat(n));
+        assert_eq!(shown(&deep(32)), "1");
+        assert_eq!(shown(&deep(33)), "32: its brackets lie more than 32 deep");
+        assert_eq!(shown(&"1+".repeat(400)), "0: it has more than 500 characters");
+    }
+}

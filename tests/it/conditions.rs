@@ -1,0 +1,320 @@
+//! Expressions and conditions: what is calculated, which lines print, what is refused.
+
+use crate::support::{check, job, mill, path_lines, program, render};
+
+/// The error codes of a form, each once.
+fn codes(form: &str) -> Vec<&'static str> {
+    let mut codes: Vec<_> =
+        check(form).diags.iter().filter(|diag| diag.is_error()).map(|diag| diag.code.name()).collect();
+    codes.dedup();
+    codes
+}
+
+/// A form whose first tool change prints these lines before all else.
+fn form(head: &str, lines: &str) -> String {
+    mill(head, "").replacen("1stToolChange\n", &format!("1stToolChange\n{lines}\n"), 1)
+}
+
+/// What the lines print at X0 Y0 Z1, S1000 M3, tool 1, offset 54.
+fn lines(lines: &str) -> Vec<String> {
+    let printed = program(&form("", lines), &job("{\"line\":[1,1,0]}"));
+    match printed.iter().position(|line| line == "T1 M6") {
+        Some(end) => printed[1..end].to_vec(),
+        None => printed,
+    }
+}
+
+#[test]
+fn expressions_print_their_value() {
+    let table = [
+        ("Q[d+1]", "Q2."),
+        ("Q[d-.25]", "Q.75"),
+        ("Q[ (d+3) / 2 ]", "Q2."),
+        ("Q[-d]", "Q-1."),
+        ("Q[d - -d*2]", "Q3."),
+        ("Q[7/2]", "Q3.5"),
+        ("S[speed*1.5]", "S1500"),
+        ("Q[min(d, 0.5, 9)] Q[max(d, 0.5)]", "Q.5 Q1."),
+        ("Q[abs(-d)+round(2.5)+floor(-.5)+ceil(.2)]", "Q4."),
+        ("`Q200=`[d*2]` Q201=`[-d]", "Q200=2 Q201=-1"),
+        ("(CLEAR [d*2] OF [d])", "(CLEAR 2 OF 1)"),
+        ("(WHAT [vclear+1])", "(WHAT -)"),
+        ("H[tool+10]", "H11"),
+        ("Q[((((((((((((((((((((((((((((((((d))))))))))))))))))))))))))))))))]", "Q1."),
+    ];
+    for (line, printed) in table {
+        assert_eq!(lines(line), [printed], "{line}");
+    }
+}
+
+#[test]
+fn a_calculated_word_is_modal_like_its_letter() {
+    let head = "ModalLetters X Y Z F S Q";
+    let sequences = "LineCode\nG1 X[h] Y[v] Z[d] Q[d*2] F[frate]\nEnd\n";
+    let path = "{\"line\":[1,0,1]},{\"line\":[2,0,1]},{\"line\":[3,0,2]}";
+    assert_eq!(path_lines(head, sequences, path), ["G1 X1. Q2. F10.", "X2.", "X3. Z2. Q4."]);
+}
+
+#[test]
+fn a_calculated_position_is_one_that_the_control_counts_otherwise() {
+    let sequences = "LineCode\nG1 X[h+10] Y[v] Z[d] F[frate]\nEnd\n";
+    let path = "{\"line\":[1,0,1]},{\"line\":[1,1,1]}";
+    assert_eq!(path_lines("", sequences, path), ["G1 X11. F10.", "X11. Y1."]);
+}
+
+#[test]
+fn heights_are_distances() {
+    let drill = "Drill 1\n`CYCL DEF 200 Q200=`[vclear-pointd]` Q201=`[-depth]` Q203=`[pointd]` Q204=`[rplane-pointd]` Q206=`[frate]\n\
+                 L X[h] Y[v] M99\nEnd\n";
+    let path = "{\"cycle\":{\"kind\":\"drill\",\"depth\":2,\"clear\":0.1,\"return\":1,\"feed\":10,\"points\":[[1,1,0],[2,1,0],[2,2,-0.5]]}}";
+    let printed = path_lines("", drill, path);
+    let cycle = |top: &str, back: &str| format!("CYCL DEF 200 Q200=.1 Q201=-2 Q203={top} Q204={back} Q206=10");
+    assert_eq!(
+        printed,
+        [
+            cycle("0", "1"),
+            "L X1. Y1. M99".into(),
+            "L X2. Y1. M99".into(),
+            "G0 Y2.".into(),
+            "Z1.".into(),
+            cycle("-.5", "1.5"),
+            "L X2. Y2. M99".into()
+        ]
+    );
+}
+
+#[test]
+fn a_division_by_zero_is_an_error_with_its_place() {
+    let form = form("", "Q[1/(d-1)]");
+    let error = render(&form, &job("{\"line\":[1,1,0]}")).unwrap_err();
+    assert_eq!((error.code.name(), error.message.as_str()), ("PR051", "a division by zero"));
+    assert_eq!(&form[error.labels[0].span.range()], "Q[1/(d-1)]");
+    let form = form_of_condition("1/(d-1) > 2");
+    let error = render(&form, &job("{\"line\":[1,1,0]}")).unwrap_err();
+    assert_eq!(error.code.name(), "PR051");
+    assert!(form[error.labels[0].span.range()].starts_with("@if"));
+}
+
+fn form_of_condition(condition: &str) -> String {
+    form("", &format!("@if [{condition}\nM1\n@end").replacen("[1/(d-1) > 2", "1/[d-1] > 2", 1))
+}
+
+#[test]
+fn conditions_choose_lines() {
+    let holds = |condition: &str| {
+        let printed = lines(&format!("@if {condition}\n  M100\n@else\n  M200\n@end"));
+        match printed.as_slice() {
+            [line] => line == "M100",
+            other => panic!("{condition}: {other:?}"),
+        }
+    };
+    for condition in [
+        "[speed] = 1000",
+        "[speed] <> 999",
+        "[speed] > 999 and [speed] < 1001",
+        "[speed]>=1000 and [speed]<=1000",
+        "[direct] = cw",
+        "not [direct] = ccw",
+        "[cool] = off",
+        "([speed] = 1 or [tool] = 1) and [work] = 54",
+        "[speed] = 1 or [speed] = 1000 and [tool] = 1",
+        "[speed]",
+        "not [vclear]",
+        "not [vclear] > 0",
+        "[isfirsttool]",
+        "[isfirsttool] = yes",
+        "not [lasthole]",
+        "[speed/2] = 500",
+        "[speed]/2 = 500",
+        "max([speed], 3000) = 3000",
+        "[progname] = \"\"",
+        "not [progname]",
+        "[control] like \"*\"",
+        "[unitmode] = inch",
+    ] {
+        assert!(holds(condition), "{condition}");
+    }
+    for condition in ["[vclear] > 0", "[vclear] <= 0", "[direct] = ccw", "[progname]", "[tool] > 1", "[lasthole]"] {
+        assert!(!holds(condition), "{condition}");
+    }
+}
+
+#[test]
+fn branches_lie_in_each_other() {
+    let text = "@if [tool] = 1\n  M1\n  @if [speed] > 5000\n    M2\n  @elif [speed] > 500\n    M3\n  @else\n    M4\n  @end\n  M5\n@elif [tool] = 1\nM6\n@end\nM7";
+    assert_eq!(lines(text), ["M1", "M3", "M5", "M7"]);
+    // blanks are a comment again behind the last @end
+    assert_eq!(lines("@if [tool] = 2\n   M1\n@end\n  M2\nM3"), ["M3"]);
+    assert_eq!(lines("@if [tool] = 1 # the first\n\tM1 # and so on\n@END # over"), ["M1"]);
+}
+
+#[test]
+fn old_text_with_an_at_sign_stays_text() {
+    assert_eq!(lines("@714\n`@if`"), ["@714", "@if"]);
+}
+
+#[test]
+fn what_is_set_holds_to_the_end() {
+    let sequences = "LineCode\n@set val2 = [val2]*2\nG1 X[h] Y[v] Z[d] F[frate] Q[val2]\nEnd\n";
+    let head = "Ask val2 \"Q\" 1\nModalLetters X Y Z F S";
+    let path = "{\"line\":[1,0,1]},{\"line\":[2,0,1]},{\"line\":[3,0,1]}";
+    assert_eq!(path_lines(head, sequences, path), ["G1 X1. F10. Q2.", "X2. Q4.", "X3. Q8."]);
+    // a condition behind it asks for the new value
+    let text = "@set val1 = 3\n@if [val1] = 3\nM3\n@end\n@set val1 = [val1]+1\n@if [val1] = 4\nM4\n@end\n(IS [val1])";
+    assert_eq!(lines(text), ["M3", "M4", "(IS 4)"]);
+}
+
+const CYCLE: &str = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,0,0],[2,0,0],\
+                     {\"at\":[3,0,0],\"depth\":3},{\"at\":[4,0,0],\"depth\":3},[5,0,0]]}}";
+
+#[test]
+fn a_hole_of_another_branch_begins_the_cycle_anew() {
+    let drill = "Drill\n@if [depth] > 2\n  G83 X[h] Y[v] Z[d] R[vclear] Q.5 F[frate]\n@else\n  G81 X[h] Y[v] Z[d] R[vclear] F[frate]\n@end\nEnd Cancel\n";
+    assert_eq!(
+        path_lines("", drill, CYCLE),
+        [
+            "G0 X1.",
+            "Z.1",
+            "G81 X1. Y0 Z-1. R.1 F5.",
+            "X2.",
+            "G80",
+            "G0 X3.",
+            "Z.1",
+            "G83 X3. Y0 Z-3. R.1 Q.5 F5.",
+            "X4.",
+            "G80",
+            "G0 X5.",
+            "Z.1",
+            "G81 X5. Y0 Z-1. R.1 F5.",
+            "G80",
+        ]
+    );
+}
+
+#[test]
+fn counted_lines_are_counted_along_each_branch() {
+    let drill = "Drill 1\n@if [depth] > 2\n  G83 Z[d] R[vclear] Q.5 F[frate] K0\n@else\n  G81 Z[d] R[vclear] F[frate] K0\n@end\nX[h] Y[v]\nEnd Cancel\n";
+    let printed = path_lines("", drill, CYCLE);
+    assert_eq!(
+        printed.iter().filter(|line| line.starts_with("G81") || line.starts_with("G83")).count(),
+        3,
+        "{printed:?}"
+    );
+    assert_eq!(printed.iter().filter(|line| line.starts_with('X')).count(), 5, "{printed:?}");
+    assert_eq!(codes(&mill("", "Drill 2\n@if [depth] > 2\nG83\nG4\n@else\nG81\n@end\nEnd")), ["PF401"]);
+}
+
+#[test]
+fn a_branch_that_does_not_say_the_hole_is_refused() {
+    let drill = "Drill\n@if [depth] > 2\nG83 X[h] Y[v] R[vclear] Q.5 F[frate]\n@else\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\n@end\nEnd Cancel\n";
+    let printed = path_lines("", drill, CYCLE);
+    assert_eq!(printed, ["PR017 this way through the sequence does not print the depth: [d]"]);
+}
+
+#[test]
+fn first_and_last_holes_are_known() {
+    let drill = "Drill\n@if [isfirsthole]\nM61\n@elif [lasthole]\nM63\n@else\nM62\n@end\nG0 X[h] Y[v] Z[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd\n";
+    let printed = path_lines("", drill, CYCLE);
+    let codes: Vec<&str> = printed.iter().map(String::as_str).filter(|line| line.starts_with('M')).collect();
+    assert_eq!(codes, ["M61", "M62", "M62", "M62", "M63"]);
+}
+
+#[test]
+fn the_last_tool_is_known_where_the_job_lists_them() {
+    let text = form("", "@if [islasttool]\nM99\n@else\nM98\n@end");
+    let listed = job("{\"line\":[1,1,0]}").replacen("\"units\"", "\"tool_order\":[1],\"units\"", 1);
+    assert!(program(&text, &listed).contains(&"M99".to_owned()));
+    assert!(program(&text, &job("{\"line\":[1,1,0]}")).contains(&"M98".to_owned()));
+}
+
+#[test]
+fn what_a_branch_does_not_print_is_generated() {
+    let sequences = "LineCode\n@if [h] > 1\nG1 X[h] Y[v] Z[d] F[frate]\n@else\nG1 X[h] Y[v] Z[d]\n@end\nEnd\n";
+    let path = "{\"line\":[1,0,1]},{\"line\":[2,0,1],\"feed\":20}";
+    assert_eq!(path_lines("", sequences, path), ["F10.", "G1 X1.", "X2. F20."]);
+}
+
+#[test]
+fn wrong_expressions_are_refused() {
+    let table = [
+        ("Q[d+]", "PF703"),
+        ("Q[+d]", "PF703"),
+        ("Q[d++1]", "PF703"),
+        ("Q[(d+1]", "PF703"),
+        ("Q[d+1)]", "PF703"),
+        ("Q[d*/2]", "PF703"),
+        ("Q[sqrt(d)]", "PF703"),
+        ("Q[abs(d, 1)]", "PF703"),
+        ("Q[max()]", "PF703"),
+        ("Q[1+2,3]", "PF703"),
+        ("Q[d+1e3]", "PF703"),
+        ("Q[dd+1]", "PF202"),
+        ("Q[taper+1]", "PF604"),
+        ("Q[toolname+1]", "PF704"),
+        ("Q[d+1 = 2]", "PF704"),
+        ("Q[not (d=1)]", "PF704"),
+        ("Q[d/0]", "PF705"),
+        ("Q[d/(1-1)]", "PF705"),
+        ("@if [h]/0 = 1\nM1\n@end", "PF705"),
+        ("@if\nM1\n@end", "PF703"),
+        ("@if [h\nM1\n@end", "PF703"),
+        ("@if [h] == 1\nM1\n@end", "PF703"),
+        ("@if h = 1\nM1\n@end", "PF706"),
+        ("@if [cool] = trough\nM1\n@end", "PF706"),
+        ("@if [tool] = one\nM1\n@end", "PF706"),
+        ("@if through\nM1\n@end", "PF706"),
+        ("@if [tool] = \"1\"\nM1\n@end", "PF704"),
+        ("@if [toolname] > 1\nM1\n@end", "PF704"),
+        ("@if [tool] like \"1*\"\nM1\n@end", "PF704"),
+        ("@if [toolname] like [progname]\nM1\n@end", "PF704"),
+        ("@if [tool]+1\nM1\n@end", "PF704"),
+        ("@if ([tool] = 1) > 1\nM1\n@end", "PF704"),
+        ("@if [tool] = 1", "PF707"),
+        ("@end", "PF707"),
+        ("@else\nM1", "PF707"),
+        ("@elif [tool] = 1\nM1", "PF707"),
+        ("@if [tool] = 1\nM1\n@else\nM2\n@else\nM3\n@end", "PF707"),
+        ("@if [tool] = 1\nM1\n@else\nM2\n@elif [tool] = 2\nM3\n@end", "PF707"),
+        ("@if [tool] = 1\nM1\n@else if [tool] = 2\nM2\n@end", "PF707"),
+        ("@if [tool] = 1\nM1\n@end if", "PF707"),
+        ("@iff [tool] = 1\nM1", "PF707"),
+        ("@while [tool] = 1\nM1", "PF707"),
+        ("@for tool\nM1\n@end", "PF707"),
+        ("@set h = 1", "PF707"),
+        ("@set speed = 1", "PF707"),
+        ("@set vall = 1", "PF707"),
+        ("@set val1 1", "PF707"),
+        ("@set val1 =", "PF703"),
+        ("@set val1 = [toolname]", "PF704"),
+    ];
+    for (text, code) in table {
+        let found = codes(&form("", text));
+        assert!(found.contains(&code), "{text}: {found:?}");
+    }
+    let deep = format!("{}M1\n{}", "@if [tool] = 1\n".repeat(9), "@end\n".repeat(9));
+    assert_eq!(codes(&form("", deep.trim_end())), ["PF707"]);
+    let wide = "@if [tool] = 1\nM1\n@end\n".repeat(129);
+    assert!(codes(&form("", wide.trim_end())).contains(&"PF707"));
+    let bracketed = format!("Q[{}d{}]", "(".repeat(33), ")".repeat(33));
+    assert_eq!(codes(&form("", &bracketed)), ["PF703"]);
+    assert_eq!(codes(&form("", &format!("Q[{}d]", "1+".repeat(300)))), ["PF703"]);
+}
+
+#[test]
+fn wrong_branches_are_refused() {
+    let table = [
+        ("Drill\n@if [dwell]\nG82 X[h] Y[v] Z[d] F[frate]\n@else\nG0 X[h] Y[v]\nG1 Z[d] F[frate]\n@end\nEnd", "PF709"),
+        ("Drill\n@if [dwell]\nG82 X[h] Y[v] Z[d] F[frate]\n@end\nEnd", "PF709"),
+        ("LineCode\n@if [frate] > 1\nG1 X[h] Y[v] Z[d] F[frate]\n@end\nEnd", "PF709"),
+    ];
+    for (sequence, code) in table {
+        assert_eq!(codes(&mill("", sequence)), [code], "{sequence}");
+    }
+}
+
+#[test]
+fn a_condition_that_never_changes_is_a_warning() {
+    let checked = check(&form("", "@if 1 > 2 or \"a\" = \"a\"\nM1\n@end"));
+    let warning = checked.diags.iter().find(|diag| diag.code.name() == "PF708").unwrap();
+    assert_eq!(warning.message, "a condition that is always true");
+}

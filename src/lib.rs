@@ -56,6 +56,7 @@ mod scene;
 mod sema;
 mod source;
 mod span;
+mod survey;
 mod syntax;
 pub mod toolpath;
 mod trace;
@@ -147,6 +148,9 @@ pub mod internals {
     }
     pub mod source {
         pub use crate::source::*;
+    }
+    pub mod survey {
+        pub use crate::survey::*;
     }
     pub mod syntax {
         pub use crate::syntax::*;

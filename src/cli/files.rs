@@ -3,6 +3,7 @@
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Seek};
 use std::path::Path;
+use std::time::SystemTime;
 
 use postform::diag::escaped;
 use postform::internals::control::Control;
@@ -85,6 +86,39 @@ impl Again {
     pub fn into_file(mut self) -> Result<File, String> {
         self.file.rewind().map_err(|error| io_message("read", Path::new("the program"), &error))?;
         Ok(self.file)
+    }
+}
+
+/// A file that must stay as it is while it is read more than once.
+struct Steady {
+    file: File,
+    stamp: Option<(u64, SystemTime)>,
+}
+
+impl Steady {
+    fn new(file: File) -> Steady {
+        Steady { stamp: stamp(&file), file }
+    }
+}
+
+/// Size and time of the last change, where the system says them.
+fn stamp(file: &File) -> Option<(u64, SystemTime)> {
+    let meta = file.metadata().ok()?;
+    Some((meta.len(), meta.modified().ok()?))
+}
+
+impl Read for Steady {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        self.file.read(out)
+    }
+}
+
+impl Seek for Steady {
+    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
+        if to == io::SeekFrom::Start(0) && stamp(&self.file) != self.stamp {
+            return Err(io::Error::other("it was changed while it was read: try again when it is whole"));
+        }
+        self.file.seek(to)
     }
 }
 
@@ -190,7 +224,7 @@ pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, St
     let twice = again || matches!(format, Format::Nc | Format::Freecad);
     let is_file = path != Path::new("-") && fs::metadata(path).is_ok_and(|meta| meta.is_file());
     let mut job = match twice || is_file {
-        true => Job::file(format, Again::open(path)?.file),
+        true => Job::file(format, Steady::new(Again::open(path)?.file)),
         false => Job::stream(format, open(path)?),
     };
     job.reading = args.reading();

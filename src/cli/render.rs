@@ -57,7 +57,14 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     };
     let inputs = prepared.inputs.iter().chain(&config.path).chain([&args.job]);
     keep_inputs(args, &inputs.filter_map(|path| Identity::of_input(path)).collect::<Vec<_>>())?;
-    let mut job = files::job(&args.job, &args.read, false)?;
+    if args.stream && prepared.post.reads_ahead() {
+        return Err(format!(
+            "error: {} says what lies ahead in the job, which must be read to its end first\n  help: render without --stream",
+            files::name(&form)
+        ));
+    }
+    let again = prepared.post.may_read_twice() && !args.stream;
+    let mut job = files::job(&args.job, &args.read, again)?;
     let mut output = Output {
         target: Target::open(&args.output, args.stream)?,
         trace: args.trace.as_deref().map(|path| Target::open(path, false)).transpose()?,
@@ -66,6 +73,7 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     };
     let mut options = prepared.options.clone();
     options.trace = args.trace.is_some();
+    options.one_pass = args.stream;
     let proof = (!args.no_verify && !args.stream).then(|| args.control.proof(None));
     let mut progress = Progress::new();
     let mut take = |part: Part<'_>| {

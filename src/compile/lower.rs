@@ -1,9 +1,10 @@
 //! Lowering: lines of words become operations.
 
 use super::letters::LetterTable;
-use super::program::{CycleStyle, Literal, Op, Program, Upon};
+use super::program::{CycleStyle, List, Literal, Op, Program, Upon};
 use super::routine::{Branch, Flow, Node, Routine};
 use super::work;
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::control::{Code, Group, Meaning};
@@ -20,6 +21,7 @@ pub fn compile(form: &Form) -> Program {
         literals: Vec::new(),
         texts: Vec::new(),
         formulas: Vec::new(),
+        lists: Vec::new(),
         texts_printed: TextSet::default(),
         name: String::new(),
         hash: String::new(),
@@ -128,13 +130,21 @@ fn lower(program: &mut Program, lines: &[Line], steps: Option<&[Step]>, count: O
         }
         Some(steps) => Some(Arc::new(Flow { nodes: lower_steps(program, lines, steps, &mut 0) })),
     };
-    let mut routine = Routine {
-        ops: start..program.ops.len(),
+    let mut routine = routine(start..program.ops.len(), flow, count, span);
+    routine.look_at(program);
+    program.texts_printed = program.texts_printed.with(routine.texts);
+    routine
+}
+
+/// A routine that nobody has looked at.
+fn routine(ops: Range<usize>, flow: Option<Arc<Flow>>, count: Option<usize>, span: Span) -> Routine {
+    Routine {
+        repeat: ops.start,
+        ops,
         left_out: None,
         branches: 0,
         flow,
         count,
-        repeat: start,
         vars: VarSet::default(),
         texts: TextSet::default(),
         setup_vars: VarSet::default(),
@@ -143,10 +153,7 @@ fn lower(program: &mut Program, lines: &[Line], steps: Option<&[Step]>, count: O
         style: CycleStyle::Emulated,
         returns: false,
         span,
-    };
-    routine.look_at(program);
-    program.texts_printed = program.texts_printed.with(routine.texts);
-    routine
+    }
 }
 
 fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: &mut u32) -> Vec<Node> {
@@ -159,6 +166,22 @@ fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: 
                 program.ops.push(Op::Set { var: *var, index });
                 program.spans.push(*span);
                 nodes.push(Node::Set(*var, index));
+            }
+            Step::For(each, steps, span) => {
+                let index = program.lists.len() as u32;
+                program.ops.push(Op::List { index });
+                program.spans.push(*span);
+                let start = program.ops.len();
+                // its place is kept for it: lists inside it come behind
+                program.lists.push(List { each: *each, routine: routine(start..start, None, None, *span) });
+                let inner = lower_steps(program, lines, steps, branches);
+                let ops = start..program.ops.len();
+                let mut body = routine(ops.clone(), Some(Arc::new(Flow { nodes: inner })), None, *span);
+                body.look_at(program);
+                program.texts_printed = program.texts_printed.with(body.texts);
+                program.printed = program.printed.with(body.vars);
+                program.lists[index as usize].routine = body;
+                nodes.push(Node::List(ops));
             }
             Step::If(arms) => {
                 let branches = arms.iter().map(|arm| {

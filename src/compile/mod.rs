@@ -8,6 +8,6 @@ mod work;
 
 pub use letters::{Letter, LetterKind, LetterTable};
 pub use lower::compile;
-pub use program::{CycleStyle, Literal, Op, Program, Upon};
+pub use program::{CycleStyle, List, Literal, Op, Program, Upon};
 pub use routine::{Branch, Flow, Node, Routine};
 pub use work::WorkWord;

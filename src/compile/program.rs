@@ -6,7 +6,7 @@ use super::letters::LetterTable;
 use super::routine::Routine;
 use super::work::WorkWord;
 use crate::control::Code;
-use crate::lang::{SEQUENCES, SequenceId, TextId, TextSet, TextVar, VarId, VarSet};
+use crate::lang::{AHEAD, Each, SEQUENCES, SequenceId, TOOLS_AHEAD, TextId, TextSet, TextVar, VarId, VarSet};
 use crate::sema::{Formula, Settings};
 use crate::source::Source;
 use crate::span::Span;
@@ -96,6 +96,11 @@ pub enum Op {
         /// The value's row in [`Program::formulas`].
         index: u32,
     },
+    /// What follows is a list: a row of [`Program::lists`].
+    List {
+        /// The row.
+        index: u32,
+    },
     /// A text of the job.
     TextVar {
         /// Which.
@@ -123,6 +128,15 @@ pub struct Literal {
     pub value: f64,
     /// The code that it prints, if it is one.
     pub code: Option<Code>,
+}
+
+/// Lines that print once for each tool, operation or work offset.
+#[derive(Clone, Debug)]
+pub struct List {
+    /// What it goes through.
+    pub each: Each,
+    /// What it prints for one of them.
+    pub routine: Routine,
 }
 
 /// How a canned cycle prints (render.md section 3).
@@ -166,6 +180,8 @@ pub struct Program {
     pub texts: Vec<String>,
     /// What is calculated: values and conditions.
     pub formulas: Vec<Formula>,
+    /// What `@for` goes through.
+    pub lists: Vec<List>,
     /// The texts of the job that the form prints anywhere.
     pub texts_printed: TextSet,
     /// Name of the form: as it says, else as its file is called.
@@ -199,6 +215,21 @@ impl Program {
     #[inline]
     pub fn routine(&self, id: SequenceId) -> Option<&Routine> {
         self.routines[id as usize].as_ref()
+    }
+
+    /// The variables whose values it prints or asks for.
+    pub fn used(&self) -> VarSet {
+        self.printed.with(self.asked).with(self.upon_vars)
+    }
+
+    /// Does it say things of the job that only its end tells?
+    pub fn reads_ahead(&self) -> bool {
+        !self.lists.is_empty() || self.used().meets(AHEAD)
+    }
+
+    /// Does it say which tools come next?
+    pub fn asks_tools_ahead(&self) -> bool {
+        self.used().meets(TOOLS_AHEAD)
     }
 
     /// Gives it its name and what tells it from other forms, from its files: the form first, then those that it calls.

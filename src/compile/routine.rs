@@ -55,6 +55,8 @@ pub enum Node {
     Set(VarId, u32),
     /// The first branch whose condition holds.
     If(Vec<Branch>),
+    /// The operations of a list, which have a routine of their own.
+    List(Range<usize>),
 }
 
 /// A branch.
@@ -175,7 +177,14 @@ impl DoubleEndedIterator for Steps<'_> {
 /// The operations of branches that are not taken.
 fn leave_out(nodes: &[Node], branches: u128, left_out: &mut Vec<Range<usize>>) {
     for node in nodes {
-        let Node::If(all) = node else { continue };
+        let all = match node {
+            Node::If(all) => all,
+            Node::List(ops) => {
+                left_out.push(ops.clone());
+                continue;
+            }
+            Node::Set(..) => continue,
+        };
         for branch in all {
             if branches & 1 << branch.number == 0 {
                 left_out.push(branch.ops.clone());

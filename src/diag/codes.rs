@@ -291,6 +291,7 @@ codes! {
     PR041 Error "a control that reads lengths in other units, or otherwise"
     PR050 Note "a text of the job that is printed otherwise"
     PR051 Error "a division by zero"
+    PR052 Error "what lies ahead in the job is not known"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

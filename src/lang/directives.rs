@@ -24,10 +24,42 @@ pub const DIRECTIVES: &[DirectiveRow] = &[
         meaning: "else the lines behind it print, where this condition holds",
     },
     DirectiveRow { name: "@else", takes: "nothing", meaning: "else the lines behind it print" },
-    DirectiveRow { name: "@end", takes: "nothing", meaning: "ends @if" },
+    DirectiveRow { name: "@end", takes: "nothing", meaning: "ends @if or @for" },
+    DirectiveRow {
+        name: "@for",
+        takes: "`tool`, `operation` or `work`",
+        meaning: "the lines behind it, up to @end, print once for each of the job",
+    },
     DirectiveRow {
         name: "@set",
         takes: "a variable from val1 to val10, `=` and an expression, as `val1 = [val1]+1`",
         meaning: "the variable has this value to the end of the program",
     },
 ];
+
+/// What `@for` goes through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Each {
+    /// Each tool of the job, in the order of use.
+    Tool,
+    /// Each operation of the job; inside `@for tool` or `@for work` those of it.
+    Operation,
+    /// Each work offset of the job, in the order of use.
+    Work,
+}
+
+impl Each {
+    /// All of them by their names.
+    pub const ALL: [(&'static str, Each); 3] =
+        [("tool", Each::Tool), ("operation", Each::Operation), ("work", Each::Work)];
+
+    /// Finds a name in any case.
+    pub fn parse(name: &str) -> Option<Each> {
+        Each::ALL.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, each)| *each)
+    }
+
+    /// As written behind `@for`.
+    pub fn name(self) -> &'static str {
+        Each::ALL[self as usize].0
+    }
+}

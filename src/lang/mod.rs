@@ -13,12 +13,12 @@ mod work;
 
 pub(crate) use commands::command_rows;
 pub use commands::{Args, COMMANDS, Command, CommandId, Used, Without};
-pub use directives::{DIRECTIVES, DirectiveRow};
+pub use directives::{DIRECTIVES, DirectiveRow, Each};
 pub use machine::{Machine, Machines, UnitChoice};
 pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
 pub use suggest::{LONGEST_NAME, did_you_mean, nearest};
 pub use texts::{TEXT_COUNT, TEXTS, Text, TextId, TextSet, TextVar, WIDEST};
-pub use variables::{Origin, Unit, VARIABLES, VarId, VarSet, Variable};
+pub use variables::{AHEAD, MOST_VARIABLES, Origin, TOOLS_AHEAD, Unit, VARIABLES, VarId, VarSet, Variable};
 pub use work::work_code;
 
 /// Where a rule comes from; the reference keeps the mark.

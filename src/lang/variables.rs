@@ -136,7 +136,7 @@ variables! {
     Tool          "tool"           "Tools"              Count   Computed  "ML"   "tool number"
     Tool1         "tool1"          "Tools"              Count   Computed  "ML"   "the program's first tool"
     Isfirsttool   "isfirsttool"    "Tools"              Count   Computed  "ML"   "1 while the program's first tool is in, else 0"
-    Islasttool    "islasttool"     "Tools"              Count   Computed  "ML"   "1 while the program's last tool is in, else 0; needs the job's tool_order"
+    Islasttool    "islasttool"     "Tools"              Count   Computed  "ML"   "1 while the program's last tool is in, else 0"
     Lasttool      "lasttool"       "Tools"              Count   Computed  "ML"   "the tool before this one"
     Nexttool      "nexttool"       "Tools"              Count   Computed  "ML"   "the tool after this one; the first one at the last"
     Toold         "toold"          "Tools"              Length  Computed  "MLE"  "tool diameter; of a wire its own"
@@ -176,6 +176,23 @@ variables! {
     Val8          "val8"           "Program"            Number  Job       "MLE"  "free value"
     Val9          "val9"           "Program"            Number  Job       "MLE"  "free value"
     Val10         "val10"          "Program"            Number  Job       "MLE"  "free value"
+    Hmin          "hmin"           "What lies ahead"    Length  Computed  "ML"   "least position of the cuts along the first axis"
+    Hmax          "hmax"           "What lies ahead"    Length  Computed  "ML"   "greatest position of the cuts along the first axis"
+    Vmin          "vmin"           "What lies ahead"    Length  Computed  "ML"   "least position of the cuts along the second axis"
+    Vmax          "vmax"           "What lies ahead"    Length  Computed  "ML"   "greatest position of the cuts along the second axis"
+    Dmin          "dmin"           "What lies ahead"    Length  Computed  "M"    "least position of the cuts along the depth axis"
+    Dmax          "dmax"           "What lies ahead"    Length  Computed  "M"    "greatest position of the cuts along the depth axis"
+    Rhmin         "rhmin"          "What lies ahead"    Length  Computed  "ML"   "as hmin, rapids with the cuts"
+    Rhmax         "rhmax"          "What lies ahead"    Length  Computed  "ML"   "as hmax, rapids with the cuts"
+    Rvmin         "rvmin"          "What lies ahead"    Length  Computed  "ML"   "as vmin, rapids with the cuts"
+    Rvmax         "rvmax"          "What lies ahead"    Length  Computed  "ML"   "as vmax, rapids with the cuts"
+    Rdmin         "rdmin"          "What lies ahead"    Length  Computed  "M"    "as dmin, rapids with the cuts"
+    Rdmax         "rdmax"          "What lies ahead"    Length  Computed  "M"    "as dmax, rapids with the cuts"
+    Toolcount     "toolcount"      "What lies ahead"    Count   Computed  "ML"   "number of tools"
+    Opcount       "opcount"        "What lies ahead"    Count   Computed  "MLE"  "number of operations"
+    Holecount     "holecount"      "What lies ahead"    Count   Computed  "ML"   "number of holes of cycles"
+    Cuttime       "cuttime"        "What lies ahead"    Time    Computed  "MLE"  "time of the cuts at their feeds, in seconds"
+    Cutlength     "cutlength"      "What lies ahead"    Length  Computed  "MLE"  "length of the cuts"
     Tparams       "tparams"        "Threads"            Number  Job       "L"    "packed passes, chamfer and angle of a threading cycle"
     Passes        "passes"         "Threads"            Count   Computed  "L"    "finish passes, or number of passes"
     Chams         "chams"          "Threads"            Number  Computed  "L"    "chamfer at the end of a thread"
@@ -216,54 +233,89 @@ impl VarId {
     }
 }
 
+/// Variables of what lies ahead in the job.
+pub const AHEAD: VarSet = VarSet::of(&[
+    VarId::Hmin,
+    VarId::Hmax,
+    VarId::Vmin,
+    VarId::Vmax,
+    VarId::Dmin,
+    VarId::Dmax,
+    VarId::Rhmin,
+    VarId::Rhmax,
+    VarId::Rvmin,
+    VarId::Rvmax,
+    VarId::Rdmin,
+    VarId::Rdmax,
+    VarId::Toolcount,
+    VarId::Opcount,
+    VarId::Holecount,
+    VarId::Cuttime,
+    VarId::Cutlength,
+]);
+
+/// Variables of the tools ahead, which a job may say in its head.
+pub const TOOLS_AHEAD: VarSet = VarSet::of(&[VarId::Nexttool, VarId::Islasttool]);
+
+/// How many variables there may be.
+pub const MOST_VARIABLES: usize = 64 * WORDS;
+const WORDS: usize = 3;
+
 /// A set of variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct VarSet(u128);
+pub struct VarSet([u64; WORDS]);
 
 impl VarSet {
     /// The set of these.
     pub const fn of(ids: &[VarId]) -> VarSet {
-        let (mut bits, mut i) = (0, 0);
+        let (mut bits, mut i) = ([0; WORDS], 0);
         while i < ids.len() {
-            bits |= 1 << ids[i] as u32;
+            bits[ids[i] as usize / 64] |= 1 << (ids[i] as usize % 64);
             i += 1;
         }
         VarSet(bits)
     }
 
     /// Adds one.
+    #[inline]
     pub fn insert(&mut self, id: VarId) {
-        self.0 |= 1 << id as u32;
+        self.0[id as usize / 64] |= 1 << (id as usize % 64);
     }
 
     /// Takes one out.
+    #[inline]
     pub fn remove(&mut self, id: VarId) {
-        self.0 &= !(1 << id as u32);
+        self.0[id as usize / 64] &= !(1 << (id as usize % 64));
     }
 
     /// Is it in?
-    pub fn has(self, id: VarId) -> bool {
-        self.0 & 1 << id as u32 != 0
+    #[inline]
+    pub const fn has(self, id: VarId) -> bool {
+        self.0[id as usize / 64] & 1 << (id as usize % 64) != 0
     }
 
     /// Has any of `other`?
+    #[inline]
     pub fn meets(self, other: VarSet) -> bool {
-        self.0 & other.0 != 0
+        self.0.iter().zip(other.0).any(|(own, other)| own & other != 0)
     }
 
     /// Is nothing in it?
+    #[inline]
     pub fn is_empty(self) -> bool {
-        self.0 == 0
+        self == VarSet::default()
     }
 
     /// Variables that are in either set.
+    #[must_use]
     pub fn with(self, other: VarSet) -> VarSet {
-        VarSet(self.0 | other.0)
+        VarSet(std::array::from_fn(|word| self.0[word] | other.0[word]))
     }
 
     /// Variables of this set that are not in `other`.
+    #[must_use]
     pub fn without(self, other: VarSet) -> VarSet {
-        VarSet(self.0 & !other.0)
+        VarSet(std::array::from_fn(|word| self.0[word] & !other.0[word]))
     }
 
     /// Variables of this set, one by one.
@@ -278,7 +330,7 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_found_in_any_case() {
-        assert!(VARIABLES.len() <= 128, "VarSet has 128 bits");
+        assert!(VARIABLES.len() <= MOST_VARIABLES, "VarSet has a bit for each");
         for variable in VARIABLES {
             assert_eq!(VarId::parse(&variable.name.to_uppercase()), Some(variable.id));
         }

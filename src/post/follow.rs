@@ -1,6 +1,7 @@
 //! A job printed with what each line of the form came to: for editors.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use super::Post;
 use super::options::Options;
@@ -44,7 +45,11 @@ impl Post {
     /// # Errors
     /// An option makes no sense.
     pub(crate) fn follow(&self, mut job: Job<'_>, options: &Options) -> Result<Followed, Error> {
-        let asked = render::Options { trace: true, words: true, ..options.for_renderer()? };
+        let mut asked = render::Options { trace: true, words: true, ..options.for_renderer()? };
+        if self.may_read_twice() {
+            job.hold()?;
+            asked.survey = Some(Arc::new(self.surveyed(&mut job, options).1));
+        }
         let mut follower = Follower {
             renderer: Renderer::new(&self.0.program, asked),
             text: Vec::new(),

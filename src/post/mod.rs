@@ -1,5 +1,6 @@
 //! The front door: a form that prints, a job that is printed, a program that is proven.
 
+mod ahead;
 mod follow;
 mod growth;
 mod options;

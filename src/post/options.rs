@@ -28,6 +28,9 @@ pub struct Options {
     pub clock: Option<Clock>,
     /// What the job's file is called, for forms that say it.
     pub job_file: Option<String>,
+    /// The job is read once only, though the form might say what lies ahead in it: a form that must is an error, and
+    /// `[nexttool]` has a value where the job says its `tool_order`.
+    pub one_pass: bool,
     /// Keep for each line of the program which form line and which item of the job printed it.
     pub trace: bool,
     /// How [`Post::render`](super::Post::render) proves the program; `None`: it does not.
@@ -46,6 +49,7 @@ impl Default for Options {
             huge: false,
             clock: None,
             job_file: None,
+            one_pass: false,
             trace: false,
             proof: Some(Proof::default()),
         }
@@ -74,6 +78,7 @@ impl Options {
             sink_as_printed: self.sink_as_printed,
             clock: self.clock.clone(),
             job_file: self.job_file.clone(),
+            survey: None,
             trace: self.trace,
             words: false,
         })

@@ -87,6 +87,7 @@ impl Post {
         tap: Option<Tap<'_>>,
     ) -> Result<Rendered, Error> {
         let mut for_renderer = options.for_renderer()?;
+        for_renderer.survey = self.survey(&mut job, options)?;
         for_renderer.trace |= tap.is_some();
         let mut printer = Printer {
             renderer: Renderer::new(&self.0.program, for_renderer),

@@ -1,6 +1,7 @@
 //! From toolpath events to NC blocks (render.md): what a form is (`shape`), what the job asks for (`want`), what the
 //! control holds (`said`), what is printed (`printer`), and the functions that make one of the other.
 
+mod ahead;
 mod before;
 mod body;
 mod cycle;
@@ -8,6 +9,8 @@ mod defaults;
 mod fault;
 mod moves;
 mod needs;
+mod no_value;
+mod numbered;
 mod numbers;
 mod options;
 mod printer;
@@ -16,6 +19,7 @@ mod program;
 mod said;
 mod settle;
 mod shape;
+mod taken;
 mod targets;
 mod texts;
 mod upon;
@@ -39,6 +43,7 @@ use said::Said;
 use shape::Shape;
 use want::Want;
 
+pub use ahead::survey_terms;
 pub use defaults::cycle_defaults;
 pub use options::{Clock, Cycles, Options};
 pub use printer::{TraceLine, TraceWord};

@@ -1,6 +1,9 @@
 //! What a caller may choose.
 
+use std::sync::Arc;
+
 use crate::lang::VarId;
+use crate::survey::Survey;
 use crate::toolpath::Units;
 
 /// Where canned cycles come from.
@@ -39,6 +42,8 @@ pub struct Options {
     pub clock: Option<Clock>,
     /// The job's file, as the program says it.
     pub job_file: Option<String>,
+    /// What lies ahead in the job, for forms that say it: see [`Program::reads_ahead`](crate::compile::Program::reads_ahead).
+    pub survey: Option<Arc<Survey>>,
     /// Keep a source map.
     pub trace: bool,
     /// Keep what each word of the form came to.

@@ -4,8 +4,8 @@
 use super::defaults::{cycle_defaults, factor, form_units, no_defaults};
 use super::fault::{Done, fault};
 use super::options::Options;
+use super::taken::Ways;
 use super::vars::{LAST_VARS, MEASURES, MOVE_VARS};
-use super::ways::Ways;
 use crate::compile::{LetterTable, Program};
 use crate::control::{Code, Group, Meaning, Row};
 use crate::cycle::Defaults;

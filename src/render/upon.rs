@@ -45,7 +45,7 @@ pub fn index_replaces_work_upon(shape: &Shape) -> bool {
             Op::Remark { .. } => true,
             Op::Value { .. } | Op::Text { .. } => false,
             Op::Set { .. } | Op::RemarkFormula { .. } => true,
-            Op::Quote { .. } | Op::TextVar { .. } | Op::Comment { .. } => false,
+            Op::Quote { .. } | Op::TextVar { .. } | Op::Comment { .. } | Op::List { .. } => false,
             Op::Formula { .. } | Op::ValueFormula { .. } => false,
         })
     };

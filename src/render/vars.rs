@@ -1,6 +1,6 @@
 //! The values of variables, by slot; and which of them belong together.
 
-use crate::lang::{VARIABLES, VarId, VarSet};
+use crate::lang::{MOST_VARIABLES, VARIABLES, VarId, VarSet};
 
 /// The variables of where the linear axes go.
 pub const NOW: [VarId; 3] = [VarId::H, VarId::V, VarId::D];
@@ -25,14 +25,14 @@ pub const MEASURES: VarSet =
 /// One value for each variable that has one.
 #[derive(Clone, Debug)]
 pub struct Vars {
-    values: [f64; 128],
+    values: [f64; MOST_VARIABLES],
     known: VarSet,
 }
 
 impl Default for Vars {
     fn default() -> Self {
-        const { assert!(VARIABLES.len() <= 128) };
-        Vars { values: [0.0; 128], known: VarSet::default() }
+        const { assert!(VARIABLES.len() <= MOST_VARIABLES) };
+        Vars { values: [0.0; MOST_VARIABLES], known: VarSet::default() }
     }
 }
 

@@ -1,5 +1,8 @@
 //! What the job asks for now: the values of variables, the feed, the conditions, the tool. Only its events write here.
 
+use std::sync::Arc;
+
+use super::ahead::{Item, default_work};
 use super::fault::{Done, fault};
 use super::shape::Shape;
 use super::texts::Texts;
@@ -28,7 +31,9 @@ pub struct Want {
     /// The tool that is in.
     pub tool: Option<f64>,
     /// The tools of the job in the order of their use, where it says it.
-    pub tool_order: Option<Vec<f64>>,
+    pub tool_order: Option<Arc<[f64]>>,
+    /// What a list goes through, while its lines print.
+    pub item: Option<Item>,
     /// Tool changes so far.
     pub tool_changes: usize,
     /// The spindle's limit that a prompt gave.
@@ -54,6 +59,7 @@ impl Want {
             feed_mode: FeedMode::PerMinute,
             tool: None,
             tool_order: None,
+            item: None,
             tool_changes: 0,
             most_rpm: None,
             compensated: false,
@@ -64,10 +70,7 @@ impl Want {
         want.set(VarId::Coolantoff, settings.coolant[1]);
         want.set(VarId::Flush, settings.flush[1]);
         want.set(VarId::Speedtype, settings.speed_type[1]);
-        // a form that counts its offsets from 1 counts the default code so too
-        let default = settings.work_default;
-        let work = if default < 50.0 { default } else { work_code(settings.work, default).unwrap_or(default) };
-        want.set(VarId::Work, work);
+        want.set(VarId::Work, default_work(settings));
         want.set(VarId::Cool, settings.coolant[1]);
         want.set(VarId::Lasthole, 0.0);
         want.set_feed_mode(FeedMode::PerMinute, shape);

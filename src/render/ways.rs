@@ -1,35 +1,15 @@
 //! Which way through a sequence is taken now: its conditions are asked before any of it prints.
 
-use std::cell::OnceCell;
-
-use elsa::FrozenMap;
-
 use super::fault::{Done, fault_at};
 use super::said::Said;
 use super::shape::Shape;
 use super::values::Now;
 use super::want::Want;
 use crate::compile::{Node, Routine};
-use crate::diag::{Code, Diag};
+use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
 use crate::sema::{Formula, Without};
 use crate::span::Span;
-
-/// The ways that were taken so far, each made once, by the sequence and its branches.
-#[derive(Default)]
-pub struct Ways {
-    known: FrozenMap<(usize, usize, u128), Box<Routine>>,
-    /// A condition could not be asked.
-    fault: OnceCell<Box<Diag>>,
-}
-
-impl Ways {
-    /// Were all conditions so far such that they can be asked?
-    #[inline]
-    pub fn check(&self) -> Done {
-        self.fault.get().map_or(Ok(()), |diag| Err(diag.clone()))
-    }
-}
 
 impl Shape<'_> {
     /// The way through a sequence that is taken now, if the form has the sequence.
@@ -68,6 +48,8 @@ fn choose(nodes: &[Node], set: &mut Vec<(VarId, f64)>, branches: &mut u128, shap
                     set.push((*var, value));
                 }
             }
+            // asked for each of them, when it prints
+            Node::List(_) => {}
             Node::If(all) => {
                 let taken = all.iter().find(|branch| {
                     let now = Now { shape, want, said, letter: b' ', block: None, set };

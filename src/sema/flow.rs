@@ -5,7 +5,7 @@ use super::formula::{Formula, NoValues};
 use super::names::Context;
 use super::step::{Arm, Step};
 use crate::diag::{Code, Diag};
-use crate::lang::{DIRECTIVES, Origin, Unit, VarId, did_you_mean};
+use crate::lang::{DIRECTIVES, Each, Origin, Unit, VarId, did_you_mean};
 use crate::span::Span;
 use crate::syntax::{Directive, DirectiveKind, Spanned};
 
@@ -26,20 +26,26 @@ pub struct Flow {
     any: bool,
 }
 
-/// An `@if` that waits for its `@end`.
+/// An `@if` or `@for` that waits for its `@end`.
 struct Level {
-    /// The `@if`.
+    /// The directive.
     span: Span,
-    arms: Vec<Arm>,
-    has_else: bool,
+    kind: Kind,
+}
+
+enum Kind {
+    If { arms: Vec<Arm>, has_else: bool },
+    For(Each, Vec<Step>),
 }
 
 impl Flow {
     fn steps(&mut self) -> &mut Vec<Step> {
-        match self.levels.last_mut().and_then(|level| level.arms.last_mut()) {
-            Some(arm) => &mut arm.steps,
-            None => &mut self.steps,
-        }
+        let open = match self.levels.last_mut().map(|level| &mut level.kind) {
+            Some(Kind::For(_, steps)) => Some(steps),
+            Some(Kind::If { arms, .. }) => arms.last_mut().map(|arm| &mut arm.steps),
+            None => None,
+        };
+        open.unwrap_or(&mut self.steps)
     }
 
     /// A line that prints.
@@ -60,19 +66,16 @@ impl Flow {
         };
         match &directive.kind {
             DirectiveKind::If(asked) => {
-                if self.levels.len() == DEEPEST {
-                    wrong(
-                        format!("directives lie more than {DEEPEST} deep"),
-                        "one too many",
-                        "ask for both with `and`, or go on with `@elif`",
-                    );
-                }
+                self.not_too_deep(at, diags);
                 let condition = self.condition(asked, directive, context, diags);
                 let arm = Arm { span: at.to(directive.rest.span), condition, steps: Vec::new() };
-                self.levels.push(Level { span: at, arms: vec![arm], has_else: false });
+                self.levels.push(Level { span: at, kind: Kind::If { arms: vec![arm], has_else: false } });
                 self.count_arm(at, diags);
             }
-            DirectiveKind::Elif(_) | DirectiveKind::Else | DirectiveKind::End if self.levels.is_empty() => {
+            DirectiveKind::End if self.levels.is_empty() => {
+                wrong(format!("{name} without its @if"), "no @if is open here", "take it out, or write `@if` above it");
+            }
+            DirectiveKind::Elif(_) | DirectiveKind::Else if !self.in_condition() => {
                 wrong(format!("{name} without its @if"), "no @if is open here", "take it out, or write `@if` above it");
             }
             DirectiveKind::Elif(asked) => {
@@ -84,9 +87,14 @@ impl Flow {
                 self.nothing_behind(directive, diags);
                 self.no_more_behind_else(name, at, diags);
                 self.arm(Arm { span: at, condition: None, steps: Vec::new() }, diags);
-                if let Some(level) = self.levels.last_mut() {
-                    level.has_else = true;
+                if let Some(Kind::If { has_else, .. }) = self.levels.last_mut().map(|level| &mut level.kind) {
+                    *has_else = true;
                 }
+            }
+            DirectiveKind::For => {
+                self.not_too_deep(at, diags);
+                let each = self.list(directive, diags);
+                self.levels.push(Level { span: at.to(directive.rest.span), kind: Kind::For(each, Vec::new()) });
             }
             DirectiveKind::End => {
                 self.nothing_behind(directive, diags);
@@ -99,7 +107,7 @@ impl Flow {
                     self.steps().push(Step::Set(var, value, directive.rest.span));
                 }
             }
-            DirectiveKind::For | DirectiveKind::Unknown => {
+            DirectiveKind::Unknown => {
                 let names = || DIRECTIVES.iter().map(|row| row.name);
                 let all = || names().collect::<Vec<_>>().join(", ");
                 let all = || format!("there are {}; other text with @ stands in backquotes", all());
@@ -113,9 +121,12 @@ impl Flow {
     pub fn finish(mut self, diags: &mut Vec<Diag>) -> Option<Vec<Step>> {
         if let Some(level) = self.levels.last() {
             diags.push(
-                Diag::new(Code::PF707, "@if without its @end")
-                    .at(level.span, "open to the end of the sequence")
-                    .help("write `@end` behind its last line"),
+                Diag::new(
+                    Code::PF707,
+                    format!("{} without its @end", if matches!(level.kind, Kind::For(..)) { "@for" } else { "@if" }),
+                )
+                .at(level.span, "open to the end of the sequence")
+                .help("write `@end` behind its last line"),
             );
         }
         while !self.levels.is_empty() {
@@ -126,14 +137,18 @@ impl Flow {
 
     fn close(&mut self) {
         if let Some(level) = self.levels.pop() {
-            self.steps().push(Step::If(level.arms));
+            let step = match level.kind {
+                Kind::If { arms, .. } => Step::If(arms),
+                Kind::For(each, steps) => Step::For(each, steps, level.span),
+            };
+            self.steps().push(step);
         }
     }
 
     fn arm(&mut self, arm: Arm, diags: &mut Vec<Diag>) {
         self.count_arm(arm.span, diags);
-        if let Some(level) = self.levels.last_mut() {
-            level.arms.push(arm);
+        if let Some(Kind::If { arms, .. }) = self.levels.last_mut().map(|level| &mut level.kind) {
+            arms.push(arm);
         }
     }
 
@@ -148,8 +163,48 @@ impl Flow {
         }
     }
 
+    /// Is an `@if` the directive that `@end` closes next?
+    fn in_condition(&self) -> bool {
+        self.levels.last().is_some_and(|level| matches!(level.kind, Kind::If { .. }))
+    }
+
+    fn not_too_deep(&self, at: Span, diags: &mut Vec<Diag>) {
+        if self.levels.len() == DEEPEST {
+            diags.push(
+                Diag::new(Code::PF707, format!("directives lie more than {DEEPEST} deep"))
+                    .at(at, "one too many")
+                    .help("ask for both with `and`, or go on with `@elif`"),
+            );
+        }
+    }
+
+    /// What an `@for` goes through.
+    fn list(&self, directive: &Directive, diags: &mut Vec<Diag>) -> Each {
+        let rest = &directive.rest;
+        let mut wrong = |message: String, label: &str, help: String| {
+            diags.push(Diag::new(Code::PF707, message).at(directive.name.span.to(rest.span), label).help(help));
+        };
+        let names = || Each::ALL.iter().map(|(name, _)| *name);
+        let Some(each) = Each::parse(&rest.text) else {
+            let help = did_you_mean(&rest.text, names())
+                .unwrap_or_else(|| "write `@for tool`, `@for operation` or `@for work`".into());
+            wrong(format!("`@for {}` goes through nothing", rest.text), "no list", help);
+            return Each::Tool;
+        };
+        let outer = |level: &Level| if let Kind::For(each, _) = level.kind { Some(each) } else { None };
+        match self.levels.iter().rev().find_map(outer) {
+            Some(outer) if each != Each::Operation || outer == Each::Operation => wrong(
+                format!("@for {} inside @for {}", each.name(), outer.name()),
+                "one list inside another",
+                "only `@for operation` lies in another: it lists the operations of that tool or work offset".into(),
+            ),
+            _ => {}
+        }
+        each
+    }
+
     fn no_more_behind_else(&self, name: &str, at: Span, diags: &mut Vec<Diag>) {
-        if self.levels.last().is_some_and(|level| level.has_else) {
+        if self.levels.last().is_some_and(|level| matches!(level.kind, Kind::If { has_else: true, .. })) {
             diags.push(
                 Diag::new(Code::PF707, format!("{name} behind @else"))
                     .at(at, "this would never print")

@@ -9,7 +9,7 @@ use super::messages::{duplicate_sequence, is_word, no_name_line, unknown_name};
 use super::model::{Line, Sequence, Upon};
 use super::names::{Context, variable};
 use super::settings::Settings;
-use super::step::{Step, line_counts};
+use super::step::{Step, first_list, line_counts};
 use super::words::resolve;
 use crate::diag::{Code, Diag};
 use crate::lang::{Args, CommandId, Machines, SequenceId, SequenceName};
@@ -101,6 +101,14 @@ impl Analysis {
                 Diag::new(Code::PF709, format!("a way through {} prints nothing", id.name()))
                     .at(span, "where no condition holds, or in a branch without lines")
                     .help("add `@else` with what is printed then: a move, a hole or a tool change would be lost"),
+            );
+        }
+        let list = steps.as_deref().and_then(first_list).filter(|_| is_often(id));
+        if let Some((each, at)) = list {
+            self.report(
+                Diag::new(Code::PF707, format!("@for {} in {}", each.name(), id.name()))
+                    .at(at, "the whole list, each time that this prints")
+                    .help("print lists in StartCode, EndCode or a tool change"),
             );
         }
         let remark = match &node.name.line.tail {
@@ -221,6 +229,13 @@ fn must_print(id: SequenceId) -> bool {
     let moves = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed, S::Index, S::Unwind];
     let changes = [S::FirstToolChange, S::ToolChange, S::SubCall, S::SubEnd, S::Stop, S::EndCode, S::Cancel];
     id.row().is_cycle || moves.contains(&id) || changes.contains(&id)
+}
+
+/// Does a sequence print for single moves or holes?
+fn is_often(id: SequenceId) -> bool {
+    use SequenceId as S;
+    let moves = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed];
+    id.row().is_cycle || moves.contains(&id)
 }
 
 /// What a sequence prints, and when, where directives say it.

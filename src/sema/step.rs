@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::formula::Formula;
-use crate::lang::VarId;
+use crate::lang::{Each, VarId};
 use crate::span::Span;
 
 /// A part of a sequence.
@@ -13,6 +13,8 @@ pub enum Step {
     Lines(Range<usize>),
     /// The first arm whose condition holds; without one nothing.
     If(Vec<Arm>),
+    /// These once for each.
+    For(Each, Vec<Step>, Span),
     /// A variable has this value from here on.
     Set(VarId, Formula, Span),
 }
@@ -35,6 +37,7 @@ pub fn line_counts(steps: &[Step]) -> (usize, usize) {
         let (least, most) = match step {
             Step::Lines(lines) => (lines.len(), lines.len()),
             Step::Set(..) => (0, 0),
+            Step::For(_, steps, _) => (0, line_counts(steps).1),
             Step::If(arms) => {
                 let counts = || arms.iter().map(|arm| line_counts(&arm.steps));
                 let else_is_said = arms.last().is_some_and(|arm| arm.condition.is_none());
@@ -53,6 +56,7 @@ pub fn each_formula(steps: &[Step], take: &mut dyn FnMut(&Formula)) {
         match step {
             Step::Lines(_) => {}
             Step::Set(_, value, _) => take(value),
+            Step::For(_, steps, _) => each_formula(steps, take),
             Step::If(arms) => {
                 for arm in arms {
                     arm.condition.iter().for_each(&mut *take);
@@ -61,4 +65,13 @@ pub fn each_formula(steps: &[Step], take: &mut dyn FnMut(&Formula)) {
             }
         }
     }
+}
+
+/// The first list that the steps go through, if there is one.
+pub fn first_list(steps: &[Step]) -> Option<(Each, Span)> {
+    steps.iter().find_map(|step| match step {
+        Step::For(each, _, span) => Some((*each, *span)),
+        Step::If(arms) => arms.iter().find_map(|arm| first_list(&arm.steps)),
+        Step::Lines(_) | Step::Set(..) => None,
+    })
 }

@@ -118,6 +118,20 @@ static OPERATORS: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
         .op(Op::prefix(Rule::negative))
 });
 
+/// Do brackets behind a square one lie so deep that no line of a form means it? The grammar goes down with them.
+pub fn is_too_deep(line: &str) -> bool {
+    let mut depth = 0_usize;
+    line.bytes().any(|c| {
+        match c {
+            b'[' => depth += 1,
+            b'(' if depth > 0 => depth += 1,
+            b')' | b']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        depth > 2 * DEEPEST
+    })
+}
+
 /// Reads an expression that stands at `span`; `in_brackets`: names are variables.
 ///
 /// # Errors

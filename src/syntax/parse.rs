@@ -5,7 +5,7 @@ use pest::iterators::Pair;
 
 use super::ast::*;
 use super::directive::directive;
-use super::expression::expression;
+use super::expression::{expression, is_too_deep};
 use super::grammar::{FormGrammar, Rule};
 use crate::lang::{CommandId, SequenceId, SequenceName, TextVar};
 use crate::source::Source;
@@ -261,6 +261,11 @@ fn begins_sequence(body: &Body, text: &str, start: usize) -> bool {
 /// A line inside a sequence, or its end.
 fn body_line(at: At, text: &str) -> Result<Body, End> {
     let mut body = Body { line: at.line(text), words: Vec::new(), directive: None };
+    if is_too_deep(text) {
+        let span = body.line.span;
+        body.words.push(Word { span, pieces: vec![Piece { span, kind: PieceKind::Stray(text.to_owned()) }] });
+        return Ok(body);
+    }
     for pair in pairs(Rule::body_line, text) {
         match pair.as_rule() {
             Rule::end => {

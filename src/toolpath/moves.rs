@@ -14,6 +14,17 @@ pub enum Plane {
     Yz,
 }
 
+impl Plane {
+    /// The axes of the plane in the order that makes counter-clockwise positive, and the axis across it.
+    pub fn axes(self) -> ([usize; 2], usize) {
+        match self {
+            Plane::Xy => ([0, 1], 2),
+            Plane::Xz => ([2, 0], 1),
+            Plane::Yz => ([1, 2], 0),
+        }
+    }
+}
+
 /// Which way an arc turns, seen from the plane's positive third axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {

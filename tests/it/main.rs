@@ -23,6 +23,7 @@ mod integrations;
 mod lint_command;
 mod linuxcnc;
 mod linuxcnc_random;
+mod lists;
 mod lsp;
 mod machines;
 mod machines_proven;

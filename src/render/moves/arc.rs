@@ -4,7 +4,7 @@ use crate::control;
 use std::f64::consts::PI;
 
 use super::centres::{CENTRE_OF, as_printed_back, centre_letter};
-use super::geometry::{Piece, PlaneArc};
+use super::geometry::Piece;
 use super::line::line_to;
 use super::measure::measured;
 use super::pieces::{chords, ends_meet, pieces};
@@ -19,15 +19,17 @@ use crate::render::shape::Shape;
 use crate::render::targets::{check_limits, set_targets};
 use crate::render::want::Want;
 use crate::sema::ArcCentre;
-use crate::toolpath::{Arc, Axes, Direction, Plane, Units};
+use crate::toolpath::{Arc, Axes, Direction, Plane, PlaneArc, Units};
 
 /// The axes of a plane in the order that makes counter-clockwise positive, the axis across it, the plane's code.
 fn plane_axes(plane: Plane) -> ([usize; 2], usize, control::Code) {
-    match plane {
-        Plane::Xy => ([0, 1], 2, control::Code::g(17)),
-        Plane::Xz => ([2, 0], 1, control::Code::g(18)),
-        Plane::Yz => ([1, 2], 0, control::Code::g(19)),
-    }
+    let (axes, across) = plane.axes();
+    let code = match plane {
+        Plane::Xy => 17,
+        Plane::Xz => 18,
+        Plane::Yz => 19,
+    };
+    (axes, across, control::Code::g(code))
 }
 
 /// An arc of the path.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::geometry::{Piece, PlaneArc};
+use super::geometry::Piece;
 use crate::compile::{Op, Routine};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
@@ -15,7 +15,7 @@ use crate::render::shape::Shape;
 use crate::render::want::Want;
 use crate::sema;
 use crate::sema::{ArcCentre, Settings};
-use crate::toolpath::{Axes, Units};
+use crate::toolpath::{Axes, PlaneArc, Units};
 
 /// Variables that say where an arc's centre is.
 pub const CENTRES: VarSet = VarSet::of(&[VarId::Ival, VarId::Jval, VarId::Kval, VarId::Hctr, VarId::Vctr]);

@@ -6,7 +6,7 @@ use super::centres::{
     CENTRE_OF, CENTRES, as_printed_back, centre_values, centre_words, check_centres, check_signs, divide_for_radius,
     set_arc_variables,
 };
-use super::geometry::{Piece, PlaneArc};
+use super::geometry::Piece;
 use super::line::line_to;
 use crate::compile::Routine;
 use crate::diag::Code;
@@ -24,7 +24,7 @@ use crate::render::want::Want;
 use crate::render::words::{AxisUnits, axis_units, axis_words, feed_word, motion_word};
 use crate::sema;
 use crate::sema::ArcCentre;
-use crate::toolpath::Axes;
+use crate::toolpath::{Axes, PlaneArc};
 
 /// Does a sequence say where an arc ends by its centre and the angle there?
 fn ends_by_angle(routine: &Routine, axes: [usize; 2]) -> bool {

@@ -5,8 +5,10 @@ use super::variables::{set_named, set_variable};
 use crate::compile::{Op, Routine};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
-use crate::render::body::{Mode, is_percent, run_part};
+use crate::render::ahead;
+use crate::render::body::{Mode, run_part};
 use crate::render::fault::{Done, fault};
+use crate::render::numbered::is_percent;
 use crate::render::printer::Printer;
 use crate::render::said::Said;
 use crate::render::shape::Shape;
@@ -33,9 +35,10 @@ pub fn start(
     shape.choose_units(start.units)?;
     want.set(VarId::Unitmode, settings.inch_mm[usize::from(shape.units == Units::Mm)]);
     out.set_letters(settings, shape.letters);
-    want.tool_order.clone_from(&start.tool_order);
-    if let Some(first) = start.tool_order.as_ref().and_then(|order| order.first()) {
-        want.set(VarId::Tool1, *first);
+    want.tool_order = start.tool_order.as_deref().map(Into::into);
+    ahead::of_program(shape, want);
+    if let Some(first) = want.tool_order.as_ref().and_then(|order| order.first().copied()) {
+        want.set(VarId::Tool1, first);
     }
     want.put(VarId::Program, shape.options.program.map(f64::from).or(start.program));
     answers(start, shape, want, out)?;

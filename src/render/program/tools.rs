@@ -9,6 +9,7 @@ use crate::compile::Routine;
 use crate::control::Meaning;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, TextId, VarId, VarSet};
+use crate::render::ahead;
 use crate::render::cycle::hole::hole_position;
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::moves::rotary::change_turns;
@@ -136,7 +137,7 @@ fn change_tool(
         return fault(Code::PR030, "the tool changes under cutter compensation", help);
     }
     let id = change_of(want);
-    tool_variables(tool, shape, want)?;
+    next_tool(tool, shape, want)?;
     want.tool = Some(tool.number);
     said.stand.fresh_tool = true;
     want.tool_changes += 1;
@@ -218,18 +219,13 @@ fn turret_word(tool: &Tool, shape: &Shape) -> Done<f64> {
     Ok(if whole { tool.number } else { tool.number * STATIONS + register })
 }
 
-fn tool_variables(tool: &Tool, shape: &mut Shape, want: &mut Want) -> Done {
-    let settings = &shape.program.settings;
+fn next_tool(tool: &Tool, shape: &mut Shape, want: &mut Want) -> Done {
     want.put(VarId::Lasttool, want.tool);
     if want.tool.is_none() {
         want.set(VarId::Tool1, tool.number);
     }
     want.set(VarId::Isfirsttool, f64::from(u8::from(want.tool.is_none())));
-    want.set(VarId::Tool, tool.number);
-    want.put(VarId::Toold, tool.diameter.map(|d| d * shape.scale));
-    want.set(VarId::Lcomp, tool.length_offset.unwrap_or(tool.number + settings.lcomp));
-    want.set(VarId::Dcomp, tool.diameter_offset.unwrap_or(tool.number + settings.dcomp));
-    want.put(VarId::Turret, tool.turret);
+    ahead::tool_variables(tool, shape, want);
     shape.choose_turret(tool.turret);
     if let Some(order) = &want.tool_order {
         if order.get(want.tool_changes) != Some(&tool.number) {

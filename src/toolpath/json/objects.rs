@@ -100,7 +100,7 @@ objects! {
         "machine" machine Word<Machine>, "what the job is for (mill)";
         "set" set Values, "values for variables of the form";
         "tools" tools Vec<ToolObject>, "the tools";
-        "tool_order" tool_order Vec<Number>, "tool numbers in the order of their use; needed for [nexttool]";
+        "tool_order" tool_order Vec<Number>, "tool numbers in the order of their use";
     }
     /// A tool.
     ToolObject "a tool" {

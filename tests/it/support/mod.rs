@@ -13,10 +13,11 @@ use postform::internals::cl::read_cl;
 use postform::internals::compile::compile;
 use postform::internals::control::Control;
 use postform::internals::json::{read_document, read_lines};
-use postform::internals::render::{Options, Renderer, TraceLine};
+use postform::internals::render::{Options, Renderer, TraceLine, survey_terms};
 use postform::internals::sema::{Checked, Limits, analyse};
 use postform::internals::source::Source;
-use postform::toolpath::{Flow, ReadError, Stop};
+use postform::internals::survey::Surveyor;
+use postform::toolpath::{Flow, ReadError, Sink, Stop};
 
 /// A control that ships; for a name that is none, the usual one.
 pub fn control(name: &str) -> &'static Control {
@@ -65,18 +66,26 @@ pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) 
         return Err(Box::new(error.clone()));
     }
     let program = compile(&checked.form);
-    let mut renderer = Renderer::new(&program, Options { trace: true, ..options });
-    let read = match kind {
-        Kind::Lines => read_lines(job, &mut renderer),
-        Kind::Document => read_document(job, &mut renderer),
+    let read = |sink: &mut dyn Sink| match kind {
+        Kind::Lines => read_lines(job, sink),
+        Kind::Document => read_document(job, sink),
         Kind::Cl => read_cl(
             job,
             &postform::internals::cl::Options::default(),
             &mut postform::internals::cl::Report::default(),
-            &mut renderer,
+            sink,
         ),
     };
-    match read {
+    let mut survey = None;
+    if program.reads_ahead() || program.asks_tools_ahead() {
+        let mut surveyor = Surveyor::new(survey_terms(&program, false));
+        if let Err(ReadError::Job(diag)) = read(&mut surveyor) {
+            return Err(diag);
+        }
+        survey = Some(surveyor.finish().into());
+    }
+    let mut renderer = Renderer::new(&program, Options { trace: true, survey, ..options });
+    match read(&mut renderer) {
         Ok(()) => Ok(Rendered {
             text: String::from_utf8(std::mem::take(renderer.text())).unwrap(),
             trace: std::mem::take(renderer.trace().unwrap()),

@@ -1,9 +1,14 @@
 //! One run of a sequence: its operations, word by word. What holds only during it begins and ends here.
 
+mod formula;
+
 use crate::control;
 use std::ops::Range;
 
+use super::ahead;
 use super::fault::{Done, fault};
+use super::no_value::no_value;
+use super::numbered::last_line;
 use super::numbers::quantised;
 use super::printer::Printer;
 use super::said::{Line, Said};
@@ -12,13 +17,11 @@ use super::texts;
 use super::values::{Now, rpm_as_limit};
 use super::vars::MOVED;
 use super::want::Want;
-use super::ways::division_by_zero;
 use super::words::check_feed;
 use crate::compile::{Letter, LetterKind, Op, Routine};
 use crate::diag::Code;
-use crate::lang::{Origin, SequenceId, VarId, VarSet};
+use crate::lang::{VarId, VarSet};
 use crate::number::quantise;
-use crate::sema::Without;
 
 /// Which words of a line print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -184,6 +187,7 @@ impl Body<'_, '_> {
         let next_hole = matches!(self.mode, Mode::NextHole { .. });
         match op {
             Op::Line { .. } => {}
+            Op::List { index } => self.list(index as usize)?,
             Op::Var { letter, var, glued } => self.var_word(letter, var, glued)?,
             Op::Literal { index, glued } => self.literal_word(index as usize, glued),
             Op::Set { var, index } => {
@@ -346,6 +350,17 @@ impl Body<'_, '_> {
             VarId::Dwell if self.want.in_cycle => return Ok(None),
             _ => {}
         }
+        if ahead::is_reach(var)
+            && let Some(survey) = &self.shape.options.survey
+            && !survey.whole.in_one_frame()
+        {
+            let message = format!("[{}] in a job of several work offsets", var.name());
+            return fault(
+                Code::PR052,
+                message,
+                "print it inside `@for work`, for each of them, or ask before it: `@if [hmin]`",
+            );
+        }
         no_value(var)
     }
 
@@ -353,57 +368,6 @@ impl Body<'_, '_> {
     fn now(&self, letter: u8) -> Now<'_, '_> {
         let block = Some(self.out.number());
         Now { shape: self.shape, want: self.want, said: self.said, letter, block, set: &[] }
-    }
-
-    /// A calculated value, or none where the word of a variable in it is optional.
-    fn calculated(&self, index: u32, letter: u8) -> Done<Option<f64>> {
-        match self.shape.program.formulas[index as usize].number(&self.now(letter)) {
-            Ok(value) => Ok(Some(value)),
-            Err(Without::Value(var)) => self.value_of(var, letter),
-            Err(Without::Divisor(_)) => division_by_zero(None),
-        }
-    }
-
-    /// A letter and a calculated value. On an axis the control counts it like a typed one: it may stand in another frame.
-    fn formula_word(&mut self, letter: u8, index: u32, glued: bool) -> Done {
-        let (shape, settings) = (self.shape, &self.shape.program.settings);
-        let info = &shape.letters[letter];
-        let Some(value) = self.calculated(index, letter)? else { return Ok(()) };
-        let units = quantised(info, value)?;
-        if let Some(var) = FEEDS.iter().find(|&var| shape.program.formulas[index as usize].vars().has(var)) {
-            check_feed(info, var, value, units, self.out)?;
-        }
-        let feed = self.want.inverse_time() && letter == settings.feed_code;
-        let drops = match self.mode {
-            Mode::All => false,
-            Mode::Motion | Mode::ArcMotion => match info.kind {
-                LetterKind::GCode | LetterKind::MCode => {
-                    control::Code::of(info.printed, value).is_some_and(|code| self.said.code_drops(code, shape))
-                }
-                _ => info.modal && self.said.holds(info, units) && !feed,
-            },
-            Mode::NextHole { .. } => settings.modality && self.said.holds_value(info, units, value),
-            Mode::Hole => self.drops && self.said.holds_value(info, units, value),
-        };
-        if drops {
-            return Ok(());
-        }
-        self.out.letter(info, units, glued)?;
-        match info.kind {
-            LetterKind::GCode | LetterKind::MCode => {
-                self.said.code_word(info, value, self.line(), self.want, shape);
-            }
-            LetterKind::Axis => {
-                self.said.forget(info);
-                self.said.displaced(shape.axis_bit(letter), shape);
-            }
-            LetterKind::Other => self.said.word(info, units),
-        }
-        if Some(info.printed) == settings.numbers.letter {
-            self.out.prints_number();
-        }
-        self.said.speed_word(letter, Some(value), shape);
-        Ok(())
     }
 
     /// A value without a letter, which the control reads.
@@ -415,18 +379,6 @@ impl Body<'_, '_> {
         }
         self.said.condition_word(b' ', var, value, self.shape);
         Ok(())
-    }
-
-    /// A value in a comment, which says what is known.
-    fn remark(&mut self, value: Done<Option<f64>>, glued: bool) -> Done {
-        match value {
-            Ok(Some(value)) => self.out.bare(value, &self.shape.letters.bare, glued),
-            Ok(None) => Ok(()),
-            Err(_) => {
-                self.out.word(glued).push(b'-');
-                Ok(())
-            }
-        }
     }
 
     /// A word as typed; its value goes into the registers.
@@ -482,36 +434,4 @@ impl Body<'_, '_> {
             format!("{}[{}] is a position, and the control is in G{increments}", char::from(letter), var.name());
         fault(Code::PR040, message, "print G90 before it, or the increment, as [hdist]")
     }
-}
-
-/// The error of a variable that has no value.
-#[cold]
-fn no_value<T>(var: VarId) -> Done<T> {
-    let help = match var {
-        VarId::Nexttool => "list the tools ahead under `tool_order`: a stream can't look for them".to_owned(),
-        VarId::Program => "give the job a `program`, or say it with `--program NUMBER`".to_owned(),
-        VarId::H | VarId::V | VarId::D => "begin the operation with a rapid that gives all coordinates".to_owned(),
-        _ if MOVED.contains(&var) => {
-            "nobody knows where the tool is: print its position in the sequence that moved it, or changed the offset"
-                .to_owned()
-        }
-        _ if var.row().origin == Origin::Job => {
-            format!("give it with `--set {}=VALUE` or under \"set\" in the job", var.name())
-        }
-        _ => format!("it stands for: {}; let the job say it, or take the word out of the form", var.row().meaning),
-    };
-    fault(Code::PR001, format!("[{}] has no value here", var.name()), help)
-}
-
-/// The last line of EndCode that may have a block number: `%` is none.
-fn last_line(shape: &Shape, want: &Want, said: &Said) -> Option<usize> {
-    let routine = shape.routine(SequenceId::EndCode, want, said)?;
-    let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
-    routine.steps().rev().filter(is_line).find(|&line| !is_percent(line, shape))
-}
-
-/// Is the line that begins here a `%`?
-pub fn is_percent(line: usize, shape: &Shape) -> bool {
-    matches!(shape.program.ops.get(line + 1), Some(Op::Text { index, .. })
-        if shape.program.texts[*index as usize].starts_with('%'))
 }

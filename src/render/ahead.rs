@@ -1,0 +1,145 @@
+//! What lies ahead in the job: values of the whole program, and of each tool, operation or work offset that a list goes through.
+
+use super::defaults::cycle_defaults;
+use super::shape::Shape;
+use super::want::Want;
+use crate::compile::Program;
+use crate::lang::{Each, VarId, work_code};
+use crate::sema::Settings;
+use crate::survey::{Survey, Terms, Totals};
+use crate::toolpath::{SpindleTurn, Tool, Units};
+
+/// One of those that a list goes through: a row of the survey.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Item {
+    pub each: Each,
+    pub row: usize,
+}
+
+/// Variables of how far the program reaches: least and greatest of each axis, of the cuts and of all moves.
+const REACH: [[(VarId, VarId); 3]; 2] = [
+    [(VarId::Hmin, VarId::Hmax), (VarId::Vmin, VarId::Vmax), (VarId::Dmin, VarId::Dmax)],
+    [(VarId::Rhmin, VarId::Rhmax), (VarId::Rvmin, VarId::Rvmax), (VarId::Rdmin, VarId::Rdmax)],
+];
+
+/// Is it a variable of how far the program reaches?
+pub fn is_reach(var: VarId) -> bool {
+    REACH.iter().flatten().any(|(least, most)| var == *least || var == *most)
+}
+
+/// What a survey must know of a form.
+pub fn survey_terms(program: &Program, sink_as_printed: bool) -> Terms {
+    let settings = &program.settings;
+    let defaults = [Units::Inch, Units::Mm].map(|units| cycle_defaults(settings, units, sink_as_printed));
+    Terms { defaults, work: default_work(settings), first_work: settings.work, only_order: !program.reads_ahead() }
+}
+
+/// The work offset of a job that names none. A form that counts its offsets from 1 counts the default code so too.
+pub fn default_work(settings: &Settings) -> f64 {
+    let default = settings.work_default;
+    if default < 50.0 { default } else { work_code(settings.work, default).unwrap_or(default) }
+}
+
+/// The values of the whole program.
+pub fn of_program(shape: &Shape, want: &mut Want) {
+    let Some(survey) = &shape.options.survey else { return };
+    if want.tool_order.is_none() {
+        want.tool_order = Some(survey.changes.as_slice().into());
+    }
+    want.set(VarId::Toolcount, survey.tools.len() as f64);
+    totals(&survey.whole, shape, want);
+}
+
+/// The rows that a list goes through; inside another list those that belong to its item.
+pub fn items(each: Each, outer: Option<Item>, survey: &Survey) -> Vec<Item> {
+    let rows = match each {
+        Each::Tool => 0..survey.tools.len(),
+        Each::Operation => 0..survey.operations.len(),
+        Each::Work => 0..survey.works.len(),
+    };
+    let belongs = |row: &usize| match (each, outer) {
+        (Each::Operation, Some(Item { each: Each::Tool, row: tool })) => survey.operations[*row].tool == Some(tool),
+        (Each::Operation, Some(Item { each: Each::Work, row: work })) => {
+            survey.operations[*row].totals.works.contains(&survey.works[work].work)
+        }
+        _ => true,
+    };
+    rows.filter(belongs).map(|row| Item { each, row }).collect()
+}
+
+/// What the job wants while the lines of a list print for this item.
+pub fn of_item(item: Item, survey: &Survey, shape: &Shape, want: &Want) -> Want {
+    let mut want = want.clone();
+    want.item = Some(item);
+    match item.each {
+        Each::Tool => {
+            let used = &survey.tools[item.row];
+            operation(used.first, survey, shape, &mut want);
+            totals(&used.totals, shape, &mut want);
+        }
+        Each::Operation => {
+            operation(item.row, survey, shape, &mut want);
+            totals(&survey.operations[item.row].totals, shape, &mut want);
+        }
+        Each::Work => {
+            let used = &survey.works[item.row];
+            want.set(VarId::Work, used.work);
+            totals(&used.totals, shape, &mut want);
+        }
+    }
+    want
+}
+
+/// What an operation says, and its tool.
+fn operation(row: usize, survey: &Survey, shape: &Shape, want: &mut Want) {
+    let operation = &survey.operations[row];
+    let settings = &shape.program.settings;
+    let mut begins = operation.begins.clone();
+    if let Some(used) = operation.tool.map(|tool| &survey.tools[tool]) {
+        tool_variables(&used.tool, shape, want);
+        begins.tool = Some(used.tool.clone());
+    }
+    want.texts.operation(&begins, shape);
+    want.put(VarId::Speed, operation.spindle.speed);
+    let direct = operation.spindle.turn.map(|turn| match turn {
+        SpindleTurn::Cw => settings.spindle[0],
+        SpindleTurn::Ccw => settings.spindle[1],
+        SpindleTurn::Off => settings.spindle[2],
+    });
+    want.put(VarId::Direct, direct);
+    want.put(VarId::Frate, begins.feed.map(|feed| feed * shape.scale));
+    want.put(VarId::Plunge, begins.plunge.or(begins.feed).map(|feed| feed * shape.scale));
+    if let Some(work) = operation.totals.works.first() {
+        want.set(VarId::Work, *work);
+    }
+}
+
+/// What a tool says of itself.
+pub fn tool_variables(tool: &Tool, shape: &Shape, want: &mut Want) {
+    let settings = &shape.program.settings;
+    want.set(VarId::Tool, tool.number);
+    want.put(VarId::Toold, tool.diameter.map(|diameter| diameter * shape.scale));
+    want.set(VarId::Lcomp, tool.length_offset.unwrap_or(tool.number + settings.lcomp));
+    want.set(VarId::Dcomp, tool.diameter_offset.unwrap_or(tool.number + settings.dcomp));
+    want.put(VarId::Turret, tool.turret);
+}
+
+/// Sums, and how far cuts and moves reach, where that is one frame.
+fn totals(sums: &Totals, shape: &Shape, want: &mut Want) {
+    const SECONDS: f64 = 60.0;
+    want.set(VarId::Opcount, sums.operations as f64);
+    want.set(VarId::Holecount, sums.holes as f64);
+    want.set(VarId::Cuttime, sums.minutes * SECONDS);
+    want.set(VarId::Cutlength, sums.length * shape.scale);
+    for (vars, reach) in REACH.iter().zip([&sums.cuts, &sums.moves]) {
+        for (axis, (least, most)) in vars.iter().enumerate() {
+            let both = reach.0[axis].filter(|_| sums.in_one_frame()).map(|(from, to)| {
+                let scale = shape.scale * shape.scales[axis];
+                let (from, to) = (from * scale, to * scale);
+                (from.min(to), from.max(to))
+            });
+            want.put(*least, both.map(|(least, _)| least));
+            want.put(*most, both.map(|(_, most)| most));
+        }
+    }
+}

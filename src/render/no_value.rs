@@ -1,0 +1,26 @@
+//! Variables that have no value where they are printed.
+
+use super::fault::{Done, fault};
+use super::vars::MOVED;
+use crate::diag::Code;
+use crate::lang::{AHEAD, Origin, VarId};
+
+/// The error of a variable that has no value.
+#[cold]
+pub fn no_value<T>(var: VarId) -> Done<T> {
+    let help = match var {
+        VarId::Nexttool => "list the tools ahead under `tool_order`, or render without `--stream`".to_owned(),
+        _ if AHEAD.has(var) => "the job has no cut that tells it; ask before it, as `@if [hmin]`".to_owned(),
+        VarId::Program => "give the job a `program`, or say it with `--program NUMBER`".to_owned(),
+        VarId::H | VarId::V | VarId::D => "begin the operation with a rapid that gives all coordinates".to_owned(),
+        _ if MOVED.contains(&var) => {
+            "nobody knows where the tool is: print its position in the sequence that moved it, or changed the offset"
+                .to_owned()
+        }
+        _ if var.row().origin == Origin::Job => {
+            format!("give it with `--set {}=VALUE` or under \"set\" in the job", var.name())
+        }
+        _ => format!("it stands for: {}; let the job say it, or take the word out of the form", var.row().meaning),
+    };
+    fault(Code::PR001, format!("[{}] has no value here", var.name()), help)
+}

@@ -1,0 +1,20 @@
+//! Lines that have no block number.
+
+use super::said::Said;
+use super::shape::Shape;
+use super::want::Want;
+use crate::compile::Op;
+use crate::lang::SequenceId;
+
+/// The last line of EndCode that may have a block number: `%` is none.
+pub fn last_line(shape: &Shape, want: &Want, said: &Said) -> Option<usize> {
+    let routine = shape.routine(SequenceId::EndCode, want, said)?;
+    let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
+    routine.steps().rev().filter(is_line).find(|&line| !is_percent(line, shape))
+}
+
+/// Is the line that begins here a `%`?
+pub fn is_percent(line: usize, shape: &Shape) -> bool {
+    matches!(shape.program.ops.get(line + 1), Some(Op::Text { index, .. })
+        if shape.program.texts[*index as usize].starts_with('%'))
+}

@@ -1,0 +1,79 @@
+//! What adds up over cuts, and how far they reach.
+
+use crate::toolpath::Axes;
+
+/// Least and greatest position of each linear axis, in the job's units; `None`: no move says it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach(pub [Option<(f64, f64)>; 3]);
+
+impl Reach {
+    /// Reaches to a position of one axis.
+    pub fn to(&mut self, axis: usize, value: f64) {
+        let (least, most) = self.0[axis].unwrap_or((value, value));
+        self.0[axis] = Some((least.min(value), most.max(value)));
+    }
+
+    /// Reaches to a place, as far as it is given.
+    pub fn to_place(&mut self, place: &Axes) {
+        for axis in 0..3 {
+            if let Some(value) = place.get(axis) {
+                self.to(axis, value);
+            }
+        }
+    }
+
+    /// Reaches as far as the other does.
+    pub fn join(&mut self, other: &Reach) {
+        for (axis, reach) in other.0.iter().enumerate() {
+            if let Some((least, most)) = reach {
+                self.to(axis, *least);
+                self.to(axis, *most);
+            }
+        }
+    }
+}
+
+/// Sums of a job or of a part of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Totals {
+    /// Operations.
+    pub operations: u64,
+    /// Holes of cycles.
+    pub holes: u64,
+    /// Length of the cuts, in the job's units.
+    pub length: f64,
+    /// Time of the cuts at their feeds, in minutes.
+    pub minutes: f64,
+    /// How far cuts reach.
+    pub cuts: Reach,
+    /// How far cuts and rapids reach.
+    pub moves: Reach,
+    /// The work offsets in which that counts.
+    pub works: Vec<f64>,
+}
+
+impl Totals {
+    /// Adds those of a part, `times` over; operations are counted where they begin.
+    pub fn add(&mut self, part: &Totals, times: f64) {
+        self.holes += (part.holes as f64 * times) as u64;
+        self.length += part.length * times;
+        self.minutes += part.minutes * times;
+        self.cuts.join(&part.cuts);
+        self.moves.join(&part.moves);
+        for work in &part.works {
+            if !self.works.contains(work) {
+                self.works.push(*work);
+            }
+        }
+    }
+
+    /// Is there no move in it?
+    pub fn is_still(&self) -> bool {
+        self.moves == Reach::default() && self.holes == 0
+    }
+
+    /// Positions of several work offsets are not of one frame: no least and greatest of them means anything.
+    pub fn in_one_frame(&self) -> bool {
+        self.works.len() <= 1
+    }
+}

@@ -1,0 +1,198 @@
+//! What lies ahead: lists of tools, operations and work offsets, extents and sums, the next tool; what is refused.
+
+use crate::support::{check, mill, program};
+use postform::{ErrorKind, Job, NoFiles, Options, Post, Source};
+
+/// A form whose StartCode prints these lines.
+fn form(lines: &str) -> String {
+    mill("Units both\nX->4.>4\nY->4.>4\nZ->4.>4", "").replacen("%0\n", &format!("%0\nG[unitmode]\n{lines}\n"), 1)
+}
+
+/// Options that prove nothing.
+fn unproven() -> Options {
+    let mut options = Options::default();
+    options.proof = None;
+    options
+}
+
+/// The error codes of a form, each once.
+fn codes(form: &str) -> Vec<&'static str> {
+    let mut codes: Vec<_> =
+        check(form).diags.iter().filter(|diag| diag.is_error()).map(|diag| diag.code.name()).collect();
+    codes.dedup();
+    codes
+}
+
+/// A job of these operations: the tool, its work offset, the path.
+fn job(operations: &[(u32, u32, &str)]) -> String {
+    let operations = operations.iter().enumerate().map(|(i, (tool, work, path))| {
+        format!(
+            "{{\"tool\":{tool},\"name\":\"op {i}\",\"work\":{work},\"spindle\":{{\"speed\":{tool}000,\"direction\":\"cw\"}},\
+             \"feed\":60,\"path\":[{{\"rapid\":[0,0,5]}},{path}]}}"
+        )
+    });
+    format!(
+        "{{\"postform\":1,\"units\":\"mm\",\"tools\":[{{\"number\":1,\"name\":\"Mill\",\"diameter\":10}},\
+         {{\"number\":2,\"name\":\"Drill\",\"diameter\":5}},{{\"number\":3}}],\"operations\":[{}]}}",
+        operations.collect::<Vec<_>>().join(",")
+    )
+}
+
+const LINE: &str = "{\"line\":[10,0,-1]}";
+const HOLES: &str = "{\"cycle\":{\"kind\":\"drill\",\"depth\":8,\"clear\":2,\"feed\":30,\"points\":[[1,2,0],[5,2,0]]}}";
+
+/// What lines of StartCode print.
+fn lines(lines: &str, job: &str) -> Vec<String> {
+    let printed = program(&form(lines), job);
+    match printed.iter().position(|line| line == "T1 M6") {
+        Some(end) => printed[2..end].to_vec(),
+        None => printed,
+    }
+}
+
+#[test]
+fn lists_print_once_for_each() {
+    let job = job(&[(1, 54, LINE), (2, 54, HOLES), (1, 54, LINE), (3, 54, LINE)]);
+    assert_eq!(
+        lines("@for tool\n  (T[tool] [toolname] D[toold] S[speed] [opcount])\n@end", &job),
+        ["(T1 MILL D10 S1000 2)", "(T2 DRILL D5 S2000 1)", "(T3  D- S3000 1)"]
+    );
+    assert_eq!(
+        lines("@for operation\n([opname] BY T[tool] H[lcomp] [holecount])\n@end", &job),
+        ["(OP 0 BY T1 H1 0)", "(OP 1 BY T2 H2 2)", "(OP 2 BY T1 H1 0)", "(OP 3 BY T3 H3 0)"]
+    );
+    assert_eq!(
+        lines("@for tool\n(T[tool])\n@for operation\n(  [opname])\n@end\n@end", &job),
+        ["(T1)", "(  OP 0)", "(  OP 2)", "(T2)", "(  OP 1)", "(T3)", "(  OP 3)"]
+    );
+}
+
+#[test]
+fn conditions_inside_a_list_are_asked_for_each() {
+    let job = job(&[(1, 54, LINE), (2, 54, HOLES), (3, 55, LINE)]);
+    let text = "@set val1 = 0\n@for tool\n@if [holecount] > 0\n(DRILLS WITH [tool])\n@elif [toolname]\n(MILLS WITH [toolname])\n\
+                @else\n@set val1 = [val1]+1\n@end\n@end\n([val1] WITHOUT A NAME)\n@if [opcount] = 3\nM99\n@end";
+    assert_eq!(lines(text, &job), ["(MILLS WITH MILL)", "(DRILLS WITH 2)", "(1 WITHOUT A NAME)", "M99"]);
+}
+
+#[test]
+fn sums_are_those_of_the_whole_program() {
+    let job = job(&[(1, 54, LINE), (2, 54, HOLES)]);
+    // from 0 0 5 to 10 0 -1, then two holes of 2+8 at 30 mm/min
+    let length = (100.0_f64 + 36.0).sqrt() + 20.0;
+    let seconds = ((100.0_f64 + 36.0).sqrt() / 60.0 + 20.0 / 30.0) * 60.0;
+    let printed = lines("([toolcount] [opcount] [holecount] [round(cutlength*100)] [round(cuttime*100)])", &job);
+    assert_eq!(printed, [format!("(2 2 2 {} {})", (length * 100.0).round(), (seconds * 100.0).round())]);
+}
+
+#[test]
+fn extents_are_those_of_the_cuts_arcs_among_them() {
+    let arc = "{\"line\":[10,0,0]},{\"arc\":{\"to\":[-10,0,0],\"center\":[0,0],\"direction\":\"ccw\"}},{\"rapid\":[-20,0,50]}";
+    let extents = "X[hmin] X[hmax] Y[vmin] Y[vmax] Z[dmin] Z[dmax]";
+    assert_eq!(lines(extents, &job(&[(1, 54, arc)])), ["X-10. X10. Y0 Y10. Z0 Z5."]);
+    let moves = "X[rhmin] X[rhmax] Y[rvmin] Y[rvmax] Z[rdmin] Z[rdmax]";
+    assert_eq!(lines(moves, &job(&[(1, 54, arc)])), ["X-20. X10. Y0 Y10. Z0 Z50."]);
+    // a hole is cut from its clearance plane down
+    assert_eq!(lines(extents, &job(&[(1, 54, HOLES)])), ["X1. X5. Y2. Y2. Z-8. Z2."]);
+    // the program's units
+    let post = Post::compile(Source::from_text("form.pf", form(extents)), &NoFiles).unwrap();
+    let mut options = unproven();
+    options.units = Some(postform::toolpath::Units::Inch);
+    let job = job(&[(1, 54, "{\"line\":[25.4,0,0]}")]);
+    let program = post.render(Job::json(&job), &options).unwrap();
+    assert_eq!(program.text().lines().nth(2), Some("X0 X1. Y0 Y0 Z0 Z.1969"));
+}
+
+#[test]
+fn each_work_offset_has_extents_of_its_own() {
+    let job = job(&[(1, 54, LINE), (1, 55, "{\"line\":[20,5,0]}")]);
+    assert_eq!(
+        lines("@for work\n(G[work] X[hmin] TO [hmax], [opcount])\n@end", &job),
+        ["(G54 X0 TO 10, 1)", "(G55 X0 TO 20, 1)"]
+    );
+    let error = "PR052 [hmin] in a job of several work offsets";
+    assert_eq!(lines("(X[hmin])", &job), [error]);
+    assert_eq!(lines("X[hmin]", &job), [error]);
+    assert_eq!(lines("@if [hmin]\n(X[hmin])\n@else\n(TWO PARTS)\n@end", &job), ["(TWO PARTS)"]);
+    // the first fixture and its code are one offset, and so is the form's own
+    let one = job.replacen("\"work\":54", "\"work\":1", 1).replacen("\"work\":55", "\"work\":54", 1);
+    assert_eq!(lines("(X[hmin] TO [hmax])", &one), ["(X0 TO 20)"]);
+    let none = job.replacen(",\"work\":54", "", 1).replacen("\"work\":55", "\"work\":54", 1);
+    assert_eq!(lines("(X[hmin] TO [hmax])", &none), ["(X0 TO 20)"]);
+}
+
+#[test]
+fn subprograms_count_where_they_are_called() {
+    let job = job(&[(1, 54, "{\"call\":{\"sub\":7,\"times\":3,\"at\":[1,1]}}")]).replacen(
+        "\"operations\"",
+        "\"subprograms\":[{\"number\":7,\"path\":[{\"rapid\":[2,2,5]},{\"line\":[2,2,-5],\"feed\":10}]}],\"operations\"",
+        1,
+    );
+    let subs = "SubStart\nO[sub]\nEnd\nSubEnd\nM99\nEnd\nSubCall\nM98 P[sub] L[times]\nEnd\n";
+    let printed = program(&(form("([cutlength] X[hmin] TO [hmax], Z[dmin] TO [dmax])") + subs), &job);
+    assert!(printed.contains(&"(30 X2 TO 2, Z-5 TO 5)".to_owned()), "{printed:?}");
+}
+
+#[test]
+fn the_next_tool_is_known_for_every_job() {
+    let text = mill("", "").replace("T[tool] M6\n", "T[tool] M6\nT[nexttool]\n@if [islasttool]\nM99\n@end\n");
+    let operations =
+        job(&[(1, 54, LINE), (2, 54, HOLES), (1, 54, LINE)]).replace("\"units\":\"mm\"", "\"units\":\"inch\"");
+    let tools = |job: &str| -> Vec<String> {
+        program(&text, job)
+            .into_iter()
+            .filter(|line| line.starts_with('T') || line.starts_with('P') || line == "M99")
+            .collect()
+    };
+    let all = ["T1 M6", "T2", "T2 M6", "T1", "T1 M6", "T1", "M99"];
+    assert_eq!(tools(&operations), all);
+    let said = operations.replacen("\"tools\"", "\"tool_order\":[1,2,1],\"tools\"", 1);
+    assert_eq!(tools(&said), all);
+}
+
+#[test]
+fn a_job_is_read_twice_only_where_the_form_asks() {
+    let compile = |form: String| Post::compile(Source::from_text("form.pf", form), &NoFiles).unwrap();
+    let job = job(&[(1, 54, LINE)]);
+    let count = |post: &Post, options: &Options| {
+        let mut readings = 0;
+        let events = Job::events(|sink| {
+            readings += 1;
+            postform::internals::json::read_document(job.as_bytes(), sink)
+        });
+        let printed = post.render(events, options);
+        (readings, printed)
+    };
+    assert_eq!(count(&compile(form("(PLAIN)")), &unproven()).0, 1);
+    assert_eq!(count(&compile(form("([opcount])")), &unproven()).0, 2);
+    let mut once = unproven();
+    once.one_pass = true;
+    let (readings, refused) = count(&compile(form("([opcount])")), &once);
+    assert_eq!((readings, refused.unwrap_err().kind()), (0, ErrorKind::Usage));
+    // a stream is held
+    let post = compile(form("([opcount])"));
+    let stream = Job::stream(postform::Format::Json, job.as_bytes());
+    assert!(post.render(stream, &Options::default()).unwrap().text().contains("(1)"));
+}
+
+#[test]
+fn wrong_lists_are_refused() {
+    for text in [
+        "@for\n(A)\n@end",
+        "@for tools\n(A)\n@end",
+        "@for each tool\n(A)\n@end",
+        "@for tool\n(A)",
+        "@for tool\n@for tool\n(A)\n@end\n@end",
+        "@for operation\n@for operation\n(A)\n@end\n@end",
+        "@for operation\n@for tool\n(A)\n@end\n@end",
+        "@for tool\n(A)\n@else\n(B)\n@end",
+    ] {
+        assert_eq!(codes(&form(text)), ["PF707"], "{text}");
+    }
+    for sequence in [
+        "LineCode\nG1 X[h] Y[v] Z[d] F[frate]\n@for tool\nM1\n@end\nEnd",
+        "Peck\n@for work\nM1\n@end\nG0 X[h] Y[v] Z[d]\nEnd",
+    ] {
+        assert_eq!(codes(&mill("", sequence)), ["PF707"], "{sequence}");
+    }
+}

@@ -26,6 +26,8 @@ pub struct Config {
     pub require_proof: bool,
     /// What rules count as.
     pub levels: Levels,
+    /// Values of properties of forms, by their names, as [`Options::shop_properties`](crate::Options::shop_properties) takes them.
+    pub properties: Vec<(String, String)>,
 }
 
 /// A control that comes with postform, or a shop's own.
@@ -51,6 +53,30 @@ struct Written {
     jobs: Vec<String>,
     #[serde(default)]
     rules: BTreeMap<String, String>,
+    #[serde(default)]
+    properties: BTreeMap<String, WrittenValue>,
+}
+
+/// `through = "high"`, `header = false`.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum WrittenValue {
+    YesNo(bool),
+    Whole(i64),
+    Number(f64),
+    Text(String),
+}
+
+impl WrittenValue {
+    /// As somebody types it.
+    fn typed(self) -> String {
+        match self {
+            WrittenValue::YesNo(yes) => if yes { "yes" } else { "no" }.into(),
+            WrittenValue::Whole(number) => number.to_string(),
+            WrittenValue::Number(number) => number.to_string(),
+            WrittenValue::Text(text) => text,
+        }
+    }
 }
 
 /// `control = "haas"`, or a file that describes one.
@@ -69,7 +95,7 @@ impl Config {
     pub fn parse(text: &str) -> Result<Config, Error> {
         let written: Written = toml::from_str(text).map_err(|error| {
             let known =
-                "it may say form, control, limits, jobs, require-proof, and under [rules] codes as PF303 = \"off\"";
+                "it may say form, control, limits, jobs, require-proof, under [rules] codes as PF303 = \"off\", and under [properties] values as header = false";
             Error::usage(format!("{}\n  help: {known}", error.to_string().trim_end()))
         })?;
         let mut levels = Levels::default();
@@ -105,6 +131,7 @@ impl Config {
             jobs: written.jobs,
             require_proof: written.require_proof,
             levels,
+            properties: written.properties.into_iter().map(|(name, value)| (name, value.typed())).collect(),
         })
     }
 }

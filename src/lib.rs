@@ -78,7 +78,7 @@ pub use lint::{Level, Levels};
 pub use nc::{JobOptions as NcOptions, RunSettings, Unpointed};
 pub use post::{Files, NoFiles, Options, Part, Post, Program, Prompt, Proof, Proven, Rendered};
 pub use render::{Clock, Cycles, TraceLine};
-pub use sema::Limits;
+pub use sema::{Limits, Property};
 pub use source::Source;
 pub use span::Span;
 pub use verify::{Batch, Counts, Equivalences, Finding, Unproven, Verdict};

@@ -97,7 +97,10 @@ pub(super) fn coolnt(words: &[Word], job: &mut Job<'_>) -> Done {
         "ON" | "FLOOD" => Coolant::On,
         "MIST" => Coolant::Mist,
         "OFF" => Coolant::Off,
-        "THRU" | "TAPKUL" | "AIR" | "HIGH" | "LOW" => {
+        "THRU" => Coolant::Through,
+        "AIR" => Coolant::Air,
+        "HIGH" => Coolant::High,
+        "TAPKUL" | "LOW" => {
             let message = format!("COOLNT/{name} is printed as flood coolant");
             job.notes.warn(Code::PL008, message, "change the program, or write COOLNT/FLOOD");
             Coolant::On

@@ -26,6 +26,8 @@ pub struct Config {
     pub require_proof: bool,
     /// What rules count as.
     pub levels: Levels,
+    /// Values of properties of forms, by their names.
+    pub properties: Vec<(String, String)>,
 }
 
 /// The name of the file.
@@ -93,6 +95,7 @@ impl Config {
             jobs: said.jobs.iter().map(near).collect(),
             require_proof: said.require_proof,
             levels: said.levels,
+            properties: said.properties,
         })
     }
 }

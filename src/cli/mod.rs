@@ -21,6 +21,7 @@ mod poll;
 mod prepare;
 mod progress;
 mod prompt;
+mod properties;
 mod render;
 mod rendered;
 mod report;
@@ -98,6 +99,7 @@ pub fn run() -> ExitCode {
             std::io::Write::write_all(out, postform::internals::explain::controls::list().as_bytes())
         }),
         Command::New(args) => new::run(&args),
+        Command::Properties(args) => properties::run(&args, colour),
         Command::Completions(args) => shells::completions(&args),
         Command::Man => shells::man(),
         Command::Lsp(args) => lsp::run(&args),

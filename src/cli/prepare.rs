@@ -28,7 +28,6 @@ pub struct Prepared {
 /// Reads a form, shows its findings and asks its prompts. `None`: it has errors, which were shown.
 pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporter) -> Result<Option<Prepared>, String> {
     let mut options = args.options();
-    prompt::answers(&args.set, &mut options)?;
     let standard_input = Path::new("-");
     if form == standard_input && job == standard_input {
         return Err("error: form and job can't both be standard input".into());
@@ -54,12 +53,14 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         message(&format!("{name}: {}, nothing was printed", stops.join(", ")));
         return Ok(None);
     };
+    options.shop_properties.clone_from(&config.properties);
+    prompt::answers(&args.set, post.properties(), &mut options)?;
     if post.says_time() && options.clock.is_none() {
         options.clock = Some(clock::now()?);
     }
     options.job_file =
         job.file_name().filter(|_| job != standard_input).map(|name| name.to_string_lossy().into_owned());
-    prompt::ask(&post, &mut options, job == standard_input)
+    prompt::ask(&post, &mut options, args.ask, job == standard_input)
         .map_err(|error| io_message("read", Path::new("standard input"), &error))?;
     let inputs = file.paths().into_iter().chain(config.path).collect();
     Ok(Some(Prepared { post, options, denies: args.denies_warnings(), inputs }))

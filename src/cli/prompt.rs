@@ -1,27 +1,40 @@
-//! Prompted variables: answers from the command line, else asked for on a terminal.
+//! Prompted variables and properties: answers from the command line, else asked for on a terminal.
 
 use std::io::{self, BufRead, IsTerminal};
 
-use postform::{Options, Post};
+use postform::diag::escaped;
+use postform::internals::lang::did_you_mean;
+use postform::{Options, Post, Property};
 
 use super::say::{message, say};
 
-/// Takes `VAR=VALUE` options.
-pub fn answers(given: &[String], options: &mut Options) -> Result<(), String> {
-    given.iter().try_for_each(|option| answer(option, options).map_err(|why| format!("error: `--set {option}`: {why}")))
+/// Takes `NAME=VALUE` options.
+pub fn answers(given: &[String], properties: &[Property], options: &mut Options) -> Result<(), String> {
+    given.iter().try_for_each(|option| {
+        answer(option, properties, options).map_err(|why| format!("error: `--set {}`: {why}", escaped(option)))
+    })
 }
 
-fn answer(option: &str, options: &mut Options) -> Result<(), String> {
+fn answer(option: &str, properties: &[Property], options: &mut Options) -> Result<(), String> {
     let Some((name, value)) = option.split_once('=') else {
-        return Err("write a variable and its value, as --set val1=2.5".into());
+        return Err("write a name and its value, as --set val1=2.5".into());
     };
+    let own = name.trim().trim_matches(['[', ']']);
+    if let Some(property) = properties.iter().find(|property| property.name.eq_ignore_ascii_case(own)) {
+        property.kind.read(value)?;
+        options.properties.push((property.name.clone(), value.to_owned()));
+        return Ok(());
+    }
     let number = value.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    options.set_value(name, number.unwrap_or_default()).map_err(|error| error.to_string())?;
+    options.set_value(name, number.unwrap_or_default()).map_err(|error| {
+        let names = properties.iter().map(|property| property.name.as_str());
+        did_you_mean(own, names).map_or_else(|| error.to_string(), |help| format!("`{own}` is no property; {help}"))
+    })?;
     number.map(|_| ()).ok_or_else(|| format!("`{value}` is no number"))
 }
 
-/// Asks for what has no answer yet, when there is someone to ask. `busy`: standard input is the job.
-pub fn ask(post: &Post, options: &mut Options, busy: bool) -> io::Result<()> {
+/// Asks for what has no answer yet, when there is someone to ask; `all`: for properties too. `busy`: standard input is the job.
+pub fn ask(post: &Post, options: &mut Options, all: bool, busy: bool) -> io::Result<()> {
     if busy || !io::stdin().is_terminal() || !io::stderr().is_terminal() {
         return Ok(());
     }
@@ -29,22 +42,43 @@ pub fn ask(post: &Post, options: &mut Options, busy: bool) -> io::Result<()> {
         if options.set.iter().any(|(name, _)| name == prompt.variable) {
             continue;
         }
-        loop {
-            let default = prompt.default.map_or(String::new(), |value| format!(" [{value}]"));
-            say(&format!("{}{default}: ", postform::diag::escaped(prompt.text)));
-            let mut line = String::new();
-            if io::stdin().lock().read_line(&mut line)? == 0 {
-                break;
-            }
-            match (line.trim(), line.trim().parse::<f64>()) {
-                ("", _) if prompt.default.is_some() => break,
-                (_, Ok(value)) if value.is_finite() => {
-                    options.set.push((prompt.variable.to_owned(), value));
-                    break;
-                }
-                _ => message("write a number"),
-            }
+        let default = prompt.default.map_or(String::new(), |value| value.to_string());
+        let read =
+            |line: &str| line.parse::<f64>().ok().filter(|value| value.is_finite()).ok_or("write a number".into());
+        if let Some(value) = answered(prompt.text, &default, &read)? {
+            options.set.push((prompt.variable.to_owned(), value));
+        }
+    }
+    for property in post.properties().iter().filter(|_| all) {
+        let said = |given: &[(String, String)]| given.iter().any(|(name, _)| name.eq_ignore_ascii_case(&property.name));
+        if said(&options.properties) || said(&options.shop_properties) {
+            continue;
+        }
+        let text = if property.text.is_empty() { &property.name } else { &property.text };
+        let question = format!("{text} ({})", property.kind.takes());
+        let read = |line: &str| property.kind.read(line).map(|value| value.to_string());
+        if let Some(value) = answered(&question, &property.default.to_string(), &read)? {
+            options.shop_properties.push((property.name.clone(), value));
         }
     }
     Ok(())
+}
+
+/// Asks until the answer makes sense. `None`: the default, which is empty where there is none, or nobody answers.
+fn answered<T>(question: &str, default: &str, read: &dyn Fn(&str) -> Result<T, String>) -> io::Result<Option<T>> {
+    loop {
+        let shown = if default.is_empty() { String::new() } else { format!(" [{default}]") };
+        say(&format!("{}{shown}: ", escaped(question)));
+        let mut line = String::new();
+        if io::stdin().lock().read_line(&mut line)? == 0 {
+            return Ok(None);
+        }
+        match line.trim() {
+            "" if !default.is_empty() => return Ok(None),
+            typed => match read(typed) {
+                Ok(value) => return Ok(Some(value)),
+                Err(why) => message(&why),
+            },
+        }
+    }
 }

@@ -161,11 +161,11 @@ fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: 
     for step in steps {
         match step {
             Step::Lines(range) => lines[range.clone()].iter().for_each(|line| lower_line(program, line)),
-            Step::Set(var, value, span) => {
+            Step::Set(target, value, span) => {
                 let index = asked(program, value);
-                program.ops.push(Op::Set { var: *var, index });
+                program.ops.push(Op::Set { target: *target, index });
                 program.spans.push(*span);
-                nodes.push(Node::Set(*var, index));
+                nodes.push(Node::Set(*target, index));
             }
             Step::For(each, steps, span) => {
                 let index = program.lists.len() as u32;
@@ -239,6 +239,10 @@ fn lower_line(program: &mut Program, line: &Line) {
             WordKind::TextVar(var) | WordKind::RemarkText(var) => {
                 Op::TextVar { var: *var, in_comment: matches!(word.kind, WordKind::RemarkText(_)), glued }
             }
+            WordKind::PropertyText(row) | WordKind::RemarkProperty(row) => {
+                let in_comment = matches!(word.kind, WordKind::RemarkProperty(_));
+                Op::PropertyText { row: *row, in_comment, glued }
+            }
             WordKind::Comment(words) => Op::Comment { words: *words as u32 },
         };
         program.ops.push(op);
@@ -262,5 +266,6 @@ fn is_motion_or_no_code(word: &WordKind) -> bool {
         WordKind::Formula(None, _) | WordKind::RemarkFormula(_) => true,
         WordKind::Value(_) | WordKind::Remark(_) | WordKind::Text(_) | WordKind::Note(_) => true,
         WordKind::Quote(_) | WordKind::TextVar(_) | WordKind::RemarkText(_) | WordKind::Comment(_) => true,
+        WordKind::PropertyText(_) | WordKind::RemarkProperty(_) => true,
     }
 }

@@ -7,7 +7,7 @@ use super::routine::Routine;
 use super::work::WorkWord;
 use crate::control::Code;
 use crate::lang::{AHEAD, Each, SEQUENCES, SequenceId, TOOLS_AHEAD, TextId, TextSet, TextVar, VarId, VarSet};
-use crate::sema::{Formula, Settings};
+use crate::sema::{Formula, Settings, Target};
 use crate::source::Source;
 use crate::span::Span;
 
@@ -91,10 +91,19 @@ pub enum Op {
     },
     /// A variable of the form has another value from here on.
     Set {
-        /// The variable.
-        var: VarId,
+        /// The variable or property.
+        target: Target,
         /// The value's row in [`Program::formulas`].
         index: u32,
+    },
+    /// A property that is a text.
+    PropertyText {
+        /// Its row in the settings.
+        row: u16,
+        /// In a comment, which holds more characters than words do.
+        in_comment: bool,
+        /// No blank before it.
+        glued: bool,
     },
     /// What follows is a list: a row of [`Program::lists`].
     List {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::program::{CycleStyle, Op, Program};
 use crate::control::{Code, Meaning};
 use crate::lang::{TextSet, VarId, VarSet};
+use crate::sema::Target;
 use crate::span::Span;
 
 /// A sequence's operations.
@@ -52,7 +53,7 @@ pub struct Flow {
 #[derive(Clone, Debug)]
 pub enum Node {
     /// A variable gets a value, which conditions behind it ask.
-    Set(VarId, u32),
+    Set(Target, u32),
     /// The first branch whose condition holds.
     If(Vec<Branch>),
     /// The operations of a list, which have a routine of their own.

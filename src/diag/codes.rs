@@ -166,6 +166,7 @@ codes! {
     PF707 Error "a directive that does not fit"
     PF708 Warning "a condition that never changes"
     PF709 Error "a branch that does not fit its sequence"
+    PF710 Warning "a property that does nothing"
     // PJ: the job
     PJ001 Error "the job is not well-formed"
     PJ002 Error "an unknown key"
@@ -292,6 +293,8 @@ codes! {
     PR050 Note "a text of the job that is printed otherwise"
     PR051 Error "a division by zero"
     PR052 Error "what lies ahead in the job is not known"
+    PR053 Error "a value that a property does not take"
+    PR054 Error "a kind of coolant that the form does not have"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

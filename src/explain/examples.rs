@@ -28,7 +28,8 @@ samples! {
     "back-machine" "begin-row" "between" "bore-machine" "can-thread" "cancel-with" "ccw-code" "chipbreak-machine"
     "custom1-machine" "cw-code" "drill-machine" "end-code" "end-row" "first-tool-change" "index" "infeed"
     "line-code" "ltap-machine" "more-cycles" "outfeed" "peck-machine" "rapid-code" "sections" "start-code"
-    "sub-call" "sub-end" "sub-start" "thread-g33" "tool-change-mill" "unwind" "upon-work"
+    "sub-call" "sub-end" "sub-start" "thread-g33" "tool-change-mill" "unwind" "upon-work" "operations" "lists" "properties"
+    "coolant-kinds" "conditions" "expressions"
 }
 
 /// Text of a form and its name.

@@ -126,11 +126,9 @@ fn sequence(node: &SequenceNode, found: &mut dyn FnMut(At)) {
 }
 
 fn body(line: &Body, found: &mut dyn FnMut(At)) {
-    match line.directive.as_ref().map(|directive| &directive.kind) {
-        Some(DirectiveKind::If(asked) | DirectiveKind::Elif(asked) | DirectiveKind::Set(_, asked)) => {
-            expression(asked, found);
-        }
-        _ => {}
+    let kind = line.directive.as_ref().map(|directive| &directive.kind);
+    if let Some(DirectiveKind::If(asked) | DirectiveKind::Elif(asked) | DirectiveKind::Set(_, asked)) = kind {
+        expression(asked, found);
     }
     for word in &line.words {
         let alone = line.words.len() == 1 && word.pieces.len() == 1;

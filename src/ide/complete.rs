@@ -6,8 +6,8 @@ use crate::control::{self, Code, Control};
 use crate::diag::CODES;
 use crate::explain;
 use crate::lang::{
-    Args, COMMANDS, CommandId, Machine, Origin, SEQUENCES, SequenceId, TEXTS, TextId, Unit, UnitChoice, VARIABLES,
-    VarId,
+    Args, COMMANDS, CommandId, DIRECTIVES, Each, Machine, Origin, SEQUENCES, SequenceId, TEXTS, TextId, Unit,
+    UnitChoice, VARIABLES, VarId,
 };
 use crate::span::Span;
 
@@ -59,6 +59,8 @@ pub fn about(kind: Kind, label: &str, control: &Control) -> Option<String> {
             None => explain::text(TextId::parse(label)?),
         },
         Kind::Keyword if label == "None" => explain::none(),
+        Kind::Keyword if label.starts_with('@') => explain::explain(label).ok()?,
+        Kind::Keyword if Each::parse(label).is_some() => explain::explain("@for").ok()?,
         Kind::Keyword => explain::end(),
         Kind::Code => return Some(super::hover::about_code(label.parse().ok()?, control)),
         Kind::Finding => explain::explain(label).ok()?,
@@ -90,7 +92,9 @@ impl Document {
             && !before[at..].contains([']', '>'])
         {
             let line = self.line_of(file, offset).unwrap_or_default();
-            return self.variables(span(before.len() - at - 1), before.as_bytes()[at], line, current);
+            // in an expression the last name is the one that is typed
+            let name = before[at + 1..].rsplit(|c: char| !(c.is_alphanumeric() || c == '_' || c == '#')).next();
+            return self.variables(span(name.map_or(0, str::len)), before.as_bytes()[at], line, current);
         }
         let word = before.rsplit([' ', '\t']).next().unwrap_or("");
         let first = before.trim_start_matches([' ', '\t']);
@@ -144,7 +148,10 @@ impl Document {
             one(row.name, format!("{}{held}: {}", counts(row.unit), row.meaning))
         });
         let texts = TEXTS.iter().map(|row| one(row.name, format!("text: {}", row.meaning)));
-        numbers.chain(texts).collect()
+        let properties = self.checked.form.settings.properties.iter();
+        let properties =
+            properties.map(|property| one(&property.name, format!("{}: {}", property.kind.name(), property.text)));
+        numbers.chain(texts).chain(properties).collect()
     }
 
     fn in_sequence(
@@ -162,6 +169,15 @@ impl Document {
             text: label.to_owned(),
             snippet: None,
         };
+        if first.starts_with('@') {
+            return match first.split_once([' ', '\t']) {
+                None => DIRECTIVES.iter().map(|row| keyword(row.name, row.meaning)).collect(),
+                Some((for_, rest)) if for_.eq_ignore_ascii_case("@for") && rest.trim_start().len() == word.len() => {
+                    Each::ALL.iter().map(|(name, _)| keyword(name, "each of the job")).collect()
+                }
+                Some(_) => Vec::new(),
+            };
+        }
         let is_cycle = name.and_then(SequenceId::parse).is_some_and(|id| id.row().is_cycle && id != SequenceId::Cancel);
         if let Some(rest) = first.get(..4).filter(|head| head.eq_ignore_ascii_case("End ")).map(|_| &first[4..]) {
             let cancel = keyword("Cancel", "print Cancel behind the last hole");

@@ -3,6 +3,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod commands;
+mod coolant;
 mod directives;
 mod machine;
 mod sequences;
@@ -13,6 +14,7 @@ mod work;
 
 pub(crate) use commands::command_rows;
 pub use commands::{Args, COMMANDS, Command, CommandId, Used, Without};
+pub use coolant::Coolant;
 pub use directives::{DIRECTIVES, DirectiveRow, Each};
 pub use machine::{Machine, Machines, UnitChoice};
 pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};

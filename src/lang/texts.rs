@@ -37,6 +37,7 @@ texts! {
     Tooltext "tooltext" "what the job says of the tool"          "`comment` of the tool"
     Opname   "opname"   "the operation's name"                   "`name` of the operation"
     Optext   "optext"   "what the job says of the operation"     "`comment` of the operation"
+    Text     "text"     "the comment that is printed, in CommentLine" "`comment` items"
     Date     "date"     "the day of printing, as 2026-03-31"     "the clock, --date or SOURCE_DATE_EPOCH"
     Time     "time"     "the time of printing, as 14:05"         "the clock, --date or SOURCE_DATE_EPOCH"
     Jobfile  "jobfile"  "the job's file, without its folder"     "the command line"

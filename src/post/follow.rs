@@ -45,7 +45,7 @@ impl Post {
     /// # Errors
     /// An option makes no sense.
     pub(crate) fn follow(&self, mut job: Job<'_>, options: &Options) -> Result<Followed, Error> {
-        let mut asked = render::Options { trace: true, words: true, ..options.for_renderer()? };
+        let mut asked = render::Options { trace: true, words: true, ..options.for_renderer(&self.0.program.settings)? };
         if self.may_read_twice() {
             job.hold()?;
             asked.survey = Some(Arc::new(self.surveyed(&mut job, options).1));

@@ -24,7 +24,7 @@ use crate::diag::{Diag, Findings};
 use crate::error::Error;
 use crate::lang::TextId;
 use crate::lint::{Levels, ready};
-use crate::sema::{Limits, analyse};
+use crate::sema::{Limits, Property, analyse};
 use crate::source::Source;
 
 /// Where the forms come from that a form includes with `Call`.
@@ -112,6 +112,11 @@ impl Post {
     pub fn prompts(&self) -> impl Iterator<Item = Prompt<'_>> {
         let prompts = self.0.program.settings.prompts.iter();
         prompts.map(|prompt| Prompt { variable: prompt.var.row().name, text: &prompt.text, default: prompt.default })
+    }
+
+    /// Properties of the form: the answers are [`Options::properties`].
+    pub fn properties(&self) -> &[Property] {
+        &self.0.program.settings.properties
     }
 
     /// Does the form say the day or the time of printing? Then [`Options::clock`] gives them.

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::lang::{Origin, VARIABLES, VarId, did_you_mean};
 use crate::nc::Unpointed;
 use crate::render::{self, Clock, Cycles};
+use crate::sema::{Property, PropertyValue, Settings};
 use crate::toolpath::Units;
 
 /// How a job is printed. All of it may stay as it is.
@@ -19,6 +20,10 @@ pub struct Options {
     pub cycles: Cycles,
     /// Values of variables and answers to the form's questions, by the variable's name (`val1`); they go before the job's.
     pub set: Vec<(String, f64)>,
+    /// Values of the form's properties by their names, as somebody types them; they go before all else.
+    pub properties: Vec<(String, String)>,
+    /// The same, of a shop for all its forms: they go before the forms' defaults only. Names that a form has not are left out.
+    pub shop_properties: Vec<(String, String)>,
     /// How deep a countersink of a diameter and an angle is: by the formula that GENER's manual prints, which is right at 90
     /// degrees only; else by geometry.
     pub sink_as_printed: bool,
@@ -45,6 +50,8 @@ impl Default for Options {
             units: None,
             cycles: Cycles::default(),
             set: Vec::new(),
+            properties: Vec::new(),
+            shop_properties: Vec::new(),
             sink_as_printed: false,
             huge: false,
             clock: None,
@@ -68,13 +75,15 @@ impl Options {
     }
 
     /// The options as the renderer takes them.
-    pub(super) fn for_renderer(&self) -> Result<render::Options, Error> {
+    pub(super) fn for_renderer(&self, settings: &Settings) -> Result<render::Options, Error> {
         let set = self.set.iter().map(|(name, value)| Ok((variable(name).map_err(Error::usage)?, *value)));
         Ok(render::Options {
             cycles: self.cycles,
             units: self.units,
             program: self.program,
             set: set.collect::<Result<_, Error>>()?,
+            properties: properties(&self.properties, settings, true)?,
+            shop: properties(&self.shop_properties, settings, false)?,
             sink_as_printed: self.sink_as_printed,
             clock: self.clock.clone(),
             job_file: self.job_file.clone(),
@@ -83,6 +92,23 @@ impl Options {
             words: false,
         })
     }
+}
+
+/// Values of properties, by their rows. A name that is none is an error only where it must be one.
+fn properties(given: &[(String, String)], settings: &Settings, must: bool) -> Result<Vec<(u16, PropertyValue)>, Error> {
+    let mut values = Vec::new();
+    for (name, value) in given {
+        let own = |property: &Property| property.name.eq_ignore_ascii_case(name);
+        match settings.properties.iter().position(own) {
+            Some(row) => {
+                let read = settings.properties[row].kind.read(value);
+                values.push((row as u16, read.map_err(|why| Error::usage(format!("the property {name}: {why}")))?));
+            }
+            None if must => return Err(Error::usage(format!("the form has no property `{name}`"))),
+            None => {}
+        }
+    }
+    Ok(values)
 }
 
 /// A variable that can be set, by its name, with or without brackets.

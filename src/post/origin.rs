@@ -15,7 +15,7 @@ impl Post {
     /// The job can't be read, or an option makes no sense.
     pub fn origins(&self, mut job: Job<'_>, options: &Options, lines: &[u64]) -> Result<Vec<Option<TraceLine>>, Error> {
         let options = Options { trace: true, ..options.clone() };
-        let mut for_renderer = options.for_renderer()?;
+        let mut for_renderer = options.for_renderer(&self.0.program.settings)?;
         for_renderer.survey = self.survey(&mut job, &options)?;
         let renderer = Renderer::new(&self.0.program, for_renderer);
         let found = vec![None; lines.len()];

@@ -86,7 +86,7 @@ impl Post {
         take: &mut dyn FnMut(Part<'_>) -> io::Result<()>,
         tap: Option<Tap<'_>>,
     ) -> Result<Rendered, Error> {
-        let mut for_renderer = options.for_renderer()?;
+        let mut for_renderer = options.for_renderer(&self.0.program.settings)?;
         for_renderer.survey = self.survey(&mut job, options)?;
         for_renderer.trace |= tap.is_some();
         let mut printer = Printer {

@@ -7,6 +7,8 @@ mod body;
 mod cycle;
 mod defaults;
 mod fault;
+mod kept;
+mod marks;
 mod moves;
 mod needs;
 mod no_value;
@@ -16,6 +18,7 @@ mod options;
 mod printer;
 mod prints;
 mod program;
+mod properties;
 mod said;
 mod settle;
 mod shape;
@@ -151,10 +154,7 @@ impl<'p> Renderer<'p> {
             }
             Event::Work(work) => want.set_work(work, shape),
             Event::Spindle(spindle) => want.set_spindle(&spindle, shape),
-            Event::Coolant(coolant) => {
-                want.set_coolant(coolant, shape);
-                Ok(())
-            }
+            Event::Coolant(coolant) => want.set_coolant(coolant, shape),
             Event::Set(name, value) => variables::set_named(name, value, shape, want, out),
             Event::Start(start) => start::start(start, shape, want, said, out, subs),
             Event::ToolChange(change) => tools::tool_change(change, shape, want, said, out, subs, sections),
@@ -163,10 +163,7 @@ impl<'p> Renderer<'p> {
             Event::Edm(action) => sections::edm(action, shape, want, said, out),
             Event::Dwell(seconds) => stops::dwell(seconds, shape, want, said, out),
             Event::Stop(kind) => stops::stop(kind, shape, want, said, out),
-            Event::Comment(text) => {
-                comments::comment_block(text, shape, out);
-                Ok(())
-            }
+            Event::Comment(text) => comments::comment_block(text, shape, want, said, out),
             Event::Text(text) => text::verbatim(text, shape, want, said, out),
             Event::SubStart(number) => subprograms::sub_start(number, shape, want, said, out, subs),
             Event::SubEnd => subprograms::sub_end(shape, want, said, out, subs, sections),

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::lang::VarId;
+use crate::sema::PropertyValue;
 use crate::survey::Survey;
 use crate::toolpath::Units;
 
@@ -36,6 +37,10 @@ pub struct Options {
     pub program: Option<u32>,
     /// Answers to prompts and values of variables; they go before the job's.
     pub set: Vec<(VarId, f64)>,
+    /// Properties of the form that go before all else, by their rows.
+    pub properties: Vec<(u16, PropertyValue)>,
+    /// Properties that go before the form's defaults.
+    pub shop: Vec<(u16, PropertyValue)>,
     /// Countersink depths by the formula that GENER's manual prints, which is right at 90 degrees only.
     pub sink_as_printed: bool,
     /// Day and time of printing, as the program says them.

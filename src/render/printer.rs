@@ -7,7 +7,7 @@ use super::numbers::{as_number, units_of, unprintable};
 use crate::compile::{Letter, LetterTable};
 use crate::diag::{Code, Diag};
 use crate::number::{LetterFormat, write_number};
-use crate::sema::{Replacement, Settings};
+use crate::sema::{LineEnd, Replacement, SequenceNumbers, Settings};
 use crate::span::Span;
 use crate::toolpath::Place;
 
@@ -62,12 +62,14 @@ struct Layout {
     largest: i64,
     width: usize,
     number_first: bool,
+    carriage_return: bool,
 }
 
 impl Layout {
     /// The layout of a form, with the number format that these letters give.
     fn new(settings: &Settings, letters: &LetterTable) -> Layout {
-        let format = letters[settings.numbers.letter.unwrap_or(b'N')].format;
+        let own = settings.numbers.letter.filter(|&letter| letter != SequenceNumbers::BARE);
+        let format = letters[own.unwrap_or(b'N')].format;
         let width = format.int.count;
         let bytes = |row: &Replacement| (row.old.clone().into_bytes(), row.new.clone().into_bytes(), row.span);
         // what a sender cuts is no reason to print nothing
@@ -85,6 +87,7 @@ impl Layout {
             largest: crate::number::POWERS[usize::from(width.min(18))] - 1,
             width: if format.int.fixed { usize::from(width) } else { 1 },
             number_first: settings.number_first,
+            carriage_return: settings.line_end == LineEnd::CrLf,
         }
     }
 }
@@ -359,6 +362,9 @@ impl Printer {
             self.page.text.extend_from_slice(&self.layout.eob);
         }
         self.fits(None);
+        if self.layout.carriage_return {
+            self.page.text.push(b'\r');
+        }
         self.page.text.push(b'\n');
         self.page.lines += 1;
         if let Some(trace) = &mut self.page.trace {
@@ -371,14 +377,15 @@ impl Printer {
     /// Puts the number before the block: only now is it known that it has none of its own.
     fn insert_number(&mut self) {
         let mut prefix = [b' '; 24];
-        let mut at = prefix.len() - usize::from(self.layout.blanks);
+        let bare = self.layout.number_letter == Some(SequenceNumbers::BARE);
+        let mut at = prefix.len() - usize::from(self.layout.blanks || bare);
         let (end, mut rest) = (at, self.next_number);
         while rest > 0 || end - at < self.layout.width {
             at -= 1;
             prefix[at] = b'0' + (rest % 10) as u8;
             rest /= 10;
         }
-        if let Some(letter) = self.layout.number_letter {
+        if let Some(letter) = self.layout.number_letter.filter(|_| !bare) {
             at -= 1;
             prefix[at] = letter;
         }

@@ -1,5 +1,6 @@
 //! What the control lacks is printed: conditions that no sequence prints, each as a block of its own.
 
+use super::body::run_all;
 use super::fault::{Done, fault, fault_at};
 use super::printer::Printer;
 use super::said::Said;
@@ -10,7 +11,7 @@ use super::want::{Want, is_no_work};
 use super::words::{code_word, letter_word, value_code};
 use crate::compile::{LetterKind, Op, Routine, WorkWord};
 use crate::diag::Code;
-use crate::lang::{VarId, VarSet};
+use crate::lang::{SequenceId, VarId, VarSet};
 use crate::sema;
 
 /// What stands between events and the next move.
@@ -46,6 +47,7 @@ pub fn print_lacking(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut 
 /// Changes that nothing printed yet, each as a block of its own.
 pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
     upons(said.lacks(want, shape), shape, want, said, out)?;
+    own_change(SequenceId::WorkChange, &[VarId::Work], shape, want, said, out)?;
     if let Some(work) = want.get(VarId::Work)
         && said.conditions.get(VarId::Work) != Some(work)
     {
@@ -59,7 +61,14 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
         return fault(Code::PR038, message, help);
     }
     check_own_limit(shape, want, said)?;
+    let spindle = [VarId::Speed, VarId::Direct, VarId::Speedtype];
+    own_change(SequenceId::SpindleChange, &spindle, shape, want, said, out)?;
     print_spindle(shape, want, said, out)?;
+    own_change(SequenceId::CoolantChange, &[VarId::Cool], shape, want, said, out)?;
+    if let Some(ends) = want.ends_coolant.take() {
+        value_code(b'M', ends, shape, want, said, out)?;
+        out.end_block();
+    }
     if let Some(cool) = want.get(VarId::Cool)
         && said.conditions.get(VarId::Cool) != Some(cool)
     {
@@ -67,6 +76,7 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
         out.end_block();
         said.conditions.put(VarId::Cool, Some(cool));
     }
+    own_change(SequenceId::FeedModeChange, &[VarId::Feedtype], shape, want, said, out)?;
     if let Some(feed_type) = want.get(VarId::Feedtype)
         && said.conditions.get(VarId::Feedtype) != Some(feed_type)
     {
@@ -75,6 +85,23 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
         said.conditions.put(VarId::Feedtype, Some(feed_type));
     }
     Ok(())
+}
+
+/// The form's own sequence for a change that no other sequence served; what it leaves unsaid is generated behind it.
+fn own_change(
+    id: SequenceId,
+    vars: &[VarId],
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
+    match shape.program.routine(id) {
+        Some(routine) if said.lacks(want, shape).meets(VarSet::of(vars)) => {
+            run_all(shape.way(routine, want, said), shape, want, said, out)
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Speed and direction of the spindle that nothing printed yet, unless the form's own sequences say when it turns.

@@ -1,11 +1,14 @@
 //! Names and remarks of the job, for people: their values, and how they fit into a comment or a word.
 
+use super::marks::in_comment;
 use super::printer::Printer;
-use super::program::comments::in_comment;
+use super::properties::Properties;
 use super::shape::Shape;
+use std::fmt::Display;
+
 use crate::compile::Op;
 use crate::diag::Code;
-use crate::lang::{TEXT_COUNT, TextId, TextVar};
+use crate::lang::{TEXT_COUNT, TextId};
 use crate::toolpath::{Start, ToolChange};
 
 /// The values of text variables, by slot. What the form does not print is not kept.
@@ -24,6 +27,11 @@ impl Texts {
             slot.clear();
             slot.push_str(text.unwrap_or_default().trim());
         }
+    }
+
+    /// The comment that is printed now.
+    pub fn say(&mut self, comment: &str) {
+        comment.clone_into(&mut self.0[TextId::Text as usize]);
     }
 
     /// What the head of the job, the form and the caller say.
@@ -60,32 +68,44 @@ impl Texts {
             self.set(id, text.as_deref(), shape);
         }
     }
+}
 
-    /// Are all texts of a comment empty? Its operations are these.
-    pub fn are_empty(&self, comment: &[Op]) -> bool {
-        comment.iter().all(|op| if let Op::TextVar { var, .. } = op { self.get(var.id).is_empty() } else { true })
-    }
+/// Are all texts of a comment empty? Its operations are these.
+pub fn are_empty(comment: &[Op], texts: &Texts, properties: &Properties) -> bool {
+    comment.iter().all(|op| match op {
+        Op::TextVar { var, .. } => texts.get(var.id).is_empty(),
+        Op::PropertyText { row, .. } => properties.get(*row).text().is_empty(),
+        _ => true,
+    })
+}
+
+/// A text with its name and width.
+pub struct Text<'a> {
+    pub name: &'a dyn Display,
+    pub width: i8,
+    pub text: &'a str,
 }
 
 /// Prints a text of the job. In a comment its characters are those of comments, and it is cut where the control's line is
 /// full: `behind` is what else the block has room for. Outside, letters, digits and `_ - .` stay.
-pub fn print(var: TextVar, text: &str, behind: Option<usize>, glued: bool, shape: &Shape, out: &mut Printer) {
+pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out: &mut Printer) {
+    let Text { name, width, text } = *text;
     let settings = &shape.program.settings;
     let full = text.chars().count();
-    let wide = usize::from(var.width.unsigned_abs());
+    let wide = usize::from(width.unsigned_abs());
     let most = if wide == 0 { full } else { wide };
     let room = match behind {
         Some(behind) => room(behind, shape, out).min(most),
         None => most,
     };
     if room < most.min(full) {
-        let message = format!("{var} is cut to {room} characters: the control's line is full");
+        let message = format!("{name} is cut to {room} characters: the control's line is full");
         out.note(Code::PR050, message, "shorten it in the job, or give it a line of its own");
     }
     let taken = full.min(room);
     let blanks = room - taken;
     let block = out.word(glued);
-    if var.width < 0 {
+    if width < 0 {
         block.extend(std::iter::repeat_n(b' ', blanks));
     }
     let mut changed = false;
@@ -99,11 +119,11 @@ pub fn print(var: TextVar, text: &str, behind: Option<usize>, glued: bool, shape
             }
         });
     }
-    if var.width > 0 {
+    if width > 0 {
         block.extend(std::iter::repeat_n(b' ', blanks));
     }
     if changed {
-        let message = format!("{var}, `{text}`, has characters that are no part of a word: `_` stands for each");
+        let message = format!("{name}, `{text}`, has characters that are no part of a word: `_` stands for each");
         out.note(Code::PR050, message, "use letters, digits and _ - . in it, or print it in a comment");
     }
 }

@@ -46,6 +46,7 @@ pub fn index_replaces_work_upon(shape: &Shape) -> bool {
             Op::Value { .. } | Op::Text { .. } => false,
             Op::Set { .. } | Op::RemarkFormula { .. } => true,
             Op::Quote { .. } | Op::TextVar { .. } | Op::Comment { .. } | Op::List { .. } => false,
+            Op::PropertyText { .. } => false,
             Op::Formula { .. } | Op::ValueFormula { .. } => false,
         })
     };

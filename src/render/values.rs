@@ -4,8 +4,8 @@ use super::said::Said;
 use super::shape::Shape;
 use super::vars::MOVED;
 use super::want::Want;
-use crate::lang::{TextId, VarId};
-use crate::sema::Values;
+use crate::lang::{Coolant, TextId, VarId};
+use crate::sema::{PropertyKind, Target, Values};
 
 /// What is asked for values, on behalf of a letter: angles differ by the axis that prints them.
 pub struct Now<'r, 'p> {
@@ -17,14 +17,14 @@ pub struct Now<'r, 'p> {
     /// Number of the open block, where one is made.
     pub block: Option<i64>,
     /// What the form sets on its way through a sequence, before it prints any of it.
-    pub set: &'r [(VarId, f64)],
+    pub set: &'r [(Target, f64)],
 }
 
 impl Now<'_, '_> {
     /// The value of a variable, if it has one.
     #[inline]
     pub fn get(&self, var: VarId) -> Option<f64> {
-        if let Some(value) = self.said.kept.of(var) {
+        if let Some(value) = self.said.kept.of(Target::Var(var)) {
             return Some(value);
         }
         let stand = &self.said.stand;
@@ -41,10 +41,16 @@ impl Now<'_, '_> {
     }
 }
 
+impl Now<'_, '_> {
+    fn set_before(&self, target: Target) -> Option<f64> {
+        self.set.iter().rev().find(|(own, _)| *own == target).map(|(_, value)| *value)
+    }
+}
+
 impl Values for Now<'_, '_> {
     fn number(&self, var: VarId) -> Option<f64> {
-        if let Some((_, value)) = self.set.iter().rev().find(|(own, _)| *own == var) {
-            return Some(*value);
+        if let Some(value) = self.set_before(Target::Var(var)) {
+            return Some(value);
         }
         match (self.get(var), var) {
             (None, VarId::Maxrpm) => rpm_as_limit(self.shape, self.want),
@@ -56,33 +62,26 @@ impl Values for Now<'_, '_> {
     fn text(&self, id: TextId) -> &str {
         self.want.texts.get(id)
     }
+
+    fn coolant(&self) -> Coolant {
+        self.want.coolant
+    }
+
+    fn property(&self, row: u16) -> f64 {
+        let target = Target::Property(row);
+        let set = self.set_before(target).or_else(|| self.said.kept.of(target));
+        let property = &self.shape.program.settings.properties[usize::from(row)];
+        let scale = if property.kind == PropertyKind::Length { self.shape.form_scale } else { 1.0 };
+        set.unwrap_or_else(|| self.want.properties.get(row).number() * scale)
+    }
+
+    fn property_text(&self, row: u16) -> &str {
+        self.want.properties.get(row).text()
+    }
 }
 
 /// Revolutions are their own limit.
 pub fn rpm_as_limit(shape: &Shape, want: &Want) -> Option<f64> {
     let turns = want.get(VarId::Speedtype) == Some(shape.program.settings.speed_type[1]);
     want.get(VarId::Speed).filter(|_| turns)
-}
-
-/// What the form itself has set: it holds from there to the end of the program.
-#[derive(Clone, Debug, Default)]
-pub struct Kept(Vec<(VarId, f64)>);
-
-impl Kept {
-    /// The value of a variable, if the form has set it.
-    #[inline]
-    pub fn of(&self, var: VarId) -> Option<f64> {
-        if self.0.is_empty() {
-            return None;
-        }
-        self.0.iter().find(|(own, _)| *own == var).map(|(_, value)| *value)
-    }
-
-    /// The form sets it.
-    pub fn set(&mut self, var: VarId, value: f64) {
-        match self.0.iter_mut().find(|(own, _)| *own == var) {
-            Some(row) => row.1 = value,
-            None => self.0.push((var, value)),
-        }
-    }
 }

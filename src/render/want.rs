@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::ahead::{Item, default_work};
 use super::fault::{Done, fault};
+use super::properties::Properties;
 use super::shape::Shape;
 use super::texts::Texts;
 use super::vars::Vars;
@@ -12,6 +13,7 @@ use crate::control::{self, Group};
 use crate::diag::Code;
 use crate::lang::{Machine, Origin, Unit, VARIABLES, VarId, did_you_mean, work_code};
 use crate::number::quantise;
+use crate::sema::Settings;
 use crate::toolpath::{Coolant, FeedMode, Spindle, SpindleTurn};
 
 /// What the job asks for now.
@@ -20,6 +22,8 @@ pub struct Want {
     vars: Vars,
     /// Names and remarks, for people.
     pub texts: Texts,
+    /// Values of the form's properties.
+    pub properties: Properties,
     /// A condition or a variable changed: the next move must look whether it is printed.
     pub changed: bool,
     /// The feed of moves, in program units.
@@ -38,6 +42,12 @@ pub struct Want {
     pub tool_changes: usize,
     /// The spindle's limit that a prompt gave.
     pub most_rpm: Option<f64>,
+    /// An operation is open.
+    pub in_operation: bool,
+    /// Coolant of this kind is on.
+    pub coolant: Coolant,
+    /// The code that ends another kind of coolant, which nothing printed yet.
+    pub ends_coolant: Option<f64>,
     /// Cutter compensation is on.
     pub compensated: bool,
     /// The item that is printed cuts.
@@ -53,6 +63,7 @@ impl Want {
         let mut want = Want {
             vars: Vars::default(),
             texts: Texts::default(),
+            properties: Properties::new(settings, &shape.options.shop, &shape.options.properties),
             changed: true,
             feed: None,
             feed_units: None,
@@ -62,6 +73,9 @@ impl Want {
             item: None,
             tool_changes: 0,
             most_rpm: None,
+            in_operation: false,
+            coolant: Coolant::Off,
+            ends_coolant: None,
             compensated: false,
             cutting: false,
             in_cycle: false,
@@ -237,15 +251,41 @@ impl Want {
         Ok(())
     }
 
-    /// Coolant on, off, or mist.
-    pub fn set_coolant(&mut self, coolant: Coolant, shape: &Shape) {
-        let [on, off, mist] = shape.program.settings.coolant;
-        let code = match coolant {
-            Coolant::On => on,
-            Coolant::Mist => mist,
-            Coolant::Off => off,
+    /// `[coolantoff]` ends what is on now.
+    pub fn ends_what_is_on(&mut self, shape: &Shape) {
+        let settings = &shape.program.settings;
+        let own = settings.coolant_kinds.iter().find(|own| own.kind == self.coolant);
+        self.set(VarId::Coolantoff, own.and_then(|own| own.off).unwrap_or(settings.coolant[1]));
+    }
+
+    /// Coolant of a kind, or none. `[coolantoff]` ends the kind that was on until now.
+    pub fn set_coolant(&mut self, coolant: Coolant, shape: &Shape) -> Done {
+        let settings = &shape.program.settings;
+        let [on, off, mist] = settings.coolant;
+        let own = |kind: Coolant| settings.coolant_kinds.iter().find(|own| own.kind == kind);
+        let ends = own(self.coolant).and_then(|own| own.off).unwrap_or(off);
+        let code = match (coolant, own(coolant)) {
+            (Coolant::Off, _) => ends,
+            (_, Some(own)) => own.on,
+            (Coolant::On, None) => on,
+            (Coolant::Mist, None) => mist,
+            (other, None) => {
+                let message = format!("the form has no coolant `{}`", other.name());
+                let help = format!(
+                    "add `CoolantKind {} M88 M89` with the machine's codes, or take flood coolant",
+                    other.name()
+                );
+                return fault(Code::PR054, message, help);
+            }
         };
+        if coolant != self.coolant {
+            self.set(VarId::Coolantoff, ends);
+            // another kind does not end one that has a code of its own for that
+            self.ends_coolant = Some(ends).filter(|&ends| ends != off && code != ends);
+        }
+        self.coolant = coolant;
         self.set_condition(VarId::Cool, code);
+        Ok(())
     }
 }
 
@@ -270,8 +310,9 @@ pub fn in_program_units(var: VarId, value: f64, shape: &Shape) -> f64 {
 }
 
 /// A variable that a job may set.
-pub fn settable(name: &str) -> Done<VarId> {
-    let jobs = || VARIABLES.iter().filter(|v| v.origin == Origin::Job).map(|v| v.name);
+pub fn settable(name: &str, settings: &Settings) -> Done<VarId> {
+    let own = || settings.properties.iter().map(|property| property.name.as_str());
+    let jobs = || VARIABLES.iter().filter(|v| v.origin == Origin::Job).map(|v| v.name).chain(own());
     match VarId::parse(name.trim_matches(['[', ']'])) {
         Some(var) if var.row().origin == Origin::Job => Ok(var),
         Some(var) => fault(

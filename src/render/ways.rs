@@ -7,8 +7,8 @@ use super::values::Now;
 use super::want::Want;
 use crate::compile::{Node, Routine};
 use crate::diag::Code;
-use crate::lang::{SequenceId, VarId};
-use crate::sema::{Formula, Without};
+use crate::lang::SequenceId;
+use crate::sema::{Formula, Target, Without};
 use crate::span::Span;
 
 impl Shape<'_> {
@@ -38,14 +38,14 @@ impl Shape<'_> {
 }
 
 /// Asks the conditions of a sequence in their order; `set` is what its directives have set before.
-fn choose(nodes: &[Node], set: &mut Vec<(VarId, f64)>, branches: &mut u128, shape: &Shape, want: &Want, said: &Said) {
+fn choose(nodes: &[Node], set: &mut Vec<(Target, f64)>, branches: &mut u128, shape: &Shape, want: &Want, said: &Said) {
     for node in nodes {
         match node {
-            Node::Set(var, index) => {
+            Node::Set(target, index) => {
                 let now = Now { shape, want, said, letter: b' ', block: None, set };
                 // printing it says what is wrong
                 if let Ok(value) = shape.program.formulas[*index as usize].number(&now) {
-                    set.push((*var, value));
+                    set.push((*target, value));
                 }
             }
             // asked for each of them, when it prints

@@ -1,10 +1,11 @@
 //! Expressions of a form: names found, types checked, what is wrong reported.
 
 use super::formula::{Arithmetic, Comparison, Formula, Function, NoValues};
-use super::names::{Context, variable};
+use super::names::{Context, property, variable};
+use super::property::{PropertyKind, PropertyValue};
 use super::value_names::names_of;
 use crate::diag::{Code, Diag};
-use crate::lang::{TextVar, VarId, VarSet, did_you_mean};
+use crate::lang::{Coolant, TextVar, VarId, VarSet, did_you_mean};
 use crate::span::Span;
 use crate::syntax::{Expr, ExprKind, Operator, Spanned, Unread};
 
@@ -85,6 +86,10 @@ fn asked(expr: &Expr, context: &Context, diags: &mut Vec<Diag>) -> Option<Formul
         (Formula::Var(var), _) if YES_OR_NO.has(var) => Some(Formula::True(var)),
         (Formula::Var(var), _) => Some(Formula::Has(var)),
         (Formula::TextVar(id), _) => Some(Formula::HasText(id)),
+        (Formula::PropertyText(row), _) => {
+            let both = Box::new([Formula::PropertyText(row), Formula::Text(String::new())]);
+            Some(Formula::Compare(Comparison::Unequal, both))
+        }
         (formula, kind) => wants(kind, Kind::YesNo, expr.span, diags).map(|()| formula),
     }
 }
@@ -93,11 +98,16 @@ fn typed(expr: &Expr, context: &Context, diags: &mut Vec<Diag>) -> Option<(Formu
     Some(match &expr.kind {
         ExprKind::Number(text) => (Formula::Number(text.parse().ok()?), Kind::Number),
         ExprKind::Text(text) => (Formula::Text(text.clone()), Kind::Text),
+        ExprKind::Variable(name) if let Some((row, property)) = property(name, context) => match &property.kind {
+            PropertyKind::YesNo => (Formula::PropertyHolds(row), Kind::YesNo),
+            kind if kind.is_text() => (Formula::PropertyText(row), Kind::Text),
+            _ => (Formula::Property(row), Kind::Number),
+        },
         ExprKind::Variable(name) => match TextVar::parse(name) {
             Some(text) => (Formula::TextVar(text.id), Kind::Text),
             None => {
                 let name = Spanned { text: name.clone(), span: expr.span };
-                (Formula::Var(variable(&name, context.machine, diags)?), Kind::Number)
+                (Formula::Var(variable(&name, context.settings, diags)?), Kind::Number)
             }
         },
         ExprKind::Word(word) => {
@@ -187,6 +197,9 @@ fn compared(
     context: &Context,
     diags: &mut Vec<Diag>,
 ) -> Option<Formula> {
+    if let Some(cools) = cools(operator, left, right, context) {
+        return Some(cools);
+    }
     let word = |side: &Expr| if let ExprKind::Word(word) = &side.kind { Some(word.clone()) } else { None };
     // a bare name is what its partner makes of it
     let both = match (word(left), word(right)) {
@@ -229,6 +242,21 @@ fn compared(
     Some(Formula::Compare(comparison, Box::new([left_formula, right_formula])))
 }
 
+/// `[cool] = through`: kinds of coolant are compared by their names, whatever their codes are.
+fn cools(operator: Operator, left: &Expr, right: &Expr, context: &Context) -> Option<Formula> {
+    let (ExprKind::Variable(name), ExprKind::Word(word)) = (&left.kind, &right.kind) else { return None };
+    let kind = Coolant::parse(word).filter(|_| VarId::parse(name) == Some(VarId::Cool))?;
+    let has_code = context.settings.coolant_kinds.iter().any(|own| own.kind == kind);
+    if matches!(kind, Coolant::Through | Coolant::Air | Coolant::High) && !has_code {
+        return None;
+    }
+    match operator {
+        Operator::Equal => Some(Formula::Cools(kind)),
+        Operator::Unequal => Some(Formula::Not(Box::new(Formula::Cools(kind)))),
+        _ => None,
+    }
+}
+
 /// What a bare name is beside this.
 fn named(
     word: &str,
@@ -238,8 +266,28 @@ fn named(
     context: &Context,
     diags: &mut Vec<Diag>,
 ) -> Option<(Formula, Kind)> {
-    if kind == Kind::Text {
-        return Some((Formula::Text(word.to_owned()), Kind::Text));
+    match beside {
+        Formula::PropertyText(row) => {
+            let property = &context.settings.properties[usize::from(*row)];
+            return match property.kind.read(word) {
+                Ok(value) => Some((Formula::Text(value.text().to_owned()), Kind::Text)),
+                Err(_) => {
+                    diags.push(
+                        Diag::new(Code::PF706, format!("`{word}` is no value of [{}]", property.name))
+                            .at(span, "unknown")
+                            .help(format!("it takes {}", property.kind.takes())),
+                    );
+                    None
+                }
+            };
+        }
+        Formula::PropertyHolds(_) => {
+            if let Ok(PropertyValue::YesNo(yes)) = PropertyKind::YesNo.read(word) {
+                return Some((Formula::Yes(yes), Kind::YesNo));
+            }
+        }
+        _ if kind == Kind::Text => return Some((Formula::Text(word.to_owned()), Kind::Text)),
+        _ => {}
     }
     let names = match beside {
         Formula::Var(var) if YES_OR_NO.has(*var) => vec![("yes", 1.0), ("no", 0.0)],

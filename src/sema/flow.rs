@@ -2,7 +2,8 @@
 
 use super::expression::{condition, number};
 use super::formula::{Formula, NoValues};
-use super::names::Context;
+use super::names::{Context, property};
+use super::property::{PropertyKind, Target};
 use super::step::{Arm, Step};
 use crate::diag::{Code, Diag};
 use crate::lang::{DIRECTIVES, Each, Origin, Unit, VarId, did_you_mean};
@@ -101,10 +102,14 @@ impl Flow {
                 self.close();
             }
             DirectiveKind::Set(target, value) => {
-                let target = settable(target, diags);
-                let value = number(value, context, diags);
-                if let (Some(var), Some(value)) = (target, value) {
-                    self.steps().push(Step::Set(var, value, directive.rest.span));
+                let target = settable(target, context, diags);
+                let yes_or_no = |row: u16| context.settings.properties[usize::from(row)].kind == PropertyKind::YesNo;
+                let value = match target {
+                    Some(Target::Property(row)) if yes_or_no(row) => self::condition(value, context, diags),
+                    _ => number(value, context, diags),
+                };
+                if let (Some(target), Some(value)) = (target, value) {
+                    self.steps().push(Step::Set(target, value, directive.rest.span));
                 }
             }
             DirectiveKind::Unknown => {
@@ -249,8 +254,19 @@ impl Flow {
     }
 }
 
-/// The variable that `@set` gives a value.
-fn settable(target: &Spanned, diags: &mut Vec<Diag>) -> Option<VarId> {
+/// What `@set` gives a value.
+fn settable(target: &Spanned, context: &Context, diags: &mut Vec<Diag>) -> Option<Target> {
+    if let Some((row, property)) = property(&target.text, context) {
+        if !property.kind.is_text() {
+            return Some(Target::Property(row));
+        }
+        diags.push(
+            Diag::new(Code::PF704, format!("[{}] is a text, and a form sets numbers", property.name))
+                .at(target.span, "a text")
+                .help("ask for it where it counts: `@if`"),
+        );
+        return None;
+    }
     let free = |var: &VarId| {
         var.row().origin == Origin::Job && var.row().unit == Unit::Number && var.name().starts_with("val")
     };
@@ -259,8 +275,8 @@ fn settable(target: &Spanned, diags: &mut Vec<Diag>) -> Option<VarId> {
         diags.push(
             Diag::new(Code::PF707, format!("`{}` can't be set by a form", target.text))
                 .at(target.span, "no variable of its own")
-                .help("val1 to val10 are free: `@set val1 = [h]+2`"),
+                .help("val1 to val10 and the form's properties can be set: `@set val1 = [h]+2`"),
         );
     }
-    var
+    var.map(Target::Var)
 }

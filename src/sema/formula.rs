@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::lang::{TextId, TextSet, VarId, VarSet};
+use crate::lang::{Coolant, TextId, TextSet, VarId, VarSet};
 use crate::span::Span;
 
 /// A calculation or a condition.
@@ -18,6 +18,14 @@ pub enum Formula {
     Var(VarId),
     /// A text of the job.
     TextVar(TextId),
+    /// Is the coolant of this kind?
+    Cools(Coolant),
+    /// A property that is a number, by its row.
+    Property(u16),
+    /// A property that is a text.
+    PropertyText(u16),
+    /// Is the property, which is yes or no, yes?
+    PropertyHolds(u16),
     /// Has the variable a value?
     Has(VarId),
     /// Is the variable, which is 1 or 0, 1?
@@ -129,6 +137,12 @@ pub trait Values {
     fn number(&self, var: VarId) -> Option<f64>;
     /// A text; empty where the job has none.
     fn text(&self, id: TextId) -> &str;
+    /// The coolant that the job wants now.
+    fn coolant(&self) -> Coolant;
+    /// A property as a number, by its row; yes is 1.
+    fn property(&self, row: u16) -> f64;
+    /// A property as a text.
+    fn property_text(&self, row: u16) -> &str;
 }
 
 /// No values: what is calculated without them is always the same.
@@ -140,6 +154,18 @@ impl Values for NoValues {
     }
 
     fn text(&self, _: TextId) -> &str {
+        ""
+    }
+
+    fn coolant(&self) -> Coolant {
+        Coolant::Off
+    }
+
+    fn property(&self, _: u16) -> f64 {
+        0.0
+    }
+
+    fn property_text(&self, _: u16) -> &str {
         ""
     }
 }
@@ -173,7 +199,10 @@ impl Formula {
         Ok(match self {
             Formula::Text(text) => Value::Text(Cow::Borrowed(text)),
             Formula::TextVar(id) => Value::Text(Cow::Borrowed(values.text(*id))),
+            Formula::PropertyText(row) => Value::Text(Cow::Borrowed(values.property_text(*row))),
             Formula::Yes(_)
+            | Formula::PropertyHolds(_)
+            | Formula::Cools(_)
             | Formula::Has(_)
             | Formula::True(_)
             | Formula::HasText(_)
@@ -193,6 +222,7 @@ impl Formula {
     pub fn number(&self, values: &dyn Values) -> Result<f64, Without> {
         match self {
             Formula::Number(number) => Ok(*number),
+            Formula::Property(row) => Ok(values.property(*row)),
             Formula::Var(var) => values.number(*var).ok_or(Without::Value(*var)),
             Formula::Negative(of) => Ok(-of.number(values)?),
             Formula::Arithmetic(operator, sides, span) => {
@@ -225,6 +255,8 @@ impl Formula {
         };
         match self {
             Formula::Yes(yes) => Ok(*yes),
+            Formula::Cools(kind) => Ok(values.coolant() == *kind),
+            Formula::PropertyHolds(row) => Ok(values.property(*row) != 0.0),
             Formula::Has(var) => Ok(values.number(*var).is_some()),
             Formula::True(var) => Ok(values.number(*var).is_some_and(|value| value != 0.0)),
             Formula::HasText(id) => Ok(!values.text(*id).is_empty()),
@@ -261,10 +293,10 @@ impl Formula {
     /// The variables that it asks.
     pub fn vars(&self) -> VarSet {
         let mut vars = VarSet::default();
-        self.each(&mut |part| {
-            if let Formula::Var(var) | Formula::Has(var) | Formula::True(var) = part {
-                vars.insert(*var);
-            }
+        self.each(&mut |part| match part {
+            Formula::Var(var) | Formula::Has(var) | Formula::True(var) => vars.insert(*var),
+            Formula::Cools(_) => vars.insert(VarId::Cool),
+            _ => {}
         });
         vars
     }
@@ -282,7 +314,12 @@ impl Formula {
 
     /// Is it always the same?
     pub fn is_constant(&self) -> bool {
-        self.vars().is_empty() && self.texts() == TextSet::default()
+        let mut asks_properties = false;
+        self.each(&mut |part| {
+            asks_properties |=
+                matches!(part, Formula::Property(_) | Formula::PropertyText(_) | Formula::PropertyHolds(_));
+        });
+        !asks_properties && self.vars().is_empty() && self.texts() == TextSet::default()
     }
 }
 

@@ -12,6 +12,7 @@ mod limits;
 mod messages;
 mod model;
 mod names;
+mod property;
 mod sequences;
 mod settings;
 mod special;
@@ -26,6 +27,9 @@ pub use code::Code;
 pub use formula::{Formula, Value, Values, Without};
 pub use limits::{Limits, MOST_LINES, MOST_TEXT, MOST_WORDS};
 pub use model::{Form, Line, Sequence, Upon, Word, WordKind, kind_of_remark};
-pub use settings::{ArcCentre, DwellWord, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit};
+pub use property::{Property, PropertyKind, PropertyValue, Target};
+pub use settings::{
+    ArcCentre, CoolantKind, DwellWord, LineEnd, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit,
+};
 pub use step::{Arm, Step, each_formula, line_counts};
 pub use words::before_remark;

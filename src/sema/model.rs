@@ -119,6 +119,10 @@ pub enum WordKind {
     TextVar(TextVar),
     /// A text of the job inside a comment of the program.
     RemarkText(TextVar),
+    /// A property that is a text, by its row.
+    PropertyText(u16),
+    /// The same inside a comment of the program.
+    RemarkProperty(u16),
     /// So many words that follow are a comment with texts of the job: left out where the job has none of them.
     Comment(usize),
 }

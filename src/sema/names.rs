@@ -1,25 +1,32 @@
 //! What words and conditions of a form have in common, and the names of variables in them.
 
+use super::property::Property;
 use super::settings::Settings;
 use crate::diag::{Code, Diag};
-use crate::lang::{Machine, TEXTS, VARIABLES, VarId, did_you_mean};
+use crate::lang::{TEXTS, VARIABLES, VarId, did_you_mean};
 use crate::syntax::Spanned;
 
 /// What the words of a form have in common.
 pub struct Context<'a> {
-    /// The form's machine.
-    pub machine: Machine,
     /// The marks around comments; the second is empty where they run to the end of the block.
     pub comment: &'a [String; 2],
     /// What the form's commands say.
     pub settings: &'a Settings,
 }
 
+/// A property of the form, by its name.
+pub fn property<'a>(name: &str, context: &Context<'a>) -> Option<(u16, &'a Property)> {
+    let row = context.settings.properties.iter().position(|property| property.name.eq_ignore_ascii_case(name))?;
+    Some((row as u16, &context.settings.properties[row]))
+}
+
 /// Reads the name of a variable; reports it when there is none, or none on this machine.
-pub fn variable(name: &Spanned, machine: Machine, diags: &mut Vec<Diag>) -> Option<VarId> {
+pub fn variable(name: &Spanned, settings: &Settings, diags: &mut Vec<Diag>) -> Option<VarId> {
+    let machine = settings.machine;
     let Some(var) = VarId::parse(&name.text) else {
         let known = VARIABLES.iter().filter(|v| v.machines.has(machine)).map(|v| v.name);
         let known = known.chain(TEXTS.iter().map(|text| text.name));
+        let known = known.chain(settings.properties.iter().map(|property| property.name.as_str()));
         let mut diag = Diag::new(Code::PF202, format!("`{}` is no variable", name.text)).at(name.span, "unknown");
         diag.help = did_you_mean(&name.text, known);
         if name.text.split_once(':').is_some_and(|(name, _)| VarId::parse(name).is_some()) {

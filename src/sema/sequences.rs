@@ -28,7 +28,6 @@ impl Analysis {
         }
         let mut words = vec![node.name.name.text.as_str()];
         words.extend(node.name.args.iter().map(|arg| arg.text.as_str()));
-        let machine = self.form.settings.machine;
         for body in &node.body {
             if body.directive.is_some() {
                 self.limits_of(body);
@@ -40,7 +39,7 @@ impl Analysis {
             }
         }
         let settings = &self.form.settings;
-        let context = Context { machine, comment: &settings.comment, settings };
+        let context = Context { comment: &settings.comment, settings };
         let (mut lines, mut flow) = (Vec::new(), Flow::default());
         for body in &node.body {
             if let Some(directive) = &body.directive {
@@ -63,7 +62,7 @@ impl Analysis {
                 self.plain_end(node.end.as_ref());
                 let at = node.name.args.last().map_or(span, |arg| arg.span);
                 let spanned = Spanned { text: var.trim_matches(['[', ']', '<', '>']).to_owned(), span: at };
-                if let Some(var) = variable(&spanned, machine, &mut self.diags) {
+                if let Some(var) = variable(&spanned, &self.form.settings, &mut self.diags) {
                     let every = matches!(name, SequenceName::UponEvery(_));
                     if let Some(first) = self.form.upons.iter().find(|u| u.var == var) {
                         let diag = duplicate_sequence(&format!("Upon [{}]", var.name()), span, first.span);
@@ -227,7 +226,8 @@ impl Analysis {
 fn must_print(id: SequenceId) -> bool {
     use SequenceId as S;
     let moves = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed, S::Index, S::Unwind];
-    let changes = [S::FirstToolChange, S::ToolChange, S::SubCall, S::SubEnd, S::Stop, S::EndCode, S::Cancel];
+    let changes =
+        [S::FirstToolChange, S::ToolChange, S::SubCall, S::SubEnd, S::Stop, S::OptStop, S::EndCode, S::Cancel];
     id.row().is_cycle || moves.contains(&id) || changes.contains(&id)
 }
 

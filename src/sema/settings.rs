@@ -2,9 +2,10 @@
 
 use super::args::{Arguments, Read};
 use super::code::Code;
+use super::property::Property;
 use super::store::Setting;
 use crate::control::{self, Control};
-use crate::lang::{COMMANDS, CommandId, Machine, UnitChoice, VarId, command_rows};
+use crate::lang::{COMMANDS, CommandId, Coolant, Machine, UnitChoice, VarId, command_rows};
 use crate::span::Span;
 use crate::syntax::Spanned;
 
@@ -31,7 +32,7 @@ pub struct DwellWord {
 /// Block numbers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SequenceNumbers {
-    /// The letter; `None` numbers only the lines that print `[block]`.
+    /// The letter, or a blank for numbers alone; `None` numbers only the lines that print `[block]`.
     pub letter: Option<u8>,
     /// The first number.
     pub start: i64,
@@ -39,10 +40,36 @@ pub struct SequenceNumbers {
     pub step: i64,
 }
 
+impl SequenceNumbers {
+    /// The letter of numbers that have none.
+    pub const BARE: u8 = b' ';
+}
+
 impl Default for ArcCentre {
     fn default() -> Self {
         ArcCentre::Letters(Vec::new())
     }
+}
+
+/// `CoolantKind through M88 M89`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoolantKind {
+    /// The kind.
+    pub kind: Coolant,
+    /// The code that turns it on.
+    pub on: f64,
+    /// The code that ends it; `None`: the one that ends flood coolant.
+    pub off: Option<f64>,
+}
+
+/// What ends a line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LineEnd {
+    /// A line feed.
+    #[default]
+    Lf,
+    /// A carriage return before it.
+    CrLf,
 }
 
 /// A prompted variable.

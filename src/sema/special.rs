@@ -2,9 +2,11 @@
 
 use super::args::{Arguments, Read, bad, number, whole};
 use super::code::Code;
-use super::settings::{ArcCentre, DwellWord, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit};
+use super::settings::{
+    ArcCentre, CoolantKind, DwellWord, LineEnd, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit,
+};
 use super::store::Setting;
-use crate::lang::{Origin, VarId};
+use crate::lang::{Coolant, Origin, VarId};
 
 /// `G4 P s`.
 impl Setting for DwellWord {
@@ -46,17 +48,50 @@ impl Setting for ArcCentre {
     }
 }
 
-/// `N 10 10`, `None`, `None 100 10`: with None, start and step are those of `[block]`.
+/// `N 10 10`, `- 0 1`, `None`, `None 100 10`: with None, start and step are those of `[block]`.
 impl Setting for SequenceNumbers {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let letter = match &args.all[0].text {
             none if none.eq_ignore_ascii_case("None") => None,
+            bare if bare == "-" => Some(SequenceNumbers::BARE),
             letter if letter.len() == 1 && letter.as_bytes()[0].is_ascii_alphabetic() => Some(letter.as_bytes()[0]),
-            _ => return bad(args.all.first(), "Sequence#s begins with a letter, or is None"),
+            _ => {
+                return bad(
+                    args.all.first(),
+                    "Sequence#s begins with a letter, with `-` for numbers alone, or is None",
+                );
+            }
         };
         let start = args.all.get(1).map_or(Ok(10), |a| whole(a, 0, 99_999_999))?;
         let step = args.all.get(2).map_or(Ok(10), |a| whole(a, 1, 99_999_999))?;
         *self = SequenceNumbers { letter, start, step };
+        Ok(())
+    }
+}
+
+/// `through M88 M89`.
+impl Setting for Vec<CoolantKind> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        let kind = match Coolant::parse(&args.all[0].text) {
+            Some(kind @ (Coolant::Through | Coolant::Air | Coolant::Mist | Coolant::High)) => kind,
+            Some(_) => return bad(args.all.first(), "flood coolant and its end are said by `Coolant M8 M9`"),
+            None => return bad(args.all.first(), "a kind of coolant is through, air, mist or high"),
+        };
+        if self.iter().any(|other| other.kind == kind) {
+            return bad(args.all.first(), format!("there is a code for {}", kind.name()));
+        }
+        let code =
+            |index: usize| args.all.get(index).map(|arg| args.code(arg, 'M').map(|code| code.value())).transpose();
+        let Some(on) = code(1)? else { return bad(None, "CoolantKind needs a code") };
+        self.push(CoolantKind { kind, on, off: code(2)? });
+        Ok(())
+    }
+}
+
+/// `lf`, `crlf`.
+impl Setting for LineEnd {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        *self = if args.choice()? == "crlf" { LineEnd::CrLf } else { LineEnd::Lf };
         Ok(())
     }
 }

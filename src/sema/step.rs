@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use super::formula::Formula;
-use crate::lang::{Each, VarId};
+use super::property::Target;
+use crate::lang::Each;
 use crate::span::Span;
 
 /// A part of a sequence.
@@ -16,7 +17,7 @@ pub enum Step {
     /// These once for each.
     For(Each, Vec<Step>, Span),
     /// A variable has this value from here on.
-    Set(VarId, Formula, Span),
+    Set(Target, Formula, Span),
 }
 
 /// A branch.

@@ -9,7 +9,8 @@ pub fn names_of(var: VarId, settings: &Settings) -> Vec<(&'static str, f64)> {
     match var {
         VarId::Cool => {
             let [on, off, mist] = settings.coolant;
-            vec![("on", on), ("flood", on), ("off", off), ("mist", mist)]
+            let kinds = settings.coolant_kinds.iter().map(|own| (own.kind.name(), own.on));
+            [("on", on), ("flood", on), ("off", off), ("mist", mist)].into_iter().chain(kinds).collect()
         }
         VarId::Flush => table(&["on", "off", "mist"], &settings.flush),
         VarId::Direct => table(&["cw", "ccw", "off"], &settings.spindle),

@@ -3,7 +3,8 @@
 use super::expression::number;
 use super::formula::Formula;
 use super::model::{Line, Word, WordKind};
-use super::names::{Context, variable};
+use super::names::{Context, property, variable};
+use super::property::{Property, PropertyKind};
 use crate::diag::{Code, Diag, steers};
 use crate::lang::{TextVar, WIDEST};
 use crate::span::Span;
@@ -14,7 +15,7 @@ pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
     let (codes, remark) = body.words.split_at(before_remark(&body.words, context.comment));
     let mut words = Vec::new();
     for word in codes {
-        check_texts(&word.pieces, diags);
+        check_texts(&word.pieces, context, diags);
         for (i, piece) in word.pieces.iter().enumerate() {
             let previous = i.checked_sub(1).map(|before| &word.pieces[before]);
             push(piece, previous, context, &mut words, diags);
@@ -46,8 +47,14 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
     // only between two words is a blank missing; texts stick to their variables
     let glued = previous.is_some_and(|before| !piece.lacks_blank_after(before));
     let kind = match &piece.kind {
+        PieceKind::Variable { letter, name } if let Some((row, property)) = property(&name.text, context) => {
+            match property_word(*letter, row, property, piece.span, diags) {
+                Some(kind) => kind,
+                None => return,
+            }
+        }
         PieceKind::Variable { letter, name } => {
-            let Some(var) = variable(name, context.machine, diags) else { return };
+            let Some(var) = variable(name, context.settings, diags) else { return };
             letter.map_or(WordKind::Value(var), |letter| WordKind::Var(letter, var))
         }
         PieceKind::Expression { letter, expr, .. } => match number(expr, context, diags) {
@@ -83,6 +90,7 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
     if let (PieceKind::Variable { letter: None, .. }, Some(Piece { kind: PieceKind::Stray(text), span })) =
         (&piece.kind, previous)
         && text.ends_with(['-', '+'])
+        && !matches!(kind, WordKind::PropertyText(_))
     {
         diags.push(
             Diag::new(Code::PF001, "a sign can't stand before a variable")
@@ -100,6 +108,28 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
     words.push(Word { span: piece.span, glued, kind });
 }
 
+/// The word of a property.
+fn property_word(
+    letter: Option<u8>,
+    row: u16,
+    property: &Property,
+    span: Span,
+    diags: &mut Vec<Diag>,
+) -> Option<WordKind> {
+    match property.kind {
+        PropertyKind::YesNo => {
+            diags.push(
+                Diag::new(Code::PF704, format!("[{}] is yes or no, and nothing to print", property.name))
+                    .at(span, "this is yes or no")
+                    .help(format!("ask it: `@if [{}]`", property.name)),
+            );
+            None
+        }
+        PropertyKind::Text | PropertyKind::Choice(_) => Some(WordKind::PropertyText(row)),
+        _ => Some(WordKind::Formula(letter, Box::new(Formula::Property(row)))),
+    }
+}
+
 /// A text with its width; reports a width that is none.
 fn text_variable(name: &Spanned, diags: &mut Vec<Diag>) -> Option<TextVar> {
     let var = TextVar::parse(&name.text);
@@ -115,7 +145,7 @@ fn text_variable(name: &Spanned, diags: &mut Vec<Diag>) -> Option<TextVar> {
 }
 
 /// Outside comments a text of the job stands beside text of the form: alone, a name like M30 would be a code.
-fn check_texts(pieces: &[Piece], diags: &mut Vec<Diag>) {
+fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
     let is_text = |piece: &Piece| match &piece.kind {
         PieceKind::Stray(_) => true,
         PieceKind::Quote(text) => !text.is_empty(),
@@ -123,7 +153,13 @@ fn check_texts(pieces: &[Piece], diags: &mut Vec<Diag>) {
     };
     let held = pieces.iter().any(is_text);
     for (i, piece) in pieces.iter().enumerate() {
-        let PieceKind::TextVariable { letter, name } = &piece.kind else { continue };
+        let is_text =
+            |name: &Spanned| property(&name.text, context).is_some_and(|(_, property)| property.kind.is_text());
+        let (letter, name) = match &piece.kind {
+            PieceKind::TextVariable { letter, name } => (letter, name),
+            PieceKind::Variable { letter, name } if is_text(name) => (letter, name),
+            _ => continue,
+        };
         let beside = [i.checked_sub(1), Some(i + 1)].into_iter().flatten().filter_map(|at| pieces.get(at));
         let inner = &name.text;
         let (message, help) = match letter {
@@ -176,9 +212,17 @@ impl<'a> Note<'a> {
                 self.text.push(' ');
             }
             match &piece.kind {
+                PieceKind::Variable { letter, name } if let Some((row, property)) = property(&name.text, context) => {
+                    self.text.extend(letter.map(char::from));
+                    match property_word(None, row, property, piece.span, diags) {
+                        Some(WordKind::PropertyText(row)) => self.push(piece.span, WordKind::RemarkProperty(row)),
+                        Some(WordKind::Formula(_, formula)) => self.push(piece.span, WordKind::RemarkFormula(formula)),
+                        _ => {}
+                    }
+                }
                 PieceKind::Variable { letter, name } => {
                     self.text.extend(letter.map(char::from));
-                    if let Some(var) = variable(name, context.machine, diags) {
+                    if let Some(var) = variable(name, context.settings, diags) {
                         self.push(piece.span, WordKind::Remark(var));
                     }
                 }
@@ -224,7 +268,7 @@ impl<'a> Note<'a> {
     fn finish(mut self) {
         self.end();
         let words = &self.words[self.begin..];
-        if words.iter().any(|word| matches!(word.kind, WordKind::RemarkText(_))) {
+        if words.iter().any(|word| matches!(word.kind, WordKind::RemarkText(_) | WordKind::RemarkProperty(_))) {
             let comment = Word { span: self.span, glued: words[0].glued, kind: WordKind::Comment(words.len()) };
             self.words.insert(self.begin, comment);
         }

@@ -4,9 +4,10 @@ use super::axes::Axes;
 use super::cycle::{CycleSpec, Hole};
 use super::moves::{Arc, Infeed, Section};
 use super::operation::ToolChange;
-use super::start::Start;
+use super::start::{Given, Start};
 use super::thread::Thread;
-use super::tool::{Coolant, Spindle};
+use super::tool::Spindle;
+use crate::lang::Coolant;
 
 /// Kinds of stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,8 +111,8 @@ pub enum Event<'a> {
     Spindle(Spindle),
     /// The coolant from here on.
     Coolant(Coolant),
-    /// The value of a variable of the form from here on, by name.
-    Set(&'a str, f64),
+    /// The value of a variable or property of the form from here on, by name.
+    Set(&'a str, &'a Given),
     /// A subprogram of this number begins.
     SubStart(f64),
     /// The open subprogram ends.

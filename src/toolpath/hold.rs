@@ -4,6 +4,7 @@ use super::axes::Axes;
 use super::cycle::{CycleSpec, Hole};
 use super::event::{Call, Event};
 use super::operation::{First, ToolChange};
+use super::start::Given;
 use super::tool::Spindle;
 use super::{Flow, Place, Sink, Stop, flow};
 use crate::diag::{Code, Diag};
@@ -34,7 +35,7 @@ enum Waiting {
     Plain(Event<'static>),
     Comment(String),
     Text(String),
-    Set(String, f64),
+    Set(String, Given),
     Cycle(Box<CycleSpec>),
 }
 
@@ -45,7 +46,7 @@ impl Waiting {
             Event::CycleBegin(spec) => Waiting::Cycle(Box::new(spec.clone())),
             Event::Comment(text) => Waiting::Comment(text.to_owned()),
             Event::Text(text) => Waiting::Text(text.to_owned()),
-            Event::Set(name, value) => Waiting::Set(name.to_owned(), value),
+            Event::Set(name, value) => Waiting::Set(name.to_owned(), value.clone()),
             Event::Tilt(axis) => Waiting::Plain(Event::Tilt(axis)),
             Event::Begin(section) => Waiting::Plain(Event::Begin(section)),
             Event::End(section) => Waiting::Plain(Event::End(section)),
@@ -110,7 +111,7 @@ impl<'s> Hold<'s> {
                 Waiting::Plain(event) => event.clone(),
                 Waiting::Comment(text) => Event::Comment(text),
                 Waiting::Text(text) => Event::Text(text),
-                Waiting::Set(name, value) => Event::Set(name, *value),
+                Waiting::Set(name, value) => Event::Set(name, value),
                 Waiting::Cycle(spec) => Event::CycleBegin(spec),
             };
             self.sink.push(event, place)?;
@@ -167,7 +168,7 @@ impl<'s> Hold<'s> {
             }
             Event::Set(name, value) if self.prints_nothing() => {
                 if let Some((change, _)) = &mut self.change {
-                    change.set.push((name.to_owned(), value));
+                    change.set.push((name.to_owned(), value.clone()));
                 }
                 Ok(())
             }

@@ -2,7 +2,9 @@
 
 use super::axes::Axes;
 use super::cycle::{CycleSpec, Hole};
-use super::tool::{Coolant, FeedMode, Spindle, Tool};
+use super::start::Given;
+use super::tool::{FeedMode, Spindle, Tool};
+use crate::lang::Coolant;
 
 /// How an operation's path begins: readers look ahead for it, because a tool change may print the position.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,7 +42,7 @@ pub struct ToolChange {
     /// A comment to print.
     pub comment: Option<String>,
     /// Values for variables, by name: those of the operation, and those set before its first move.
-    pub set: Vec<(String, f64)>,
+    pub set: Vec<(String, Given)>,
     /// How the path begins.
     pub first: First,
 }

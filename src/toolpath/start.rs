@@ -3,6 +3,15 @@
 use super::axes::Units;
 use crate::lang::Machine;
 
+/// A value that a job gives a variable or a property of the form.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Given {
+    /// A number.
+    Number(f64),
+    /// A text, a word, or `yes` and `no`.
+    Text(String),
+}
+
 /// What a job says of its part, for people.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct About {
@@ -30,7 +39,7 @@ pub struct Start {
     /// Type of machine that the job is for.
     pub machine: Machine,
     /// Values for variables, by name.
-    pub set: Vec<(String, f64)>,
+    pub set: Vec<(String, Given)>,
     /// The tools in order of use, where the job tells.
     pub tool_order: Option<Vec<f64>>,
 }

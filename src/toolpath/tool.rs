@@ -1,5 +1,7 @@
 //! What an operation works with: tool, spindle, coolant, and what its feeds count.
 
+pub use crate::lang::Coolant;
+
 /// A tool.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tool {
@@ -43,17 +45,6 @@ pub struct Spindle {
     pub css: Option<bool>,
     /// Highest revolutions a minute at constant surface speed.
     pub max: Option<f64>,
-}
-
-/// Coolant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coolant {
-    /// Flood: M8.
-    On,
-    /// Mist: M7.
-    Mist,
-    /// No coolant: M9.
-    Off,
 }
 
 /// What a feed counts.

@@ -136,15 +136,17 @@ fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
 
 impl Expectation {
     /// What a coolant of the job is in a program: two may have one code, as where a machine has no mist.
-    pub(super) fn cooling(&self, coolant: Coolant) -> Cooling {
+    /// `None`: no simulator knows the kind.
+    pub(super) fn cooling(&self, coolant: Coolant) -> Option<Cooling> {
         let [on, off, mist] = self.coolant;
         let (code, named) = match coolant {
             Coolant::On => (on, Cooling::Flood),
             Coolant::Mist => (mist, Cooling::Mist),
             Coolant::Off => (off, Cooling::Off),
+            Coolant::Through | Coolant::Air | Coolant::High => return None,
         };
         let usual = [(8.0, Cooling::Flood), (7.0, Cooling::Mist), (9.0, Cooling::Off)];
-        usual.into_iter().find(|(usual, _)| *usual == code).map_or(named, |(_, cooling)| cooling)
+        Some(usual.into_iter().find(|(usual, _)| *usual == code).map_or(named, |(_, cooling)| cooling))
     }
 }
 

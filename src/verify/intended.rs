@@ -136,7 +136,7 @@ impl Job {
                 Ok(())
             }
             Event::Coolant(coolant) => {
-                self.state.coolant = Some(self.expectation.cooling(coolant));
+                self.state.coolant = self.expectation.cooling(coolant);
                 Ok(())
             }
             Event::Text(text) => self.text(text, to),
@@ -194,7 +194,7 @@ impl Job {
             self.spindle(spindle);
         }
         if let Some(coolant) = change.coolant {
-            self.state.coolant = Some(self.expectation.cooling(coolant));
+            self.state.coolant = self.expectation.cooling(coolant);
         }
         if let Some(work) = change.work {
             self.work(work, to);

@@ -1,6 +1,6 @@
 //! Events that outlive their reader.
 
-use crate::toolpath::{Arc, Call, CycleSpec, Event, Infeed, Start, Thread, ToolChange};
+use crate::toolpath::{Arc, Call, CycleSpec, Event, Given, Infeed, Start, Thread, ToolChange};
 
 /// An event that outlives its reader, so that it can go to another thread.
 #[derive(Clone, Debug)]
@@ -15,7 +15,7 @@ enum Own {
     Cycle(Box<CycleSpec>),
     Comment(Box<str>),
     Text(Box<str>),
-    Set(Box<str>, f64),
+    Set(Box<str>, Box<Given>),
     Call(Call),
     Thread(Box<Thread>),
     Plain(Event<'static>),
@@ -31,7 +31,7 @@ impl From<&Event<'_>> for Kept {
             Event::CycleBegin(spec) => Own::Cycle(Box::new(spec.clone())),
             Event::Comment(text) => Own::Comment(text.into()),
             Event::Text(text) => Own::Text(text.into()),
-            Event::Set(name, value) => Own::Set(name.into(), value),
+            Event::Set(name, value) => Own::Set(name.into(), Box::new(value.clone())),
             Event::SubCall(call) => Own::Call(*call),
             Event::Thread(thread) => Own::Thread(Box::new(*thread)),
             Event::Rapid(to) => Own::Plain(Event::Rapid(to)),
@@ -67,7 +67,7 @@ impl Kept {
             Own::Cycle(spec) => Event::CycleBegin(spec),
             Own::Comment(text) => Event::Comment(text),
             Own::Text(text) => Event::Text(text),
-            Own::Set(name, value) => Event::Set(name, *value),
+            Own::Set(name, value) => Event::Set(name, value),
             Own::Call(call) => Event::SubCall(call),
             Own::Thread(thread) => Event::Thread(thread),
             Own::Plain(event) => event.clone(),

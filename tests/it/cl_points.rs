@@ -10,7 +10,7 @@ use postform::internals::compile::compile;
 use postform::internals::render::Renderer;
 use postform::toolpath::{ReadError, Units};
 
-use crate::support::{check_file, root};
+use crate::support::{check, root};
 
 /// What a tool does to the part.
 #[derive(Clone, Copy, Debug)]
@@ -203,7 +203,10 @@ fn options(text: &str) -> Options {
 }
 
 fn program(text: &str, options: &Options) -> Result<String, ReadError> {
-    let checked = check_file(&root().join("postforms/linuxcnc.pf"));
+    // coolant of any kind
+    let kinds = "CoolantKind through M7\nCoolantKind air M7\nCoolantKind high M8\n";
+    let post = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();
+    let checked = check(&(kinds.to_owned() + &post));
     let form = compile(&checked.form);
     let mut renderer =
         Renderer::new(&form, postform::internals::render::Options { program: Some(1), ..Default::default() });

@@ -220,11 +220,11 @@ fn first_and_last_holes_are_known() {
 }
 
 #[test]
-fn the_last_tool_is_known_where_the_job_lists_them() {
+fn the_last_tool_is_known_whether_the_job_lists_them_or_not() {
     let text = form("", "@if [islasttool]\nM99\n@else\nM98\n@end");
     let listed = job("{\"line\":[1,1,0]}").replacen("\"units\"", "\"tool_order\":[1],\"units\"", 1);
     assert!(program(&text, &listed).contains(&"M99".to_owned()));
-    assert!(program(&text, &job("{\"line\":[1,1,0]}")).contains(&"M98".to_owned()));
+    assert!(program(&text, &job("{\"line\":[1,1,0]}")).contains(&"M99".to_owned()));
 }
 
 #[test]
@@ -279,7 +279,7 @@ fn wrong_expressions_are_refused() {
         ("@if [tool] = 1\nM1\n@end if", "PF707"),
         ("@iff [tool] = 1\nM1", "PF707"),
         ("@while [tool] = 1\nM1", "PF707"),
-        ("@for tool\nM1\n@end", "PF707"),
+        ("@for tools\nM1\n@end", "PF707"),
         ("@set h = 1", "PF707"),
         ("@set speed = 1", "PF707"),
         ("@set vall = 1", "PF707"),

@@ -91,6 +91,7 @@ impl Sink for Steps {
                     Coolant::On => "Flood",
                     Coolant::Mist => "Mist",
                     Coolant::Off => "None",
+                    other => panic!("{other:?}"),
                 };
                 let (name, speed) = (change.name.as_ref().unwrap(), spindle.speed.unwrap());
                 let (diameter, work) = (tool.diameter.unwrap(), change.work.unwrap());

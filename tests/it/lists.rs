@@ -55,15 +55,16 @@ fn lists_print_once_for_each() {
     let job = job(&[(1, 54, LINE), (2, 54, HOLES), (1, 54, LINE), (3, 54, LINE)]);
     assert_eq!(
         lines("@for tool\n  (T[tool] [toolname] D[toold] S[speed] [opcount])\n@end", &job),
-        ["(T1 MILL D10 S1000 2)", "(T2 DRILL D5 S2000 1)", "(T3  D- S3000 1)"]
+        ["(T1 MILL D10 S1000 2)", "(T2 DRILL D5 S2000 1)"] // the third has no name, and a comment without its texts is left out
     );
+    assert_eq!(lines("@for tool\n(T[tool])\n@end", &job), ["(T1)", "(T2)", "(T3)"]);
     assert_eq!(
         lines("@for operation\n([opname] BY T[tool] H[lcomp] [holecount])\n@end", &job),
         ["(OP 0 BY T1 H1 0)", "(OP 1 BY T2 H2 2)", "(OP 2 BY T1 H1 0)", "(OP 3 BY T3 H3 0)"]
     );
     assert_eq!(
-        lines("@for tool\n(T[tool])\n@for operation\n(  [opname])\n@end\n@end", &job),
-        ["(T1)", "(  OP 0)", "(  OP 2)", "(T2)", "(  OP 1)", "(T3)", "(  OP 3)"]
+        lines("@for tool\n(T[tool])\n@for operation\n(- [opname])\n@end\n@end", &job),
+        ["(T1)", "(- OP 0)", "(- OP 2)", "(T2)", "(- OP 1)", "(T3)", "(- OP 3)"]
     );
 }
 
@@ -191,7 +192,7 @@ fn wrong_lists_are_refused() {
     }
     for sequence in [
         "LineCode\nG1 X[h] Y[v] Z[d] F[frate]\n@for tool\nM1\n@end\nEnd",
-        "Peck\n@for work\nM1\n@end\nG0 X[h] Y[v] Z[d]\nEnd",
+        "Peck\nG0 X[h] Y[v]\n@for work\nM1\n@end\nG1 Z[d] F[frate]\nEnd",
     ] {
         assert_eq!(codes(&mill("", sequence)), ["PF707"], "{sequence}");
     }

@@ -433,7 +433,7 @@ fn how_watch_ends() {
         (vec!["my.pf", "--job", "job.json", "--against", "no-such.nc"], "can't read no-such.nc"),
         (vec!["my.pf", "--job", "job.json", "--port", &port], "can't listen on port"),
         (vec!["my.pf", "--job", "job.json", "--port", "99999"], "99999"),
-        (vec!["my.pf", "--job", "job.json", "--set", "nonsense"], "write a variable"),
+        (vec!["my.pf", "--job", "job.json", "--set", "nonsense"], "write a name"),
     ] {
         let output = folder.run(&[&["watch", "--no-open"], arguments.as_slice()].concat());
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");

@@ -90,6 +90,25 @@ pub struct ExplainArgs {
     pub list: bool,
 }
 
+/// `postform properties`.
+#[derive(Debug, Args)]
+pub struct PropertiesArgs {
+    /// The form, or - for standard input
+    pub form: PathBuf,
+    /// How they are shown
+    #[arg(long, value_name = "FORMAT", default_value = "text")]
+    pub format: PropertiesFormat,
+}
+
+/// How properties are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PropertiesFormat {
+    /// For people
+    Text,
+    /// One JSON document, version 1
+    Json,
+}
+
 /// `postform new`.
 #[derive(Debug, Args)]
 pub struct NewArgs {

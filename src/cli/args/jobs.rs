@@ -163,9 +163,12 @@ pub struct RenderOptions {
     /// The program's number [default: the job's]
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(..=99_999_999))]
     pub program: Option<u32>,
-    /// A value for a variable or prompt of the form
-    #[arg(long, value_name = "VAR=VALUE")]
+    /// A value for a variable, prompt or property of the form
+    #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
+    /// Ask for the form's properties too, where somebody can answer
+    #[arg(long)]
+    pub ask: bool,
     /// The day, or day and time, that the program says [default: SOURCE_DATE_EPOCH, else now]
     #[arg(long, value_name = "DATE", value_parser = clock::parse)]
     pub date: Option<Clock>,

@@ -12,7 +12,9 @@ use clap::{Args, Parser, Subcommand};
 use super::colour::Colour;
 pub use controls::{ControlArgs, ControlParser, NoPoint};
 pub use editor::LspArgs;
-pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, NewControl};
+pub use forms::{
+    ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, NewControl, PropertiesArgs, PropertiesFormat,
+};
 pub use jobs::{CheckArgs, From, ReadArgs, RenderArgs, RenderOptions, UnitsArg};
 pub use pictures::{PlotArgs, WatchArgs};
 pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, VerifyArgs, VerifyFormat};
@@ -54,6 +56,8 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Write a commented form, or a control's file, to start from
     New(NewArgs),
+    /// List what a form leaves to the shop, by names that `--set` takes
+    Properties(PropertiesArgs),
     /// List the controls, with what is known of each
     Controls,
     /// Print the completions of a shell

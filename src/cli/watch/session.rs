@@ -89,7 +89,7 @@ impl Session {
                 return Err("error: watch reads files that can be read again: - is none".into());
             }
         }
-        FormFile::read(&args.form, limits)?;
+        let form = FormFile::read(&args.form, limits)?.analyse(&HashMap::new()).form;
         for job in &args.job {
             files::check_format(job, &args.read)?;
             files::open(job)?;
@@ -98,7 +98,8 @@ impl Session {
             files::open_program(against)?;
         }
         let mut options = args.options.options();
-        prompt::answers(&args.options.set, &mut options)?;
+        options.shop_properties.clone_from(&config.properties);
+        prompt::answers(&args.options.set, &form.settings.properties, &mut options)?;
         let proof = args.control.proof(None);
         Ok(Session {
             form: args.form,

@@ -41,6 +41,9 @@ macro_rules! command_rows {
                 "values of [direct]: clockwise, counter-clockwise, off";
             Coolant "Coolant" (Codes('M', 2, 3)) once (of("8 9 7")) Doc {coolant: [f64; 3]}
                 "values of [cool] and [coolantoff]: on, off, mist";
+            CoolantKind "CoolantKind" (Words(2, 3, "a kind, its code and the code that ends it, as `through M88 M89`"))
+                many (of("")) Ours {coolant_kinds: Vec<CoolantKind>} eg "through M88 M89"
+                "values of [cool] and [coolantoff] for another kind of coolant: through, air, mist or high";
             Flush "Flush" (Codes('M', 2, 3)) once (of("8 9 7")) Ours {flush: [f64; 3]} if (Printed(V::Flush))
                 "values of [flush]: on, off, mist";
             CDC "CDC" (Codes('G', 3, 3)) once (of("41 42 40")) Ours {cdc: [f64; 3]}
@@ -135,7 +138,7 @@ macro_rules! command_rows {
             Force "Force" (Letters(1, 15)) once (of("")) Ours {force: Vec<u8>} if (Modal) eg "X Y Z"
                 "letters printed again after every tool change and every change from rapid to feed";
             // blocks and their text
-            SequenceNumbers "Sequence#s" (Words(1, 3, "letter start step, as `N 10 10`, or `None`"))
+            SequenceNumbers "Sequence#s" (Words(1, 3, "letter start step, as `N 10 10`, `- 0 1` without a letter, or `None`"))
                 once (of("None")) Ours {numbers: SequenceNumbers}
                 "block numbers";
             First "First#?" (Switch) once (of("Y")) Ours {number_first: bool} if (Numbered)
@@ -150,6 +153,8 @@ macro_rules! command_rows {
                 "0.5 for .5";
             Eob "EOB" (Text) once (of("")) Ours {eob: String}
                 "text at the end of every block";
+            LineEnd "LineEnd" (Choice(&["lf", "crlf"])) once (of("lf")) Ours {line_end: LineEnd}
+                "what ends a line of the program";
             Comment "Comment" (Words(1, 2, "opening mark and, unless empty, closing mark"))
                 once (of("( )")) Ours {comment: [String; 2]}
                 "comment marks";
@@ -171,6 +176,9 @@ macro_rules! command_rows {
             Ask "Ask" (Words(1, 3, "variable, prompt in quotes, default"))
                 many (of("")) Ours {= prompts} eg "val1 \"Height of the vise\" 2.5"
                 "a prompted variable";
+            Property "Property" (Words(3, 60, "a name, a kind, a default and a question"))
+                many (of("")) Ours {properties: Vec<Property>} eg "through choice(off,on,high) off Coolant through the spindle"
+                "a value by a name of the form's own, which the shop, the job or `--set` may give";
             Call "Call" (Text) many (of("")) Ours {} eg "common.inc"
                 "includes another form of the same folder";
             CallMe "CallMe" (Text) many (of("")) Ours {} eg "common.inc"

@@ -65,6 +65,7 @@ mod other_cycle;
 mod part_zero;
 mod peck_without_step;
 mod position_in_increments;
+mod property_unused;
 mod rapid_that_feeds;
 mod rapid_to_bottom;
 mod replace_number;
@@ -222,4 +223,6 @@ rules! {
     PF607 control_without_code
     PF608 unknown_code
     PF609 second_m_code
+    // what posts say beyond the manual
+    PF710 property_unused
 }

@@ -13,7 +13,7 @@ use super::numbers::quantised;
 use super::printer::Printer;
 use super::said::{Line, Said};
 use super::shape::Shape;
-use super::texts;
+use super::texts::{self, Text};
 use super::values::{Now, rpm_as_limit};
 use super::vars::MOVED;
 use super::want::Want;
@@ -180,7 +180,7 @@ impl Body<'_, '_> {
 
     /// Has the job none of the texts of the comment that begins here?
     fn comment_is_empty(&self, at: usize, words: usize) -> bool {
-        self.want.texts.are_empty(&self.shape.program.ops[at + 1..][..words])
+        texts::are_empty(&self.shape.program.ops[at + 1..][..words], &self.want.texts, &self.want.properties)
     }
 
     fn operation(&mut self, op: Op, at: usize) -> Done {
@@ -190,9 +190,9 @@ impl Body<'_, '_> {
             Op::List { index } => self.list(index as usize)?,
             Op::Var { letter, var, glued } => self.var_word(letter, var, glued)?,
             Op::Literal { index, glued } => self.literal_word(index as usize, glued),
-            Op::Set { var, index } => {
+            Op::Set { target, index } => {
                 let set = self.calculated(index, b' ')?;
-                set.into_iter().for_each(|value| self.said.kept.set(var, value));
+                set.into_iter().for_each(|value| self.said.kept.set(target, value));
             }
             Op::Formula { letter, index, glued } => self.formula_word(letter, index, glued)?,
             Op::Value { .. }
@@ -200,6 +200,7 @@ impl Body<'_, '_> {
             | Op::Text { .. }
             | Op::Quote { .. }
             | Op::TextVar { .. }
+            | Op::PropertyText { .. }
             | Op::ValueFormula { .. }
             | Op::RemarkFormula { .. }
                 if next_hole => {}
@@ -216,7 +217,14 @@ impl Body<'_, '_> {
             Op::Quote { index, glued } => self.out.quote(&self.shape.program.texts[index as usize], glued),
             Op::TextVar { var, in_comment, glued } => {
                 let behind = in_comment.then(|| texts::typed_behind(at, self.shape));
-                texts::print(var, self.want.texts.get(var.id), behind, glued, self.shape, self.out);
+                let text = Text { name: &var, width: var.width, text: self.want.texts.get(var.id) };
+                texts::print(&text, behind, glued, self.shape, self.out);
+            }
+            Op::PropertyText { row, in_comment, glued } => {
+                let behind = in_comment.then(|| texts::typed_behind(at, self.shape));
+                let name = format!("[{}]", self.shape.program.settings.properties[usize::from(row)].name);
+                let text = Text { name: &name, width: 0, text: self.want.properties.get(row).text() };
+                texts::print(&text, behind, glued, self.shape, self.out);
             }
             Op::Value { var, glued } => self.bare_word(var, glued)?,
             Op::Remark { var, glued } => self.remark(self.value_of(var, b' '), glued)?,

@@ -2,9 +2,14 @@
 
 use super::plain::plain;
 use crate::diag::Code;
+use crate::lang::SequenceId;
+use crate::render::fault::Done;
+use crate::render::marks::in_comment;
 use crate::render::printer::Printer;
+use crate::render::said::Said;
 use crate::render::shape::Shape;
-use crate::sema::Settings;
+use crate::render::upon::run_with_upons;
+use crate::render::want::Want;
 
 /// A text in lines of at most so many characters, broken at blanks where it has them.
 fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
@@ -19,16 +24,24 @@ fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
     })
 }
 
-/// A comment, in as many blocks as the control's line asks for.
-pub fn comment_block(text: &str, shape: &Shape, out: &mut Printer) {
+/// A comment, in as many blocks as the control's line asks for: by the form's CommentLine, if it has one.
+pub fn comment_block(text: &str, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
     let room = comment_room(shape);
     for (i, line) in wrapped(&plain(text), room).enumerate() {
         if i == 1 {
             let message = "a comment is longer than the control's line, and goes on in the next";
             out.note(Code::PR026, message.into(), "shorten it, if it is to stand in one block");
         }
-        comment_line(line, shape, out);
+        match shape.program.routine(SequenceId::CommentLine) {
+            Some(routine) => {
+                want.texts.say(line);
+                let routine = shape.way(routine, want, said);
+                run_with_upons(routine, shape, want, said, out)?;
+            }
+            None => comment_line(line, shape, out),
+        }
     }
+    Ok(())
 }
 
 /// How many characters of a comment a block has room for, beside its marks, number and end.
@@ -50,19 +63,4 @@ fn comment_line(text: &str, shape: &Shape, out: &mut Printer) {
     }
     block.extend_from_slice(close.as_bytes());
     out.end_block();
-}
-
-/// A character as a comment of the form can hold it.
-pub fn in_comment(c: char, settings: &Settings) -> u8 {
-    let close = &settings.comment[1];
-    match if settings.upper_comments { c.to_ascii_uppercase() } else { c } {
-        // a mark inside would end the comment early and let the rest move the machine
-        '(' if close.contains(')') => b'[',
-        ')' if close.contains(')') => b']',
-        c if close.contains(c) && !c.is_alphanumeric() => b'_',
-        '%' => b'_', // ends the program for many controls
-        c @ ' '..='~' => c as u8,
-        '\t' => b' ',
-        _ => b'?',
-    }
 }

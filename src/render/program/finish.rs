@@ -5,6 +5,7 @@ use super::sections::check_sections_closed;
 use super::start::begin_main;
 use super::subprograms::{append_waiting, has_waiting};
 use super::table::Subprograms;
+use super::tools::end_operation;
 use crate::compile::{Op, Routine};
 use crate::diag::Code;
 use crate::lang::SequenceId;
@@ -40,9 +41,11 @@ pub fn finish(
         let message = format!("`tool_order` lists {} tools, the job used {}", order.len(), want.tool_changes);
         return fault(Code::PJ012, message, "list the tools in the order of their use, each change once");
     }
+    end_operation(shape, want, said, out)?;
     begin_main(shape, want, said, out, subs)?;
     check_calls(subs)?;
     set_here(shape, want, said)?;
+    want.ends_what_is_on(shape);
     let Some(routine) = shape.routine(SequenceId::EndCode, want, said) else { return Ok(()) };
     check_reading_of(routine, shape, want, said)?;
     if !has_waiting(subs) {

@@ -61,8 +61,9 @@ pub fn start(
 /// Values from the job and the caller; every prompt needs an answer.
 pub fn answers(start: &Start, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
     for (name, value) in &start.set {
-        set_named(name, *value, shape, want, out)?;
+        set_named(name, value, shape, want, out)?;
     }
+    want.properties.keep();
     for (var, value) in shape.options.set.clone() {
         set_variable(var, value, want, out);
     }

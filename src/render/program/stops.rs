@@ -17,7 +17,18 @@ use crate::toolpath::StopKind;
 /// A dwell in seconds.
 pub fn dwell(seconds: f64, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
     settle_between_moves(shape, want, said, out)?;
-    dwell_block(seconds, shape, want, said, out)
+    let Some(routine) = shape.program.routine(SequenceId::DwellBlock) else {
+        return dwell_block(seconds, shape, want, said, out);
+    };
+    let milliseconds = shape.program.settings.dwell.milliseconds;
+    want.set(VarId::Dwell, if milliseconds { seconds * 1000.0 } else { seconds });
+    set_here(shape, want, said)?;
+    let routine = shape.way(routine, want, said);
+    run_with_upons(routine, shape, want, said, out)?;
+    let says = routine.vars.has(VarId::Dwell);
+    want.put(VarId::Dwell, None);
+    // a way that does not say it has not dwelt
+    if says { Ok(()) } else { dwell_block(seconds, shape, want, said, out) }
 }
 
 /// A program stop or an optional one.
@@ -26,7 +37,8 @@ pub fn stop(kind: StopKind, shape: &Shape, want: &mut Want, said: &mut Said, out
     let [program, optional] = shape.program.settings.stop_code;
     let code = if kind == StopKind::Program { program } else { optional };
     want.set(VarId::Stop, code);
-    match shape.program.routine(SequenceId::Stop) {
+    let own = shape.program.routine(SequenceId::OptStop).filter(|_| kind == StopKind::Optional);
+    match own.or_else(|| shape.program.routine(SequenceId::Stop)) {
         Some(routine) => {
             set_here(shape, want, said)?;
             let routine = shape.way(routine, want, said);

@@ -14,10 +14,11 @@ use crate::render::cycle::hole::hole_position;
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::moves::rotary::change_turns;
 use crate::render::printer::Printer;
+use crate::render::prints::prints_axis_words;
 use crate::render::said::{LastMove, Said};
 use crate::render::settle::{check_reading_of, speed_mode_before, work_before};
 use crate::render::shape::Shape;
-use crate::render::targets::set_targets;
+use crate::render::targets::{set_here, set_targets};
 use crate::render::upon::{run_with_upons, upons_of_change};
 use crate::render::want::Want;
 use crate::toolpath::{Axes, Coolant, FeedMode, First, Section, Tool, ToolChange};
@@ -36,6 +37,7 @@ pub fn tool_change(
     sections: &[Section],
 ) -> Done {
     check_sections_closed(sections)?;
+    end_operation(shape, want, said, out)?;
     begin_main(shape, want, said, out, subs)?;
     let number = change.tool.as_ref().map(|tool| tool.number);
     let changes = number.is_some() && number != want.tool;
@@ -46,20 +48,51 @@ pub fn tool_change(
     set_conditions(change, changes, shape, want, out)?;
     want.texts.operation(change, shape);
     match &change.tool {
-        Some(tool) if changes => change_tool(tool, change, shape, want, said, out),
+        Some(tool) if changes => change_tool(tool, change, shape, want, said, out)?,
         tool => {
-            operation_comment(change, None, shape, out);
-            tool.as_ref().map_or(Ok(()), |tool| same_registers(tool, want))
+            operation_comment(change, None, shape, want, said, out)?;
+            tool.as_ref().map_or(Ok(()), |tool| same_registers(tool, want))?;
         }
+    }
+    want.in_operation = true;
+    run_here(SequenceId::Operation, shape, want, said, out)
+}
+
+/// The operation's comment, unless the tool change says it, or Operation.
+fn operation_comment(
+    change: &ToolChange,
+    routine: Option<&Routine>,
+    shape: &Shape,
+    want: &mut Want,
+    said: &mut Said,
+    out: &mut Printer,
+) -> Done {
+    let says = |routine: &Routine| routine.texts.has(TextId::Optext);
+    let by_form = routine.is_some_and(says) || shape.program.routine(SequenceId::Operation).is_some_and(says);
+    match change.comment.as_ref().filter(|_| !by_form) {
+        Some(comment) => comment_block(comment, shape, want, said, out),
+        None => Ok(()),
     }
 }
 
-/// The operation's comment, unless the tool change says it.
-fn operation_comment(change: &ToolChange, routine: Option<&Routine>, shape: &Shape, out: &mut Printer) {
-    let by_form = routine.is_some_and(|routine| routine.texts.has(TextId::Optext));
-    if let Some(comment) = change.comment.as_ref().filter(|_| !by_form) {
-        comment_block(comment, shape, out);
+/// The operation that is open ends.
+pub fn end_operation(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    if !std::mem::take(&mut want.in_operation) {
+        return Ok(());
     }
+    run_here(SequenceId::EndOperation, shape, want, said, out)
+}
+
+/// A sequence that is printed where the tool is, if the form has it.
+fn run_here(id: SequenceId, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    let Some(routine) = shape.program.routine(id) else { return Ok(()) };
+    set_here(shape, want, said)?;
+    let routine = shape.way(routine, want, said);
+    run_with_upons(routine, shape, want, said, out)?;
+    if prints_axis_words(routine, true, shape) {
+        said.stand.moved_by = Some(routine.span);
+    }
+    Ok(())
 }
 
 /// The sequence of the next tool change.
@@ -95,8 +128,8 @@ fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut
         want.set_spindle(spindle, shape)?;
     }
     match change.coolant {
-        Some(coolant) => want.set_coolant(coolant, shape),
-        None if new_tool => want.set_coolant(Coolant::Off, shape),
+        Some(coolant) => want.set_coolant(coolant, shape)?,
+        None if new_tool => want.set_coolant(Coolant::Off, shape)?,
         None => {}
     }
     if let Some(work) = change.work {
@@ -105,8 +138,9 @@ fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut
     if let (Some(tool), Machine::Lathe) = (&change.tool, shape.program.settings.machine) {
         want.set(VarId::Comp, turret_word(tool, shape)?);
     }
+    want.properties.operation();
     for (name, value) in &change.set {
-        set_named(name, *value, shape, want, out)?;
+        set_named(name, value, shape, want, out)?;
     }
     let mode = change.feed_mode.unwrap_or(FeedMode::PerMinute);
     if mode == FeedMode::PerRev {
@@ -142,8 +176,8 @@ fn change_tool(
     said.stand.fresh_tool = true;
     want.tool_changes += 1;
     let shape = &*shape;
+    operation_comment(change, shape.routine(id, want, said), shape, want, said, out)?;
     let routine = shape.routine(id, want, said);
-    operation_comment(change, routine, shape, out);
     let first_target = match first {
         First::Rapid(to) => Some((said.stand.target(to, shape), to.given)),
         First::Hole(spec, hole) => {
@@ -188,6 +222,9 @@ fn change_tool(
     said.stand.moved_by = None;
     upons_of_change(routine, shape, want, said);
     run_with_upons(routine, shape, want, said, out)?;
+    if routine.vars.has(VarId::Coolantoff) {
+        want.ends_coolant = None;
+    }
     if let Some(target) = target {
         said.stand.move_to(&Axes { given: target.given & said.stand.placed, ..target });
     }

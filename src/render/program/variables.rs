@@ -1,15 +1,33 @@
-//! Variables that the job or the caller sets.
+//! Variables and properties that the job or the caller sets.
 
+use crate::diag::Code;
 use crate::lang::VarId;
-use crate::render::fault::Done;
+use crate::render::fault::{Done, fault};
 use crate::render::printer::Printer;
 use crate::render::shape::Shape;
 use crate::render::want::{Want, in_program_units, settable};
+use crate::toolpath::Given;
 
-/// Gives a variable a value by its name, in the job's units.
-pub fn set_named(name: &str, value: f64, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
-    let var = settable(name)?;
-    set_variable(var, in_program_units(var, value, shape), want, out);
+/// Gives a variable or a property a value by its name: a variable's in the job's units, a property's in the form's.
+pub fn set_named(name: &str, given: &Given, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
+    let settings = &shape.program.settings;
+    let asked = name.trim_matches(['[', ']']);
+    if let Some(row) = settings.properties.iter().position(|property| property.name.eq_ignore_ascii_case(asked)) {
+        want.changed = true;
+        return want.properties.set(row, &settings.properties[row], given);
+    }
+    let var = settable(name, settings)?;
+    match given {
+        Given::Number(value) => set_variable(var, in_program_units(var, *value, shape), want, out),
+        Given::Text(text) => {
+            let message = format!("[{}] takes a number, and the job gives the text `{text}`", var.name());
+            return fault(
+                Code::PR016,
+                message,
+                "write the number without quotes; a `Property` of the form may be a text",
+            );
+        }
+    }
     Ok(())
 }
 

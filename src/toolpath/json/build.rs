@@ -224,7 +224,7 @@ impl<'s> Builder<'s> {
             return self.push(Event::Coolant(coolant.0));
         }
         for (name, value) in item.set.iter().flat_map(|set| &set.0) {
-            self.push(Event::Set(name, *value))?;
+            self.push(Event::Set(name, value))?;
         }
         Ok(())
     }

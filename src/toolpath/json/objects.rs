@@ -9,7 +9,7 @@ use super::context::{Context, Step};
 use super::values::{Number, PeckMode, Position, SpeedMode, StepFrom, Word};
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, did_you_mean};
-use crate::toolpath::{Coolant, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind, Units};
+use crate::toolpath::{Coolant, Direction, FeedMode, Given, Plane, Section, Side, SpindleTurn, StopKind, Units};
 use crate::toolpath::{CycleKind, EdmAction};
 
 /// An object with a fixed list of keys.
@@ -293,9 +293,9 @@ impl schemars::JsonSchema for EndWord {
     }
 }
 
-/// `{"val1": 2.5}`: numbers by name, in order.
+/// `{"val1": 2.5, "through": "high"}`: values by name, in order.
 #[derive(Debug, Default, PartialEq)]
-pub struct Values(pub Vec<(String, f64)>);
+pub struct Values(pub Vec<(String, Given)>);
 
 impl Value for Values {
     fn read<'de, A: MapAccess<'de>>(map: &mut A, _: &Context) -> Result<Self, A::Error> {
@@ -303,11 +303,11 @@ impl Value for Values {
         impl<'de> Visitor<'de> for ValuesVisitor {
             type Value = Values;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("numbers by variable name")
+                f.write_str("values by the names of variables and properties")
             }
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Values, A::Error> {
                 let mut values = Vec::new();
-                while let Some((name, Number(value))) = map.next_entry::<String, Number>()? {
+                while let Some((name, value)) = map.next_entry::<String, Given>()? {
                     values.push((name, value));
                 }
                 Ok(Values(values))
@@ -330,7 +330,7 @@ impl schemars::JsonSchema for Values {
         "Values".into()
     }
     fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "number" } })
+        schemars::json_schema!({ "type": "object", "additionalProperties": { "type": ["number", "string", "boolean"] } })
     }
 }
 

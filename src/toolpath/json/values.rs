@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 
 use crate::lang::Machine;
-use crate::toolpath::{Axes, Coolant, Direction, FeedMode, Plane, Section, Side, SpindleTurn, StopKind};
+use crate::toolpath::{Axes, Coolant, Direction, FeedMode, Given, Plane, Section, Side, SpindleTurn, StopKind};
 use crate::toolpath::{CycleKind, EdmAction, Hole, Units};
 
 /// A number. JSON can't write one that is not finite, so it is finite.
@@ -34,6 +34,35 @@ impl<'de> Deserialize<'de> for Number {
             }
         }
         deserializer.deserialize_f64(NumberVisitor)
+    }
+}
+
+/// A number, a text, or `true` and `false`, which are yes and no.
+impl<'de> Deserialize<'de> for Given {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct GivenVisitor;
+        impl Visitor<'_> for GivenVisitor {
+            type Value = Given;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a number, a text or true or false")
+            }
+            fn visit_f64<E>(self, value: f64) -> Result<Given, E> {
+                Ok(Given::Number(value))
+            }
+            fn visit_u64<E>(self, value: u64) -> Result<Given, E> {
+                Ok(Given::Number(value as f64))
+            }
+            fn visit_i64<E>(self, value: i64) -> Result<Given, E> {
+                Ok(Given::Number(value as f64))
+            }
+            fn visit_bool<E>(self, value: bool) -> Result<Given, E> {
+                Ok(Given::Text(if value { "yes" } else { "no" }.into()))
+            }
+            fn visit_str<E>(self, value: &str) -> Result<Given, E> {
+                Ok(Given::Text(value.into()))
+            }
+        }
+        deserializer.deserialize_any(GivenVisitor)
     }
 }
 
@@ -91,7 +120,8 @@ words! {
     Units: "inch" Units::Inch, "mm" Units::Mm;
     Machine: "mill" Machine::Mill, "lathe" Machine::Lathe, "edm" Machine::Edm;
     SpindleTurn: "cw" SpindleTurn::Cw, "ccw" SpindleTurn::Ccw, "off" SpindleTurn::Off;
-    Coolant: "on" Coolant::On, "flood" Coolant::On, "mist" Coolant::Mist, "off" Coolant::Off;
+    Coolant: "on" Coolant::On, "flood" Coolant::On, "mist" Coolant::Mist, "off" Coolant::Off,
+        "through" Coolant::Through, "air" Coolant::Air, "high" Coolant::High;
     FeedMode: "per_minute" FeedMode::PerMinute, "per_rev" FeedMode::PerRev, "inverse_time" FeedMode::InverseTime;
     Direction: "cw" Direction::Cw, "ccw" Direction::Ccw;
     Plane: "xy" Plane::Xy, "xz" Plane::Xz, "yz" Plane::Yz;

@@ -1,0 +1,39 @@
+//! PF710: a property that the form never asks does nothing, whatever it is set to.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::View;
+use crate::sema::{Formula, WordKind, each_formula};
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    let properties = &view.settings.properties;
+    if properties.is_empty() {
+        return;
+    }
+    let mut asked = vec![false; properties.len()];
+    let mut of = |formula: &Formula| {
+        formula.each(&mut |part| {
+            if let Formula::Property(row) | Formula::PropertyText(row) | Formula::PropertyHolds(row) = part {
+                asked[usize::from(*row)] = true;
+            }
+        });
+    };
+    let mut printed = Vec::new();
+    for body in &view.bodies {
+        each_formula(body.steps.unwrap_or_default(), &mut of);
+        for word in body.words() {
+            match &word.kind {
+                WordKind::Formula(_, formula) | WordKind::RemarkFormula(formula) => of(formula),
+                WordKind::PropertyText(row) | WordKind::RemarkProperty(row) => printed.push(usize::from(*row)),
+                _ => {}
+            }
+        }
+    }
+    printed.into_iter().for_each(|row| asked[row] = true);
+    for (property, _) in properties.iter().zip(asked).filter(|(_, asked)| !asked) {
+        diags.push(
+            Diag::new(Code::PF710, format!("the property {} does nothing", property.name))
+                .at(property.span, "no line asks for it")
+                .help(format!("ask for it, as `@if [{}]`, or take it out", property.name)),
+        );
+    }
+}

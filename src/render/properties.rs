@@ -1,0 +1,66 @@
+//! The values of the form's properties: the first that is there counts, of the caller's, the operation's, the job's, the
+//! shop's and the form's own.
+
+use super::fault::{Done, fault};
+use crate::diag::Code;
+use crate::sema::{Property, PropertyValue, Settings};
+use crate::toolpath::Given;
+
+/// The values of the form's properties, by row.
+#[derive(Clone, Debug, Default)]
+pub struct Properties {
+    now: Vec<PropertyValue>,
+    /// What holds for operations that say nothing.
+    of_job: Vec<PropertyValue>,
+    /// The caller has said it: nothing else counts.
+    fixed: Vec<bool>,
+}
+
+impl Properties {
+    /// What the form and the shop say, and what the caller says above all.
+    pub fn new(settings: &Settings, shop: &[(u16, PropertyValue)], caller: &[(u16, PropertyValue)]) -> Properties {
+        let mut now: Vec<_> = settings.properties.iter().map(|property| property.default.clone()).collect();
+        let mut fixed = vec![false; now.len()];
+        for (row, value) in shop.iter().chain(caller) {
+            now[usize::from(*row)] = value.clone();
+        }
+        for (row, _) in caller {
+            fixed[usize::from(*row)] = true;
+        }
+        Properties { of_job: now.clone(), now, fixed }
+    }
+
+    /// A value.
+    pub fn get(&self, row: u16) -> &PropertyValue {
+        &self.now[usize::from(row)]
+    }
+
+    /// What was set so far is the job's.
+    pub fn keep(&mut self) {
+        self.of_job.clone_from(&self.now);
+    }
+
+    /// An operation begins: what the one before has set is over.
+    pub fn operation(&mut self) {
+        if self.now != self.of_job {
+            self.now.clone_from(&self.of_job);
+        }
+    }
+
+    /// The job gives a value.
+    pub fn set(&mut self, row: usize, property: &Property, given: &Given) -> Done {
+        let value = match given {
+            Given::Number(number) => property.kind.read(&number.to_string()),
+            Given::Text(text) => property.kind.read(text),
+        };
+        match value {
+            Ok(value) if !self.fixed[row] => self.now[row] = value,
+            Ok(_) => {}
+            Err(why) => {
+                let message = format!("the property {}: {why}", property.name);
+                return fault(Code::PR053, message, format!("it takes {}", property.kind.takes()));
+            }
+        }
+        Ok(())
+    }
+}

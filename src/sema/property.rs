@@ -1,0 +1,205 @@
+//! Properties: values by names of the form's own, which a shop, a job or a person may give.
+
+use super::args::{Arguments, Read, bad};
+use super::store::Setting;
+use crate::lang::{TextVar, VarId};
+use crate::span::Span;
+
+/// How many properties a form may have.
+const MOST: usize = 64;
+/// How long a name may be.
+const LONGEST_NAME: usize = 30;
+/// How long a text may be.
+const LONGEST_TEXT: usize = 200;
+
+/// What a property is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PropertyKind {
+    /// Any number.
+    Number,
+    /// A length, in the form's units.
+    Length,
+    /// Degrees.
+    Angle,
+    /// Yes or no.
+    YesNo,
+    /// Text.
+    Text,
+    /// One of these words.
+    Choice(Vec<String>),
+}
+
+/// A value of a property.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PropertyValue {
+    /// A number, length or angle.
+    Number(f64),
+    /// Yes or no.
+    YesNo(bool),
+    /// A text, or the word that was chosen.
+    Text(String),
+}
+
+/// `Property through choice(off,on,high) off Coolant through the spindle`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Property {
+    /// Its name, in lower case.
+    pub name: String,
+    /// What it is.
+    pub kind: PropertyKind,
+    /// What holds where nobody says otherwise.
+    pub default: PropertyValue,
+    /// What it is for, as a question.
+    pub text: String,
+    /// The command.
+    pub span: Span,
+}
+
+impl PropertyKind {
+    fn parse(text: &str) -> Result<PropertyKind, String> {
+        Ok(match text.to_ascii_lowercase().as_str() {
+            "number" => PropertyKind::Number,
+            "length" => PropertyKind::Length,
+            "angle" => PropertyKind::Angle,
+            "yesno" => PropertyKind::YesNo,
+            "text" => PropertyKind::Text,
+            other => {
+                let words = other.strip_prefix("choice(").and_then(|rest| rest.strip_suffix(')'));
+                let Some(_) = words else {
+                    return Err(format!(
+                        "`{text}` is no kind of property: number, length, angle, yesno, text or choice(off,on), without blanks"
+                    ));
+                };
+                let words: Vec<String> = text["choice(".len()..text.len() - 1].split(',').map(str::to_owned).collect();
+                let same =
+                    |(i, word): (usize, &String)| words[..i].iter().any(|other| other.eq_ignore_ascii_case(word));
+                if words.len() < 2 || words.iter().any(String::is_empty) || words.iter().enumerate().any(same) {
+                    return Err("a choice has two or more words, each once, as choice(off,on)".into());
+                }
+                PropertyKind::Choice(words)
+            }
+        })
+    }
+
+    /// What it takes, in words.
+    pub fn takes(&self) -> String {
+        match self {
+            PropertyKind::Number => "a number".into(),
+            PropertyKind::Length => "a length, in the form's units".into(),
+            PropertyKind::Angle => "an angle in degrees".into(),
+            PropertyKind::YesNo => "yes or no".into(),
+            PropertyKind::Text => "a text".into(),
+            PropertyKind::Choice(words) => format!("one of {}", words.join(", ")),
+        }
+    }
+
+    /// Its name, as forms write it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            PropertyKind::Number => "number",
+            PropertyKind::Length => "length",
+            PropertyKind::Angle => "angle",
+            PropertyKind::YesNo => "yesno",
+            PropertyKind::Text => "text",
+            PropertyKind::Choice(_) => "choice",
+        }
+    }
+
+    /// Is its value text, which is printed and compared as such?
+    pub fn is_text(&self) -> bool {
+        matches!(self, PropertyKind::Text | PropertyKind::Choice(_))
+    }
+
+    /// Reads a value as somebody types it.
+    ///
+    /// # Errors
+    /// It is none of this kind: what it takes.
+    pub fn read(&self, text: &str) -> Result<PropertyValue, String> {
+        let value = match self {
+            PropertyKind::Number | PropertyKind::Length | PropertyKind::Angle => {
+                text.trim().parse().ok().filter(|number: &f64| number.is_finite()).map(PropertyValue::Number)
+            }
+            PropertyKind::YesNo => match text.trim().to_ascii_lowercase().as_str() {
+                "yes" | "y" | "on" | "true" => Some(PropertyValue::YesNo(true)),
+                "no" | "n" | "off" | "false" => Some(PropertyValue::YesNo(false)),
+                _ => None,
+            },
+            PropertyKind::Text => {
+                let fits = text.chars().count() <= LONGEST_TEXT && !text.chars().any(char::is_control);
+                fits.then(|| PropertyValue::Text(text.to_owned()))
+            }
+            PropertyKind::Choice(words) => {
+                let word = words.iter().find(|word| word.eq_ignore_ascii_case(text.trim()));
+                word.map(|word| PropertyValue::Text(word.clone()))
+            }
+        };
+        value.ok_or_else(|| format!("`{text}` is not {}", self.takes()))
+    }
+}
+
+impl PropertyValue {
+    /// As a number: yes is 1.
+    pub fn number(&self) -> f64 {
+        match self {
+            PropertyValue::Number(number) => *number,
+            PropertyValue::YesNo(yes) => f64::from(u8::from(*yes)),
+            PropertyValue::Text(_) => 0.0,
+        }
+    }
+
+    /// As a text; empty for what is none.
+    pub fn text(&self) -> &str {
+        if let PropertyValue::Text(text) = self { text } else { "" }
+    }
+}
+
+impl std::fmt::Display for PropertyValue {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            PropertyValue::Number(number) => write!(f, "{number}"),
+            PropertyValue::YesNo(yes) => f.write_str(if *yes { "yes" } else { "no" }),
+            PropertyValue::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+impl Setting for Vec<Property> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        let [name, kind, default, question @ ..] = args.all else {
+            return bad(None, "Property takes a name, a kind, a default and a question");
+        };
+        let letters = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+        let own = &name.text;
+        if !own.starts_with(|c: char| c.is_ascii_lowercase()) || !own.chars().all(letters) || own.len() > LONGEST_NAME {
+            let message =
+                format!("`{own}` is no name of a property: lower-case letters, digits and _, at most {LONGEST_NAME}");
+            return bad(Some(name), message);
+        }
+        if VarId::parse(own).is_some() || TextVar::parse(own).is_some() {
+            return bad(Some(name), format!("[{own}] is a variable: a property has a name of its own"));
+        }
+        if ["and", "or", "not", "like"].contains(&own.as_str()) {
+            return bad(Some(name), format!("`{own}` is a word of conditions: take another name"));
+        }
+        if self.iter().any(|other| other.name == *own) {
+            return bad(Some(name), format!("there is a property `{own}`"));
+        }
+        if self.len() == MOST {
+            return bad(Some(name), format!("a form has at most {MOST} properties"));
+        }
+        let kind = PropertyKind::parse(&kind.text).or_else(|message| bad(Some(kind), message))?;
+        let value = kind.read(&default.text).or_else(|message| bad(Some(default), message))?;
+        let text = question.iter().map(|word| word.text.as_str()).collect::<Vec<_>>().join(" ");
+        self.push(Property { name: own.clone(), kind, default: value, text, span: args.span });
+        Ok(())
+    }
+}
+
+/// What `@set` gives a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// A free variable.
+    Var(VarId),
+    /// A property, by its row.
+    Property(u16),
+}

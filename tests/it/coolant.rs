@@ -1,0 +1,103 @@
+//! Kinds of coolant: their codes, what ends them, what a form does not have.
+
+use crate::support::{check, mill, program};
+
+const KINDS: &str = "CoolantKind through M88 M89\nCoolantKind air M12";
+
+/// A job of these operations: the tool, its coolant, the path behind the first rapid.
+fn job(operations: &[(u32, &str, &str)]) -> String {
+    let operations = operations.iter().map(|(tool, coolant, path)| {
+        format!(
+            "{{\"tool\":{tool},\"work\":54,\"spindle\":{{\"speed\":1000,\"direction\":\"cw\"}},\"coolant\":\"{coolant}\",\
+             \"feed\":10,\"path\":[{{\"rapid\":[0,0,1]}},{path}]}}"
+        )
+    });
+    format!(
+        "{{\"postform\":1,\"units\":\"inch\",\"tools\":[{{\"number\":1}},{{\"number\":2}}],\"operations\":[{}]}}",
+        operations.collect::<Vec<_>>().join(",")
+    )
+}
+
+const LINE: &str = "{\"line\":[1,0,0]}";
+
+/// The M codes of a program without those of tools, spindle and end.
+fn codes(form: &str, job: &str) -> Vec<String> {
+    let printed = program(form, job);
+    if printed.len() == 1 {
+        return printed;
+    }
+    let words = printed.iter().flat_map(|line| line.split(' '));
+    words.filter(|word| word.starts_with('M') && !["M6", "M3", "M30"].contains(word)).map(str::to_owned).collect()
+}
+
+/// A form whose tool changes print these lines.
+fn form(head: &str, lines: &str) -> String {
+    mill(head, "").replace("T[tool] M6\n", &format!("T[tool] M6\n{lines}\n"))
+}
+
+#[test]
+fn each_kind_has_its_code() {
+    let print = |coolant: &str| codes(&form(KINDS, "M[cool]"), &job(&[(1, coolant, LINE)]));
+    for (coolant, code) in
+        [("through", "M88"), ("air", "M12"), ("on", "M8"), ("flood", "M8"), ("mist", "M7"), ("off", "M9")]
+    {
+        assert_eq!(print(coolant), [code], "{coolant}");
+    }
+    assert_eq!(print("high"), ["PR054 the form has no coolant `high`"]);
+    assert!(print("foam")[0].starts_with("PJ003"));
+}
+
+#[test]
+fn what_has_a_code_of_its_own_to_end_it_is_ended_by_that() {
+    let two = job(&[(1, "through", LINE), (2, "on", LINE)]);
+    // by the form
+    let text = mill(KINDS, "").replace("ToolChange\nT[tool] M6\n", "ToolChange\nM[coolantoff]\nT[tool] M6\nM[cool]\n");
+    assert_eq!(codes(&text.replace("1stToolChange\nM[coolantoff]\n", "1stToolChange\n"), &two), ["M88", "M89", "M8"]);
+    // else as a block of its own, before the next cut
+    assert_eq!(codes(&form(KINDS, "M[cool]"), &two), ["M88", "M8", "M89"]);
+    let off = job(&[(
+        1,
+        "through",
+        "{\"coolant\":\"off\"},{\"line\":[1,0,0]},{\"coolant\":\"air\"},{\"line\":[0,0,0]},{\"coolant\":\"on\"},{\"line\":[1,0,0]}",
+    )]);
+    assert_eq!(codes(&form(KINDS, "M[cool]"), &off), ["M88", "M89", "M12", "M8"]);
+    // at the end
+    let text = form(KINDS, "M[cool]").replace("EndCode\n", "EndCode\nM[coolantoff]\n");
+    assert_eq!(codes(&text, &job(&[(1, "through", LINE)])), ["M88", "M89"]);
+}
+
+#[test]
+fn conditions_ask_for_the_kind() {
+    let lines =
+        "@if [cool] = through\nM101\n@elif [cool] = mist\nM102\n@elif [cool] <> off\nM103\n@else\nM104\n@end\nM[cool]";
+    let print = |jobs: &[(u32, &str, &str)]| codes(&form(KINDS, lines), &job(jobs))[0].clone();
+    for (coolant, code) in [("through", "M101"), ("mist", "M102"), ("on", "M103"), ("air", "M103"), ("off", "M104")] {
+        assert_eq!(print(&[(1, coolant, LINE)]), code, "{coolant}");
+    }
+    // off is off, whatever ends the kind before
+    let two = job(&[(1, "through", LINE), (2, "off", LINE)]);
+    assert!(codes(&form(KINDS, lines), &two).contains(&"M104".to_owned()));
+    let unknown = check(&form("", "@if [cool] = through\nM1\n@end"));
+    assert!(unknown.diags.iter().any(|diag| diag.code.name() == "PF706"), "{:?}", unknown.diags);
+}
+
+#[test]
+fn wrong_kinds_are_refused() {
+    for head in [
+        "CoolantKind",
+        "CoolantKind through",
+        "CoolantKind foam M88",
+        "CoolantKind flood M8",
+        "CoolantKind off M9",
+        "CoolantKind through M88 M89 M90",
+        "CoolantKind through on",
+        "CoolantKind through M88\nCoolantKind through M89",
+    ] {
+        let checked = check(&mill(head, ""));
+        assert!(
+            checked.diags.iter().any(|diag| diag.is_error() && diag.code.name() == "PF302"),
+            "{head}: {:?}",
+            checked.diags
+        );
+    }
+}

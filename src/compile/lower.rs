@@ -21,6 +21,7 @@ pub fn compile(form: &Form) -> Program {
         literals: Vec::new(),
         texts: Vec::new(),
         formulas: Vec::new(),
+        sets: Vec::new(),
         lists: Vec::new(),
         texts_printed: TextSet::default(),
         name: String::new(),
@@ -163,7 +164,8 @@ fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: 
             Step::Lines(range) => lines[range.clone()].iter().for_each(|line| lower_line(program, line)),
             Step::Set(target, value, span) => {
                 let index = asked(program, value);
-                program.ops.push(Op::Set { target: *target, index });
+                program.ops.push(Op::Set { index: program.sets.len() as u32 });
+                program.sets.push((*target, index));
                 program.spans.push(*span);
                 nodes.push(Node::Set(*target, index));
             }

@@ -91,9 +91,7 @@ pub enum Op {
     },
     /// A variable of the form has another value from here on.
     Set {
-        /// The variable or property.
-        target: Target,
-        /// The value's row in [`Program::formulas`].
+        /// Its row in [`Program::sets`].
         index: u32,
     },
     /// A property that is a text.
@@ -189,6 +187,8 @@ pub struct Program {
     pub texts: Vec<String>,
     /// What is calculated: values and conditions.
     pub formulas: Vec<Formula>,
+    /// What `@set` gives values: the variable or property, and the value's row in `formulas`.
+    pub sets: Vec<(Target, u32)>,
     /// What `@for` goes through.
     pub lists: Vec<List>,
     /// The texts of the job that the form prints anywhere.

@@ -190,8 +190,9 @@ impl Body<'_, '_> {
             Op::List { index } => self.list(index as usize)?,
             Op::Var { letter, var, glued } => self.var_word(letter, var, glued)?,
             Op::Literal { index, glued } => self.literal_word(index as usize, glued),
-            Op::Set { target, index } => {
-                let set = self.calculated(index, b' ')?;
+            Op::Set { index } => {
+                let Some(&(target, formula)) = self.shape.program.sets.get(index as usize) else { return Ok(()) };
+                let set = self.calculated(formula, b' ')?;
                 set.into_iter().for_each(|value| self.said.kept.set(target, value));
             }
             Op::Formula { letter, index, glued } => self.formula_word(letter, index, glued)?,

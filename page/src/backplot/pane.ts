@@ -162,7 +162,11 @@ export class Backplot {
     this.redraw();
   }
 
+  /** Draws in the next frame; the buttons say at once from where the path is looked at. */
   redraw(): void {
+    for (const button of this.views.querySelectorAll("[data-view]")) {
+      button.setAttribute("aria-pressed", String(button.getAttribute("data-view") === this.camera.view));
+    }
     if (this.asked) return;
     this.asked = requestAnimationFrame(() => {
       this.asked = 0;
@@ -218,9 +222,6 @@ export class Backplot {
       light(this.line, 4.5, 1);
     }
     this.drawOver(ratio);
-    for (const button of this.views.querySelectorAll("[data-view]")) {
-      button.setAttribute("aria-pressed", String(button.getAttribute("data-view") === this.camera.view));
-    }
     this.frames.count++;
     this.frames.last = performance.now() - began;
   }

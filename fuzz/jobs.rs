@@ -24,10 +24,6 @@ const INTERPRETED: u64 = 16;
 /// How near places must be for `verify`, in millimetres.
 const PLACES: f64 = 0.002;
 
-/// Of so many jobs one may be called different though its program is right: rare ways between manual holes and around
-/// subprograms are known, and not mended yet. More of them fail the run.
-const KNOWN_ALARMS: u64 = 1000;
-
 fn main() -> ExitCode {
     let asked = Asked::of(std::env::args().skip(1), forms());
     std::panic::set_hook(Box::new(|_| {}));
@@ -46,8 +42,7 @@ fn main() -> ExitCode {
         "{} jobs: {wrong} wrong though proven, {alarms} false alarms, {defects} wrong and found, {rounded} rounded by their form, {seconds:.0} s",
         asked.count
     );
-    let told = hunt.tally.total("verdicts") / KNOWN_ALARMS;
-    if wrong + defects > 0 || alarms > told { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+    if wrong + alarms + defects > 0 { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
 struct Hunt {

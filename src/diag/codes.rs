@@ -273,7 +273,7 @@ codes! {
     PR022 Note "a rapid printed by a sequence that may feed"
     PR023 Warning "cutter compensation at the end"
     PR024 Note "an arc printed as lines"
-    PR025 Warning "a feed that its format rounds by more than 1 %"
+    PR025 Warning "a feed that its format rounds by more than 1 %, or a tap's by more than 0.25 %"
     PR026 Note "a comment in several blocks"
     PR027 Error "a block that its control does not read"
     PR028 Error "a program that is far longer than its job"

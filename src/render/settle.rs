@@ -206,8 +206,8 @@ pub fn only_work_waits(shape: &Shape, want: &Want, said: &Said) -> bool {
 pub fn knows_after_stop(shape: &Shape, want: &Want, said: &Said) -> Done {
     let unknown = |var: VarId| want.get(var).is_none();
     let by_form = shape.program.switches_spindle; // then nothing is said again
-    if said.sub_stopped != Some(true) || by_form || ![VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(unknown)
-    {
+    let stops = said.sub.is_some_and(|sub| sub.stops);
+    if !stops || by_form || ![VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(unknown) {
         return Ok(());
     }
     let help = "give it its own `spindle` and `coolant` before the stop";

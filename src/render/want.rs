@@ -14,7 +14,7 @@ use crate::diag::Code;
 use crate::lang::{Machine, Origin, Unit, VARIABLES, VarId, did_you_mean, work_code};
 use crate::number::quantise;
 use crate::sema::Settings;
-use crate::toolpath::{Coolant, FeedMode, Spindle, SpindleTurn};
+use crate::toolpath::{Coolant, CycleKind, FeedMode, Spindle, SpindleTurn};
 
 /// What the job asks for now.
 #[derive(Clone, Debug)]
@@ -52,8 +52,8 @@ pub struct Want {
     pub compensated: bool,
     /// The item that is printed cuts.
     pub cutting: bool,
-    /// A canned cycle is open.
-    pub in_cycle: bool,
+    /// The canned cycle that is open.
+    pub cycle: Option<CycleKind>,
 }
 
 impl Want {
@@ -78,7 +78,7 @@ impl Want {
             ends_coolant: None,
             compensated: false,
             cutting: false,
-            in_cycle: false,
+            cycle: None,
         };
         want.set(VarId::Incmode, settings.inc_abs[usize::from(!settings.incremental)]);
         want.set(VarId::Coolantoff, settings.coolant[1]);

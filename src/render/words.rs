@@ -163,18 +163,21 @@ pub fn feed_word(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer)
     }
     let Some(feed) = want.feed() else { return Ok(()) };
     let units = quantised(info, feed)?;
-    check_feed(info, VarId::Frate, feed, units, out)?;
+    check_feed(info, VarId::Frate, feed, units, want, out)?;
     out.letter(info, units, false)?;
     said.word(info, units);
     Ok(())
 }
 
-/// A feed must not vanish in the digits of its format; where it loses more than a hundredth of itself, that is said.
+/// A feed must not vanish in the digits of its format; where it loses more than a hundredth of itself, or as the pitch of a
+/// tap a quarter of one, that is said.
 #[inline]
-pub fn check_feed(info: &Letter, var: VarId, value: f64, units: i64, out: &mut Printer) -> Done {
+pub fn check_feed(info: &Letter, var: VarId, value: f64, units: i64, want: &Want, out: &mut Printer) -> Done {
     const SAID_FROM: f64 = 0.01;
+    const OF_TAP: f64 = 0.0025;
+    let taps = want.cycle.is_some_and(|kind| kind.inwards().is_some());
     let printed = as_number(units, info.format.dec.count);
-    if (printed.abs() - value.abs()).abs() <= value.abs() * SAID_FROM {
+    if (printed.abs() - value.abs()).abs() <= value.abs() * if taps { OF_TAP } else { SAID_FROM } {
         return Ok(());
     }
     lost_digits(info, var, value, printed, out)
@@ -228,7 +231,7 @@ pub fn dwell_block(seconds: f64, shape: &Shape, want: &Want, said: &mut Said, ou
     let dwell = &shape.program.settings.dwell;
     let (info, time) = (&shape.letters[dwell.letter], if dwell.milliseconds { seconds * 1000.0 } else { seconds });
     let units = quantised(info, time)?;
-    check_feed(info, VarId::Dwell, time, units, out)?;
+    check_feed(info, VarId::Dwell, time, units, want, out)?;
     code_word(&dwell.code, shape, want, said, out)?;
     parameter_word(dwell.letter, time, shape, said, out)?;
     out.end_block();

@@ -222,7 +222,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         self.report.counts.holes += 1;
         self.report.allowed.custom += u64::from(hole.custom);
         self.hole.over = None;
-        self.hole.last = Some(*hole);
+        (self.hole.last, self.hole.before) = (Some(*hole), None);
         Ok(())
     }
 
@@ -233,7 +233,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             leg.lengths.push(length);
         }
         if tool {
-            self.hole.last = None;
+            self.hole.before = self.hole.last.take().or(self.hole.before);
         }
     }
 

@@ -141,7 +141,7 @@ fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
         }
     }
     // at the bottom of a hole that only the form knows
-    let own = s.hole.last.is_some_and(|last| {
+    let own = s.hole.last.or(s.hole.before).is_some_and(|last| {
         last.custom && s.program.passage.start.is_some_and(|start| same(&start.to, &last.at, ACROSS, tolerance))
     });
     for other in &others {

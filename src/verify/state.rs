@@ -28,7 +28,10 @@ pub(super) struct Limits {
 pub(super) struct Holes {
     /// The hole over which the job is: its way aside from there must then be that way.
     pub over: Option<Place>,
+    /// The tool's last hole.
     pub last: Option<Expected>,
+    /// The last hole of the tool before, while this one has none.
+    pub before: Option<Expected>,
     /// Feeds of a hole in pecks, and a dwell among them.
     pub pecks: Vec<Cut>,
     pub waited: Option<f64>,

@@ -166,37 +166,37 @@ fn across(corners: &[Rapid], tolerance: f64) -> impl Iterator<Item = (&Rapid, &R
     pairs.filter(move |(a, b)| !same(&a.to, &b.to, ACROSS, tolerance) || turns(a, b))
 }
 
-/// Is a corner over a straight rapid across, or on it?
-fn is_over(corner: &Rapid, from: &Place, to: &Place, tolerance: f64) -> bool {
-    let way = |axis: &usize| (to[*axis] - from[*axis]).abs();
-    let Some(longest) = (0..6).filter(|&axis| axis != DEPTH).max_by(|a, b| way(a).total_cmp(&way(b))) else {
-        return false;
-    };
-    let part = ((corner.to[longest] - from[longest]) / (to[longest] - from[longest])).clamp(0.0, 1.0);
-    let beside = std::array::from_fn(|axis| from[axis] + part * (to[axis] - from[axis]));
-    same(&corner.to, &beside, ACROSS, tolerance) && height(corner) >= beside[DEPTH] - tolerance
+/// How far along a straight rapid across a place lies, from 0 to 1, and the place there; `None`: the place is beside it.
+fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64, Place)> {
+    // whole turns bring a rotary axis where it was
+    let turns = |axis: usize| (3..6).contains(&axis);
+    let way = |axis: usize| if turns(axis) { (to[axis] - from[axis]) % 360.0 } else { to[axis] - from[axis] };
+    let longest = (0..6).filter(|&axis| axis != DEPTH).max_by(|&a, &b| way(a).abs().total_cmp(&way(b).abs()))?;
+    let (far, whole) = (place[longest] - from[longest], way(longest));
+    let far = if turns(longest) { far - 360.0 * ((far - whole / 2.0) / 360.0).round() } else { far };
+    let part = (far / whole).clamp(0.0, 1.0);
+    let there = std::array::from_fn(|axis| from[axis] + part * way(axis));
+    same(place, &there, ACROSS, tolerance).then_some((part, there))
 }
 
-/// Ways of more corners are not looked at so closely: the work grows with the corners of one times those of the other.
-const MOST_REFINED: usize = 1 << 12;
-
-/// A way with the corners of another one that it goes straight through.
-fn refined(own: &[Rapid], other: &[Rapid], tolerance: f64) -> Vec<Rapid> {
-    let mut list: Vec<Rapid> = own.first().copied().into_iter().collect();
-    for pair in own.windows(2) {
-        let [a, b] = [&pair[0], &pair[1]];
-        let is_end = |place: &Place| [a, b].iter().any(|end| same(&end.to, place, ALL, tolerance));
-        let far = |place: &Place| (0..8).map(|axis| (place[axis] - a.to[axis]).powi(2)).sum::<f64>();
-        let known = (a.unknown | b.unknown) == 0;
-        let passed = other.iter().filter(|corner| {
-            known && corner.unknown == 0 && !is_end(&corner.to) && lies_between(&a.to, &corner.to, &b.to, tolerance)
-        });
-        let mut passed: Vec<Place> = passed.map(|corner| corner.to).collect();
-        passed.sort_by(|a, b| far(a).total_cmp(&far(b)));
-        list.extend(passed.into_iter().map(|to| Rapid { to, ..*b }));
-        list.push(*b);
-    }
-    list
+/// Is a rapid across nowhere beside the job's rapids across, or below them? It may go straight on over their corners.
+fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
+    let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
+    let [from, to] = [a, b].map(|end| {
+        let mut place = end.to;
+        place[DEPTH] = if height(end).is_infinite() { highest } else { place[DEPTH] };
+        place
+    });
+    let is_end = |place: &Place| [from, to].iter().any(|end| same(end, place, ACROSS, tolerance));
+    let crossed = job.iter().filter(|corner| !is_end(&corner.to));
+    let mut stops: Vec<(f64, Place)> = crossed.filter_map(|c| along(&c.to, &from, &to, tolerance)).collect();
+    stops.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let over = |place: &Place, (c, d): (&Rapid, &Rapid)| {
+        along(place, &c.to, &d.to, tolerance).is_some_and(|(_, there)| place[DEPTH] >= there[DEPTH] - tolerance)
+    };
+    let places: Vec<Place> = [from].into_iter().chain(stops.iter().map(|stop| stop.1)).chain([to]).collect();
+    (a.unknown | b.unknown) & ACROSS == 0
+        && places.windows(2).all(|piece| across(job, tolerance).any(|rapid| piece.iter().all(|end| over(end, rapid))))
 }
 
 /// `start`: so many corners of the program are where its last cut ended.
@@ -207,10 +207,6 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
             return if pairs().all(|(a, b)| spins(a, b)) { Compared::Same } else { Compared::Turning };
         }
     }
-    // each with the corners of the other that it goes straight through
-    let both = (job.len() * program.len() <= MOST_REFINED)
-        .then(|| (refined(job, program, tolerance), refined(program, job, tolerance)));
-    let [job, program] = both.as_ref().map_or([job, program], |(job, program)| [job, program]);
     let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
     let crossing = across(job, tolerance).map(|(a, b)| height(a).min(height(b))).fold(highest, f64::min);
     // at a place the way may be as low as the job's is there, and elsewhere as low as the job crosses
@@ -240,10 +236,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     }
     // other corners: nowhere across below what the job crosses at, and not at all where the job stays
     let stays = across(job, tolerance).next().is_none();
-    let is_the_jobs = |a: &Rapid, b: &Rapid| {
-        across(job, tolerance).any(|(c, d)| [a, b].iter().all(|corner| is_over(corner, &c.to, &d.to, tolerance)))
-    };
-    for (a, b) in across(program, tolerance).filter(|(a, b)| !is_the_jobs(a, b)) {
+    for (a, b) in across(program, tolerance).filter(|(a, b)| !is_over(a, b, job, tolerance)) {
         let low = height(a).min(height(b));
         if low < highest - tolerance || (stays && known_start && low.is_finite()) {
             let to = b.to;
@@ -344,9 +337,23 @@ mod tests {
         // the job's two rapids lie on one line, down to the hole; the program goes across before it goes down
         let job = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 5.0], [0.0, 0.0, 3.0]];
         let program = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 5.0], [0.0, 0.0, 5.0], [0.0, 0.0, 3.0]];
-        assert_eq!(compared(&job, &program), Compared::AsGood { step_by_step: true });
+        assert_eq!(compared(&job, &program), Compared::AsGood { step_by_step: false });
         let low = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 4.9], [0.0, 0.0, 4.9], [0.0, 0.0, 3.0]];
         assert!(matches!(compared(&job, &low), Compared::Elsewhere(_) | Compared::Lower(..)));
+        // on a line with the first hole the third lies between: its corner is none of the way to the second
+        let back = [[0.0, 1.2, 0.7], [0.0, -2.7, 0.1], [0.0, -1.3, 0.1], [0.0, -1.6, -0.1]];
+        let up = [
+            [0.0, 1.2, 0.7],
+            [0.0, -2.7, 0.7],
+            [0.0, -2.7, 0.1],
+            [0.0, -1.3, 0.1],
+            [0.0, -1.6, 0.1],
+            [0.0, -1.6, -0.1],
+        ];
+        assert_eq!(compared(&back, &up), Compared::AsGood { step_by_step: true });
+        let on = [[0.0, 0.0, 9.0], [0.0, 0.0, 5.0], [4.0, 0.0, 5.0], [8.0, 0.0, 3.0], [8.0, 0.0, 9.0], [9.0, 0.0, 9.0]];
+        let straight = [[0.0, 0.0, 9.0], [0.0, 0.0, 5.0], [8.0, 0.0, 5.0], [8.0, 0.0, 9.0], [9.0, 0.0, 9.0]];
+        assert_eq!(compared(&on, &straight), Compared::AsGood { step_by_step: false });
         let beside = [[-1.0, -1.0, 7.0], [-0.5, -0.6, 5.0], [0.0, 0.0, 5.0], [0.0, 0.0, 3.0]];
         assert!(matches!(compared(&job, &beside), Compared::Elsewhere(_)));
     }

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ALL, Rapid, number, same, shown};
+use super::cut::{ALL, DEPTH, Rapid, number, same, shown};
 use super::passage::{Frame, Leg};
 use super::state::Sides;
 use super::way::{Compared, compare as compare_way, enters_hole, leaves_hole, leaves_low};
@@ -136,6 +136,8 @@ fn leave<R: BufRead + Seek>(s: &mut Sides<R>, until: usize, line: u64) -> bool {
     match leaves_hole(job, program, tolerance) {
         Some(Compared::Turning) => turns_otherwise(s, line),
         Some(_) if aside => stays_at_wall(s, line),
+        // the job's own way, and from its end to places of the machine
+        _ if as_job && other[own.len()..].iter().all(|rapid| rapid.unknown & 1 << DEPTH != 0) => {}
         _ => {
             if let Some((to, limit)) = leaves_low(job, program, tolerance) {
                 s.found(Code::PV009, line, "go up first, as high as the job does", || {

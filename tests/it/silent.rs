@@ -154,6 +154,27 @@ fn feeds_that_lose_digits_are_said() {
     let line = mill("F >4", "LineCode\nG1 X[h] F[frate]\nEnd");
     let rendered = support::render(&line, &job("{\"line\":[1,0,1],\"feed\":1.4}")).unwrap();
     assert_eq!(rendered.notes[0].code.name(), "PR025");
+    // the pitch of a tap is to be as near as comparing wants it
+    let hole =
+        |kind: &str| format!("{{\"cycle\":{{\"kind\":\"{kind}\",\"depth\":1,\"feed\":0.01905,\"points\":[[1,1,0]]}}}}");
+    let notes = |kind: &str| support::render(&mill("F >4.>3", ""), &job(&hole(kind))).unwrap().notes;
+    assert_eq!(notes("tap")[0].message, "[frate] is 0.01905 and prints as F0.019: -0.3 %");
+    assert!(notes("drill").iter().all(|note| note.code.name() != "PR025"));
+}
+
+/// A tap in a subprogram is a right-hand one for any caller, and the caller's spindle turns that way.
+#[test]
+fn a_tap_in_a_subprogram_needs_its_turn() {
+    let tap = "{\"rapid\":[0,0,1]},{\"cycle\":{\"kind\":\"tap\",\"depth\":1,\"feed\":5,\"points\":[[0,0,0]]}}";
+    let path = "{\"spindle\":{\"speed\":50,\"direction\":\"TURN\"}},{\"call\":{\"sub\":1}},{\"rapid\":[0,0,1]},{\"line\":[1,0,0]}";
+    let form = mill("", &format!("{SUBS}\nTap\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel"));
+    let called = |turn: &str, sub: &str| program(&form, &with_sub(sub, &path.replace("TURN", turn)));
+    assert!(called("ccw", tap)[0].starts_with("PR033"), "{:?}", called("ccw", tap));
+    assert!(called("cw", tap).contains(&"M98 P1".to_owned()), "{:?}", called("cw", tap));
+    let own = format!("{{\"spindle\":{{\"speed\":50,\"direction\":\"cw\"}}}},{tap}");
+    let lines = called("ccw", &own);
+    let at = lines.iter().position(|line| line == "M98 P1").unwrap_or_else(|| panic!("{lines:?}"));
+    assert!(lines[at + 1..].iter().any(|line| line.contains("M4")), "{lines:?}");
 }
 
 /// A lathe's T word holds station and offset register.

@@ -221,8 +221,9 @@ impl Reader {
             self.call(call)?;
         } else if let Some(thread) = item.get("thread") {
             self.thread(thread)?;
-        } else if item.get("text").is_some_and(|text| !text.as_str().unwrap_or("").starts_with('(')) {
-            return None;
+        } else if let Some(text) = item.get("text").and_then(Value::as_str) {
+            // a comment, an optional stop, coolant, a dwell of no time: none moves the tool
+            return (text.starts_with('(') || ["M1", "M8", "G4 P0"].contains(&text)).then_some(());
         }
         Some(())
     }

@@ -45,7 +45,7 @@ impl Body<'_, '_> {
         let Some(value) = self.calculated(index, letter)? else { return Ok(()) };
         let units = quantised(info, value)?;
         if let Some(var) = FEEDS.iter().find(|&var| shape.program.formulas[index as usize].vars().has(var)) {
-            check_feed(info, var, value, units, self.out)?;
+            check_feed(info, var, value, units, self.want, self.out)?;
         }
         let feed = self.want.inverse_time() && letter == settings.feed_code;
         let drops = match self.mode {

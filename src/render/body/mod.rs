@@ -263,7 +263,7 @@ impl Body<'_, '_> {
         }
         let units = quantised(info, value)?;
         if FEEDS.has(var) {
-            check_feed(info, var, value, units, self.out)?;
+            check_feed(info, var, value, units, self.want, self.out)?;
         }
         if self.drops_word(letter, var, value, units) {
             return Ok(());
@@ -356,7 +356,7 @@ impl Body<'_, '_> {
             // a two-axis job has no upper guide
             VarId::H2 | VarId::V2 if self.shape.linear == 4 => return Ok(None),
             // a cycle without dwell drops the word
-            VarId::Dwell if self.want.in_cycle => return Ok(None),
+            VarId::Dwell if self.want.cycle.is_some() => return Ok(None),
             _ => {}
         }
         if ahead::is_reach(var)

@@ -48,7 +48,7 @@ pub fn cycle_begin(
     let sequence = choose_sequence(&spec, shape, out)?;
     warn_of(&spec, sequence, shape, want, out);
     let turned = turn_for_tap(&spec, shape, want, said)?;
-    want.in_cycle = true;
+    want.cycle = Some(spec.kind);
     drill.open = Some(ActiveCycle {
         spec,
         sequence,
@@ -79,9 +79,12 @@ fn turn_for_tap(spec: &CycleSpec, shape: &Shape, want: &mut Want, said: &mut Sai
         None => return Ok(None),
     };
     let (rigid, before) = (is_rigid(spec, shape), want.get(VarId::Direct));
-    if before.is_none() && inwards == ccw && said.sub_stopped.is_some() {
-        let message = "a left-hand tap in a subprogram that does not say how the spindle turns";
-        return fault(Code::PR033, message, "say its direction in the subprogram, or tap in the main program");
+    if let (None, Some(sub)) = (before, &mut said.sub) {
+        if inwards == ccw {
+            let message = "a left-hand tap in a subprogram that does not say how the spindle turns";
+            return fault(Code::PR033, message, "say its direction in the subprogram, or tap in the main program");
+        }
+        sub.taps = true;
     }
     if before == Some(off) && !rigid {
         turning(before, shape)?;
@@ -113,7 +116,7 @@ pub fn close_cycle(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Pr
     }
     leave_cycle(shape, want, said, out, drill)?;
     let Some(cycle) = drill.open.take() else { return Ok(()) };
-    want.in_cycle = false;
+    want.cycle = None;
     let stands = said.stand.position.get(shape.depth);
     let as_left = |height: f64| cycle.exit_known && stands.is_some_and(|at| (at - height).abs() < 1e-9);
     said.stand.left_hole = cycle.left.filter(|&height| !as_left(height)).map(|height| (said.stand.position, height));

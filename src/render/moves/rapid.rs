@@ -32,7 +32,7 @@ pub fn rapid(to: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, out: &m
             return fault(Code::PR017, message, "put a rapid that keeps the angle before it");
         }
         print_lacking(shape, want, said, out)?;
-        said.differs |= said.sub_stopped == Some(true); // a cut behind it must know its spindle
+        said.differs |= said.sub.is_some_and(|sub| sub.stops); // a cut behind it must know its spindle
     }
     said.stand.moved_by = None;
     if turns {

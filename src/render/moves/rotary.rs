@@ -36,7 +36,7 @@ pub fn turn_to(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, o
     match left.given {
         0 => Ok(()),
         // over a hole first, down last
-        _ if want.in_cycle => split_rapid(&left, shape, want, said, out),
+        _ if want.cycle.is_some() => split_rapid(&left, shape, want, said, out),
         _ => rapid_to(&left, shape, want, said, out),
     }
 }

@@ -49,13 +49,17 @@ pub fn sub_call(
     }
     // a call of the main program needs no look at the end: its subprogram is known here, and so is what that calls
     if let Some(from) = from {
-        subs.calls.push(Called { from, to: call.sub, place: out.place, unknown });
+        let turned_back = turns_back(want, shape);
+        subs.calls.push(Called { from, to: call.sub, place: out.place, unknown, turned_back });
     }
     let Some(base) = shape.program.routine(SequenceId::SubCall) else {
         return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
     };
     let called = subs.index(call.sub);
     check_call(call, called, want, said, subs)?;
+    if turns_back(want, shape) && called.is_some_and(|called| subs.taps(called)) {
+        return taps_back(call.sub);
+    }
     let (printed, first_block) = names_of_called(call, called, shape, subs)?;
     let work = want.get(VarId::Work);
     if let Some(work) = call.work {
@@ -129,6 +133,17 @@ fn names_of_called(call: &Call, called: Option<usize>, shape: &Shape, subs: &Sub
     }
 }
 
+/// Does the spindle turn counterclockwise here?
+fn turns_back(want: &Want, shape: &Shape) -> bool {
+    want.get(VarId::Direct) == Some(shape.program.settings.spindle[1])
+}
+
+fn taps_back<T>(sub: f64) -> Done<T> {
+    let message =
+        format!("subprogram {sub} taps right-hand threads, and its caller turns the spindle counterclockwise");
+    fault(Code::PR033, message, "say the direction of the spindle in the subprogram before its tap")
+}
+
 /// Prints what a call needs before it: changes that its sequence does not print, and the place it is called at. Returns
 /// the place.
 fn go_to_call(
@@ -170,12 +185,14 @@ fn after_call(called: Option<usize>, want: &mut Want, said: &mut Said, subs: &mu
     match known {
         Some(sub) => {
             said.stand.left_at = sub.left.height;
-            if sub.left.stops {
+            if sub.left.spins.stops {
                 for var in [VarId::Speed, VarId::Direct, VarId::Cool] {
                     said.conditions.put(var, None);
                 }
             }
-            said.sub_stopped = said.sub_stopped.map(|stopped| stopped || sub.left.stops);
+            if let Some(open) = &mut said.sub {
+                open.stops |= sub.left.spins.stops;
+            }
             said.conditions = said.conditions.then(&sub.left.conditions);
             for (used, left) in said.upon_used.iter_mut().zip(&sub.left.upon_used) {
                 *used = left.filter(|value| !value.is_nan()).or(*used);
@@ -202,10 +219,13 @@ pub fn check_calls(subs: &Subprograms) -> Done {
         }
         // a later one that stops: its caller went on without a look at it
         let unknown = [VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(|var| call.unknown.has(var));
-        if to > call.from && unknown && subs.defined[to].left.stops {
+        if to > call.from && unknown && subs.defined[to].left.spins.stops {
             let message = format!("subprogram {} stops, and its caller does not know its spindle and coolant", call.to);
             let help = "say spindle and coolant in the calling subprogram before the call";
             return at(call.place, fault(Code::PR033, message, help));
+        }
+        if call.turned_back && subs.taps(to) {
+            return at(call.place, taps_back(call.to));
         }
         if !ends[to] {
             let message = format!("subprogram {} calls itself, directly or through others", call.to);

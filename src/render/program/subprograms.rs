@@ -8,7 +8,7 @@ use crate::lang::{SequenceId, VarId};
 use crate::render::before::enter_plane;
 use crate::render::fault::{Done, fault};
 use crate::render::printer::{Page, Printer};
-use crate::render::said::{CONDITIONS, Said};
+use crate::render::said::{CONDITIONS, Said, Spins};
 use crate::render::settle::settle_here;
 use crate::render::shape::Shape;
 use crate::render::upon::run_with_upons;
@@ -73,7 +73,7 @@ fn leave_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subpro
     }));
     want.forget(&CONDITIONS);
     forget_where(want, said);
-    said.sub_stopped = Some(false);
+    said.sub = Some(Spins::default());
     want.keep_feed(None, shape);
 }
 
@@ -90,8 +90,8 @@ fn back_to_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subp
     forget_where(want, said);
     let Some(main) = subs.main.take() else { return };
     let upon_used = std::mem::replace(&mut said.upon_used, main.upon_used);
-    let stops = said.sub_stopped.take() == Some(true);
-    let left = Left { conditions: said.conditions, upon_used, turned, stops, height };
+    let spins = said.sub.take().unwrap_or_default();
+    let left = Left { conditions: said.conditions, upon_used, turned, spins, height };
     want.restore(main.vars);
     (said.conditions, said.stand.angles) = (main.conditions, main.angles);
     want.keep_feed(main.feed, shape);

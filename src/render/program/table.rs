@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::lang::VarSet;
+use crate::lang::{VarId, VarSet};
 use crate::render::printer::Page;
-use crate::render::said::{Angles, Conditions};
+use crate::render::said::{Angles, Conditions, Spins};
 use crate::render::vars::Vars;
 use crate::toolpath::{Place, key};
 
@@ -30,6 +30,23 @@ impl Subprograms {
     /// The subprogram of a number, as an index of `defined`.
     pub fn index(&self, number: f64) -> Option<usize> {
         self.by_number.get(&key(number)).copied()
+    }
+
+    /// Does a subprogram tap, or one that it calls, without a word of how the spindle turns?
+    pub fn taps(&self, sub: usize) -> bool {
+        let mut seen = vec![false; self.defined.len()];
+        let mut open = vec![sub];
+        while let Some(sub) = open.pop() {
+            if std::mem::replace(&mut seen[sub], true) {
+                continue;
+            }
+            if self.defined[sub].left.spins.taps {
+                return true;
+            }
+            let calls = self.calls.iter().filter(|call| call.from == sub && call.unknown.has(VarId::Direct));
+            open.extend(calls.filter_map(|call| self.index(call.to)));
+        }
+        false
     }
 
     /// Which subprograms end: those all of whose calls do. Each of the others is in a circle, or leads into one.
@@ -74,8 +91,7 @@ pub struct Left {
     pub upon_used: Vec<Option<f64>>,
     /// A rotary axis turned.
     pub turned: bool,
-    /// The subprogram stopped: spindle and coolant may stand, whoever calls it.
-    pub stops: bool,
+    pub spins: Spins,
     /// The height at which it leaves the tool.
     pub height: Option<f64>,
 }
@@ -83,7 +99,7 @@ pub struct Left {
 impl Left {
     /// Does the subprogram leave nothing that its next run would find otherwise?
     pub fn is_nothing(&self) -> bool {
-        self.conditions.known().is_empty() && !self.stops
+        self.conditions.known().is_empty() && !self.spins.stops
     }
 }
 
@@ -104,4 +120,6 @@ pub struct Called {
     pub place: Place,
     /// What the caller does not know of spindle, coolant and work offset, so that it can't put it back.
     pub unknown: VarSet,
+    /// The caller turns the spindle counterclockwise.
+    pub turned_back: bool,
 }

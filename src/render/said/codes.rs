@@ -147,5 +147,5 @@ impl Said {
 fn is_harmless(code: Code, meaning: Option<Meaning>, want: &Want, shape: &Shape) -> bool {
     let known =
         meaning.is_some_and(|meaning| !matches!(meaning, Meaning::Unsaid | Meaning::Probe) && !meaning.is_call());
-    known || shape.program.settings.names_code(code) || want.in_cycle
+    known || shape.program.settings.names_code(code) || want.cycle.is_some()
 }

@@ -84,8 +84,8 @@ impl Said {
                 self.conditions.put(var, None);
             }
         }
-        if let Some(stopped) = &mut self.sub_stopped {
-            *stopped = true;
+        if let Some(sub) = &mut self.sub {
+            sub.stops = true;
         }
         self.differs = true;
     }

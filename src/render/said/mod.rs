@@ -13,4 +13,4 @@ mod state;
 pub use angles::Angles;
 pub use conditions::{CONDITIONS, Conditions};
 pub use line::Line;
-pub use state::{LastMove, Said};
+pub use state::{LastMove, Said, Spins};

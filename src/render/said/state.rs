@@ -57,8 +57,18 @@ pub struct Said {
     pub(super) switched: bool,
     /// The control may not hold what the job wants: the next move must look.
     pub differs: bool,
-    /// Inside a subprogram: whether it stopped, or called one that does. `None`: in the main program.
-    pub sub_stopped: Option<bool>,
+    /// What the open subprogram does. `None`: in the main program.
+    pub sub: Option<Spins>,
+}
+
+/// What a subprogram does to a spindle that only its caller knows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Spins {
+    /// It stops, or calls one that does: spindle and coolant may stand, whoever calls it.
+    pub stops: bool,
+    /// It taps right-hand threads itself: in a floating holder that needs the spindle clockwise, and a rigid tap leaves it so
+    /// or standing.
+    pub taps: bool,
 }
 
 impl Said {
@@ -78,7 +88,7 @@ impl Said {
             depth_moved: false,
             switched: false,
             differs: false,
-            sub_stopped: None,
+            sub: None,
         }
     }
 

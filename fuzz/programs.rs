@@ -10,7 +10,7 @@ use std::time::Instant;
 use postform_fuzz::case::{Asked, Case, End};
 use postform_fuzz::forms::forms;
 use postform_fuzz::judge::Act;
-use postform_fuzz::judge::pair::{Class, difference};
+use postform_fuzz::judge::pair::{Class, difference, without_short};
 use postform_fuzz::mutate::{Mutant, mutant};
 use postform_fuzz::tally::Tally;
 
@@ -19,7 +19,9 @@ const SHOWN: u64 = 3;
 /// How many changed programs are made of a right one.
 const EACH: usize = 10;
 /// Differences that no part is lost by.
-const HARMLESS: [Class; 4] = [Class::Way, Class::Pecks, Class::Tail, Class::Near];
+const HARMLESS: [Class; 5] = [Class::Way, Class::Pecks, Class::Tail, Class::Near, Class::Short];
+/// How near places must be, in millimetres.
+const NEAR: f64 = 0.004;
 
 fn main() {
     let asked = Asked::of(std::env::args().skip(1), forms());
@@ -71,7 +73,15 @@ impl Hunt {
             return;
         }
         let judged = case.form.run(&mutant.text, case.job["units"] == "inch");
-        let (class, why) = match judged.map(|acts| difference(right, &acts, 0.004)) {
+        let differs = |acts: Vec<Act>| match difference(right, &acts, NEAR) {
+            // but for moves that no digits of a program tell
+            Some((class, why)) if !HARMLESS.contains(&class) => {
+                let long = difference(&without_short(right), &without_short(&acts), NEAR);
+                Some(long.map_or((Class::Short, why), |long| long))
+            }
+            other => other,
+        };
+        let (class, why) = match judged.map(differs) {
             Ok(None) => return self.tally.count("quiet", format!("{}: does the same", proof.name())),
             Ok(Some((class, why))) => (Ok(class), why),
             Err((line, why)) => (Err(()), format!("line {line}: {why}")),

@@ -146,7 +146,12 @@ impl<'f> Case<'f> {
             return None;
         }
         let wants = self.wants()?;
-        let acts = interpreted(program, &std::env::temp_dir())?;
+        // several hunts may run beside each other
+        let folder = std::env::temp_dir().join(format!("postform-hunt-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).ok()?;
+        let acts = interpreted(program, &folder);
+        std::fs::remove_dir_all(&folder).ok()?;
+        let acts = acts?;
         Some(acts.and_then(|acts| against::difference(&wants, &acts, self.form.within).map_or(Ok(()), Err)))
     }
 

@@ -48,7 +48,7 @@ impl State {
             self.set_up(block, motion, &mut out)?;
         }
         if block.g_meaning(Group::Once) == Some(Meaning::Machine)
-            && (!matches!(motion, Some(0 | 10)) || in_force.is_some())
+            && (!matches!(motion, Some(0 | 10)) || in_force.is_some() || begins_cycle(block))
         {
             return refuse(Code::PN006, "G53 without G0 or G1", "write G0 with it, and end a cycle with G80 before");
         }
@@ -189,6 +189,15 @@ impl State {
         if let Some(code) = block.g(Group::Motion) {
             self.leave_cycle(code, out);
         }
+        if block.axes_are_taken() {
+            // G0 G28 X0: the word is of G28, and G0 is for the blocks behind it
+            let help = "write the cycle in a block of its own";
+            return if begins_cycle(block) {
+                refuse(Code::PN004, "two codes that both use the axis words", help)
+            } else {
+                Ok(())
+            };
+        }
         if let (Some(code), true) = (self.holes.cycle, motion.is_some() || block.g(Group::Cycle).is_some()) {
             return self.fanuc_cycle(code, block, out);
         }
@@ -211,6 +220,11 @@ impl State {
         self.holes.cycle = None;
         self.holes.series.end();
     }
+}
+
+/// Does the block begin a canned cycle of a Fanuc?
+fn begins_cycle(block: &Block) -> bool {
+    block.g(Group::Cycle).is_some_and(|code| code != NO_MOTION)
 }
 
 fn no_motion<T>(message: &str) -> Done<T> {

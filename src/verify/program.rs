@@ -148,7 +148,8 @@ impl<R: BufRead + Seek> Program<R> {
     pub fn peek(&mut self) -> Result<Option<Cut>, RunError> {
         while self.cut.is_none() {
             if self.next == self.items.len() {
-                if self.over {
+                // a Grbl would take more blocks, if its sender goes on
+                if self.over || self.ended {
                     return Ok(None);
                 }
                 self.items.clear();

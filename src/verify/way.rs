@@ -163,7 +163,9 @@ fn across(corners: &[Rapid], tolerance: f64) -> impl Iterator<Item = (&Rapid, &R
     let pairs = corners.windows(2).map(|pair| (&pair[0], &pair[1]));
     // a whole turn is a move, though it ends where it began
     let turns = |a: &Rapid, b: &Rapid| (3..6).any(|axis| (a.to[axis] - b.to[axis]).abs() > 0.001);
-    pairs.filter(move |(a, b)| !same(&a.to, &b.to, ACROSS, tolerance) || turns(a, b))
+    // to a place of the machine, and from there
+    let home = |a: &Rapid, b: &Rapid| (a.unknown ^ b.unknown) & ACROSS != 0;
+    pairs.filter(move |(a, b)| !same(&a.to, &b.to, ACROSS, tolerance) || turns(a, b) || home(a, b))
 }
 
 /// How far along a straight rapid across a place lies, from 0 to 1, and the place there; `None`: the place is beside it.
@@ -354,6 +356,10 @@ mod tests {
         let on = [[0.0, 0.0, 9.0], [0.0, 0.0, 5.0], [4.0, 0.0, 5.0], [8.0, 0.0, 3.0], [8.0, 0.0, 9.0], [9.0, 0.0, 9.0]];
         let straight = [[0.0, 0.0, 9.0], [0.0, 0.0, 5.0], [8.0, 0.0, 5.0], [8.0, 0.0, 9.0], [9.0, 0.0, 9.0]];
         assert_eq!(compared(&on, &straight), Compared::AsGood { step_by_step: false });
+        // at a low height to a place of the machine
+        let mut home = way(&job);
+        home.corners.insert(2, Rapid { unknown: 0b11, ..home.corners[1] });
+        assert!(matches!(compare(&way(&job), &home, true, 1e-4), Compared::Lower(..) | Compared::Elsewhere(_)));
         let beside = [[-1.0, -1.0, 7.0], [-0.5, -0.6, 5.0], [0.0, 0.0, 5.0], [0.0, 0.0, 3.0]];
         assert!(matches!(compared(&job, &beside), Compared::Elsewhere(_)));
     }

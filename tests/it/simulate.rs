@@ -259,6 +259,16 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
     assert_eq!(refused(control("fanuc"), &long), ("PN001".into(), 1));
 }
 
+/// G0 beside G28 says how the blocks behind it move: the axis words are of G28. Those beside G53 are of G0 or G1 alone.
+#[test]
+fn the_axis_words_of_a_block_have_one_code() {
+    let went = fanuc("X1. Y1.\nG1 G28 X5. Y5.\nX7. F10.");
+    assert_eq!(went, ["T 1 1 10", "T 5 5 10", "T 0 0 10", "F 7 0 10"]);
+    for (block, code) in [("G53 G81 X1. Y1. Z-1. R1. F10.", "PN006"), ("G28 G81 X1. Y1. Z-1. R1. F10.", "PN004")] {
+        assert_eq!(refused(control("fanuc"), &format!("{START}{block}\nM30\n")), (code.to_owned(), 4), "{block}");
+    }
+}
+
 /// What a trial machinist and the real interpreter found.
 #[test]
 fn rules_that_are_easily_missed() {

@@ -33,10 +33,19 @@ pub enum Class {
     Low,
     /// A cut within 0.03 mm.
     Near,
+    /// Cuts and rapids shorter than comparing looks at.
+    Short,
     /// Rapids elsewhere.
     Way,
     /// What comes after the last cut.
     Tail,
+}
+
+/// Moves with straight cuts as rapids that are no longer than 0.0001 inch.
+pub fn without_short(acts: &[Act]) -> Vec<Act> {
+    let short = |act: &Act| act.what == What::Feed && same(&act.from, &act.to, 0.0026);
+    let kept = acts.iter().map(|act| if short(act) { Act { what: What::Rapid, ..*act } } else { *act });
+    kept.collect()
 }
 
 /// The gravest difference between a right program and a changed one; `None`: they do the same. `within`: millimetres.

@@ -5,7 +5,7 @@ use postform::toolpath::Place;
 use postform::{Error, Format, Job, NoFiles, Options, Post, Source, Verdict};
 
 use crate::job::{Kind, Takes};
-use crate::judge::{Act, lathe, run, wire};
+use crate::judge::{Act, MAIN, lathe, run, wire};
 
 /// A form that prints.
 pub struct Form {
@@ -83,7 +83,7 @@ impl Form {
     pub fn render(&self, job: &str, format: Format) -> Result<(String, bool), Said> {
         let mut options = Options::default();
         // a CL file has no number
-        options.program = Some(7);
+        options.program = Some(MAIN);
         options.proof = None;
         let program = self.post.render(Job::bytes(format, job), &options);
         let lost = |program: &postform::Program| program.notes().iter().any(|note| note.code.name() == "PR025");

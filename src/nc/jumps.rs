@@ -4,7 +4,9 @@ use std::io::{BufRead, Seek};
 
 use super::fault::{Done, Fault, refuse};
 use super::flow::{Flow, Step};
+use super::scan::{Kind, tokens};
 use super::simulator::{RunError, Simulator};
+use crate::control::{self, Meaning};
 use crate::diag::Code;
 
 /// Deepest nesting of subprograms and loops.
@@ -30,6 +32,10 @@ pub(super) enum Frame {
     Repeat { label: String, start: Spot, left: u32 },
     /// An `if` one of whose branches runs.
     If { label: String },
+}
+
+fn no_end() -> Box<Fault> {
+    Fault::new(Code::PN015, "the subprogram has no end", "end it with M99 before the next O number")
 }
 
 impl Frame {
@@ -134,9 +140,7 @@ impl<R: BufRead + Seek> Simulator<R> {
         self.program = self.program.or(label.parse().ok());
         self.labels.insert(label, self.at);
         match self.frames.last() {
-            Some(Frame::Call { .. }) => {
-                refuse(Code::PN015, "the subprogram has no end", "end it with M99 before the next O number")
-            }
+            Some(Frame::Call { .. }) => Err(no_end()),
             _ => Ok(Jump::On),
         }
     }
@@ -300,19 +304,36 @@ impl<R: BufRead + Seek> Simulator<R> {
         }
     }
 
-    /// Passes over the programs before the main one.
+    /// Passes over the programs before the main one: each is a subprogram, called or not, and needs its M99.
     pub(super) fn pass_programs(&mut self) -> Result<(), RunError> {
         let mut left = std::mem::take(&mut self.passing);
+        let mut returns = true;
         while left > 0 {
             if !self.read_line()? {
                 return self.go(Spot { byte: 0, line: 0 }); // they have no O words
             }
             if let Some((label, Step::Program)) = Flow::head(&self.line) {
+                if !std::mem::take(&mut returns) {
+                    return Err(self.refused(no_end()));
+                }
                 self.labels.insert(label, self.at);
                 left -= 1;
             }
+            returns |= self.has_return();
         }
         Ok(())
+    }
+
+    /// Has the line a code that ends a subprogram?
+    fn has_return(&self) -> bool {
+        let control = self.state.settings.control;
+        tokens(&self.line).any(|token| match token.kind {
+            Kind::Word(b'M', number) => {
+                let row = control::Code::of(b'M', number.value).and_then(|code| control.row(code));
+                row.is_some_and(|row| row.meaning == Meaning::Return)
+            }
+            _ => false,
+        })
     }
 
     /// A subprogram of M98, which may stand behind the main program.

@@ -480,6 +480,14 @@ impl<R: BufRead + Seek> Program<R> {
             self.hazard(Code::PV016, line, "the program ends with M99, which begins it again", "end it with M30 or M2");
         } else if !self.ended && self.control.rules() == Rules::Fanuc {
             self.hazard(Code::PV016, line, "nothing ends the program", "print M30 or M2 in EndCode");
+        } else if !self.ended && self.state.rotation != Some(Rotation::Stop) {
+            // `%` ends it, and switches nothing
+            self.hazard(
+                Code::PV016,
+                line,
+                "the program is over, and its spindle turns on",
+                "print M2 or M30 in EndCode",
+            );
         }
     }
 

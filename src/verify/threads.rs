@@ -20,13 +20,16 @@ impl Threaded {
         is_one.then(|| (to[RADIUS] - self.crest) * self.inward)
     }
 
-    /// Does a rapid between passes go through what is not cut? Along the axis the tool goes beside the crest.
+    /// Does a rapid between passes go through what is not cut? Along the axis the tool goes beside the crest, and in it goes where
+    /// the passes begin.
     fn is_crossed(&self, a: &Rapid, b: &Rapid, tolerance: f64) -> bool {
         let outermost = [self.crest, self.crest + self.taper].map(|crest| crest * self.inward).into_iter();
         let crest = outermost.fold(f64::INFINITY, f64::min);
         let beside = |rapid: &Rapid| rapid.to[RADIUS] * self.inward <= crest + tolerance;
         let moves_along = (a.to[DEPTH] - b.to[DEPTH]).abs() > tolerance;
-        (a.unknown | b.unknown) != 0 || moves_along && !(beside(a) && beside(b))
+        let begins = |rapid: &Rapid| (rapid.to[DEPTH] - self.begin[DEPTH]).abs() <= 2.0 * tolerance;
+        let goes_in = !beside(b) && (b.to[RADIUS] - a.to[RADIUS]) * self.inward > tolerance;
+        (a.unknown | b.unknown) != 0 || moves_along && !(beside(a) && beside(b)) || goes_in && !begins(b)
     }
 }
 
@@ -53,6 +56,15 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
         if (lead - thread.lead).abs() > PITCH * thread.lead {
             s.found(Code::PV006, found.line, "print F[frate] with the thread", || {
                 format!("the thread's lead is {}, the job's {}", number(lead), number(thread.lead))
+            });
+        }
+        if depth < -2.0 * tolerance {
+            s.found(Code::PV023, found.line, help, || {
+                let crest = number(thread.crest);
+                format!(
+                    "a pass of the thread goes along X{}, beside the crest at X{crest}",
+                    number(found.end()[RADIUS])
+                )
             });
         }
         as_job &= thread.passes.get(count).is_some_and(|pass| (pass - depth).abs() <= 2.0 * tolerance);

@@ -87,6 +87,9 @@ impl Act {
     }
 }
 
+/// The number that each job gets; its subprograms have others.
+pub const MAIN: u32 = 7;
+
 /// Runs a program.
 ///
 /// # Errors
@@ -101,7 +104,8 @@ pub fn run(program: &str, control: &str, inch: bool) -> Result<Vec<Act>, (usize,
         }
     }
     let mut stack: Vec<(usize, usize, u32)> = Vec::new();
-    let mut at = main_begins(&lines, machine.family);
+    // a form without O words has no subprograms
+    let mut at = labels.get(&f64::from(MAIN).to_bits()).map_or(0, |line| line + 1);
     let mut steps = 0;
     while at < lines.len() {
         steps += 1;
@@ -132,17 +136,6 @@ pub fn run(program: &str, control: &str, inch: bool) -> Result<Vec<Act>, (usize,
         }
     }
     Err((lines.len(), "the program has no end".into()))
-}
-
-/// Subprograms may stand first: the main program begins behind the last M99 that comes before any tool.
-fn main_begins(lines: &[&str], family: Family) -> usize {
-    let first_tool = lines.iter().position(|line| line.contains("M6")).unwrap_or(0);
-    match lines[..first_tool].iter().rposition(|line| line.trim_end().ends_with("M99")) {
-        // a Fadal ends its subprograms with M30
-        Some(last) if family == Family::Fadal => last + 2,
-        Some(last) => last + 1,
-        None => 0,
-    }
 }
 
 enum Next {

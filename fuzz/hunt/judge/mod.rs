@@ -12,7 +12,7 @@ pub mod against;
 pub mod pair;
 pub mod rs274;
 
-pub use machine::{Act, State, What, run};
+pub use machine::{Act, MAIN, State, What, run};
 pub use wants::{Want, Wanted, wants};
 
 /// A place: x y z, and three angles; not a number where only the machine knows.

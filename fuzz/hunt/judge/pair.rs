@@ -1,6 +1,6 @@
 //! Two programs that should do the same: what differs, by its class.
 
-use super::{Act, What, near, same};
+use super::{Act, Place, What, near, same, turned};
 
 /// What two programs differ in, the gravest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,7 +43,8 @@ pub enum Class {
 
 /// Moves with straight cuts as rapids that are no longer than 0.0001 inch.
 pub fn without_short(acts: &[Act]) -> Vec<Act> {
-    let short = |act: &Act| act.what == What::Feed && same(&act.from, &act.to, 0.0026);
+    let straight = |what: What| matches!(what, What::Feed | What::Thread(_));
+    let short = |act: &Act| straight(act.what) && same(&act.from, &act.to, 0.0026);
     let kept = acts.iter().map(|act| if short(act) { Act { what: What::Rapid, ..*act } } else { *act });
     kept.collect()
 }
@@ -74,7 +75,8 @@ pub fn difference(right: &[Act], changed: &[Act], within: f64) -> Option<(Class,
     found
 }
 
-/// A cut, or all straight up and down cuts at one place with nothing but ups and downs between them.
+/// A cut, or all straight up and down cuts at one place with nothing but ups and downs between them, or all passes of a
+/// thread.
 struct Plunge {
     cuts: Vec<Act>,
 }
@@ -91,6 +93,7 @@ fn plunges(acts: &[Act]) -> Vec<Plunge> {
         let goes_on = straight && act.what == What::Feed && act.plunges();
         match list.last_mut() {
             Some(last) if goes_on && last.cuts[0].what == What::Feed => last.cuts.push(*act),
+            Some(last) if is_pass(&last.cuts[0], act) => last.cuts.push(*act),
             _ => list.push(Plunge { cuts: vec![*act] }),
         }
         straight = act.what == What::Feed && act.plunges();
@@ -98,7 +101,35 @@ fn plunges(acts: &[Act]) -> Vec<Plunge> {
     list
 }
 
+/// Do two cuts make the same thread?
+fn is_pass(one: &Act, two: &Act) -> bool {
+    let (What::Thread(lead), What::Thread(other)) = (one.what, two.what) else { return false };
+    near(lead, other, 0.003 * lead) && near(one.from[2], two.from[2], 0.01) && near(one.to[2], two.to[2], 0.01)
+}
+
+/// Passes of a thread: as deep, and none in the air.
+fn passes(left: &Plunge, other: &Plunge, within: f64) -> Option<(Class, String)> {
+    let (first, last) = (&left.cuts[0], &left.cuts[left.cuts.len() - 1]);
+    // out of a bore the thread grows
+    let inwards = if last.to[0] > first.to[0] { 1.0 } else { -1.0 };
+    let ends = |plunge: &Plunge| {
+        let depths = plunge.cuts.iter().map(|cut| cut.to[0] * inwards);
+        depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), depth| (low.min(depth), high.max(depth)))
+    };
+    let (a, b) = (ends(left), ends(other));
+    if !near(a.1, b.1, 2.0 * within) || b.0 < a.0 - 2.0 * within {
+        return Some((Class::Cut, format!("a thread from {:.4} to {:.4}, not {:.4} to {:.4}", b.0, b.1, a.0, a.1)));
+    }
+    let same_passes = left.cuts.len() == other.cuts.len()
+        && left.cuts.iter().zip(&other.cuts).all(|(a, b)| near(a.to[0], b.to[0], 2.0 * within));
+    let states = left.cuts.iter().zip(&other.cuts).find_map(|(a, b)| state(a, b));
+    states.or((!same_passes).then(|| (Class::Pecks, format!("{} passes, not {}", other.cuts.len(), left.cuts.len()))))
+}
+
 fn plunge(left: &Plunge, other: &Plunge, within: f64) -> Option<(Class, String)> {
+    if is_pass(&left.cuts[0], &other.cuts[0]) {
+        return passes(left, other, within);
+    }
     if left.cuts.len() == 1 && other.cuts.len() == 1 && !(left.cuts[0].plunges() && other.cuts[0].plunges()) {
         return cut(&left.cuts[0], &other.cuts[0], within);
     }
@@ -107,7 +138,7 @@ fn plunge(left: &Plunge, other: &Plunge, within: f64) -> Option<(Class, String)>
     if two.what != What::Feed || one.what != What::Feed {
         return cut(one, two, within);
     }
-    if (0..6).any(|axis| axis != 2 && !near(one.to[axis], two.to[axis], within)) {
+    if !above(&one.to, &two.to, within) {
         return Some((Class::Cut, format!("at {:.4?}, not {:.4?}", two.to, one.to)));
     }
     if !near(deepest(left), deepest(other), within) {
@@ -140,6 +171,19 @@ fn plunge(left: &Plunge, other: &Plunge, within: f64) -> Option<(Class, String)>
         .then(|| (Class::Pecks, format!("{} strokes, not {}", other.cuts.len(), left.cuts.len())))
 }
 
+/// The same place, but for its height.
+fn above(a: &Place, b: &Place, within: f64) -> bool {
+    (0..2).all(|axis| near(a[axis], b[axis], within)) && turned(a, b)
+}
+
+/// Do two cuts go from the same place to the same place, and turn as far?
+fn same_places(a: &Act, b: &Act, within: f64) -> bool {
+    let turns = |act: &Act, axis: usize| act.to[axis] - act.from[axis];
+    same(&a.from, &b.from, within)
+        && same(&a.to, &b.to, within)
+        && (3..6).all(|axis| near(turns(a, axis), turns(b, axis), within))
+}
+
 fn cut(left: &Act, other: &Act, within: f64) -> Option<(Class, String)> {
     let places = || format!("{:.4?} to {:.4?}, not {:.4?} to {:.4?}", other.from, other.to, left.from, left.to);
     match (left.what, other.what) {
@@ -169,16 +213,12 @@ fn cut(left: &Act, other: &Act, within: f64) -> Option<(Class, String)> {
     }
     // a cycle begins where it is, the way there is a rapid
     let hole = matches!(left.what, What::Hole { .. });
-    if !hole && (!same(&left.from, &other.from, within) || !same(&left.to, &other.to, within)) {
+    if !hole && !same_places(left, other, within) {
         // as far off as the lines of an arc may be
-        let class = if same(&left.from, &other.from, 0.03) && same(&left.to, &other.to, 0.03) {
-            Class::Near
-        } else {
-            Class::Cut
-        };
+        let class = if same_places(left, other, 0.03) { Class::Near } else { Class::Cut };
         return Some((class, places()));
     }
-    if hole && (0..6).any(|axis| axis != 2 && !near(left.to[axis], other.to[axis], within)) {
+    if hole && !above(&left.to, &other.to, within) {
         return Some((Class::Cut, places()));
     }
     state(left, other)
@@ -189,7 +229,9 @@ fn state(left: &Act, other: &Act) -> Option<(Class, String)> {
     // a tap turns the spindle itself
     let is_tap = matches!(left.what, What::Hole { code: 84.0 | 74.0, .. });
     let speed_off = (is.speed - was.speed).abs() > 0.01 * was.speed;
-    let feed_off = is.feed.1 != was.feed.1 || (is.feed.0 - was.feed.0).abs() > 0.01 * was.feed.0;
+    // the lead of a thread is a word of its own
+    let thread = matches!(left.what, What::Thread(_));
+    let feed_off = !thread && (is.feed.1 != was.feed.1 || (is.feed.0 - was.feed.0).abs() > 0.01 * was.feed.0);
     let classes = [
         (Class::Tool, is.tool != was.tool),
         (Class::Length, is.length != was.length),

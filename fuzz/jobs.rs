@@ -63,7 +63,7 @@ fn called(case: &Case<'_>, end: &End) -> &'static str {
     let feeds = list.iter().all(|(code, _)| code == "PV006");
     let is_wrong = |within: f64| matches!(case.judged_within(program, within), Some(Err(_)));
     match lost {
-        true if feeds || is_wrong(PLACES) => "rounded",
+        true if feeds || is_wrong(PLACES) || case.is_rounded(program) => "rounded",
         false if is_wrong(case.form.within) => "defects",
         _ => "alarms",
     }

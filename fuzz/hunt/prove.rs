@@ -97,7 +97,16 @@ impl Form {
 
     /// Compares a program with its job.
     pub fn verify(&self, program: &str, job: &str, format: Format) -> Proof {
-        match self.post.verify(Job::bytes(format, job), program) {
+        self.verify_within(program, job, format, None)
+    }
+
+    /// The same, with places this near in the job's units.
+    pub fn verify_within(&self, program: &str, job: &str, format: Format, tolerance: Option<f64>) -> Proof {
+        let mut proof = postform::Proof::default();
+        proof.tolerance = tolerance;
+        let program = std::io::Cursor::new(program);
+        let proven = self.post.verify_with(Job::bytes(format, job), program, &Options::default(), &proof);
+        match proven.map(|proven| proven.verdict) {
             Ok(Verdict::Identical) => Proof::Identical,
             Ok(Verdict::Equivalent(_)) => Proof::Equivalent,
             Ok(Verdict::Different(findings)) => {

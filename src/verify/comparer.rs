@@ -20,6 +20,9 @@ use crate::nc::RunSettings;
 use crate::render::TraceLine;
 use crate::toolpath::{self, Event, Flow, Sink, Stop, StopKind, Units};
 
+/// A difference of just the tolerance is none, though binary numbers make it a little more.
+const BINARY: f64 = 1.0 + 1e-6;
+
 /// Compares a program with the events of its job: push them, then ask for the verdict.
 ///
 /// Neither side is held: the program is read as far as the events need it, so that both may be streams.
@@ -45,7 +48,7 @@ impl<R: BufRead + Seek> Comparer<R> {
                 program,
                 job: Passage::new(None, frame),
                 hole: Holes::default(),
-                limits: Limits { tolerance: tolerance.unwrap_or_default(), chord: 0.0 },
+                limits: Limits { tolerance: tolerance.unwrap_or_default() * BINARY, chord: 0.0 },
                 ways: Default::default(),
                 before: super::cut::State::default(),
                 agreed: None,
@@ -136,7 +139,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         self.program.want(units);
         self.limits.chord = chord;
         if self.limits.tolerance == 0.0 {
-            self.limits.tolerance = PLACES[usize::from(units == Units::Mm)];
+            self.limits.tolerance = PLACES[usize::from(units == Units::Mm)] * BINARY;
         }
     }
 

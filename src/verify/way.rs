@@ -20,6 +20,9 @@ pub(super) enum Compared {
 /// So many tolerances long is a rapid whose direction its digits tell.
 const LEG: f64 = 4.0;
 
+/// So many tolerances long is a rapid across at most that the digits of both its ends make of one that goes up.
+const ROUNDED: f64 = 2.0;
+
 /// A way as corners: the start, if it is known, and the ends of its rapids.
 #[derive(Debug, Default)]
 pub(super) struct Way {
@@ -118,11 +121,14 @@ pub(super) fn compare(job: &Way, program: &Way, known_start: bool, tolerance: f6
             tolerance,
         );
     };
+    // over its first place the job may go down before it goes across
+    let over_it = job.corners.iter().take_while(|corner| same(&corner.to, &first.to, ACROSS, tolerance));
+    let lowest = over_it.map(|corner| corner.to[DEPTH]).fold(first.to[DEPTH], f64::min);
     let there = |exactly: u8| {
         program.corners.iter().position(|corner| {
             corner.unknown == 0
                 && same(&corner.to, &first.to, exactly, tolerance)
-                && corner.to[DEPTH] >= first.to[DEPTH] - tolerance
+                && corner.to[DEPTH] >= lowest - tolerance
         })
     };
     let Some(arrived) = there(ALL).or_else(|| there(ACROSS)) else {
@@ -132,7 +138,7 @@ pub(super) fn compare(job: &Way, program: &Way, known_start: bool, tolerance: f6
     let low = program.corners[..=arrived]
         .iter()
         .skip(usize::from(program.begun))
-        .find(|corner| height(corner) < first.to[DEPTH] - tolerance);
+        .find(|corner| height(corner) < lowest - tolerance);
     let crosses = across(&program.corners[..=arrived], tolerance)
         .find(|(a, b)| height(a).min(height(b)) < first.to[DEPTH] - tolerance);
     if let Some(corner) = low.or(crosses.map(|(_, b)| b)) {
@@ -151,6 +157,14 @@ fn stands_otherwise(corner: &Rapid, program: &[Rapid], tolerance: f64) -> bool {
     let stands = matches!(corner.spin, Some(Spin::At(_) | Spin::Oriented));
     let mut there = program.iter().filter(|other| same(&other.to, &corner.to, ALL, tolerance)).peekable();
     stands && there.peek().is_some() && !there.any(|other| spins(corner, other))
+}
+
+/// Does the spindle do something else on the first rapid than the job says?
+fn leaves_turning_otherwise(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
+    let (Some(left), [start, first, ..]) = (job.get(1), program) else { return false };
+    // out by feed, the tool has left already
+    let left_before = start.unknown == 0 && same(&start.to, &left.to, ALL, tolerance);
+    !left_before && !spins(left, first)
 }
 
 /// A corner's height: what only the machine knows is high.
@@ -222,7 +236,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
         }
     }
     // a spindle that must stand while the tool leaves, or stand at its angle
-    let turns = known_start && job.get(1).zip(program.get(1)).is_some_and(|(a, b)| !spins(a, b))
+    let turns = known_start && leaves_turning_otherwise(job, program, tolerance)
         || job.iter().any(|corner| stands_otherwise(corner, program, tolerance));
     if known_start && across(job, tolerance).count() == across(program, tolerance).count() {
         let mut pairs = across(job, tolerance).zip(across(program, tolerance));
@@ -238,7 +252,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     }
     // other corners: nowhere across below what the job crosses at, and not at all where the job stays
     let stays = across(job, tolerance).next().is_none();
-    for (a, b) in across(program, tolerance).filter(|(a, b)| !is_over(a, b, job, tolerance)) {
+    for (a, b) in across(program, ROUNDED * tolerance).filter(|(a, b)| !is_over(a, b, job, tolerance)) {
         let low = height(a).min(height(b));
         if low < highest - tolerance || (stays && known_start && low.is_finite()) {
             let to = b.to;
@@ -293,7 +307,8 @@ pub(super) fn leaves_low(job: &Way, program: &Way, tolerance: f64) -> Option<(Pl
     let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();
     let highest = heights(&job.corners).into_iter().fold(f64::NEG_INFINITY, f64::max);
     let crossing = across(&job.corners, tolerance).map(|(a, b)| a.to[DEPTH].min(b.to[DEPTH])).fold(highest, f64::min);
-    let low = across(&program.corners, tolerance).find(|(a, b)| height(a).min(height(b)) < crossing - tolerance);
+    let low =
+        across(&program.corners, ROUNDED * tolerance).find(|(a, b)| height(a).min(height(b)) < crossing - tolerance);
     if let Some((_, b)) = low {
         return Some((b.to, crossing));
     }

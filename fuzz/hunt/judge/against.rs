@@ -37,13 +37,15 @@ impl Judge<'_> {
     /// All wants in their order; `left`: how often it may be tried otherwise.
     fn follow(mut self, wants: &[Wanted], left: &mut u32) -> Option<String> {
         for (number, wanted) in wants.iter().enumerate() {
-            if wanted.want == Want::Line
-                && same(&wanted.from, &wanted.to, self.within)
-                && wanted.from[3..] == wanted.to[3..]
-            {
+            let one_way = match wanted.want {
+                Want::Line => true,
+                Want::Arc { turns, .. } => turns == 0.0 && wanted.from != wanted.to,
+                _ => false,
+            };
+            if one_way && same(&wanted.from, &wanted.to, self.within) && wanted.from[3..] == wanted.to[3..] {
                 // shorter than the digits can say: the program may have it or not
                 let is_made = self.next().is_some_and(|act| {
-                    act.what == What::Feed
+                    matches!(act.what, What::Feed | What::Arc { .. })
                         && same(&act.from, &wanted.from, 2.0 * self.within)
                         && same(&act.to, &wanted.to, 2.0 * self.within)
                 });
@@ -56,6 +58,15 @@ impl Judge<'_> {
                 self.allowed = self.allowed.min(wanted.low);
             } else if let Some(difference) = self.meet(wanted) {
                 return Some(difference);
+            } else if matches!(wanted.want, Want::Arc { .. }) {
+                // parts at its end that are shorter than the digits can say
+                while self.next().is_some_and(|act| {
+                    matches!(act.what, What::Arc { turns: 0.0, .. })
+                        && act.from != act.to
+                        && [&act.from, &act.to].iter().all(|end| same(end, &wanted.to, 2.0 * self.within))
+                }) {
+                    self.take();
+                }
             }
         }
         self.next().map(|act| format!("line {}: a cut that the job does not have, to {}", act.line, shown(&act.to)))

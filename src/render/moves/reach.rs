@@ -20,6 +20,9 @@ use crate::toolpath::Axes;
 pub fn reach(to: &Axes, free: bool, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done<Axes> {
     if said.stand.left_hole.is_some() {
         stand_as_left(&said.stand.target(to, shape), free, shape, want, said, out)?;
+        if to.given & shape.depth_bit() != 0 {
+            said.stand.left_hole = None; // the item says its own height
+        }
     }
     let target = said.stand.target(to, shape);
     if to.given & ROTARY_BITS != 0 { in_travel(&target, to.given, free, shape, want, said, out) } else { Ok(target) }

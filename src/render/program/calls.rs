@@ -66,7 +66,7 @@ pub fn sub_call(
         want.set_work(work, shape)?;
     }
     let routine = shape.way(base, want, said);
-    let place = go_to_call(call, routine, shape, want, said, out)?;
+    let mut place = go_to_call(call, routine, shape, want, said, out)?;
     want.set(VarId::Sub, printed);
     want.set(VarId::Times, call.times);
     want.put(VarId::Subline, first_block);
@@ -79,6 +79,11 @@ pub fn sub_call(
         want.set(VarId::Times, 1.0);
     }
     for run in 0..calls {
+        if run > 0 {
+            // where the run before has left the tool
+            let on = Call { at: Axes::default(), ..*call };
+            place = go_to_call(&on, shape.way(base, want, said), shape, want, said, out)?;
+        }
         set_targets(&place, shape, want, said)?;
         let routine = shape.way(base, want, said);
         if run > 0 && leaves {

@@ -60,10 +60,14 @@ impl Judge<'_> {
             }
             self.take();
             if near(act.to[2], *bottom, self.within) {
-                // a last peck may be shorter than the digits can say
+                // a last peck may be shorter than the digits can say; what begins at the clearance is the next hole
                 let pecks = matches!(kind.as_str(), "deep" | "chipbreak");
                 let again = |act: &Act| {
-                    act.what == What::Feed && over(act) && near(act.to[2], *bottom, within) && act.to[2] < act.from[2]
+                    act.what == What::Feed
+                        && over(act)
+                        && near(act.to[2], *bottom, within)
+                        && act.to[2] < act.from[2]
+                        && act.from[2] < clear - within
                 };
                 match self.next().filter(|act| pecks && again(act)) {
                     Some(next) => act = next,

@@ -30,6 +30,7 @@ mod states;
 mod subprograms;
 mod tables;
 mod threads;
+mod unknown;
 mod verdict;
 mod way;
 mod ways;

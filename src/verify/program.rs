@@ -208,26 +208,9 @@ impl<R: BufRead + Seek> Program<R> {
         if digits.is_empty() { digits } else { format!("N{digits}") }
     }
 
-    /// Is this a reason of ours, and none of the control's: a code that its file does not have, or that is not run?
-    ///
-    /// Of LinuxCNC and what is like it all codes are known: it refuses others itself.
-    pub fn is_unknown(&self, code: Code) -> bool {
-        match code {
-            Code::PN003 => self.control.rules() == Rules::Fanuc,
-            Code::PN016 => true,
-            _ => false,
-        }
-    }
-
-    /// `fanuc has no G201 that we know`, or why a code is not run.
-    pub fn unknown_code(&self, diag: &Diag) -> String {
-        let name = self.control.name();
-        let code = diag.message.split(|c: char| !c.is_ascii_alphanumeric() && c != '.');
-        let is_code = |word: &&str| word.len() > 1 && word[1..].starts_with(|c: char| c.is_ascii_digit());
-        match code.into_iter().find(is_code).filter(|_| diag.code == Code::PN003) {
-            Some(code) => format!("{name} has no {code} that we know"),
-            None => diag.message.clone(),
-        }
+    /// The control that runs it.
+    pub fn control(&self) -> &'static Control {
+        self.control
     }
 
     /// Warnings of the simulator.

@@ -7,6 +7,7 @@ use super::intent::Expected;
 use super::passage::{Frame, Passage};
 use super::program::Program;
 use super::report::{Difference, Report};
+use super::unknown::{is_unknown, unknown_code};
 use super::verdict::Unproven;
 use super::way::Way;
 use crate::diag::{Code, Diag};
@@ -96,8 +97,8 @@ impl<R: BufRead + Seek> Sides<R> {
     pub fn next(&mut self) -> Result<Option<Cut>, Box<Diag>> {
         match self.program.peek() {
             Ok(cut) => Ok(cut),
-            Err(RunError::Refused(diag, line)) if self.program.is_unknown(diag.code) => {
-                let why = self.program.unknown_code(&diag);
+            Err(RunError::Refused(diag, line)) if is_unknown(diag.code, self.program.control()) => {
+                let why = unknown_code(&diag, self.program.control());
                 let help = "describe the code in a file of the control, or see what it does at the machine";
                 self.unproven(why, help, line)
             }

@@ -562,6 +562,13 @@ fn the_way_to_a_call_is_a_rapid_whatever_came_before() {
     assert_eq!(before(&program(&mill("", &subs), &with_sub(cuts, calls)), "X4. Y4."), "G0");
     let times = "{\"call\":{\"sub\":1,\"at\":[4,4],\"times\":2}},{\"rapid\":[0,0,1]}";
     assert_eq!(before(&program(&mill("", &subs), &with_sub(cuts, times)), "X4. Y4."), "G0");
+    // without a place each run begins where the one before has ended
+    let from = |end: &str| {
+        let calls = "{\"rapid\":[0,0,1]},{\"call\":{\"sub\":1,\"times\":2}},{\"rapid\":[0,0,1]}";
+        program(&mill("", &subs), &with_sub(&format!("{cuts},{end}"), calls))
+    };
+    assert_eq!(from("{\"rapid\":[0,0,1]}").iter().filter(|line| *line == "M98 P1").count(), 2);
+    assert!(from("{\"rapid\":[2,0,1]}")[0].starts_with("PR033"), "{:?}", from("{\"rapid\":[2,0,1]}"));
     let text = "{\"text\":\"G1 Z-1. F5.\"},{\"call\":{\"sub\":1,\"at\":[4,4]}},{\"rapid\":[0,0,1]}";
     assert_eq!(before(&program(&mill("", &subs), &with_sub(cuts, text)), "X4. Y4."), "G0");
     let upon = format!("{SUBS}\nUpon [work]\nG[work] X[h] Y[v]\nEnd");

@@ -60,7 +60,7 @@ impl Judge<'_> {
                 return Some(difference);
             } else if matches!(wanted.want, Want::Arc { .. }) {
                 // parts at its end that are shorter than the digits can say
-                while self.next().is_some_and(|act| {
+                while self.acts.get(self.at).is_some_and(|act| {
                     matches!(act.what, What::Arc { turns: 0.0, .. })
                         && act.from != act.to
                         && [&act.from, &act.to].iter().all(|end| same(end, &wanted.to, 2.0 * self.within))

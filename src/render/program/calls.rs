@@ -66,7 +66,7 @@ pub fn sub_call(
         want.set_work(work, shape)?;
     }
     let routine = shape.way(base, want, said);
-    let mut place = go_to_call(call, routine, shape, want, said, out)?;
+    let place = go_to_call(call, routine, shape, want, said, out)?;
     want.set(VarId::Sub, printed);
     want.set(VarId::Times, call.times);
     want.put(VarId::Subline, first_block);
@@ -78,12 +78,10 @@ pub fn sub_call(
     if !together {
         want.set(VarId::Times, 1.0);
     }
+    if calls > 1 {
+        check_runs(call, &place, routine, called, shape, subs)?;
+    }
     for run in 0..calls {
-        if run > 0 {
-            // where the run before has left the tool
-            let on = Call { at: Axes::default(), ..*call };
-            place = go_to_call(&on, shape.way(base, want, said), shape, want, said, out)?;
-        }
         set_targets(&place, shape, want, said)?;
         let routine = shape.way(base, want, said);
         if run > 0 && leaves {
@@ -136,6 +134,31 @@ fn names_of_called(call: &Call, called: Option<usize>, shape: &Shape, subs: &Sub
         }
         None => undefined(call.sub),
     }
+}
+
+/// A call that is printed again for each run, with its place, goes back there: the job does so where it gives the place, or
+/// where the run before has ended there.
+fn check_runs(
+    call: &Call,
+    place: &Axes,
+    routine: &Routine,
+    called: Option<usize>,
+    shape: &Shape,
+    subs: &Subprograms,
+) -> Done {
+    let left = called.map(|called| &subs.defined[called].left.position);
+    let moves = |axis: usize| {
+        call.at.get(axis).is_none()
+            && prints_axis(routine, axis, shape)
+            && left.is_none_or(|left| left.get(axis).is_none_or(|left| place.get(axis) != Some(left)))
+    };
+    if (0..6).any(moves) {
+        let message =
+            "a subprogram that ends elsewhere than it was called is called several times, and `SubCall` goes back";
+        let help = "give the call a place, `at`, or let `SubCall` print [times] and no place";
+        return fault(Code::PR033, message, help);
+    }
+    Ok(())
 }
 
 /// Does the spindle turn counterclockwise here?

@@ -86,12 +86,13 @@ fn nothing_served(shape: &Shape) -> Vec<Option<f64>> {
 /// The main program goes on as if the subprogram had not been written, because only calls run it.
 fn back_to_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
     let turned = said.stand.angles.is_known();
+    let position = said.stand.position;
     let height = said.stand.position.get(shape.depth).or(said.stand.left_at);
     forget_where(want, said);
     let Some(main) = subs.main.take() else { return };
     let upon_used = std::mem::replace(&mut said.upon_used, main.upon_used);
     let spins = said.sub.take().unwrap_or_default();
-    let left = Left { conditions: said.conditions, upon_used, turned, spins, height };
+    let left = Left { conditions: said.conditions, upon_used, turned, spins, height, position };
     want.restore(main.vars);
     (said.conditions, said.stand.angles) = (main.conditions, main.angles);
     want.keep_feed(main.feed, shape);

@@ -6,7 +6,7 @@ use crate::lang::{VarId, VarSet};
 use crate::render::printer::Page;
 use crate::render::said::{Angles, Conditions, Spins};
 use crate::render::vars::Vars;
-use crate::toolpath::{Place, key};
+use crate::toolpath::{Axes, Place, key};
 
 /// What is known of the job's subprograms.
 #[derive(Debug, Default)]
@@ -94,6 +94,8 @@ pub struct Left {
     pub spins: Spins,
     /// The height at which it leaves the tool.
     pub height: Option<f64>,
+    /// Where it leaves the tool, as far as its own items say.
+    pub position: Axes,
 }
 
 impl Left {

@@ -81,8 +81,8 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
         states::feeds(s, &part, &found, false);
         s.program.take();
         parts += 1;
-        // at its end it has turned as far, or whole turns less
-        if ends && swept > whole - (whole / 2.0).min(std::f64::consts::PI) {
+        // the digits of each part turn it
+        if ends && swept > whole - slack_angle * f64::from(parts) {
             s.report.allowed.arcs += u64::from(parts > 1);
             return Ok(());
         }

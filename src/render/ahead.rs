@@ -75,10 +75,14 @@ pub fn of_item(item: Item, survey: &Survey, shape: &Shape, want: &Want) -> Want 
         Each::Tool => {
             let used = &survey.tools[item.row];
             operation(used.first, survey, shape, &mut want);
+            let number = |row: usize| survey.tools.get(row).map(|used| used.tool.number);
+            place_in_order(item.row, survey.tools.len(), number, &mut want);
             totals(&used.totals, shape, &mut want);
         }
         Each::Operation => {
             operation(item.row, survey, shape, &mut want);
+            let number = |row: usize| survey.changes.get(row).copied();
+            place_in_order(survey.operations[item.row].change, survey.changes.len(), number, &mut want);
             totals(&survey.operations[item.row].totals, shape, &mut want);
         }
         Each::Work => {
@@ -114,6 +118,14 @@ fn operation(row: usize, survey: &Survey, shape: &Shape, want: &mut Want) {
     }
 }
 
+/// Which of so many tools it is, and which ones stand before and behind it; behind the last the first.
+fn place_in_order(at: usize, count: usize, number: impl Fn(usize) -> Option<f64>, want: &mut Want) {
+    want.set(VarId::Isfirsttool, f64::from(u8::from(at == 0)));
+    want.set(VarId::Islasttool, f64::from(u8::from(at + 1 == count)));
+    want.put(VarId::Nexttool, number(at + 1).or_else(|| number(0)));
+    want.put(VarId::Lasttool, at.checked_sub(1).and_then(number));
+}
+
 /// What a tool says of itself.
 pub fn tool_variables(tool: &Tool, shape: &Shape, want: &mut Want) {
     let settings = &shape.program.settings;
@@ -129,7 +141,7 @@ fn totals(sums: &Totals, shape: &Shape, want: &mut Want) {
     const SECONDS: f64 = 60.0;
     want.set(VarId::Opcount, sums.operations as f64);
     want.set(VarId::Holecount, sums.holes as f64);
-    want.set(VarId::Cuttime, sums.minutes * SECONDS);
+    want.put(VarId::Cuttime, sums.minutes().map(|minutes| minutes * SECONDS));
     want.set(VarId::Cutlength, sums.length * shape.scale);
     for (vars, reach) in REACH.iter().zip([&sums.cuts, &sums.moves]) {
         for (axis, (least, most)) in vars.iter().enumerate() {

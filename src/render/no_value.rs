@@ -10,6 +10,10 @@ use crate::lang::{AHEAD, Origin, VarId};
 pub fn no_value<T>(var: VarId) -> Done<T> {
     let help = match var {
         VarId::Nexttool => "list the tools ahead under `tool_order`, or render without `--stream`".to_owned(),
+        VarId::Cuttime => {
+            "there is a cut whose time nobody knows, as at a constant surface speed; ask before it: `@if [cuttime]`"
+                .to_owned()
+        }
         _ if AHEAD.has(var) => "the job has no cut that tells it; ask before it, as `@if [hmin]`".to_owned(),
         VarId::Program => "give the job a `program`, or say it with `--program NUMBER`".to_owned(),
         VarId::H | VarId::V | VarId::D => "begin the operation with a rapid that gives all coordinates".to_owned(),

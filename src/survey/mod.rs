@@ -2,6 +2,7 @@
 //! such things before the first move have the job read twice: a survey is made by the first reading.
 
 mod motion;
+mod subprograms;
 mod totals;
 
 pub use totals::{Reach, Totals};
@@ -12,6 +13,7 @@ use crate::cycle::Defaults;
 use crate::lang::{Machine, work_code};
 use crate::toolpath::{Call, Event, First, Flow, Place, Sink, Spindle, Stop, Tool, ToolChange, Units, key};
 use motion::Motion;
+use subprograms::Subprograms;
 
 /// What a form gives where a job names nothing.
 #[derive(Clone, Debug)]
@@ -33,6 +35,8 @@ pub struct Operation {
     pub begins: ToolChange,
     /// Its tool: a row of [`Survey::tools`].
     pub tool: Option<usize>,
+    /// The tool change before it: a row of [`Survey::changes`].
+    pub change: usize,
     /// The spindle when it begins.
     pub spindle: Spindle,
     /// Sums of its moves.
@@ -74,13 +78,6 @@ pub struct Survey {
     pub changes: Vec<f64>,
 }
 
-/// A subprogram's sums, and what it calls.
-#[derive(Clone, Debug, Default)]
-struct Sub {
-    totals: Totals,
-    calls: Vec<Call>,
-}
-
 /// Makes a survey of the events of a job.
 #[derive(Debug)]
 pub struct Surveyor {
@@ -91,9 +88,7 @@ pub struct Surveyor {
     now: Totals,
     work: f64,
     tool_rows: HashMap<u64, usize>,
-    subs: HashMap<u64, Sub>,
-    /// The subprogram that is open.
-    open: Option<(u64, Sub)>,
+    subs: Subprograms,
 }
 
 impl Surveyor {
@@ -107,14 +102,18 @@ impl Surveyor {
             now: Totals::default(),
             work,
             tool_rows: HashMap::new(),
-            subs: HashMap::new(),
-            open: None,
+            subs: Subprograms::default(),
         }
     }
 
     /// The survey, when the job was read.
     pub fn finish(mut self) -> Survey {
         self.flush();
+        let Survey { operations, works, .. } = &mut self.survey;
+        for row in works {
+            let begin = |operation: &&Operation| operation.totals.works.contains(&row.work);
+            row.totals.operations = operations.iter().filter(begin).count() as u64;
+        }
         self.survey
     }
 
@@ -124,31 +123,30 @@ impl Surveyor {
 
     /// Adds what was summed up to all that it is a part of.
     fn flush(&mut self) {
-        if let Some((_, sub)) = &mut self.open {
-            sub.totals.add(&std::mem::take(&mut self.now), 1.0);
+        let now = std::mem::take(&mut self.now);
+        match self.subs.is_open() {
+            true => self.subs.add(&now),
+            false => self.add(self.work, now),
+        }
+    }
+
+    /// Adds moves of the main program in a work offset.
+    fn add(&mut self, work: f64, mut moves: Totals) {
+        if moves.is_still() {
             return;
         }
-        let mut now = std::mem::take(&mut self.now);
-        if now.is_still() {
-            return;
-        }
-        if now.works.is_empty() {
-            now.works.push(self.work);
-        }
+        moves.works = vec![work];
         let tool = self.tool_of_now();
         let survey = &mut self.survey;
-        survey.whole.add(&now, 1.0);
+        survey.whole.add(&moves, 1.0);
         if let Some(operation) = survey.operations.last_mut() {
-            operation.totals.add(&now, 1.0);
+            operation.totals.add(&moves, 1.0);
         }
         if let Some(tool) = tool {
-            survey.tools[tool].totals.add(&now, 1.0);
+            survey.tools[tool].totals.add(&moves, 1.0);
         }
-        let row = survey.works.iter().position(|row| row.work == self.work).unwrap_or_else(|| {
-            survey.works.push(WorkUse { work: self.work, totals: Totals::default() });
-            survey.works.len() - 1
-        });
-        survey.works[row].totals.add(&now, 1.0);
+        let row = row_of(work, &mut survey.works);
+        row.totals.add(&moves, 1.0);
     }
 
     fn counted(&self, work: f64) -> f64 {
@@ -157,7 +155,11 @@ impl Surveyor {
 
     fn change_work(&mut self, work: f64) {
         self.flush();
-        self.work = self.counted(work);
+        let work = self.counted(work);
+        match self.subs.is_open() {
+            true => self.subs.change_work(work),
+            false => self.work = work,
+        }
     }
 
     fn operation(&mut self, change: &ToolChange) {
@@ -183,8 +185,13 @@ impl Surveyor {
         }
         let begins = ToolChange { first: First::Nothing, ..change.clone() };
         self.motion.operation(change, tool != before);
-        let totals = Totals { operations: 1, ..Totals::default() };
-        self.survey.operations.push(Operation { begins, tool, spindle: self.motion.spindle(), totals });
+        self.survey.operations.push(Operation {
+            begins,
+            tool,
+            change: self.survey.changes.len().saturating_sub(1),
+            spindle: self.motion.spindle(),
+            totals: Totals::of_operation(),
+        });
         self.survey.whole.operations += 1;
         if let Some(tool) = tool {
             self.survey.tools[tool].totals.operations += 1;
@@ -192,52 +199,37 @@ impl Surveyor {
         if let Some(work) = change.work {
             self.work = self.counted(work);
         }
-        let works = &mut self.survey.works;
-        match works.iter_mut().find(|row| row.work == self.work) {
-            Some(row) => row.totals.operations += 1,
-            None => {
-                let totals = Totals { operations: 1, ..Totals::default() };
-                works.push(WorkUse { work: self.work, totals });
-            }
-        }
+        row_of(self.work, &mut self.survey.works);
     }
 
-    /// A call adds what the subprogram does, in the work offset of the call.
+    /// A call adds what the subprogram does, in the work offset of the call where it says none itself.
     fn call(&mut self, call: &Call) {
-        if let Some((_, sub)) = &mut self.open {
-            sub.calls.push(*call);
-            self.motion.forget_place();
-            return;
-        }
         self.flush();
-        let mut called = Totals::default();
-        self.add_called(call, &mut called, &mut Vec::new());
-        let before = self.work;
-        self.work = call.work.map_or(before, |work| self.counted(work));
-        self.now = called;
-        self.flush();
-        self.work = before;
         self.motion.forget_place();
-    }
-
-    /// A subprogram that calls itself is refused when the job is printed: it adds nothing here.
-    fn add_called(&self, call: &Call, into: &mut Totals, open: &mut Vec<u64>) {
-        let sub = key(call.sub);
-        let Some(Sub { totals, calls }) = self.subs.get(&sub).filter(|_| !open.contains(&sub) && open.len() < DEEPEST)
-        else {
-            return;
-        };
-        into.add(totals, call.times);
-        open.push(sub);
-        for inner in calls {
-            self.add_called(&Call { times: inner.times * call.times, ..*inner }, into, open);
+        let call = Call { work: call.work.map(|work| self.counted(work)), ..*call };
+        let mut way = Totals::default();
+        way.moves.to_place(&call.at);
+        if self.subs.is_open() {
+            return self.subs.call(&call, &way);
         }
-        open.pop();
+        let work = call.work.unwrap_or(self.work);
+        self.add(work, way);
+        for part in self.subs.parts_of(call.sub).to_vec() {
+            let mut called = Totals::default();
+            called.add(&part.totals, call.times);
+            self.add(part.work.unwrap_or(work), called);
+        }
     }
 }
 
-/// How deep calls are followed.
-const DEEPEST: usize = 8;
+/// The row of a work offset, a new one where it is used first.
+fn row_of(work: f64, works: &mut Vec<WorkUse>) -> &mut WorkUse {
+    let row = works.iter().position(|row| row.work == work).unwrap_or_else(|| {
+        works.push(WorkUse { work, totals: Totals::default() });
+        works.len() - 1
+    });
+    &mut works[row]
+}
 
 impl Sink for Surveyor {
     fn event(&mut self, event: Event<'_>, _: Place) -> Flow {
@@ -255,12 +247,12 @@ impl Sink for Surveyor {
             Event::Work(work) => self.change_work(work),
             Event::SubStart(number) => {
                 self.flush();
-                self.motion.forget_place();
-                self.open = Some((key(number), Sub::default()));
+                self.motion.begin_subprogram();
+                self.subs.begin(number);
             }
             Event::SubEnd => {
                 self.flush();
-                self.subs.extend(self.open.take());
+                self.subs.end();
                 self.motion.forget_place();
             }
             Event::SubCall(call) => self.call(call),

@@ -16,6 +16,10 @@ pub struct Motion {
     mode: FeedMode,
     spindle: Spindle,
     cycle: Option<CycleSpec>,
+    /// Height of the cycle's last point.
+    point: Option<f64>,
+    /// Where the cycle returns to, counted from its first point.
+    return_plane: Option<f64>,
     steps: Steps,
     /// Quarters of an arc.
     parts: Vec<f64>,
@@ -32,6 +36,8 @@ impl Motion {
             mode: FeedMode::PerMinute,
             spindle: Spindle::default(),
             cycle: None,
+            point: None,
+            return_plane: None,
             steps: Steps::default(),
             parts: Vec::new(),
         }
@@ -40,6 +46,13 @@ impl Motion {
     /// Nobody knows where the tool is.
     pub fn forget_place(&mut self) {
         self.at = Axes::default();
+    }
+
+    /// In a subprogram nothing is known but what it says itself.
+    pub fn begin_subprogram(&mut self) {
+        self.forget_place();
+        self.spindle = Spindle::default();
+        (self.feed, self.mode) = (None, FeedMode::PerMinute);
     }
 
     /// An operation begins; `fresh`: with another tool.
@@ -88,7 +101,10 @@ impl Motion {
             },
             Event::Arc { arc, feed } => self.arc(arc, *feed, sums),
             Event::Thread(thread) => self.thread(thread, sums),
-            Event::CycleBegin(spec) => self.cycle = Some((*spec).clone()),
+            Event::CycleBegin(spec) => {
+                self.cycle = Some((*spec).clone());
+                (self.point, self.return_plane) = (None, None);
+            }
             Event::Hole(hole) => self.hole(hole, sums),
             Event::Feed(feed) => self.feed = Some(*feed),
             Event::Spindle(spindle) => self.turn(Some(*spindle)),
@@ -125,17 +141,18 @@ impl Motion {
     /// A cut of this length.
     fn cut(&mut self, length: f64, feed: Option<f64>, sums: &mut Totals) {
         self.feed = feed.or(self.feed);
-        sums.length += length;
-        sums.minutes += self.feed.map_or(0.0, |feed| self.minutes(length, feed));
+        sums.cut(length, self.feed.and_then(|feed| self.minutes(length, feed)));
     }
 
-    fn minutes(&self, length: f64, feed: f64) -> f64 {
+    /// The time of a cut, if it is known.
+    fn minutes(&self, length: f64, feed: f64) -> Option<f64> {
         let minutes = match self.mode {
-            FeedMode::PerMinute => length / feed,
-            FeedMode::PerRev => length / (feed * self.rpm().unwrap_or_default()),
             FeedMode::InverseTime => 1.0 / feed,
+            _ if length == 0.0 => 0.0,
+            FeedMode::PerMinute => length / feed,
+            FeedMode::PerRev => length / (feed * self.rpm()?),
         };
-        if minutes.is_finite() { minutes } else { 0.0 }
+        Some(minutes).filter(|minutes| minutes.is_finite())
     }
 
     fn arc(&mut self, arc: &Arc, feed: Option<f64>, sums: &mut Totals) {
@@ -177,18 +194,21 @@ impl Motion {
 
     fn thread(&mut self, thread: &Thread, sums: &mut Totals) {
         for place in [&thread.from, &thread.to] {
-            sums.cuts.to_place(place);
-            sums.moves.to_place(place);
+            let mut root = *place;
+            if let Some(crest) = place.get(1) {
+                root.set(1, crest - thread.depth);
+            }
+            for place in [place, &root] {
+                sums.cuts.to_place(place);
+                sums.moves.to_place(place);
+            }
         }
         let square: f64 = (0..2).map(|axis| thread.to.values[axis] - thread.from.values[axis]).map(|d| d * d).sum();
         let count = thread.passes.map(|passes| passes as usize);
         let passes = thread_passes(thread.depth.abs(), thread.first_depth, count, thread.min_depth.unwrap_or_default());
         let length = square.sqrt() * passes.map_or(1.0, |passes| passes.len() as f64);
-        sums.length += length;
-        let feed = thread.pitch * self.rpm().unwrap_or_default();
-        if feed > 0.0 {
-            sums.minutes += length / feed;
-        }
+        let minutes = self.rpm().map(|rpm| length / (thread.pitch * rpm)).filter(|minutes| minutes.is_finite());
+        sums.cut(length, minutes);
         self.go(&thread.from);
     }
 
@@ -197,9 +217,12 @@ impl Motion {
         self.go(&hole.at);
         sums.moves.to_place(&self.at);
         let depth_axis = self.depth;
-        let (Some(spec), Some(point)) = (&self.cycle, self.at.get(depth_axis)) else { return };
+        // a point without its height is as high as the one before it
+        let (Some(spec), Some(point)) = (&self.cycle, hole.at.get(depth_axis).or(self.point)) else { return };
+        self.point = Some(point);
         let Ok(planes) = Plan::of(spec, hole.depth, &self.defaults, self.rpm()) else { return };
-        let top = spec.return_height.unwrap_or(planes.clear).max(planes.clear);
+        let returns = spec.return_height.map(|height| *self.return_plane.get_or_insert(point + height));
+        let top = returns.map_or(planes.clear, |plane| (plane - point).max(planes.clear));
         let planned = plan(spec, &planes, top, &self.defaults, &mut self.steps);
         for axis in (0..3).filter(|&axis| axis != depth_axis) {
             if let Some(value) = self.at.get(axis) {
@@ -207,8 +230,10 @@ impl Motion {
             }
         }
         sums.moves.to(depth_axis, point + top);
+        self.at.set(depth_axis, point + top);
         if planned.is_err() {
             // a cycle that only the form knows
+            sums.cut(0.0, None);
             for height in [0.0, planes.bottom] {
                 sums.cuts.to(depth_axis, point + height);
                 sums.moves.to(depth_axis, point + height);
@@ -225,15 +250,11 @@ impl Motion {
                         sums.moves.to(depth_axis, point + reached);
                     }
                     let length = (to - height).abs();
-                    sums.length += length;
-                    sums.minutes += self.minutes(length, feed);
+                    sums.cut(length, self.minutes(length, feed));
                     height = to;
                 }
                 _ => {}
             }
         }
-        // the tool comes back up
-        let height = point + top;
-        self.at.set(depth_axis, height);
     }
 }

@@ -42,8 +42,10 @@ pub struct Totals {
     pub holes: u64,
     /// Length of the cuts, in the job's units.
     pub length: f64,
-    /// Time of the cuts at their feeds, in minutes.
-    pub minutes: f64,
+    /// Time of the cuts at their feeds, in minutes, as far as it is known.
+    minutes: f64,
+    /// There is a cut whose time nobody knows, as at a constant surface speed.
+    untimed: bool,
     /// How far cuts reach.
     pub cuts: Reach,
     /// How far cuts and rapids reach.
@@ -53,11 +55,29 @@ pub struct Totals {
 }
 
 impl Totals {
+    /// Those of an operation that begins.
+    pub fn of_operation() -> Totals {
+        Totals { operations: 1, ..Totals::default() }
+    }
+
+    /// A cut of this length takes so many minutes; `None`: nobody knows.
+    pub fn cut(&mut self, length: f64, minutes: Option<f64>) {
+        self.length += length;
+        self.minutes += minutes.unwrap_or_default();
+        self.untimed |= minutes.is_none();
+    }
+
+    /// Time of the cuts at their feeds, in minutes, where that of each is known.
+    pub fn minutes(&self) -> Option<f64> {
+        (!self.untimed).then_some(self.minutes)
+    }
+
     /// Adds those of a part, `times` over; operations are counted where they begin.
     pub fn add(&mut self, part: &Totals, times: f64) {
-        self.holes += (part.holes as f64 * times) as u64;
+        self.holes = self.holes.saturating_add((part.holes as f64 * times) as u64);
         self.length += part.length * times;
         self.minutes += part.minutes * times;
+        self.untimed |= part.untimed;
         self.cuts.join(&part.cuts);
         self.moves.join(&part.moves);
         for work in &part.works {

@@ -135,6 +135,131 @@ fn subprograms_count_where_they_are_called() {
 }
 
 #[test]
+fn the_order_inside_a_list_is_that_of_its_items() {
+    let job = job(&[(1, 54, LINE), (2, 54, HOLES), (1, 54, LINE), (3, 54, LINE)]);
+    let text =
+        "@for tool\n@if [isfirsttool]\n(FIRST)\n@end\n(T[tool] THEN T[nexttool])\n@if [islasttool]\n(LAST)\n@end\n@end";
+    assert_eq!(lines(text, &job), ["(FIRST)", "(T1 THEN T2)", "(T2 THEN T3)", "(T3 THEN T1)", "(LAST)"]);
+    let text = "@for operation\n(T[tool] BEHIND T[lasttool], [isfirsttool] [islasttool])\n@end";
+    assert_eq!(
+        lines(text, &job),
+        ["(T1 BEHIND T-, 1 0)", "(T2 BEHIND T1, 0 0)", "(T1 BEHIND T2, 0 0)", "(T3 BEHIND T1, 0 1)"]
+    );
+    // in a tool change, too, where the program has its own
+    let form = mill("Units both", "")
+        .replace("T[tool] M6\n", "T[tool] M6\n@for tool\n@if [islasttool]\n(LAST IS T[tool])\n@end\n@end\n");
+    let printed = program(&form.replace("%0\nEnd", "%0\nG[unitmode]\nEnd"), &job);
+    assert_eq!(printed.iter().filter(|line| *line == "(LAST IS T3)").count(), 4, "{printed:?}");
+}
+
+/// A job in 54 with these subprograms whose operation goes this way.
+fn job_with(subprograms: &str, path: &str) -> String {
+    job(&[(1, 54, path)]).replacen("\"operations\"", &format!("\"subprograms\":[{subprograms}],\"operations\""), 1)
+}
+
+/// What lines of StartCode print, by a form that has subprograms.
+fn lines_with_subs(lines: &str, job: &str) -> Vec<String> {
+    let subs = "SubStart\nO[sub]\nEnd\nSubEnd\nM99\nEnd\nSubCall\nM98 P[sub] L[times]\nEnd\n";
+    let printed = program(&(form(lines) + subs), job);
+    let remarks: Vec<String> = printed.iter().filter(|line| line.starts_with('(')).cloned().collect();
+    if remarks.is_empty() { printed } else { remarks }
+}
+
+#[test]
+fn a_work_offset_that_a_subprogram_says_is_its_own() {
+    let sub = "{\"number\":5,\"path\":[{\"work\":56},{\"rapid\":[0,0,5]},{\"line\":[7,7,-1],\"feed\":10}]}";
+    let path = "{\"call\":{\"sub\":5}},{\"rapid\":[0,0,5]},{\"line\":[100,0,-1]}";
+    let each = "@for work\n(G[work]: X[hmin] TO [hmax] Y[vmin] TO [vmax], [opcount])\n@end";
+    let own = job_with(sub, path);
+    assert_eq!(lines_with_subs(each, &own), ["(G54: X0 TO 100 Y0 TO 0, 1)", "(G56: X0 TO 7 Y0 TO 7, 1)"]);
+    assert_eq!(lines_with_subs("(X[hmin])", &own), ["PR052 [hmin] in a job of several work offsets"]);
+    // of a subprogram that a subprogram calls, of a call, and of a call in a subprogram
+    let plain = sub.replace("{\"work\":56},", "");
+    let calls = |before: &str| format!("{{\"number\":6,\"path\":[{before}{{\"call\":{{\"sub\":5}}}}]}}");
+    let (knows, through) = (calls("{\"work\":54},"), path.replace("\"sub\":5", "\"sub\":6"));
+    for (subs, path) in [
+        (format!("{sub},{knows}"), through.clone()),
+        (format!("{knows},{sub}"), through.clone()),
+        (plain.clone(), path.replace("\"sub\":5", "\"sub\":5,\"work\":56")),
+        (format!("{plain},{}", calls("")), through.replace("\"sub\":6", "\"sub\":6,\"work\":56")),
+    ] {
+        let job = job_with(&subs, &path);
+        assert_eq!(
+            lines_with_subs(each, &job),
+            ["(G54: X0 TO 100 Y0 TO 0, 1)", "(G56: X0 TO 7 Y0 TO 7, 1)"],
+            "{subs} {path}"
+        );
+    }
+}
+
+#[test]
+fn subprograms_that_call_each_other_are_counted_once_each() {
+    // each of twelve calls the next one thirty times: 30^11 runs of the last
+    let sub = |number: u32| {
+        let call = format!("{{\"call\":{{\"sub\":{}}}}}", number + 1);
+        let path = if number == 12 {
+            "{\"rapid\":[0,0,5]},{\"line\":[0,0,4],\"feed\":60}".to_owned()
+        } else {
+            [call.as_str(); 30].join(",")
+        };
+        format!("{{\"number\":{number},\"path\":[{path}]}}")
+    };
+    let subs = (1..=12).rev().map(sub).collect::<Vec<_>>().join(",");
+    let job = job_with(&subs, "{\"call\":{\"sub\":1}},{\"rapid\":[0,0,5]}");
+    assert_eq!(
+        lines_with_subs("([cutlength/(30*30*30*30)/(30*30*30*30)] Z[dmin] TO [dmax])", &job),
+        ["(27000 Z4 TO 5)"]
+    );
+}
+
+#[test]
+fn a_point_without_its_height_is_as_high_as_the_one_before() {
+    let cycle = |more: &str, points: &str| {
+        format!("{{\"cycle\":{{\"kind\":\"drill\",\"depth\":5,\"clear\":2,\"feed\":30{more},\"points\":[{points}]}}}}")
+    };
+    let heights = |more: &str, points: &str| {
+        lines("([dmin] TO [dmax], [rdmax], [cutlength])", &job(&[(1, 54, &cycle(more, points))]))
+    };
+    assert_eq!(heights("", "[0,0,0],[10,0],[20,0]"), ["(-5 TO 2, 5, 21)"]);
+    // a return plane is that of the first point, whatever the others are
+    assert_eq!(heights(",\"return\":20", "[0,0,0],[10,0,10]"), ["(-5 TO 12, 20, 14)"]);
+}
+
+/// A lathe's form whose StartCode prints these lines; X is a diameter.
+fn lathe(lines: &str) -> String {
+    format!(
+        "Machine Lathe\nUnits both\nX->4.>4\nZ->4.>4\nI->4.>4\nK->4.>4\n\nStartCode\n%0\nG[unitmode] G18\n{lines}\nEnd\n\
+         1stToolChange\nT[comp]\nG[speedtype] S[speed] M[direct]\nEnd\nToolChange\nT[comp]\nEnd\nEndCode\nM30\nEnd\n\
+         CanThread 1\nG92 X[v] Z[h] I[taper] F[frate]\nX[v]\nEnd\n"
+    )
+}
+
+#[test]
+fn a_time_that_nobody_knows_is_none() {
+    let job = job(&[(1, 54, LINE)])
+        .replacen("\"direction\":\"cw\"", "\"direction\":\"cw\",\"mode\":\"css\"", 1)
+        .replace("\"feed\":60", "\"feed\":0.1,\"feed_mode\":\"per_rev\"");
+    let text = "@if [cuttime]\n([cuttime] S)\n@else\n(LONG)\n@end\n([round(cutlength)] MM IN [cuttime] S)";
+    let job =
+        job.replace("\"units\"", "\"machine\":\"lathe\",\"units\"").replace("0,0,5", "0,5").replace("10,0,-1", "10,1");
+    let form = lathe(text);
+    let printed = program(&form, &job);
+    let remarks: Vec<&String> = printed.iter().filter(|line| line.starts_with('(')).collect();
+    assert_eq!(remarks, ["(LONG)", "(11 MM IN - S)"], "{printed:?}");
+}
+
+#[test]
+fn a_thread_reaches_down_to_its_root() {
+    let thread = "{\"thread\":{\"from\":[0.2,5],\"to\":[-9],\"pitch\":1,\"depth\":0.6,\"first_depth\":0.2}}";
+    let job = job(&[(1, 54, thread)]).replace("\"units\"", "\"machine\":\"lathe\",\"units\"").replace("0,0,5", "1,6");
+    let printed = program(&lathe("(X[vmin] TO [vmax])"), &job);
+    assert!(printed.contains(&"(X8.8 TO 10)".to_owned()), "{printed:?}");
+    let inside = job.replace("\"depth\":0.6", "\"depth\":-0.6").replace("1,6", "1,4");
+    let printed = program(&lathe("(X[vmin] TO [vmax])"), &inside);
+    assert!(printed.contains(&"(X10 TO 11.2)".to_owned()), "{printed:?}");
+}
+
+#[test]
 fn the_next_tool_is_known_for_every_job() {
     let text = mill("", "").replace("T[tool] M6\n", "T[tool] M6\nT[nexttool]\n@if [islasttool]\nM99\n@end\n");
     let operations =

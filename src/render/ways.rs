@@ -1,12 +1,11 @@
 //! Which way through a sequence is taken now: its conditions are asked before any of it prints.
 
-use super::fault::{Done, fault_at};
 use super::said::Said;
 use super::shape::Shape;
 use super::values::Now;
 use super::want::Want;
 use crate::compile::{Node, Routine};
-use crate::diag::Code;
+use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::sema::{Formula, Target, Without};
 use crate::span::Span;
@@ -69,17 +68,18 @@ fn choose(nodes: &[Node], set: &mut Vec<(Target, f64)>, branches: &mut u128, sha
 fn holds(condition: &Formula, span: Span, now: &Now) -> bool {
     match condition.holds(now) {
         Ok(holds) => holds,
-        Err(without) => {
-            if let (Without::Divisor(_), Err(diag)) = (without, division_by_zero::<()>(Some(span))) {
-                _ = now.shape.ways.fault.set(diag);
-            }
+        Err(Without::Divisor(divisor)) => {
+            _ = now.shape.ways.fault.set(Box::new(division_by_zero(divisor).at(span, "asked here")));
             false
         }
+        Err(Without::Value(_)) => false,
     }
 }
 
 /// The error of a division by zero.
 #[cold]
-pub fn division_by_zero<T>(at: Option<Span>) -> Done<T> {
-    fault_at(Code::PR051, "a division by zero", "ask before it, as `@if [pitch] > 0`", at)
+pub fn division_by_zero(divisor: Span) -> Diag {
+    Diag::new(Code::PR051, "a division by zero")
+        .at(divisor, "this is 0 here")
+        .help("ask before it, as `@if [pitch] > 0`")
 }

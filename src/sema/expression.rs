@@ -2,6 +2,7 @@
 
 use super::formula::{Arithmetic, Comparison, Formula, Function, NoValues};
 use super::names::{Context, property, variable};
+use super::near;
 use super::property::{PropertyKind, PropertyValue};
 use super::value_names::names_of;
 use crate::diag::{Code, Diag};
@@ -179,15 +180,14 @@ fn binary(operator: Operator, sides: &[Expr; 2], context: &Context, diags: &mut 
         wants(kind, Kind::Number, side.span, diags).map(|()| formula)
     };
     let both = Box::new([number(left)?, number(right)?]);
-    let zero = both[1].is_constant() && both[1].number(&NoValues) == Ok(0.0);
-    if arithmetic == Arithmetic::Divide && zero {
+    let zero = || both[1].is_constant() && both[1].number(&NoValues).is_ok_and(near::is_zero);
+    if arithmetic == Arithmetic::Divide && zero() {
         diags.push(
             Diag::new(Code::PF705, "a division by zero").at(right.span, "this is 0").help("divide by something else"),
         );
         return None;
     }
-    let span = Span { start: left.span.end, end: right.span.start, ..left.span };
-    Some((Formula::Arithmetic(arithmetic, both, span), Kind::Number))
+    Some((Formula::Arithmetic(arithmetic, both, right.span), Kind::Number))
 }
 
 fn compared(

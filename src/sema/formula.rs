@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::near;
 use crate::lang::{Coolant, TextId, TextSet, VarId, VarSet};
 use crate::span::Span;
 
@@ -34,7 +35,7 @@ pub enum Formula {
     HasText(TextId),
     /// The other sign.
     Negative(Box<Formula>),
-    /// Two numbers make one; the place is the operator's.
+    /// Two numbers make one; the place is the second one's.
     Arithmetic(Arithmetic, Box<[Formula; 2]>, Span),
     /// A function of numbers.
     Call(Function, Vec<Formula>),
@@ -124,9 +125,9 @@ impl Function {
             Function::Abs => first.abs(),
             Function::Min => values.iter().copied().fold(first, f64::min),
             Function::Max => values.iter().copied().fold(first, f64::max),
-            Function::Round => first.round(),
-            Function::Floor => first.floor(),
-            Function::Ceil => first.ceil(),
+            Function::Round => near::round(first),
+            Function::Floor => near::floor(first),
+            Function::Ceil => near::ceil(first),
         }
     }
 }
@@ -186,7 +187,7 @@ pub enum Value<'a> {
 pub enum Without {
     /// A variable has no value.
     Value(VarId),
-    /// A division by zero, at this operator.
+    /// A division by zero: by this.
     Divisor(Span),
 }
 
@@ -231,7 +232,7 @@ impl Formula {
                     Arithmetic::Add => Ok(left + right),
                     Arithmetic::Subtract => Ok(left - right),
                     Arithmetic::Multiply => Ok(left * right),
-                    Arithmetic::Divide if right == 0.0 => Err(Without::Divisor(*span)),
+                    Arithmetic::Divide if near::is_zero(right) => Err(Without::Divisor(*span)),
                     Arithmetic::Divide => Ok(left / right),
                 }
             }
@@ -327,7 +328,7 @@ impl Comparison {
     fn holds(self, left: &Value, right: &Value) -> bool {
         use std::cmp::Ordering::{Equal, Greater, Less};
         let order = match (left, right) {
-            (Value::Number(left), Value::Number(right)) => left.partial_cmp(right),
+            (Value::Number(left), Value::Number(right)) => near::order(*left, *right),
             (Value::Text(left), Value::Text(right)) => Some(left.cmp(right)),
             (Value::Yes(left), Value::Yes(right)) => Some(left.cmp(right)),
             _ => None,

@@ -12,6 +12,7 @@ mod limits;
 mod messages;
 mod model;
 mod names;
+mod near;
 mod property;
 mod sequences;
 mod settings;

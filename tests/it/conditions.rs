@@ -1,6 +1,7 @@
 //! Expressions and conditions: what is calculated, which lines print, what is refused.
 
-use crate::support::{check, job, mill, path_lines, program, render};
+use crate::support::{check, job, mill, path_lines, program, render, render_checked};
+use postform::internals::render::Options;
 
 /// The error codes of a form, each once.
 fn codes(form: &str) -> Vec<&'static str> {
@@ -85,18 +86,19 @@ fn heights_are_distances() {
 
 #[test]
 fn a_division_by_zero_is_an_error_with_its_place() {
-    let form = form("", "Q[1/(d-1)]");
-    let error = render(&form, &job("{\"line\":[1,1,0]}")).unwrap_err();
-    assert_eq!((error.code.name(), error.message.as_str()), ("PR051", "a division by zero"));
-    assert_eq!(&form[error.labels[0].span.range()], "Q[1/(d-1)]");
-    let form = form_of_condition("1/(d-1) > 2");
-    let error = render(&form, &job("{\"line\":[1,1,0]}")).unwrap_err();
-    assert_eq!(error.code.name(), "PR051");
-    assert!(form[error.labels[0].span.range()].starts_with("@if"));
-}
-
-fn form_of_condition(condition: &str) -> String {
-    form("", &format!("@if [{condition}\nM1\n@end").replacen("[1/(d-1) > 2", "1/[d-1] > 2", 1))
+    for (lines, place) in [
+        ("Q[1/(d-1)]", "Q[1/(d-1)]"),
+        ("(A REMARK [1/(d-1)])", "[1/(d-1)]"),
+        ("@set val1 = 1/([d]-1)", "val1 = 1/([d]-1)"),
+        ("@if 1/([d]-1) > 2\nM1\n@end", "@if 1/([d]-1) > 2"),
+    ] {
+        let form = form("", lines);
+        let error = render(&form, &job("{\"line\":[1,1,0]}")).unwrap_err();
+        assert_eq!((error.code.name(), error.message.as_str()), ("PR051", "a division by zero"), "{lines}");
+        let shown: Vec<&str> = error.labels.iter().map(|label| &form[label.span.range()]).collect();
+        assert!(["d-1", "[d]-1"].contains(&shown[0].trim_matches(['(', ')'])), "{shown:?}");
+        assert_eq!(shown[1], place, "{lines}");
+    }
 }
 
 #[test]
@@ -137,6 +139,28 @@ fn conditions_choose_lines() {
     for condition in ["[vclear] > 0", "[vclear] <= 0", "[direct] = ccw", "[progname]", "[tool] > 1", "[lasthole]"] {
         assert!(!holds(condition), "{condition}");
     }
+}
+
+#[test]
+fn numbers_are_compared_as_they_print() {
+    // 12.7 mm are 0.49999999999999994 inches
+    let text = form("Units both", "@if [toold] = 0.5 and [toold] >= .5 and not [toold] < 0.5 and not [toold] <> 1/2\nM1\n@end\n\
+                     Q[floor(toold*2)] R[ceil(toold*2)] P[round(toold)]\n@if [toold] < .5001 and [toold] > .4999\nM2\n@end")
+        .replace("StartCode\n%0\n", "StartCode\n%0\nG[unitmode]\n");
+    let job = job("{\"line\":[1,1,0]}")
+        .replace("\"inch\"", "\"mm\"")
+        .replace("\"number\":1,", "\"number\":1,\"diameter\":12.7,");
+    let inches = Options { units: Some(postform::toolpath::Units::Inch), ..Options::default() };
+    let printed = render_checked(&check(&text), job.as_bytes(), false, inches).unwrap().text;
+    let lines: Vec<&str> = printed.lines().collect();
+    assert_eq!(lines[2..5], ["M1", "Q1. R1. P1", "M2"], "{printed}");
+    // a clearance of 0.2 over a point at 0.1
+    let drill = "Drill\n@if [vclear] = 0.3\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\n@else\nG82 X[h] Y[v] Z[d] R[vclear] F[frate]\n@end\nEnd Cancel\n";
+    let path = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.2,\"feed\":5,\"points\":[[1,0,0.1]]}}";
+    assert!(path_lines("", drill, path).iter().any(|line| line.starts_with("G81")));
+    // and what is left of a difference is nothing to divide by
+    let drill = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] Q[1/(vclear-0.3)] F[frate]\nEnd Cancel\n";
+    assert_eq!(path_lines("", drill, path), ["PR051 a division by zero"]);
 }
 
 #[test]

@@ -34,7 +34,7 @@ impl Body<'_, '_> {
         match self.shape.program.formulas[index as usize].number(&self.now(letter)) {
             Ok(value) => Ok(Some(value)),
             Err(Without::Value(var)) => self.value_of(var, letter),
-            Err(Without::Divisor(_)) => division_by_zero(None),
+            Err(Without::Divisor(divisor)) => Err(Box::new(division_by_zero(divisor))),
         }
     }
 
@@ -85,11 +85,11 @@ impl Body<'_, '_> {
         match value {
             Ok(Some(value)) => self.out.bare(value, &self.shape.letters.bare, glued),
             Ok(None) => Ok(()),
-            Err(diag) if diag.code == Code::PR052 => Err(diag),
-            Err(_) => {
+            Err(diag) if diag.code == Code::PR001 => {
                 self.out.word(glued).push(b'-');
                 Ok(())
             }
+            Err(diag) => Err(diag),
         }
     }
 }

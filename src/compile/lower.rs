@@ -3,6 +3,7 @@
 use super::letters::LetterTable;
 use super::program::{CycleStyle, List, Literal, Op, Program, Upon};
 use super::routine::{Branch, Flow, Node, Routine};
+use super::sources::Sources;
 use super::work;
 use std::ops::Range;
 use std::sync::Arc;
@@ -148,7 +149,7 @@ fn routine(ops: Range<usize>, flow: Option<Arc<Flow>>, count: Option<usize>, spa
         count,
         vars: VarSet::default(),
         texts: TextSet::default(),
-        setup_vars: VarSet::default(),
+        first_only: Sources::default(),
         cancel: false,
         stays: false,
         style: CycleStyle::Emulated,

@@ -4,10 +4,12 @@ mod letters;
 mod lower;
 mod program;
 mod routine;
+mod sources;
 mod work;
 
 pub use letters::{Letter, LetterKind, LetterTable};
 pub use lower::compile;
 pub use program::{CycleStyle, List, Literal, Op, Program, Upon};
 pub use routine::{Branch, Flow, Node, Routine};
+pub use sources::Sources;
 pub use work::WorkWord;

@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::program::{CycleStyle, Op, Program};
+use super::sources::{self, Sources};
 use crate::control::{Code, Meaning};
 use crate::lang::{TextSet, VarId, VarSet};
 use crate::sema::Target;
@@ -28,8 +29,8 @@ pub struct Routine {
     pub vars: VarSet,
     /// The texts of the job that it prints.
     pub texts: TextSet,
-    /// The variables that only the lines before `repeat` print.
-    pub setup_vars: VarSet,
+    /// What the values are made of that a cycle prints at its first hole only.
+    pub first_only: Sources,
     /// `End Cancel`.
     pub cancel: bool,
     /// The lines leave the control in a cycle, a macro or another motion of its own.
@@ -78,7 +79,7 @@ pub struct Branch {
 impl Routine {
     /// What its operations say together.
     pub(super) fn look_at(&mut self, program: &Program) {
-        let (mut vars, mut texts, mut setup_vars) = (VarSet::default(), TextSet::default(), VarSet::default());
+        let (mut vars, mut texts) = (VarSet::default(), TextSet::default());
         let (mut lines, mut returns, mut stays) = (0, false, false);
         let control = program.settings.codes();
         let mut repeat = self.ops.start;
@@ -86,7 +87,7 @@ impl Routine {
             let op = program.ops[i];
             if let Op::Line { .. } = op {
                 if self.count == Some(lines) {
-                    (setup_vars, repeat) = (std::mem::take(&mut vars), i);
+                    repeat = i;
                 }
                 lines += 1;
             }
@@ -107,14 +108,14 @@ impl Routine {
             }
         }
         if self.count.is_some_and(|count| count >= lines) {
-            (setup_vars, repeat) = (std::mem::take(&mut vars), self.ops.end);
+            repeat = self.ops.end;
         }
         self.repeat = repeat;
-        self.setup_vars = setup_vars.without(vars);
-        self.vars = vars.with(setup_vars);
+        self.vars = vars;
         self.texts = texts;
         self.stays = stays;
         self.returns = returns || self.vars.has(VarId::Retplane) || self.vars.has(VarId::Rplane);
+        self.first_only = sources::of_first_hole(self, program);
     }
 
     /// The way that takes these branches.

@@ -215,6 +215,62 @@ fn a_hole_of_another_branch_begins_the_cycle_anew() {
     );
 }
 
+/// Three holes: the second and the third lie lower than the first.
+const STEPPED: &str =
+    "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,0,0],[2,0,-2],[3,0,-2]]}}";
+
+/// The blocks of these holes that begin with `Q` or `C`, and where the cycle ends.
+fn of_stepped_holes(head: &str, drill: &str) -> Vec<String> {
+    let mut printed = path_lines(head, &format!("Drill{drill}\nEnd Cancel\n"), STEPPED);
+    printed.retain(|line| line.starts_with(['Q', 'C', 'P']) || line == "G80");
+    printed
+}
+
+#[test]
+fn a_cycle_begins_anew_where_its_counted_lines_would_print_another_value() {
+    const HOLE: &str = "G81 X[h] Y[v] Z[d] R[vclear] F[frate]";
+    let top = "Property top number 0 Top";
+    for (head, begins) in [
+        ("", "`Q203=`[pointd]"),
+        ("", "@set val1 = [pointd]\n`Q203=`[val1]"),
+        ("", "@set val1 = [pointd]\n@set val2 = [val1]\n`Q203=`[val2*1]"),
+        (top, "@set top = [pointd]\n`Q203=`[top]"),
+        // by another letter than the lines that repeat
+        ("", "`Q203=`[d+1]"),
+    ] {
+        let printed = of_stepped_holes(head, &format!(" 1\n{begins}\n{HOLE}"));
+        assert_eq!(printed, ["Q203=0", "G80", "Q203=-2", "G80"], "{begins}");
+    }
+    // set behind the lines that print it
+    let printed = of_stepped_holes("Ask val1 \"Q\" 7", &format!(" 1\n`Q203=`[val1]\n@set val1 = 8\n{HOLE}"));
+    assert_eq!(printed, ["Q203=7", "G80", "Q203=8", "G80"]);
+}
+
+#[test]
+fn what_a_cycle_sets_is_set_at_every_hole() {
+    let head = "Ask val1 \"Q\" 0";
+    for drill in [
+        " 1\n@set val1 = [val1]+1\nG81 Z-1 R1 F[frate] K0\n`C`[val1] X[h] Y[v] Z[d] R[vclear] F[frate]",
+        " 1\nG81 Z-1 R1 F[frate] K0\n@set val1 = [val1]+1\n`C`[val1] X[h] Y[v] Z[d] R[vclear] F[frate]",
+    ] {
+        let printed = of_stepped_holes(head, drill);
+        let counts: Vec<&str> = printed.iter().filter_map(|line| line.split(' ').next()).collect();
+        assert_eq!(counts, ["C1", "C2", "C3", "G80"], "{drill}");
+    }
+}
+
+#[test]
+fn a_cycle_of_one_line_begins_anew_where_a_value_without_a_letter_changes() {
+    for value in ["[pointd]", "[pointd*1]", "[val1]"] {
+        let drill = format!("\n@set val1 = [pointd]\n`Q203=`{value} G81 X[h] Y[v] Z[d] R[vclear] F[frate]");
+        assert_eq!(
+            of_stepped_holes("", &drill),
+            ["Q203=0 G81 X1. Y0 Z-1. R.1 F5.", "G80", "Q203=-2 G81 X2. Y0 Z-3. R-1.9 F5.", "G80"],
+            "{value}"
+        );
+    }
+}
+
 #[test]
 fn counted_lines_are_counted_along_each_branch() {
     let drill = "Drill 1\n@if [depth] > 2\n  G83 Z[d] R[vclear] Q.5 F[frate] K0\n@else\n  G81 Z[d] R[vclear] F[frate] K0\n@end\nX[h] Y[v]\nEnd Cancel\n";

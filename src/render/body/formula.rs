@@ -29,6 +29,14 @@ impl Body<'_, '_> {
         Ok(())
     }
 
+    /// A directive gives a variable or a property its value.
+    pub(super) fn set(&mut self, index: u32) -> Done {
+        let (target, formula) = self.shape.program.sets[index as usize];
+        let value = self.calculated(formula, b' ')?;
+        value.into_iter().for_each(|value| self.said.kept.set(target, value));
+        Ok(())
+    }
+
     /// A calculated value, or none where the word of a variable in it is optional.
     pub(super) fn calculated(&self, index: u32, letter: u8) -> Done<Option<f64>> {
         match self.shape.program.formulas[index as usize].number(&self.now(letter)) {

@@ -19,7 +19,7 @@ use super::vars::MOVED;
 use super::want::Want;
 use super::words::check_feed;
 use crate::compile::{Letter, LetterKind, Op, Routine};
-use crate::diag::Code;
+use crate::diag::{Code, Diag};
 use crate::lang::{VarId, VarSet};
 use crate::number::quantise;
 
@@ -149,6 +149,18 @@ pub fn go_on(
     Ok(())
 }
 
+/// Does what the directives of a sequence set before the lines that a cycle repeats: they count at every hole.
+pub fn run_sets(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    let mut body = Body { shape, want, said, out, mode: Mode::Hole, line: routine.ops.start, drops: false };
+    for i in routine.steps_in(routine.ops.start..routine.repeat) {
+        if let Op::Set { index } = shape.program.ops[i] {
+            let at = |diag: Box<Diag>| Box::new(diag.at(shape.program.spans[i], "printed from here"));
+            body.set(index).map_err(at)?;
+        }
+    }
+    Ok(())
+}
+
 /// A sequence while it runs.
 struct Body<'r, 'p> {
     shape: &'r Shape<'p>,
@@ -190,11 +202,7 @@ impl Body<'_, '_> {
             Op::List { index } => self.list(index as usize)?,
             Op::Var { letter, var, glued } => self.var_word(letter, var, glued)?,
             Op::Literal { index, glued } => self.literal_word(index as usize, glued),
-            Op::Set { index } => {
-                let Some(&(target, formula)) = self.shape.program.sets.get(index as usize) else { return Ok(()) };
-                let set = self.calculated(formula, b' ')?;
-                set.into_iter().for_each(|value| self.said.kept.set(target, value));
-            }
+            Op::Set { index } => self.set(index)?,
             Op::Formula { letter, index, glued } => self.formula_word(letter, index, glued)?,
             Op::Value { .. }
             | Op::Remark { .. }

@@ -15,12 +15,11 @@ use crate::render::fault::{Done, fault};
 use crate::render::printer::Printer;
 use crate::render::said::Said;
 use crate::render::shape::Shape;
-use crate::render::vars::Vars;
 use crate::render::want::Want;
 use crate::toolpath::{CycleSpec, SpindleTurn};
 use choose::{choose_sequence, scaled};
 use hole::make_hole;
-use open::{ActiveCycle, Drilling, is_rigid, leave_cycle, turning};
+use open::{ActiveCycle, Drilling, Setup, is_rigid, leave_cycle, turning};
 use remarks::warn_of;
 
 /// A cycle begins; nothing is printed before its first hole.
@@ -55,7 +54,7 @@ pub fn cycle_begin(
         holes: 0,
         in_force: false,
         branches: 0,
-        setup: Vars::default(),
+        setup: Setup::default(),
         last: None,
         exit_known: false,
         point: None,

@@ -1,9 +1,11 @@
 //! A cycle between its begin and its end, and how the control leaves it.
 
+use crate::compile::Sources;
 use crate::cycle::Steps;
 use crate::diag::Code;
 use crate::lang::SequenceId;
 use crate::render::fault::{Done, fault};
+use crate::render::kept::Kept;
 use crate::render::numbers::{as_number, quantised};
 use crate::render::printer::Printer;
 use crate::render::said::Said;
@@ -12,6 +14,7 @@ use crate::render::targets::set_targets;
 use crate::render::upon::run_with_upons;
 use crate::render::vars::Vars;
 use crate::render::want::Want;
+use crate::sema::Target;
 use crate::toolpath::{Axes, CycleSpec, Hole, Place};
 
 /// A cycle between its begin and its end.
@@ -26,8 +29,8 @@ pub struct ActiveCycle {
     pub in_force: bool,
     /// Which way through the sequence the control is in.
     pub branches: u128,
-    /// Values at the last start, for advanced cycles.
-    pub setup: Vars,
+    /// Values at the last start.
+    pub setup: Setup,
     /// The last hole: where, and the height at which the tool left it.
     pub last: Option<Axes>,
     /// The exit height is certain.
@@ -46,6 +49,27 @@ pub struct ActiveCycle {
     pub left: Option<f64>,
     /// The spindle's direction that comes back after a tap that turned it.
     pub turned: Option<f64>,
+}
+
+/// The values of the job and of the form when a cycle was started.
+#[derive(Default)]
+pub struct Setup {
+    vars: Vars,
+    kept: Kept,
+}
+
+impl Setup {
+    /// The values of now.
+    pub fn new(want: &Want, said: &Said) -> Setup {
+        Setup { vars: want.values().clone(), kept: said.kept.clone() }
+    }
+
+    /// Is any of these another one now?
+    pub fn differs(&self, sources: Sources, want: &Want, said: &Said) -> bool {
+        let other = |target| self.kept.of(target) != said.kept.of(target);
+        sources.vars.iter().any(|var| self.vars.get(var) != want.get(var) || other(Target::Var(var)))
+            || sources.properties().any(|row| other(Target::Property(row)))
+    }
 }
 
 /// The open cycle, and the steps of its holes; kept so that a hole allocates nothing.

@@ -1,13 +1,13 @@
 //! A hole by a sequence of the form.
 
-use super::open::{Drilling, cancel, leave_cycle, left_hole};
+use super::open::{Drilling, Setup, cancel, leave_cycle, left_hole};
 use super::planned::{Heights, Planned, SAME, hole_variables};
 use crate::compile::{CycleStyle, LetterKind, Literal, Op, Routine};
 use crate::control;
 use crate::diag::Code;
 use crate::lang::{VarId, VarSet};
 use crate::render::before::{motion_block, plane_block};
-use crate::render::body::{Mode, go_on, run, run_part};
+use crate::render::body::{Mode, go_on, run, run_part, run_sets};
 use crate::render::fault::Done;
 use crate::render::moves::rapid_blocks::{is_below, raise, split_rapid};
 use crate::render::numbers::quantised;
@@ -47,16 +47,15 @@ pub fn sequence_hole(
     if matches!(routine.style, CycleStyle::Emulated) {
         return emulated_hole(routine, hole, shape, want, said, out, drill);
     }
-    let starts = starts_cycle(routine, hole.heights, shape, want, drill);
+    let starts = starts_cycle(routine, hole.heights, shape, want, said, drill);
     if starts {
         cancel(shape, want, said, out, drill)?;
         settle_between_holes(hole, shape, want, said, out, drill)?; // what Cancel switched is put back
         approach(&hole.target, shape, want, said, out)?;
         want.set(VarId::D, hole.heights.bottom);
         warn_of_return(routine, hole.heights, out);
-        let snapshot = want.values().clone();
         if let Some(cycle) = &mut drill.open {
-            cycle.setup = snapshot;
+            cycle.setup = Setup::new(want, said);
             cycle.branches = routine.branches;
             cycle.initial_level = hole.heights.return_plane;
             cycle.in_force = true;
@@ -74,7 +73,10 @@ pub fn sequence_hole(
             let rest = routine.repeat..routine.ops.end;
             match starts {
                 true => go_on(routine, rest, Mode::Hole, shape, want, said, out)?,
-                false => run_part(routine, rest, Mode::Hole, shape, want, said, out)?,
+                false => {
+                    run_sets(routine, shape, want, said, out)?;
+                    run_part(routine, rest, Mode::Hole, shape, want, said, out)?;
+                }
             }
         }
         CycleStyle::Machine if !starts => {
@@ -246,7 +248,14 @@ fn settle_between_holes(
 }
 
 /// Must the whole cycle be printed at this hole?
-fn starts_cycle(routine: &Routine, heights: Heights, shape: &Shape, want: &Want, drill: &Drilling) -> bool {
+fn starts_cycle(
+    routine: &Routine,
+    heights: Heights,
+    shape: &Shape,
+    want: &Want,
+    said: &Said,
+    drill: &Drilling,
+) -> bool {
     let Some(cycle) = &drill.open else { return true };
     if !cycle.in_force || cycle.branches != routine.branches {
         return true;
@@ -256,7 +265,9 @@ fn starts_cycle(routine: &Routine, heights: Heights, shape: &Shape, want: &Want,
     if level.is_none_or(|level| heights.clear > level + SAME) {
         return true;
     }
-    routine.style == CycleStyle::Advanced && routine.setup_vars.iter().any(|var| cycle.setup.get(var) != want.get(var))
+    // what only its first hole prints would stay as it is
+    let first = routine.first_only;
+    !first.is_empty() && routine.style != CycleStyle::WholeLine && cycle.setup.differs(first, want, said)
 }
 
 /// Does a word of the position change at this hole? A block without one would drill on no control, or only on some.

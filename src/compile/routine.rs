@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::program::{CycleStyle, Op, Program};
-use super::sources::{self, Sources};
+use super::sources::{BARE, Sources, Step, of_first_hole};
 use crate::control::{Code, Meaning};
 use crate::lang::{TextSet, VarId, VarSet};
 use crate::sema::Target;
@@ -115,7 +115,8 @@ impl Routine {
         self.texts = texts;
         self.stays = stays;
         self.returns = returns || self.vars.has(VarId::Retplane) || self.vars.has(VarId::Rplane);
-        self.first_only = sources::of_first_hole(self, program);
+        let steps = self.steps().filter_map(|i| Some((step(program.ops[i], program)?, i >= repeat)));
+        self.first_only = of_first_hole(steps, self.count.is_some());
     }
 
     /// The way that takes these branches.
@@ -220,4 +221,21 @@ fn typed_code(op: Op, program: &Program) -> Option<Code> {
         }
         _ => None,
     }
+}
+
+/// What a step prints or sets of what its values are made of; `None`: nothing.
+fn step(op: Op, program: &Program) -> Option<Step<'_>> {
+    let printed = |letter: u8| program.letters[0][letter].printed;
+    let formula = |index: u32| &program.formulas[index as usize];
+    Some(match op {
+        Op::Set { index } => {
+            let (target, value) = program.sets[index as usize];
+            Step::Sets(target, formula(value))
+        }
+        Op::Var { letter, var, .. } => Step::Var(printed(letter), var),
+        Op::Formula { letter, index, .. } => Step::Formula(printed(letter), formula(index)),
+        Op::Value { var, .. } => Step::Var(BARE, var),
+        Op::ValueFormula { index, .. } => Step::Formula(BARE, formula(index)),
+        _ => return None,
+    })
 }

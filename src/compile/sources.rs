@@ -1,7 +1,5 @@
 //! What the values of a sequence are made of: variables and properties of the form, also through what its directives set.
 
-use super::program::{Op, Program};
-use super::routine::Routine;
 use crate::lang::{VarId, VarSet};
 use crate::sema::{Formula, Target};
 
@@ -72,30 +70,34 @@ impl Carried {
     }
 }
 
+/// What a step of a sequence prints, by the letter that is printed ([`BARE`] for none), or sets.
+pub(super) enum Step<'p> {
+    Sets(Target, &'p Formula),
+    Var(u8, VarId),
+    Formula(u8, &'p Formula),
+}
+
+/// A value without a letter.
+pub(super) const BARE: u8 = b' ';
+
 /// What the values are made of that a cycle prints at its first hole only: those of its counted lines, or, where it is one
-/// line, those without a letter. A word that its other lines print as well is said at every hole.
-pub(super) fn of_first_hole(routine: &Routine, program: &Program) -> Sources {
-    const BARE: u8 = b' ';
-    let printed = |letter: u8| program.letters[0][letter].printed;
-    let formula = |index: u32| &program.formulas[index as usize];
+/// line, those without a letter. A word that its other lines print as well is said at every hole. `steps`: those of the
+/// cycle's sequence, each with whether it stands in a line for every hole; `counted`: some do not.
+pub(super) fn of_first_hole<'p>(steps: impl Iterator<Item = (Step<'p>, bool)>, counted: bool) -> Sources {
     let mut carried = Carried::default();
     let (mut first, mut again) = (Vec::new(), Vec::new());
-    for i in routine.steps() {
-        let word = match program.ops[i] {
-            Op::Set { index } => {
-                let (target, value) = program.sets[index as usize];
-                carried.0.push((target, carried.of_formula(formula(value))));
+    for (step, repeats) in steps {
+        let word = match step {
+            Step::Sets(target, value) => {
+                carried.0.push((target, carried.of_formula(value)));
                 continue;
             }
-            Op::Var { letter, var, .. } => (printed(letter), carried.of_var(var)),
-            Op::Formula { letter, index, .. } => (printed(letter), carried.of_formula(formula(index))),
-            Op::Value { var, .. } => (BARE, carried.of_var(var)),
-            Op::ValueFormula { index, .. } => (BARE, carried.of_formula(formula(index))),
-            _ => continue,
+            Step::Var(letter, var) => (letter, carried.of_var(var)),
+            Step::Formula(letter, formula) => (letter, carried.of_formula(formula)),
         };
-        match routine.count {
-            Some(_) if i >= routine.repeat => again.push(word),
-            None if word.0 != BARE => {}
+        match counted {
+            true if repeats => again.push(word),
+            false if word.0 != BARE => {}
             _ => first.push(word),
         }
     }

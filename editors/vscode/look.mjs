@@ -4,7 +4,7 @@
 // node look.mjs CODE_SERVER POSTFORM FOLDER; CODE_SERVER is what npm installed (`npm install code-server`, with node 24)
 
 import { execFileSync, spawn } from "node:child_process";
-import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -36,12 +36,12 @@ const settings = {
   "workbench.tips.enabled": false,
   "editor.fontSize": 13,
   "files.autoSave": "off",
+  "postform.path": resolve(postform),
 };
 writeFileSync(join(folder, "data/User/settings.json"), JSON.stringify(settings));
-// the program where pip puts it for one person
+// nowhere but where the setting says
 const home = join(folder, "home");
-mkdirSync(join(home, ".local/bin"), { recursive: true });
-symlinkSync(resolve(postform), join(home, ".local/bin/postform"));
+mkdirSync(home);
 const env = { ...process.env, HOME: home };
 
 /** A port that is free. */
@@ -120,6 +120,10 @@ try {
   };
 
   await open("my.pf");
+  await check("postform is found where the setting says", async () => {
+    const told = await page.evaluate(() => document.querySelector(".notifications-toasts")?.textContent ?? "");
+    if (told.includes("postform is not")) throw new Error(told);
+  });
   await check("the verdict stands above the form", () => seen(".codelens-decoration", "blocks, proven"));
   await check("the form is coloured", () => page.waitForSelector(".view-line .mtk6, .view-line .mtk5"));
   await goTo("R[vclear] P[dwell]");
@@ -162,6 +166,16 @@ try {
   // a program by its control
   await open("part.nc");
   await check("what a control refuses is underlined", () => page.waitForSelector(".squiggly-error, .squiggly-warning"));
+
+  // the setting is changed: what is not there is said with what to do, and the server starts anew where it is
+  const saved = (path) => writeFileSync(join(folder, "data/User/settings.json"), JSON.stringify({ ...settings, "postform.path": path }));
+  await command("Notifications: Clear All Notifications");
+  saved("/nowhere/postform");
+  await check("a program that is not there is said, with what to do", () => seen(".notification-toast", "or say where it is"));
+  await command("Notifications: Clear All Notifications");
+  saved(resolve(postform));
+  await open("my.pf");
+  await check("and the server starts anew where the setting says", () => seen(".codelens-decoration", "blocks, proven"));
 } catch (error) {
   failures.push(String(error));
   console.log(error);

@@ -1,13 +1,14 @@
 //! postform for the playground: it reads a request from standard input and writes a scene to standard output.
 //!
 //! A request is the length of its head (four bytes, the least first), the head as JSON, and the files that the head names, one
-//! behind the other: for each form its text now and as it was saved, the job, and the program to compare with.
+//! behind the other: for each form its text now and as it was saved, the job, the program to compare with, and what the saved form printed.
 
 use std::collections::HashMap;
 use std::io::{self, Read, Write};
 
+use postform::internals::diff;
 use postform::internals::lint::Levels;
-use postform::internals::scene::{Request, scene};
+use postform::internals::scene::{At, Request, help, scene};
 use postform::internals::sema::Limits;
 use postform::{Files, Job, Options, Proof, Source};
 use serde::Deserialize;
@@ -19,8 +20,11 @@ struct Head {
     forms: Vec<Form>,
     job: File,
     against: Option<File>,
+    /// What the forms as they were saved print for the job, where others are typed now.
+    before: Option<File>,
     jobs: Vec<String>,
-    proves: bool,
+    /// A place in a form: then what is known of it is answered, and no scene.
+    at: Option<At>,
 }
 
 #[derive(Deserialize)]
@@ -67,29 +71,46 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Some(file) => Some((file.name.as_str(), next(file.length)?)),
         None => None,
     };
+    let before = match &head.before {
+        Some(file) => Some(std::str::from_utf8(next(file.length)?)?),
+        None => None,
+    };
     let is_typed = now.iter().zip(&saved).any(|(now, saved)| now.text != saved.text);
     let form = now.first().cloned().ok_or("no form")?;
-    let before = saved.first().cloned().ok_or("no form")?;
     let by_name = |forms: Vec<Source>| Texts(forms.into_iter().map(|form| (form.name.clone(), form)).collect());
     let (now, saved) = (by_name(now), by_name(saved));
-    let mut scene = scene(Request {
+    let mut job = Job::open(&head.job.name, job)?;
+    let request = Request {
         form,
         files: &now,
         limits: Limits::default(),
         levels: &Levels::default(),
-        job: Job::open(&head.job.name, job)?,
+        job: job.again(),
         job_name: &head.job.name,
         options: Options::default(),
         proof: Proof::default(),
-        against,
-        saved: is_typed.then_some((before, &saved as &dyn Files)),
-        proves: head.proves,
-        deadline: None,
-    });
+    };
+    if let Some(at) = &head.at {
+        io::stdout().lock().write_all(help(request, at).to_string().as_bytes())?;
+        return Ok(());
+    }
+    let (mut scene, printed) = scene(request);
     let names = scene.said("form").and_then(|form| form["files"].as_array().cloned()).unwrap_or_default();
     let text = |name: &serde_json::Value| saved.0.get(name.as_str()?).map(|source| source.text.clone());
     scene.say("texts", json!(names.iter().map(|name| text(name).unwrap_or_default()).collect::<Vec<String>>()));
     scene.say("jobs", json!(head.jobs));
+    if let Some(printed) = printed {
+        printed.draw(&mut scene);
+        let options = diff::Options::default();
+        if let Some((name, old)) = against {
+            printed.draw_old(&mut scene, old);
+            _ = printed.against(name, old, &options).map(|found| scene.say("against", found));
+        }
+        if is_typed {
+            _ = printed.since_saved(before, &options).map(|found| scene.say("saved", found));
+        }
+        scene.say("verdict", printed.verdict(job));
+    }
     io::stdout().lock().write_all(&scene.into_bytes())?;
     Ok(())
 }

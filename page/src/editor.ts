@@ -1,5 +1,6 @@
 // The form pane: CodeMirror, with findings under the words and the lines lit that printed the chosen block.
 
+import { completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
 import { bracketMatching, HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
 import { type Diagnostic, lintGutter, setDiagnostics } from "@codemirror/lint";
@@ -11,6 +12,8 @@ import {
 import { tags } from "@lezer/highlight";
 
 import { element } from "./element.ts";
+import { help } from "./help.ts";
+import type { At, Help } from "./host.ts";
 import { base } from "./names.ts";
 import type { Finding, Place } from "./scene.ts";
 
@@ -93,6 +96,8 @@ export class Editor {
   onLine: (file: number, line: number) => void = () => {};
   onSave: () => void = () => {};
   onLeave: () => void = () => {};
+  /** What is known of a place in the file that is shown. */
+  onHelp: (at: At) => Promise<Help | null> = () => Promise.resolve(null);
 
   constructor(readonly isEditable: boolean) {
     const holder = element("div", { class: "editor" });
@@ -118,11 +123,13 @@ export class Editor {
       doc: text,
       extensions: [
         lineNumbers(), highlightActiveLineGutter(), history(), drawSelection(), bracketMatching(), highlightActiveLine(),
+        help((at) => this.onHelp({ ...at, file: this.name })),
         highlightSelectionMatches(), lintGutter(), litLines, language, syntaxHighlighting(look),
         EditorState.readOnly.of(!this.isEditable),
         EditorView.contentAttributes.of({ "aria-label": "Form", spellcheck: "false" }),
         keymap.of([
           { key: "Mod-s", run: () => (this.onSave(), true), preventDefault: true },
+          ...completionKeymap,
           { key: "Escape", run: () => (this.onLeave(), true) },
           ...defaultKeymap, ...historyKeymap, ...searchKeymap, indentWithTab,
         ]),

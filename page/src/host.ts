@@ -1,18 +1,34 @@
 // Who renders: the program that serves the page, or the page itself.
 
-import type { Verdict } from "./scene.ts";
+import { lengthOf, type Place, type Verdict } from "./scene.ts";
 
 export interface Ask {
   /** Which job, from 0. */
   job: number;
   /** Texts of forms that are not saved, by their names. */
   texts: Record<string, string>;
-  /** Is the program proven, too? */
-  proves: boolean;
+}
+
+/** A place in a form, and what is asked of it: line and column from 0. */
+export interface At {
+  file: string;
+  line: number;
+  column: number;
+  ask: "complete" | "hover";
+}
+
+/** What a thing is, as Markdown, or what could stand at a place. */
+export interface Help {
+  at?: Place;
+  text?: string;
+  list?: { label: string; kind: string; detail: string; at: Place; text: string; snippet: string | null; info: string | null }[];
 }
 
 export interface Host {
-  scene(ask: Ask): Promise<ArrayBuffer>;
+  /** A scene, and behind that of a long program what took longer than its picture: the verdict, and what changed. */
+  scenes(ask: Ask): AsyncIterable<ArrayBuffer>;
+  /** What is known of a place in a form; null: nothing. */
+  help(ask: Ask, at: At): Promise<Help | null>;
   /** The verdict of a job with the forms as they are saved. */
   verdict(job: number): Promise<Verdict>;
   /** Writes a form. Null: it is written; else why not. */
@@ -25,12 +41,17 @@ export interface Host {
 export class Server implements Host {
   private readonly base = location.pathname.replace(/[^/]*$/, "");
 
-  async scene(ask: Ask): Promise<ArrayBuffer> {
-    return (await this.post("scene", ask)).arrayBuffer();
+  async *scenes(ask: Ask): AsyncIterable<ArrayBuffer> {
+    const answer = await this.post("scene", ask);
+    yield* split(answer.body!.getReader());
+  }
+
+  async help(ask: Ask, at: At): Promise<Help | null> {
+    return (await this.post("help", { ...ask, at })).json();
   }
 
   async verdict(job: number): Promise<Verdict> {
-    return (await this.post("verdict", { job, texts: {}, proves: true })).json();
+    return (await this.post("verdict", { job, texts: {} })).json();
   }
 
   async save(name: string, text: string, was: string): Promise<string | null> {
@@ -57,5 +78,37 @@ export class Server implements Host {
 
   private request(body: unknown): RequestInit {
     return { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) };
+  }
+}
+
+/** Scenes that stand one behind the other in what is read. Whoever wants no more of them stops asking, and no more is read. */
+async function* split(reader: ReadableStreamDefaultReader<Uint8Array>): AsyncGenerator<ArrayBuffer> {
+  let bytes = new Uint8Array();
+  let filled = 0;
+  try {
+    for (;;) {
+      const length = lengthOf(bytes.subarray(0, filled));
+      if (length !== null && filled >= length) {
+        yield bytes.slice(0, length).buffer;
+        bytes = bytes.slice(length, filled);
+        filled = bytes.length;
+        continue;
+      }
+      const { done, value } = await reader.read();
+      if (done) {
+        if (filled) throw new Error("the answer is cut off");
+        return;
+      }
+      if (filled + value.length > bytes.length) {
+        const whole = length ?? (filled ? null : lengthOf(value));
+        const more = new Uint8Array(Math.max(whole ?? 0, filled + value.length));
+        more.set(bytes.subarray(0, filled));
+        bytes = more;
+      }
+      bytes.set(value, filled);
+      filled += value.length;
+    }
+  } finally {
+    void reader.cancel();
   }
 }

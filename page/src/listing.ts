@@ -22,6 +22,8 @@ export class Listing {
   private line = 0;
   private lit = new Set<number>();
   private asked = 0;
+  /** The chosen block was brought into sight, and nobody has scrolled since. */
+  private follows = false;
   onPick: (line: number) => void = () => {};
   onHover: (line: number | null) => void = () => {};
 
@@ -30,7 +32,12 @@ export class Listing {
     this.root = element("section", { class: "program", "aria-label": "Program" },
       element("h2", {}, "Program", this.head), this.view, this.note);
     this.view.onscroll = () => this.redraw();
-    new ResizeObserver(() => this.redraw()).observe(this.view);
+    new ResizeObserver(() => {
+      // what is said of the chosen block takes room from the list: the block stays in sight
+      if (this.follows) this.reveal(this.line);
+      this.redraw();
+    }).observe(this.view);
+    this.view.onwheel = this.view.onpointerdown = () => (this.follows = false);
     const lineOf = (event: Event) => {
       const row = (event.target as Element).closest("[data-line]");
       return row ? Number(row.getAttribute("data-line")) : null;
@@ -54,7 +61,10 @@ export class Listing {
   choose(line: number, lit: number[], scrolls: boolean): void {
     this.line = line;
     this.lit = new Set(lit);
-    if (scrolls) this.reveal(line);
+    if (scrolls) {
+      this.follows = true;
+      this.reveal(line);
+    }
     this.draw();
   }
 

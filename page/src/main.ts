@@ -14,8 +14,7 @@ import { Program } from "./program.ts";
 import { type Head, Scene, type Verdict } from "./scene.ts";
 import { StateStrip } from "./state.ts";
 
-/** Programs of more lines are shown before they are proven. */
-const LARGE = 60_000;
+const PROVING: Verdict = { kind: "none", text: "proving…", line: 0, help: "", allowed: [], findings: [] };
 
 type From = "form" | "program" | "path" | "key" | "finding";
 
@@ -45,8 +44,8 @@ export class Page {
   private again: { key: number } | null = null;
   private playing = 0;
   private next = { finding: 0, difference: 0 };
-  /** Milliseconds from a key to the picture, the last ones. */
-  readonly times: number[] = [];
+  /** When a key was pressed, and milliseconds from it until the new picture and the new verdict were painted: the last ones. */
+  readonly painted: { key: number; picture: number; verdict: number }[] = [];
 
   /** Without a host the page shows one scene; without an editor it has two panes. */
   constructor(private readonly host: Host | null, readonly editor: Editor | null) {
@@ -73,9 +72,13 @@ export class Page {
     if (editor) {
       editor.onEdit = (name, text) => this.edit(name, text);
       editor.onLine = (file, line) => this.chooseFormLine(file, line);
+      editor.onHelp = async (at) => (await this.host?.help({ job: this.job, texts: this.typed }, at)) ?? null;
       editor.onSave = () => void this.save();
       editor.onLeave = () => listing.focus();
-      editor.onOpen = () => this.relight(false);
+      editor.onOpen = () => {
+        this.relight(false);
+        if (this.head) editor.setFindings(findingsOf(this.head));
+      };
     }
     this.host?.onChange?.((connected) => {
       this.say(connected ? "" : "postform has ended: this page shows what it showed last");
@@ -102,11 +105,16 @@ export class Page {
     }
     this.running = true;
     try {
-      const ask = { job: this.job, texts: this.typed, proves: (this.program?.lines ?? 0) < LARGE };
-      const scene = new Scene(await this.host.scene(ask));
-      this.show(scene);
-      if (key) this.measure(key);
-      if (scene.head.picture && !scene.head.verdict) await this.proveLarge();
+      let shown: Head | null = null;
+      for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed })) {
+        const scene = new Scene(bytes);
+        if (!shown) this.show(scene);
+        else this.tellMore(scene.head);
+        shown ??= scene.head;
+        if (key) this.measure(key, !!(this.head?.verdict ?? this.head?.stopped));
+        // what was typed meanwhile is more important than what is said of what was there before
+        if (this.again) break;
+      }
     } catch (error) {
       this.say(`The page can't be drawn anew: ${error instanceof Error ? error.message : error}`);
     }
@@ -116,23 +124,22 @@ export class Page {
     if (again) void this.load(again.key);
   }
 
-  /** A large program is drawn first and proven then. */
-  private async proveLarge(): Promise<void> {
-    if (this.again || !this.host) return;
-    this.sayVerdict({ kind: "none", text: "proving…", line: 0, help: "", allowed: [], findings: [] });
-    const scene = new Scene(await this.host.scene({ job: this.job, texts: this.typed, proves: true }));
-    if (!this.again && scene.head.verdict) {
-      this.head!.verdict = scene.head.verdict;
-      this.mark();
-    }
+  /** What is said of what is shown, and took longer than its picture: the verdict, and what changed. */
+  private tellMore(head: Partial<Head>): void {
+    const { verdict = this.head!.verdict, saved = this.head!.saved, against = this.head!.against } = head;
+    Object.assign(this.head!, { verdict, saved, against });
+    this.mark();
+    this.relight(false);
   }
 
-  private measure(key: number): void {
+  /** From a key until it is painted. */
+  private measure(key: number, proven: boolean): void {
     requestAnimationFrame(() => setTimeout(() => {
       const time = performance.now() - key;
-      this.times.push(time);
-      if (this.times.length > 100) this.times.shift();
-      this.timing.textContent = `${time.toFixed(0)} ms`;
+      if (!this.painted.length || this.painted.at(-1)!.key !== key) this.painted.push({ key, picture: time, verdict: 0 });
+      if (proven) this.painted.at(-1)!.verdict = time;
+      if (this.painted.length > 100) this.painted.shift();
+      if (proven) this.timing.textContent = `${time.toFixed(0)} ms`;
     }));
   }
 
@@ -144,8 +151,8 @@ export class Page {
     this.takeTexts(head);
     document.body.classList.toggle("stale", !!head.stopped);
     if (head.picture) {
-      this.program = new Program(scene);
-      this.old = scene.has("old/text") ? new Program(scene, "old/") : null;
+      this.program = new Program(scene, "", this.program);
+      this.old = scene.has("old/text") ? new Program(scene, "old/", this.old) : null;
     } else if (first || !head.stopped) {
       this.program = this.old = null;
     }
@@ -249,7 +256,8 @@ export class Page {
   /** What is marked in the panes: differences, changes, findings. */
   private mark(): void {
     const head = this.head!;
-    this.sayVerdict(head.verdict, head.stopped);
+    const waits = !!this.host && !!head.picture && !head.stopped && !head.verdict;
+    this.sayVerdict(waits ? PROVING : head.verdict, head.stopped);
     const marks = marksOf(head, this.old);
     const picture = head.picture;
     const count = picture ? `${picture.blocks} blocks · ${picture.time}` : "";
@@ -285,7 +293,6 @@ export class Page {
     const form = this.program?.form(this.line);
     const bad = (this.head?.verdict?.findings ?? []).flatMap((found) => (found.form ? [{ file: found.form[0], line: found.form[1] }] : []));
     this.editor?.light(form ? [form] : [], bad, scrolls);
-    if (!scrolls && this.head) this.editor?.setFindings(findingsOf(this.head));
   }
 
   /** A line of the form was clicked: the next block that it printed. */

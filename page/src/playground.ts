@@ -2,7 +2,7 @@
 
 import { Editor } from "./editor.ts";
 import { element } from "./element.ts";
-import type { Ask, Host } from "./host.ts";
+import type { Ask, At, Help, Host } from "./host.ts";
 import { Page } from "./main.ts";
 import { type Verdict, Scene } from "./scene.ts";
 import { run } from "./wasi.ts";
@@ -19,33 +19,57 @@ class Wasm implements Host {
   readonly jobs: File_[] = [];
   against: File_ | null = null;
 
+  /** What the saved forms print for a job. */
+  private before: { job: number; text: Uint8Array } | null = null;
+
   constructor(private readonly module: WebAssembly.Module) {}
 
-  async scene(ask: Ask): Promise<ArrayBuffer> {
+  private async run(request: Uint8Array): Promise<ArrayBuffer> {
+    return (await run(this.module, request)).buffer as ArrayBuffer;
+  }
+
+  async *scenes(ask: Ask): AsyncGenerator<ArrayBuffer> {
+    if (!Object.keys(ask.texts).length) {
+      const bytes = await this.scene(ask.job, {}, null);
+      this.before = { job: ask.job, text: new Scene(bytes).bytes("text") };
+      return yield bytes;
+    }
+    // what the saved form prints is known from before it was typed in
+    if (this.before?.job !== ask.job) this.before = { job: ask.job, text: new Scene(await this.scene(ask.job, {}, null)).bytes("text") };
+    yield await this.scene(ask.job, ask.texts, this.before.text);
+  }
+
+  private scene(job: number, typed: Record<string, string>, before: Uint8Array | null, at: At | null = null): Promise<ArrayBuffer> {
     const texts = [this.form, ...this.others].map((file) => {
-      const typed = ask.texts[file.name];
-      return { name: file.name, bytes: typed === undefined ? file.bytes : new TextEncoder().encode(typed), saved: file.bytes };
+      const text = typed[file.name];
+      return { name: file.name, bytes: text === undefined ? file.bytes : new TextEncoder().encode(text), saved: file.bytes };
     });
-    const job = this.jobs[ask.job];
+    const { name, bytes } = this.jobs[job];
     const head = {
       forms: texts.map((file) => ({ name: file.name, length: file.bytes.length, saved: file.saved.length })),
-      job: { name: job.name, length: job.bytes.length },
+      job: { name, length: bytes.length },
       against: this.against && { name: this.against.name, length: this.against.bytes.length },
+      before: before && { name: "", length: before.length },
       jobs: this.jobs.map((job) => job.name),
-      proves: ask.proves,
+      at,
     };
-    const parts = [...texts.flatMap((file) => [file.bytes, file.saved]), job.bytes, ...(this.against ? [this.against.bytes] : [])];
-    const out = await run(this.module, pack(JSON.stringify(head), parts));
-    return out.buffer as ArrayBuffer;
+    const parts = [...texts.flatMap((file) => [file.bytes, file.saved]), bytes];
+    for (const part of [this.against?.bytes, before]) if (part) parts.push(part);
+    return this.run(pack(JSON.stringify(head), parts));
+  }
+
+  async help(ask: Ask, at: At): Promise<Help | null> {
+    return JSON.parse(new TextDecoder().decode(await this.scene(ask.job, ask.texts, null, at)));
   }
 
   async verdict(job: number): Promise<Verdict> {
-    const { head } = new Scene(await this.scene({ job, texts: {}, proves: true }));
+    const { head } = new Scene(await this.scene(job, {}, null));
     return head.verdict ?? { kind: "none", text: head.stopped?.message ?? "", line: 0, help: "", allowed: [], findings: [] };
   }
 
   /** A dropped file, by what it is called: whether it changes what is shown. */
   take(file: File_): void {
+    this.before = null;
     const end = file.name.toLowerCase().split(".").pop() ?? "";
     if (end === "pf") {
       if (this.form.name && this.form.name !== file.name) this.others.push(this.form);

@@ -39,11 +39,21 @@ export class Program {
   private readonly stands: Uint32Array;
   private readonly decoder = new TextDecoder();
 
-  constructor(scene: Scene, of = "") {
-    this.bytes = scene.bytes(`${of}text`);
-    this.starts = lineStarts(this.bytes);
+  /** `before`: what was shown until now; where it is the same, what was made of it is kept. */
+  constructor(private readonly scene: Scene, of = "", before: Program | null = null) {
     this.lineForm = of ? new Int32Array() : scene.array("lineForm", Int32Array);
     this.lineItem = of ? new Uint32Array() : scene.array("lineItem", Uint32Array);
+    if (before?.path && scene.hasProgramOf(before.scene, of)) {
+      // the new scene is not kept for what it says of the lines
+      [this.lineForm, this.lineItem] = [this.lineForm.slice(), this.lineItem.slice()];
+      this.scene = before.scene;
+      this.path = before.path;
+      [this.bytes, this.starts, this.changes] = [before.bytes, before.starts, before.changes];
+      [this.moveFrom, this.moveTo, this.stands] = [before.moveFrom, before.moveTo, before.stands];
+      return;
+    }
+    this.bytes = scene.bytes(`${of}text`);
+    this.starts = lineStarts(this.bytes);
     const head = of ? scene.head["old/picture"] : scene.head.picture;
     this.path = head ? new Path(scene, of, head) : null;
     this.changes = this.path ? changesOf(scene, of) : [];

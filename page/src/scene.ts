@@ -124,17 +124,27 @@ type Numbers<T> = { new (buffer: ArrayBuffer, offset: number, length: number): T
 
 const LINE_BITS = 20;
 
+/** Bytes before the head of a scene. */
+const PREFIX = 16;
+
+/** How many bytes a scene has that begins so; null: more must be there to tell. */
+export function lengthOf(bytes: Uint8Array): number | null {
+  if (bytes.length < PREFIX) return null;
+  const view = new DataView(bytes.buffer, bytes.byteOffset);
+  if (view.getUint32(0) !== 0x50465332) throw new Error("this is no scene of postform");
+  return PREFIX + view.getUint32(4, true) + Number(view.getBigUint64(8, true));
+}
+
 /** All of it. */
 export class Scene {
   readonly head: Head;
   private readonly start: number;
 
   constructor(private readonly buffer: ArrayBuffer) {
-    const view = new DataView(buffer);
-    if (buffer.byteLength < 8 || view.getUint32(0) !== 0x50465331) throw new Error("this is no scene of postform");
-    const length = view.getUint32(4, true);
-    this.start = 8 + length;
-    this.head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 8, length)));
+    if (lengthOf(new Uint8Array(buffer)) !== buffer.byteLength) throw new Error("the scene is cut off");
+    const length = new DataView(buffer).getUint32(4, true);
+    this.start = PREFIX + length;
+    this.head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, PREFIX, length)));
   }
 
   has(name: string): boolean {
@@ -149,6 +159,25 @@ export class Scene {
   bytes(name: string): Uint8Array {
     return this.array(name, Uint8Array);
   }
+
+  /** Do two scenes have the same program, and does it do the same? Where its lines come from is not looked at. */
+  hasProgramOf(other: Scene, of: string): boolean {
+    return PROGRAM.every((name) => equal(this.bytes(of + name), other.bytes(of + name)));
+  }
+}
+
+const PROGRAM = [
+  "text", "points", "first", "moveLine", "moveKind", "moveTool", "holes", "holeLine", "holeTool", "changeLine", "changeRegister", "changeValue",
+];
+
+function equal(a: Uint8Array, b: Uint8Array): boolean {
+  if (a.length !== b.length) return false;
+  // sections begin at multiples of eight bytes of their buffers
+  const words = a.length >> 2;
+  const [p, q] = [a, b].map((bytes) => new Uint32Array(bytes.buffer, bytes.byteOffset, words));
+  for (let at = 0; at < words; at++) if (p[at] !== q[at]) return false;
+  for (let at = words << 2; at < a.length; at++) if (a[at] !== b[at]) return false;
+  return true;
 }
 
 /** The form line that printed a block: file and line from 0; null where none did. */

@@ -1,36 +1,21 @@
-// How the page does with the bracket and with many moves: milliseconds to the first picture and verdict, frames, memory, and from a key
-// to a new picture and verdict. Frames are told as a ratio to drawing all lines once with gl.LINES in the same browser, which has no GPU
-// here; the verdict as a ratio to a whole `postform render` of the same job, which proves it too and is run in turn with the keys.
+// How the page does with the bracket and with many moves, in a browser without a GPU: milliseconds to the first picture and verdict,
+// frames while the path is turned, memory, and from a key until the new picture and the new verdict are painted. What is typed changes the
+// program (a blank between the words of each block) or does not (a letter of the form's name). Times are told as ratios to a whole
+// `postform render` of the same job, which proves it too and is run in turn with the keys.
 //
 //   node test/figures.mjs [MOVES..]     0: the bracket
 import { spawnSync } from "node:child_process";
-import { createWriteStream, readFileSync, rmSync } from "node:fs";
-import { once } from "node:events";
+import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { browser, folder, postform, ready, watch } from "./harness.mjs";
+import { browser, folder, manyMoves, postform, ready, watch } from "./harness.mjs";
 
-/** A finishing pass over a wave: short moves, line by line. */
-async function job(path, moves) {
-  const file = createWriteStream(path);
-  const head = { postform: 1, program: 1, units: "mm", tools: [{ number: 1, diameter: 6 }] };
-  file.write(JSON.stringify(head).slice(0, -1));
-  file.write(',"operations":[{"tool":1,"work":54,"spindle":{"speed":8000,"direction":"cw"},"feed":1500,"path":[{"rapid":[0,0,20]}');
-  const side = Math.round(Math.sqrt(moves));
-  for (let i = 0; i < moves; i++) {
-    const row = Math.floor(i / side);
-    const x = ((row % 2 ? side - 1 - (i % side) : i % side) / side) * 200;
-    const y = (row / side) * 200;
-    const z = 5 * Math.sin(x / 15) * Math.cos(y / 20);
-    if (!file.write(`,{"line":[${x.toFixed(3)},${y.toFixed(3)},${z.toFixed(3)}]}`)) await once(file, "drain");
-  }
-  file.end("]}]}");
-  await once(file, "finish");
-}
-
+const median = (times) => times.sort((a, b) => a - b)[times.length >> 1];
 const found = await browser();
 for (const moves of process.argv.length > 2 ? process.argv.slice(2).map(Number) : [0, 100_000, 1_000_000]) {
   const path = folder();
-  if (moves) await job(join(path, "bracket.json"), moves);
+  if (moves) await manyMoves(join(path, "bracket.json"), moves);
+  const form = join(path, "my.pf");
+  writeFileSync(form, readFileSync(form, "utf8").replace("Name Fanuc 0i-M", "Name Fanuc 0i-M\nSpaces? Y"));
   const served = await watch(path);
   const page = await found.newPage({ viewport: { width: 1280, height: 800 } });
   await page.addInitScript(() => {
@@ -48,77 +33,61 @@ for (const moves of process.argv.length > 2 ? process.argv.slice(2).map(Number) 
   await ready(page);
   await page.waitForFunction(() => /^(proven|different|not)/.test(document.querySelector(".verdict").textContent), null, { timeout: 120_000 });
   const verdict = await page.evaluate(() => performance.now());
-  const drawn = await page.evaluate(async () => {
+  // until the frame is painted, as somebody sees it
+  const frames = await page.evaluate(async () => {
     const { backplot } = window.page;
-    const gl = document.querySelector("canvas.path").getContext("webgl2");
-    const pixel = new Uint8Array(4);
-    const time = (draw) => {
-      const began = performance.now();
-      draw();
-      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // until it is drawn
-      return performance.now() - began;
+    const painted = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+    const times = async (count, act) => {
+      const all = [];
+      for (let i = 0; i < count; i++) {
+        await painted();
+        const began = performance.now();
+        act();
+        await painted();
+        all.push(performance.now() - began);
+      }
+      return all.sort((a, b) => a - b)[count >> 1];
     };
-    const middle = (times) => times.sort((a, b) => a - b)[times.length >> 1];
-    const frames = [];
-    for (let i = 0; i < 9; i++) {
-      backplot.camera.orbit(20, 3);
-      frames.push(time(() => backplot.draw()));
-    }
-    const pieces = backplot.frames.pieces;
-    // nearer: all of the detail, little of it in sight
-    backplot.camera.zoom(40, 300, 300);
-    const near = middle([0, 1, 2].map(() => time(() => backplot.draw())));
-    // the same lines drawn once each, by the plainest means
-    const shader = (type, text) => {
-      const made = gl.createShader(type);
-      gl.shaderSource(made, text);
-      gl.compileShader(made);
-      return made;
-    };
-    const program = gl.createProgram();
-    gl.attachShader(program, shader(gl.VERTEX_SHADER, "#version 300 es\nin vec3 a;uniform float s;void main(){gl_Position=vec4(a.xy*s,0,1);}"));
-    gl.attachShader(program, shader(gl.FRAGMENT_SHADER, "#version 300 es\nprecision highp float;out vec4 c;void main(){c=vec4(1);}"));
-    gl.linkProgram(program);
-    const { points } = window.page.program.path;
-    const buffer = gl.createBuffer();
-    gl.bindVertexArray(gl.createVertexArray());
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, points, gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
-    const plain = middle([0, 1, 2].map(() => time(() => {
-      gl.useProgram(program);
-      gl.uniform1f(gl.getUniformLocation(program, "s"), 0.009);
-      gl.drawArrays(gl.LINE_STRIP, 0, points.length / 3);
-    })));
-    return { frame: middle(frames), pieces, near, plain, memory: performance.memory?.usedJSHeapSize / 1e6 };
+    const canvas = document.querySelector("canvas.path");
+    const press = () => canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
+    const nothing = await times(9, () => {});
+    const turning = await times(15, press);
+    const coarse = backplot.frames.pieces;
+    await new Promise((done) => setTimeout(done, 400));
+    const still = await times(3, () => backplot.redraw());
+    return { nothing, turning, coarse, still, fine: backplot.frames.pieces, by: backplot.drawsBy, heap: performance.memory?.usedJSHeapSize / 1e6 };
   });
-  const keys = [];
+  const keys = { changing: [], leaving: [] };
   const commands = [];
-  for (let i = 0; i < (moves > 200_000 ? 5 : 15); i++) {
+  for (let i = 0; i < (moves > 200_000 ? 5 : 11); i++) {
     const began = performance.now();
     const { status } = spawnSync(postform, ["render", "bracket.json", "--form", "my.pf", "-o", "part.nc"], { cwd: path });
     if (status !== 0) throw new Error(`postform render ended with ${status}`);
     commands.push(performance.now() - began);
-    keys.push(await page.evaluate(async () => {
-      const { page } = window;
-      const before = page.times.length;
-      const { view } = page.editor;
-      const at = view.state.doc.toString().indexOf("Name Fanuc") + 10;
-      const began = performance.now();
-      view.dispatch({ changes: { from: at, insert: "x" } });
-      while (page.times.length === before) await new Promise((done) => setTimeout(done, 1));
-      while (page.running || !/^(proven|different|not)/.test(document.querySelector(".verdict").textContent)) await new Promise((done) => setTimeout(done, 1));
-      return [page.times[page.times.length - 1], performance.now() - began];
-    }));
+    for (const [kind, behind, text] of [["changing", "Spaces? ", i % 2 ? "Y" : "N"], ["leaving", "Name Fanuc", "x"]]) {
+      keys[kind].push(await page.evaluate(async ([behind, text]) => {
+        const { page } = window;
+        const { view } = page.editor;
+        const before = page.painted.length;
+        const at = view.state.doc.toString().indexOf(behind) + behind.length;
+        const to = behind === "Spaces? " ? view.state.doc.lineAt(at).to : at;
+        view.dispatch({ changes: { from: at, to, insert: text } });
+        while (page.painted.length === before || !page.painted.at(-1).verdict) await new Promise((done) => setTimeout(done, 5));
+        return page.painted.at(-1);
+      }, [behind, text]));
+      await page.waitForTimeout(300);
+    }
   }
-  const median = (times) => times.sort((a, b) => a - b)[times.length >> 1];
-  const [picture, proven, command] = [keys.map((times) => times[0]), keys.map((times) => times[1]), commands].map(median);
+  const command = median(commands);
   const most = Number(/VmHWM:\s*(\d+)/.exec(readFileSync(`/proc/${served.pid}/status`, "utf8"))?.[1]) / 1000;
+  const told = (times) => {
+    const [picture, verdict] = ["picture", "verdict"].map((of) => median(times.map((time) => time[of])));
+    return `picture ${picture.toFixed(0)} ms, verdict ${verdict.toFixed(0)} ms (${(verdict / command).toFixed(2)} of a render)`;
+  };
   console.log(`${moves ? `${moves} moves` : "the bracket"}: first picture ${first.toFixed(0)} ms, verdict ${verdict.toFixed(0)} ms; ` +
-    `a frame ${drawn.frame.toFixed(1)} ms for ${drawn.pieces} lines (${(drawn.frame / drawn.plain).toFixed(2)} of drawing all lines once, ${drawn.plain.toFixed(1)} ms), ` +
-    `from near ${drawn.near.toFixed(1)} ms; heap ${drawn.memory?.toFixed(0)} MB, postform ${most.toFixed(0)} MB at most; from a key to the picture ${picture.toFixed(0)} ms, ` +
-    `to the verdict ${proven.toFixed(0)} ms (${(proven / command).toFixed(2)} of a whole render, ${command.toFixed(0)} ms)`);
+    `a frame by ${frames.by} while turning ${frames.turning.toFixed(1)} ms (${frames.coarse} lines; a frame without anything ${frames.nothing.toFixed(1)} ms), ` +
+    `at rest ${frames.still.toFixed(1)} ms (${frames.fine} lines); heap ${frames.heap?.toFixed(0)} MB, postform ${most.toFixed(0)} MB at most; ` +
+    `a key that changes the program: ${told(keys.changing)}; one that does not: ${told(keys.leaving)}; a whole render ${command.toFixed(0)} ms`);
   await page.close();
   served.end();
   rmSync(path, { recursive: true });

@@ -1,6 +1,7 @@
 // What the tests of the page share: a browser, `postform watch` in a folder of its own, and a list of tests.
 import { spawn } from "node:child_process";
-import { existsSync, mkdtempSync, copyFileSync, rmSync } from "node:fs";
+import { once } from "node:events";
+import { createWriteStream, existsSync, mkdtempSync, copyFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { delimiter, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -34,6 +35,24 @@ export function folder(form = "postforms/fanuc.pf", job = "samples/bracket/job.j
   return path;
 }
 
+/** A job of many moves: a finishing pass over a wave, short moves line by line. */
+export async function manyMoves(path, moves) {
+  const file = createWriteStream(path);
+  const head = { postform: 1, program: 1, units: "mm", tools: [{ number: 1, diameter: 6 }] };
+  file.write(JSON.stringify(head).slice(0, -1));
+  file.write(',"operations":[{"tool":1,"work":54,"spindle":{"speed":8000,"direction":"cw"},"feed":1500,"path":[{"rapid":[0,0,20]}');
+  const side = Math.round(Math.sqrt(moves));
+  for (let i = 0; i < moves; i++) {
+    const row = Math.floor(i / side);
+    const x = ((row % 2 ? side - 1 - (i % side) : i % side) / side) * 200;
+    const y = (row / side) * 200;
+    const z = 5 * Math.sin(x / 15) * Math.cos(y / 20);
+    if (!file.write(`,{"line":[${x.toFixed(3)},${y.toFixed(3)},${z.toFixed(3)}]}`)) await once(file, "drain");
+  }
+  file.end("]}]}");
+  await once(file, "finish");
+}
+
 /** `postform watch` in a folder: its address, and how it is ended. */
 export async function watch(path, ...more) {
   const child = spawn(postform, ["watch", "my.pf", "--job", "bracket.json", "--no-open", ...more], { cwd: path });
@@ -62,8 +81,9 @@ export async function run() {
     try {
       await run({
         /** A page with the bracket in it, ready. */
-        async open({ form, job, more = [], ...options } = {}) {
+        async open({ form, job, moves, more = [], ...options } = {}) {
           const path = folder(form, job);
+          if (moves) await manyMoves(join(path, "bracket.json"), moves);
           const served = await watch(path, ...more);
           ends.push(() => served.end());
           const context = await found.newContext({ viewport: { width: 1280, height: 800 }, ...options });

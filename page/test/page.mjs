@@ -28,7 +28,6 @@ test("three panes, and what was proven", async ({ open }) => {
   for (const pane of ["Form", "Program", "Path"]) ok(await page.getByRole("region", { name: pane, exact: true }).isVisible(), pane);
   const program = readFileSync(join(root, "samples/bracket/expected.fanuc.nc"), "utf8");
   equal(await page.evaluate(() => window.page.program.all()), program, "byte for byte as render prints it");
-  ok(await page.evaluate(() => window.page.backplot.drawsBy === "WebGL2"), "drawn by WebGL2");
 });
 
 test("a wrong word is underlined and said", async ({ open }) => {
@@ -157,6 +156,22 @@ test("the first difference is shown in all panes", async ({ open }) => {
   ok(/PV\d+/.test(await page.locator(".note").innerText()), await page.locator(".note").innerText());
 });
 
+test("what could stand here is listed, with what it holds, and what a word is", async ({ open }) => {
+  const { page } = await open();
+  await type(page, "R[vclear] P[dwell] F[frate]", " R[vcl");
+  const list = page.locator(".cm-tooltip-autocomplete");
+  await list.waitFor();
+  ok(/vclear.*0\.1/s.test(await list.locator("[aria-selected]").innerText()), await list.innerText());
+  await page.keyboard.press("Enter");
+  ok((await page.evaluate(() => window.page.editor.text)).includes("F[frate] R[vclear]"), "taken over whole");
+  await page.keyboard.press("Control+z");
+  await page.keyboard.press("Escape");
+  await page.locator(".cm-line", { hasText: "G81 X[h]" }).first().locator("span", { hasText: "[retplane]" }).hover();
+  const known = page.locator(".cm-tooltip .known");
+  await known.waitFor();
+  ok((await known.innerText()).includes("retplane"), await known.innerText());
+});
+
 test("against an old program", async ({ open }) => {
   const path = join(root, "samples/bracket/expected.haas.nc");
   const { page } = await open({ more: ["--against", path] });
@@ -225,25 +240,64 @@ test("everything has a name for a screen reader", async ({ open }) => {
   ok((await page.getByRole("textbox", { name: "Form" }).count()) === 1, "the form is a field with a name");
 });
 
-test("a browser without WebGL2 draws on a plain canvas", async ({ browser, open }) => {
+test("WebGL2 and a plain canvas draw the same", async ({ browser, open }) => {
   const { address } = await open();
-  const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
-  await page.addInitScript(() => {
-    const get = HTMLCanvasElement.prototype.getContext;
-    HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
-      return kind === "webgl2" ? null : get.call(this, kind, ...more);
+  // a browser without a GPU has a WebGL2 by software, which is slower than a plain canvas, and is only asked for here
+  const draws = async (by) => {
+    const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+    await page.addInitScript((by) => {
+      const get = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, options) {
+        if (kind !== "webgl2") return get.call(this, kind, options);
+        return by === "WebGL2" ? get.call(this, kind, { ...options, preserveDrawingBuffer: true }) : null;
+      };
+      const name = WebGL2RenderingContext.prototype.getParameter;
+      WebGL2RenderingContext.prototype.getParameter = function (of) {
+        return of === 0x9246 || of === 0x1f01 ? "a GPU" : name.call(this, of);
+      };
+    }, by);
+    await page.goto(address);
+    await ready(page);
+    equal(await page.evaluate(() => window.page.backplot.drawsBy), by);
+    const inked = await page.evaluate(() => {
+      const from = document.querySelector("canvas.path");
+      const to = Object.assign(document.createElement("canvas"), { width: from.width, height: from.height }).getContext("2d");
+      to.drawImage(from, 0, 0);
+      const { data } = to.getImageData(0, 0, from.width, from.height);
+      const cells = new Set();
+      for (let i = 3; i < data.length; i += 4) {
+        if (data[i] > 60) cells.add(`${Math.floor(((i >> 2) % from.width) / 8)} ${Math.floor((i >> 2) / from.width / 8)}`);
+      }
+      return [...cells];
+    });
+    await page.close();
+    return new Set(inked);
+  };
+  const [gl, plain] = [await draws("WebGL2"), await draws("canvas")];
+  const both = [...gl].filter((cell) => plain.has(cell)).length;
+  ok(both > 100 && both > 0.9 * Math.max(gl.size, plain.size), `${gl.size} and ${plain.size} cells with ink, ${both} of them the same`);
+});
+
+test("of a long path a coarse picture is drawn while it is turned, and a fine one at rest", async ({ open }) => {
+  const { page } = await open({ moves: 60_000 });
+  await page.waitForFunction(() => window.page.backplot.frames.pieces > 50_000);
+  await page.evaluate(() => {
+    const { backplot } = window.page;
+    const draw = backplot.draw.bind(backplot);
+    window.least = Infinity;
+    backplot.draw = () => {
+      draw();
+      window.least = Math.min(window.least, backplot.frames.pieces);
     };
   });
-  await page.goto(address);
-  await ready(page);
-  equal(await page.evaluate(() => window.page.backplot.drawsBy), "canvas");
-  const painted = await page.evaluate(() => {
-    const canvas = document.querySelector("canvas.path");
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    return data.filter((value, i) => i % 4 === 3 && value > 0).length;
-  });
-  ok(painted > 1000, `${painted} pixels`);
-  await page.close();
+  const box = await page.locator("canvas.path").boundingBox();
+  await page.mouse.move(box.x + 200, box.y + 200);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 260, box.y + 220, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForFunction(() => window.least < 26_000);
+  await page.waitForFunction(() => window.page.backplot.frames.pieces > 50_000);
+  ok((await page.locator(".verdict").innerText()).startsWith("proven"), "the verdict came behind the picture");
 });
 
 await run();

@@ -58,10 +58,10 @@ const times = [];
 for (let i = 0; i < 9; i++) {
   times.push(await page.evaluate(async () => {
     const { view } = window.page.editor;
-    const before = window.page.times.length;
+    const before = window.page.painted.length;
     view.dispatch({ changes: { from: view.state.doc.toString().indexOf("Name ") + 5, insert: "x" } });
-    while (window.page.times.length === before) await new Promise((done) => setTimeout(done, 1));
-    return window.page.times.at(-1);
+    while (window.page.painted.length === before) await new Promise((done) => setTimeout(done, 1));
+    return window.page.painted.at(-1).verdict;
   }));
 }
 await page.evaluate(() => {

@@ -62,7 +62,14 @@ pub struct Ready {
 /// # Errors
 /// All errors and warnings, where one of them is an error: of the form itself, or because these levels say so.
 pub fn ready(checked: &Checked, levels: &Levels) -> Result<Ready, Vec<Diag>> {
-    let mut diags = lint(checked, levels).diags;
+    ready_of(checked, lint(checked, levels).diags)
+}
+
+/// The same with what lint found.
+///
+/// # Errors
+/// As [`ready`].
+pub fn ready_of(checked: &Checked, mut diags: Vec<Diag>) -> Result<Ready, Vec<Diag>> {
     diags.retain(|diag| diag.severity > Severity::Note);
     match diags.iter().any(Diag::is_error) {
         true => Err(diags),

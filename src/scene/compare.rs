@@ -5,7 +5,7 @@ use std::io::Cursor;
 use serde_json::{Value, json};
 
 use super::pack::Scene;
-use super::{Request, made, program};
+use super::program;
 use crate::diag::escaped;
 use crate::diff::{Comparison, Options, Program, compare};
 use crate::nc::RunSettings;
@@ -14,25 +14,27 @@ use crate::picture::draw;
 /// Hunks that are shown.
 const MOST: usize = 10_000;
 
-/// A program of before: its text, its path, and which lines changed.
-pub fn against(scene: &mut Scene, name: &str, old: &[u8], new: &str, settings: RunSettings, options: &Options) {
-    let Some(found) = compared(old, new, options) else { return };
+/// A program of before: its text and its path.
+pub fn draw_old(scene: &mut Scene, old: &[u8], settings: RunSettings) {
     program::text(scene, "old/", old);
     if let Ok(picture) = draw(Cursor::new(old), settings) {
         program::picture(scene, "old/", &picture);
     }
-    let mut value = hunks(&found);
-    value["name"] = json!(escaped(name));
-    scene.say("against", value);
 }
 
-/// What the form as saved prints, beside what it prints now.
-pub fn saved(scene: &mut Scene, mut saved: Request<'_>, new: &str, options: &Options) {
-    let Ok(before) = made(&mut saved) else {
-        return scene.say("saved", json!({ "stopped": true, "hunks": [], "blocks": 0 }));
-    };
-    let Some(found) = compared(before.program.text().as_bytes(), new, options) else { return };
-    scene.say("saved", hunks(&found));
+/// Which lines are others than in a program of before.
+pub fn against(name: &str, old: &[u8], new: &str, options: &Options) -> Option<Value> {
+    let mut value = hunks(&compared(old, new, options)?);
+    value["name"] = json!(escaped(name));
+    Some(value)
+}
+
+/// Which lines are others than when the form was saved; it may have printed nothing then.
+pub fn saved(before: Option<&str>, new: &str, options: &Options) -> Option<Value> {
+    match before {
+        Some(before) => Some(hunks(&compared(before.as_bytes(), new, options)?)),
+        None => Some(json!({ "stopped": true, "hunks": [], "blocks": 0 })),
+    }
 }
 
 fn compared(old: &[u8], new: &str, options: &Options) -> Option<Comparison> {

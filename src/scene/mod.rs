@@ -6,21 +6,23 @@
 
 mod compare;
 mod form;
+mod help;
 mod pack;
 mod program;
 mod verdict;
 
+pub use help::{Ask, At, help};
 pub use pack::Scene;
 
 use std::io::Cursor;
 
 use serde_json::{Value, json};
 
-use crate::diag::{Diag, escaped};
-use crate::diff::{self, Deadline};
+use crate::diag::{Findings, escaped};
+use crate::diff;
 use crate::error::{Error, ErrorKind};
 use crate::job::Job;
-use crate::lint::{Levels, lint};
+use crate::lint::{Levels, lint, ready_of};
 use crate::nc::RunSettings;
 use crate::picture::{Picture, draw};
 use crate::post::{Files, Options, Post, Program, Proof};
@@ -46,33 +48,40 @@ pub struct Request<'a> {
     pub options: Options,
     /// How the program is run.
     pub proof: Proof,
-    /// Another program of the job, with its name: it is shown under the new one.
-    pub against: Option<(&'a str, &'a [u8])>,
-    /// The form as it was saved and those that it calls, where they are others: its program is compared with the new one.
-    pub saved: Option<(Source, &'a dyn Files)>,
-    /// Is the program proven, too?
-    pub proves: bool,
-    /// How long programs are compared for the shortest answer; without it as long as it takes.
-    pub deadline: Option<Deadline>,
 }
 
-/// A form, what it prints for a job, what that does, and whether it is what the job asks for.
+/// A form, and what it prints for a job. What that does, whether it is what the job asks for and what changed are said by what was
+/// printed: drawing, proving and comparing may go on side by side.
 ///
 /// What is wrong is in the scene: a form with errors has findings and no program.
-pub fn scene(mut request: Request<'_>) -> Scene {
-    let checked = analyse(request.form.clone(), request.limits, &mut |name| request.files.read(name));
-    let found = lint(&checked, request.levels);
+pub fn scene(request: Request<'_>) -> (Scene, Option<Printed>) {
     let mut scene = Scene::new();
-    scene.say("form", form::form(&checked.files, &found.diags, found.suppressed));
     scene.say("job", json!({ "name": escaped(request.job_name) }));
-    match made(&mut request) {
-        Ok(made) => show(&mut scene, &mut request, &made),
-        Err(Wrong { what, message, diags, files }) => {
-            let errors: Vec<Value> = diags.iter().map(|diag| form::finding(diag, &files)).collect();
-            scene.say("stopped", json!({ "by": what, "message": message, "findings": errors }));
+    let checked = analyse(request.form, request.limits, &mut |name| request.files.read(name));
+    let found = lint(&checked, request.levels);
+    scene.say("form", form::form(&checked.files, &found.diags, found.suppressed));
+    let post = match ready_of(&checked, found.diags) {
+        Ok(ready) => Post::of(ready.program, ready.warnings, &checked.files),
+        Err(diags) => {
+            let findings = Findings { diags, files: checked.files, suppressed: 0 };
+            stopped(&mut scene, Error::form(findings), &[]);
+            return (scene, None);
+        }
+    };
+    match Printed::new(&post, request.job, &request.options, request.proof) {
+        Ok(printed) => {
+            let text = printed.text();
+            program::text(&mut scene, "", text.as_bytes());
+            program::origins(&mut scene, printed.program.trace(), post.files(), text);
+            let notes = printed.program.notes().iter().map(|diag| form::finding(diag, post.files()));
+            scene.say("notes", json!(notes.collect::<Vec<Value>>()));
+            (scene, Some(printed))
+        }
+        Err(error) => {
+            stopped(&mut scene, error, post.files());
+            (scene, None)
         }
     }
-    scene
 }
 
 /// A program that is there, and what it does.
@@ -84,54 +93,74 @@ pub fn of_program(name: &str, text: &[u8], picture: &Picture) -> Scene {
     scene
 }
 
+/// Something that is said behind a scene, of what is in it.
+pub fn behind(name: &str, value: Value) -> Scene {
+    let mut scene = Scene::new();
+    scene.say(name, value);
+    scene
+}
+
 /// What a form makes of a job.
-struct Made {
+pub struct Printed {
     post: Post,
     program: Program,
+    options: Options,
+    proof: Proof,
     settings: RunSettings,
-    picture: Picture,
 }
 
-/// Why there is no program.
-struct Wrong {
-    /// `form`, `job` or `input`.
-    what: &'static str,
-    /// All of it in a line.
-    message: String,
-    diags: Vec<Diag>,
-    files: Vec<Source>,
-}
-
-impl From<Error> for Wrong {
-    fn from(error: Error) -> Wrong {
-        let what = match error.kind() {
-            ErrorKind::Form => "form",
-            ErrorKind::Job | ErrorKind::Fault => "job",
-            _ => "input",
+impl Printed {
+    fn new(post: &Post, mut job: Job<'_>, options: &Options, proof: Proof) -> Result<Printed, Error> {
+        let options = answered(post, options);
+        let program = post.render(job.again(), &options)?;
+        let units = match options.units {
+            Some(units) => units,
+            None => job.units()?.unwrap_or(Units::Mm),
         };
-        let message = error.to_string();
-        let findings = error.into_findings();
-        let mut diags = findings.diags;
-        diags.retain(Diag::is_error);
-        Wrong { what, message, diags, files: findings.files }
+        let settings = post.run_settings(&proof, units);
+        Ok(Printed { post: post.clone(), program, options, proof, settings })
+    }
+
+    /// The program.
+    pub fn text(&self) -> &str {
+        self.program.text()
+    }
+
+    /// Says what the program does.
+    pub fn draw(&self, scene: &mut Scene) {
+        match draw(Cursor::new(self.text()), self.settings) {
+            Ok(picture) => program::picture(scene, "", &picture),
+            Err(error) => stopped(scene, Error::from(error), self.post.files()),
+        }
+    }
+
+    /// Whether the program does what its job asks for: what the page shows of it.
+    pub fn verdict(&self, job: Job<'_>) -> Value {
+        let proven = self.post.verify_with(job, Cursor::new(self.text()), &self.options, &self.proof);
+        verdict::verdict(proven, self.program.trace(), self.post.files())
+    }
+
+    /// Says what another program of the job does.
+    pub fn draw_old(&self, scene: &mut Scene, old: &[u8]) {
+        compare::draw_old(scene, old, self.settings);
+    }
+
+    /// Which blocks are others than in that program: what the page shows of it. `None`: one of them is too long to compare.
+    pub fn against(&self, name: &str, old: &[u8], options: &diff::Options) -> Option<Value> {
+        compare::against(name, old, self.text(), options)
+    }
+
+    /// Which blocks are others than those that the form printed as it was saved; before is `None`: it printed none.
+    pub fn since_saved(&self, before: Option<&str>, options: &diff::Options) -> Option<Value> {
+        compare::saved(before, self.text(), options)
     }
 }
 
-fn made(request: &mut Request<'_>) -> Result<Made, Wrong> {
-    let post = Post::compile_with(request.form.clone(), request.files, request.limits, request.levels)?;
-    let options = answered(&post, &request.options);
-    let program = post.render(request.job.again(), &options).map_err(|error| {
-        let mut wrong = Wrong::from(error);
-        wrong.files = post.files().to_vec();
-        wrong
-    })?;
-    let units = match options.units {
-        Some(units) => units,
-        None => request.job.units()?.unwrap_or(Units::Mm),
-    };
-    let settings = post.run_settings(&request.proof, units);
-    let picture = draw(Cursor::new(program.text()), settings).map_err(Error::from)?;
-    Ok(Made { post, program, settings, picture })
+/// The program that a form prints for a job as the page asks for it; `None`: it can't be printed, and why is told where it is shown.
+pub fn program_of(request: Request<'_>) -> Option<String> {
+    let post = Post::compile_with(request.form, request.files, request.limits, request.levels).ok()?;
+    let options = Options { trace: false, ..answered(&post, &request.options) };
+    Some(post.render(request.job, &options).ok()?.into_text())
 }
 
 /// With the source map, and with an answer to each question that nobody answered.
@@ -146,37 +175,16 @@ fn answered(post: &Post, options: &Options) -> Options {
     options
 }
 
-fn show(scene: &mut Scene, request: &mut Request<'_>, made: &Made) {
-    let text = made.program.text();
-    program::text(scene, "", text.as_bytes());
-    program::origins(scene, made.program.trace(), made.post.files(), text);
-    program::picture(scene, "", &made.picture);
-    let notes: Vec<Value> = made.program.notes().iter().map(|diag| form::finding(diag, made.post.files())).collect();
-    scene.say("notes", json!(notes));
-    if request.proves {
-        let options = answered(&made.post, &request.options);
-        let proven = made.post.verify_with(request.job.again(), Cursor::new(text), &options, &request.proof);
-        scene.say("verdict", verdict::verdict(proven, made.program.trace(), made.post.files()));
-    }
-    let options = diff::Options { deadline: request.deadline, ..diff::Options::default() };
-    if let Some((name, old)) = request.against {
-        compare::against(scene, name, old, text, made.settings, &options);
-    }
-    if let Some((form, files)) = request.saved.take() {
-        let saved = Request {
-            form,
-            files,
-            limits: request.limits,
-            levels: request.levels,
-            job: request.job.again(),
-            job_name: request.job_name,
-            options: request.options.clone(),
-            proof: request.proof.clone(),
-            against: None,
-            saved: None,
-            proves: false,
-            deadline: None,
-        };
-        compare::saved(scene, saved, text, &options);
-    }
+/// Why there is no program, or no picture of it: `form`, `job` or `input`, all of it in a line, and the errors.
+fn stopped(scene: &mut Scene, error: Error, files: &[Source]) {
+    let by = match error.kind() {
+        ErrorKind::Form => "form",
+        ErrorKind::Job | ErrorKind::Fault => "job",
+        _ => "input",
+    };
+    let message = error.to_string();
+    let findings = error.into_findings();
+    let files = if files.is_empty() { &findings.files } else { files };
+    let errors = findings.diags.iter().filter(|diag| diag.is_error()).map(|diag| form::finding(diag, files));
+    scene.say("stopped", json!({ "by": by, "message": message, "findings": errors.collect::<Vec<Value>>() }));
 }

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 /// The first bytes of a scene.
-const MAGIC: &[u8; 4] = b"PFS1";
+const MAGIC: &[u8; 4] = b"PFS2";
 
 /// What the page shows, as it is packed.
 #[derive(Clone, Debug, Default)]
@@ -46,15 +46,16 @@ impl Scene {
         self.body.extend_from_slice(bytes);
     }
 
-    /// All of it: `PFS1`, the length of the head, the head, blanks up to a multiple of eight, the sections. Numbers begin with their
-    /// least byte. Places of sections count from the first.
+    /// All of it: `PFS2`, the lengths of the head and of the sections, the head, blanks up to a multiple of eight, the sections.
+    /// Numbers begin with their least byte. Places of sections count from the first. Several may stand one behind the other.
     pub fn into_bytes(mut self) -> Vec<u8> {
         self.head.insert("sections".to_owned(), Value::Object(self.sections));
         let mut head = Value::Object(self.head).to_string().into_bytes();
-        head.resize((head.len() + 8).next_multiple_of(8) - 8, b' ');
-        let mut out = Vec::with_capacity(8 + head.len() + self.body.len());
+        head.resize(head.len().next_multiple_of(8), b' ');
+        let mut out = Vec::with_capacity(16 + head.len() + self.body.len());
         out.extend_from_slice(MAGIC);
         out.extend_from_slice(&(head.len() as u32).to_le_bytes());
+        out.extend_from_slice(&(self.body.len() as u64).to_le_bytes());
         out.append(&mut head);
         out.append(&mut self.body);
         out

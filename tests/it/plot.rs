@@ -184,7 +184,7 @@ fn a_page_stands_alone() {
     let page = folder.read("part.html");
     let scene = page.split("id=\"scene\">").nth(1).unwrap().split('<').next().unwrap();
     let bytes = BASE64_STANDARD.decode(scene).unwrap();
-    assert!(bytes.starts_with(b"PFS1"));
+    assert!(bytes.starts_with(b"PFS2"));
     let text = fs::read(root().join(program)).unwrap();
     assert!(bytes.windows(text.len()).any(|part| part == text), "the program is in it");
     assert!(page.contains("connect-src 'none'") && page.len() < 100_000, "{} bytes", page.len());

@@ -78,7 +78,7 @@ impl Watch {
     }
 
     fn scene(&self, texts: &Value) -> (Value, Vec<u8>) {
-        let answer = self.post("scene", &json!({ "job": 0, "texts": texts, "proves": true }));
+        let answer = self.post("scene", &json!({ "job": 0, "texts": texts }));
         assert_eq!(answer.status, 200, "{}", String::from_utf8_lossy(&answer.body));
         unpacked(&answer.body)
     }
@@ -86,9 +86,23 @@ impl Watch {
 
 /// The head of a scene, and its sections.
 fn unpacked(bytes: &[u8]) -> (Value, Vec<u8>) {
-    assert_eq!(&bytes[..4], b"PFS1");
-    let length = u32::from_le_bytes(bytes[4..8].try_into().unwrap()) as usize;
-    (serde_json::from_slice(&bytes[8..8 + length]).unwrap(), bytes[8 + length..].to_vec())
+    let mut scenes = scenes(bytes);
+    assert_eq!(scenes.len(), 1, "the verdict on a small program comes with it");
+    scenes.remove(0)
+}
+
+/// The heads and sections of scenes that stand one behind the other.
+fn scenes(mut bytes: &[u8]) -> Vec<(Value, Vec<u8>)> {
+    let mut found = Vec::new();
+    while !bytes.is_empty() {
+        assert_eq!(&bytes[..4], b"PFS2");
+        let head = u32::from_le_bytes(bytes[4..8].try_into().unwrap()) as usize;
+        let body = u64::from_le_bytes(bytes[8..16].try_into().unwrap()) as usize;
+        let (this, behind) = bytes[16..].split_at(head + body);
+        found.push((serde_json::from_slice(&this[..head]).unwrap(), this[head..].to_vec()));
+        bytes = behind;
+    }
+    found
 }
 
 fn section<'a>(head: &Value, body: &'a [u8], name: &str) -> &'a [u8] {
@@ -197,6 +211,7 @@ fn who_is_refused() {
         ("a way up", format!("GET /{token}/../my.pf HTTP/1.1\r\nHost: {host}\r\n\r\n"), 404),
         ("a way up, hidden", format!("GET /{token}/%2e%2e/%2e%2e/etc/passwd HTTP/1.1\r\nHost: {host}\r\n\r\n"), 404),
         ("another method", format!("DELETE /{token}/ HTTP/1.1\r\nHost: {host}\r\n\r\n"), 405),
+        ("help without a question", format!("GET /{token}/help HTTP/1.1\r\nHost: {host}\r\n\r\n"), 405),
         ("a scene without a question", format!("GET /{token}/scene HTTP/1.1\r\nHost: {host}\r\n\r\n"), 405),
         (
             "what a browser asks first",
@@ -348,6 +363,79 @@ fn what_is_typed_is_shown_and_not_written() {
     // a name that is none of the form's is nobody's
     let (head, _) = watch.scene(&json!({ "/etc/passwd": "Name x" }));
     assert_eq!(head["verdict"]["kind"], "proven");
+}
+
+/// A long program is shown before it is proven.
+#[test]
+fn a_long_program_is_shown_before_it_is_proven() {
+    let folder = bracket("watch-long");
+    let moves: String = (0..20_000).map(|i| format!(r#",{{"line":[{},{},-1]}}"#, f64::from(i) / 8.0, i % 7)).collect();
+    // in the order in which jobs are read
+    folder.write(
+        "job.json",
+        format!(
+            r#"{{"postform":1,"program":1,"units":"mm","tools":[{{"number":1,"diameter":6}}],"operations":[{{"tool":1,"work":54,
+            "spindle":{{"speed":8000,"direction":"cw"}},"feed":1500,"path":[{{"rapid":[0,0,20]}}{moves}]}}]}}"#
+        ),
+    );
+    let watch = Watch::new(&folder, &[]);
+    let form = folder.read("my.pf");
+    for texts in [json!({}), json!({ "my.pf": form.replace("Name Fanuc 0i-M", "Name Mine") })] {
+        let scenes = scenes(&watch.post("scene", &json!({ "job": 0, "texts": texts })).body);
+        let (head, body) = &scenes[0];
+        assert!(section(head, body, "text").len() > 256 << 10 && !head["picture"].is_null());
+        let changed = scenes.iter().find_map(|(head, _)| head["saved"]["blocks"].as_u64());
+        assert_eq!(changed, texts.get("my.pf").map(|_| 0));
+        // what was there with the picture comes with it
+        let said = scenes.iter().map(|(head, _)| &head["verdict"]).filter(|verdict| !verdict.is_null());
+        let verdict = said.last().unwrap_or(&Value::Null);
+        assert_eq!(verdict["kind"], "proven", "{verdict}");
+    }
+}
+
+/// What was typed is compared with the form as it is on the disk now, not as it was when the page was opened.
+#[test]
+fn the_last_save_may_be_somebody_elses() {
+    let folder = bracket("watch-saved");
+    let form = folder.read("my.pf");
+    let watch = Watch::new(&folder, &[]);
+    let typed = json!({ "my.pf": form.replace("Name Fanuc 0i-M", "Name Mine") });
+    let blocks = || watch.scene(&typed).0["saved"]["blocks"].clone();
+    watch.scene(&json!({}));
+    assert_eq!(blocks(), 0, "a name is not printed");
+    folder.write("my.pf", form.replace("G40 G49 G80 G90", "G40 G49 G80 G90 G94"));
+    let until = Instant::now() + Duration::from_secs(30);
+    while blocks() != 1 {
+        assert!(Instant::now() < until, "one block has another word");
+        sleep(Duration::from_millis(50));
+    }
+}
+
+/// What could stand at a place, with values of the job though the word is half typed, and what a word is.
+#[test]
+fn words_are_completed_and_explained() {
+    let folder = bracket("watch-help");
+    let watch = Watch::new(&folder, &[]);
+    let form = folder.read("my.pf");
+    let line = form.lines().position(|line| line.contains("G81")).unwrap();
+    let ask = |texts: &Value, at: &Value| {
+        let answer = watch.post("help", &json!({ "job": 0, "texts": texts, "at": at }));
+        assert_eq!(answer.status, 200, "{}", String::from_utf8_lossy(&answer.body));
+        serde_json::from_slice::<Value>(&answer.body).unwrap()
+    };
+    let old = form.lines().nth(line).unwrap();
+    let begun = format!("{old} R[vcl");
+    let texts = json!({ "my.pf": form.replacen(old, &begun, 1) });
+    let at = |column: usize, ask: &str| json!({ "file": "my.pf", "line": line, "column": column, "ask": ask });
+    let found = ask(&texts, &at(begun.len(), "complete"));
+    let vclear = found["list"].as_array().unwrap().iter().find(|found| found["label"] == "vclear").unwrap();
+    assert_eq!(vclear["kind"], "variable");
+    let detail = vclear["detail"].as_str().unwrap();
+    assert!(detail.contains("0.1") && detail.contains("job"), "what it holds in the job: {detail}");
+    assert!(vclear["info"].as_str().unwrap().contains("clearance plane"));
+    let hover = ask(&json!({}), &at(old.find("[retplane]").unwrap() + 2, "hover"));
+    assert!(hover["text"].as_str().unwrap().contains("retplane"), "{hover}");
+    assert_eq!(ask(&json!({}), &json!({ "file": "other.pf", "line": 0, "column": 0, "ask": "hover" })), Value::Null);
 }
 
 /// A wrong job and a form with errors are told, with what was found.

@@ -1,5 +1,5 @@
 // Lines by WebGL2: a piece is two triangles, whose corners the shader makes of points and kinds that it fetches from textures.
-// Instances would say it shorter, but where there is no GPU each instance is drawn by itself, and 100,000 take most of a minute.
+// Instances would say it shorter, but many drivers draw small ones slowly, one by one.
 
 import type { Camera } from "./camera.ts";
 import { type Colours, TOOLS } from "./colours.ts";
@@ -62,6 +62,7 @@ void main() {
 
 export class GlPainter implements Painter {
   readonly name = "WebGL2";
+  readonly most = { still: Infinity, moving: 1_500_000 };
   private readonly program: WebGLProgram;
   private readonly at: Record<string, WebGLUniformLocation | null> = {};
   private readonly kept = new Map<Level, WebGLTexture[]>();
@@ -77,9 +78,13 @@ export class GlPainter implements Painter {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  /** Null where the browser has none. */
+  /** Null where the browser has none, or none that is faster than a plain canvas. */
   static on(canvas: HTMLCanvasElement): GlPainter | null {
-    const gl = canvas.getContext("webgl2", { antialias: true, alpha: true, premultipliedAlpha: true });
+    // asked of a canvas of its own: one that was asked for WebGL2 draws by nothing else
+    const options: WebGLContextAttributes = { antialias: true, alpha: true, premultipliedAlpha: true, failIfMajorPerformanceCaveat: true };
+    const tried = document.createElement("canvas").getContext("webgl2", options) as WebGL2RenderingContext | null;
+    if (!tried || isSoftware(tried)) return null;
+    const gl = canvas.getContext("webgl2", options) as WebGL2RenderingContext | null;
     return gl && new GlPainter(gl);
   }
 
@@ -151,6 +156,14 @@ export class GlPainter implements Painter {
     this.bound = null;
     return kept;
   }
+}
+
+/** Browsers have names for what draws without a GPU. */
+function isSoftware(gl: WebGL2RenderingContext): boolean {
+  const named = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = String(gl.getParameter(named?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER));
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
 function link(gl: WebGL2RenderingContext): WebGLProgram {

@@ -4,9 +4,12 @@ import type { Path } from "../scene.ts";
 
 /** Pieces that are looked at together when it is asked what is in sight. */
 const CHUNK = 4096;
-/** Errors of the levels, of the size of the path; the last level is all of it. */
-const ERRORS = [1 / 1500, 1 / 8000];
-/** A path of fewer pieces is drawn whole. */
+/** Error of the finest level that leaves points out, of the size of the path; each coarser one has so many times more. */
+const FINEST = 1 / 8000;
+const COARSER = 3;
+/** Errors above this one show. */
+const COARSEST = 1 / 30;
+/** A path of fewer pieces has no coarser level. */
 const FEW = 20000;
 
 export interface Level {
@@ -36,14 +39,22 @@ export function levels(path: Path): Level[] {
     }
   }
   const whole: Level = { error: 0, points: path.points, kinds, pieces: null, boxes: boxes(path.points) };
-  if (path.pieces < FEW) return [whole];
-  return [...ERRORS.map((error) => coarser(whole, error * path.size)), whole];
+  const all = [whole];
+  for (let error = FINEST; count(all[0]) > FEW && error < COARSEST; error *= COARSER) {
+    const next = coarser(all[0], error * path.size);
+    // each is made of the one before: their errors add up
+    next.error += all[0].error;
+    // what leaves out next to nothing is not worth its room
+    if (count(next) < 0.8 * count(all[0])) all.unshift(next);
+  }
+  return all;
 }
 
 /** Leaves out points that are nearer to the last that was kept than `error`; where the kind or the tool changes, it is kept. */
 function coarser(level: Level, error: number): Level {
   const { points, kinds } = level;
   const total = count(level);
+  const ofWhole = (piece: number) => level.pieces?.[piece] ?? piece;
   const kept = new Uint32Array(total);
   let [number, x, y, z] = [0, points[0], points[1], points[2]];
   for (let piece = 0; piece < total; piece++) {
@@ -63,6 +74,7 @@ function coarser(level: Level, error: number): Level {
     const piece = pieces[i];
     fewer.set(points.subarray((piece + 1) * 3, (piece + 2) * 3), (i + 1) * 3);
     fewerKinds.set(kinds.subarray(piece * 4, piece * 4 + 4), i * 4);
+    pieces[i] = ofWhole(piece);
   }
   return { error, points: fewer, kinds: fewerKinds, pieces, boxes: boxes(fewer) };
 }
@@ -90,6 +102,16 @@ export function fitting(levels: Level[], scale: number): Level {
   return levels.find((level) => level.error * scale < 0.8) ?? levels[levels.length - 1];
 }
 
+export type Sees = (box: Float32Array, at: number) => boolean;
+
+/** The same, of what is in sight at most so many pieces: then a coarser one. */
+export function drawable(levels: Level[], scale: number, sees: Sees, most: number): [Level, [number, number][]] {
+  for (let at = levels.indexOf(fitting(levels, scale)); ; at--) {
+    const runs = inSight(levels[at], sees);
+    if (at === 0 || runs.reduce((sum, [from, to]) => sum + to - from, 0) <= most) return [levels[at], runs];
+  }
+}
+
 /** How many pieces of a level come up to a piece of the path. */
 export function upTo(level: Level, piece: number): number {
   if (!level.pieces) return Math.min(piece, count(level));
@@ -103,7 +125,7 @@ export function upTo(level: Level, piece: number): number {
 }
 
 /** Runs of pieces that may be in sight: first, and behind the last. */
-export function inSight(level: Level, sees: (box: Float32Array, at: number) => boolean): [number, number][] {
+export function inSight(level: Level, sees: Sees): [number, number][] {
   const runs: [number, number][] = [];
   const total = count(level);
   for (let box = 0; box * CHUNK < total; box++) {

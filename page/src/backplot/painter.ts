@@ -1,4 +1,4 @@
-// What draws lines: by WebGL2 where there is one, else on a plain canvas.
+// What draws lines: by WebGL2 where there is a GPU, else on a plain canvas.
 
 import type { Camera } from "./camera.ts";
 import type { Colour, Colours } from "./colours.ts";
@@ -19,6 +19,8 @@ export interface Stroke {
 
 export interface Painter {
   readonly name: string;
+  /** How many lines it draws while nobody waits, and how many while the path is turned. */
+  readonly most: { still: number; moving: number };
   begin(camera: Camera, colours: Colours, ratio: number): void;
   stroke(stroke: Stroke): void;
   /** Levels that are drawn no more. */

@@ -1,16 +1,19 @@
 // The backplot: the path of a program, the old one under it, what is chosen, and a pointer to choose with.
 
 import type { Program } from "../program.ts";
+import { Path } from "../scene.ts";
 import { element } from "../element.ts";
 import { Camera, VIEWS } from "./camera.ts";
 import { type Colours, colours, css, ofTool } from "./colours.ts";
 import { GlPainter } from "./gl.ts";
-import { count, fitting, inSight, type Level, levels, upTo } from "./levels.ts";
+import { count, drawable, fitting, type Level, levels, upTo } from "./levels.ts";
 import type { Painter } from "./painter.ts";
 import { overlaps, pick } from "./pick.ts";
 import { PlainPainter } from "./plain.ts";
 
 const REACH = 8;
+/** Milliseconds after which a path that was turned is drawn in full. */
+const REST = 150;
 
 export class Backplot {
   readonly root: HTMLElement;
@@ -25,12 +28,15 @@ export class Backplot {
   private program: Program | null = null;
   private levels: Level[] = [];
   private old: Level[] = [];
+  private oldPath: Path | null = null;
   private line = 0;
   private lit: number[] = [];
   private bad: number[] = [];
   private drawnTo = Infinity;
   private asked = 0;
   private fits = true;
+  /** It is being turned: a coarse picture now is better than a fine one late. */
+  private moving = 0;
   /** Frames so far, and the time of the last: for measurements. */
   readonly frames = { count: 0, last: 0, pieces: 0 };
   onPick: (line: number) => void = () => {};
@@ -70,13 +76,17 @@ export class Backplot {
   /** Another program; `old`: what is drawn under it. */
   show(program: Program | null, old: Program | null, differences: number[]): void {
     const before = this.program?.path;
-    this.painter.forget([...this.levels, ...this.old]);
-    this.program = program;
-    this.levels = program?.path ? levels(program.path) : [];
-    this.old = old?.path ? levels(shifted(old, program)) : [];
-    this.bad = differences;
     const path = program?.path;
+    this.program = program;
+    this.bad = differences;
+    if (path && path === before && (old?.path ?? null) === this.oldPath) return this.redraw();
+    this.painter.forget([...this.levels, ...this.old]);
+    if (path !== before) this.levels = path ? levels(path) : [];
+    this.old = old?.path ? levels(shifted(old.path, program)) : [];
+    this.oldPath = old?.path ?? null;
     if (path) {
+      // the first picture of a long path is a coarse one, too
+      if (path.pieces > this.painter.most.moving) this.moves();
       const [least, greatest] = path.head.extents;
       this.extents.textContent = ["X", "Y", "Z"].map((axis, i) => `${axis} ${short(least[i])}…${short(greatest[i])}`).join(" ") + ` ${path.head.units}`;
       this.canvas.setAttribute("aria-label", this.described());
@@ -162,6 +172,21 @@ export class Backplot {
     this.redraw();
   }
 
+  private moves(): void {
+    clearTimeout(this.moving);
+    this.moving = window.setTimeout(() => {
+      this.moving = 0;
+      this.redraw();
+    }, REST);
+  }
+
+  /** Another way of looking at it, in the next frame. */
+  private turned(): void {
+    this.fits = false;
+    this.moves();
+    this.redraw();
+  }
+
   /** Draws in the next frame; the buttons say at once from where the path is looked at. */
   redraw(): void {
     for (const button of this.views.querySelectorAll("[data-view]")) {
@@ -192,18 +217,19 @@ export class Backplot {
     this.painter.begin(this.camera, this.colours, ratio);
     this.frames.pieces = 0;
     const { width, height, scale } = this.camera;
+    const most = this.moving ? this.painter.most.moving : this.painter.most.still;
     const sees = (box: Float32Array, at: number) => overlaps(box, at, this.camera, 0, 0, width, height);
     if (this.old.length) {
-      const level = fitting(this.old, scale);
-      for (const [from, to] of inSight(level, sees)) {
+      const [level, runs] = drawable(this.old, scale, sees, most);
+      for (const [from, to] of runs) {
         this.painter.stroke({ level, from, to, width: 3, alpha: 0.5, colour: this.colours.old, dashed: true });
       }
     }
     const path = this.program?.path;
     if (path && this.levels.length) {
-      const level = fitting(this.levels, scale);
+      const [level, runs] = drawable(this.levels, scale, sees, most);
       const until = this.drawnTo === Infinity ? count(level) : upTo(level, this.program!.pointAfter(this.drawnTo));
-      for (const [from, to] of inSight(level, sees)) {
+      for (const [from, to] of runs) {
         this.frames.pieces += to - from;
         const now = Math.max(from, Math.min(to, until));
         const line = { level, dashed: true, width: 1.5 };
@@ -330,8 +356,7 @@ export class Backplot {
         if (event.shiftKey || event.buttons !== 1) this.camera.pan(dx, dy);
         else this.camera.orbit(dx, dy);
         from = [event.offsetX, event.offsetY];
-        this.fits = false;
-        this.redraw();
+        this.turned();
         return;
       }
       cancelAnimationFrame(hovered);
@@ -354,8 +379,7 @@ export class Backplot {
     this.canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
       this.camera.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0016)), event.offsetX, event.offsetY);
-      this.fits = false;
-      this.redraw();
+      this.turned();
     }, { passive: false });
     this.canvas.onkeydown = (event) => {
       const turn = { ArrowLeft: [-20, 0], ArrowRight: [20, 0], ArrowUp: [0, -20], ArrowDown: [0, 20] }[event.key];
@@ -366,18 +390,15 @@ export class Backplot {
       if (turn && event.shiftKey) this.camera.pan(turn[0], turn[1]);
       else if (turn) this.camera.orbit(turn[0], turn[1]);
       if (zoom) this.camera.zoom(zoom, this.camera.width / 2, this.camera.height / 2);
-      this.fits = false;
-      this.redraw();
+      this.turned();
     };
   }
 }
 
 /** The old path, counted from the middle of the new one. */
-function shifted(old: Program, program: Program | null) {
-  const path = old.path!;
+function shifted(path: Path, program: Program | null): Path {
   const by = path.head.middle.map((value, axis) => value - (program?.path?.head.middle[axis] ?? value));
-  for (let at = 0; at < path.points.length; at++) path.points[at] += by[at % 3];
-  return path;
+  return Object.assign(Object.create(Path.prototype) as Path, path, { points: path.points.map((value, at) => value + by[at % 3]) });
 }
 
 function short(value: number): string {

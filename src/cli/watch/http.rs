@@ -164,13 +164,15 @@ pub fn write(stream: &mut TcpStream, answer: &Answer) {
     }
 }
 
-/// The head of an answer that goes on: lines of events.
+/// The head of an answer that goes on until the connection ends.
 ///
 /// # Errors
 /// Nobody reads it any more.
-pub fn begin_events(stream: &mut TcpStream) -> io::Result<()> {
+pub fn begin(stream: &mut TcpStream, kind: &str) -> io::Result<()> {
     stream.set_write_timeout(Some(PATIENCE))?;
-    stream.write_all(format!("HTTP/1.1 200 OK\r\n{ALWAYS}Content-Type: text/event-stream\r\n\r\n: here\n\n").as_bytes())
+    // parts are sent when they are there, however small
+    stream.set_nodelay(true)?;
+    stream.write_all(format!("HTTP/1.1 200 OK\r\n{ALWAYS}Content-Type: {kind}\r\n\r\n").as_bytes())
 }
 
 fn reason(status: u16) -> &'static str {

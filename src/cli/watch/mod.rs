@@ -12,6 +12,7 @@ use std::thread;
 use std::time::Duration;
 
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 
 use super::Ending;
 use super::args::WatchArgs;
@@ -63,6 +64,7 @@ pub fn run(args: WatchArgs) -> Result<Ending, String> {
     thread::spawn(move || {
         loop {
             Watched::new(watching.session.paths()).wait();
+            watching.session.forget();
             watching.tell();
         }
     });
@@ -105,7 +107,7 @@ impl Shared {
         let what = self.guard.admit(&asked)?.to_owned();
         let allowed = match what.as_str() {
             "" | "events" => "GET",
-            "scene" | "verdict" | "save" => "POST",
+            "scene" | "verdict" | "help" | "save" => "POST",
             _ => return Err(Some(Answer::no(404, "there is nothing here"))),
         };
         if asked.method != allowed {
@@ -120,25 +122,29 @@ impl Shared {
         let answer = match what.as_str() {
             "" => page(),
             "save" => self.save(&body(stream, &asked, read)?),
-            // a verdict is asked for as a proof
-            "verdict" => self.show("verdict", &body::<Ask>(stream, &asked, read)?.proving()),
-            what => self.show(what, &body(stream, &asked, read)?),
+            "verdict" => said(self.session.verdict(&body(stream, &asked, read)?)),
+            "help" => said(self.session.help(&body(stream, &asked, read)?)),
+            _ => {
+                let ask = body(stream, &asked, read)?;
+                return self.show(stream, &ask);
+            }
         };
         http::write(stream, &answer);
         Ok(())
     }
 
-    fn show(&self, what: &str, ask: &Ask) -> Answer {
-        let scene = match self.session.scene(ask) {
-            Ok(scene) => scene,
-            Err(why) => return Answer::no(422, &why),
-        };
-        if what == "scene" {
-            return Answer::of("application/octet-stream", scene.into_bytes());
-        }
-        let none = serde_json::json!({ "kind": "none", "text": scene.said("stopped").map(|stopped| stopped["message"].clone()) });
-        let verdict = scene.said("verdict").unwrap_or(&none);
-        Answer::of("application/json", verdict.to_string())
+    /// Sends scenes as they are made; the end of the connection is their end.
+    fn show(&self, stream: &mut TcpStream, ask: &Ask) -> Result<(), Option<Answer>> {
+        let mut sent = None;
+        let shown = self.session.show(ask, &mut |scene| {
+            let begun = match sent.take() {
+                None => http::begin(stream, "application/octet-stream"),
+                Some(before) => before,
+            };
+            // who does not wait for it does not get it
+            sent = Some(begun.and_then(|()| stream.write_all(&scene.into_bytes())));
+        });
+        shown.map_err(|why| sent.is_none().then(|| Answer::no(422, &why)))
     }
 
     fn save(&self, save: &Save) -> Answer {
@@ -152,7 +158,8 @@ impl Shared {
     /// Tells a page of changes until it leaves.
     fn events(&self, stream: &mut TcpStream) {
         let mut seen = *self.changes.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut sent = http::begin_events(stream);
+        let begun = http::begin(stream, "text/event-stream");
+        let mut sent = begun.and_then(|()| stream.write_all(b": here\n\n"));
         while sent.is_ok() {
             let changes = self.changes.lock().unwrap_or_else(PoisonError::into_inner);
             let waited = self.changed.wait_timeout_while(changes, SILENCE, |changes| *changes == seen);
@@ -169,6 +176,13 @@ impl Shared {
 fn body<T: DeserializeOwned>(stream: &mut TcpStream, asked: &Asked, read: Vec<u8>) -> Result<T, Option<Answer>> {
     let bytes = http::read_body(stream, asked, read)?;
     serde_json::from_slice(&bytes).map_err(|error| Some(Answer::no(400, &format!("this makes no sense: {error}"))))
+}
+
+fn said(value: Result<Value, String>) -> Answer {
+    match value {
+        Ok(value) => Answer::of("application/json", value.to_string()),
+        Err(why) => Answer::no(422, &why),
+    }
 }
 
 fn page() -> Answer {

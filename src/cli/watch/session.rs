@@ -3,14 +3,18 @@
 use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::channel;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
-use postform::internals::diff::Deadline;
+use postform::internals::diff::{self, Deadline};
 use postform::internals::lint::Levels;
-use postform::internals::scene::{Request, Scene, scene};
-use postform::{Files, Limits, Options, Proof, Source};
+use postform::internals::scene::{At, Printed, Request, Scene, behind, help, program_of, scene};
+use postform::{Files, Job, Limits, Options, Proof, Source};
 use serde::Deserialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::super::args::{LimitsArg, ReadArgs, WatchArgs};
 use super::super::config::Config;
@@ -19,8 +23,11 @@ use super::super::forms::FormFile;
 use super::super::output::write_whole;
 use super::super::prompt;
 
-/// How long programs are compared for the shortest answer.
-const PATIENCE: Duration = Duration::from_millis(800);
+/// How long programs are compared for the shortest answer: somebody types.
+const PATIENCE: Duration = Duration::from_millis(250);
+
+/// A program of fewer bytes is proven before anybody sees that its picture waits.
+const SMALL: usize = 256 << 10;
 
 /// What a page asks.
 #[derive(Debug, Default, Deserialize)]
@@ -31,16 +38,19 @@ pub struct Ask {
     /// Texts of forms that are not saved, by their names.
     #[serde(default)]
     texts: HashMap<String, String>,
-    /// Is the program proven, too?
-    #[serde(default)]
-    proves: bool,
 }
 
-impl Ask {
-    /// The program of what is asked is proven.
-    pub fn proving(self) -> Ask {
-        Ask { proves: true, ..self }
-    }
+/// What a page asks of a word.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AskHelp {
+    /// Which job, from 0.
+    job: usize,
+    /// Texts of forms that are not saved, by their names.
+    #[serde(default)]
+    texts: HashMap<String, String>,
+    /// The word.
+    at: At,
 }
 
 /// A form to be written.
@@ -74,6 +84,24 @@ pub struct Session {
     options: Options,
     proof: Proof,
     config: Option<PathBuf>,
+    /// Names of the jobs, as they are shown.
+    names: Vec<String>,
+    /// How often files were changed.
+    generation: AtomicU64,
+    saved: Mutex<Option<Saved>>,
+}
+
+/// What the form printed for a job as it was saved.
+#[derive(Clone)]
+struct Saved {
+    job: usize,
+    /// As of which change of the files.
+    generation: u64,
+    program: Arc<str>,
+}
+
+fn lock<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
+    kept.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Session {
@@ -89,7 +117,14 @@ impl Session {
                 return Err("error: watch reads files that can be read again: - is none".into());
             }
         }
-        let form = FormFile::read(&args.form, limits)?.analyse(&HashMap::new()).form;
+        let form = FormFile::read(&args.form, limits).map_err(|error| match args.form.exists() {
+            true => error,
+            false => {
+                let name = files::name(&args.form);
+                format!("{error}\n  help: begin with one that prints: postform new --control fanuc -o {name}, or with an empty file")
+            }
+        })?;
+        let form = form.analyse(&HashMap::new()).form;
         for job in &args.job {
             files::check_format(job, &args.read)?;
             files::open(job)?;
@@ -103,6 +138,7 @@ impl Session {
         let proof = args.control.proof(None);
         Ok(Session {
             form: args.form,
+            names: args.job.iter().map(|path| files::name(path)).collect(),
             jobs: args.job,
             against: args.against,
             read: args.read,
@@ -111,6 +147,8 @@ impl Session {
             options,
             proof,
             config: config.path,
+            generation: AtomicU64::new(0),
+            saved: Mutex::new(None),
         })
     }
 
@@ -127,41 +165,134 @@ impl Session {
         paths
     }
 
-    /// What the page shows.
+    /// What the page shows: a scene, and what takes longer than the picture of a long program behind it: its verdict, and what
+    /// changed.
     ///
     /// # Errors
-    /// A message: a file can't be read.
-    pub fn scene(&self, ask: &Ask) -> Result<Scene, String> {
+    /// A message: a file can't be read. Nothing was sent then.
+    pub fn show(&self, ask: &Ask, send: &mut dyn FnMut(Scene)) -> Result<(), String> {
+        let generation = self.generation.load(Ordering::Acquire);
         let form = self.read_form()?;
-        let path = self.jobs.get(ask.job).ok_or("error: there is no such job")?;
-        let job = files::job(path, &self.read, true)?;
+        let (mut scene, printed) = self.print(&form, ask)?;
         let against = match &self.against {
             Some(path) => Some((files::name(path), read(path)?)),
             None => None,
         };
-        let on_disk = form.source();
-        let typed = Typed { form: &form, texts: &ask.texts };
-        let now = typed.of(form.source());
-        let is_typed = !ask.texts.is_empty();
-        let mut scene = scene(Request {
-            form: now,
-            files: &typed,
-            limits: self.limits,
-            levels: &self.levels,
-            job,
-            job_name: &files::name(path),
-            options: self.options.clone(),
-            proof: self.proof.clone(),
-            against: against.as_ref().map(|(name, bytes)| (name.as_str(), bytes.as_slice())),
-            saved: is_typed.then_some((on_disk, &form as &dyn Files)),
-            proves: ask.proves,
-            deadline: Some(Deadline { at: Instant::now() + PATIENCE, now: Instant::now }),
-        });
         let names = scene.said("form").and_then(|form| form["files"].as_array().cloned()).unwrap_or_default();
         let texts: Vec<String> = names.iter().map(|name| self.text(&form, name.as_str().unwrap_or_default())).collect();
         scene.say("texts", json!(texts));
-        scene.say("jobs", json!(self.jobs.iter().map(|path| files::name(path)).collect::<Vec<String>>()));
-        Ok(scene)
+        scene.say("jobs", json!(self.names));
+        let Some(printed) = printed else {
+            send(scene);
+            return Ok(());
+        };
+        let is_small = printed.text().len() < SMALL;
+        if ask.texts.is_empty() {
+            self.keep_saved(ask.job, generation, printed.text());
+        }
+        thread::scope(|scope| {
+            let (sender, behind_it) = channel();
+            let (proves, compares) = (sender.clone(), sender);
+            let (printed, against) = (&printed, &against);
+            scope.spawn(move || {
+                // a job that can't be read any more is told by the next scene
+                if let Ok(job) = self.job(ask.job) {
+                    _ = proves.send(("verdict", printed.verdict(job)));
+                }
+            });
+            let (old, typed) = (against.as_ref(), !ask.texts.is_empty());
+            if old.is_some() || typed {
+                scope.spawn(move || {
+                    if typed {
+                        let before = self.saved_program(ask.job, generation);
+                        let found = printed.since_saved(before.as_deref(), &comparing());
+                        _ = found.map(|found| compares.send(("saved", found)));
+                    }
+                    let found = old.and_then(|(name, old)| printed.against(name, old, &comparing()));
+                    _ = found.map(|found| compares.send(("against", found)));
+                });
+            } else {
+                drop(compares);
+            }
+            printed.draw(&mut scene);
+            if let Some((_, old)) = old {
+                printed.draw_old(&mut scene, old);
+            }
+            if is_small {
+                behind_it.into_iter().for_each(|(name, value)| scene.say(name, value));
+                send(scene);
+            } else {
+                behind_it.try_iter().for_each(|(name, value)| scene.say(name, value));
+                send(scene);
+                behind_it.into_iter().for_each(|(name, value)| send(behind(name, value)));
+            }
+        });
+        Ok(())
+    }
+
+    /// The verdict on what a form prints as it was saved.
+    ///
+    /// # Errors
+    /// A message: a file can't be read.
+    pub fn verdict(&self, ask: &Ask) -> Result<Value, String> {
+        let (scene, printed) = self.print(&self.read_form()?, ask)?;
+        Ok(match printed {
+            Some(printed) => printed.verdict(self.job(ask.job)?),
+            None => json!({ "kind": "none", "text": scene.said("stopped").map(|stopped| stopped["message"].clone()) }),
+        })
+    }
+
+    /// What is known of a place in a form.
+    ///
+    /// # Errors
+    /// A message: a file can't be read.
+    pub fn help(&self, ask: &AskHelp) -> Result<Value, String> {
+        let form = self.read_form()?;
+        Ok(help(self.request(&Typed { form: &form, texts: &ask.texts }, ask.job)?, &ask.at))
+    }
+
+    /// What a form prints.
+    fn print(&self, form: &FormFile, ask: &Ask) -> Result<(Scene, Option<Printed>), String> {
+        Ok(scene(self.request(&Typed { form, texts: &ask.texts }, ask.job)?))
+    }
+
+    fn request<'a>(&'a self, typed: &'a Typed<'a>, job: usize) -> Result<Request<'a>, String> {
+        Ok(Request {
+            form: typed.of(typed.form.source()),
+            files: typed,
+            limits: self.limits,
+            levels: &self.levels,
+            job: self.job(job)?,
+            job_name: self.names.get(job).map_or("", String::as_str),
+            options: self.options.clone(),
+            proof: self.proof.clone(),
+        })
+    }
+
+    fn job(&self, job: usize) -> Result<Job<'static>, String> {
+        files::job(self.jobs.get(job).ok_or("error: there is no such job")?, &self.read, true)
+    }
+
+    /// Files were changed: what was kept of them is worth nothing.
+    pub fn forget(&self) {
+        self.generation.fetch_add(1, Ordering::AcqRel);
+    }
+
+    /// What the form as it was saved prints for a job, printed once until a file is changed.
+    fn saved_program(&self, job: usize, generation: u64) -> Option<Arc<str>> {
+        let known = lock(&self.saved).clone().filter(|known| (known.job, known.generation) == (job, generation));
+        if let Some(known) = known {
+            return Some(known.program);
+        }
+        let form = self.read_form().ok()?;
+        let program = program_of(self.request(&Typed { form: &form, texts: &HashMap::new() }, job).ok()?)?;
+        Some(self.keep_saved(job, generation, &program))
+    }
+
+    fn keep_saved(&self, job: usize, generation: u64, program: &str) -> Arc<str> {
+        let program: Arc<str> = program.into();
+        *lock(&self.saved) = Some(Saved { job, generation, program: Arc::clone(&program) });
+        program
     }
 
     fn read_form(&self) -> Result<FormFile, String> {
@@ -198,13 +329,20 @@ impl Session {
         let text = lines(&save.text);
         let text = if source.text.contains("\r\n") { text.replace('\n', "\r\n") } else { text };
         let mark: &[u8] = if bytes.starts_with(b"\xef\xbb\xbf") { b"\xef\xbb\xbf" } else { b"" };
-        write_whole(&path, &[mark, text.as_bytes()].concat()).map_err(conflict)
+        write_whole(&path, &[mark, text.as_bytes()].concat()).map_err(conflict)?;
+        self.forget();
+        Ok(())
     }
 }
 
 /// With `\n` alone.
 fn lines(text: &str) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
+}
+
+fn comparing() -> diff::Options {
+    let deadline = Deadline { at: Instant::now() + PATIENCE, now: Instant::now };
+    diff::Options { deadline: Some(deadline), ..diff::Options::default() }
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {

@@ -1,0 +1,101 @@
+//! What somebody who writes a form in the page may ask: what a word is, and what could stand here.
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::Request;
+use super::form;
+use crate::ide::utf16::{Place, offset};
+use crate::ide::{CompletionKind, Current, Document, about};
+use crate::source::Source;
+
+/// What is asked of a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Ask {
+    /// What could stand there.
+    Complete,
+    /// What the thing there is, and what its line printed.
+    Hover,
+}
+
+/// A place in a form, as an editor in a browser counts.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct At {
+    /// Name of the file.
+    pub file: String,
+    /// Line, from 0.
+    pub line: u32,
+    /// UTF-16 code units before it in that line.
+    pub column: u32,
+    /// What is asked.
+    pub ask: Ask,
+}
+
+/// The answer: `list` of what could stand there, each with the text that it replaces; or `at` and `text`, which is Markdown. Null:
+/// nothing is known.
+pub fn help(request: Request<'_>, at: &At) -> Value {
+    let Request { form, files, limits, levels, mut job, job_name, .. } = request;
+    let document = Document::new(form.clone(), files, limits, levels);
+    let found = document.files().iter().position(|file| file.name == at.file);
+    let Some((file, source)) = found.and_then(|file| Some((file as u32, document.files().get(file)?))) else {
+        return Value::Null;
+    };
+    let place = offset(source, Place { line: at.line, character: at.column });
+    let mut current = document.print(job_name, job.again());
+    match at.ask {
+        Ask::Hover => document.hover(file, place, current.as_ref()).map_or(
+            Value::Null,
+            |hover| json!({ "at": form::place(hover.span, document.files()), "text": hover.text }),
+        ),
+        Ask::Complete => {
+            // a form with a half-typed word prints nothing: values are those without the word
+            if current.is_none() && file == 0 {
+                let form = Source::from_text(form.name.clone(), without_word(&source.text, place as usize));
+                current = Document::new(form, files, limits, levels).print(job_name, job);
+            }
+            list(&document, file, place, current.as_ref())
+        }
+    }
+}
+
+fn list(document: &Document, file: u32, place: u32, current: Option<&Current>) -> Value {
+    let found = document.complete(file, place, current);
+    let rows = found.into_iter().map(|found| {
+        let info = match found.kind {
+            // an example is searched for each: of a few that is no time, of all commands it is
+            CompletionKind::Variable => about(found.kind, &found.label, document.control()),
+            _ => None,
+        };
+        json!({
+            "label": found.label,
+            "kind": kind(found.kind),
+            "detail": found.detail,
+            "at": form::place(found.replaces, document.files()),
+            "text": found.text,
+            "snippet": found.snippet,
+            "info": info,
+        })
+    });
+    json!({ "list": rows.collect::<Vec<Value>>() })
+}
+
+fn kind(kind: CompletionKind) -> &'static str {
+    match kind {
+        CompletionKind::Command => "command",
+        CompletionKind::Value => "value",
+        CompletionKind::Sequence => "sequence",
+        CompletionKind::Keyword => "keyword",
+        CompletionKind::Variable => "variable",
+        CompletionKind::Code => "code",
+        CompletionKind::Finding => "finding",
+    }
+}
+
+/// The text without the word before a place.
+fn without_word(text: &str, place: usize) -> String {
+    let start = text[..place].rfind(char::is_whitespace).map_or(0, |at| at + 1);
+    let end = text[place..].find(char::is_whitespace).map_or(text.len(), |at| place + at);
+    format!("{}{}", &text[..start], &text[end..])
+}

@@ -93,9 +93,9 @@ fn kind(kind: CompletionKind) -> &'static str {
     }
 }
 
-/// The text without the word before a place.
+/// The text without the word before a place, and without the blank before that: two blanks would begin a comment.
 fn without_word(text: &str, place: usize) -> String {
     let start = text[..place].rfind(char::is_whitespace).map_or(0, |at| at + 1);
     let end = text[place..].find(char::is_whitespace).map_or(text.len(), |at| place + at);
-    format!("{}{}", &text[..start], &text[end..])
+    format!("{}{}", text[..start].trim_end_matches([' ', '\t']), &text[end..])
 }

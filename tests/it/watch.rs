@@ -424,8 +424,9 @@ fn words_are_completed_and_explained() {
         serde_json::from_slice::<Value>(&answer.body).unwrap()
     };
     let old = form.lines().nth(line).unwrap();
-    let begun = format!("{old} R[vcl");
-    let texts = json!({ "my.pf": form.replacen(old, &begun, 1) });
+    let (first, rest) = old.rsplit_once(' ').unwrap();
+    let begun = format!("{first} R[vcl");
+    let texts = json!({ "my.pf": form.replacen(old, &format!("{begun} {rest}"), 1) });
     let at = |column: usize, ask: &str| json!({ "file": "my.pf", "line": line, "column": column, "ask": ask });
     let found = ask(&texts, &at(begun.len(), "complete"));
     let vclear = found["list"].as_array().unwrap().iter().find(|found| found["label"] == "vclear").unwrap();

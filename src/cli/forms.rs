@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use postform::internals::lint::{Changed, parts};
-use postform::internals::sema::{Checked, Limits, analyse};
+use postform::internals::sema::{Checked, Limits, analyse, one_post};
 use postform::{Files, Source};
 
 use super::files::{self, io_message};
@@ -17,6 +17,8 @@ pub struct FormFile {
     /// Where the form is.
     pub path: PathBuf,
     bytes: Vec<u8>,
+    /// Which post of a file that holds several.
+    post: Option<String>,
     limits: Limits,
     /// Where the called files are, by their names in messages.
     called: RefCell<HashMap<String, PathBuf>>,
@@ -25,18 +27,37 @@ pub struct FormFile {
 impl FormFile {
     /// Reads a form. `Err` is a message: the file can't be read.
     pub fn read(path: &Path, limits: Limits) -> Result<FormFile, String> {
-        Ok(FormFile { path: path.to_path_buf(), bytes: files::read_form(path)?, limits, called: RefCell::default() })
+        let bytes = files::read_form(path)?;
+        Ok(FormFile { path: path.to_path_buf(), bytes, post: None, limits, called: RefCell::default() })
+    }
+
+    /// One of the posts that the file holds, by its name. `Err` is a message: it holds none of that name.
+    pub fn of_post(self, post: Option<&str>) -> Result<FormFile, String> {
+        let Some(name) = post else { return Ok(self) };
+        if let Err(names) = one_post(self.source(), name) {
+            let held = if names.is_empty() {
+                "none has a `Name`".to_owned()
+            } else {
+                format!("there are {}", names.join(", "))
+            };
+            return Err(format!("error: {} holds no post `{name}`\n  help: {held}", files::name(&self.path)));
+        }
+        Ok(FormFile { post: Some(name.to_owned()), ..self })
     }
 
     /// A form whose text is in an editor: it comes with the changed texts.
     pub fn open_in_editor(path: &Path, limits: Limits) -> FormFile {
         let bytes = files::read_form(path).unwrap_or_default();
-        FormFile { path: path.to_path_buf(), bytes, limits, called: RefCell::default() }
+        FormFile { path: path.to_path_buf(), bytes, post: None, limits, called: RefCell::default() }
     }
 
     /// The form's text.
     pub fn source(&self) -> Source {
-        Source::from_bytes(files::name(&self.path), &self.bytes)
+        let whole = || Source::from_bytes(files::name(&self.path), &self.bytes);
+        match &self.post {
+            Some(post) => one_post(whole(), post).unwrap_or_else(|_| whole()),
+            None => whole(),
+        }
     }
 
     /// Analyses the form, with other text for the files that were changed.

@@ -49,6 +49,32 @@ impl Target {
         }
     }
 
+    /// Prepares an output in a folder, which gets its name when that is known: see [`Target::named`].
+    ///
+    /// # Errors
+    /// As [`Target::open`].
+    pub fn open_in(folder: &Path) -> Result<Target, String> {
+        let unnamed = Unnamed::beside(folder.join("program"), None);
+        Ok(Target::Beside(unnamed.map_err(|error| io_message("write", folder, &error))?))
+    }
+
+    /// Gives an output of a folder its name.
+    ///
+    /// # Errors
+    /// A message: what has that name must not be replaced.
+    pub fn named(self, path: &Path) -> Result<Target, String> {
+        let Target::Beside(unnamed) = self else { return Ok(self) };
+        let mode = fs::metadata(path).ok().map(|meta| (meta.is_file(), meta.permissions()));
+        if mode.as_ref().is_some_and(|(is_file, mode)| !is_file || mode.readonly()) {
+            return Err(format!(
+                "error: can't write {}: it is no file that may be replaced",
+                escaped(&path.to_string_lossy())
+            ));
+        }
+        let renamed = unnamed.renamed(path.to_path_buf(), mode.map(|(_, mode)| mode));
+        Ok(Target::Beside(renamed.map_err(|error| io_message("write", path, &error))?))
+    }
+
     /// Writes a part.
     ///
     /// # Errors

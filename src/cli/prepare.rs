@@ -34,7 +34,7 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
     }
     let config = Config::near(form)?;
     let limits = args.limits.map(LimitsArg::limits).or(config.limits).unwrap_or_default();
-    let file = FormFile::read(form, limits)?;
+    let file = FormFile::read(form, limits)?.of_post(args.post.as_deref())?;
     let (post, found) = match Post::compile_with(file.source(), &file, limits, &config.levels) {
         Ok(post) => (Some(post.clone()), post.warnings().clone()),
         Err(error) => (None, error.into_findings()),

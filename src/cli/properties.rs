@@ -19,7 +19,7 @@ use super::say::say;
 pub fn run(args: &PropertiesArgs, colour: bool) -> Result<Ending, String> {
     let config = Config::near(&args.form)?;
     let limits = config.limits.unwrap_or_default();
-    let file = FormFile::read(&args.form, limits)?;
+    let file = FormFile::read(&args.form, limits)?.of_post(args.post.as_deref())?;
     let post = match Post::compile_with(file.source(), &file, limits, &config.levels) {
         Ok(post) => post,
         Err(error) => {

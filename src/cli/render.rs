@@ -56,17 +56,24 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         return Ok(Ending::Findings);
     };
     let inputs = prepared.inputs.iter().chain(&config.path).chain([&args.job]);
-    keep_inputs(args, &inputs.filter_map(|path| Identity::of_input(path)).collect::<Vec<_>>())?;
-    if args.stream && prepared.post.reads_ahead() {
+    let inputs: Vec<Identity> = inputs.filter_map(|path| Identity::of_input(path)).collect();
+    keep_inputs(args, &inputs)?;
+    let error = |error: Error| format!("error: {error}");
+    if args.stream && prepared.post.reads_ahead(&prepared.options).map_err(error)? {
+        let or = prepared.post.reads_once_with().map(|set| format!(", or with --set {set}")).unwrap_or_default();
         return Err(format!(
-            "error: {} says what lies ahead in the job, which must be read to its end first\n  help: render without --stream",
+            "error: {} says what lies ahead in the job, which must be read to its end first\n  help: render without --stream{or}",
             files::name(&form)
         ));
     }
-    let again = prepared.post.may_read_twice() && !args.stream;
+    let again = prepared.post.may_read_twice(&prepared.options).map_err(error)? && !args.stream;
     let mut job = files::job(&args.job, &args.read, again)?;
     let mut output = Output {
-        target: Target::open(&args.output, args.stream)?,
+        target: if is_folder(&args.output) {
+            Target::open_in(&args.output)?
+        } else {
+            Target::open(&args.output, args.stream)?
+        },
         trace: args.trace.as_deref().map(|path| Target::open(path, false)).transpose()?,
         files: prepared.post.files(),
         trace_failed: false,
@@ -92,6 +99,7 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         Ok(rendered) => rendered.notes.clone(),
         Err(error) => error.findings().diags.iter().filter(|diag| !diag.is_error()).cloned().collect(),
     };
+    let file_name = printed.as_ref().map(|rendered| rendered.file_name.clone()).unwrap_or_default();
     let name = files::name(&args.job);
     notes.iter_mut().for_each(|diag| place_in(&name, diag));
     let denied = args.options.denies_warnings() && notes.iter().any(|diag| diag.severity == Severity::Warning);
@@ -119,7 +127,22 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     } else if args.stream && !args.options.quiet {
         message("not verified: with --stream the program is out before it is known what it does");
     }
+    if is_folder(&args.output) {
+        let path = args.output.join(file_name);
+        if Identity::of_output(&path).is_some_and(|identity| inputs.contains(&identity)) {
+            return Err(format!("error: {} is an input: choose another folder", files::output_name(&path)));
+        }
+        output.target = output.target.named(&path)?;
+        if !args.options.quiet {
+            message(&format!("{} is written", files::output_name(&path)));
+        }
+    }
     output.finish(args)
+}
+
+/// A folder, in which the program gets the name that form and job give it.
+fn is_folder(output: &Path) -> bool {
+    output.is_dir() || output.to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR])
 }
 
 /// What is said of a proof.

@@ -37,6 +37,14 @@ impl Unnamed {
         Ok(Unnamed { file, path, mode })
     }
 
+    /// Another path of the same folder, which the file is to become.
+    pub fn renamed(self, path: PathBuf, mode: Option<Permissions>) -> io::Result<Unnamed> {
+        if let Some(mode) = &mode {
+            self.file.set_permissions(mode.clone())?;
+        }
+        Ok(Unnamed { path, mode, ..self })
+    }
+
     /// What is written so far and what is still to come.
     pub fn file(&mut self) -> &mut File {
         &mut self.file

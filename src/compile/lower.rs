@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use crate::control::{Code, Group, Meaning};
 use crate::lang::{SequenceId, TextSet, VarId, VarSet};
-use crate::sema::{Form, Formula, Line, Sequence, Step, WordKind, line_counts};
+use crate::sema::{Form, Formula, Line, NamePart, Sequence, Step, WordKind, line_counts};
 use crate::span::Span;
 
 /// Compiles a form that was checked without errors.
@@ -38,6 +38,11 @@ pub fn compile(form: &Form) -> Program {
         letters: [LetterTable::new(form, false), LetterTable::new(form, true)],
         custom: [None, None, None],
     };
+    for part in &program.settings.program_name.0 {
+        if let NamePart::Text(id) = part {
+            program.texts_printed.insert(*id);
+        }
+    }
     for sequence in form.sequences.values() {
         let routine = lower_sequence(&mut program, sequence);
         program.printed = program.printed.with(routine.vars);

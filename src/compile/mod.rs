@@ -1,5 +1,6 @@
 //! From a checked form to a flat program: one array of small operations, run for each event.
 
+mod ahead;
 mod letters;
 mod lower;
 mod program;
@@ -7,6 +8,7 @@ mod routine;
 mod sources;
 mod work;
 
+pub use ahead::{Asks, Fixed};
 pub use letters::{Letter, LetterKind, LetterTable};
 pub use lower::compile;
 pub use program::{CycleStyle, List, Literal, Op, Program, Upon};

@@ -6,7 +6,7 @@ use super::letters::LetterTable;
 use super::routine::Routine;
 use super::work::WorkWord;
 use crate::control::Code;
-use crate::lang::{AHEAD, Each, SEQUENCES, SequenceId, TOOLS_AHEAD, TextId, TextSet, TextVar, VarId, VarSet};
+use crate::lang::{Each, SEQUENCES, SequenceId, TextId, TextSet, TextVar, VarId, VarSet};
 use crate::sema::{Formula, Settings, Target};
 use crate::source::Source;
 use crate::span::Span;
@@ -229,16 +229,6 @@ impl Program {
     /// The variables whose values it prints or asks for.
     pub fn used(&self) -> VarSet {
         self.printed.with(self.asked).with(self.upon_vars)
-    }
-
-    /// Does it say things of the job that only its end tells?
-    pub fn reads_ahead(&self) -> bool {
-        !self.lists.is_empty() || self.used().meets(AHEAD)
-    }
-
-    /// Does it say which tools come next?
-    pub fn asks_tools_ahead(&self) -> bool {
-        self.used().meets(TOOLS_AHEAD)
     }
 
     /// Gives it its name and what tells it from other forms, from its files: the form first, then those that it calls.

@@ -167,6 +167,11 @@ codes! {
     PF708 Warning "a condition that never changes"
     PF709 Error "a branch that does not fit its sequence"
     PF710 Warning "a property that does nothing"
+    PF711 Warning "a list that says nothing of what it goes through"
+    PF712 Warning "a kind of coolant that no sequence prints"
+    PF713 Warning "a directive without its `@`"
+    PF714 Warning "a pattern that is compared as it stands"
+    PF715 Warning "a CommentLine that does not print the comment"
     // PJ: the job
     PJ001 Error "the job is not well-formed"
     PJ002 Error "an unknown key"

@@ -1,5 +1,7 @@
 //! The table of directives: lines of a sequence that say which of its lines print.
 
+use super::suggest::nearest;
+
 /// A directive's row.
 #[derive(Debug)]
 pub struct DirectiveRow {
@@ -36,6 +38,25 @@ pub const DIRECTIVES: &[DirectiveRow] = &[
         meaning: "the variable has this value to the end of the program",
     },
 ];
+
+/// What other languages call them.
+const OTHERS: &[(&str, &str)] = &[
+    ("@elseif", "@elif"),
+    ("@elsif", "@elif"),
+    ("@endif", "@end"),
+    ("@endfor", "@end"),
+    ("@done", "@end"),
+    ("@next", "@end"),
+    ("@foreach", "@for"),
+    ("@while", "@for"),
+    ("@let", "@set"),
+];
+
+/// The directive that somebody means by a name that is none.
+pub fn directive_meant(name: &str) -> Option<&'static str> {
+    let other = OTHERS.iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, own)| *own);
+    other.or_else(|| nearest(name, DIRECTIVES.iter().map(|row| row.name)))
+}
 
 /// What `@for` goes through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

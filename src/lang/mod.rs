@@ -15,7 +15,7 @@ mod work;
 pub(crate) use commands::command_rows;
 pub use commands::{Args, COMMANDS, Command, CommandId, Used, Without};
 pub use coolant::Coolant;
-pub use directives::{DIRECTIVES, DirectiveRow, Each};
+pub use directives::{DIRECTIVES, DirectiveRow, Each, directive_meant};
 pub use machine::{Machine, Machines, UnitChoice};
 pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
 pub use suggest::{LONGEST_NAME, did_you_mean, nearest};

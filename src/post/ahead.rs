@@ -4,26 +4,55 @@ use std::sync::Arc;
 
 use super::Post;
 use super::options::Options;
+use crate::compile::Asks;
 use crate::error::Error;
 use crate::job::Job;
 use crate::render::survey_terms;
+use crate::sema::{PropertyKind, PropertyValue};
 use crate::survey::{Survey, Surveyor};
 
 impl Post {
     /// Does the form say what only the end of a job tells: tools, operations or extents, as `@for tool` and `[hmin]`? Then a job
-    /// is read twice; one that comes as a stream is held in memory.
-    pub fn reads_ahead(&self) -> bool {
-        self.0.program.reads_ahead()
+    /// is read twice; one that comes as a stream is held in memory. What the properties of the options keep from being printed
+    /// does not count.
+    ///
+    /// # Errors
+    /// The form has no such property, or it takes no such value.
+    pub fn reads_ahead(&self, options: &Options) -> Result<bool, Error> {
+        Ok(self.asks(options)?.all)
     }
 
     /// Is a job read twice, be it for the next tool, which some jobs say in their head?
-    pub fn may_read_twice(&self) -> bool {
-        self.reads_ahead() || self.0.program.asks_tools_ahead()
+    ///
+    /// # Errors
+    /// As [`Post::reads_ahead`].
+    pub fn may_read_twice(&self, options: &Options) -> Result<bool, Error> {
+        let Asks { all, tools } = self.asks(options)?;
+        Ok(all || tools)
+    }
+
+    /// A property and a value with which a job is read once, as `header=no`, if there is one.
+    pub fn reads_once_with(&self) -> Option<String> {
+        let settings = &self.0.program.settings;
+        let values = settings.properties.iter().enumerate().flat_map(|(row, property)| {
+            let values = match &property.kind {
+                PropertyKind::YesNo => [false, true].map(PropertyValue::YesNo).to_vec(),
+                PropertyKind::Choice(words) => words.iter().cloned().map(PropertyValue::Text).collect(),
+                _ => Vec::new(),
+            };
+            values.into_iter().map(move |value| (row as u16, value))
+        });
+        let once = values.into_iter().find(|given| !self.0.program.asks_ahead(std::slice::from_ref(given)).all);
+        once.map(|(row, value)| format!("{}={value}", settings.properties[usize::from(row)].name))
+    }
+
+    fn asks(&self, options: &Options) -> Result<Asks, Error> {
+        Ok(self.0.program.asks_ahead(&options.fixed_properties(&self.0.program.settings)?))
     }
 
     /// What lies ahead in a job, if the form says any of it.
     pub(super) fn survey(&self, job: &mut Job<'_>, options: &Options) -> Result<Option<Arc<Survey>>, Error> {
-        let (all, tools) = (self.reads_ahead(), self.0.program.asks_tools_ahead());
+        let Asks { all, tools } = self.asks(options)?;
         if options.one_pass && all {
             let message = "the form says what lies ahead in the job, and the job is to be read once";
             return Err(Error::usage(message));
@@ -32,13 +61,18 @@ impl Post {
             return Ok(None);
         }
         job.hold()?;
-        let (read, survey) = self.surveyed(job, options);
+        let (read, survey) = self.surveyed(job, options, !all);
         read.map(|()| Some(Arc::new(survey)))
     }
 
     /// As much as can be said of a job that may not be whole.
-    pub(super) fn surveyed(&self, job: &mut Job<'_>, options: &Options) -> (Result<(), Error>, Survey) {
-        let terms = survey_terms(&self.0.program, options.sink_as_printed);
+    pub(super) fn surveyed(
+        &self,
+        job: &mut Job<'_>,
+        options: &Options,
+        only_order: bool,
+    ) -> (Result<(), Error>, Survey) {
+        let terms = survey_terms(&self.0.program, options.sink_as_printed, only_order);
         let mut surveyor = Surveyor::new(terms);
         let read = job.again().read(&mut surveyor);
         (read, surveyor.finish())

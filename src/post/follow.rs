@@ -46,9 +46,10 @@ impl Post {
     /// An option makes no sense.
     pub(crate) fn follow(&self, mut job: Job<'_>, options: &Options) -> Result<Followed, Error> {
         let mut asked = render::Options { trace: true, words: true, ..options.for_renderer(&self.0.program.settings)? };
-        if self.may_read_twice() {
+        if self.may_read_twice(options)? {
             job.hold()?;
-            asked.survey = Some(Arc::new(self.surveyed(&mut job, options).1));
+            let only_order = !self.reads_ahead(options)?;
+            asked.survey = Some(Arc::new(self.surveyed(&mut job, options, only_order).1));
         }
         let mut follower = Follower {
             renderer: Renderer::new(&self.0.program, asked),
@@ -61,7 +62,7 @@ impl Post {
         follower.look();
         let mut notes = job.take_report().warnings;
         notes.extend_from_slice(follower.renderer.notes());
-        let rendered = Rendered { notes, lines: follower.renderer.lines() };
+        let rendered = Rendered { notes, lines: follower.renderer.lines(), file_name: follower.renderer.file_name() };
         let text = String::from_utf8_lossy(&follower.text).into_owned();
         let verdict = Verdict::not_asked_for();
         let program = Program { text, rendered, trace: follower.trace, verdict };

@@ -74,6 +74,11 @@ impl Options {
         Ok(())
     }
 
+    /// The properties that nothing changes any more, by their rows.
+    pub(super) fn fixed_properties(&self, settings: &Settings) -> Result<Vec<(u16, PropertyValue)>, Error> {
+        properties(&self.properties, settings, true)
+    }
+
     /// The options as the renderer takes them.
     pub(super) fn for_renderer(&self, settings: &Settings) -> Result<render::Options, Error> {
         let set = self.set.iter().map(|(name, value)| Ok((variable(name).map_err(Error::usage)?, *value)));
@@ -82,7 +87,7 @@ impl Options {
             units: self.units,
             program: self.program,
             set: set.collect::<Result<_, Error>>()?,
-            properties: properties(&self.properties, settings, true)?,
+            properties: self.fixed_properties(settings)?,
             shop: properties(&self.shop_properties, settings, false)?,
             sink_as_printed: self.sink_as_printed,
             clock: self.clock.clone(),

@@ -55,6 +55,8 @@ pub struct Rendered {
     pub notes: Vec<Diag>,
     /// Lines of the program.
     pub lines: u64,
+    /// What the file of the program is called, by the form's ProgramName and Extension.
+    pub file_name: String,
 }
 
 /// Some lines of a program, as they come.

@@ -110,7 +110,10 @@ impl Post {
         let mut notes = job.take_report().warnings;
         notes.extend_from_slice(printer.renderer.notes());
         match read {
-            Ok(()) => Ok(Rendered { notes, lines: printer.renderer.lines() }),
+            Ok(()) => {
+                let (lines, file_name) = (printer.renderer.lines(), printer.renderer.file_name());
+                Ok(Rendered { notes, lines, file_name })
+            }
             Err(error) => Err(error.after(notes, self.files())),
         }
     }

@@ -2,9 +2,10 @@
 
 use super::defaults::cycle_defaults;
 use super::shape::Shape;
+use super::turret::turret_word;
 use super::want::Want;
 use crate::compile::Program;
-use crate::lang::{Each, VarId, work_code};
+use crate::lang::{Each, Machine, VarId, work_code};
 use crate::sema::Settings;
 use crate::survey::{Survey, Terms, Totals};
 use crate::toolpath::{SpindleTurn, Tool, Units};
@@ -27,11 +28,11 @@ pub fn is_reach(var: VarId) -> bool {
     REACH.iter().flatten().any(|(least, most)| var == *least || var == *most)
 }
 
-/// What a survey must know of a form.
-pub fn survey_terms(program: &Program, sink_as_printed: bool) -> Terms {
+/// What a survey must know of a form. `only_order`: only which tools come, nothing of what they do.
+pub fn survey_terms(program: &Program, sink_as_printed: bool, only_order: bool) -> Terms {
     let settings = &program.settings;
     let defaults = [Units::Inch, Units::Mm].map(|units| cycle_defaults(settings, units, sink_as_printed));
-    Terms { defaults, work: default_work(settings), first_work: settings.work, only_order: !program.reads_ahead() }
+    Terms { defaults, work: default_work(settings), first_work: settings.work, only_order }
 }
 
 /// The work offset of a job that names none. A form that counts its offsets from 1 counts the default code so too.
@@ -134,6 +135,10 @@ pub fn tool_variables(tool: &Tool, shape: &Shape, want: &mut Want) {
     want.set(VarId::Lcomp, tool.length_offset.unwrap_or(tool.number + settings.lcomp));
     want.set(VarId::Dcomp, tool.diameter_offset.unwrap_or(tool.number + settings.dcomp));
     want.put(VarId::Turret, tool.turret);
+    if settings.machine == Machine::Lathe {
+        // the tool change says what is wrong with it
+        want.put(VarId::Comp, turret_word(tool, shape).ok());
+    }
 }
 
 /// Sums, and how far cuts and moves reach, where that is one frame.

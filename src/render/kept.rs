@@ -1,26 +1,42 @@
 //! What the form itself has set.
 
-use crate::sema::Target;
+use crate::sema::{Target, Value};
 
 /// What the form itself has set: it holds from there to the end of the program.
 #[derive(Clone, Debug, Default)]
-pub struct Kept(Vec<(Target, f64)>);
+pub struct Kept {
+    numbers: Vec<(Target, f64)>,
+    texts: Vec<(Target, String)>,
+}
 
 impl Kept {
-    /// The value, if the form has set it.
+    /// The number, if the form has set it; yes is 1.
     #[inline]
     pub fn of(&self, target: Target) -> Option<f64> {
-        if self.0.is_empty() {
+        if self.numbers.is_empty() {
             return None;
         }
-        self.0.iter().find(|(own, _)| *own == target).map(|(_, value)| *value)
+        self.numbers.iter().find(|(own, _)| *own == target).map(|(_, value)| *value)
+    }
+
+    /// The text, if the form has set it.
+    pub fn text_of(&self, target: Target) -> Option<&str> {
+        self.texts.iter().find(|(own, _)| *own == target).map(|(_, text)| text.as_str())
     }
 
     /// The form sets it.
-    pub fn set(&mut self, target: Target, value: f64) {
-        match self.0.iter_mut().find(|(own, _)| *own == target) {
-            Some(row) => row.1 = value,
-            None => self.0.push((target, value)),
+    pub fn set(&mut self, target: Target, value: Value) {
+        match value {
+            Value::Number(number) => put(&mut self.numbers, target, number),
+            Value::Yes(yes) => put(&mut self.numbers, target, f64::from(u8::from(yes))),
+            Value::Text(text) => put(&mut self.texts, target, text.into_owned()),
         }
+    }
+}
+
+fn put<T>(rows: &mut Vec<(Target, T)>, target: Target, value: T) {
+    match rows.iter_mut().find(|(own, _)| *own == target) {
+        Some(row) => row.1 = value,
+        None => rows.push((target, value)),
     }
 }

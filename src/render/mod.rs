@@ -7,6 +7,7 @@ mod body;
 mod cycle;
 mod defaults;
 mod fault;
+mod file_name;
 mod kept;
 mod marks;
 mod moves;
@@ -15,6 +16,7 @@ mod no_value;
 mod numbered;
 mod numbers;
 mod options;
+mod plain;
 mod printer;
 mod prints;
 mod program;
@@ -25,6 +27,7 @@ mod shape;
 mod taken;
 mod targets;
 mod texts;
+mod turret;
 mod upon;
 mod values;
 mod vars;
@@ -118,6 +121,11 @@ impl<'p> Renderer<'p> {
     /// Program lines printed so far.
     pub fn lines(&self) -> u64 {
         self.out.lines()
+    }
+
+    /// What the file of the program is called, as form and job say it.
+    pub fn file_name(&self) -> String {
+        file_name::file_name(&self.shape, &self.want)
     }
 
     /// Was the end of the job printed?

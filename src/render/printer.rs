@@ -315,6 +315,12 @@ impl Printer {
         if self.words > 0 { self.page.text.len() - self.start } else { 0 }
     }
 
+    /// Does the open block end inside round brackets?
+    pub fn is_in_brackets(&self) -> bool {
+        let block = if self.words > 0 { &self.page.text[self.page.text.len() - self.length()..] } else { &[] };
+        block.iter().rev().find(|c| b"()".contains(c)) == Some(&b'(')
+    }
+
     /// Is a block open?
     #[inline]
     pub fn has_words(&self) -> bool {

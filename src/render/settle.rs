@@ -65,7 +65,7 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
     own_change(SequenceId::SpindleChange, &spindle, shape, want, said, out)?;
     print_spindle(shape, want, said, out)?;
     own_change(SequenceId::CoolantChange, &[VarId::Cool], shape, want, said, out)?;
-    if let Some(ends) = want.ends_coolant.take() {
+    if let Some(ends) = want.ends_coolant.take().filter(|&ends| said.coolant_ended != Some(ends)) {
         value_code(b'M', ends, shape, want, said, out)?;
         out.end_block();
     }

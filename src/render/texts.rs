@@ -1,8 +1,8 @@
 //! Names and remarks of the job, for people: their values, and how they fit into a comment or a word.
 
 use super::marks::in_comment;
+use super::plain::plain;
 use super::printer::Printer;
-use super::properties::Properties;
 use super::shape::Shape;
 use std::fmt::Display;
 
@@ -70,11 +70,11 @@ impl Texts {
     }
 }
 
-/// Are all texts of a comment empty? Its operations are these.
-pub fn are_empty(comment: &[Op], texts: &Texts, properties: &Properties) -> bool {
+/// Are all texts of a comment empty? Its operations are these; `property`: is the text of a property empty?
+pub fn are_empty(comment: &[Op], texts: &Texts, property: &dyn Fn(u16) -> bool) -> bool {
     comment.iter().all(|op| match op {
         Op::TextVar { var, .. } => texts.get(var.id).is_empty(),
-        Op::PropertyText { row, .. } => properties.get(*row).text().is_empty(),
+        Op::PropertyText { row, .. } => property(*row),
         _ => true,
     })
 }
@@ -91,6 +91,8 @@ pub struct Text<'a> {
 pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out: &mut Printer) {
     let Text { name, width, text } = *text;
     let settings = &shape.program.settings;
+    let spelt = if behind.is_some() { plain(text) } else { text.into() };
+    let text = &*spelt;
     let full = text.chars().count();
     let wide = usize::from(width.unsigned_abs());
     let most = if wide == 0 { full } else { wide };
@@ -104,6 +106,7 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
     }
     let taken = full.min(room);
     let blanks = room - taken;
+    let in_brackets = out.is_in_brackets();
     let block = out.word(glued);
     if width < 0 {
         block.extend(std::iter::repeat_n(b' ', blanks));
@@ -111,7 +114,7 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
     let mut changed = false;
     for c in text.chars().take(taken) {
         block.push(match c {
-            c if behind.is_some() => in_comment(c, settings),
+            c if behind.is_some() => in_comment(c, in_brackets, settings),
             'A'..='Z' | 'a'..='z' | '0'..='9' | '_' | '-' | '.' => c as u8,
             _ => {
                 changed = true;

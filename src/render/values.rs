@@ -1,5 +1,6 @@
 //! The values that variables print now, for words, calculations and conditions.
 
+use super::kept::Kept;
 use super::said::Said;
 use super::shape::Shape;
 use super::vars::MOVED;
@@ -17,7 +18,7 @@ pub struct Now<'r, 'p> {
     /// Number of the open block, where one is made.
     pub block: Option<i64>,
     /// What the form sets on its way through a sequence, before it prints any of it.
-    pub set: &'r [(Target, f64)],
+    pub set: &'r Kept,
 }
 
 impl Now<'_, '_> {
@@ -41,15 +42,9 @@ impl Now<'_, '_> {
     }
 }
 
-impl Now<'_, '_> {
-    fn set_before(&self, target: Target) -> Option<f64> {
-        self.set.iter().rev().find(|(own, _)| *own == target).map(|(_, value)| *value)
-    }
-}
-
 impl Values for Now<'_, '_> {
     fn number(&self, var: VarId) -> Option<f64> {
-        if let Some(value) = self.set_before(Target::Var(var)) {
+        if let Some(value) = self.set.of(Target::Var(var)) {
             return Some(value);
         }
         match (self.get(var), var) {
@@ -69,15 +64,21 @@ impl Values for Now<'_, '_> {
 
     fn property(&self, row: u16) -> f64 {
         let target = Target::Property(row);
-        let set = self.set_before(target).or_else(|| self.said.kept.of(target));
+        let set = self.set.of(target).or_else(|| self.said.kept.of(target));
         let property = &self.shape.program.settings.properties[usize::from(row)];
         let scale = if property.kind == PropertyKind::Length { self.shape.form_scale } else { 1.0 };
         set.unwrap_or_else(|| self.want.properties.get(row).number() * scale)
     }
 
     fn property_text(&self, row: u16) -> &str {
-        self.want.properties.get(row).text()
+        let set = self.set.text_of(Target::Property(row));
+        set.unwrap_or_else(|| property_text(row, self.want, self.said))
     }
+}
+
+/// A property that is a text: as the form has set it, else as the job has it.
+pub fn property_text<'r>(row: u16, want: &'r Want, said: &'r Said) -> &'r str {
+    said.kept.text_of(Target::Property(row)).unwrap_or_else(|| want.properties.get(row).text())
 }
 
 /// Revolutions are their own limit.

@@ -1,5 +1,6 @@
 //! Which way through a sequence is taken now: its conditions are asked before any of it prints.
 
+use super::kept::Kept;
 use super::said::Said;
 use super::shape::Shape;
 use super::values::Now;
@@ -7,7 +8,7 @@ use super::want::Want;
 use crate::compile::{Node, Routine};
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
-use crate::sema::{Formula, Target, Without};
+use crate::sema::{Formula, Value, Without};
 use crate::span::Span;
 
 impl Shape<'_> {
@@ -26,7 +27,7 @@ impl Shape<'_> {
     fn chosen<'s>(&'s self, routine: &'s Routine, want: &Want, said: &Said) -> &'s Routine {
         let mut branches = 0;
         if let Some(flow) = &routine.flow {
-            choose(&flow.nodes, &mut Vec::new(), &mut branches, self, want, said);
+            choose(&flow.nodes, &mut Kept::default(), &mut branches, self, want, said);
         }
         let key = (routine.ops.start, routine.ops.end, branches);
         self.ways
@@ -37,14 +38,15 @@ impl Shape<'_> {
 }
 
 /// Asks the conditions of a sequence in their order; `set` is what its directives have set before.
-fn choose(nodes: &[Node], set: &mut Vec<(Target, f64)>, branches: &mut u128, shape: &Shape, want: &Want, said: &Said) {
+fn choose(nodes: &[Node], set: &mut Kept, branches: &mut u128, shape: &Shape, want: &Want, said: &Said) {
     for node in nodes {
         match node {
             Node::Set(target, index) => {
                 let now = Now { shape, want, said, letter: b' ', block: None, set };
                 // printing it says what is wrong
-                if let Ok(value) = shape.program.formulas[*index as usize].number(&now) {
-                    set.push((*target, value));
+                let value = shape.program.formulas[*index as usize].value(&now).ok().map(Value::into_owned);
+                if let Some(value) = value {
+                    set.set(*target, value);
                 }
             }
             // asked for each of them, when it prints

@@ -45,16 +45,58 @@ pub fn condition(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec
     asked(read(expr, diags)?, context, diags)
 }
 
+/// Yes or no, as a property keeps it: a condition, or one of its words alone.
+pub fn yes_or_no(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
+    let expr = read(expr, diags)?;
+    if let ExprKind::Word(word) = &expr.kind
+        && let Ok(PropertyValue::YesNo(yes)) = PropertyKind::YesNo.read(word)
+    {
+        return Some(Formula::Yes(yes));
+    }
+    asked(expr, context, diags)
+}
+
+/// A text, as the property of this row keeps it.
+pub fn text(expr: &Result<Expr, Unread>, row: u16, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
+    let expr = read(expr, diags)?;
+    let property = &context.settings.properties[usize::from(row)];
+    if let ExprKind::Word(word) | ExprKind::Text(word) = &expr.kind {
+        return named(word, expr.span, &Formula::PropertyText(row), Kind::Text, context, diags).map(|(text, _)| text);
+    }
+    let (formula, kind) = typed(expr, context, diags)?;
+    wants(kind, Kind::Text, expr.span, diags)?;
+    if let PropertyKind::Choice(_) = property.kind {
+        diags.push(
+            Diag::new(
+                Code::PF706,
+                format!("[{}] is a choice: a text of the job may be none of its words", property.name),
+            )
+            .at(expr.span, "whatever the job says")
+            .help(format!("ask for the text with `@if`, and set {}", property.kind.takes())),
+        );
+        return None;
+    }
+    Some(formula)
+}
+
+/// Does somebody write a text there?
+pub fn says_text(expr: &Result<Expr, Unread>) -> bool {
+    matches!(expr, Ok(Expr { kind: ExprKind::Text(_), .. }))
+}
+
 fn read<'a>(expr: &'a Result<Expr, Unread>, diags: &mut Vec<Diag>) -> Option<&'a Expr> {
     match expr {
         Ok(expr) => Some(expr),
         Err(unread) => {
-            let help = "write names, numbers, + - * / and brackets, as `[vclear-pointd]`; text of the control with brackets \
-                        stands in backquotes";
+            let all = || {
+                "write names, numbers, + - * / and brackets, as `[vclear-pointd]`; text of the control with brackets stands in \
+                 backquotes"
+                    .to_owned()
+            };
             diags.push(
                 Diag::new(Code::PF703, format!("the expression can't be read: {}", unread.why))
                     .at(unread.span, "here")
-                    .help(help),
+                    .help(unread.help.clone().unwrap_or_else(all)),
             );
             None
         }
@@ -69,7 +111,10 @@ fn wants(kind: Kind, wanted: Kind, span: Span, diags: &mut Vec<Diag>) -> Option<
         (Kind::Text, Kind::Number) => {
             "a text is compared with `=` and `like`; printed, it stands by itself: `[toolname]`"
         }
-        (Kind::YesNo, Kind::Number) => "ask it in a condition: `@if`",
+        (Kind::YesNo, Kind::Number) => "ask it in a condition: `@if [isfirsttool]`, `@if [header] = yes`",
+        (Kind::Number, Kind::Text) => {
+            "a text is compared with a text: `[toolname] = \"5\"`, `[toolname] like \"DRILL*\"`"
+        }
         _ => "compare it: `[speed] > 0`, `[toolname] like \"DRILL*\"`",
     };
     diags.push(
@@ -215,7 +260,8 @@ fn compared(
         }
         _ => [typed(left, context, diags)?, typed(right, context, diags)?],
     };
-    let [(left_formula, left_kind), (right_formula, right_kind)] = both;
+    let [(left_formula, left_kind), (right_formula, right_kind)] =
+        chosen(operator, both, [left, right], context, diags)?;
     if operator == Operator::Like {
         wants(left_kind, Kind::Text, left.span, diags)?;
         let Formula::Text(pattern) = right_formula else {
@@ -240,6 +286,44 @@ fn compared(
         _ => Comparison::Equal,
     };
     Some(Formula::Compare(comparison, Box::new([left_formula, right_formula])))
+}
+
+/// A choice beside a text in quotes, which must be one of its words; they have no order.
+fn chosen(
+    operator: Operator,
+    sides: [(Formula, Kind); 2],
+    at: [&Expr; 2],
+    context: &Context,
+    diags: &mut Vec<Diag>,
+) -> Option<[(Formula, Kind); 2]> {
+    let choice = |side: &(Formula, Kind)| match side.0 {
+        Formula::PropertyText(row) => {
+            let property = &context.settings.properties[usize::from(row)];
+            matches!(property.kind, PropertyKind::Choice(_)).then_some(property)
+        }
+        _ => None,
+    };
+    let [left, right] = sides;
+    let Some(property) = choice(&left).or(choice(&right)) else { return Some([left, right]) };
+    if !matches!(operator, Operator::Equal | Operator::Unequal | Operator::Like) {
+        diags.push(
+            Diag::new(Code::PF704, format!("the words of [{}] have no order", property.name))
+                .at(at[0].span.to(at[1].span), "compared as greater and less")
+                .help("ask with `=` or `<>`"),
+        );
+        return None;
+    }
+    match (&left, &right) {
+        (of, (Formula::Text(word), _)) if operator != Operator::Like => {
+            let word = named(word, at[1].span, &of.0, of.1, context, diags)?;
+            Some([left, word])
+        }
+        ((Formula::Text(word), _), of) if operator != Operator::Like => {
+            let word = named(word, at[0].span, &of.0, of.1, context, diags)?;
+            Some([word, right])
+        }
+        _ => Some([left, right]),
+    }
 }
 
 /// `[cool] = through`: kinds of coolant are compared by their names, whatever their codes are.
@@ -303,6 +387,9 @@ fn named(
     };
     let list = || names.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
     let help = match names.is_empty() {
+        _ if Coolant::parse(word).is_some() && matches!(beside, Formula::Var(VarId::Cool)) => {
+            format!("say its code at the top of the form: `CoolantKind {word} M88`")
+        }
         true => "compare it with a number; a text stands in quotes".to_owned(),
         false => {
             did_you_mean(word, names.iter().map(|(name, _)| *name)).unwrap_or_else(|| format!("take one of {}", list()))

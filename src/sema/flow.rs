@@ -1,12 +1,12 @@
 //! Directives of a sequence: which of its lines print when.
 
-use super::expression::{condition, number};
+use super::expression::{condition, number, says_text, text, yes_or_no};
 use super::formula::{Formula, NoValues};
 use super::names::{Context, property};
 use super::property::{PropertyKind, Target};
 use super::step::{Arm, Step};
 use crate::diag::{Code, Diag};
-use crate::lang::{DIRECTIVES, Each, Origin, Unit, VarId, did_you_mean};
+use crate::lang::{DIRECTIVES, Each, Origin, Unit, VarId, did_you_mean, directive_meant};
 use crate::span::Span;
 use crate::syntax::{Directive, DirectiveKind, Spanned};
 
@@ -103,21 +103,47 @@ impl Flow {
             }
             DirectiveKind::Set(target, value) => {
                 let target = settable(target, context, diags);
-                let yes_or_no = |row: u16| context.settings.properties[usize::from(row)].kind == PropertyKind::YesNo;
+                let kind = |row: u16| &context.settings.properties[usize::from(row)].kind;
                 let value = match target {
-                    Some(Target::Property(row)) if yes_or_no(row) => self::condition(value, context, diags),
-                    _ => number(value, context, diags),
+                    Some(Target::Property(row)) if *kind(row) == PropertyKind::YesNo => {
+                        yes_or_no(value, context, diags)
+                    }
+                    Some(Target::Property(row)) if kind(row).is_text() => text(value, row, context, diags),
+                    Some(Target::Var(var)) if says_text(value) => {
+                        diags.push(
+                            Diag::new(Code::PF704, format!("{} keeps a number, and this is a text", var.name()))
+                                .at(directive.rest.span, "a free variable")
+                                .help("a text is kept in a property: `Property note text - What it is`, `@set note = \"..\"`"),
+                        );
+                        None
+                    }
+                    Some(_) => number(value, context, diags),
+                    None => None,
                 };
                 if let (Some(target), Some(value)) = (target, value) {
                     self.steps().push(Step::Set(target, value, directive.rest.span));
                 }
             }
             DirectiveKind::Unknown => {
-                let names = || DIRECTIVES.iter().map(|row| row.name);
-                let all = || names().collect::<Vec<_>>().join(", ");
-                let all = || format!("there are {}; other text with @ stands in backquotes", all());
-                let help = did_you_mean(name, names()).unwrap_or_else(all);
+                let meant = directive_meant(name);
+                let help = match meant {
+                    Some(meant) => format!("did you mean `{meant}`?"),
+                    None => {
+                        let names: Vec<_> = DIRECTIVES.iter().map(|row| row.name).collect();
+                        format!("there are {}; other text with @ stands in backquotes", names.join(", "))
+                    }
+                };
                 wrong(format!("`{name}` is no directive"), "unknown", &help);
+                // so that what belongs to it is not wrong, too
+                match meant {
+                    Some("@if") => {
+                        let arm = Arm { span: at, condition: None, steps: Vec::new() };
+                        self.levels.push(Level { span: at, kind: Kind::If { arms: vec![arm], has_else: false } });
+                    }
+                    Some("@for") => self.levels.push(Level { span: at, kind: Kind::For(Each::Tool, Vec::new()) }),
+                    Some("@end") => self.close(),
+                    _ => {}
+                }
             }
         }
     }
@@ -193,7 +219,8 @@ impl Flow {
         let Some(each) = Each::parse(&rest.text) else {
             let help = did_you_mean(&rest.text, names())
                 .unwrap_or_else(|| "write `@for tool`, `@for operation` or `@for work`".into());
-            wrong(format!("`@for {}` goes through nothing", rest.text), "no list", help);
+            let what = if rest.text.is_empty() { "@for".to_owned() } else { format!("`@for {}`", rest.text) };
+            wrong(format!("{what} goes through nothing"), "no list", help);
             return Each::Tool;
         };
         let outer = |level: &Level| if let Kind::For(each, _) = level.kind { Some(each) } else { None };
@@ -239,9 +266,7 @@ impl Flow {
     ) -> Option<Formula> {
         // one that can't be read holds like any other: the form does not print
         let formula = condition(asked, context, diags).unwrap_or(Formula::Has(VarId::H));
-        if formula.is_constant()
-            && let Ok(holds) = formula.holds(&NoValues)
-        {
+        if let Some(holds) = formula.decided(&NoValues, &|_| false) {
             let what = if holds { "always true" } else { "never true" };
             let help = if holds { "take the condition out" } else { "take its lines out" };
             diags.push(
@@ -256,27 +281,26 @@ impl Flow {
 
 /// What `@set` gives a value.
 fn settable(target: &Spanned, context: &Context, diags: &mut Vec<Diag>) -> Option<Target> {
-    if let Some((row, property)) = property(&target.text, context) {
-        if !property.kind.is_text() {
-            return Some(Target::Property(row));
-        }
-        diags.push(
-            Diag::new(Code::PF704, format!("[{}] is a text, and a form sets numbers", property.name))
-                .at(target.span, "a text")
-                .help("ask for it where it counts: `@if`"),
-        );
-        return None;
+    if let Some((row, _)) = property(&target.text, context) {
+        return Some(Target::Property(row));
     }
     let free = |var: &VarId| {
         var.row().origin == Origin::Job && var.row().unit == Unit::Number && var.name().starts_with("val")
     };
     let var = VarId::parse(&target.text).filter(free);
     if var.is_none() {
-        diags.push(
-            Diag::new(Code::PF707, format!("`{}` can't be set by a form", target.text))
-                .at(target.span, "no variable of its own")
-                .help("val1 to val10 and the form's properties can be set: `@set val1 = [h]+2`"),
-        );
+        // `@set val1 2`, `@set val1 := 2`
+        let name = target.text.split([' ', ':', '+', '-']).next().unwrap_or_default().trim_matches(['[', ']']);
+        let known = VarId::parse(name).filter(free).is_some() || property(name, context).is_some();
+        let (message, help) = if known && name.len() < target.text.len() {
+            ("@set without its `=`".to_owned(), format!("write `@set {name} = ..`"))
+        } else {
+            let own = context.settings.properties.iter().map(|property| property.name.as_str());
+            let help = did_you_mean(name, own)
+                .unwrap_or_else(|| "val1 to val10 and the form's properties can be set: `@set val1 = [h]+2`".into());
+            (format!("`{}` can't be set by a form", target.text), help)
+        };
+        diags.push(Diag::new(Code::PF707, message).at(target.span, "no variable of its own").help(help));
     }
     var.map(Target::Var)
 }

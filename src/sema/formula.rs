@@ -182,6 +182,17 @@ pub enum Value<'a> {
     Yes(bool),
 }
 
+impl Value<'_> {
+    /// The value by itself.
+    pub fn into_owned(self) -> Value<'static> {
+        match self {
+            Value::Number(number) => Value::Number(number),
+            Value::Text(text) => Value::Text(Cow::Owned(text.into_owned())),
+            Value::Yes(yes) => Value::Yes(yes),
+        }
+    }
+}
+
 /// Why nothing comes out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Without {
@@ -315,12 +326,38 @@ impl Formula {
 
     /// Is it always the same?
     pub fn is_constant(&self) -> bool {
-        let mut asks_properties = false;
+        self.asks_only(&|_| false)
+    }
+
+    /// Does it ask nothing but such properties, by their rows?
+    fn asks_only(&self, known: &dyn Fn(u16) -> bool) -> bool {
+        let mut only = self.vars().is_empty() && self.texts() == TextSet::default();
         self.each(&mut |part| {
-            asks_properties |=
-                matches!(part, Formula::Property(_) | Formula::PropertyText(_) | Formula::PropertyHolds(_));
+            if let Formula::Property(row) | Formula::PropertyText(row) | Formula::PropertyHolds(row) = part {
+                only &= known(*row);
+            }
         });
-        !asks_properties && self.vars().is_empty() && self.texts() == TextSet::default()
+        only
+    }
+
+    /// Does a condition hold, as far as the known properties alone decide it? `None`: the job decides.
+    pub fn decided(&self, values: &dyn Values, known: &dyn Fn(u16) -> bool) -> Option<bool> {
+        let both = |both: &[Formula; 2]| both.each_ref().map(|side| side.decided(values, known));
+        match self {
+            Formula::Not(of) => of.decided(values, known).map(|holds| !holds),
+            Formula::And(sides) => match both(sides) {
+                [Some(false), _] | [_, Some(false)] => Some(false),
+                [Some(true), other] | [other, Some(true)] => other,
+                [None, None] => None,
+            },
+            Formula::Or(sides) => match both(sides) {
+                [Some(true), _] | [_, Some(true)] => Some(true),
+                [Some(false), other] | [other, Some(false)] => other,
+                [None, None] => None,
+            },
+            _ if self.asks_only(known) => self.holds(values).ok(),
+            _ => None,
+        }
     }
 }
 

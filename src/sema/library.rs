@@ -3,7 +3,8 @@
 use super::check::Analysis;
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;
-use crate::syntax::{Head, Statement};
+use crate::source::Source;
+use crate::syntax::{self, Head, Statement};
 
 impl Analysis {
     /// Where the second post begins among the items, which is reported; what is behind it is not looked at.
@@ -20,7 +21,10 @@ impl Analysis {
             Diag::new(Code::PF006, format!("the file holds {} posts: {}", names.len(), names.join(", ")))
                 .at(second.line.span, "another post begins here")
                 .at(first.line.span, "the first one")
-                .help("a form is one post: copy the lines of the one that you want into a file of its own"),
+                .help(format!(
+                    "say which with `--post {}`, or copy its lines into a file of its own",
+                    names[0].trim_matches('`')
+                )),
         );
         Some(at)
     }
@@ -36,4 +40,27 @@ fn named(item: &Head) -> Option<&Statement> {
 
 fn text(statement: &Statement) -> String {
     statement.args.iter().map(|arg| arg.text.as_str()).collect::<Vec<_>>().join(" ")
+}
+
+/// One post of a file, by its name in any case: the lines of the others are empty, so that all places stay.
+///
+/// # Errors
+/// The file has no such post: the names of those that it has.
+pub fn one_post(file: Source, name: &str) -> Result<Source, Vec<String>> {
+    let tree = syntax::parse(&file, 0);
+    let posts: Vec<(String, usize)> = tree
+        .items
+        .iter()
+        .filter_map(|item| named(item))
+        .map(|post| (text(post), post.line.span.start as usize))
+        .collect();
+    let Some(row) = posts.iter().position(|(own, _)| own.eq_ignore_ascii_case(name)) else {
+        return Err(posts.into_iter().map(|(name, _)| name).collect());
+    };
+    // what stands before the first name is of the first post
+    let begin = if row == 0 { 0 } else { posts[row].1 };
+    let end = posts.get(row + 1).map_or(file.text.len(), |(_, start)| *start);
+    let kept = |(at, c): (usize, char)| if (begin..end).contains(&at) || c == '\n' { Some(c) } else { None };
+    let text: String = file.text.char_indices().filter_map(kept).collect();
+    Ok(Source::from_text(file.name, text))
 }

@@ -5,6 +5,7 @@ mod called;
 mod check;
 mod code;
 mod expression;
+mod file_name;
 mod flow;
 mod formula;
 mod library;
@@ -25,7 +26,9 @@ mod words;
 
 pub use check::{Checked, analyse};
 pub use code::Code;
-pub use formula::{Formula, Value, Values, Without};
+pub use file_name::{Extension, NamePart, ProgramName, is_of_file_names};
+pub use formula::{Comparison, Formula, Value, Values, Without};
+pub use library::one_post;
 pub use limits::{Limits, MOST_LINES, MOST_TEXT, MOST_WORDS};
 pub use model::{Form, Line, Sequence, Upon, Word, WordKind, kind_of_remark};
 pub use property::{Property, PropertyKind, PropertyValue, Target};

@@ -31,6 +31,8 @@ pub fn variable(name: &Spanned, settings: &Settings, diags: &mut Vec<Diag>) -> O
         diag.help = did_you_mean(&name.text, known);
         if name.text.split_once(':').is_some_and(|(name, _)| VarId::parse(name).is_some()) {
             diag.help = Some("only texts have a width: that of a number comes from its letter's format".into());
+        } else if diag.help.is_none() {
+            diag.help = Some(no_name(&name.text));
         }
         diags.push(diag);
         return None;
@@ -44,4 +46,26 @@ pub fn variable(name: &Spanned, settings: &Settings, diags: &mut Vec<Diag>) -> O
         );
     }
     Some(var)
+}
+
+/// What to write instead of a name that is like none.
+fn no_name(text: &str) -> String {
+    let names = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    let help = match text.find(|c: char| !c.is_ascii_alphanumeric()).map(|at| &text[at..]) {
+        Some(rest) if rest.starts_with('^') => "a power is a product: `[d*d]`",
+        Some(rest) if rest.starts_with(['<', '>', '=']) => "a comparison stands behind `@if`, on a line of its own",
+        Some(rest) if rest.starts_with(',') => {
+            "a decimal has a point; several numbers stand in `min(..)` and `max(..)`"
+        }
+        None if text.starts_with(|c: char| c.is_ascii_digit()) && !text.bytes().all(|c| c.is_ascii_digit()) => {
+            "a number times a variable is written `[2*d]`"
+        }
+        None if text.starts_with(|c: char| c.is_ascii_lowercase()) && text.chars().all(names) => {
+            return format!(
+                "docs/variables.md lists all; a value of the form's own is a property: `Property {text} number 0 What it is`"
+            );
+        }
+        _ => "docs/variables.md lists all; text of the control with brackets stands in backquotes",
+    };
+    help.to_owned()
 }

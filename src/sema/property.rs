@@ -2,7 +2,7 @@
 
 use super::args::{Arguments, Read, bad};
 use super::store::Setting;
-use crate::lang::{TextVar, VarId};
+use crate::lang::{TextVar, VarId, did_you_mean};
 use crate::span::Span;
 
 /// How many properties a form may have.
@@ -66,9 +66,16 @@ impl PropertyKind {
             other => {
                 let words = other.strip_prefix("choice(").and_then(|rest| rest.strip_suffix(')'));
                 let Some(_) = words else {
-                    return Err(format!(
-                        "`{text}` is no kind of property: number, length, angle, yesno, text or choice(off,on), without blanks"
-                    ));
+                    let kinds = ["number", "length", "angle", "yesno", "text"];
+                    let meant = match other {
+                        "bool" | "boolean" | "switch" | "yes/no" => Some("did you mean `yesno`?".to_owned()),
+                        _ if other.starts_with("choice(") => {
+                            Some("write its words without blanks: `choice(off,on)`".into())
+                        }
+                        _ => did_you_mean(other, kinds),
+                    };
+                    let all = || "there are number, length, angle, yesno, text and choice(off,on)".to_owned();
+                    return Err(format!("`{text}` is no kind of property; {}", meant.unwrap_or_else(all)));
                 };
                 let words: Vec<String> = text["choice(".len()..text.len() - 1].split(',').map(str::to_owned).collect();
                 let same =
@@ -88,7 +95,7 @@ impl PropertyKind {
             PropertyKind::Length => "a length, in the form's units".into(),
             PropertyKind::Angle => "an angle in degrees".into(),
             PropertyKind::YesNo => "yes or no".into(),
-            PropertyKind::Text => "a text".into(),
+            PropertyKind::Text => format!("a text of at most {LONGEST_TEXT} characters"),
             PropertyKind::Choice(words) => format!("one of {}", words.join(", ")),
         }
     }
@@ -133,7 +140,11 @@ impl PropertyKind {
                 word.map(|word| PropertyValue::Text(word.clone()))
             }
         };
-        value.ok_or_else(|| format!("`{text}` is not {}", self.takes()))
+        const SHOWN: usize = 30;
+        value.ok_or_else(|| match text.char_indices().nth(SHOWN) {
+            Some((end, _)) => format!("`{}...` is not {}", &text[..end], self.takes()),
+            None => format!("`{text}` is not {}", self.takes()),
+        })
     }
 }
 

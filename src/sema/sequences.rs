@@ -41,6 +41,7 @@ impl Analysis {
         let settings = &self.form.settings;
         let context = Context { comment: &settings.comment, settings };
         let (mut lines, mut flow) = (Vec::new(), Flow::default());
+        let found = self.diags.len();
         for body in &node.body {
             if let Some(directive) = &body.directive {
                 flow.directive(directive, &context, &mut self.diags);
@@ -49,7 +50,9 @@ impl Analysis {
                 lines.push(resolve(body, &context, &mut self.diags));
             }
         }
-        let lines = Lines { lines, steps: flow.finish(&mut self.diags) };
+        let steps = flow.finish(&mut self.diags);
+        let torn = self.diags[found..].iter().any(|diag| [Code::PF703, Code::PF707].contains(&diag.code));
+        let lines = Lines { lines, steps, torn };
         match SequenceName::parse(&words) {
             None if is_word(&node.name.name.text) => self.report(no_name_line(span)),
             None => self.report(unknown_name(&node.name.name.text, node.name.name.span)),
@@ -83,19 +86,19 @@ impl Analysis {
             self.plain_end(node.end.as_ref());
             None
         };
-        let Lines { lines, steps } = lines;
+        let Lines { lines, steps, torn } = lines;
         let is_none = lines.len() == 1 && is_none(&node.body);
         let (least, most) = steps.as_ref().map_or((lines.len(), lines.len()), |steps| line_counts(steps));
         let counted = count.is_some();
         let count = count.and_then(|text| self.count(node, id, text, least));
-        if id.row().is_cycle && id != SequenceId::Cancel && !counted && least <= 1 && most > 1 {
+        if id.row().is_cycle && id != SequenceId::Cancel && !counted && least <= 1 && most > 1 && !torn {
             self.report(
                 Diag::new(Code::PF709, format!("{} prints {least} lines or {most}: two kinds of cycles", id.name()))
                     .at(span, "one line is repeated by the control, several are printed for each hole")
                     .help("give all branches one line, or all of them several, or the sequence a count"),
             );
         }
-        if least == 0 && most > 0 && must_print(id) {
+        if least == 0 && most > 0 && must_print(id) && !torn {
             self.report(
                 Diag::new(Code::PF709, format!("a way through {} prints nothing", id.name()))
                     .at(span, "where no condition holds, or in a branch without lines")
@@ -242,6 +245,8 @@ fn is_often(id: SequenceId) -> bool {
 struct Lines {
     lines: Vec<Line>,
     steps: Option<Vec<Step>>,
+    /// Its directives are wrong: what it prints on which way is not known.
+    torn: bool,
 }
 
 fn is_none(body: &[Body]) -> bool {

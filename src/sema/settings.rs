@@ -2,6 +2,7 @@
 
 use super::args::{Arguments, Read};
 use super::code::Code;
+use super::file_name::{Extension, ProgramName};
 use super::property::Property;
 use super::store::Setting;
 use crate::control::{self, Control};

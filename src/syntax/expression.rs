@@ -97,6 +97,8 @@ pub struct Unread {
     pub span: Span,
     /// Why.
     pub why: String,
+    /// What to write instead, where that is known.
+    pub help: Option<String>,
 }
 
 /// Loosest first.
@@ -138,7 +140,7 @@ pub fn is_too_deep(line: &str) -> bool {
 /// It can't be read: where, and why.
 pub fn expression(text: &str, span: Span, in_brackets: bool) -> Result<Expr, Unread> {
     if text.len() > LONGEST {
-        return Err(Unread { span, why: format!("it has more than {LONGEST} characters") });
+        return Err(Unread { span, why: format!("it has more than {LONGEST} characters"), help: None });
     }
     let mut depth = 0_usize;
     for (at, c) in text.char_indices() {
@@ -149,7 +151,7 @@ pub fn expression(text: &str, span: Span, in_brackets: bool) -> Result<Expr, Unr
         }
         if depth > DEEPEST {
             let here = Span { start: span.start + at as u32, end: span.start + at as u32 + 1, ..span };
-            return Err(Unread { span: here, why: format!("its brackets lie more than {DEEPEST} deep") });
+            return Err(Unread { span: here, why: format!("its brackets lie more than {DEEPEST} deep"), help: None });
         }
     }
     let read = Reading { start: span.start, file: span.file };
@@ -169,15 +171,62 @@ pub fn expression(text: &str, span: Span, in_brackets: bool) -> Result<Expr, Unr
 
 /// Where reading stopped, and what stands there.
 fn unread(text: &str, at: usize, span: Span) -> Unread {
-    let rest = text.get(at..).unwrap_or_default();
-    match rest.chars().next() {
+    let at = if text.is_char_boundary(at) { at } else { text.len() };
+    let (read, rest) = text.split_at(at);
+    let help = instead(read, rest);
+    let here = |at: usize, c: char| {
+        let start = span.start + at as u32;
+        Span { start, end: start + c.len_utf8() as u32, ..span }
+    };
+    match rest.trim_start().chars().next() {
         Some(c) => {
-            let start = span.start + at as u32;
-            let here = Span { start, end: start + c.len_utf8() as u32, ..span };
-            Unread { span: here, why: format!("`{c}` makes no sense here") }
+            let at = text.len() - rest.trim_start().len();
+            Unread { span: here(at, c), why: format!("`{c}` makes no sense here"), help }
         }
-        None => Unread { span, why: "something is missing at its end".into() },
+        None => {
+            let last = text.trim_end().char_indices().next_back();
+            let span = last.map_or(span, |(at, c)| here(at, c));
+            Unread { span, why: "something is missing at its end".into(), help }
+        }
     }
+}
+
+/// What to write instead of what other languages have here.
+fn instead(read: &str, rest: &str) -> Option<String> {
+    /// What stands where reading stopped, and what a form says for it.
+    const OTHERS: [(&str, &str); 8] = [
+        ("!=", "write `<>` for what is not equal"),
+        ("!", "write `not`"),
+        ("&", "write `and`"),
+        ("|", "write `or`"),
+        ("'", "a text stands in double quotes: `\"DRILL 8\"`"),
+        ("^", "a power is a product: `[d*d]`"),
+        ("then", "take `then` out: the lines that print stand below, up to `@end`"),
+        ("goto", "text of the control stands in backquotes, on a line of its own"),
+    ];
+    let (before, behind) = (read.trim_end(), rest.trim_start());
+    let lower = behind.to_ascii_lowercase();
+    let known = OTHERS.iter().find(|(other, _)| lower.starts_with(other)).map(|(_, help)| *help);
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let count = |c: char| read.matches(c).count();
+    let help = match behind.chars().next() {
+        _ if known.is_some() => known?,
+        Some('=') if before.ends_with('=') => "one `=` compares",
+        Some('*') if before.ends_with('*') => "a power is a product: `[d*d]`",
+        Some(',') if digit(before.chars().next_back()) && digit(behind.chars().nth(1)) => {
+            "a decimal has a point, no comma"
+        }
+        Some(c) if c.is_ascii_alphanumeric() || "[\"(".contains(c) => {
+            "an operator is missing before it: one of = <> < <= > >= and or like, + - * /"
+        }
+        None if before.is_empty() => "write what is asked, as `@if [cool] = on`, or what is set, as `@set val1 = 2`",
+        None if count('(') > count(')') => "a closing bracket is missing",
+        None if before.ends_with('*') && before.split(['=', ' ']).next_back().is_some_and(|word| word.len() > 1) => {
+            "a pattern stands in quotes behind `like`: `[toolname] like \"DRILL*\"`"
+        }
+        _ => return None,
+    };
+    Some(help.to_owned())
 }
 
 /// Where the text of an expression stands.
@@ -327,9 +376,9 @@ mod tests {
     fn what_can_not_be_read_has_its_place() {
         let table = [
             ("", "0: something is missing at its end"),
-            ("[h]+", "0: something is missing at its end"),
+            ("[h]+", "3: something is missing at its end"),
             ("[h]+*2", "4: `*` makes no sense here"),
-            ("[h", "0: something is missing at its end"),
+            ("[h", "1: something is missing at its end"),
             ("[h]]", "3: `]` makes no sense here"),
             ("[h] [v]", "4: `[` makes no sense here"),
             ("[h] == 1", "5: `=` makes no sense here"),

@@ -10,7 +10,7 @@ use postform::internals::compile::compile;
 use postform::internals::render::Renderer;
 use postform::toolpath::{ReadError, Units};
 
-use crate::support::{check, root};
+use crate::support::{check, plain_post, root};
 
 /// What a tool does to the part.
 #[derive(Clone, Copy, Debug)]
@@ -205,7 +205,7 @@ fn options(text: &str) -> Options {
 fn program(text: &str, options: &Options) -> Result<String, ReadError> {
     // coolant of any kind
     let kinds = "CoolantKind through M7\nCoolantKind air M7\nCoolantKind high M8\n";
-    let post = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();
+    let post = plain_post("linuxcnc.pf");
     let checked = check(&(kinds.to_owned() + &post));
     let form = compile(&checked.form);
     let mut renderer =

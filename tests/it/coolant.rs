@@ -101,3 +101,12 @@ fn wrong_kinds_are_refused() {
         );
     }
 }
+
+#[test]
+fn codes_of_kinds_that_are_typed_are_said() {
+    let lines = "@if [cool] = through\n  M88\n@else\n  M[cool]\n@end";
+    assert_eq!(codes(&form(KINDS, lines), &job(&[(1, "through", LINE)])), ["M88"]);
+    let two = job(&[(1, "through", LINE), (2, "on", LINE)]);
+    let lines = "@if [cool] = through\n  M88\n@else\n  M89\n  M8\n@end";
+    assert_eq!(codes(&form(KINDS, lines), &two), ["M88", "M89", "M8"]);
+}

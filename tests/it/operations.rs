@@ -108,3 +108,13 @@ fn numbers_may_have_no_letter_and_lines_another_end() {
     assert_eq!(lines[..3], ["%", "0 T1 M6", "1 S1000 M3"]);
     assert!(printed.ends_with("\r\n") && !printed.replace("\r\n", "").contains(['\r', '\n']));
 }
+
+/// What a branch does not print counts as not printed there.
+#[test]
+fn a_comment_that_only_another_branch_says_is_not_lost() {
+    let keys = format!("{TURNS}\"name\":\"slot\",\"comment\":\"mind the clamp\",");
+    let sequences = "Operation\n@if [opname] like \"rough*\"\n  (R [optext])\n@else\n  (X)\n@end\nEnd";
+    let printed = program(&mill("", sequences), &job(&[(1, &keys, LINE)]));
+    let comments: Vec<_> = printed.iter().filter(|line| line.starts_with('(')).collect();
+    assert_eq!(comments, ["(MIND THE CLAMP)", "(X)"]);
+}

@@ -180,3 +180,43 @@ fn a_property_that_nothing_asks_is_a_warning() {
     assert_eq!(found(&form(THROUGH, "@set val1 = 1\n@if [through] = on\nM1\n@end")), 0);
     assert_eq!(found(&form(THROUGH, "([through])")), 0);
 }
+
+#[test]
+fn a_form_keeps_texts_in_properties() {
+    let head =
+        "Property note text - What it is\nProperty mode choice(fine,rough) fine How\nProperty on yesno no Anything";
+    let job = job("", ["\"name\":\"Pocket 1\",", "\"name\":\"Holes\","]);
+    let lines = "@if [opname] like \"pocket*\"\n  @set note = [opname]\n  @set mode = rough\n  @set on = yes\n@end\n\
+                 @if [mode] = rough and [on]\n  (NOTE [note])\n@else\n  (PLAIN)\n@end\n@set mode = \"FINE\"";
+    let printed = self::print(&form(head, lines), &job, Options::default()).unwrap();
+    // the first tool change sees what it sets itself; the second what is left of it
+    assert_eq!(printed, ["(NOTE POCKET 1)", "(PLAIN)"]);
+    let refused = |line: &str| {
+        let found = lint(&check(&form(head, line)), &Default::default()).diags;
+        // once in each tool change
+        let mut codes: Vec<_> = found.iter().filter(|diag| diag.is_error()).map(|diag| diag.code.name()).collect();
+        codes.dedup();
+        codes
+    };
+    assert_eq!(refused("@set mode = raw"), ["PF706"]);
+    assert_eq!(refused("@set mode = [opname]"), ["PF706"]);
+    assert_eq!(refused("@set note = 5"), ["PF704"]);
+    assert_eq!(refused("@set val1 = \"A\""), ["PF704"]);
+}
+
+#[test]
+fn a_choice_is_one_of_its_words() {
+    let refused = |condition: &str| {
+        let lines = format!("@if {condition}\n  M88\n@end");
+        let found = lint(&check(&form(THROUGH, &lines)), &Default::default()).diags;
+        let mut codes: Vec<_> = found.iter().filter(|diag| diag.is_error()).map(|diag| diag.code.name()).collect();
+        codes.dedup();
+        codes
+    };
+    assert_eq!(refused("[through] = \"HIGH\""), [""; 0]);
+    assert_eq!(refused("[through] = \"hihg\""), ["PF706"]);
+    assert_eq!(refused("[through] < high"), ["PF704"]);
+    let job = job("", ["", ""]);
+    let lines = "@if [through] = \"HIGH\"\n  M88\n@end";
+    assert_eq!(print(&form(THROUGH, lines), &job, caller("through", "high")).unwrap(), ["M88", "M88"]);
+}

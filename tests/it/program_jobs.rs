@@ -1,10 +1,9 @@
 //! NC programs read as jobs and printed by the Haas post: what comes out, what is warned of, what is refused.
 
 use crate::support::control;
-use std::fs;
 use std::io::Cursor;
 
-use crate::support::{check, root};
+use crate::support::{check, plain_post};
 use postform::internals::compile::compile;
 use postform::internals::nc::{JobOptions, RunSettings, read_program};
 use postform::internals::render::{Options, Renderer};
@@ -14,7 +13,7 @@ const HEAD: &str = "G20 G17 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z1. M8\n
 
 /// The new program with its warnings, or the code of the refusal.
 fn printed(program: &str) -> Result<(String, Vec<String>), String> {
-    let checked = check(&fs::read_to_string(root().join("postforms/haas.pf")).unwrap());
+    let checked = check(&plain_post("haas.pf"));
     let form = compile(&checked.form);
     let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
     let options = JobOptions { settings: RunSettings::new(control("fanuc")), units: None, tool: None, start: None };
@@ -178,7 +177,7 @@ fn a_warning_is_counted() {
 #[test]
 fn a_cut_from_an_unknown_place_begins_where_the_caller_says() {
     let read = |program: &str, start| {
-        let checked = check(&fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap());
+        let checked = check(&plain_post("linuxcnc.pf"));
         let form = compile(&checked.form);
         let mut renderer = Renderer::new(&form, Options::default());
         let settings = RunSettings::new(control("fanuc"));

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Cursor;
 
 use crate::program_commands::{postform, text};
-use crate::support::{check, control, root};
+use crate::support::{check, control, plain_post, root};
 use crate::verify::{document, inches, post, rendered, verified};
 use postform::internals::compile::compile;
 use postform::internals::json::read_lines;
@@ -177,7 +177,7 @@ fn right_programs_of_other_forms_are_proven() {
     );
     is_right("another offset with another tool", of_form(&home, &offsets));
 
-    let rotary = fs::read_to_string(root().join("postforms/haas-4axis.pf")).unwrap();
+    let rotary = plain_post("haas-4axis.pf");
     let renamed = format!("Rename A B\n{rotary}");
     let turned = one(
         r#"{"rapid":[0,0,100,0]},{"rapid":[0,0,2,0]},{"line":[9,0,2,0]},{"rapid":[9,0,100,0]},{"rapid":[9,0,100,90]},{"line":[9,0,2,90]},{"rapid":[9,0,100,90]}"#,

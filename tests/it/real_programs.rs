@@ -69,7 +69,7 @@ fn real_programs_run_or_are_refused_for_a_reason() {
 #[test_with::path(../shared/data/nc)]
 #[test]
 fn real_programs_printed_by_another_form_make_the_same_motions() {
-    let checked = support::check_file(&root().join("postforms/haas.pf"));
+    let checked = support::check(&support::plain_post("haas.pf"));
     let form = compile(&checked.form);
     for (name, bytes, settings, units, expected) in programs() {
         if expected.is_err() {

@@ -99,7 +99,7 @@ fn a_comment_fits_its_control() {
     let long = format!("\"name\":\"{}\",", "a (b) % \\u00e9".repeat(30));
     let printed = lines("Control linuxcnc", "(NAME [progname] END)", &job(&long, "", ""));
     assert_eq!(printed.len(), 1);
-    assert!(printed[0].starts_with("(NAME A [B] _ ?A [B] _ ?") && printed[0].ends_with(" END)"));
+    assert!(printed[0].starts_with("(NAME A [B] _ EA [B] _ E") && printed[0].ends_with(" END)"));
     assert!(printed[0].len() <= 252, "{}", printed[0].len());
     let notes = render(&form("Control linuxcnc", "(NAME [progname] END)"), &job(&long, "", "")).unwrap().notes;
     assert!(notes.iter().any(|note| note.code.name() == "PR050" && note.message.contains("is cut to")));
@@ -146,4 +146,14 @@ fn wrong_texts_are_refused() {
         found.dedup();
         assert_eq!(found, [code], "{line}");
     }
+}
+
+/// A closing bracket would end the comment, and let the rest move the machine, whatever marks the form's own comments have.
+#[test]
+fn a_text_stays_in_its_brackets() {
+    let job = job("", ",\"name\":\"X)G0 Z-5(;\"", "");
+    for head in ["Control linuxcnc\nComment ;", "Control grbl\nComment ;", "", "Comment ;"] {
+        assert_eq!(lines(head, "(TOOL [toolname])", &job), ["(TOOL X]G0 Z-5[;)"], "{head}");
+    }
+    assert_eq!(lines("Comment ;", "; TOOL [toolname]", &job), ["; TOOL X)G0 Z-5(;"]);
 }

@@ -2,10 +2,9 @@
 //! that were changed by hand, and jobs that were programs.
 
 use crate::support::control;
-use std::fs;
 use std::io::Cursor;
 
-use crate::support::{check, root, wrong};
+use crate::support::{check, plain_post, wrong};
 use postform::internals::compile::compile;
 use postform::internals::control::Control;
 use postform::internals::json::{read_document, read_lines};
@@ -53,7 +52,7 @@ pub fn verified(form: &Checked, program: &str, job: Job<'_>) -> Verdict {
 }
 
 pub fn post(name: &str) -> String {
-    fs::read_to_string(root().join("postforms").join(name)).unwrap()
+    plain_post(name)
 }
 
 /// Every kind of cycle that forms can print, with depths and heights that change, and a return plane.

@@ -63,6 +63,9 @@ pub struct LintArgs {
     /// Limits of the form [default: of postform.toml, else classic]
     #[arg(long, value_name = "LIMITS")]
     pub limits: Option<LimitsArg>,
+    /// Which post of a form that holds several, by its Name
+    #[arg(long, value_name = "NAME", conflicts_with = "fix")]
+    pub post: Option<String>,
     /// Report anew whenever a form is changed
     #[arg(long, conflicts_with_all = ["fix", "unsafe_fixes"])]
     pub watch: bool,
@@ -95,6 +98,9 @@ pub struct ExplainArgs {
 pub struct PropertiesArgs {
     /// The form, or - for standard input
     pub form: PathBuf,
+    /// Which post of a form that holds several, by its Name
+    #[arg(long, value_name = "NAME")]
+    pub post: Option<String>,
     /// How they are shown
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     pub format: PropertiesFormat,

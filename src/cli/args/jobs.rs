@@ -163,6 +163,9 @@ pub struct RenderOptions {
     /// The program's number [default: the job's]
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(..=99_999_999))]
     pub program: Option<u32>,
+    /// Which post of a form that holds several, by its Name
+    #[arg(long, value_name = "NAME")]
+    pub post: Option<String>,
     /// A value for a variable, prompt or property of the form
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
@@ -234,7 +237,7 @@ pub struct RenderArgs {
     /// The form of the machine [default: that of postform.toml]
     #[arg(long, value_name = "FORM")]
     pub form: Option<PathBuf>,
-    /// Where the program goes, or - for standard output; it appears there when it is complete
+    /// Where the program goes: a file, a folder in which the form names it, or - for standard output; it appears there when it is complete
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: PathBuf,
     /// How it is rendered

@@ -92,7 +92,8 @@ fn report(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
 
 /// The text of a form, with the limits that hold for it.
 fn read(path: &Path, args: &LintArgs) -> Result<FormFile, String> {
-    FormFile::read(path, args.limits.map(LimitsArg::limits).or(Config::near(path)?.limits).unwrap_or_default())
+    let limits = args.limits.map(LimitsArg::limits).or(Config::near(path)?.limits).unwrap_or_default();
+    FormFile::read(path, limits)?.of_post(args.post.as_deref())
 }
 
 /// One form: mended if that is asked for, and looked at.

@@ -155,6 +155,12 @@ macro_rules! command_rows {
                 "text at the end of every block";
             LineEnd "LineEnd" (Choice(&["lf", "crlf"])) once (of("lf")) Ours {line_end: LineEnd}
                 "what ends a line of the program";
+            ProgramName "ProgramName" (Words(1, 1, "a name with variables, as `O[program#]` or `[progname]`"))
+                once (of("")) Ours {program_name: ProgramName} eg "O[program#]"
+                "what the file of a program is called where `--output` names a folder";
+            Extension "Extension" (Words(1, 1, "letters and digits, as `mpf`"))
+                once (of("nc")) Ours {extension: Extension} eg "mpf"
+                "what the name of a program's file ends with where `--output` names a folder";
             Comment "Comment" (Words(1, 2, "opening mark and, unless empty, closing mark"))
                 once (of("( )")) Ours {comment: [String; 2]}
                 "comment marks";

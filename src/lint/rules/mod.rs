@@ -9,9 +9,12 @@ mod change_without_tool;
 mod coarse_centre;
 mod code_format;
 mod codes_swapped;
+mod comment_line_without_text;
 mod compensation_words;
+mod condition_as_text;
 mod control_without_code;
 mod coolant_order;
+mod coolant_unprinted;
 mod count_swallows_position;
 mod count_with_point;
 mod custom_kind;
@@ -44,6 +47,7 @@ mod length_register;
 mod letter_for_digit;
 mod letter_formats;
 mod letter_twice;
+mod list_without_use;
 mod lost_words;
 mod machine_code_without_count;
 mod missing_blank;
@@ -63,6 +67,7 @@ mod open_comment;
 mod other_axis;
 mod other_cycle;
 mod part_zero;
+mod pattern_compared;
 mod peck_without_step;
 mod position_in_increments;
 mod property_unused;
@@ -225,4 +230,9 @@ rules! {
     PF609 second_m_code
     // what posts say beyond the manual
     PF710 property_unused
+    PF711 list_without_use
+    PF712 coolant_unprinted
+    PF713 condition_as_text
+    PF714 pattern_compared
+    PF715 comment_line_without_text
 }

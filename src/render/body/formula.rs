@@ -9,7 +9,7 @@ use crate::render::fault::{Done, fault};
 use crate::render::numbers::quantised;
 use crate::render::ways::division_by_zero;
 use crate::render::words::check_feed;
-use crate::sema::Without;
+use crate::sema::{Value, Without};
 
 impl Body<'_, '_> {
     /// Lines that print once for each tool, operation or work offset of the job.
@@ -32,8 +32,9 @@ impl Body<'_, '_> {
     /// A directive gives a variable or a property its value.
     pub(super) fn set(&mut self, index: u32) -> Done {
         let (target, formula) = self.shape.program.sets[index as usize];
-        let value = self.calculated(formula, b' ')?;
-        value.into_iter().for_each(|value| self.said.kept.set(target, value));
+        if let Some(value) = self.to_keep(formula)? {
+            self.said.kept.set(target, value);
+        }
         Ok(())
     }
 
@@ -43,6 +44,14 @@ impl Body<'_, '_> {
             Ok(value) => Ok(Some(value)),
             Err(Without::Value(var)) => self.value_of(var, letter),
             Err(Without::Divisor(divisor)) => Err(Box::new(division_by_zero(divisor))),
+        }
+    }
+
+    /// What `@set` gives a value, or none where a variable in it has none and its word is optional.
+    pub(super) fn to_keep(&self, index: u32) -> Done<Option<Value<'static>>> {
+        match self.shape.program.formulas[index as usize].value(&self.now(b' ')) {
+            Ok(value) => Ok(Some(value.into_owned())),
+            Err(_) => Ok(self.calculated(index, b' ')?.map(Value::Number)),
         }
     }
 

@@ -14,7 +14,7 @@ use super::printer::Printer;
 use super::said::{Line, Said};
 use super::shape::Shape;
 use super::texts::{self, Text};
-use super::values::{Now, rpm_as_limit};
+use super::values::{Now, property_text, rpm_as_limit};
 use super::vars::MOVED;
 use super::want::Want;
 use super::words::check_feed;
@@ -192,7 +192,9 @@ impl Body<'_, '_> {
 
     /// Has the job none of the texts of the comment that begins here?
     fn comment_is_empty(&self, at: usize, words: usize) -> bool {
-        texts::are_empty(&self.shape.program.ops[at + 1..][..words], &self.want.texts, &self.want.properties)
+        texts::are_empty(&self.shape.program.ops[at + 1..][..words], &self.want.texts, &|row| {
+            property_text(row, self.want, self.said).is_empty()
+        })
     }
 
     fn operation(&mut self, op: Op, at: usize) -> Done {
@@ -232,7 +234,7 @@ impl Body<'_, '_> {
             Op::PropertyText { row, in_comment, glued } => {
                 let behind = in_comment.then(|| texts::typed_behind(at, self.shape));
                 let name = format!("[{}]", self.shape.program.settings.properties[usize::from(row)].name);
-                let text = Text { name: &name, width: 0, text: self.want.properties.get(row).text() };
+                let text = Text { name: &name, width: 0, text: property_text(row, self.want, self.said) };
                 texts::print(&text, behind, glued, self.shape, self.out);
             }
             Op::Value { var, glued } => self.bare_word(var, glued)?,
@@ -384,7 +386,7 @@ impl Body<'_, '_> {
     /// The values of variables for a word of this letter.
     fn now(&self, letter: u8) -> Now<'_, '_> {
         let block = Some(self.out.number());
-        Now { shape: self.shape, want: self.want, said: self.said, letter, block, set: &[] }
+        Now { shape: self.shape, want: self.want, said: self.said, letter, block, set: &self.said.kept }
     }
 
     /// A value without a letter, which the control reads.

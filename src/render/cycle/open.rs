@@ -66,7 +66,9 @@ impl Setup {
 
     /// Is any of these another one now?
     pub fn differs(&self, sources: Sources, want: &Want, said: &Said) -> bool {
-        let other = |target| self.kept.of(target) != said.kept.of(target);
+        let other = |target| {
+            self.kept.of(target) != said.kept.of(target) || self.kept.text_of(target) != said.kept.text_of(target)
+        };
         sources.vars.iter().any(|var| self.vars.get(var) != want.get(var) || other(Target::Var(var)))
             || sources.properties().any(|row| other(Target::Property(row)))
     }

@@ -1,10 +1,10 @@
 //! Comments, in the marks of the form.
 
-use super::plain::plain;
 use crate::diag::Code;
 use crate::lang::SequenceId;
 use crate::render::fault::Done;
 use crate::render::marks::in_comment;
+use crate::render::plain::plain;
 use crate::render::printer::Printer;
 use crate::render::said::Said;
 use crate::render::shape::Shape;
@@ -59,7 +59,7 @@ fn comment_line(text: &str, shape: &Shape, out: &mut Printer) {
     let block = out.word(false);
     block.extend_from_slice(open.as_bytes());
     for c in text.chars() {
-        block.push(in_comment(c, settings));
+        block.push(in_comment(c, false, settings));
     }
     block.extend_from_slice(close.as_bytes());
     out.end_block();

@@ -3,7 +3,6 @@
 pub mod calls;
 pub mod comments;
 pub mod finish;
-mod plain;
 pub mod sections;
 pub mod start;
 pub mod stops;

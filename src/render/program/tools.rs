@@ -19,6 +19,7 @@ use crate::render::said::{LastMove, Said};
 use crate::render::settle::{check_reading_of, speed_mode_before, work_before};
 use crate::render::shape::Shape;
 use crate::render::targets::{set_here, set_targets};
+use crate::render::turret::turret_word;
 use crate::render::upon::{run_with_upons, upons_of_change};
 use crate::render::want::Want;
 use crate::toolpath::{Axes, Coolant, FeedMode, First, Section, Tool, ToolChange};
@@ -68,7 +69,7 @@ fn operation_comment(
     out: &mut Printer,
 ) -> Done {
     let says = |routine: &Routine| routine.texts.has(TextId::Optext);
-    let by_form = routine.is_some_and(says) || shape.program.routine(SequenceId::Operation).is_some_and(says);
+    let by_form = routine.is_some_and(says) || shape.routine(SequenceId::Operation, want, said).is_some_and(says);
     match change.comment.as_ref().filter(|_| !by_form) {
         Some(comment) => comment_block(comment, shape, want, said, out),
         None => Ok(()),
@@ -235,25 +236,6 @@ fn change_tool(
     }
     said.force(shape);
     Ok(())
-}
-
-/// `[comp]`, the T word of a lathe: station and offset register in two digits each. A job's number that holds both
-/// stays as it is.
-fn turret_word(tool: &Tool, shape: &Shape) -> Done<f64> {
-    const STATIONS: f64 = 100.0;
-    let whole = tool.number >= STATIONS;
-    let register = match tool.length_offset {
-        None if whole => return Ok(tool.number),
-        own => own.unwrap_or(tool.number + shape.program.settings.lcomp),
-    };
-    let other = whole && register != tool.number % STATIONS && register != tool.number;
-    if shape.program.printed.has(VarId::Comp) && (other || !whole && register >= STATIONS) {
-        let message =
-            format!("tool {} with the offset register {register} has no T word of two and two digits", tool.number);
-        let help = "give it a register below 100, and a number from 100 on only if it holds the register";
-        return fault(Code::PR039, message, help);
-    }
-    Ok(if whole { tool.number } else { tool.number * STATIONS + register })
 }
 
 fn next_tool(tool: &Tool, shape: &mut Shape, want: &mut Want) -> Done {

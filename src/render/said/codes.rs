@@ -49,6 +49,7 @@ impl Said {
     fn m_code(&mut self, code: Code, row: Option<&Row>, want: &Want, shape: &Shape) {
         let meaning = row.map(|row| row.meaning);
         self.spindle_code(meaning, shape);
+        self.coolant_code(code.value(), shape);
         if meaning.is_some_and(Meaning::is_stop) || shape.program.settings.stop_code.contains(&code.value()) {
             self.stopped(want, shape);
         } else if meaning.is_some_and(|meaning| meaning.is_call() || meaning == Meaning::ToolChange) {
@@ -71,6 +72,22 @@ impl Said {
             self.conditions.put(VarId::Cool, cool);
         }
         self.switched = true;
+    }
+
+    /// A code of the form's kinds of coolant, whatever the control takes it for.
+    fn coolant_code(&mut self, code: f64, shape: &Shape) {
+        let kinds = &shape.program.settings.coolant_kinds;
+        let begins = kinds.iter().any(|kind| kind.on == code);
+        let ends = kinds.iter().any(|kind| kind.off == Some(code));
+        let own = |cool: f64| kinds.iter().any(|kind| kind.on == cool && kind.off == Some(code));
+        // what ends one kind leaves another on
+        if begins || ends && self.conditions.get(VarId::Cool).is_some_and(own) {
+            self.conditions.put(VarId::Cool, Some(code));
+            self.switched = true;
+        }
+        if begins || ends {
+            self.coolant_ended = Some(code).filter(|_| !begins);
+        }
     }
 
     /// What a G code does to positions.

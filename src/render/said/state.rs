@@ -35,6 +35,8 @@ pub struct Said {
     pub(super) registers: Registers,
     /// Work offset, spindle, coolant, feed mode.
     pub conditions: Conditions,
+    /// The code that ended a kind of coolant, while nothing has begun one since.
+    pub coolant_ended: Option<f64>,
     /// Where the tool stands.
     pub stand: Stand,
     /// What the form itself has set.
@@ -77,6 +79,7 @@ impl Said {
         Said {
             registers: Registers::default(),
             conditions: Conditions::default(),
+            coolant_ended: None,
             stand: Stand::default(),
             kept: Kept::default(),
             upon_used: vec![None; upons],

@@ -41,6 +41,36 @@ pub fn check_file(path: &Path) -> Checked {
     })
 }
 
+/// A form that ships, by its file in postforms/, without the comments of its header: for tests of what moves.
+pub fn plain_post(file: &str) -> String {
+    without_header(&fs::read_to_string(root().join("postforms").join(file)).unwrap())
+}
+
+/// A form as it is without its header: the property, and what asks for it.
+pub fn without_header(form: &str) -> String {
+    let mut kept = String::new();
+    // how deep the directives lie in `@if [header]`, and whether its `@else` is reached
+    let (mut depth, mut in_else) = (0, false);
+    for line in form.lines() {
+        let begins = line.trim_start();
+        match depth {
+            0 if begins.starts_with("@if [header]") => (depth, in_else) = (1, false),
+            0 if begins.starts_with("Property header ") => {}
+            0 => kept += &format!("{line}\n"),
+            1 if begins == "@else" => in_else = true,
+            _ => {
+                depth += usize::from(begins.starts_with("@if") || begins.starts_with("@for"));
+                depth -= usize::from(begins == "@end");
+                if depth > 0 && in_else {
+                    kept += &format!("{begins}\n");
+                }
+            }
+        }
+    }
+    assert!(!kept.contains("[header]"), "{kept}");
+    kept.replace("Operation\nEnd\n", "")
+}
+
 /// What is wrong, where a sink takes no more events.
 pub fn wrong(flow: Flow) -> Box<Diag> {
     match flow {
@@ -77,8 +107,9 @@ pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) 
         ),
     };
     let mut survey = None;
-    if program.reads_ahead() || program.asks_tools_ahead() {
-        let mut surveyor = Surveyor::new(survey_terms(&program, false));
+    let asks = program.asks_ahead(&options.properties);
+    if asks.all || asks.tools {
+        let mut surveyor = Surveyor::new(survey_terms(&program, false, !asks.all));
         if let Err(ReadError::Job(diag)) = read(&mut surveyor) {
             return Err(diag);
         }

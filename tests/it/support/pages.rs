@@ -10,7 +10,7 @@ use postform::internals::sema::{Checked, Limits, analyse};
 use postform::internals::source::Source;
 use postform::internals::syntax::{Form, Head, parse};
 
-use super::root;
+use super::{plain_post, root};
 
 /// A page: its sections by heading.
 pub struct Page {
@@ -60,7 +60,7 @@ impl Fence {
         }
         let post = if ["lathe", "grbl"].contains(&self.kind.as_str()) { self.kind.as_str() } else { "fanuc" };
         let post = if post == "lathe" { "fanuc-lathe" } else { post };
-        let base = fs::read_to_string(root().join(format!("postforms/{post}.pf"))).unwrap();
+        let base = plain_post(&format!("{post}.pf"));
         let text = merged(&base, &fragment);
         match self.kind.as_str() {
             "windows-1252" => text.chars().map(|c| u8::try_from(u32::from(c)).unwrap()).collect(),

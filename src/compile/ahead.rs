@@ -1,0 +1,145 @@
+//! What a form says of the job's end, where some of its properties are known before the job is.
+
+use std::ops::Range;
+
+use super::program::{Op, Program};
+use super::routine::{Branch, Node, Routine};
+use crate::lang::{AHEAD, Coolant, TOOLS_AHEAD, TextId, VarId, VarSet};
+use crate::sema::{PropertyKind, PropertyValue, Target, Values};
+
+/// Values of properties that nothing changes any more, by their rows.
+pub type Fixed = [(u16, PropertyValue)];
+
+/// What a form asks of a job that only its end tells.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Asks {
+    /// Lists, extents, sums.
+    pub all: bool,
+    /// Which tools come next.
+    pub tools: bool,
+}
+
+impl Program {
+    /// What it says of a job that only the job's end tells, while these properties have these values.
+    pub fn asks_ahead(&self, fixed: &Fixed) -> Asks {
+        let lists = self.ops.iter().any(|op| matches!(op, Op::List { .. }));
+        let asks = |vars: VarSet, lists: bool| Asks { all: lists || vars.meets(AHEAD), tools: vars.meets(TOOLS_AHEAD) };
+        let whole = asks(self.used(), lists);
+        if whole == Asks::default() || fixed.is_empty() {
+            return whole;
+        }
+        let mut walk =
+            Walk { program: self, known: Known { program: self, fixed }, vars: self.upon_vars, lists: false };
+        let routines = self.routines.iter().flatten().chain(self.upons.iter().map(|upon| &upon.routine));
+        routines.for_each(|routine| walk.routine(routine));
+        asks(walk.vars, walk.lists)
+    }
+}
+
+/// The properties that are known.
+struct Known<'k> {
+    program: &'k Program,
+    fixed: &'k Fixed,
+}
+
+impl Known<'_> {
+    /// A value; `None` also where the form sets it.
+    fn get(&self, row: u16) -> Option<&PropertyValue> {
+        let set = self.program.sets.iter().any(|(target, _)| *target == Target::Property(row));
+        // a length counts in the units of the program, which are the job's
+        let length = self.program.settings.properties[usize::from(row)].kind == PropertyKind::Length;
+        let fixed = self.fixed.iter().rev().find(|(own, _)| *own == row && !set && !length);
+        fixed.map(|(_, value)| value)
+    }
+}
+
+impl Values for Known<'_> {
+    fn number(&self, _: VarId) -> Option<f64> {
+        None
+    }
+
+    fn text(&self, _: TextId) -> &str {
+        ""
+    }
+
+    fn coolant(&self) -> Coolant {
+        Coolant::Off
+    }
+
+    fn property(&self, row: u16) -> f64 {
+        self.get(row).map_or(0.0, PropertyValue::number)
+    }
+
+    fn property_text(&self, row: u16) -> &str {
+        self.get(row).map_or("", PropertyValue::text)
+    }
+}
+
+/// Gathers what the branches ask that may be taken.
+struct Walk<'w> {
+    program: &'w Program,
+    known: Known<'w>,
+    vars: VarSet,
+    lists: bool,
+}
+
+impl Walk<'_> {
+    fn routine(&mut self, routine: &Routine) {
+        match &routine.flow {
+            Some(flow) => self.part(&routine.ops, &flow.nodes),
+            None => self.ops(routine.ops.clone()),
+        }
+    }
+
+    /// A part of a sequence: its nodes, and the operations around their branches.
+    fn part(&mut self, ops: &Range<usize>, nodes: &[Node]) {
+        let mut at = ops.start;
+        for node in nodes {
+            let Node::If(branches) = node else { continue };
+            for branch in branches {
+                self.ops(at..branch.ops.start);
+                at = branch.ops.end;
+            }
+            self.branches(branches);
+        }
+        self.ops(at..ops.end);
+    }
+
+    fn branches(&mut self, branches: &[Branch]) {
+        for branch in branches {
+            let condition = branch.condition.map(|index| &self.program.formulas[index as usize]);
+            let decided = match condition {
+                Some(condition) => condition.decided(&self.known, &|row| self.known.get(row).is_some()),
+                None => Some(true),
+            };
+            if decided == Some(false) {
+                continue;
+            }
+            if let Some(condition) = condition.filter(|_| decided.is_none()) {
+                self.vars = self.vars.with(condition.vars());
+            }
+            self.part(&branch.ops, &branch.nodes);
+            if decided == Some(true) {
+                return;
+            }
+        }
+    }
+
+    fn ops(&mut self, ops: Range<usize>) {
+        for op in &self.program.ops[ops] {
+            match *op {
+                Op::Var { var, .. } | Op::Value { var, .. } | Op::Remark { var, .. } => self.vars.insert(var),
+                Op::Formula { index, .. } | Op::ValueFormula { index, .. } | Op::RemarkFormula { index, .. } => {
+                    self.asked(index);
+                }
+                Op::Set { index } => self.asked(self.program.sets[index as usize].1),
+                Op::List { .. } => self.lists = true,
+                _ => {}
+            }
+        }
+    }
+
+    fn asked(&mut self, formula: u32) {
+        self.vars = self.vars.with(self.program.formulas[formula as usize].vars());
+    }
+}

@@ -1,0 +1,54 @@
+//! PF711: lines of a list that say nothing of what the list goes through print the same each time.
+
+use crate::diag::{Code, Diag};
+use crate::lint::view::{Body, View};
+use crate::sema::{Step, WordKind};
+
+pub fn check(view: &View, diags: &mut Vec<Diag>) {
+    for body in &view.bodies {
+        lists(body.steps.unwrap_or_default(), *body, diags);
+    }
+}
+
+fn lists(steps: &[Step], body: Body, diags: &mut Vec<Diag>) {
+    for step in steps {
+        match step {
+            Step::For(each, inner, span) => {
+                let each = each.name();
+                if inner.is_empty() {
+                    diags.push(
+                        Diag::new(Code::PF711, format!("@for {each} has no lines")).at(*span, "nothing prints").help(
+                            format!("write the lines that print for each {each} above its @end, or take both out"),
+                        ),
+                    );
+                } else if !says_anything(inner, body) {
+                    diags.push(
+                        Diag::new(Code::PF711, format!("the lines of @for {each} print the same for each {each}"))
+                            .at(*span, "nothing in it changes")
+                            .help("print a variable of it, as `(T[tool] [toolname])`, or take the list out"),
+                    );
+                }
+                lists(inner, body, diags);
+            }
+            Step::If(arms) => arms.iter().for_each(|arm| lists(&arm.steps, body, diags)),
+            Step::Lines(_) | Step::Set(..) => {}
+        }
+    }
+}
+
+/// Is there anything that may differ from one item to the next?
+fn says_anything(steps: &[Step], body: Body) -> bool {
+    steps.iter().any(|step| match step {
+        Step::Lines(lines) => body.lines[lines.clone()].iter().flat_map(|line| &line.words).any(|word| {
+            !matches!(
+                word.kind,
+                WordKind::Literal(..)
+                    | WordKind::Text(_)
+                    | WordKind::Note(_)
+                    | WordKind::Quote(_)
+                    | WordKind::Comment(_)
+            )
+        }),
+        Step::If(_) | Step::For(..) | Step::Set(..) => true,
+    })
+}

@@ -1,0 +1,54 @@
+//! What the file of a program is called.
+
+use super::plain::plain;
+use super::shape::Shape;
+use super::want::Want;
+use crate::lang::{TextId, VarId};
+use crate::number::write_number;
+use crate::sema::{NamePart, is_of_file_names};
+
+/// How long a name may be: what every file system takes.
+const LONGEST: usize = 100;
+
+/// The name that a form gives the file of a program, with its extension: as the job's file where the form says nothing, or the
+/// job has nothing of what it says.
+pub fn file_name(shape: &Shape, want: &Want) -> String {
+    let settings = &shape.program.settings;
+    let mut name = String::new();
+    for part in &settings.program_name.0 {
+        match part {
+            NamePart::Typed(text) => name.push_str(text),
+            NamePart::Text(TextId::Jobfile) => name.push_str(job_file(shape)),
+            NamePart::Text(id) => name.push_str(want.texts.get(*id)),
+            NamePart::Number => number(&mut name, shape, want),
+        }
+    }
+    // what is typed alone says nothing of the program
+    let said = settings.program_name.0.iter().any(|part| match part {
+        NamePart::Typed(_) => false,
+        NamePart::Text(id) => !want.texts.get(*id).is_empty() || *id == TextId::Jobfile,
+        NamePart::Number => want.get(VarId::Program).is_some(),
+    });
+    let name = if said { name.as_str() } else { job_file(shape) };
+    let spelt: String = plain(name).chars().map(|c| if is_of_file_names(c) { c } else { '_' }).take(LONGEST).collect();
+    let name = spelt.trim_matches(['.', '_']);
+    let name = if name.is_empty() { "program" } else { name };
+    format!("{name}.{}", settings.extension.0)
+}
+
+/// The job's file without its extension.
+fn job_file<'r>(shape: &'r Shape) -> &'r str {
+    let file = shape.options.job_file.as_deref().unwrap_or_default();
+    file.rsplit_once('.').map_or(file, |(stem, _)| stem)
+}
+
+/// The program's number as the letter O prints it.
+fn number(name: &mut String, shape: &Shape, want: &Want) {
+    let Some(number) = want.get(VarId::Program) else { return };
+    let mut digits = Vec::new();
+    let written = write_number(&mut digits, number as i64, &shape.letters[b'O'].format, false);
+    match written.ok().and_then(|()| String::from_utf8(digits).ok()) {
+        Some(digits) => name.push_str(&digits),
+        None => name.push_str(&number.to_string()),
+    }
+}

@@ -45,7 +45,7 @@ def best(runs):
 def measure(postform, job, piped, rounds, prefix, out):
     """With and without the proof, in turn."""
     what = ["-", "--from", "jsonl"] if piped else [job]
-    command = prefix + [postform, "render", *what, "--form", FORM, "-o", out]
+    command = prefix + [postform, "render", *what, "--form", FORM, "--set", "header=off", "-o", out]
     plain, proven = [], []
     for _ in range(rounds):
         plain.append(run(command + ["--no-verify"], job if piped else None))

@@ -19,7 +19,9 @@ fn main() {
 const MOVES: usize = 100_000;
 
 fn form() -> Checked {
-    let text = include_str!("../postforms/linuxcnc.pf");
+    // what is measured is the printing of moves, not the second reading that the header asks for
+    let text =
+        include_str!("../postforms/linuxcnc.pf").replace("Property header yesno yes", "Property header yesno no");
     analyse(Source::from_text("linuxcnc.pf", text), Default::default(), &mut |_| Err("none".into()))
 }
 

@@ -203,7 +203,9 @@ def packed(job, operations, fixtures):
             label = getattr(tool, "Label", None) or getattr(tool, "Name", None)  # tools before 0.19 have a name
             objects[tool_name] = [prop("Label", value(label))] + properties(tool, TOOL)
     version = ".".join(FreeCAD.Version()[:2]) + "R"
-    text = "<Document ProgramVersion={}><ObjectData>".format(quoteattr(version))
+    document = job.Document
+    about = [prop(each, value(getattr(document, each, None) or "")) for each in ("Label", "CreatedBy")]
+    text = "<Document ProgramVersion={}><Properties>{}</Properties><ObjectData>".format(quoteattr(version), "".join(about))
     for name, held in objects.items():
         text += "<Object name={}><Properties>{}</Properties></Object>".format(quoteattr(name), "".join(held))
     whole = io.BytesIO()

@@ -81,7 +81,7 @@ def document(name):
         dump = json.load(file)
     freecad.Version = lambda: dump["freecad"].split(".")[:3]
     job = dump["jobs"][0]
-    whole = Thing(FileName=os.path.join(DATA, name + ".FCStd"))
+    whole = Thing(FileName=os.path.join(DATA, name + ".FCStd"), Label=dump["document"])
     controllers, operations = {}, {}
     for tool in job["tools"]:
         bit = Thing(Label=tool["bit"]["label"])

@@ -36,8 +36,8 @@ fn printed(example: &str) -> String {
 fn the_examples_print() {
     assert_eq!(printed("embed"), include_str!("../../samples/bracket/expected.haas.nc"));
     let holes = printed("reader");
-    assert!(holes.contains("G81 X10. Y20. Z-8. R2. F150.\nN60 X30.\nN70 Y45. Z-12.5\n"), "{holes}");
-    assert_eq!(printed("threads"), "bracket: 99 lines\nholes: 16 lines\nsections: 19 lines\n");
+    assert!(holes.contains("G81 X10. Y20. Z-8. R2. F150.\nN80 X30.\nN90 Y45. Z-12.5\n"), "{holes}");
+    assert_eq!(printed("threads"), "bracket: 119 lines\nholes: 18 lines\nsections: 21 lines\n");
     assert!(printed("lint_build").starts_with("cargo::rerun-if-changed="));
 }
 

@@ -5,7 +5,7 @@ use std::fs;
 use postform::{ErrorKind, Job, NoFiles, Options, Post, Source, Verdict};
 
 use crate::support::folder::{Folder, err, out};
-use crate::support::{job, mill, root};
+use crate::support::{job, mill, plain_post, root};
 
 /// A post whose drill begins to feed at another height than the job says, and one that is right.
 fn posts(folder: &Folder) {
@@ -59,7 +59,11 @@ fn what_is_right_is_printed_with_a_line_that_says_so() {
     assert_eq!(said.lines().count(), 1);
     assert_eq!(told(&["--require-proof"]), said);
     assert_eq!(told(&["--quiet"]), "");
-    assert!(told(&["--stream"]).starts_with("not verified: "));
+    let refused = folder.run(&["render", "job.json", "--form", "right.pf", "--stream"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(err(&refused).contains("or with --set header=no"), "{}", err(&refused));
+    let streamed = folder.run(&["render", "job.json", "--form", "right.pf", "--stream", "--set", "header=off"]);
+    assert!(streamed.status.code() == Some(0) && err(&streamed).starts_with("not verified: "), "{}", err(&streamed));
     // a job that can be read once
     let given = folder.read("job.json");
     let output = folder.feed(&["render", "-", "--form", "right.pf"], given.as_bytes());
@@ -98,7 +102,7 @@ fn what_is_not_proven_is_printed_unless_a_proof_is_required() {
 #[test]
 fn a_program_that_calls_parts_of_itself_is_gone_through_as_a_file() {
     let folder = Folder::new("proof-file");
-    let form = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();
+    let form = plain_post("linuxcnc.pf");
     folder.write("form.pf", form.replace("\nEndCode\n", "\nEndCode\no100 sub\no100 endsub\no100 call\n"));
     folder.write("job.json", job("{\"line\":[1,1,0]},{\"rapid\":[1,1,1]}"));
     let output = folder.run(&["render", "job.json", "--form", "form.pf"]);

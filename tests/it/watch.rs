@@ -387,8 +387,8 @@ fn a_long_program_is_shown_before_it_is_proven() {
         let changed = scenes.iter().find_map(|(head, _)| head["saved"]["blocks"].as_u64());
         assert_eq!(changed, texts.get("my.pf").map(|_| 0));
         // what was there with the picture comes with it
-        let said = scenes.iter().map(|(head, _)| &head["verdict"]).filter(|verdict| !verdict.is_null());
-        let verdict = said.last().unwrap_or(&Value::Null);
+        let mut said = scenes.iter().map(|(head, _)| &head["verdict"]).filter(|verdict| !verdict.is_null());
+        let verdict = said.next_back().unwrap_or(&Value::Null);
         assert_eq!(verdict["kind"], "proven", "{verdict}");
     }
 }

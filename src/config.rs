@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use crate::control::{self, Control};
-use crate::diag::escaped;
 use crate::error::Error;
 use crate::lint::{Level, Levels};
 use crate::sema::Limits;
+use crate::terminal::escaped;
 
 /// What holds for the files of a folder and below it. Paths are as written: from the folder of the file.
 #[derive(Clone, Debug, Default)]

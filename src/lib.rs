@@ -58,6 +58,7 @@ mod source;
 mod span;
 mod survey;
 mod syntax;
+mod terminal;
 pub mod toolpath;
 mod trace;
 mod verify;
@@ -154,6 +155,9 @@ pub mod internals {
     }
     pub mod syntax {
         pub use crate::syntax::*;
+    }
+    pub mod terminal {
+        pub use crate::terminal::*;
     }
     pub mod trace {
         pub use crate::trace::*;

@@ -79,7 +79,7 @@ fn describe(name: &str, format: Format, summary: &Summary, report: &Report) -> S
     let unit = summary.units.map_or("", Units::name);
     _ = writeln!(text, "{name}: {}", if summary.unprintable().is_empty() { "in order" } else { "can't be printed" });
     if let Some(job) = &summary.name {
-        _ = writeln!(text, "  name        {}", postform::diag::escaped(job));
+        _ = writeln!(text, "  name        {}", postform::internals::terminal::escaped(job));
     }
     if let Some(program) = summary.program {
         _ = writeln!(text, "  program     {program}");
@@ -87,7 +87,7 @@ fn describe(name: &str, format: Format, summary: &Summary, report: &Report) -> S
     if format == Format::Cl && !(report.facts.is_empty() && report.dialect.is_none() && report.why.is_empty()) {
         let system = report.dialect.unwrap_or(Dialect::Gener).title();
         let why = if report.why.is_empty() { "nothing says who wrote it" } else { &report.why };
-        _ = writeln!(text, "  written by  {system}: {}", postform::diag::escaped(why));
+        _ = writeln!(text, "  written by  {system}: {}", postform::internals::terminal::escaped(why));
     }
     _ = writeln!(text, "  units       {unit}");
     let tools: Vec<String> = summary
@@ -113,7 +113,7 @@ fn describe(name: &str, format: Format, summary: &Summary, report: &Report) -> S
         }
     }
     for fact in &report.facts {
-        _ = writeln!(text, "  says        {}", postform::diag::escaped(fact));
+        _ = writeln!(text, "  says        {}", postform::internals::terminal::escaped(fact));
     }
     text
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use postform::diag::escaped;
+use postform::internals::terminal::escaped;
 use postform::{Control, ControlName, Levels, Limits};
 
 use super::files::{self, io_message};

@@ -2,8 +2,8 @@
 
 use std::io::Write as _;
 
-use postform::diag::escaped;
 use postform::internals::explain;
+use postform::internals::terminal::escaped;
 
 use super::args::ExplainArgs;
 use super::{Ending, output};

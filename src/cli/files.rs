@@ -5,9 +5,9 @@ use std::io::{self, BufReader, Read, Seek};
 use std::path::Path;
 use std::time::SystemTime;
 
-use postform::diag::escaped;
 use postform::internals::control::Control;
 use postform::internals::sema::MOST_TEXT;
+use postform::internals::terminal::escaped;
 use postform::{Format, Job};
 
 use super::args::{From, ReadArgs};

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use postform::diag::{escaped, steers};
+use postform::internals::terminal::{escaped, steers};
 
 use super::Ending;
 use super::files::{folder, io_message};

@@ -2,8 +2,8 @@
 
 use std::io::{self, BufRead, IsTerminal};
 
-use postform::diag::escaped;
 use postform::internals::lang::did_you_mean;
+use postform::internals::terminal::escaped;
 use postform::{Options, Post, Property};
 
 use super::say::{message, say};

@@ -9,8 +9,9 @@ use miette::{
     Severity as Level, SourceCode, SourceSpan, SpanContents,
 };
 
-use postform::diag::{Diag, Severity, steers};
+use postform::diag::{Diag, Severity};
 use postform::internals::source::Source;
+use postform::internals::terminal::steers;
 use postform::{Error, ErrorKind};
 
 use super::Ending;

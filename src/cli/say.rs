@@ -2,7 +2,7 @@
 
 use std::io::{Write, stderr};
 
-use postform::diag::escaped_lines;
+use postform::internals::terminal::escaped_lines;
 
 /// Says a report as it stands.
 pub fn say(report: &str) {

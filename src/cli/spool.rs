@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::{self, Seek, Write};
 
-use postform::diag::escaped;
+use postform::internals::terminal::escaped;
 
 /// A file without a name, to be written and then read. Its errors name the folder.
 pub struct Spool(File);

@@ -4,7 +4,7 @@ use std::fs::{File, Permissions};
 use std::io::{self, Seek};
 use std::path::{Path, PathBuf};
 
-use postform::diag::escaped;
+use postform::internals::terminal::escaped;
 use tempfile::TempPath;
 
 use super::files::folder;

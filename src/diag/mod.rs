@@ -9,6 +9,7 @@ pub use findings::Findings;
 pub use location::Location;
 
 use crate::span::Span;
+use crate::terminal::{escaped, steers};
 
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -140,25 +141,4 @@ fn cut(text: &str, most: usize, mark: &str) -> String {
     let head: String = text.chars().take(most / 2).collect();
     let tail: String = text.chars().skip(count - most / 2).collect();
     format!("{head}{mark}{tail}")
-}
-
-/// Does a character steer a terminal or the order of text, instead of being seen? C0 and C1, the marks of bidirectional
-/// text, and the separators of lines and paragraphs.
-pub fn steers(c: char) -> bool {
-    c.is_control()
-        || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-}
-
-/// Text from a file made safe for a terminal: what would steer it becomes escapes.
-pub fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        if steers(c) { out.extend(c.escape_default()) } else { out.push(c) }
-    }
-    out
-}
-
-/// Text of several lines made safe for a terminal; the lines stay lines.
-pub fn escaped_lines(text: &str) -> String {
-    text.split('\n').map(escaped).collect::<Vec<_>>().join("\n")
 }

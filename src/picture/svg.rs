@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Kind, Picture, Strips, View};
-use crate::diag::escaped;
+use crate::terminal::escaped;
 
 /// How a picture is drawn.
 #[derive(Clone, Debug)]

@@ -6,10 +6,10 @@ use serde_json::{Value, json};
 
 use super::pack::Scene;
 use super::program;
-use crate::diag::escaped;
 use crate::diff::{Comparison, Options, Program, compare};
 use crate::nc::RunSettings;
 use crate::picture::draw;
+use crate::terminal::escaped;
 
 /// Hunks that are shown.
 const MOST: usize = 10_000;

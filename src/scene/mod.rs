@@ -18,7 +18,7 @@ use std::io::Cursor;
 
 use serde_json::{Value, json};
 
-use crate::diag::{Findings, escaped};
+use crate::diag::Findings;
 use crate::diff;
 use crate::error::{Error, ErrorKind};
 use crate::job::Job;
@@ -28,6 +28,7 @@ use crate::picture::{Picture, draw};
 use crate::post::{Files, Options, Post, Program, Proof};
 use crate::sema::{Limits, analyse};
 use crate::source::Source;
+use crate::terminal::escaped;
 use crate::toolpath::Units;
 
 /// What is shown.

@@ -5,10 +5,11 @@ use super::formula::Formula;
 use super::model::{Line, Word, WordKind};
 use super::names::{Context, property, variable};
 use super::property::{Property, PropertyKind};
-use crate::diag::{Code, Diag, steers};
+use crate::diag::{Code, Diag};
 use crate::lang::{TextVar, WIDEST};
 use crate::span::Span;
 use crate::syntax::{self, Body, Piece, PieceKind, Spanned};
+use crate::terminal::steers;
 
 /// The words of one body line.
 pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {

@@ -1,8 +1,9 @@
 //! A difference or hazard, from three sides: the job, the form, the program.
 
-use crate::diag::{Code, Diag, Location, escaped_lines};
+use crate::diag::{Code, Diag, Location};
 use crate::render::TraceLine;
 use crate::span::Span;
+use crate::terminal::escaped_lines;
 use crate::toolpath;
 
 /// A difference or hazard: where in the job and in the program.

@@ -119,7 +119,7 @@ fn nothing_from_a_file_steers_the_terminal() {
         let output = run(arguments);
         for stream in [&output.stdout, &output.stderr] {
             let shown = String::from_utf8(stream.clone()).unwrap();
-            let steering = shown.chars().find(|&c| c != '\n' && postform::diag::steers(c));
+            let steering = shown.chars().find(|&c| c != '\n' && postform::internals::terminal::steers(c));
             assert_eq!(steering, None, "{arguments:?}: {shown:?}");
         }
         assert!(!output.stdout.is_empty() || !output.stderr.is_empty(), "{arguments:?}");

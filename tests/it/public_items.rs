@@ -5,7 +5,7 @@ use std::fs;
 use crate::support::root;
 
 /// Most public items, of the library and of what this repository alone uses.
-const MOST: [usize; 2] = [98, 30];
+const MOST: [usize; 2] = [95, 30];
 
 /// Names that a file makes public: `pub use`, and items of its own.
 fn public(path: &str, text: &str) -> Vec<String> {

@@ -5,10 +5,10 @@ use std::io::Cursor;
 use std::ops::Range;
 use std::time::Instant;
 
-use postform::diag::escaped;
 use postform::internals::diff::{Comparison, Edit, Hunk, Options, Program, Summary, changed_spans};
 use postform::internals::nc::RunSettings;
 use postform::internals::picture::{Sheet, View, draw, svg_over};
+use postform::internals::terminal::escaped;
 
 use super::sides::Side;
 use super::text::{grouped, sentence};

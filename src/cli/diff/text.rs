@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use postform::diag::escaped;
 use postform::internals::diff::{Comparison, Edit, Hunk, Options, Summary, changed_spans};
+use postform::internals::terminal::escaped;
 use postform::internals::verify::Motions;
 
 use super::super::args::DiffArgs;

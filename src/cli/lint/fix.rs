@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use postform::diag::{Diag, escaped_lines};
+use postform::diag::Diag;
 use postform::internals::lint::{Changed, Levels, Mended, lint, mend};
 use postform::internals::post::sample_program;
 use postform::internals::sema::Checked;
+use postform::internals::terminal::escaped_lines;
 use similar::TextDiff;
 
 use super::super::args::{LintArgs, ReadArgs};

@@ -175,7 +175,11 @@ impl Server {
         }
         Control::named(&name.to_ascii_lowercase()).ok_or_else(|| {
             let known: Vec<&str> = control::names().collect();
-            format!("there is no control `{}`: it is one of {}", postform::diag::escaped(name), known.join(", "))
+            format!(
+                "there is no control `{}`: it is one of {}",
+                postform::internals::terminal::escaped(name),
+                known.join(", ")
+            )
         })
     }
 }

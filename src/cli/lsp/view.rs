@@ -197,7 +197,7 @@ fn read(path: &Path) -> Result<Vec<u8>, String> {
 fn job_name(path: &Path) -> String {
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let folder = path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
-    postform::diag::escaped(&if stem == "job" { folder.unwrap_or(stem) } else { stem })
+    postform::internals::terminal::escaped(&if stem == "job" { folder.unwrap_or(stem) } else { stem })
 }
 
 /// The form of a folder that calls this file, directly or by another one; itself where none does.

@@ -151,7 +151,7 @@ pub fn line(item: &Item, block: &[u8], out: &mut Vec<u8>) {
             text.head(item.line, b"comment");
             let comment = String::from_utf8_lossy(block.get(*start..*end).unwrap_or_default());
             out.extend_from_slice(&text.bytes[text.at..text.bytes.len() - 1]);
-            out.extend_from_slice(postform::diag::escaped(comment.trim()).as_bytes());
+            out.extend_from_slice(postform::internals::terminal::escaped(comment.trim()).as_bytes());
             out.push(b'\n');
             return;
         }

@@ -2,13 +2,14 @@
 
 use super::stops::settle_between_moves;
 use crate::control::{self, Group};
-use crate::diag::{Code, steers};
+use crate::diag::Code;
 use crate::lang::VarId;
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::printer::Printer;
 use crate::render::said::{Line, Said};
 use crate::render::shape::Shape;
 use crate::render::want::Want;
+use crate::terminal::steers;
 
 /// Prints a block as it stands: nobody knows what it did.
 pub fn verbatim(text: &str, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {

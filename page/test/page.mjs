@@ -33,7 +33,7 @@ test("three panes, and what was proven", async ({ open }) => {
 test("a wrong word is underlined and said", async ({ open }) => {
   const { page, path } = await open();
   const before = readFileSync(join(path, "my.pf"), "utf8");
-  await type(page, "T[tool]", " ");
+  await type(page, "1stToolChange\nT[tool]", " ");
   const wrong = page.locator(".cm-lintRange-error, .cm-lintRange-warning").first();
   equal(await wrong.innerText(), "M6", "the word that is lost");
   await wrong.hover();

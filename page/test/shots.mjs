@@ -35,7 +35,7 @@ await shot("watch-wrong", {
   act: async (page) => {
     await page.evaluate(() => {
       const { view } = window.page.editor;
-      const at = view.state.doc.toString().indexOf("T[tool]") + 7;
+      const at = view.state.doc.toString().indexOf("\nT[tool]") + 8;
       view.dispatch({ changes: { from: at, insert: " " }, selection: { anchor: at }, scrollIntoView: true });
       view.focus();
     });

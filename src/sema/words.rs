@@ -88,8 +88,9 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
             return;
         }
     };
-    if let (PieceKind::Variable { letter: None, .. }, Some(Piece { kind: PieceKind::Stray(text), span })) =
-        (&piece.kind, previous)
+    let is_value =
+        matches!(piece.kind, PieceKind::Variable { letter: None, .. } | PieceKind::Expression { letter: None, .. });
+    if let (true, Some(Piece { kind: PieceKind::Stray(text), span })) = (is_value, previous)
         && text.ends_with(['-', '+'])
         && !matches!(kind, WordKind::PropertyText(_))
     {
@@ -99,7 +100,7 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
                 .help("take the sign out; `RevSigns` reverses the sign of a letter"),
         );
     }
-    if matches!(piece.kind, PieceKind::Variable { letter: None, .. }) && previous.is_some_and(Piece::is_word) {
+    if is_value && previous.is_some_and(Piece::is_word) {
         diags.push(
             Diag::new(Code::PF001, "a value stands directly behind a word")
                 .at(piece.span, "this would be printed as a word of its own")

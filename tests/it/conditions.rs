@@ -56,6 +56,32 @@ fn a_calculated_word_is_modal_like_its_letter() {
     assert_eq!(path_lines(head, sequences, path), ["G1 X1. Q2. F10.", "X2.", "X3. Z2. Q4."]);
 }
 
+/// A form limits the speed of its machine: the job's own is not said behind it.
+#[test]
+fn a_speed_that_the_form_limits_stays() {
+    let text = mill("", "").replace("S[speed] M", "S[min(speed,800)] M");
+    let printed = program(&text, &job("{\"line\":[1,1,0]}"));
+    let speeds: Vec<_> = printed.iter().filter(|line| line.contains('S')).collect();
+    assert_eq!(speeds, ["S800 M3"]);
+}
+
+/// The centre of an arc is said with each arc, calculated or not.
+#[test]
+fn a_calculated_centre_is_no_place_that_stays() {
+    let sequences = "CwCode\nG2 X[h] Y[v] I[ival*1] J[jval*1] F[frate]\nEnd\n";
+    let arc = |x: u32| format!("{{\"arc\":{{\"to\":[{x},0,1],\"center\":[{},0,1],\"direction\":\"cw\"}}}}", x - 1);
+    let lines = path_lines("ModalLetters X Y Z F S I J", sequences, &format!("{},{}", arc(2), arc(4)));
+    assert_eq!(lines, ["G2 X2. I1. J0 F10.", "X4. I1. J0"]);
+}
+
+/// What stands beside a value would be read as part of it, whether a variable or a calculation makes the value.
+#[test]
+fn nothing_stands_beside_a_calculated_value() {
+    for word in ["G5[tool+3]", "G5[tool]", "X-[h-7]", "X-[h]"] {
+        assert_eq!(codes(&form("", word)), ["PF001"], "{word}");
+    }
+}
+
 #[test]
 fn a_calculated_position_is_one_that_the_control_counts_otherwise() {
     let sequences = "LineCode\nG1 X[h+10] Y[v] Z[d] F[frate]\nEnd\n";

@@ -4,6 +4,7 @@ use super::{Body, FEEDS, Mode, go_on};
 use crate::compile::{LetterKind, List};
 use crate::control;
 use crate::diag::Code;
+use crate::lang::{VarId, VarSet};
 use crate::render::ahead;
 use crate::render::fault::{Done, fault};
 use crate::render::numbers::quantised;
@@ -71,6 +72,8 @@ impl Body<'_, '_> {
                 LetterKind::GCode | LetterKind::MCode => {
                     control::Code::of(info.printed, value).is_some_and(|code| self.said.code_drops(code, shape))
                 }
+                // a centre or radius is no position that the control keeps
+                _ if self.mode == Mode::ArcMotion && b"IJKR".contains(&info.printed) => false,
                 _ => info.modal && self.said.holds(info, units) && !feed,
             },
             Mode::NextHole { .. } => settings.modality && self.said.holds_value(info, units, value),
@@ -93,7 +96,12 @@ impl Body<'_, '_> {
         if Some(info.printed) == settings.numbers.letter {
             self.out.prints_number();
         }
-        self.said.speed_word(letter, Some(value), shape);
+        // what a form makes of the job's speed is its speed: the job's own is not said behind it
+        let own = self.want.get(VarId::Speed).filter(|_| {
+            letter == settings.speed_code
+                && shape.program.formulas[index as usize].vars() == VarSet::of(&[VarId::Speed])
+        });
+        self.said.speed_word(letter, own.or(Some(value)), shape);
         Ok(())
     }
 

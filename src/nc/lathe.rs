@@ -74,7 +74,7 @@ impl State {
             return refuse(Code::PN013, "a thread under cutter compensation", "end it with G40 first");
         }
         let lead = Some(self.drive.feed);
-        let begin = self.place.position;
+        let (begin, unsaid) = (self.place.position, self.place.at_machine);
         let mut end = self.target(block)?;
         if code == 320 {
             self.place.position = end;
@@ -89,6 +89,7 @@ impl State {
                 end[0] = if block.has(letters("XU")) { end[0] } else { radius };
                 end[2] = if block.has(letters("ZW")) { end[2] } else { z };
                 taper = if block.has(letters("RI")) { taper } else { before };
+                self.place.at_machine &= !0b101;
             }
             self.threads.pass = Some([end[0], end[2], taper]);
         }
@@ -96,16 +97,22 @@ impl State {
         if code == 760 {
             ways = self.passes(begin, end, taper, block)?;
         }
+        // the block says the radii and the end; where its passes begin and come back to, the blocks before it said
+        let at_end = self.place.at_machine;
+        let [radius_is_said, z_is_said] = [0b001, 0b100].map(|axis| unsaid & !axis | at_end & axis);
         out.by_cycle = true;
         for radius in ways {
             let mut to = begin;
             to[0] = radius + taper;
+            self.place.at_machine = radius_is_said;
             self.place.rapid_to(to, out);
             (to[0], to[2]) = (radius, end[2]);
             self.place.position = to;
             out.push(Action::Feed { to, feed: self.drive.feed, lead });
             to[0] = begin[0];
+            self.place.at_machine = z_is_said;
             self.place.rapid_to(to, out);
+            self.place.at_machine = unsaid;
             self.place.rapid_to(begin, out);
         }
         out.by_cycle = false;

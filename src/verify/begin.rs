@@ -156,7 +156,7 @@ fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Opt
 }
 
 /// The names of axes, unless there are none.
-fn unsaid(axes: u8) -> Option<String> {
+pub(super) fn unsaid(axes: u8) -> Option<String> {
     let names: Vec<String> =
         (0..8).filter(|axis| axes & 1 << axis != 0).map(|axis| char::from(NAMES[axis]).to_string()).collect();
     (!names.is_empty()).then(|| names.join(" and "))

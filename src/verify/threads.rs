@@ -2,6 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
+use super::begin::unsaid;
 use super::cut::{Cut, DEPTH, RADIUS, Rapid, number, place, same, shown};
 use super::intent::{Done, Threaded};
 use super::state::Sides;
@@ -77,7 +78,11 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
     if count == 0 {
         let found = s.next()?;
         let (line, is) = found.map_or((0, "nothing".into()), |found| {
-            (found.line, format!("a cut from {} to {}", shown(&found.from, 0b101), shown(&found.end(), 0b101)))
+            let from = match unsaid(found.unknown) {
+                Some(axes) => format!("a place that only the machine knows, where {axes} was not said,"),
+                None => shown(&found.from, 0b101),
+            };
+            (found.line, format!("a cut from {from} to {}", shown(&found.end(), 0b101)))
         });
         let message = format!(
             "the job cuts a thread from Z{} to Z{}, the program {is}",

@@ -39,7 +39,7 @@ impl Judge<'_> {
         for (number, wanted) in wants.iter().enumerate() {
             let one_way = match wanted.want {
                 Want::Line => true,
-                Want::Arc { turns, .. } => turns == 0.0 && wanted.from != wanted.to,
+                Want::Arc { .. } => arcs::turn(wanted) < std::f64::consts::PI,
                 _ => false,
             };
             if one_way && same(&wanted.from, &wanted.to, self.within) && wanted.from[3..] == wanted.to[3..] {
@@ -59,13 +59,19 @@ impl Judge<'_> {
             } else if let Some(difference) = self.meet(wanted) {
                 return Some(difference);
             } else if matches!(wanted.want, Want::Arc { .. }) {
-                // parts at its end that are shorter than the digits can say
-                while self.acts.get(self.at).is_some_and(|act| {
-                    matches!(act.what, What::Arc { turns: 0.0, .. })
-                        && act.from != act.to
-                        && [&act.from, &act.to].iter().all(|end| same(end, &wanted.to, 2.0 * self.within))
-                }) {
-                    self.take();
+                // parts at its end that are shorter than the digits can say, or the next arc
+                let mut made = self;
+                while *left > 0
+                    && made.acts.get(made.at).is_some_and(|act| {
+                        arcs::is_short(act)
+                            && [&act.from, &act.to].iter().all(|end| same(end, &wanted.to, 2.0 * self.within))
+                    })
+                {
+                    *left -= 1;
+                    made.take();
+                    if made.follow(&wants[number + 1..], left).is_none() {
+                        return None;
+                    }
                 }
             }
         }

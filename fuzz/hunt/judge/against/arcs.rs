@@ -1,30 +1,57 @@
 //! Arcs of a job: the program makes them as arcs or in parts, and all parts lie on them.
 
+use std::f64::consts::{PI, TAU};
+
 use super::{Judge, shown};
 use crate::judge::wants::axes;
 use crate::judge::{Act, Place, Want, Wanted, What, near, same};
 
+/// How far an arc of the job turns; a straight cut does not.
+pub(super) fn turn(wanted: &Wanted) -> f64 {
+    let Want::Arc { plane, center, ccw, turns } = &wanted.want else { return 0.0 };
+    let [first, second] = axes(plane);
+    let angle = |place: &Place| (place[second] - center[1]).atan2(place[first] - center[0]);
+    let closed = [first, second].iter().all(|axis| near(wanted.from[*axis], wanted.to[*axis], 1e-6));
+    let turn = (angle(&wanted.to) - angle(&wanted.from)).rem_euclid(TAU);
+    let part = match (closed, *ccw) {
+        (true, _) => TAU,
+        (false, true) => turn,
+        (false, false) => TAU - turn,
+    };
+    part + turns * TAU
+}
+
+/// Is it an arc of less than half a turn?
+pub(super) fn is_short(act: &Act) -> bool {
+    let What::Arc { plane, center, ccw, turns } = act.what else { return false };
+    let [first, second] = axes(match plane {
+        18.0 => "xz",
+        19.0 => "yz",
+        _ => "xy",
+    });
+    let angle = |place: &Place| (place[second] - center[1]).atan2(place[first] - center[0]);
+    let turn = (angle(&act.to) - angle(&act.from)).rem_euclid(TAU);
+    turns == 0.0 && turn != 0.0 && (turn < PI) == ccw
+}
+
 impl Judge<'_> {
     pub(super) fn arc(&mut self, wanted: &Wanted) -> Option<String> {
-        let Want::Arc { plane, center, ccw, turns } = &wanted.want else { return None };
+        let Want::Arc { plane, center, ccw, .. } = &wanted.want else { return None };
         let [first, second] = axes(plane);
         let third = 3 - first - second;
         let angle = |place: &Place| (place[second] - center[1]).atan2(place[first] - center[0]);
         let radius = |place: &Place| (place[second] - center[1]).hypot(place[first] - center[0]);
-        let tau = std::f64::consts::TAU;
         let swept = |from: &Place, to: &Place, ccw: bool| {
-            let turn = (angle(to) - angle(from)).rem_euclid(tau);
-            if ccw { turn } else { tau - turn }
+            let turn = (angle(to) - angle(from)).rem_euclid(TAU);
+            if ccw { turn } else { TAU - turn }
         };
         let size = radius(&wanted.from);
-        let closed =
-            near(wanted.from[first], wanted.to[first], 1e-6) && near(wanted.from[second], wanted.to[second], 1e-6);
-        let whole = if closed { tau } else { swept(&wanted.from, &wanted.to, *ccw) } + turns * tau;
+        let whole = turn(wanted);
         // how far lines may leave it, and how an angle shows a length
         let loose = self.within + 0.03;
         let slack = (4.0 * self.within + 0.001) / size.max(1e-6) + 1e-6;
-        if whole * size <= 2.0 * self.within || (tau - whole) * size <= self.within && *turns == 0.0 && !closed {
-            // too short to be told from nothing, or from a full turn
+        if whole * size <= 2.0 * self.within {
+            // too short to be told from nothing
             while self.next().is_some_and(|act| {
                 !same(&act.from, &wanted.to, self.within)
                     && act.what != What::Rapid
@@ -47,9 +74,9 @@ impl Judge<'_> {
         loop {
             let part = match act.what {
                 What::Feed => {
-                    let turn = (angle(&act.to) - angle(&act.from)).rem_euclid(tau);
+                    let turn = (angle(&act.to) - angle(&act.from)).rem_euclid(TAU);
                     // a chord is short
-                    let turn = if turn > tau / 2.0 { turn - tau } else { turn };
+                    let turn = if turn > TAU / 2.0 { turn - TAU } else { turn };
                     if *ccw { turn } else { -turn }
                 }
                 What::Arc { plane: is, center: about, ccw: way, turns } => {
@@ -65,7 +92,7 @@ impl Judge<'_> {
                     if is != code || way != *ccw || off > loose {
                         return Some(format!("line {}: {:?} for {:?}", act.line, act.what, wanted.want));
                     }
-                    (if full { tau } else { swept(&act.from, &act.to, *ccw) }) + turns * tau
+                    (if full { TAU } else { swept(&act.from, &act.to, *ccw) }) + turns * TAU
                 }
                 _ => return Some(format!("line {}: {:?} for an arc", act.line, act.what)),
             };
@@ -77,11 +104,12 @@ impl Judge<'_> {
             if (radius(&act.to) - size).abs() > loose {
                 return Some(format!("line {}: {} is not on the arc", act.line, shown(&act.to)));
             }
+            let ends = done >= whole - slack && same(&act.to, &wanted.to, self.within);
             let height = wanted.from[third] + (wanted.to[third] - wanted.from[third]) * (done / whole);
-            if !near(act.to[third], height, loose + 0.05 * (wanted.to[third] - wanted.from[third]).abs()) {
+            if !ends && !near(act.to[third], height, loose + 0.05 * (wanted.to[third] - wanted.from[third]).abs()) {
                 return Some(format!("line {}: {} is not as high as the helix", act.line, shown(&act.to)));
             }
-            if done >= whole - slack && same(&act.to, &wanted.to, self.within) {
+            if ends {
                 return (done > whole + slack)
                     .then(|| format!("line {}: the arc goes on for {done}, not {whole}", act.line));
             }
@@ -104,12 +132,11 @@ impl Judge<'_> {
 /// A place in the middle of an arc, in its plane.
 fn middle(act: &Act, [first, second]: [usize; 2], about: [f64; 2], ccw: bool, full: bool) -> [f64; 2] {
     let angle = |place: &Place| (place[second] - about[1]).atan2(place[first] - about[0]);
-    let tau = std::f64::consts::TAU;
-    let turn = (angle(&act.to) - angle(&act.from)).rem_euclid(tau);
+    let turn = (angle(&act.to) - angle(&act.from)).rem_euclid(TAU);
     let turn = match (full, ccw) {
-        (true, _) => tau,
+        (true, _) => TAU,
         (false, true) => turn,
-        (false, false) => turn - tau,
+        (false, false) => turn - TAU,
     };
     let radius = (act.from[second] - about[1]).hypot(act.from[first] - about[0]);
     let at = angle(&act.from) + turn / 2.0;

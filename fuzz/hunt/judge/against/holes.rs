@@ -3,6 +3,9 @@
 use super::{Judge, shown};
 use crate::judge::{Act, Want, Wanted, What, near, turned};
 
+/// How far above the bottom a peck begins again at most, in millimetres: 0.1 inch, and what digits make of it.
+const BACK: f64 = 2.6;
+
 impl Judge<'_> {
     pub(super) fn hole(&mut self, wanted: &Wanted) -> Option<String> {
         let Want::Hole { kind, clear, bottom, out: plane } = &wanted.want else { return None };
@@ -60,14 +63,14 @@ impl Judge<'_> {
             }
             self.take();
             if near(act.to[2], *bottom, self.within) {
-                // a last peck may be shorter than the digits can say; what begins at the clearance is the next hole
+                // a last peck may be shorter than the digits can say; what begins higher is the next hole's
                 let pecks = matches!(kind.as_str(), "deep" | "chipbreak");
                 let again = |act: &Act| {
                     act.what == What::Feed
                         && over(act)
                         && near(act.to[2], *bottom, within)
                         && act.to[2] < act.from[2]
-                        && act.from[2] < clear - within
+                        && act.from[2] < bottom + BACK
                 };
                 match self.next().filter(|act| pecks && again(act)) {
                     Some(next) => act = next,
@@ -92,6 +95,14 @@ impl Judge<'_> {
                 return Some(format!("line {}: out to {:.4}, not {clear:.4}", out.line, out.to[2]));
             }
             self.take();
+        }
+        // its own dwell at the bottom is none of the job's
+        while self
+            .acts
+            .get(self.at)
+            .is_some_and(|act| matches!(act.what, What::Dwell(_)) && near(act.from[2], *bottom, within))
+        {
+            self.at += 1;
         }
         None
     }

@@ -40,6 +40,11 @@ impl Block {
                     let mut reader = Reader::new(line, stream);
                     self.flow = Some(Flow::read(format!("{}", number.value), &mut reader, parameters)?);
                     self.is_empty = false;
+                    for token in tokens_from(line, token.start) {
+                        if matches!(token.kind, Kind::Comment | Kind::Remark) {
+                            self.mark(line, token.kind, token.start, token.end, control)?;
+                        }
+                    }
                     return Ok(());
                 }
                 Kind::Word(letter, number) => {

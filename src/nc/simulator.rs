@@ -155,6 +155,11 @@ impl<R: BufRead + Seek> Simulator<R> {
         self.program
     }
 
+    /// The first comment of the line that was run last, without its marks.
+    pub fn comment(&self) -> Option<&[u8]> {
+        self.block.comment.and_then(|(start, end)| self.line.get(start..end))
+    }
+
     /// Back to the beginning, with everything as switched on.
     ///
     /// # Errors

@@ -114,9 +114,7 @@ fn operation(row: usize, survey: &Survey, shape: &Shape, want: &mut Want) {
     want.put(VarId::Direct, direct);
     want.put(VarId::Frate, begins.feed.map(|feed| feed * shape.scale));
     want.put(VarId::Plunge, begins.plunge.or(begins.feed).map(|feed| feed * shape.scale));
-    if let Some(work) = operation.totals.works.first() {
-        want.set(VarId::Work, *work);
-    }
+    want.set(VarId::Work, operation.totals.works.first().copied().unwrap_or(operation.work));
 }
 
 /// Which of so many tools it is, and which ones stand before and behind it; behind the last the first.

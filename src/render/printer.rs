@@ -12,7 +12,7 @@ use crate::span::Span;
 use crate::toolpath::Place;
 
 /// Longest block of a control that takes long ones; they read from 80 characters to a few hundred.
-const LONGEST: usize = 4096;
+pub const LONGEST: usize = 4096;
 
 /// Where an output line came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

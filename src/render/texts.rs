@@ -2,7 +2,7 @@
 
 use super::marks::in_comment;
 use super::plain::plain;
-use super::printer::Printer;
+use super::printer::{LONGEST, Printer};
 use super::shape::Shape;
 use std::fmt::Display;
 
@@ -97,7 +97,7 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
     let wide = usize::from(width.unsigned_abs());
     let most = if wide == 0 { full } else { wide };
     let room = match behind {
-        Some(behind) => room(behind, shape, out).min(most),
+        Some(behind) => room(shape).saturating_sub(out.length() + behind).min(most),
         None => most,
     };
     if room < most.min(full) {
@@ -131,13 +131,12 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
     }
 }
 
-/// How many characters the open block has room for, when so many follow.
-fn room(behind: usize, shape: &Shape, out: &Printer) -> usize {
+/// How many characters a block has room for, beside its number and end.
+pub fn room(shape: &Shape) -> usize {
     let settings = &shape.program.settings;
     let number = settings.numbers.letter.map_or(0, |letter| usize::from(shape.letters[letter].format.int.count) + 2);
-    let longest = settings.control().traits().longest_line;
-    let others = number + settings.eob.len() + out.length() + behind;
-    longest.map_or(usize::MAX, |longest| longest.saturating_sub(others))
+    let longest = settings.control().traits().longest_line.unwrap_or(LONGEST);
+    longest.saturating_sub(number + settings.eob.len())
 }
 
 /// How many characters stand behind an operation on its line, as far as the form types them.

@@ -146,14 +146,13 @@ fn text_variable(name: &Spanned, diags: &mut Vec<Diag>) -> Option<TextVar> {
     var
 }
 
-/// Outside comments a text of the job stands beside text of the form: alone, a name like M30 would be a code.
+/// Outside comments a text of the job stands behind text of the form: alone, a name like M30 would be a code. A blank, a
+/// point or the slash of block delete before it changes nothing about that.
 fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
-    let is_text = |piece: &Piece| match &piece.kind {
-        PieceKind::Stray(_) => true,
-        PieceKind::Quote(text) => !text.is_empty(),
+    let holds = |piece: &Piece| match &piece.kind {
+        PieceKind::Stray(text) | PieceKind::Quote(text) => !text.trim_matches([' ', '/', '.']).is_empty(),
         _ => false,
     };
-    let held = pieces.iter().any(is_text);
     for (i, piece) in pieces.iter().enumerate() {
         let is_text =
             |name: &Spanned| property(&name.text, context).is_some_and(|(_, property)| property.kind.is_text());
@@ -176,9 +175,9 @@ fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
                 let message = format!("[{inner}] is a text, and stands beside a word");
                 (message, "put a blank, or text in backquotes, between them".to_owned())
             }
-            None if !held => {
+            None if !pieces[..i].iter().any(holds) => {
                 let message = format!("[{inner}] stands alone: a name like M30 would be a code");
-                (message, format!("put it into a comment, `([{inner}])`, or beside text: `` `\"`[{inner}]`\"` ``"))
+                (message, format!("put it into a comment, `([{inner}])`, or behind text: `` `\"`[{inner}]`\"` ``"))
             }
             None => continue,
         };

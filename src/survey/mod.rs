@@ -39,6 +39,8 @@ pub struct Operation {
     pub change: usize,
     /// The spindle when it begins.
     pub spindle: Spindle,
+    /// The work offset in which it begins.
+    pub work: f64,
     /// Sums of its moves.
     pub totals: Totals,
 }
@@ -184,20 +186,21 @@ impl Surveyor {
             self.survey.operations.clear();
         }
         let begins = ToolChange { first: First::Nothing, ..change.clone() };
+        if let Some(work) = change.work {
+            self.work = self.counted(work);
+        }
         self.motion.operation(change, tool != before);
         self.survey.operations.push(Operation {
             begins,
             tool,
             change: self.survey.changes.len().saturating_sub(1),
             spindle: self.motion.spindle(),
+            work: self.work,
             totals: Totals::of_operation(),
         });
         self.survey.whole.operations += 1;
         if let Some(tool) = tool {
             self.survey.tools[tool].totals.operations += 1;
-        }
-        if let Some(work) = change.work {
-            self.work = self.counted(work);
         }
         row_of(self.work, &mut self.survey.works);
     }

@@ -321,3 +321,12 @@ fn wrong_lists_are_refused() {
         assert_eq!(codes(&mill("", sequence)), ["PF707"], "{sequence}");
     }
 }
+
+/// An operation that only says something has the offset in which it begins.
+#[test]
+fn an_operation_without_moves_has_its_offset() {
+    let job = job(&[(1, 55, LINE)]);
+    let job = job.strip_suffix("]}").unwrap();
+    let job = format!("{job},{{\"tool\":1,\"name\":\"note\",\"work\":56,\"path\":[{{\"comment\":\"LOOK\"}}]}}]}}");
+    assert_eq!(lines("@for operation\n([opname] G[work])\n@end", &job), ["(OP 0 G55)", "(NOTE G56)"]);
+}

@@ -3,7 +3,7 @@
 use crate::support::control;
 use std::io::Cursor;
 
-use crate::support::{check, plain_post};
+use crate::support::{check, mill, plain_post};
 use postform::internals::compile::compile;
 use postform::internals::nc::{JobOptions, RunSettings, read_program};
 use postform::internals::render::{Options, Renderer};
@@ -13,7 +13,12 @@ const HEAD: &str = "G20 G17 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z1. M8\n
 
 /// The new program with its warnings, or the code of the refusal.
 fn printed(program: &str) -> Result<(String, Vec<String>), String> {
-    let checked = check(&plain_post("haas.pf"));
+    printed_by(&plain_post("haas.pf"), program)
+}
+
+/// The same of another form.
+fn printed_by(form: &str, program: &str) -> Result<(String, Vec<String>), String> {
+    let checked = check(form);
     let form = compile(&checked.form);
     let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
     let options = JobOptions { settings: RunSettings::new(control("fanuc")), units: None, tool: None, start: None };
@@ -212,4 +217,16 @@ fn frames_that_move_between_moves_are_followed() {
         ["G1 Z-.1 F5.", "X3.", "G17 G2 X5. I1. J0", "G0 Z1.", "G98 G81 X6. Y0 Z-.5 R.1 F6.", "G80", "G0 Z2.", "X1."];
     assert_eq!(lines, followed);
     assert_eq!(path("G1 Z-.1 F5.\nG92 X5.\nG1 X6.\nG92 X0\nG1 X2."), ["G1 Z-.1 F5.", "X1.", "X3."]);
+}
+
+/// The comment behind the O number is the name of the program.
+#[test]
+fn the_comment_of_the_number_is_the_name() {
+    let form = mill("", "").replacen("%0\n", "%0\n(NAME [progname])\n", 1);
+    for (head, name) in [("O1 (BRACKET)\n", "(NAME BRACKET)"), ("%\nO0001(BRACKET)\n", "(NAME BRACKET)")] {
+        let (text, _) = printed_by(&form, &format!("{head}{HEAD}G1 Z-.1 F5.\nM30\n")).unwrap();
+        assert!(text.lines().any(|line| line == name), "{head}{text}");
+    }
+    let (text, _) = printed_by(&form, &format!("O1\n{HEAD}G1 Z-.1 F5.\nM30\n")).unwrap();
+    assert!(!text.contains("NAME"), "{text}");
 }

@@ -157,3 +157,23 @@ fn a_text_stays_in_its_brackets() {
     }
     assert_eq!(lines("Comment ;", "; TOOL [toolname]", &job), ["; TOOL X)G0 Z-5(;"]);
 }
+
+/// A name of the job is no code: a blank, a point or the slash of block delete before it holds nothing.
+#[test]
+fn a_name_alone_is_refused_wherever_it_stands() {
+    for word in ["` `[toolname]", "[toolname].", "`/`[toolname]", "[toolname]`_X`", "`/ . `[toolname]"] {
+        assert_eq!(codes(&form("", word)), ["PF701"], "{word}");
+    }
+    for word in ["`\"`[toolname]`\"`", "`T=`[toolname]", "`CALL `[toolname]"] {
+        assert_eq!(codes(&form("", word)), [""; 0], "{word}");
+    }
+}
+
+/// A block is no longer than any control reads, and a name is no reason to print nothing.
+#[test]
+fn a_long_name_is_cut_where_no_control_says_how_long() {
+    let name = format!(",\"name\":\"{}\"", "A".repeat(10_000));
+    let printed = lines("Control haas", "(T [toolname] X)", &job("", &name, ""));
+    assert_eq!(printed.iter().map(String::len).collect::<Vec<_>>(), [4096]);
+    assert!(printed[0].ends_with(" X)"));
+}

@@ -74,11 +74,6 @@ pub(super) fn survey(
                 }
             };
             match &item.action {
-                Action::Comment(start, end) if !named && simulator.program().is_some() => {
-                    let text = simulator.text().get(*start..*end).unwrap_or_default();
-                    let text = String::from_utf8_lossy(text).trim().to_owned();
-                    survey.name = Some(text).filter(|text| !text.is_empty());
-                }
                 Action::Rapid { to, machine } => reach(&mut survey, to, *machine),
                 Action::Feed { to, .. } => reach(&mut survey, to, 0),
                 Action::Arc(turn) => reach(&mut survey, &turn.to, 0),
@@ -116,7 +111,11 @@ pub(super) fn survey(
             break;
         }
         // its name stands behind its number
-        named |= simulator.program().is_some();
+        if !named && simulator.program().is_some() {
+            named = true;
+            let name = simulator.comment().map(|name| String::from_utf8_lossy(name).trim().to_owned());
+            survey.name = name.filter(|name| !name.is_empty());
+        }
     }
     for ((letter, code), (line, count)) in left_out {
         let name = match letter {

@@ -8,6 +8,7 @@ use crate::render::plain::plain;
 use crate::render::printer::Printer;
 use crate::render::said::Said;
 use crate::render::shape::Shape;
+use crate::render::texts::room;
 use crate::render::upon::run_with_upons;
 use crate::render::want::Want;
 
@@ -26,7 +27,8 @@ fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
 
 /// A comment, in as many blocks as the control's line asks for: by the form's CommentLine, if it has one.
 pub fn comment_block(text: &str, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    let room = comment_room(shape);
+    let marks: usize = shape.program.settings.comment.iter().map(String::len).sum();
+    let room = room(shape).saturating_sub(marks).max(1);
     for (i, line) in wrapped(&plain(text), room).enumerate() {
         if i == 1 {
             let message = "a comment is longer than the control's line, and goes on in the next";
@@ -42,15 +44,6 @@ pub fn comment_block(text: &str, shape: &Shape, want: &mut Want, said: &mut Said
         }
     }
     Ok(())
-}
-
-/// How many characters of a comment a block has room for, beside its marks, number and end.
-fn comment_room(shape: &Shape) -> usize {
-    let settings = &shape.program.settings;
-    let number = settings.numbers.letter.map_or(0, |letter| usize::from(shape.letters[letter].format.int.count) + 2);
-    let others = number + settings.eob.len() + settings.comment.iter().map(String::len).sum::<usize>();
-    let longest = settings.control().traits().longest_line;
-    longest.map_or(usize::MAX, |longest| longest.saturating_sub(others).max(1))
 }
 
 fn comment_line(text: &str, shape: &Shape, out: &mut Printer) {

@@ -189,7 +189,7 @@ fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: 
                 program.texts_printed = program.texts_printed.with(body.texts);
                 program.printed = program.printed.with(body.vars);
                 program.lists[index as usize].routine = body;
-                nodes.push(Node::List(ops));
+                nodes.push(Node::List(index, ops));
             }
             Step::If(arms) => {
                 let branches = arms.iter().map(|arm| {

@@ -57,8 +57,8 @@ pub enum Node {
     Set(Target, u32),
     /// The first branch whose condition holds.
     If(Vec<Branch>),
-    /// The operations of a list, which have a routine of their own.
-    List(Range<usize>),
+    /// A list by its row in [`Program::lists`], and its operations, which have a routine of their own.
+    List(u32, Range<usize>),
 }
 
 /// A branch.
@@ -182,7 +182,7 @@ fn leave_out(nodes: &[Node], branches: u128, left_out: &mut Vec<Range<usize>>) {
     for node in nodes {
         let all = match node {
             Node::If(all) => all,
-            Node::List(ops) => {
+            Node::List(_, ops) => {
                 left_out.push(ops.clone());
                 continue;
             }

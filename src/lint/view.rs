@@ -97,7 +97,7 @@ impl<'a> View<'a> {
         }
         for body in &bodies {
             // what a condition asks decides what is printed
-            each_formula(body.steps.unwrap_or_default(), &mut |formula| {
+            each_formula(body.steps.unwrap_or_default(), &mut |formula, _| {
                 printed = printed.with(formula.vars());
                 told = told.with(formula.vars());
             });

@@ -1,9 +1,11 @@
-//! Variables that have no value where they are printed.
+//! Variables that have no value where they are printed, and calculations that have none.
 
 use super::fault::{Done, fault};
 use super::vars::MOVED;
-use crate::diag::Code;
+use crate::diag::{Code, Diag};
 use crate::lang::{AHEAD, Origin, VarId};
+use crate::sema::Without;
+use crate::span::Span;
 
 /// The error of a variable that has no value.
 #[cold]
@@ -27,4 +29,21 @@ pub fn no_value<T>(var: VarId) -> Done<T> {
         _ => format!("it stands for: {}; let the job say it, or take the word out of the form", var.row().meaning),
     };
     fault(Code::PR001, format!("[{}] has no value here", var.name()), help)
+}
+
+/// The error of a calculation that comes to nothing.
+#[cold]
+pub fn no_result<T>(why: Without) -> Done<T> {
+    match why {
+        Without::Value(var) => no_value(var),
+        Without::Divisor(divisor) => Err(Box::new(division_by_zero(divisor))),
+    }
+}
+
+/// The error of a division by zero.
+#[cold]
+pub fn division_by_zero(divisor: Span) -> Diag {
+    Diag::new(Code::PR051, "a division by zero")
+        .at(divisor, "this is 0 here")
+        .help("ask before it, as `@if [pitch] > 0`")
 }

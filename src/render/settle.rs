@@ -2,11 +2,13 @@
 
 use super::body::run_all;
 use super::fault::{Done, fault, fault_at};
+use super::no_value::no_result;
 use super::printer::Printer;
 use super::said::Said;
 use super::shape::Shape;
 use super::targets::set_targets;
 use super::upon::{upons, upons_are_printed};
+use super::values::Now;
 use super::want::{Want, is_no_work};
 use super::words::{code_word, letter_word, value_code};
 use crate::compile::{LetterKind, Op, Routine, WorkWord};
@@ -178,12 +180,14 @@ pub fn speed_mode_before(shape: &Shape, want: &Want, said: &mut Said, out: &mut 
 
 /// The work offset as the form prints it.
 fn work_block(work: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    match shape.program.work_word {
-        Some(WorkWord { code, letter, .. }) => {
+    match &shape.program.work_word {
+        Some(WorkWord { code, letter, calculated, .. }) => {
             if let Some(code) = code {
-                code_word(&sema::Code::plain(code), shape, want, said, out)?;
+                code_word(&sema::Code::plain(*code), shape, want, said, out)?;
             }
-            letter_word(letter, work, shape, said, out)?;
+            let now = Now { shape, want, said, letter: *letter, block: None, set: &said.kept };
+            let value = calculated.as_ref().map_or(Ok(work), |formula| formula.number(&now).or_else(no_result))?;
+            letter_word(*letter, value, shape, said, out)?;
             said.forget_axes(shape);
         }
         None if is_no_work(work, shape) => {

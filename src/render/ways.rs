@@ -1,12 +1,13 @@
 //! Which way through a sequence is taken now: its conditions are asked before any of it prints.
 
+use super::ahead;
 use super::kept::Kept;
+use super::no_value::division_by_zero;
 use super::said::Said;
 use super::shape::Shape;
 use super::values::Now;
 use super::want::Want;
-use crate::compile::{Node, Routine};
-use crate::diag::{Code, Diag};
+use crate::compile::{List, Node, Routine};
 use crate::lang::SequenceId;
 use crate::sema::{Formula, Value, Without};
 use crate::span::Span;
@@ -49,8 +50,7 @@ fn choose(nodes: &[Node], set: &mut Kept, branches: &mut u128, shape: &Shape, wa
                     set.set(*target, value);
                 }
             }
-            // asked for each of them, when it prints
-            Node::List(_) => {}
+            Node::List(index, _) => set_by_list(&shape.program.lists[*index as usize], set, shape, want, said),
             Node::If(all) => {
                 let taken = all.iter().find(|branch| {
                     let now = Now { shape, want, said, letter: b' ', block: None, set };
@@ -67,6 +67,27 @@ fn choose(nodes: &[Node], set: &mut Kept, branches: &mut u128, shape: &Shape, wa
     }
 }
 
+/// What the lines of a list set counts behind it. Its own conditions are asked for each item, when it prints.
+fn set_by_list(list: &List, set: &mut Kept, shape: &Shape, want: &Want, said: &Said) {
+    let Some(flow) = list.routine.flow.as_ref().filter(|flow| sets(&flow.nodes, shape)) else { return };
+    let Some(survey) = &shape.options.survey else { return };
+    for item in ahead::items(list.each, want.item, survey) {
+        choose(&flow.nodes, set, &mut 0, shape, &ahead::of_item(item, survey, shape, want), said);
+    }
+}
+
+/// Is a value set somewhere in it?
+fn sets(nodes: &[Node], shape: &Shape) -> bool {
+    nodes.iter().any(|node| match node {
+        Node::Set(..) => true,
+        Node::If(all) => all.iter().any(|branch| sets(&branch.nodes, shape)),
+        Node::List(index, _) => {
+            let inner = &shape.program.lists[*index as usize].routine.flow;
+            inner.as_ref().is_some_and(|flow| sets(&flow.nodes, shape))
+        }
+    })
+}
+
 fn holds(condition: &Formula, span: Span, now: &Now) -> bool {
     match condition.holds(now) {
         Ok(holds) => holds,
@@ -76,12 +97,4 @@ fn holds(condition: &Formula, span: Span, now: &Now) -> bool {
         }
         Err(Without::Value(_)) => false,
     }
-}
-
-/// The error of a division by zero.
-#[cold]
-pub fn division_by_zero(divisor: Span) -> Diag {
-    Diag::new(Code::PR051, "a division by zero")
-        .at(divisor, "this is 0 here")
-        .help("ask before it, as `@if [pitch] > 0`")
 }

@@ -6,6 +6,7 @@ use super::args::choice_of;
 use super::limits::Limits;
 use super::model::Form;
 use super::settings::Settings;
+use super::upon_sets;
 use crate::control::Control;
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, Machine, SEQUENCES, SequenceId, UnitChoice};
@@ -144,6 +145,7 @@ impl Analysis {
                 );
             }
         }
+        upon_sets::check(&self.form, &mut self.diags);
         let cancelled = || self.form.sequences.values().filter_map(|s| s.cancel.map(|span| (s.id.name(), span)));
         if let Some((_, first)) = cancelled().next().filter(|_| !self.form.sequences.contains_key(&SequenceId::Cancel))
         {

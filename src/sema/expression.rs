@@ -1,6 +1,6 @@
 //! Expressions of a form: names found, types checked, what is wrong reported.
 
-use super::formula::{Arithmetic, Comparison, Formula, Function, NoValues};
+use super::formula::{Formula, Function, NoValues};
 use super::names::{Context, property, variable};
 use super::near;
 use super::property::{PropertyKind, PropertyValue};
@@ -8,11 +8,14 @@ use super::value_names::names_of;
 use crate::diag::{Code, Diag};
 use crate::lang::{Coolant, TextVar, VarId, VarSet, did_you_mean};
 use crate::span::Span;
-use crate::syntax::{Expr, ExprKind, Operator, Spanned, Unread};
+use crate::syntax::{Arithmetic, Comparison, Expr, ExprKind, Operator, Spanned, Unread};
 
 /// Variables that are 1 or 0: a condition asks them as they are.
 const YES_OR_NO: VarSet =
     VarSet::of(&[VarId::Lasthole, VarId::Isfirsthole, VarId::Rigid, VarId::Isfirsttool, VarId::Islasttool]);
+
+const EQUAL: Operator = Operator::Comparison(Comparison::Equal);
+const UNEQUAL: Operator = Operator::Comparison(Comparison::Unequal);
 
 /// What an expression is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -208,18 +211,22 @@ fn call(name: &Spanned, args: &[Expr], context: &Context, diags: &mut Vec<Diag>)
 
 fn binary(operator: Operator, sides: &[Expr; 2], context: &Context, diags: &mut Vec<Diag>) -> Option<(Formula, Kind)> {
     let [left, right] = sides;
-    let arithmetic = match operator {
-        Operator::Add => Arithmetic::Add,
-        Operator::Subtract => Arithmetic::Subtract,
-        Operator::Multiply => Arithmetic::Multiply,
-        Operator::Divide => Arithmetic::Divide,
-        Operator::And | Operator::Or => {
-            let both = Box::new([asked(left, context, diags)?, asked(right, context, diags)?]);
-            let formula = if operator == Operator::And { Formula::And(both) } else { Formula::Or(both) };
-            return Some((formula, Kind::YesNo));
-        }
-        _ => return compared(operator, left, right, context, diags).map(|formula| (formula, Kind::YesNo)),
+    let formula = match operator {
+        Operator::Arithmetic(arithmetic) => return calculated(arithmetic, left, right, context, diags),
+        Operator::And => Formula::And(Box::new([asked(left, context, diags)?, asked(right, context, diags)?])),
+        Operator::Or => Formula::Or(Box::new([asked(left, context, diags)?, asked(right, context, diags)?])),
+        _ => compared(operator, left, right, context, diags)?,
     };
+    Some((formula, Kind::YesNo))
+}
+
+fn calculated(
+    arithmetic: Arithmetic,
+    left: &Expr,
+    right: &Expr,
+    context: &Context,
+    diags: &mut Vec<Diag>,
+) -> Option<(Formula, Kind)> {
     let mut number = |side: &Expr| {
         let (formula, kind) = typed(side, context, diags)?;
         wants(kind, Kind::Number, side.span, diags).map(|()| formula)
@@ -277,14 +284,7 @@ fn compared(
     if left_kind != right_kind {
         wants(right_kind, left_kind, right.span, diags)?;
     }
-    let comparison = match operator {
-        Operator::Unequal => Comparison::Unequal,
-        Operator::Less => Comparison::Less,
-        Operator::AtMost => Comparison::AtMost,
-        Operator::Greater => Comparison::Greater,
-        Operator::AtLeast => Comparison::AtLeast,
-        _ => Comparison::Equal,
-    };
+    let Operator::Comparison(comparison) = operator else { return None };
     Some(Formula::Compare(comparison, Box::new([left_formula, right_formula])))
 }
 
@@ -305,7 +305,7 @@ fn chosen(
     };
     let [left, right] = sides;
     let Some(property) = choice(&left).or(choice(&right)) else { return Some([left, right]) };
-    if !matches!(operator, Operator::Equal | Operator::Unequal | Operator::Like) {
+    if !matches!(operator, EQUAL | UNEQUAL | Operator::Like) {
         diags.push(
             Diag::new(Code::PF704, format!("the words of [{}] have no order", property.name))
                 .at(at[0].span.to(at[1].span), "compared as greater and less")
@@ -335,8 +335,8 @@ fn cools(operator: Operator, left: &Expr, right: &Expr, context: &Context) -> Op
         return None;
     }
     match operator {
-        Operator::Equal => Some(Formula::Cools(kind)),
-        Operator::Unequal => Some(Formula::Not(Box::new(Formula::Cools(kind)))),
+        EQUAL => Some(Formula::Cools(kind)),
+        UNEQUAL => Some(Formula::Not(Box::new(Formula::Cools(kind)))),
         _ => None,
     }
 }

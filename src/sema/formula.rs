@@ -3,8 +3,10 @@
 use std::borrow::Cow;
 
 use super::near;
+use super::property::Target;
 use crate::lang::{Coolant, TextId, TextSet, VarId, VarSet};
 use crate::span::Span;
+use crate::syntax::{Arithmetic, Comparison};
 
 /// A calculation or a condition.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,36 +51,6 @@ pub enum Formula {
     And(Box<[Formula; 2]>),
     /// One of them, or both.
     Or(Box<[Formula; 2]>),
-}
-
-/// What makes one number of two.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arithmetic {
-    /// `+`.
-    Add,
-    /// `-`.
-    Subtract,
-    /// `*`.
-    Multiply,
-    /// `/`.
-    Divide,
-}
-
-/// How two values are compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Comparison {
-    /// `=`.
-    Equal,
-    /// `<>`.
-    Unequal,
-    /// `<`.
-    Less,
-    /// `<=`.
-    AtMost,
-    /// `>`.
-    Greater,
-    /// `>=`.
-    AtLeast,
 }
 
 /// Functions of numbers.
@@ -273,7 +245,7 @@ impl Formula {
             Formula::True(var) => Ok(values.number(*var).is_some_and(|value| value != 0.0)),
             Formula::HasText(id) => Ok(!values.text(*id).is_empty()),
             Formula::Compare(comparison, sides) => match (sides[0].value(values), sides[1].value(values)) {
-                (Ok(left), Ok(right)) => Ok(comparison.holds(&left, &right)),
+                (Ok(left), Ok(right)) => Ok(holds(*comparison, &left, &right)),
                 (Err(error), _) | (_, Err(error)) => without(error),
             },
             Formula::Like(text, pattern) => match text.value(values) {
@@ -311,6 +283,22 @@ impl Formula {
             _ => {}
         });
         vars
+    }
+
+    /// Does it ask what `@set` gives this?
+    pub fn asks(&self, target: Target) -> bool {
+        let mut asks = false;
+        self.each(&mut |part| {
+            asks |= match (part, target) {
+                (Formula::Var(var) | Formula::Has(var) | Formula::True(var), Target::Var(own)) => *var == own,
+                (
+                    Formula::Property(row) | Formula::PropertyText(row) | Formula::PropertyHolds(row),
+                    Target::Property(own),
+                ) => *row == own,
+                _ => false,
+            };
+        });
+        asks
     }
 
     /// The texts that it asks.
@@ -361,24 +349,23 @@ impl Formula {
     }
 }
 
-impl Comparison {
-    fn holds(self, left: &Value, right: &Value) -> bool {
-        use std::cmp::Ordering::{Equal, Greater, Less};
-        let order = match (left, right) {
-            (Value::Number(left), Value::Number(right)) => near::order(*left, *right),
-            (Value::Text(left), Value::Text(right)) => Some(left.cmp(right)),
-            (Value::Yes(left), Value::Yes(right)) => Some(left.cmp(right)),
-            _ => None,
-        };
-        let Some(order) = order else { return false };
-        match self {
-            Comparison::Equal => order == Equal,
-            Comparison::Unequal => order != Equal,
-            Comparison::Less => order == Less,
-            Comparison::AtMost => order != Greater,
-            Comparison::Greater => order == Greater,
-            Comparison::AtLeast => order != Less,
-        }
+/// Does a comparison of two values hold? Values of two kinds are neither equal nor unequal.
+fn holds(comparison: Comparison, left: &Value, right: &Value) -> bool {
+    use std::cmp::Ordering::{Equal, Greater, Less};
+    let order = match (left, right) {
+        (Value::Number(left), Value::Number(right)) => near::order(*left, *right),
+        (Value::Text(left), Value::Text(right)) => Some(left.cmp(right)),
+        (Value::Yes(left), Value::Yes(right)) => Some(left.cmp(right)),
+        _ => None,
+    };
+    let Some(order) = order else { return false };
+    match comparison {
+        Comparison::Equal => order == Equal,
+        Comparison::Unequal => order != Equal,
+        Comparison::Less => order == Less,
+        Comparison::AtMost => order != Greater,
+        Comparison::Greater => order == Greater,
+        Comparison::AtLeast => order != Less,
     }
 }
 

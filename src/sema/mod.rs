@@ -21,13 +21,14 @@ mod special;
 mod statements;
 mod step;
 mod store;
+mod upon_sets;
 mod value_names;
 mod words;
 
 pub use check::{Checked, analyse};
 pub use code::Code;
 pub use file_name::{Extension, NamePart, ProgramName, is_of_file_names};
-pub use formula::{Comparison, Formula, Value, Values, Without};
+pub use formula::{Formula, Value, Values, Without};
 pub use library::one_post;
 pub use limits::{Limits, MOST_LINES, MOST_TEXT, MOST_WORDS};
 pub use model::{Form, Line, Sequence, Upon, Word, WordKind, kind_of_remark};

@@ -51,21 +51,29 @@ pub fn line_counts(steps: &[Step]) -> (usize, usize) {
     both
 }
 
-/// All formulas of steps.
-pub fn each_formula(steps: &[Step], take: &mut dyn FnMut(&Formula)) {
+/// Takes every step, and those in it behind it.
+pub fn each_step<'a>(steps: &'a [Step], take: &mut dyn FnMut(&'a Step)) {
     for step in steps {
+        take(step);
         match step {
-            Step::Lines(_) => {}
-            Step::Set(_, value, _) => take(value),
-            Step::For(_, steps, _) => each_formula(steps, take),
-            Step::If(arms) => {
-                for arm in arms {
-                    arm.condition.iter().for_each(&mut *take);
-                    each_formula(&arm.steps, take);
-                }
-            }
+            Step::Lines(_) | Step::Set(..) => {}
+            Step::For(_, steps, _) => each_step(steps, take),
+            Step::If(arms) => arms.iter().for_each(|arm| each_step(&arm.steps, take)),
         }
     }
+}
+
+/// All formulas of steps, each with the place of its directive.
+pub fn each_formula<'a>(steps: &'a [Step], take: &mut dyn FnMut(&'a Formula, Span)) {
+    each_step(steps, &mut |step| match step {
+        Step::Lines(_) | Step::For(..) => {}
+        Step::Set(_, value, span) => take(value, *span),
+        Step::If(arms) => {
+            for arm in arms {
+                arm.condition.iter().for_each(|condition| take(condition, arm.span));
+            }
+        }
+    });
 }
 
 /// The first list that the steps go through, if there is one.

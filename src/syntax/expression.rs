@@ -9,6 +9,7 @@ use pest::pratt_parser::{Assoc, Op, PrattParser};
 
 use super::ast::Spanned;
 use super::grammar::{FormGrammar, Rule};
+use super::operator::{Arithmetic, Comparison, Operator};
 use crate::span::Span;
 
 /// How deep brackets may lie in each other.
@@ -55,39 +56,6 @@ impl Expr {
             ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Word(_) => {}
         }
     }
-}
-
-/// Operators.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Operator {
-    /// `+`.
-    Add,
-    /// `-`, between two and before one.
-    Subtract,
-    /// `*`.
-    Multiply,
-    /// `/`.
-    Divide,
-    /// `=`.
-    Equal,
-    /// `<>`.
-    Unequal,
-    /// `<`.
-    Less,
-    /// `<=`.
-    AtMost,
-    /// `>`.
-    Greater,
-    /// `>=`.
-    AtLeast,
-    /// `like`.
-    Like,
-    /// `and`.
-    And,
-    /// `or`.
-    Or,
-    /// `not`.
-    Not,
 }
 
 /// An expression that can't be read.
@@ -247,7 +215,11 @@ impl Reading {
         OPERATORS
             .map_primary(|pair| self.primary(pair, in_brackets))
             .map_prefix(|pair, of| {
-                let operator = if pair.as_rule() == Rule::not { Operator::Not } else { Operator::Subtract };
+                let operator = if pair.as_rule() == Rule::not {
+                    Operator::Not
+                } else {
+                    Operator::Arithmetic(Arithmetic::Subtract)
+                };
                 Expr { span: self.span(&pair).to(of.span), kind: ExprKind::Unary(operator, Box::new(of)) }
             })
             .map_infix(|left, pair, right| {
@@ -287,41 +259,19 @@ impl Reading {
 
 fn operator(rule: Rule) -> Operator {
     match rule {
-        Rule::add => Operator::Add,
-        Rule::subtract => Operator::Subtract,
-        Rule::multiply => Operator::Multiply,
-        Rule::divide => Operator::Divide,
-        Rule::unequal => Operator::Unequal,
-        Rule::less => Operator::Less,
-        Rule::at_most => Operator::AtMost,
-        Rule::greater => Operator::Greater,
-        Rule::at_least => Operator::AtLeast,
+        Rule::add => Operator::Arithmetic(Arithmetic::Add),
+        Rule::subtract => Operator::Arithmetic(Arithmetic::Subtract),
+        Rule::multiply => Operator::Arithmetic(Arithmetic::Multiply),
+        Rule::divide => Operator::Arithmetic(Arithmetic::Divide),
+        Rule::unequal => Operator::Comparison(Comparison::Unequal),
+        Rule::less => Operator::Comparison(Comparison::Less),
+        Rule::at_most => Operator::Comparison(Comparison::AtMost),
+        Rule::greater => Operator::Comparison(Comparison::Greater),
+        Rule::at_least => Operator::Comparison(Comparison::AtLeast),
         Rule::like => Operator::Like,
         Rule::and => Operator::And,
         Rule::or => Operator::Or,
-        _ => Operator::Equal,
-    }
-}
-
-impl Operator {
-    /// As it is written.
-    pub fn name(self) -> &'static str {
-        match self {
-            Operator::Add => "+",
-            Operator::Subtract => "-",
-            Operator::Multiply => "*",
-            Operator::Divide => "/",
-            Operator::Equal => "=",
-            Operator::Unequal => "<>",
-            Operator::Less => "<",
-            Operator::AtMost => "<=",
-            Operator::Greater => ">",
-            Operator::AtLeast => ">=",
-            Operator::Like => "like",
-            Operator::And => "and",
-            Operator::Or => "or",
-            Operator::Not => "not",
-        }
+        _ => Operator::Comparison(Comparison::Equal),
     }
 }
 

@@ -4,11 +4,13 @@ mod ast;
 mod directive;
 mod expression;
 mod grammar;
+mod operator;
 mod parse;
 
 pub use ast::{
     Body, Directive, DirectiveKind, End, Form, Head, Line, Piece, PieceKind, SequenceNode, Spanned, Statement, Tail,
     Word,
 };
-pub use expression::{Expr, ExprKind, Operator, Unread};
+pub use expression::{Expr, ExprKind, Unread};
+pub use operator::{Arithmetic, Comparison, Operator};
 pub use parse::parse;

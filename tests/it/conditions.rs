@@ -65,6 +65,94 @@ fn a_speed_that_the_form_limits_stays() {
     assert_eq!(speeds, ["S800 M3"]);
 }
 
+/// A calculated word of a condition is how the form says it: no other word for it follows.
+#[test]
+fn a_calculated_condition_is_said() {
+    let offsets = [
+        ("G15 H[work-53]", vec!["G15 H1 G0 X0 Y0 Z1.", "G1 X1. Y1. Z0 F10.", "G15 H3", "G0 X1. Y1. Z2.", "G1 Y2. Z0"]),
+        (
+            "`G54.1` P[work-50]",
+            vec!["G54.1 P4 G0 X0 Y0 Z1.", "G1 X1. Y1. Z0 F10.", "G54.1 P6", "G0 X1. Y1. Z2.", "G1 Y2. Z0"],
+        ),
+        ("G[work+0]", vec!["G54 G0 X0 Y0 Z1.", "G1 X1. Y1. Z0 F10.", "G56", "G0 X1. Y1. Z2.", "G1 Y2. Z0"]),
+    ];
+    for (word, lines) in offsets {
+        let text = mill("", "").replace("G0 G[work] X", &format!("{word} G0 X"));
+        let path = "{\"line\":[1,1,0]},{\"work\":56},{\"rapid\":[1,1,2]},{\"line\":[1,2,0]}";
+        let printed = program(&text, &job(path));
+        assert_eq!(printed[3..printed.len() - 1], lines, "{word}");
+    }
+    let text = mill("", "").replace("M[direct]", "M[direct+0]");
+    let printed = program(&text, &job("{\"line\":[1,1,0]}"));
+    assert_eq!(printed.iter().filter(|line| line.ends_with(" M3")).count(), 1, "{printed:?}");
+}
+
+/// Counting in a list, and asking behind it what came out.
+#[test]
+fn what_a_list_sets_is_asked_behind_it() {
+    let asked = "@set val1 = 0\n@for tool\n@if [tool] > 0\n@set val1 = [val1]+1\n@end\n@end\n([val1] TOOLS)\n@if [val1] > 1\n(MANY)\n@else\n(ONE)\n@end";
+    let text = mill("", "").replacen("%0\n", &format!("%0\n{asked}\n"), 1);
+    let one = job("{\"line\":[1,1,0]}");
+    let two = one.replace(
+        "\"operations\":[",
+        "\"operations\":[{\"tool\":2,\"spindle\":{\"speed\":500,\"direction\":\"cw\"},\"feed\":9,\"path\":[{\"rapid\":[0,0,1]},{\"line\":[0,0,0]}]},",
+    );
+    assert_eq!(program(&text, &one)[1..3], ["(1 TOOLS)", "(ONE)"]);
+    assert_eq!(program(&text, &two)[1..3], ["(2 TOOLS)", "(MANY)"]);
+}
+
+/// The conditions of a sequence are asked before the Upon in front of it prints.
+#[test]
+fn what_an_upon_sets_is_not_asked_before_it() {
+    let upon = |set: &str, asks: &str| {
+        let own = format!("Upon [work]\n@set {set} = [work]\n([{set}])\nEnd\nOptStop\n{asks}\nM1\nEnd");
+        codes(&mill("Property note number 0 What is noted", &own))
+    };
+    for set in ["val1", "note"] {
+        assert_eq!(upon(set, &format!("@if [{set}] = 55\n(IS 55)\n@end")), ["PF707"]);
+        assert_eq!(upon(set, &format!("@set val2 = [{set}]+1")), ["PF707"]);
+        assert_eq!(upon(set, &format!("([{set}])\n@if [val3] = 55\n(IS 55)\n@end")), [""; 0]);
+    }
+}
+
+/// Blanks before a directive are indentation, inside another one or not; what else begins with `@` there is a remark.
+#[test]
+fn an_indented_directive_is_one() {
+    assert_eq!(lines("@set val1 = 1\n  @set val1 = 2\n([val1])\n\t@set val1 = 3\n([val1])"), ["(2)", "(3)"]);
+    assert_eq!(lines("  @if [tool] = 1\n    (ONE)\n  @end\n  @see the manual"), ["(ONE)"]);
+}
+
+/// A value that is not there is no reason to keep the one of another cycle.
+#[test]
+fn what_is_set_of_no_value_is_an_error() {
+    let drill = |set: &str| {
+        let form = format!("Drill\n{set}\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\n(W [val1])\nG80\nEnd");
+        let hole = "{\"cycle\":{\"kind\":\"drill\",\"depth\":2,\"clear\":0.1,\"feed\":10,\"points\":[[1,1,0]]}}";
+        path_lines("", &form, hole)
+    };
+    assert!(drill("@set val1 = [dwell]*1000")[0].starts_with("PR001"), "{:?}", drill("@set val1 = [dwell]*1000"));
+    assert!(drill("@set val1 = 7\n@if [dwell]\n@set val1 = [dwell]*1000\n@end").contains(&"(W 7)".to_owned()));
+}
+
+/// `@set` stands behind the line before it, whose number is taken then.
+#[test]
+fn a_number_is_set_behind_its_line() {
+    let text = mill("Sequence#s N 1 1", "").replacen(
+        "1stToolChange\n",
+        "1stToolChange\n(A)\n@set val1 = [block]\n([val1])\n",
+        1,
+    );
+    let printed = program(&text, &job("{\"line\":[1,1,0]}"));
+    assert_eq!(printed[1..3], ["N1 (A)", "N2 (2)"]);
+}
+
+/// A lathe's turret takes station and register in one word, which may be calculated.
+#[test]
+fn a_calculated_word_says_which_tool() {
+    let form = "Machine Lathe\n1stToolChange\nT[tool*101]\nG97 S[speed] M[direct]\nEnd";
+    assert!(check(form).diags.iter().all(|diag| diag.code.name() != "PF429"), "{:?}", check(form).diags);
+}
+
 /// The centre of an arc is said with each arc, calculated or not.
 #[test]
 fn a_calculated_centre_is_no_place_that_stays() {

@@ -2,7 +2,7 @@
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{SequenceId, VarId, VarSet};
 use crate::lint::blocks::{Block, calls};
 use crate::lint::view::View;
 use crate::sema::Word;
@@ -39,7 +39,7 @@ fn is_said(view: &View, block: &Block) -> bool {
     let leaves = |word: &Word| {
         calls(view.settings.codes(), word)
             || view.meaning(word) == Some(Meaning::ToolChange)
-            || matches!(word.printed_var(), Some(VarId::Tool | VarId::Comp))
+            || word.printed_vars().meets(VarSet::of(&[VarId::Tool, VarId::Comp]))
     };
     !(block.line.words.iter().any(leaves) || block.reference && block.axis_words.is_empty())
 }

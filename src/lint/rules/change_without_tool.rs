@@ -2,7 +2,7 @@
 
 use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, TextId, VarId};
+use crate::lang::{SequenceId, TextId, VarId, VarSet};
 use crate::lint::blocks::calls;
 use crate::lint::view::View;
 use crate::sema::{Word, WordKind};
@@ -14,7 +14,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let control = view.settings.control();
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
         // on a lathe [comp] is station and offset register
-        let says = |word: &&Word| matches!(word.printed_var(), Some(VarId::Tool | VarId::Comp));
+        let says = |word: &&Word| word.printed_vars().meets(VarSet::of(&[VarId::Tool, VarId::Comp]));
         let printed = body.words().find(says);
         let Some(word) = printed else {
             // where a person changes the tool, a comment says which

@@ -1,7 +1,7 @@
 //! PF418: a feed move that does not say its feed goes at whatever feed was last.
 
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{SequenceId, VarId, VarSet};
 use crate::lint::blocks::Motion;
 use crate::lint::view::View;
 
@@ -19,7 +19,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         for block in view.blocks(*body) {
             said |= block.line.words.iter().any(|word| {
                 let own = word.letter() == Some(feed);
-                own || matches!(word.printed_var(), Some(VarId::Frate | VarId::Plunge | VarId::Pitch | VarId::Invtime))
+                own || word.printed_vars().meets(VarSet::of(&[
+                    VarId::Frate,
+                    VarId::Plunge,
+                    VarId::Pitch,
+                    VarId::Invtime,
+                ]))
             });
             let cuts = matches!(block.motion, Motion::Line | Motion::Arc) || (feeds && block.motion == Motion::Unknown);
             let words = &block.axis_words;

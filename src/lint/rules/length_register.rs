@@ -2,7 +2,7 @@
 
 use crate::control::{Meaning, ToolLength};
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{SequenceId, VarId, VarSet};
 use crate::lint::view::{Purpose, View};
 use crate::sema::{Word, WordKind};
 
@@ -35,12 +35,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         );
     }
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
-        let own =
-            |word: &Word| matches!(word.printed_var(), Some(VarId::Lcomp | VarId::Comp | VarId::Tool | VarId::Tool1));
+        let own = |word: &Word| {
+            word.printed_vars().meets(VarSet::of(&[VarId::Lcomp, VarId::Comp, VarId::Tool, VarId::Tool1]))
+        };
         // a fixture's number, unless the block turns a length on
         let fixture = |word: &Word| {
             let words = &body.lines[body.line_of(word)].words;
-            word.printed_var() == Some(VarId::Work) && !words.iter().any(on)
+            word.printed_vars().has(VarId::Work) && !words.iter().any(on)
         };
         // H0 takes the offset off
         let other = |word: &&Word| is_register(word) && !own(word) && !fixture(word) && word.typed(b'H') != Some(0.0);

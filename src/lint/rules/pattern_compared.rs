@@ -2,7 +2,8 @@
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
-use crate::sema::{Comparison, Formula, Step};
+use crate::sema::{Formula, Step};
+use crate::syntax::Comparison;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in &view.bodies {

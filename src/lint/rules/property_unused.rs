@@ -19,7 +19,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     };
     let mut printed = Vec::new();
     for body in &view.bodies {
-        each_formula(body.steps.unwrap_or_default(), &mut of);
+        each_formula(body.steps.unwrap_or_default(), &mut |formula, _| of(formula));
         for word in body.words() {
             match &word.kind {
                 WordKind::Formula(_, formula) | WordKind::RemarkFormula(formula) => of(formula),

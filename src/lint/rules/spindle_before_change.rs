@@ -2,9 +2,12 @@
 
 use crate::control::{Kept, Meaning};
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, VarId};
+use crate::lang::{SequenceId, VarId, VarSet};
 use crate::lint::view::{Body, View};
 use crate::sema::Word;
+
+/// The variables that say which tool.
+const TOOLS: VarSet = VarSet::of(&[VarId::Tool, VarId::Comp]);
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (body, change) in changes(view) {
@@ -39,7 +42,7 @@ fn stopped_again<'a>(view: &View<'a>, body: &Body<'a>) -> Option<&'a Word> {
 
 /// Does a word start the spindle?
 pub(super) fn starts_spindle(view: &View, word: &Word) -> bool {
-    view.meaning(word).is_some_and(Meaning::starts_spindle) || word.printed_var() == Some(VarId::Direct)
+    view.meaning(word).is_some_and(Meaning::starts_spindle) || word.printed_vars().has(VarId::Direct)
 }
 
 /// The tool changes with the line in which the tool changes.
@@ -49,11 +52,7 @@ pub(super) fn changes<'a>(view: &View<'a>) -> Vec<(Body<'a>, usize)> {
     bodies
         .filter_map(|body| {
             let change = line(&body, &|word| view.meaning(word) == Some(Meaning::ToolChange));
-            Some((
-                body,
-                change
-                    .or_else(|| line(&body, &|word| matches!(word.printed_var(), Some(VarId::Tool | VarId::Comp))))?,
-            ))
+            Some((body, change.or_else(|| line(&body, &|word| word.printed_vars().meets(TOOLS)))?))
         })
         .collect()
 }

@@ -35,9 +35,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in &view.bodies {
         let Purpose::Upon(var, _) = body.purpose else { continue };
         let others = view.bodies.iter().filter(|other| other.purpose != body.purpose);
-        if GENERATED.contains(&var)
-            || others.flat_map(|other| other.words()).any(|word| word.printed_var() == Some(var))
-        {
+        if GENERATED.contains(&var) || others.flat_map(|other| other.words()).any(|word| word.printed_vars().has(var)) {
             continue;
         }
         diags.push(

@@ -1,16 +1,16 @@
 //! Words whose values are calculated, and lists of what lies ahead.
 
-use super::{Body, FEEDS, Mode, go_on};
+use super::{Body, FEEDS, go_on};
 use crate::compile::{LetterKind, List};
-use crate::control;
 use crate::diag::Code;
-use crate::lang::{VarId, VarSet};
+use crate::lang::VarSet;
 use crate::render::ahead;
 use crate::render::fault::{Done, fault};
+use crate::render::no_value::division_by_zero;
 use crate::render::numbers::quantised;
-use crate::render::ways::division_by_zero;
+use crate::render::said::CONDITIONS;
 use crate::render::words::check_feed;
-use crate::sema::{Value, Without};
+use crate::sema::Without;
 
 impl Body<'_, '_> {
     /// Lines that print once for each tool, operation or work offset of the job.
@@ -33,9 +33,17 @@ impl Body<'_, '_> {
     /// A directive gives a variable or a property its value.
     pub(super) fn set(&mut self, index: u32) -> Done {
         let (target, formula) = self.shape.program.sets[index as usize];
-        if let Some(value) = self.to_keep(formula)? {
-            self.said.kept.set(target, value);
-        }
+        let value = match self.shape.program.formulas[formula as usize].value(&self.now(b' ')) {
+            Ok(value) => value.into_owned(),
+            Err(Without::Divisor(divisor)) => return Err(Box::new(division_by_zero(divisor))),
+            Err(Without::Value(var)) => {
+                self.value_of(var, b' ')?;
+                // a word is left out then; what was set before would stay
+                let message = format!("[{}] has no value here, and @set takes one", var.name());
+                return fault(Code::PR001, message, format!("set it where there is one: `@if [{}]`", var.name()));
+            }
+        };
+        self.said.kept.set(target, value);
         Ok(())
     }
 
@@ -48,60 +56,36 @@ impl Body<'_, '_> {
         }
     }
 
-    /// What `@set` gives a value, or none where a variable in it has none and its word is optional.
-    pub(super) fn to_keep(&self, index: u32) -> Done<Option<Value<'static>>> {
-        match self.shape.program.formulas[index as usize].value(&self.now(b' ')) {
-            Ok(value) => Ok(Some(value.into_owned())),
-            Err(_) => Ok(self.calculated(index, b' ')?.map(Value::Number)),
-        }
-    }
-
     /// A letter and a calculated value. On an axis the control counts it like a typed one: it may stand in another frame.
+    /// What a form makes of a condition alone, as `H[work-53]`, is how the form says it: the job's is not said behind it.
     pub(super) fn formula_word(&mut self, letter: u8, index: u32, glued: bool) -> Done {
-        let (shape, settings) = (self.shape, &self.shape.program.settings);
+        let shape = self.shape;
         let info = &shape.letters[letter];
         let Some(value) = self.calculated(index, letter)? else { return Ok(()) };
+        let vars = shape.program.formulas[index as usize].vars();
+        let condition = match CONDITIONS.into_iter().find(|&var| vars == VarSet::of(&[var])) {
+            Some(var) => self.value_of(var, letter)?.map(|own| (var, own)),
+            None => None,
+        };
+        if let Some((var, own)) = condition {
+            self.counts_from(letter, var, own);
+        }
         let units = quantised(info, value)?;
-        if let Some(var) = FEEDS.iter().find(|&var| shape.program.formulas[index as usize].vars().has(var)) {
+        if let Some(var) = FEEDS.iter().find(|&var| vars.has(var)) {
             check_feed(info, var, value, units, self.want, self.out)?;
         }
-        let feed = self.want.inverse_time() && letter == settings.feed_code;
-        let drops = match self.mode {
-            Mode::All => false,
-            Mode::Motion | Mode::ArcMotion => match info.kind {
-                LetterKind::GCode | LetterKind::MCode => {
-                    control::Code::of(info.printed, value).is_some_and(|code| self.said.code_drops(code, shape))
-                }
-                // a centre or radius is no position that the control keeps
-                _ if self.mode == Mode::ArcMotion && b"IJKR".contains(&info.printed) => false,
-                _ => info.modal && self.said.holds(info, units) && !feed,
-            },
-            Mode::NextHole { .. } => settings.modality && self.said.holds_value(info, units, value),
-            Mode::Hole => self.drops && self.said.holds_value(info, units, value),
-        };
-        if drops {
+        if self.drops_word(letter, None, value, units) {
             return Ok(());
         }
-        self.out.letter(info, units, glued)?;
-        match info.kind {
-            LetterKind::GCode | LetterKind::MCode => {
-                self.said.code_word(info, value, self.line(), self.want, shape);
-            }
-            LetterKind::Axis => {
-                self.said.forget(info);
-                self.said.displaced(shape.axis_bit(letter), shape);
-            }
-            LetterKind::Other => self.said.word(info, units),
+        self.print(letter, value, units, glued)?;
+        if info.kind == LetterKind::Axis {
+            self.said.forget(info);
+            self.said.displaced(shape.axis_bit(letter), shape);
         }
-        if Some(info.printed) == settings.numbers.letter {
-            self.out.prints_number();
+        match condition {
+            Some((var, own)) => self.said.condition_word(letter, var, own, shape),
+            None => self.said.speed_word(letter, Some(value), shape),
         }
-        // what a form makes of the job's speed is its speed: the job's own is not said behind it
-        let own = self.want.get(VarId::Speed).filter(|_| {
-            letter == settings.speed_code
-                && shape.program.formulas[index as usize].vars() == VarSet::of(&[VarId::Speed])
-        });
-        self.said.speed_word(letter, own.or(Some(value)), shape);
         Ok(())
     }
 

@@ -204,7 +204,10 @@ impl Body<'_, '_> {
             Op::List { index } => self.list(index as usize)?,
             Op::Var { letter, var, glued } => self.var_word(letter, var, glued)?,
             Op::Literal { index, glued } => self.literal_word(index as usize, glued),
-            Op::Set { index } => self.set(index)?,
+            Op::Set { index } => {
+                self.end_line();
+                self.set(index)?;
+            }
             Op::Formula { letter, index, glued } => self.formula_word(letter, index, glued)?,
             Op::Value { .. }
             | Op::Remark { .. }
@@ -265,36 +268,25 @@ impl Body<'_, '_> {
         if info.kind == LetterKind::Axis && settings.incremental && POSITIONS.has(var) {
             self.check_position_word(letter, var)?;
         }
-        if var == VarId::Work
-            && shape.program.work_word.is_some_and(|word| word.letter == letter)
-            && !self.said.conditions.holds(VarId::Work, value)
-        {
-            self.said.forget_axes(shape); // the positions behind it count in the new offset
-        }
+        self.counts_from(letter, var, value);
         let units = quantised(info, value)?;
         if FEEDS.has(var) {
             check_feed(info, var, value, units, self.want, self.out)?;
         }
-        if self.drops_word(letter, var, value, units) {
+        if self.drops_word(letter, Some(var), value, units) {
             return Ok(());
         }
-        self.out.letter(info, units, glued)?;
-        match info.kind {
-            LetterKind::GCode | LetterKind::MCode => {
-                self.said.code_word(info, value, self.line(), self.want, shape);
+        self.print(letter, value, units, glued)?;
+        if info.kind == LetterKind::Axis {
+            let is_position = POSITIONS.has(var);
+            if is_position {
+                self.said.stand.placed |= shape.axis_bit(letter);
             }
-            LetterKind::Axis => {
-                let is_position = POSITIONS.has(var);
-                if is_position {
-                    self.said.stand.placed |= shape.axis_bit(letter);
-                }
-                if self.said.is_elsewhere(shape) || !is_position {
-                    self.said.forget(info);
-                } else {
-                    self.said.word(info, units);
-                }
+            if self.said.is_elsewhere(shape) || !is_position {
+                self.said.forget(info);
+            } else {
+                self.said.word(info, units);
             }
-            LetterKind::Other => self.said.word(info, units),
         }
         match var {
             VarId::D => self.said.set_depth_moved(false),
@@ -305,32 +297,60 @@ impl Body<'_, '_> {
             _ => {}
         }
         self.said.condition_word(letter, var, value, shape);
-        if Some(info.printed) == settings.numbers.letter || var == VarId::Block {
+        if var == VarId::Block {
             self.out.prints_number();
         }
         Ok(())
     }
 
-    /// May the word of a variable be left out, because the control holds it already?
-    fn drops_word(&self, letter: u8, var: VarId, value: f64, units: i64) -> bool {
+    /// Positions behind the word of another work offset count from there.
+    fn counts_from(&mut self, letter: u8, var: VarId, value: f64) {
+        if var == VarId::Work
+            && self.shape.program.work_word.as_ref().is_some_and(|word| word.letter == letter)
+            && !self.said.conditions.holds(VarId::Work, value)
+        {
+            self.said.forget_axes(self.shape);
+        }
+    }
+
+    /// A word with its value. The control holds it from here; what an axis holds depends on what it counts from.
+    fn print(&mut self, letter: u8, value: f64, units: i64, glued: bool) -> Done {
+        let info = &self.shape.letters[letter];
+        self.out.letter(info, units, glued)?;
+        match info.kind {
+            LetterKind::GCode | LetterKind::MCode => {
+                self.said.code_word(info, value, self.line(), self.want, self.shape);
+            }
+            LetterKind::Axis => {}
+            LetterKind::Other => self.said.word(info, units),
+        }
+        if Some(info.printed) == self.shape.program.settings.numbers.letter {
+            self.out.prints_number();
+        }
+        Ok(())
+    }
+
+    /// May a word be left out, because the control holds it already? Of its variable, where its value is not calculated.
+    fn drops_word(&self, letter: u8, var: Option<VarId>, value: f64, units: i64) -> bool {
+        let is = |set: VarSet| var.is_some_and(|var| set.has(var));
         let settings = &self.shape.program.settings;
         let info = &self.shape.letters[letter];
         match self.mode {
             Mode::All => false,
             Mode::Motion | Mode::ArcMotion => {
-                let arc_word = self.mode == Mode::ArcMotion && (ARC_WORDS.has(var) || b"IJKR".contains(&info.printed));
+                let arc_word = self.mode == Mode::ArcMotion && (is(ARC_WORDS) || b"IJKR".contains(&info.printed));
                 !arc_word
                     && match info.kind {
                         LetterKind::GCode | LetterKind::MCode => control::Code::of(info.printed, value)
                             .is_some_and(|code| self.said.code_drops(code, self.shape)),
                         // an increment is no position: it may go when it is none
-                        _ if INCREMENTS.has(var) => units == 0,
+                        _ if is(INCREMENTS) => units == 0,
                         _ => info.modal && self.said.holds(info, units),
                     }
                     && !(self.want.inverse_time() && letter == settings.feed_code)
             }
             Mode::NextHole { position } => {
-                let is_position = matches!(var, VarId::H | VarId::V);
+                let is_position = matches!(var, Some(VarId::H | VarId::V));
                 settings.modality && !(position && is_position) && self.said.holds_value(info, units, value)
             }
             Mode::Hole => self.drops && self.said.holds_value(info, units, value),

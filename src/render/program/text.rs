@@ -76,7 +76,7 @@ fn is_the_jobs(code: control::Code, shape: &Shape, want: &mut Want) {
     let var = match shape.group_of(code) {
         Some(Group::Spindle) => VarId::Direct,
         Some(Group::Coolant) => VarId::Cool,
-        Some(Group::Work) => match shape.program.work_word {
+        Some(Group::Work) => match &shape.program.work_word {
             None => VarId::Work,
             // G54 is none of the offsets that have a word of their own: nobody knows its number
             Some(word) if word.shares_its_codes => return want.put(VarId::Work, None),

@@ -45,7 +45,7 @@ impl Said {
 
     /// The work offset was printed by the letter that it has, and not as the argument of something else.
     fn work_word(&mut self, letter: u8, value: f64, shape: &Shape) {
-        let own = shape.program.work_word.map_or(b'G', |word| word.letter);
+        let own = shape.program.work_word.as_ref().map_or(b'G', |word| word.letter);
         if own == letter || own == shape.letters[letter].printed {
             self.conditions.put(VarId::Work, Some(value));
             self.switched = true;
@@ -56,7 +56,7 @@ impl Said {
     pub(super) fn condition_code(&mut self, group: Group, value: f64, shape: &Shape) {
         self.switched |= !matches!(group, Group::Motion | Group::Return);
         let var = match group {
-            Group::Work => match shape.program.work_word {
+            Group::Work => match &shape.program.work_word {
                 None => VarId::Work,
                 Some(word) if word.shares_its_codes => {
                     self.conditions.put(VarId::Work, None);

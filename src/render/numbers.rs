@@ -72,3 +72,11 @@ pub fn unprintable<T>(why: Unprintable, what: &str, value: f64, format: &LetterF
         }
     }
 }
+
+/// How much of itself a feed may lose in its digits without a word.
+pub const ROUNDED: f64 = 0.01;
+
+/// Does a value lose more than this part of itself as it is printed?
+pub fn loses(value: f64, printed: f64, part: f64) -> bool {
+    (printed.abs() - value.abs()).abs() > value.abs() * part
+}

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::ahead::{Item, default_work};
 use super::fault::{Done, fault};
+use super::numbers::{ROUNDED, as_number, loses};
 use super::properties::Properties;
 use super::shape::Shape;
 use super::texts::Texts;
@@ -28,7 +29,7 @@ pub struct Want {
     pub changed: bool,
     /// The feed of moves, in program units.
     feed: Option<f64>,
-    /// The feed of moves in units of its letter.
+    /// The feed of moves in units of its letter, where those are near enough.
     feed_units: Option<i64>,
     /// What feeds count.
     feed_mode: FeedMode,
@@ -145,7 +146,7 @@ impl Want {
         self.feed
     }
 
-    /// The feed of moves in units of its letter.
+    /// The feed of moves in units of its letter, where those are near enough.
     #[inline]
     pub fn feed_units(&self) -> Option<i64> {
         self.feed_units
@@ -185,7 +186,11 @@ impl Want {
     pub fn keep_feed(&mut self, feed: Option<f64>, shape: &Shape) {
         let info = &shape.letters[shape.program.settings.feed_code];
         self.feed = feed;
-        self.feed_units = feed.and_then(|feed| quantise(feed, info.format.dec.count));
+        // what loses too much in its digits is looked at each time
+        self.feed_units = feed.and_then(|feed| {
+            quantise(feed, info.format.dec.count)
+                .filter(|units| !loses(feed, as_number(*units, info.format.dec.count), ROUNDED))
+        });
         self.vars.put(VarId::Frate, feed);
     }
 

@@ -1,7 +1,7 @@
 //! The words of generated blocks: axes, increments, codes, the feed.
 
 use super::fault::{Done, fault, fault_at};
-use super::numbers::{as_number, quantised};
+use super::numbers::{ROUNDED, as_number, loses, quantised};
 use super::printer::Printer;
 use super::said::{Line, Said};
 use super::shape::Shape;
@@ -164,6 +164,9 @@ pub fn feed_word(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer)
     let Some(feed) = want.feed() else { return Ok(()) };
     let units = quantised(info, feed)?;
     check_feed(info, VarId::Frate, feed, units, want, out)?;
+    if said.holds(info, units) && info.modal && !want.inverse_time() {
+        return Ok(());
+    }
     out.letter(info, units, false)?;
     said.word(info, units);
     Ok(())
@@ -173,11 +176,10 @@ pub fn feed_word(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer)
 /// tap a quarter of one, that is said.
 #[inline]
 pub fn check_feed(info: &Letter, var: VarId, value: f64, units: i64, want: &Want, out: &mut Printer) -> Done {
-    const SAID_FROM: f64 = 0.01;
     const OF_TAP: f64 = 0.0025;
     let taps = want.cycle.is_some_and(|kind| kind.inwards().is_some());
     let printed = as_number(units, info.format.dec.count);
-    if (printed.abs() - value.abs()).abs() <= value.abs() * if taps { OF_TAP } else { SAID_FROM } {
+    if !loses(value, printed, if taps { OF_TAP } else { ROUNDED }) {
         return Ok(());
     }
     lost_digits(info, var, value, printed, out)
@@ -197,6 +199,9 @@ fn lost_digits(info: &Letter, var: VarId, value: f64, printed: f64, out: &mut Pr
     let percent = (printed.abs() / value.abs() - 1.0) * 100.0;
     let letter = char::from(info.printed);
     let message = format!("[{name}] is {value:.5} and prints as {letter}{printed}: {percent:+.1} %");
+    if out.notes().iter().any(|note| note.message == message) {
+        return Ok(());
+    }
     out.note(Code::PR025, message, "give the letter more decimals, or the job a feed that the format can say");
     Ok(())
 }

@@ -67,8 +67,10 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
         let height = cut.from[across] + (turn.to[across] - cut.from[across]) * (swept / whole).min(1.0);
         let ends = same(&end, &cut.end(), ALL, tolerance);
         let in_it = !ends && (parts > 0 || swept < whole - 1e-6);
-        let off = off.max((end[across] - height).abs() * f64::from(u8::from(in_it)));
-        if off > slack || swept > whole + slack_angle {
+        // on a steep helix the digits of its plane say little of the height
+        let steep = ((turn.to[across] - cut.from[across]) / (radius * whole)).abs() * tolerance;
+        let off = off.max(((end[across] - height).abs() - 2.0 * steep) * f64::from(u8::from(in_it)));
+        if off > slack || swept > whole + slack_angle * f64::from(parts + 1) {
             let message = format!(
                 "a cut goes to {}, not along the job's arc to {}",
                 shown(&end, 0b111),

@@ -39,16 +39,18 @@ pub(super) fn meet<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, hole: Option<
 /// Is a short cut of the program the job's, which is a little longer?
 fn is_itself<R: BufRead + Seek>(s: &Sides<R>, cut: &Cut, found: &Cut) -> bool {
     let tolerance = s.limits.tolerance;
-    s.program.passage.rapids.is_empty() == s.job.rapids.is_empty()
-        && same(&cut.from, &found.from, ALL, tolerance)
-        && same(&cut.end(), &found.end(), ALL, tolerance)
+    s.joins_alike() && same(&cut.from, &found.from, ALL, tolerance) && same(&cut.end(), &found.end(), ALL, tolerance)
 }
 
-/// Is a short cut of the program the beginning of the job's cut?
+/// Is a short cut of the program the beginning of the job's cut? One that ends where the job's begins is none of it.
 fn is_part<R: BufRead + Seek>(s: &Sides<R>, cut: &Cut, found: &Cut) -> bool {
-    matches!(cut.what, What::Line { .. })
-        && s.program.passage.rapids.is_empty()
-        && super::cut::lies_between(&cut.from, &found.end(), &cut.end(), s.limits.tolerance)
+    let tolerance = s.limits.tolerance;
+    let goes_along = match (cut.what, found.what) {
+        (What::Line { .. }, _) => super::cut::lies_between(&cut.from, &found.end(), &cut.end(), tolerance),
+        (What::Arc(turn), What::Arc(made)) => (made.plane, made.direction) == (turn.plane, turn.direction),
+        (What::Arc(_), What::Line { .. }) => false,
+    };
+    goes_along && same(&cut.from, &found.from, ALL, tolerance) && !same(&cut.from, &found.end(), ALL, tolerance)
 }
 
 fn is_missing<R: BufRead + Seek, T>(s: &mut Sides<R>, cut: &Cut, hole: Option<&Expected>) -> Done<T> {

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, Rapid, What, distance, over, same, shown};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, distance, is_straight, over, same, shown};
 use super::expectation::Expectation;
 use super::intended::Job;
 use super::intent::{Done, Expected, Intent, Threaded};
@@ -10,6 +10,7 @@ use super::passage::{Frame, Passage};
 use super::program::Program;
 use super::report::{Counts, Report};
 use super::state::{Holes, Limits, Sides};
+use super::states::has_feed;
 use super::tables::PLACES;
 use super::verdict::{Equivalences, Unproven, Verdict};
 use super::wire_codes::Coded;
@@ -158,6 +159,10 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
     }
 
     fn cut(&mut self, cut: &Cut, hole: Option<&Expected>) -> Done {
+        match hole {
+            Some(_) => self.hole.cut = true,
+            None => self.hole.highest = f64::NEG_INFINITY,
+        }
         if hole.is_some_and(|hole| hole.pecks) {
             if self.hole.pecks.is_empty() {
                 begin::meet(self, cut, hole)?;
@@ -169,11 +174,17 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         }
         if hole.is_none() && cut.is_short(self.limits.tolerance) && self.vanishes(cut)? {
             self.report.allowed.short += 1;
+            self.job.goes_on(cut.end());
             return Ok(());
         }
         let found = begin::meet(self, cut, hole)?;
         self.report.counts.cuts += u64::from(hole.is_none());
         match (cut.what, found.what) {
+            // a helix whose circle no digits show
+            (What::Arc(turn), What::Line { .. }) if is_straight(cut, &turn, self.limits.tolerance) => {
+                let straight = Cut { what: What::Line { to: cut.end() }, ..*cut };
+                lines::line(self, &straight, &found, hole)?;
+            }
             (What::Arc(turn), _) => arcs::arc(self, cut, &turn)?,
             (_, What::Arc(_)) => {
                 let message = "an arc, where the job cuts straight".to_owned();
@@ -214,8 +225,9 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
 
     fn hole_begins(&mut self, hole: &Expected) {
         self.hole.over = Some(hole.at);
+        self.hole.highest = self.hole.highest.max(hole.at[DEPTH]).max(hole.plane);
         self.hole.pecks.clear();
-        (self.hole.waited, self.hole.waits_inside) = (None, false);
+        (self.hole.waited, self.hole.waits_inside, self.hole.cut) = (None, false, false);
     }
 
     fn hole_ends(&mut self, hole: &Expected) -> Done {
@@ -225,7 +237,8 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         self.report.counts.holes += 1;
         self.report.allowed.custom += u64::from(hole.custom);
         self.hole.over = None;
-        (self.hole.last, self.hole.before) = (Some(*hole), None);
+        self.hole.before = self.hole.before.or(self.hole.last).filter(|_| !self.hole.cut);
+        self.hole.last = Some(*hole);
         Ok(())
     }
 
@@ -236,7 +249,9 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             leg.lengths.push(length);
         }
         if tool {
-            self.hole.before = self.hole.last.take().or(self.hole.before);
+            self.hole.highest = f64::NEG_INFINITY;
+            let last = self.hole.last.take();
+            self.hole.before = self.hole.before.or(last);
         }
     }
 
@@ -298,12 +313,22 @@ impl<R: BufRead + Seek> Sides<R> {
         let Some(found) = self.next()? else { return Ok(true) };
         let tolerance = self.limits.tolerance;
         let joins = found.unknown == 0
-            && self.program.passage.rapids.is_empty() == self.job.rapids.is_empty()
+            && self.joins_alike()
+            && has_feed(cut, &found)
             && same(&found.from, &cut.from, ALL, tolerance)
             && same(&found.end(), &cut.end(), ALL, tolerance);
-        let nearer = distance(&found.end(), &cut.end()) <= distance(&found.from, &cut.end()) + 1e-9;
+        // where both are as near, a stop or dwell before it tells
+        let pauses = |passage: &Passage| (passage.stops.len(), passage.waits.len());
+        let tie = if pauses(&self.program.passage) == pauses(&self.job) { 1e-9 } else { -1e-9 };
+        let nearer = distance(&found.end(), &cut.end()) <= distance(&found.from, &cut.end()) + tie;
         let circle = matches!(found.what, What::Arc(_)) && !found.is_short(tolerance);
         Ok(!joins || !nearer || circle)
+    }
+
+    /// Do both next cuts follow on the last ones, or neither?
+    pub(super) fn joins_alike(&self) -> bool {
+        let (a, b, tolerance) = (&self.program.passage, &self.job, self.limits.tolerance);
+        a.rapids.is_empty() == b.rapids.is_empty() || a.stays(tolerance) && b.stays(tolerance)
     }
 
     /// Is a cut of the program too short to count? The digits of both its ends may make a short one twice as long.

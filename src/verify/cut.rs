@@ -129,13 +129,16 @@ impl Cut {
         let near = same(&self.from, &end, ALL, tolerance) && turn_as_far([&self.from, &self.from], [&self.from, &end]);
         near && match &self.what {
             What::Line { .. } => true,
-            What::Arc(turn) => {
-                let [first, second, _] = axes_of(turn.plane);
-                let radius = (self.from[first] - turn.center[first]).hypot(self.from[second] - turn.center[second]);
-                turn.turns == 0 && radius * sweep(&self.from, turn) <= 2.0 * tolerance
-            }
+            What::Arc(turn) => is_straight(self, turn, tolerance),
         }
     }
+}
+
+/// Is an arc so short in its plane that the digits of a program may swallow that?
+pub(super) fn is_straight(cut: &Cut, turn: &Turn, tolerance: f64) -> bool {
+    let [first, second, _] = axes_of(turn.plane);
+    let radius = (cut.from[first] - turn.center[first]).hypot(cut.from[second] - turn.center[second]);
+    turn.turns == 0 && radius * sweep(&cut.from, turn) <= 2.0 * tolerance
 }
 
 /// The axes as bits.

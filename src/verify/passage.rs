@@ -1,6 +1,6 @@
 //! What lies between two cuts: rapids, changes of tool and work offset, stops, dwells. Job and program have one each.
 
-use super::cut::{ALL, Rapid, same};
+use super::cut::{ALL, Place, Rapid, same};
 use super::wire_codes::Coded;
 use crate::nc::Rotation;
 use crate::toolpath::{self, StopKind};
@@ -104,6 +104,16 @@ impl Passage {
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 
+    /// A cut that counts for nothing was on the way.
+    pub fn goes_on(&mut self, to: Place) {
+        match &mut self.start {
+            Some(start) if self.rapids.is_empty() && self.legs.len() == 1 => {
+                *start = Rapid { to, unknown: 0, ..*start }
+            }
+            _ => self.rapids.push(Rapid { to, unknown: 0, spin: None }),
+        }
+    }
+
     /// The frame changes: places are in other coordinates from here on.
     pub fn change(&mut self, frame: Frame) {
         if let [.., before, last] = self.legs.as_slice()
@@ -195,6 +205,15 @@ impl Passage {
             rapid.unknown == start.unknown && same(&rapid.to, &start.to, ALL & !start.unknown, tolerance)
         };
         self.rapids.iter().take(mark.at).all(stays)
+    }
+
+    /// Does the tool stay where the last cut ended, but for rapids that no digits show?
+    pub fn stays(&self, tolerance: f64) -> bool {
+        self.rapids.is_empty()
+            || self.start.is_some_and(|start| {
+                let here = |rapid: &Rapid| rapid.unknown == start.unknown && same(&rapid.to, &start.to, ALL, tolerance);
+                !self.changed() && self.rapids.iter().all(here)
+            })
     }
 
     /// Where the tool is now, if that is known.

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, DEPTH, number, same, same_dwell};
+use super::cut::{ACROSS, DEPTH, Rapid, number, same, same_dwell};
 use super::passage::{Mark, Passage};
 use super::state::Sides;
 use crate::diag::Code;
@@ -107,18 +107,27 @@ fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
     // what may be of any length takes what is left
     wanted.sort_by_key(|wait| wait.what.is_nan());
     let mut others = s.program.passage.waits.clone();
+    let out = s.hole.last.filter(|hole| hole.feeds_out || hole.is_tap);
+    let fed_out = out.zip(s.job.start).is_some_and(|(hole, start)| start.to[DEPTH] >= hole.plane - tolerance);
+    let start = s.job.start;
+    let is_over = |at: &Rapid| {
+        start.is_some_and(|start| {
+            same(&at.to, &start.to, ACROSS, tolerance) && at.to[DEPTH] >= start.to[DEPTH] - tolerance
+        })
+    };
     let is_one = |wanted: f64, is: f64| wanted.is_nan() || same_dwell(wanted, is);
     for wait in &wanted {
         let in_cut = s.job.in_cut(wait, tolerance);
         let serves = |passage: &Passage, other: &Mark<f64>| match (in_cut, passage.in_cut(other, tolerance)) {
             (true, true) => true,
-            (false, true) => match (s.job.standing(wait), passage.start) {
+            (false, true) => match (s.job.standing(wait), passage.standing(other)) {
                 // it stands in the job's place already
                 (Some(a), Some(b)) => same(&a.to, &b.to, ACROSS, tolerance) && b.to[DEPTH] >= a.to[DEPTH] - tolerance,
                 _ => false,
             },
             (false, false) => true,
-            (true, false) => false,
+            // out of a hole at feed, the tool may wait farther up
+            (true, false) => fed_out && passage.standing(other).is_some_and(|at| is_over(&at)),
         };
         let passage = &s.program.passage;
         let there = others.iter().position(|other| serves(passage, other) && is_one(wait.what, other.what));
@@ -141,7 +150,7 @@ fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
         }
     }
     // at the bottom of a hole that only the form knows
-    let own = s.hole.last.or(s.hole.before).is_some_and(|last| {
+    let own = [s.hole.last, s.hole.before].into_iter().flatten().any(|last| {
         last.custom && s.program.passage.start.is_some_and(|start| same(&start.to, &last.at, ACROSS, tolerance))
     });
     for other in &others {

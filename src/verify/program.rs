@@ -182,6 +182,7 @@ impl<R: BufRead + Seek> Program<R> {
     pub fn pass_over(&mut self) {
         if let Some(cut) = self.cut.take() {
             self.at = cut.end();
+            self.passage.goes_on(self.at);
         }
     }
 

@@ -168,6 +168,14 @@ pub(super) fn feeds<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut,
     });
 }
 
+/// Is the feed of a cut the job's, as far as both count it alike?
+pub(super) fn has_feed(cut: &Cut, found: &Cut) -> bool {
+    match (cut.feed, found.feed) {
+        (Some(wanted), Some(is)) => cut.mode != found.mode || is_feed(wanted, is, false),
+        _ => true,
+    }
+}
+
 /// Is a feed the wanted one, but for its digits?
 pub(super) fn is_feed(wanted: f64, is: f64, tap: bool) -> bool {
     (wanted - is).abs() <= (if tap { PITCH } else { ROUNDED } * wanted).max(1e-9)

@@ -43,6 +43,13 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
     let mut as_job = true;
     while let Some(found) = s.next()? {
         let Some(depth) = thread.depth(&found, tolerance) else { break };
+        // deeper, or of another lead, it is the next thread's
+        let is_cut = count > 0 && (reached - whole).abs() <= 2.0 * tolerance;
+        let lead = found.lead.unwrap_or(0.0);
+        let has_lead = (lead - thread.lead).abs() <= PITCH * thread.lead;
+        if is_cut && (depth > whole + 2.0 * tolerance || !has_lead) {
+            break;
+        }
         let from = Rapid { to: found.from, unknown: found.unknown, spin: None };
         if count == 0 {
             // in from beside the thread
@@ -53,8 +60,7 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
             between(s, thread, from, found.line)?;
         }
         states::compare(s, &cut_of(cut, &found), &found, false);
-        let lead = found.lead.unwrap_or(0.0);
-        if (lead - thread.lead).abs() > PITCH * thread.lead {
+        if !has_lead {
             s.found(Code::PV006, found.line, "print F[frate] with the thread", || {
                 format!("the thread's lead is {}, the job's {}", number(lead), number(thread.lead))
             });

@@ -70,32 +70,40 @@ impl Way {
                 .all(|(a, b)| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance))
     }
 
-    /// Follows another way corner by corner: how often it goes round a corner of a slanted rapid, at the greater of the two
-    /// heights, where it may; or the first corners that differ, this way's and the other's.
+    /// Makes the way from a start over these rapids, all of them.
+    pub fn set_all(&mut self, start: Option<Rapid>, rapids: &[Rapid]) {
+        self.corners.clear();
+        self.corners.extend(start.iter().chain(rapids));
+        self.begun = start.is_some();
+    }
+
+    /// Another way along this one, which may stop on it and go straight on over its corners: how often it goes round a corner of
+    /// a slanted rapid, at the greater of the two heights, where it may; or the first corners that differ, this way's and the
+    /// other's.
     pub fn is_followed(&self, other: &Way, may_round: bool, tolerance: f64) -> Result<u64, Box<[Option<Rapid>; 2]>> {
         let near = |a: f64, b: f64| (a - b).abs() <= tolerance;
+        let is = |a: &Rapid, b: &Rapid| same(&a.to, &b.to, ALL, tolerance);
+        let between = |a: &Rapid, b: &Rapid, c: &Rapid| lies_between(&a.to, &b.to, &c.to, tolerance);
         let round = |from: &Rapid, at: &Rapid, to: &Rapid| {
             near(at.to[DEPTH], from.to[DEPTH].max(to.to[DEPTH]))
                 && [from, to].iter().any(|end| near(at.to[0], end.to[0]))
         };
         let (mut own, mut made, mut rounds) = (0, 0, 0);
+        let mut here: Option<&Rapid> = None;
         loop {
-            match (self.corners.get(own), other.corners.get(made)) {
-                (None, None) => return Ok(rounds),
-                (Some(a), Some(b)) if same(&a.to, &b.to, ALL, tolerance) => (own, made) = (own + 1, made + 1),
-                // the way goes straight on through the job's corner
-                (Some(a), Some(b))
-                    if own > 0 && made > 0 && lies_between(&other.corners[made - 1].to, &a.to, &b.to, tolerance) =>
-                {
-                    own += 1;
+            match (self.corners.get(own), other.corners.get(made), here) {
+                (None, None, _) => return Ok(rounds),
+                (Some(a), Some(b), _) if is(a, b) => (own, made, here) = (own + 1, made + 1, Some(a)),
+                // a move of no length
+                (_, Some(b), Some(at)) if is(at, b) => made += 1,
+                (Some(a), _, Some(at)) if is(at, a) => own += 1,
+                // over the job's corner, or not as far
+                (Some(a), Some(b), Some(at)) if between(at, a, b) => (own, here) = (own + 1, Some(a)),
+                (Some(a), Some(b), Some(at)) if between(at, b, a) => (made, here) = (made + 1, Some(b)),
+                (Some(a), Some(b), Some(at)) if may_round && round(at, b, a) => {
+                    (rounds, made, here) = (rounds + 1, made + 1, Some(b));
                 }
-                (Some(a), Some(b)) if may_round && own > 0 && round(&self.corners[own - 1], b, a) => {
-                    (rounds, made) = (rounds + 1, made + 1);
-                    // straight on from there, past the job's corner
-                    let on = other.corners.get(made).filter(|next| !same(&a.to, &next.to, ALL, tolerance));
-                    own += usize::from(on.is_some_and(|next| lies_between(&b.to, &a.to, &next.to, tolerance)));
-                }
-                (a, b) => return Err(Box::new([a.copied(), b.copied()])),
+                (a, b, _) => return Err(Box::new([a.copied(), b.copied()])),
             }
         }
     }
@@ -182,8 +190,9 @@ fn across(corners: &[Rapid], tolerance: f64) -> impl Iterator<Item = (&Rapid, &R
     pairs.filter(move |(a, b)| !same(&a.to, &b.to, ACROSS, tolerance) || turns(a, b) || home(a, b))
 }
 
-/// How far along a straight rapid across a place lies, from 0 to 1, and the place there; `None`: the place is beside it.
-fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64, Place)> {
+/// How far along a straight rapid across a place lies, from 0 to 1, the place there, and the rapid's lowest height where
+/// digits can't tell places apart; `None`: the place is beside it.
+fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64, Place, f64)> {
     // whole turns bring a rotary axis where it was
     let turns = |axis: usize| (3..6).contains(&axis);
     let way = |axis: usize| if turns(axis) { (to[axis] - from[axis]) % 360.0 } else { to[axis] - from[axis] };
@@ -191,8 +200,10 @@ fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64
     let (far, whole) = (place[longest] - from[longest], way(longest));
     let far = if turns(longest) { far - 360.0 * ((far - whole / 2.0) / 360.0).round() } else { far };
     let part = (far / whole).clamp(0.0, 1.0);
-    let there = std::array::from_fn(|axis| from[axis] + part * way(axis));
-    same(place, &there, ACROSS, tolerance).then_some((part, there))
+    let there: Place = std::array::from_fn(|axis| from[axis] + part * way(axis));
+    let steep = if whole == 0.0 { 0.0 } else { (way(DEPTH) / whole).abs() * tolerance };
+    let lowest = (there[DEPTH] - steep).max(from[DEPTH].min(to[DEPTH]));
+    same(place, &there, ACROSS, tolerance).then_some((part, there, lowest))
 }
 
 /// Is a rapid across nowhere beside the job's rapids across, or below them? It may go straight on over their corners.
@@ -205,10 +216,10 @@ fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
     });
     let is_end = |place: &Place| [from, to].iter().any(|end| same(end, place, ACROSS, tolerance));
     let crossed = job.iter().filter(|corner| !is_end(&corner.to));
-    let mut stops: Vec<(f64, Place)> = crossed.filter_map(|c| along(&c.to, &from, &to, tolerance)).collect();
+    let mut stops: Vec<(f64, Place, f64)> = crossed.filter_map(|c| along(&c.to, &from, &to, tolerance)).collect();
     stops.sort_by(|a, b| a.0.total_cmp(&b.0));
     let over = |place: &Place, (c, d): (&Rapid, &Rapid)| {
-        along(place, &c.to, &d.to, tolerance).is_some_and(|(_, there)| place[DEPTH] >= there[DEPTH] - tolerance)
+        along(place, &c.to, &d.to, tolerance).is_some_and(|(_, _, lowest)| place[DEPTH] >= lowest - tolerance)
     };
     let places: Vec<Place> = [from].into_iter().chain(stops.iter().map(|stop| stop.1)).chain([to]).collect();
     (a.unknown | b.unknown) & ACROSS == 0
@@ -230,7 +241,10 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
         // where the job says its height alone, it may be anywhere
         let there =
             job.iter().filter(|other| other.unknown & 0b11 != 0 || same(&other.to, &corner.to, ACROSS, tolerance));
-        let floor = there.map(|other| other.to[DEPTH]).reduce(f64::min).unwrap_or(crossing);
+        // on a steep rapid the digits of X and Y say little of the height
+        let steep = || across(job, tolerance).filter_map(|(a, b)| along(&corner.to, &a.to, &b.to, tolerance));
+        let floor = there.map(|other| other.to[DEPTH]).reduce(f64::min);
+        let floor = floor.map_or(crossing, |floor| steep().fold(floor, |floor, (_, _, lowest)| floor.min(lowest)));
         if height(corner) < floor - tolerance {
             return Compared::Lower(corner.to, floor);
         }
@@ -324,14 +338,18 @@ mod tests {
     use super::super::cut::place;
     use super::*;
 
-    fn way(points: &[[f64; 3]]) -> Way {
+    fn way_within(points: &[[f64; 3]], tolerance: f64) -> Way {
         let rapids: Vec<Rapid> = points
             .iter()
             .map(|&[x, y, z]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, spin: None })
             .collect();
         let mut way = Way::default();
-        way.set(None, &rapids, 1e-4);
+        way.set(None, &rapids, tolerance);
         way
+    }
+
+    fn way(points: &[[f64; 3]]) -> Way {
+        way_within(points, 1e-4)
     }
 
     fn compared(job: &[[f64; 3]], program: &[[f64; 3]]) -> Compared {
@@ -400,5 +418,39 @@ mod tests {
             compared(&diagonal, &[[0.0, 0.0, 5.0], [9.0, 0.0, 5.0], [9.0, 0.0, 0.5], [9.0, 0.0, 1.0]]),
             Compared::Lower(..)
         ));
+    }
+
+    /// On a steep rapid the digits of X and Y say little of the height.
+    #[test]
+    fn home_before_an_index_behind_a_steep_rapid() {
+        let p = |x: f64, y: f64, z: f64, b: f64, unknown: u8| Rapid {
+            to: place(&[x, y, z, 0.0, b, 0.0]),
+            unknown,
+            spin: None,
+        };
+        let job = [
+            p(-1.974702, -1.86326, 0.512099, 0.0, 0),
+            p(-2.094636, -1.792214, 0.049581, 0.0, 0),
+            p(-0.032124, 3.590409, 1.572302, 5.0, 0),
+        ];
+        let program = [
+            p(-1.9747, -1.8633, 0.5121, 0.0, 0),
+            p(-2.0946, -1.7922, 0.0496, 0.0, 0),
+            p(-2.0946, -1.7922, 0.0, 0.0, 0b100),
+            p(-2.0946, -1.7922, 0.0, 5.0, 0b100),
+            p(-0.0321, 3.5904, 0.0, 5.0, 0b100),
+            p(-0.0321, 3.5904, 1.5723, 5.0, 0),
+        ];
+        let mut ways = [Way::default(), Way::default()];
+        ways[0].set(Some(job[0]), &job[1..], 1e-4);
+        ways[1].set(Some(program[0]), &program[1..], 1e-4);
+        assert_eq!(compare(&ways[0], &ways[1], true, 1e-4), Compared::AsGood { step_by_step: false });
+        // a corner on the way to a hole far below, which the digits of Y can't tell from a straight way
+        let down = [[0.0, 0.072, 41.388], [0.0, 0.072, 41.363], [0.0, 2.972, -9.426]];
+        let stays = [[0.0, 0.072, 41.388], [0.0, 0.072, 41.363], [0.0, 2.972, 41.363], [0.0, 2.972, -9.426]];
+        let [job, program] = [way_within(&down, 2e-3), way_within(&stays, 2e-3)];
+        assert!(matches!(compare(&job, &program, true, 2e-3), Compared::AsGood { .. }));
+        ways[1].corners[1].to[DEPTH] = 0.0494;
+        assert!(matches!(compare(&ways[0], &ways[1], true, 1e-4), Compared::Lower(..)));
     }
 }

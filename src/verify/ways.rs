@@ -208,8 +208,8 @@ fn beside_the_part<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     };
     let [own, made] = [known(&s.job.rapids), known(&s.program.passage.rapids)];
     let [job, program] = &mut s.ways;
-    job.set(s.job.start.filter(|start| start.unknown == 0), &own, tolerance);
-    program.set(s.program.passage.start.filter(|start| start.unknown == 0), &made, tolerance);
+    job.set_all(s.job.start.filter(|start| start.unknown == 0), &own);
+    program.set_all(s.program.passage.start.filter(|start| start.unknown == 0), &made);
     let [wanted, is] = match job.is_followed(program, s.machine == Machine::Lathe, tolerance) {
         Ok(rounds) => {
             s.report.allowed.ways += rounds;

@@ -138,6 +138,48 @@ fn right_programs_are_proven() {
             ),
         ),
         (
+            "a short cut behind a hole, and another feed behind it",
+            one(
+                r#"{"cycle":{"kind":"ream","depth":9,"clear":2,"feed":60,"points":[[10,10,0]]}},{"line":[9.999,10,2]},{"line":[9.999,40,5],"feed":200},{"rapid":[9.999,40,25]}"#,
+            ),
+        ),
+        (
+            "a rapid that vanishes between short cuts",
+            one(
+                r#"{"rapid":[0,0,25]},{"line":[9,0,5]},{"rapid":[9.0004,0,5]},{"line":[9.0029,0,5]},{"line":[9.0029,0,1],"feed":50},{"rapid":[9.0029,0,25]}"#,
+            ),
+        ),
+        (
+            "a stop behind a cut that vanishes",
+            one(
+                r#"{"rapid":[0,0,25]},{"line":[9,-3.07856,5]},{"line":[9,-3.07846,5]},{"stop":"optional"},{"line":[9,-3.07796,5]},{"rapid":[9,0,25]}"#,
+            ),
+        ),
+        (
+            "a helix whose circle no digits show",
+            one(
+                r#"{"rapid":[1.00014,2.00013,25]},{"arc":{"to":[1.00018,2.00009,5],"radius":2.1,"direction":"ccw"}},{"rapid":[1,2,25]}"#,
+            ),
+        ),
+        (
+            "a rapid down that is steep",
+            one(
+                r#"{"rapid":[0,0,25]},{"line":[-2.9749,-1.8626,20.5123]},{"rapid":[-2.9747,-1.8624,2.0496]},{"rapid":[30,40,25]},{"line":[30,40,5]},{"rapid":[30,40,25]}"#,
+            ),
+        ),
+        (
+            "a hole whose clearance is above the return plane",
+            one(
+                r#"{"rapid":[0,0,25]},{"cycle":{"kind":"drill","depth":9,"clear":3,"return":12,"feed":60,"points":[[10,10,0],[20,10,13],[30,10,4],[40,10,-8]]}},{"rapid":[50,50]},{"line":[50,50,2]},{"rapid":[50,50,25]}"#,
+            ),
+        ),
+        (
+            "a tap whose clearance is above the return plane",
+            one(
+                r#"{"rapid":[0,0,25]},{"cycle":{"kind":"tap","depth":9,"clear":3,"return":12,"feed":600,"points":[[10,10,0],[20,10,13],[30,10,4],[40,10,-8]]}},{"rapid":[40,10,25]}"#,
+            ),
+        ),
+        (
             "mist on a machine without it",
             one(r#"{"rapid":[0,0,25]},{"coolant":"mist"},{"line":[0,0,1]},{"rapid":[0,0,25]}"#),
         ),
@@ -152,6 +194,29 @@ fn right_programs_are_proven() {
         }
     }
     assert!(wrong.is_empty(), "{wrong}");
+}
+
+/// Ways of a lathe that are no longer than its digits, or straight on through a corner.
+#[test]
+fn right_ways_of_lathes_are_proven() {
+    let job = |path: &str| {
+        format!(
+            r#"{{"postform":1,"program":7,"units":"inch","machine":"lathe","tools":[{{"number":1}}],"operations":[{{"tool":1,"spindle":{{"direction":"cw","speed":1000}},"feed":0.004,"path":[{path}]}}]}}"#
+        )
+    };
+    let hole = |clear: &str| {
+        format!(r#"{{"cycle":{{"kind":"ream","depth":0.9,"clear":{clear},"feed":0.0063,"points":[[0,0]]}}}}"#)
+    };
+    let jobs = [
+        format!(r#"{{"rapid":[0.116,1.4489]}},{}"#, hole("0.1159")),
+        format!(r#"{{"rapid":[0.4085,1.9906]}},{{"rapid":[0.3338,1.5213]}},{}"#, hole("0.0918")),
+        r#"{"rapid":[0.467043,1.313765]},{"line":[0.467043,1.3]},{"rapid":[0.368854,1.495519]},{"rapid":[0.254877,1.707079]}"#.to_owned(),
+    ];
+    for path in &jobs {
+        for post in ["fanuc-lathe.pf", "haas-lathe.pf"] {
+            is_right(path, of_post(post, &job(path)));
+        }
+    }
 }
 
 /// Forms of shops: dwells for the spindle, other letters, a move home before the next tool.

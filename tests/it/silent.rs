@@ -560,15 +560,18 @@ fn the_way_to_a_call_is_a_rapid_whatever_came_before() {
     };
     let calls = "{\"call\":{\"sub\":1,\"at\":[3,3]}},{\"call\":{\"sub\":1,\"at\":[4,4]}},{\"rapid\":[0,0,1]}";
     assert_eq!(before(&program(&mill("", &subs), &with_sub(cuts, calls)), "X4. Y4."), "G0");
+    // the first run begins at the place, the next where the one before has ended
     let times = "{\"call\":{\"sub\":1,\"at\":[4,4],\"times\":2}},{\"rapid\":[0,0,1]}";
-    assert_eq!(before(&program(&mill("", &subs), &with_sub(cuts, times)), "X4. Y4."), "G0");
-    // without a place each run begins where the one before has ended
+    let lines = program(&mill("", &subs), &with_sub(cuts, times));
+    let at = lines.iter().position(|line| line == "M98 P1").unwrap();
+    assert_eq!(lines[at - 1..at + 4], ["X4. Y4.", "M98 P1", "G0", "X0 Y0", "M98 P1"]);
     let from = |end: &str| {
         let calls = "{\"rapid\":[0,0,1]},{\"call\":{\"sub\":1,\"times\":2}},{\"rapid\":[0,0,1]}";
         program(&mill("", &subs), &with_sub(&format!("{cuts},{end}"), calls))
     };
     assert_eq!(from("{\"rapid\":[0,0,1]}").iter().filter(|line| *line == "M98 P1").count(), 2);
-    assert!(from("{\"rapid\":[2,0,1]}")[0].starts_with("PR033"), "{:?}", from("{\"rapid\":[2,0,1]}"));
+    assert_eq!(from("{\"rapid\":[2,0,1]}").iter().filter(|line| *line == "X2. Y0").count(), 1);
+    assert!(from("{\"work\":56},{\"rapid\":[2,0,1]}")[0].starts_with("PR033"));
     let text = "{\"text\":\"G1 Z-1. F5.\"},{\"call\":{\"sub\":1,\"at\":[4,4]}},{\"rapid\":[0,0,1]}";
     assert_eq!(before(&program(&mill("", &subs), &with_sub(cuts, text)), "X4. Y4."), "G0");
     let upon = format!("{SUBS}\nUpon [work]\nG[work] X[h] Y[v]\nEnd");

@@ -102,7 +102,9 @@ impl Judge<'_> {
     fn crossing(&self, until: usize) -> (f64, usize) {
         let mut lowest = (self.low, self.low_line);
         for act in &self.acts[self.at..until] {
-            if act.what == What::Tool {
+            // where no word says the tool, a person changes it at a stop
+            let by_hand = act.state.tool == 0.0 && matches!(act.what, What::Stop(_));
+            if act.what == What::Tool || by_hand {
                 lowest = (f64::INFINITY, 0);
             }
             let across = (0..2).any(|axis| !near(act.from[axis], act.to[axis], self.within));
@@ -209,8 +211,10 @@ impl Judge<'_> {
         while let Some(act) = self.next() {
             let What::Thread(is) = act.what else { break };
             let along = near(act.from[2], begin, self.within) && near(act.to[2], wanted.to[2], self.within);
+            let others =
+                (is - lead).abs() > 0.003 * lead || (act.to[0] - crest) * inward > depth.abs() + 2.0 * self.within;
             // the next thread's
-            if !along && passes > 0 && near(reached, depth.abs(), 2.0 * self.within) {
+            if (!along || others) && passes > 0 && near(reached, depth.abs(), 2.0 * self.within) {
                 break;
             }
             if !along {

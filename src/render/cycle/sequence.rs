@@ -57,7 +57,7 @@ pub fn sequence_hole(
         if let Some(cycle) = &mut drill.open {
             cycle.setup = Setup::new(want, said);
             cycle.branches = routine.branches;
-            cycle.initial_level = hole.heights.return_plane;
+            cycle.initial_level = hole.target.get(shape.depth).unwrap_or(hole.heights.return_plane);
             cycle.in_force = true;
         }
     }

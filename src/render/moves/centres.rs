@@ -48,7 +48,7 @@ pub fn centre_letter(letters: &[u8], axis: usize, shape: &Shape) -> Option<u8> {
 pub fn divide_for_radius(whole: &Piece, across: usize, parts: &mut Vec<f64>, shape: &Shape, said: &Said) -> Done {
     const MOST_PARTS: usize = 8; // of each piece that the form would say
     let (most, step) = ((parts.len() + 1) * MOST_PARTS, parts.len() + 1);
-    let allowed = if shape.units == Units::Mm { 0.005 } else { 0.0002 };
+    let allowed = if shape.units == Units::Mm { 0.004 } else { 0.00015 };
     let from = said.stand.position;
     while parts.len() + 1 < most {
         let (mut here, mut done, mut worst) = (from, 0.0, 0.0f64);

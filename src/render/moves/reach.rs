@@ -47,8 +47,9 @@ pub fn stand_as_left(
     let across = (0..6).any(|axis| axis != shape.depth && target.get(axis) != at.get(axis));
     let lower = at.get(shape.depth).is_some_and(|left| left < height);
     if free && !(across && lower) {
-        let stays = !across && target.get(shape.depth) == at.get(shape.depth);
-        said.stand.left_hole = stays.then_some((at, height));
+        // the next cut still begins at the job's height
+        let as_high = target.get(shape.depth) == at.get(shape.depth);
+        said.stand.left_hole = as_high.then_some((*target, height));
         return Ok(());
     }
     let mut to = said.stand.position;

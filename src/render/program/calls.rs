@@ -78,11 +78,9 @@ pub fn sub_call(
     if !together {
         want.set(VarId::Times, 1.0);
     }
-    if calls > 1 {
-        check_runs(call, &place, routine, called, shape, subs)?;
-    }
+    let begins = if calls > 1 { next_begins(&place, routine, called, shape, want, subs)? } else { place };
     for run in 0..calls {
-        set_targets(&place, shape, want, said)?;
+        set_targets(if run == 0 { &place } else { &begins }, shape, want, said)?;
         let routine = shape.way(base, want, said);
         if run > 0 && leaves {
             knows_after_stop(shape, want, said)?;
@@ -136,29 +134,29 @@ fn names_of_called(call: &Call, called: Option<usize>, shape: &Shape, subs: &Sub
     }
 }
 
-/// A call that is printed again for each run, with its place, goes back there: the job does so where it gives the place, or
-/// where the run before has ended there.
-fn check_runs(
-    call: &Call,
+/// Where the next run of a call begins that is printed again for each: where the run before has ended.
+fn next_begins(
     place: &Axes,
     routine: &Routine,
     called: Option<usize>,
     shape: &Shape,
+    want: &Want,
     subs: &Subprograms,
-) -> Done {
-    let left = called.map(|called| &subs.defined[called].left.position);
-    let moves = |axis: usize| {
-        call.at.get(axis).is_none()
-            && prints_axis(routine, axis, shape)
-            && left.is_none_or(|left| left.get(axis).is_none_or(|left| place.get(axis) != Some(left)))
-    };
-    if (0..6).any(moves) {
-        let message =
-            "a subprogram that ends elsewhere than it was called is called several times, and `SubCall` goes back";
-        let help = "give the call a place, `at`, or let `SubCall` print [times] and no place";
-        return fault(Code::PR033, message, help);
+) -> Done<Axes> {
+    // places in an offset of the subprogram's own are others here
+    let work =
+        |conditions: &Conditions| conditions.get(VarId::Work).filter(|work| want.get(VarId::Work) != Some(*work));
+    let left = called.map(|called| &subs.defined[called].left).filter(|left| work(&left.conditions).is_none());
+    let mut begins = *place;
+    for axis in (0..6).filter(|&axis| prints_axis(routine, axis, shape)) {
+        let Some(at) = left.and_then(|left| left.position.get(axis)) else {
+            let message = "a subprogram that ends nobody knows where is called several times, and `SubCall` prints a place for each";
+            let help = "end the subprogram with a rapid to a place, or let `SubCall` print [times] and no place";
+            return fault(Code::PR033, message, help);
+        };
+        begins.set(axis, at);
     }
-    Ok(())
+    Ok(begins)
 }
 
 /// Does the spindle turn counterclockwise here?

@@ -51,11 +51,12 @@ impl Judge<'_> {
         let loose = self.within + 0.03;
         let slack = (4.0 * self.within + 0.001) / size.max(1e-6) + 1e-6;
         if whole * size <= 2.0 * self.within {
-            // too short to be told from nothing
+            // too short to be told from nothing, but for its height
+            let reach = size * 2.0 + loose + (wanted.to[third] - wanted.from[third]).abs();
             while self.next().is_some_and(|act| {
                 !same(&act.from, &wanted.to, self.within)
                     && act.what != What::Rapid
-                    && act_in_reach(&act, &wanted.to, size * 2.0 + loose)
+                    && [&act.from, &act.to].iter().all(|end| is_near(end, &wanted.to, reach))
             }) {
                 self.take();
             }
@@ -143,6 +144,6 @@ fn middle(act: &Act, [first, second]: [usize; 2], about: [f64; 2], ccw: bool, fu
     [about[0] + radius * at.cos(), about[1] + radius * at.sin()]
 }
 
-fn act_in_reach(act: &Act, place: &Place, reach: f64) -> bool {
-    (0..3).all(|axis| near(act.to[axis], place[axis], reach))
+fn is_near(end: &Place, place: &Place, reach: f64) -> bool {
+    (0..3).all(|axis| near(end[axis], place[axis], reach))
 }

@@ -277,6 +277,12 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     if turns { Compared::Turning } else { Compared::AsGood { step_by_step: false } }
 }
 
+/// A place with its angles so many whole turns on that they are near another's.
+fn unwound(place: &Place, like: &Place) -> Place {
+    let turns = |axis: usize| if (3..6).contains(&axis) { ((place[axis] - like[axis]) / 360.0).round() } else { 0.0 };
+    std::array::from_fn(|axis| place[axis] - 360.0 * turns(axis))
+}
+
 /// Out of a hole whose cycle says how the spindle stands and where it moves: are the job's corners there, in their order
 /// and with it?
 pub(super) fn leaves_hole(job: &Way, program: &Way, tolerance: f64) -> Option<Compared> {
@@ -289,7 +295,7 @@ pub(super) fn leaves_hole(job: &Way, program: &Way, tolerance: f64) -> Option<Co
             at > 0
                 && (corners[at - 1].unknown | corners[at].unknown) == 0
                 && !is(&corners[at - 1])
-                && lies_between(&corners[at - 1].to, &corner.to, &corners[at].to, tolerance)
+                && lies_between(&corners[at - 1].to, &unwound(&corner.to, &corners[at].to), &corners[at].to, tolerance)
         };
         let there = || (from..corners.len()).filter(|&at| is(&corners[at]) || passes(at));
         match there().find(|&at| spins(corner, &corners[at])) {
@@ -418,6 +424,19 @@ mod tests {
             compared(&diagonal, &[[0.0, 0.0, 5.0], [9.0, 0.0, 5.0], [9.0, 0.0, 0.5], [9.0, 0.0, 1.0]]),
             Compared::Lower(..)
         ));
+    }
+
+    /// The job counts its turns on, the form takes whole ones off: the way out of the hole is the same.
+    #[test]
+    fn a_hole_is_left_whatever_its_turns_are() {
+        let p = |z: f64, a: f64, spin: Option<Spin>| Rapid { to: place(&[1.0, 2.0, z, a, 0.0, 0.0]), unknown: 0, spin };
+        let turns = Some(Spin::Turns(crate::nc::Rotation::Cw));
+        let (mut job, mut program) = (Way::default(), Way::default());
+        job.set(Some(p(-1.0, -390.0, None)), &[p(-0.2, -390.0, turns), p(1.4, -390.0, None)], 1e-4);
+        program.set(Some(p(-1.0, -30.0, turns)), &[p(1.4, -30.0, turns)], 1e-4);
+        assert_eq!(leaves_hole(&job, &program, 1e-4), None);
+        program.set(Some(p(-1.0, -60.0, turns)), &[p(1.4, -60.0, turns)], 1e-4);
+        assert!(leaves_hole(&job, &program, 1e-4).is_some());
     }
 
     /// On a steep rapid the digits of X and Y say little of the height.

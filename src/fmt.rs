@@ -228,10 +228,15 @@ impl Page<'_> {
                 text.push_str(&number.text); // without the brackets of the first forms
             }
             PieceKind::Expression { letter, text: inner, expr } if expr.is_ok() => {
+                let inner = inner.text.trim_matches([' ', '\t']);
+                // a name alone, with blanks around it, is a variable
+                let text_var = TextVar::parse(inner).filter(|_| letter.is_none());
+                let name = VarId::parse(inner).map_or(inner, |var| var.name());
                 text.extend(letter.map(char::from));
-                text.push('[');
-                text.push_str(inner.text.trim_matches([' ', '\t']));
-                text.push(']');
+                match text_var {
+                    Some(var) => text.push_str(&var.to_string()),
+                    None => text.extend(["[", name, "]"]),
+                }
             }
             PieceKind::TextVariable { letter: None, name } => match TextVar::parse(&name.text) {
                 Some(var) => text.push_str(&var.to_string()),

@@ -2,7 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Seek};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use postform::internals::control::Control;
@@ -125,12 +125,34 @@ impl Seek for Steady {
 /// Bytes of a program that are read at once.
 const PROGRAM_BUFFER: usize = 128 << 10;
 
+/// The forms in the folder of one that is not there, as a help line.
+fn forms_beside(path: &Path) -> String {
+    const MOST: usize = 8;
+    if path == Path::new("-") || path.exists() {
+        return String::new();
+    }
+    let entries = fs::read_dir(folder(path)).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
+    let is_form = |path: &PathBuf| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("pf"));
+    let names = entries.filter(is_form).filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    let mut forms: Vec<String> = names.collect();
+    forms.sort();
+    forms.truncate(MOST);
+    if forms.is_empty() { String::new() } else { format!("\n  help: the forms there: {}", forms.join(", ")) }
+}
+
 /// A whole form.
 pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
-    match open(path)?.take(LARGEST_FORM + 1).read_to_end(&mut bytes) {
+    let file = open(path).map_err(|message| format!("{message}{}", forms_beside(path)))?;
+    match file.take(LARGEST_FORM + 1).read_to_end(&mut bytes) {
         Ok(_) if bytes.len() as u64 > LARGEST_FORM => {
             Err(format!("error: {} is larger than {} KB: it is no form", name(path), LARGEST_FORM >> 10))
+        }
+        Ok(_) if bytes.trim_ascii_start().starts_with(b"{") => {
+            let name = name(path);
+            Err(format!(
+                "error: {name} is a job, no form\n  help: `postform check {name}` looks at jobs; of `postform render JOB --form FORM` the job comes first"
+            ))
         }
         // what comes of it would be written back by a fix
         Ok(_) if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") => {

@@ -14,6 +14,22 @@ pub struct Context<'a> {
     pub settings: &'a Settings,
 }
 
+/// What other systems call variables.
+const OTHERS: [(&str, &str); 12] = [
+    ("coolant", "cool"),
+    ("feed", "frate"),
+    ("feedrate", "frate"),
+    ("spindle", "speed"),
+    ("rpm", "speed"),
+    ("x", "h"),
+    ("y", "v"),
+    ("z", "d"),
+    ("diameter", "toold"),
+    ("toolnumber", "tool"),
+    ("programname", "progname"),
+    ("partno", "partname"),
+];
+
 /// A property of the form, by its name.
 pub fn property<'a>(name: &str, context: &Context<'a>) -> Option<(u16, &'a Property)> {
     let row = context.settings.properties.iter().position(|property| property.name.eq_ignore_ascii_case(name))?;
@@ -28,7 +44,8 @@ pub fn variable(name: &Spanned, settings: &Settings, diags: &mut Vec<Diag>) -> O
         let known = known.chain(TEXTS.iter().map(|text| text.name));
         let known = known.chain(settings.properties.iter().map(|property| property.name.as_str()));
         let mut diag = Diag::new(Code::PF202, format!("`{}` is no variable", name.text)).at(name.span, "unknown");
-        diag.help = did_you_mean(&name.text, known);
+        let other = OTHERS.iter().find(|(other, _)| name.text.eq_ignore_ascii_case(other));
+        diag.help = other.map(|(_, own)| format!("it is called `{own}`")).or_else(|| did_you_mean(&name.text, known));
         if name.text.split_once(':').is_some_and(|(name, _)| VarId::parse(name).is_some()) {
             diag.help = Some("only texts have a width: that of a number comes from its letter's format".into());
         } else if diag.help.is_none() {

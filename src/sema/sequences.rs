@@ -19,7 +19,7 @@ use crate::syntax::{Body, End, Piece, PieceKind, SequenceNode, Spanned, Tail, Wo
 impl Analysis {
     pub(super) fn sequence(&mut self, node: &SequenceNode) {
         let span = node.name.line.span;
-        if node.end.is_none() {
+        if node.end.is_none() && !node.body.iter().any(|body| torn_end(body).is_some()) {
             self.report(
                 Diag::new(Code::PF002, format!("{} has no End", node.name.name.text))
                     .at(span, "this sequence")
@@ -196,12 +196,9 @@ impl Analysis {
 
     /// `EndCancel` is a word like any other, and would be printed.
     fn glued_end(&mut self, body: &Body) {
-        let [word] = body.words.as_slice() else { return };
-        if let [Piece { kind: PieceKind::Stray(text), span }] = word.pieces.as_slice()
-            && text.eq_ignore_ascii_case("EndCancel")
-        {
-            let diag = Diag::new(Code::PF002, format!("`{text}` is no End")).at(*span, "a word of the output");
-            self.report(diag.help("write `End Cancel`"));
+        if let Some((text, span, meant)) = torn_end(body) {
+            let diag = Diag::new(Code::PF002, format!("`{text}` is no End")).at(span, "words of the output");
+            self.report(diag.help(format!("write `{meant}`")));
         }
     }
 
@@ -239,6 +236,26 @@ fn is_often(id: SequenceId) -> bool {
     use SequenceId as S;
     let moves = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed];
     id.row().is_cycle || moves.contains(&id)
+}
+
+/// `EndCancel`, `End; Cancel`, `End;`: as it is typed, and what was meant.
+fn torn_end(body: &Body) -> Option<(String, Span, &'static str)> {
+    let texts: Option<Vec<&str>> = body
+        .words
+        .iter()
+        .map(|word| match word.pieces.as_slice() {
+            [Piece { kind: PieceKind::Stray(text), .. }] => Some(text.as_str()),
+            _ => None,
+        })
+        .collect();
+    let text = texts?.join(" ");
+    let meant = match text.to_ascii_lowercase().as_str() {
+        "endcancel" | "end; cancel" | "end, cancel" => "End Cancel",
+        "end;" => "End",
+        _ => return None,
+    };
+    let span = body.words.first()?.span.to(body.words.last()?.span);
+    Some((text, span, meant))
 }
 
 /// What a sequence prints, and when, where directives say it.

@@ -134,7 +134,10 @@ impl Setting for Vec<Prompt> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let name = args.all[0].text.trim_matches(['[', ']', '<', '>']);
         let Some(var) = VarId::parse(name) else {
-            return bad(args.all.first(), format!("`{name}` is no variable"));
+            let message = format!(
+                "`{name}` is no variable: Ask gives one of val1 to val10, and a name of its own has `Property {name} number 0 ..`"
+            );
+            return bad(args.all.first(), message);
         };
         if var.row().origin == Origin::Computed {
             let message = format!("[{name}] comes from the toolpath and can't be asked for: use val1 to val10");

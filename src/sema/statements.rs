@@ -132,5 +132,5 @@ fn printed_control(id: CommandId, args: &[Spanned]) -> Option<(&Spanned, char)> 
 fn is_like_a_format(name: &str) -> bool {
     let mut bytes = name.bytes();
     bytes.next().is_some_and(|b| b.is_ascii_alphabetic())
-        && bytes.next().is_none_or(|b| b"->+.~ ".contains(&b) || b.is_ascii_digit())
+        && bytes.next().is_none_or(|b| b"->+.~= ".contains(&b) || b.is_ascii_digit())
 }

@@ -37,7 +37,9 @@ impl Setting for Option<&'static Control> {
         }
         let Some(control) = Control::named(&name) else {
             let known = control::names().collect::<Vec<_>>().join(", ");
-            let message = format!("there is no control `{name}`: there are {known}, or a file, as `my-vf2.toml`");
+            let message = format!(
+                "there is no control `{name}`: there are {known}, or a file, as `my-vf2.toml`; most other controls are much like `fanuc`"
+            );
             return bad(args.all.first(), message);
         };
         *self = Some(control);

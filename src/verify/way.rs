@@ -313,8 +313,16 @@ pub(super) fn enters_hole(job: &Way, program: &Way, over: &Place, tolerance: f64
         return false;
     };
     let own = &job.corners[first..];
+    // straight on, and nothing asked of the spindle
+    let is_way = |at: usize| {
+        at > 0
+            && at + 1 < own.len()
+            && own[at].spin.is_none()
+            && lies_between(&own[at - 1].to, &own[at].to, &own[at + 1].to, tolerance)
+    };
+    let own: Vec<&Rapid> = (0..own.len()).filter(|&at| !is_way(at)).map(|at| &own[at]).collect();
     let Some(begin) = program.corners.len().checked_sub(own.len()) else { return false };
-    let mut pairs = own.iter().zip(&program.corners[begin..]);
+    let mut pairs = own.into_iter().zip(&program.corners[begin..]);
     let comes_over = |(a, b): (&Rapid, &Rapid)| {
         same(&a.to, &b.to, ACROSS, tolerance) && b.unknown & ACROSS == 0 && height(b) >= a.to[DEPTH] - tolerance
     };

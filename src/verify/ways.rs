@@ -208,8 +208,11 @@ fn beside_the_part<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     };
     let [own, made] = [known(&s.job.rapids), known(&s.program.passage.rapids)];
     let [job, program] = &mut s.ways;
-    job.set_all(s.job.start.filter(|start| start.unknown == 0), &own);
-    program.set_all(s.program.passage.start.filter(|start| start.unknown == 0), &made);
+    let starts = [s.job.start, s.program.passage.start];
+    let both_known = starts.iter().all(|start| start.is_some_and(|start| start.unknown == 0));
+    let [from, begun] = starts.map(|start| start.filter(|_| both_known));
+    job.set_all(from, &own);
+    program.set_all(begun, &made);
     let [wanted, is] = match job.is_followed(program, s.machine == Machine::Lathe, tolerance) {
         Ok(rounds) => {
             s.report.allowed.ways += rounds;

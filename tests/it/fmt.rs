@@ -118,6 +118,19 @@ fn change(line: &str, kind: u8) -> String {
 
 static FORMS: std::sync::LazyLock<Vec<String>> = std::sync::LazyLock::new(forms);
 
+/// A name alone between brackets is a variable, whatever blanks are around it; a calculation keeps its blanks.
+#[test]
+fn names_with_blanks_around_them_are_names() {
+    let text = |word: &str| format!("LineCode\nG1 {word} F[frate]\nEnd\n");
+    for (typed, wanted) in
+        [("X[H\t]", "X[h]"), ("X[ H ]", "X[h]"), ("`T=`[ToolName ]", "`T=`[toolname]"), ("X[H + 1 ]", "X[H + 1]")]
+    {
+        let once = laid_out(&text(typed));
+        assert_eq!(once, text(wanted), "{typed}");
+        assert_eq!(laid_out(&once), once, "{typed}");
+    }
+}
+
 /// What is no word stays as typed, with the words that touch it: `a<0>` alone would lose its brackets.
 #[test]
 fn text_that_is_no_word_stays_as_typed() {

@@ -52,6 +52,7 @@ mod samples;
 mod sequences;
 mod silent;
 mod simulate;
+mod slips;
 mod streams;
 mod support;
 mod texts;

@@ -775,6 +775,23 @@ fn a_cut_after_a_cycle_begins_at_the_jobs_height() {
     // a rapid needs nothing
     let lines = path_lines("", RETURNS, &format!("{cycle},{{\"rapid\":[5,0,2]}}"));
     assert_eq!(lines.iter().filter(|line| *line == "G0 Z.3").count(), 1, "only the way to the first hole: {lines:?}");
+    // and a cut behind a rapid across begins there too
+    let lines = path_lines("", RETURNS, &format!("{cycle},{{\"rapid\":[5,5]}},{{\"line\":[5,5,0]}}"));
+    assert_eq!(lines[lines.len() - 4..], ["G80", "G0 X5. Y5.", "Z.3", "G1 Z0 F10."], "{lines:?}");
+}
+
+/// A form that tells its control no return plane leaves the tool low; in another work offset it comes down to the job's height.
+#[test]
+fn in_another_offset_the_tool_stays_at_the_jobs_height() {
+    let form = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel\nUpon [work]\nG[work]\nEnd";
+    let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":0.5,\"clear\":0.1,\"return\":1.3,\"feed\":5,\"points\":[[0,0,-0.5]]}}";
+    let lines = path_lines(
+        "",
+        form,
+        &format!("{cycle},{{\"work\":55}},{{\"rapid\":[5,5]}},{{\"rapid\":[5,5,2]}},{{\"line\":[5,5,0]}}"),
+    );
+    let at = lines.iter().position(|line| line == "G55").unwrap_or_else(|| panic!("{lines:?}"));
+    assert_eq!(lines[at + 1], "G0 X5. Y5. Z.8", "{lines:?}");
 }
 
 /// Cycles that are made as others use their sequences.

@@ -1,21 +1,30 @@
-//! PF110: a comment in round brackets, on a control that has other marks.
+//! PF110: a comment in marks that the control does not have: round brackets, or a semicolon.
 
+use crate::control::Rules;
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 use crate::syntax::PieceKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let [open, _] = &view.settings.comment;
-    if open == "(" {
-        return;
-    }
+    // on a Fanuc and its like a semicolon is how the end of a block is shown
+    let ends_block = view.settings.control().rules() == Rules::Fanuc && open != ";" && view.settings.eob.is_empty();
     for piece in view.pieces() {
-        if matches!(piece.kind, PieceKind::Note { .. }) {
-            diags.push(
-                Diag::new(Code::PF110, format!("comments of this form begin with `{open}`"))
-                    .at(piece.span, "the control reads this as a block")
-                    .help("take it out, or change the `Comment` command"),
-            );
+        let found = match &piece.kind {
+            PieceKind::Note { .. } if open != "(" => Some((
+                format!("comments of this form begin with `{open}`"),
+                "the control reads this as a block",
+                "take it out, or change the `Comment` command",
+            )),
+            PieceKind::Stray(text) if ends_block && text.starts_with(';') => Some((
+                "`;` begins no comment on this control".to_owned(),
+                "printed with what stands behind it: there the control ends the block",
+                "a remark of the form begins with ` #`, a comment of the program stands in brackets: `(CHANGE)`",
+            )),
+            _ => None,
+        };
+        if let Some((message, label, help)) = found {
+            diags.push(Diag::new(Code::PF110, message).at(piece.span, label).help(help));
         }
     }
 }

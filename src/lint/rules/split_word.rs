@@ -1,6 +1,7 @@
-//! PF112: `R [vclear]` prints a letter and a number apart, `FF[frate]` a letter too many, `[frate]` a number without one.
+//! PF112: `R [vclear]` and `M cool` print a letter and a number apart, `FF[frate]` a letter too many, `[frate]` a number without one.
 
 use crate::diag::{Code, Diag};
+use crate::lang::VarId;
 use crate::lint::view::View;
 use crate::span::Span;
 use crate::syntax::{Piece, PieceKind, Word};
@@ -29,13 +30,13 @@ fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
         // R [vclear], G 1
         ([piece], Some(letter), Some(before)) if value(piece).is_some() => {
             let better = format!("{letter}{}", value(piece)?);
-            let gap = Span { start: before.span.end, end: word.span.start, ..word.span };
+            let gap = Span { start: before.span.end, end: word.span.end, ..word.span };
             let label = "printed apart from its letter";
             Some((
                 before.span.to(word.span),
                 label,
                 format!("write `{better}`"),
-                Some(("join the word", gap, String::new())),
+                Some(("join the word", gap, value(piece)?)),
             ))
         }
         // FF[frate]; 0[program#]
@@ -57,7 +58,17 @@ fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
             Some((span.to(*end), label, format!("write `{better}`"), Some(("write the word", *span, text.to_owned()))))
         }
         // [frate] among words with letters, and behind no text
-        ([Piece { kind: PieceKind::Variable { letter: None, name }, span }], None, Some(before)) => {
+        (
+            [
+                Piece {
+                    kind:
+                        PieceKind::Variable { letter: None, name } | PieceKind::Expression { letter: None, text: name, .. },
+                    span,
+                },
+            ],
+            None,
+            Some(before),
+        ) => {
             let is_code = |word: &Word| word.pieces.iter().all(Piece::is_word);
             let among = line.iter().filter(|other| !std::ptr::eq(*other, word)).all(is_code);
             (among && is_code(before)).then(|| {
@@ -71,6 +82,11 @@ fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
         }
         _ => None,
     }
+}
+
+/// Is it the name of a variable, in small letters?
+fn is_variable(text: &str) -> bool {
+    VarId::parse(text).is_some() && text.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit())
 }
 
 /// A capital letter that stands alone.
@@ -87,6 +103,8 @@ fn letter_alone(word: &Word) -> Option<char> {
 fn value(piece: &Piece) -> Option<String> {
     match &piece.kind {
         PieceKind::Variable { letter: None, name } => Some(format!("[{}]", name.text)),
+        // M cool
+        PieceKind::Stray(text) if is_variable(text) => Some(format!("[{text}]")),
         PieceKind::Stray(text) if text.parse::<f64>().is_ok() => Some(text.clone()),
         _ => None,
     }

@@ -40,8 +40,13 @@ pub fn stand_as_left(
     out: &mut Printer,
 ) -> Done {
     let Some((at, height)) = said.stand.left_hole.take() else { return Ok(()) };
-    // only where nothing moved the tool or the frame since
-    if at != said.stand.position || said.lacks(want, shape).has(VarId::Work) {
+    // only where nothing moved the tool since
+    if at != said.stand.position {
+        return Ok(());
+    }
+    if said.lacks(want, shape).has(VarId::Work) {
+        // in another offset all axes are said again: at the job's height
+        said.stand.position.set(shape.depth, height);
         return Ok(());
     }
     let across = (0..6).any(|axis| axis != shape.depth && target.get(axis) != at.get(axis));

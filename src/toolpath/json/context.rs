@@ -109,6 +109,25 @@ fn of_serde(error: &serde_json::Error) -> Diag {
         _ if text.contains("invalid unicode code point") => {
             Diag::new(Code::PJ001, "the job is not UTF-8").help("save it as UTF-8")
         }
-        _ => Diag::new(Code::PJ001, format!("this is not JSON: {text}")),
+        _ => {
+            let mut diag = Diag::new(Code::PJ001, format!("this is not JSON: {text}"));
+            diag.help = instead(text).map(str::to_owned);
+            diag
+        }
     }
+}
+
+/// What to type instead, for what people write into JSON.
+fn instead(text: &str) -> Option<&'static str> {
+    const KNOWN: [(&str, &str); 5] = [
+        ("expected `,`", "a comma is missing before it, perhaps at the end of the line above"),
+        ("trailing comma", "take out the comma before it"),
+        ("key must be a string", "keys and texts stand in double quotes: `\"units\": \"mm\"`"),
+        ("expected `:`", "a colon stands between a key and its value: `\"units\": \"mm\"`"),
+        (
+            "expected value",
+            "a value stands here: a number, a text in double quotes, [..] or {..}; JSON has no comments",
+        ),
+    ];
+    KNOWN.iter().find(|(begins, _)| text.starts_with(begins)).map(|(_, help)| *help)
 }

@@ -11,7 +11,7 @@ pub(super) fn turn(wanted: &Wanted) -> f64 {
     let Want::Arc { plane, center, ccw, turns } = &wanted.want else { return 0.0 };
     let [first, second] = axes(plane);
     let angle = |place: &Place| (place[second] - center[1]).atan2(place[first] - center[0]);
-    let closed = [first, second].iter().all(|axis| near(wanted.from[*axis], wanted.to[*axis], 1e-6));
+    let closed = [first, second].iter().all(|axis| near(wanted.from[*axis], wanted.to[*axis], 1e-9));
     let turn = (angle(&wanted.to) - angle(&wanted.from)).rem_euclid(TAU);
     let part = match (closed, *ccw) {
         (true, _) => TAU,

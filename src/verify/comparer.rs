@@ -39,7 +39,7 @@ impl<R: BufRead + Seek> Comparer<R> {
     pub fn new(program: R, settings: RunSettings, expectation: Expectation, tolerance: Option<f64>) -> Comparer<R> {
         let program = Program::new(program, settings, &expectation);
         let tools = expectation.tools;
-        let typed = [expectation.feeds.clone(), expectation.speeds.clone()];
+        let own = [expectation.feeds.clone(), expectation.speeds.clone()];
         let job = Job::new(expectation, settings.control);
         let frame = Frame { tool: None, work: job.state.work };
         Comparer {
@@ -57,7 +57,7 @@ impl<R: BufRead + Seek> Comparer<R> {
                 slips: 0,
                 tools,
                 machine: Machine::Mill,
-                typed,
+                own,
                 report: Report::default(),
                 failure: None,
             },

@@ -1,11 +1,12 @@
 //! What a form fills in where its job is silent, and what it says of its own.
 
+use super::own::Own;
 use super::tables::CHORDS;
 use super::wire_codes::{self, Coded, Codes};
 use crate::compile::{Op, Program};
 use crate::control::{Control, Meaning};
 use crate::cycle::Defaults;
-use crate::lang::{Machine, UnitChoice};
+use crate::lang::{Machine, UnitChoice, VarId};
 use crate::nc::Cooling;
 use crate::render::cycle_defaults;
 use crate::sema::Settings;
@@ -43,10 +44,10 @@ pub struct Expectation {
     pub subs_first: bool,
     /// The codes by which the form threads and cuts a wire, if there is a form.
     pub(super) wire: Option<Codes>,
-    /// Feeds that the form types itself.
-    pub feeds: Vec<f64>,
-    /// Speeds that the form types itself.
-    pub speeds: Vec<f64>,
+    /// Feeds that the form says itself.
+    pub feeds: Own,
+    /// Speeds that the form says itself.
+    pub speeds: Own,
 }
 
 impl Default for Expectation {
@@ -68,8 +69,8 @@ impl Default for Expectation {
             by_diameter: true,
             subs_first: false,
             wire: None,
-            feeds: Vec::new(),
-            speeds: Vec::new(),
+            feeds: Own::default(),
+            speeds: Own::default(),
         }
     }
 }
@@ -97,25 +98,26 @@ impl Expectation {
         }
     }
 
-    /// The feeds and speeds that its sequences type besides: a cut may have them instead of the job's.
+    /// The feeds and speeds that its sequences type or calculate besides: a cut may have them instead of the job's.
     #[must_use]
     pub fn typed(mut self, program: &Program) -> Expectation {
         let settings = &program.settings;
         self.wire = (settings.machine == Machine::Edm).then(|| wire_codes::codes_of(program));
+        (self.feeds, self.speeds) = (Own::of(program), Own::of(program));
         for op in &program.ops {
-            let Op::Literal { index, .. } = op else { continue };
-            let Some(literal) = program.literals.get(*index as usize) else { continue };
-            let list = match literal.letter {
-                letter if letter == settings.feed_code => &mut self.feeds,
-                letter if letter == settings.speed_code => &mut self.speeds,
-                b'M' => {
-                    self.types_m29 |= literal.value == 29.0;
-                    continue;
+            match *op {
+                Op::Literal { index, .. } => match &program.literals[index as usize] {
+                    word if word.letter == settings.feed_code => self.feeds.types(word.value),
+                    word if word.letter == settings.speed_code => self.speeds.types(word.value),
+                    word => self.types_m29 |= word.letter == b'M' && word.value == 29.0,
+                },
+                Op::Formula { letter, index, .. } if letter == settings.feed_code => {
+                    self.feeds.calculates(&program.formulas[index as usize], &[VarId::Frate, VarId::Plunge]);
                 }
-                _ => continue,
-            };
-            if !list.contains(&literal.value) {
-                list.push(literal.value);
+                Op::Formula { letter, index, .. } if letter == settings.speed_code => {
+                    self.speeds.calculates(&program.formulas[index as usize], &[VarId::Speed]);
+                }
+                _ => {}
             }
         }
         self

@@ -16,6 +16,7 @@ mod intended;
 mod intent;
 mod kept;
 mod lines;
+mod own;
 mod passage;
 mod pauses;
 mod planned;

@@ -4,6 +4,7 @@ use std::io::{BufRead, Seek};
 
 use super::cut::{Cut, Place, Rapid, State};
 use super::intent::Expected;
+use super::own::Own;
 use super::passage::{Frame, Passage};
 use super::program::Program;
 use super::report::{Difference, Report};
@@ -80,8 +81,8 @@ pub(super) struct Sides<R> {
     pub tools: bool,
     /// What it is.
     pub machine: Machine,
-    /// Feeds and speeds that the form types itself.
-    pub typed: [Vec<f64>; 2],
+    /// Feeds and speeds that the form says itself.
+    pub own: [Own; 2],
     pub report: Report,
     pub failure: Option<std::io::Error>,
 }

@@ -85,7 +85,8 @@ fn speed<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, tap: bool)
     if (a - b).abs() <= (if tap { PITCH } else { ROUNDED } * a).max(0.5) {
         return true;
     }
-    if s.typed[1].contains(&b) {
+    // a tap whose feed stays cuts another thread
+    if !tap && s.own[1].says(a, |own| (own - b).abs() <= 0.5) {
         s.report.allowed.speeds += 1;
         return false; // each cut is counted
     }
@@ -159,7 +160,7 @@ pub(super) fn feeds<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut,
     if is_feed(wanted, is, tap) {
         return;
     }
-    if s.typed[0].iter().any(|own| is_feed(*own, typed, true)) {
+    if !tap && s.own[0].says(wanted, |own| is_feed(own, typed, true)) {
         s.report.allowed.feeds += 1;
         return;
     }

@@ -41,8 +41,8 @@ allowed! {
     slow    "rapid" "at feed that turn compensation on or off" "Feeds where the job has a rapid that turns compensation on or off.";
     dwells  "dwell" "of the form" "Dwells outside cuts that the job does not have, as for a spindle to spin up.";
     stops   "stop" "of the form" "Stops outside cuts that the job does not have.";
-    feeds   "feed" "of the form" "Cuts at a feed that the form types itself.";
-    speeds  "speed" "of the form" "Cuts at a speed that the form types itself.";
+    feeds   "feed" "of the form" "Cuts at a feed that the form types, or makes of the job's.";
+    speeds  "speed" "of the form" "Cuts at a speed that the form types, or makes of the job's, as `S[min(speed,800)]`; never taps.";
     threads "thread" "with other passes" "Threads whose passes differ: no coarser than the job's, to the same depth.";
     custom  "hole" "of a custom cycle" "Holes of custom cycles: the form's own moves along the axis of the hole, to the job's depth.";
 }

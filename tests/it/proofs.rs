@@ -233,6 +233,22 @@ fn right_programs_of_other_forms_are_proven() {
     let feeds = matches!(verdict, Verdict::Equivalent(Equivalences { feeds: 2, .. }));
     assert!(feeds && program.contains("F300."), "{verdict:?}\n{program}");
 
+    // a machine that turns no faster, and a form that slows its cuts: both are the form's, and counted
+    let limited = fanuc.replace("S[speed] M[direct]", "S[min(speed,800)] M[direct]");
+    let (program, verdict) = of_form(&limited, &one(path));
+    let speeds = matches!(verdict, Verdict::Equivalent(Equivalences { speeds: 2, .. }));
+    assert!(speeds && program.contains("S800"), "{verdict:?}\n{program}");
+    let slower = fanuc.replacen("EndCode", "LineCode\nG1 X[h] Y[v] Z[d] F[frate*0.5]\nEnd\n\nEndCode", 1);
+    let (program, verdict) = of_form(&slower, &one(path));
+    let feeds = matches!(verdict, Verdict::Equivalent(Equivalences { feeds: 2, .. }));
+    assert!(feeds && program.contains("F50."), "{verdict:?}\n{program}");
+    // a tap would cut another thread
+    let tap = one(
+        r#"{"rapid":[0,0,25]},{"cycle":{"kind":"tap","depth":9,"clear":2,"feed":1250,"points":[[1,1,0]]}},{"rapid":[1,1,25]}"#,
+    );
+    let limited = fanuc.replace("S[speed]", "S[min(speed,800)]");
+    assert!(matches!(of_form(&limited, &tap).1, Verdict::Different(_)), "{:?}", of_form(&limited, &tap));
+
     let home =
         fanuc.replacen("Upon [work]\nG91 G28 Z0\nG90\nG[work] G0 X[h] Y[v]\nEnd", "Upon [work]\nG[work]\nEnd", 1);
     assert_ne!(home, fanuc);

@@ -1,0 +1,78 @@
+//! Feeds and speeds that a form says itself: typed, or calculated from the job's.
+
+use crate::compile::Program;
+use crate::lang::{Coolant, TextId, VarId, VarSet};
+use crate::sema::{Formula, PropertyValue, Values};
+
+/// What a form says of one quantity.
+#[derive(Clone, Debug, Default)]
+pub struct Own {
+    /// Numbers that it types.
+    pub typed: Vec<f64>,
+    /// Calculations with the job's value, as `[min(speed,800)]`.
+    calculated: Vec<Formula>,
+    /// Its properties as numbers, where nobody says otherwise.
+    properties: Vec<f64>,
+}
+
+impl Own {
+    /// Of a form that types and calculates nothing so far.
+    pub(super) fn of(program: &Program) -> Own {
+        let number = |value: &PropertyValue| match value {
+            PropertyValue::Number(number) => *number,
+            PropertyValue::YesNo(yes) => f64::from(u8::from(*yes)),
+            PropertyValue::Text(_) => 0.0,
+        };
+        let properties = program.settings.properties.iter().map(|property| number(&property.default)).collect();
+        Own { properties, ..Own::default() }
+    }
+
+    /// The form types a number.
+    pub(super) fn types(&mut self, value: f64) {
+        if !self.typed.contains(&value) {
+            self.typed.push(value);
+        }
+    }
+
+    /// The form calculates a word; it counts where it is made of one of these variables alone.
+    pub(super) fn calculates(&mut self, formula: &Formula, of: &[VarId]) {
+        if of.iter().any(|&var| formula.vars() == VarSet::of(&[var])) && !self.calculated.contains(formula) {
+            self.calculated.push(formula.clone());
+        }
+    }
+
+    /// Does the form say a value where the job wants this one? `is`: whether a number is the value.
+    pub(super) fn says(&self, wanted: f64, is: impl Fn(f64) -> bool) -> bool {
+        let values = OfJob { wanted, properties: &self.properties };
+        self.typed.iter().any(|own| is(*own))
+            || self.calculated.iter().any(|formula| formula.number(&values).is_ok_and(&is))
+    }
+}
+
+/// The value that a job wants, for whichever variable is asked.
+struct OfJob<'a> {
+    wanted: f64,
+    properties: &'a [f64],
+}
+
+impl Values for OfJob<'_> {
+    fn number(&self, _: VarId) -> Option<f64> {
+        Some(self.wanted)
+    }
+
+    fn text(&self, _: TextId) -> &str {
+        ""
+    }
+
+    fn coolant(&self) -> Coolant {
+        Coolant::Off
+    }
+
+    fn property(&self, row: u16) -> f64 {
+        self.properties.get(usize::from(row)).copied().unwrap_or_default()
+    }
+
+    fn property_text(&self, _: u16) -> &str {
+        ""
+    }
+}

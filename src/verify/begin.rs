@@ -10,23 +10,25 @@ use crate::diag::Code;
 
 /// The program's next cut, whose way, beginning and state are compared.
 pub(super) fn meet<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, hole: Option<&Expected>) -> Done<Cut> {
-    while let Some(found) = s.next()? {
-        if enters_again(s, cut, &found) {
+    let mut next = s.next()?;
+    while let Some(found) = &next {
+        if enters_again(s, cut, found) {
             s.report.allowed.entries += 1;
             s.program.take();
         } else if !found.by_cycle
-            && s.is_nothing(&found)
+            && s.is_nothing(found)
             && !cut.is_short(s.limits.tolerance)
-            && !is_itself(s, cut, &found)
-            && !is_part(s, cut, &found)
+            && !is_itself(s, cut, found)
+            && !is_part(s, cut, found)
         {
             s.report.allowed.short += 1;
             s.program.pass_over();
         } else {
             break;
         }
+        next = s.next()?;
     }
-    let Some(found) = s.next()? else { return is_missing(s, cut, hole) };
+    let Some(found) = next else { return is_missing(s, cut, hole) };
     begins(s, cut, &found, hole)?;
     pauses::compare(s);
     wire::compare(s, found.line);

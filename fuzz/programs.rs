@@ -73,10 +73,11 @@ impl Hunt {
             return;
         }
         let judged = case.form.run(&mutant.text, case.job["units"] == "inch");
-        let differs = |acts: Vec<Act>| match difference(right, &acts, NEAR) {
+        let crests = case.crests();
+        let differs = |acts: Vec<Act>| match difference(right, &acts, &crests, NEAR) {
             // but for moves that no digits of a program tell
             Some((class, why)) if !HARMLESS.contains(&class) => {
-                let long = difference(&without_short(right), &without_short(&acts), NEAR);
+                let long = difference(&without_short(right), &without_short(&acts), &crests, NEAR);
                 Some(long.map_or((Class::Short, why), |long| long))
             }
             other => other,

@@ -6,7 +6,7 @@ use serde_json::Value;
 use crate::cl::for_cl;
 use crate::job::{Kind, job};
 use crate::judge::rs274::interpreted;
-use crate::judge::{Wanted, against, wants};
+use crate::judge::{Want, Wanted, against, wants};
 use crate::prove::{Form, Proof, Said};
 use crate::random::Random;
 use crate::text::written;
@@ -162,6 +162,12 @@ impl<'f> Case<'f> {
         std::fs::remove_dir_all(&folder).ok()?;
         let acts = acts?;
         Some(acts.and_then(|acts| against::difference(&wants, &acts, self.form.within).map_or(Ok(()), Err)))
+    }
+
+    /// Radii of the crests of the job's threads.
+    pub fn crests(&self) -> Vec<f64> {
+        let crest = |wanted: &Wanted| if let Want::Thread { crest, .. } = wanted.want { Some(crest) } else { None };
+        self.wants().iter().flatten().filter_map(crest).collect()
     }
 
     fn wants(&self) -> Option<Vec<Wanted>> {

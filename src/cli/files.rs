@@ -2,7 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Seek};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::SystemTime;
 
 use postform::internals::control::Control;
@@ -125,6 +125,11 @@ impl Seek for Steady {
 /// Bytes of a program that are read at once.
 const PROGRAM_BUFFER: usize = 128 << 10;
 
+/// Is a file a form, by its name?
+pub fn is_form(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pf"))
+}
+
 /// The forms in the folder of one that is not there, as a help line.
 fn forms_beside(path: &Path) -> String {
     const MOST: usize = 8;
@@ -132,8 +137,8 @@ fn forms_beside(path: &Path) -> String {
         return String::new();
     }
     let entries = fs::read_dir(folder(path)).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
-    let is_form = |path: &PathBuf| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("pf"));
-    let names = entries.filter(is_form).filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    let names =
+        entries.filter(|path| is_form(path)).filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
     let mut forms: Vec<String> = names.collect();
     forms.sort();
     forms.truncate(MOST);

@@ -169,10 +169,10 @@ fn in_folder(folder: &Path, root: &Path, forms: &mut Vec<PathBuf>) -> Result<(),
             if !path.is_symlink() {
                 in_folder(&path, root, forms)?;
             }
-        } else if is_form(&path) {
+        } else if files::is_form(&path) {
             match path.canonicalize() {
                 // found by its own name
-                Ok(real) if path.is_symlink() && real.starts_with(root) && is_form(&real) => {}
+                Ok(real) if path.is_symlink() && real.starts_with(root) && files::is_form(&real) => {}
                 Ok(_) if path.is_symlink() => left_out(&path, "a link to what is no form of this folder"),
                 Ok(real) if !real.is_file() => left_out(&path, "no file"),
                 _ => forms.push(path),
@@ -180,11 +180,6 @@ fn in_folder(folder: &Path, root: &Path, forms: &mut Vec<PathBuf>) -> Result<(),
         }
     }
     Ok(())
-}
-
-/// Is a file a form, by its name?
-fn is_form(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pf"))
 }
 
 /// A fix must reach only what the folder holds, and a pipe has no end.

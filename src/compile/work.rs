@@ -55,6 +55,5 @@ fn in_block(control: &Control, line: &Line) -> Option<WorkWord> {
 /// A code in backquotes.
 fn quoted(word: &Word) -> Option<Code> {
     let WordKind::Quote(text) = &word.kind else { return None };
-    let letter = *text.as_bytes().first()?;
-    Code::of(letter, text.get(1..)?.trim().parse().ok()?)
+    text.trim().parse().ok()
 }

@@ -1,7 +1,7 @@
 //! The blocks of a body as a control would read them: which modes hold where each word stands.
 
 use crate::control::{AxisWords, Code, Control, Meaning};
-use crate::lang::{Origin, VarId};
+use crate::lang::{Origin, VarId, VarSet};
 use crate::sema::{Line, Settings, Word, WordKind};
 
 /// How the tool moves in a block.
@@ -53,6 +53,11 @@ impl<'a> Block<'a> {
             *axis == 2 && (typed || !self.in_part() || chosen)
         })
     }
+}
+
+/// Does a word say which tool? On a lathe `[comp]` is station and offset register.
+pub fn says_tool(word: &Word) -> bool {
+    word.printed_vars().meets(VarSet::of(&[VarId::Tool, VarId::Comp]))
 }
 
 /// Does a word call something that does more than the block says: a macro, a subprogram, a code of the builder?

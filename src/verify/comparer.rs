@@ -161,7 +161,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
     fn cut(&mut self, cut: &Cut, hole: Option<&Expected>) -> Done {
         match hole {
             Some(_) => self.hole.cut = true,
-            None => self.hole.highest = f64::NEG_INFINITY,
+            None => self.hole.highest = None,
         }
         if hole.is_some_and(|hole| hole.pecks) {
             if self.hole.pecks.is_empty() {
@@ -225,7 +225,8 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
 
     fn hole_begins(&mut self, hole: &Expected) {
         self.hole.over = Some(hole.at);
-        self.hole.highest = self.hole.highest.max(hole.at[DEPTH]).max(hole.plane);
+        let here = hole.at[DEPTH].max(hole.plane);
+        self.hole.highest = Some(self.hole.highest.map_or(here, |highest| highest.max(here)));
         self.hole.pecks.clear();
         (self.hole.waited, self.hole.waits_inside, self.hole.cut) = (None, false, false);
     }
@@ -249,7 +250,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             leg.lengths.push(length);
         }
         if tool {
-            self.hole.highest = f64::NEG_INFINITY;
+            self.hole.highest = None;
             let last = self.hole.last.take();
             self.hole.before = self.hole.before.or(last);
         }

@@ -61,7 +61,7 @@ fn ends<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Optio
     {
         // out of the hole at feed, and farther than the job, but not above where the job goes at all
         let upward = is[DEPTH] > end[DEPTH] && end[DEPTH] > from[DEPTH];
-        if hole.feeds_out && upward && is[DEPTH] <= s.hole.highest + tolerance {
+        if hole.feeds_out && upward && s.hole.highest.is_some_and(|highest| is[DEPTH] <= highest + tolerance) {
             s.report.allowed.outs += 1;
             return Ok(());
         }

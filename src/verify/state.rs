@@ -26,7 +26,7 @@ pub(super) struct Limits {
 }
 
 /// The hole that the job is in, and the last one.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Holes {
     /// The hole over which the job is: its way aside from there must then be that way.
     pub over: Option<Place>,
@@ -35,7 +35,7 @@ pub(super) struct Holes {
     /// The last hole of the tool before, while this one has none; or the last one that was cut, where the operator makes this.
     pub before: Option<Expected>,
     /// The greatest height at which the job goes to this hole and those before it.
-    pub highest: f64,
+    pub highest: Option<f64>,
     /// The hole is cut by the program.
     pub cut: bool,
     /// Feeds of a hole in pecks, and a dwell among them.
@@ -43,21 +43,6 @@ pub(super) struct Holes {
     pub waited: Option<f64>,
     /// The dwell of a hole comes before its last cut.
     pub waits_inside: bool,
-}
-
-impl Default for Holes {
-    fn default() -> Holes {
-        Holes {
-            over: None,
-            last: None,
-            before: None,
-            highest: f64::NEG_INFINITY,
-            cut: false,
-            pecks: Vec::new(),
-            waited: None,
-            waits_inside: false,
-        }
-    }
 }
 
 /// The state of a comparison: the job's side and the program's.

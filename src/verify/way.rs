@@ -50,7 +50,7 @@ impl Way {
             if let [.., before, last] = self.corners.as_slice()
                 && leads(before, last)
                 && leads(last, rapid)
-                && last.spin == rapid.spin
+                && (last.spin.is_none() || last.spin == rapid.spin)
                 && (before.unknown | last.unknown | rapid.unknown) == 0
                 && lies_between(&before.to, &last.to, &rapid.to, tolerance)
             {
@@ -241,11 +241,17 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
         // where the job says its height alone, it may be anywhere
         let there =
             job.iter().filter(|other| other.unknown & 0b11 != 0 || same(&other.to, &corner.to, ACROSS, tolerance));
+        let at_corners = there.map(|other| other.to[DEPTH]).reduce(f64::min);
+        let floor = at_corners.unwrap_or(crossing);
+        if height(corner) >= floor - tolerance {
+            continue;
+        }
         // on a steep rapid the digits of X and Y say little of the height
-        let steep = || across(job, tolerance).filter_map(|(a, b)| along(&corner.to, &a.to, &b.to, tolerance));
-        let floor = there.map(|other| other.to[DEPTH]).reduce(f64::min);
-        let floor = floor.map_or(crossing, |floor| steep().fold(floor, |floor, (_, _, lowest)| floor.min(lowest)));
-        if height(corner) < floor - tolerance {
+        let is_on = |(a, b): (&Rapid, &Rapid)| {
+            along(&corner.to, &a.to, &b.to, tolerance)
+                .is_some_and(|(_, _, lowest)| height(corner) >= lowest - tolerance)
+        };
+        if at_corners.is_none() || !across(job, tolerance).any(is_on) {
             return Compared::Lower(corner.to, floor);
         }
     }
@@ -313,16 +319,8 @@ pub(super) fn enters_hole(job: &Way, program: &Way, over: &Place, tolerance: f64
         return false;
     };
     let own = &job.corners[first..];
-    // straight on, and nothing asked of the spindle
-    let is_way = |at: usize| {
-        at > 0
-            && at + 1 < own.len()
-            && own[at].spin.is_none()
-            && lies_between(&own[at - 1].to, &own[at].to, &own[at + 1].to, tolerance)
-    };
-    let own: Vec<&Rapid> = (0..own.len()).filter(|&at| !is_way(at)).map(|at| &own[at]).collect();
     let Some(begin) = program.corners.len().checked_sub(own.len()) else { return false };
-    let mut pairs = own.into_iter().zip(&program.corners[begin..]);
+    let mut pairs = own.iter().zip(&program.corners[begin..]);
     let comes_over = |(a, b): (&Rapid, &Rapid)| {
         same(&a.to, &b.to, ACROSS, tolerance) && b.unknown & ACROSS == 0 && height(b) >= a.to[DEPTH] - tolerance
     };

@@ -118,6 +118,19 @@ fn change(line: &str, kind: u8) -> String {
 
 static FORMS: std::sync::LazyLock<Vec<String>> = std::sync::LazyLock::new(forms);
 
+/// In backquotes a tab is printed like any other character: no fix takes it out.
+#[test]
+fn a_tab_in_backquotes_is_text() {
+    let tabs = |line: &str| {
+        let form = format!("Drill\n{line}\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd\n");
+        let checked = support::check(&form);
+        let diags = postform::internals::lint::lint(&checked, &Levels::default()).diags;
+        diags.iter().filter(|diag| diag.code.name() == "PF103").count()
+    };
+    assert_eq!(tabs("`MSG(\"A\tB\")`"), 0);
+    assert_eq!(tabs("`MSG`\t`(A\tB)`"), 1);
+}
+
 /// A name alone between brackets is a variable, whatever blanks are around it; a calculation keeps its blanks.
 #[test]
 fn names_with_blanks_around_them_are_names() {

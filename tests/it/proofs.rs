@@ -46,6 +46,21 @@ fn is_right(name: &str, (program, verdict): (String, Verdict)) {
     assert!(verdict.is_proven(), "{name}: {verdict:#?}\n{program}");
 }
 
+/// Are the programs of these posts for these jobs proven?
+#[track_caller]
+fn all_are_right(jobs: &[(&str, String)], posts: &[&str]) {
+    let mut wrong = String::new();
+    for (name, job) in jobs {
+        for post in posts {
+            let (program, verdict) = of_post(post, job);
+            if !verdict.is_proven() {
+                wrong += &format!("{name}, {post}: {verdict:?}\n{program}\n");
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
 /// Programs of the posts that once were called different.
 #[test]
 fn right_programs_are_proven() {
@@ -184,16 +199,7 @@ fn right_programs_are_proven() {
             one(r#"{"rapid":[0,0,25]},{"coolant":"mist"},{"line":[0,0,1]},{"rapid":[0,0,25]}"#),
         ),
     ];
-    let mut wrong = String::new();
-    for (name, job) in &jobs {
-        for post in ["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"] {
-            let (program, verdict) = of_post(post, job);
-            if !verdict.is_proven() {
-                wrong += &format!("{name}, {post}: {verdict:?}\n{program}\n");
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "{wrong}");
+    all_are_right(&jobs, &["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"]);
 }
 
 /// Ways of a lathe that are no longer than its digits, or straight on through a corner.
@@ -208,15 +214,17 @@ fn right_ways_of_lathes_are_proven() {
         format!(r#"{{"cycle":{{"kind":"ream","depth":0.9,"clear":{clear},"feed":0.0063,"points":[[0,0]]}}}}"#)
     };
     let jobs = [
-        format!(r#"{{"rapid":[0.116,1.4489]}},{}"#, hole("0.1159")),
-        format!(r#"{{"rapid":[0.4085,1.9906]}},{{"rapid":[0.3338,1.5213]}},{}"#, hole("0.0918")),
-        r#"{"rapid":[0.467043,1.313765]},{"line":[0.467043,1.3]},{"rapid":[0.368854,1.495519]},{"rapid":[0.254877,1.707079]}"#.to_owned(),
+        ("down by less than the digits", format!(r#"{{"rapid":[0.116,1.4489]}},{}"#, hole("0.1159"))),
+        (
+            "straight on through a corner",
+            format!(r#"{{"rapid":[0.4085,1.9906]}},{{"rapid":[0.3338,1.5213]}},{}"#, hole("0.0918")),
+        ),
+        (
+            "a corner that only digits make",
+            r#"{"rapid":[0.467043,1.313765]},{"line":[0.467043,1.3]},{"rapid":[0.368854,1.495519]},{"rapid":[0.254877,1.707079]}"#.to_owned(),
+        ),
     ];
-    for path in &jobs {
-        for post in ["fanuc-lathe.pf", "haas-lathe.pf"] {
-            is_right(path, of_post(post, &job(path)));
-        }
-    }
+    all_are_right(&jobs.map(|(name, path)| (name, job(&path))), &["fanuc-lathe.pf", "haas-lathe.pf"]);
 }
 
 /// Forms of shops: dwells for the spindle, other letters, a move home before the next tool.

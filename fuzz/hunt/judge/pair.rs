@@ -52,8 +52,9 @@ pub fn without_short(acts: &[Act]) -> Vec<Act> {
     kept.collect()
 }
 
-/// The gravest difference between a right program and a changed one; `None`: they do the same. `within`: millimetres.
-pub fn difference(right: &[Act], changed: &[Act], within: f64) -> Option<(Class, String)> {
+/// The gravest difference between a right program and a changed one; `None`: they do the same. `crests`: radii of the
+/// job's threads; `within`: millimetres.
+pub fn difference(right: &[Act], changed: &[Act], crests: &[f64], within: f64) -> Option<(Class, String)> {
     let mut found: Option<(Class, String)> = None;
     let mut say = |class: Class, what: String| {
         if found.as_ref().is_none_or(|(other, _)| class < *other) {
@@ -62,7 +63,7 @@ pub fn difference(right: &[Act], changed: &[Act], within: f64) -> Option<(Class,
     };
     let (a, b) = (plunges(right), plunges(changed));
     for (left, other) in a.iter().zip(&b) {
-        if let Some((class, what)) = plunge(left, other, within) {
+        if let Some((class, what)) = plunge(left, other, crests, within) {
             let grave = class == Class::Cut;
             say(class, format!("line {}: {what}", other.cuts[0].line));
             if grave {
@@ -111,7 +112,7 @@ fn is_pass(one: &Act, two: &Act) -> bool {
 }
 
 /// Passes of a thread: as deep, and none in the air.
-fn passes(left: &Plunge, other: &Plunge, within: f64) -> Option<(Class, String)> {
+fn passes(left: &Plunge, other: &Plunge, crests: &[f64], within: f64) -> Option<(Class, String)> {
     let (first, last) = (&left.cuts[0], &left.cuts[left.cuts.len() - 1]);
     // out of a bore the thread grows
     let inwards = if last.to[0] > first.to[0] { 1.0 } else { -1.0 };
@@ -120,9 +121,10 @@ fn passes(left: &Plunge, other: &Plunge, within: f64) -> Option<(Class, String)>
         depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), depth| (low.min(depth), high.max(depth)))
     };
     let (a, b) = (ends(left), ends(other));
-    // above the first pass there may be as much to cut as below it
-    let crest = a.0 - (a.1 - a.0);
-    if !near(a.1, b.1, 2.0 * within) || b.0 < crest - 2.0 * within {
+    // from the crest on, of the job's threads that this may be
+    let in_part =
+        |depth: f64| crests.iter().any(|crest| depth >= crest * inwards - 2.0 * within && crest * inwards <= a.0);
+    if !near(a.1, b.1, 2.0 * within) || !in_part(b.0) {
         return Some((Class::Cut, format!("a thread from {:.4} to {:.4}, not {:.4} to {:.4}", b.0, b.1, a.0, a.1)));
     }
     let same_passes = left.cuts.len() == other.cuts.len()
@@ -131,9 +133,9 @@ fn passes(left: &Plunge, other: &Plunge, within: f64) -> Option<(Class, String)>
     states.or((!same_passes).then(|| (Class::Pecks, format!("{} passes, not {}", other.cuts.len(), left.cuts.len()))))
 }
 
-fn plunge(left: &Plunge, other: &Plunge, within: f64) -> Option<(Class, String)> {
+fn plunge(left: &Plunge, other: &Plunge, crests: &[f64], within: f64) -> Option<(Class, String)> {
     if is_pass(&left.cuts[0], &other.cuts[0]) {
-        return passes(left, other, within);
+        return passes(left, other, crests, within);
     }
     if left.cuts.len() == 1 && other.cuts.len() == 1 && !(left.cuts[0].plunges() && other.cuts[0].plunges()) {
         return cut(&left.cuts[0], &other.cuts[0], within);

@@ -221,11 +221,7 @@ fn caller(path: &Path, texts: &Texts) -> Option<PathBuf> {
     // a called form is in the folder of its caller or below
     for folder in path.ancestors().skip(1).take(2) {
         let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-        forms.extend(
-            entries
-                .filter(|other| other.extension().is_some_and(|end| end.eq_ignore_ascii_case("pf")))
-                .take(MOST_FORMS),
-        );
+        forms.extend(entries.filter(|other| files::is_form(other)).take(MOST_FORMS));
     }
     forms.sort();
     forms.into_iter().filter(|other| other != path).find(|other| {

@@ -2,8 +2,8 @@
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, VarId, VarSet};
-use crate::lint::blocks::{Block, calls};
+use crate::lang::SequenceId;
+use crate::lint::blocks::{Block, calls, says_tool};
 use crate::lint::view::View;
 use crate::sema::Word;
 
@@ -37,9 +37,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 /// builder, or all axes home.
 fn is_said(view: &View, block: &Block) -> bool {
     let leaves = |word: &Word| {
-        calls(view.settings.codes(), word)
-            || view.meaning(word) == Some(Meaning::ToolChange)
-            || word.printed_vars().meets(VarSet::of(&[VarId::Tool, VarId::Comp]))
+        calls(view.settings.codes(), word) || view.meaning(word) == Some(Meaning::ToolChange) || says_tool(word)
     };
     !(block.line.words.iter().any(leaves) || block.reference && block.axis_words.is_empty())
 }

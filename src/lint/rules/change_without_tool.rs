@@ -2,10 +2,10 @@
 
 use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, TextId, VarId, VarSet};
-use crate::lint::blocks::calls;
+use crate::lang::{SequenceId, TextId, VarId};
+use crate::lint::blocks::{calls, says_tool};
 use crate::lint::view::View;
-use crate::sema::{Word, WordKind};
+use crate::sema::WordKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.is_flat() {
@@ -13,9 +13,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
     let control = view.settings.control();
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
-        // on a lathe [comp] is station and offset register
-        let says = |word: &&Word| word.printed_vars().meets(VarSet::of(&[VarId::Tool, VarId::Comp]));
-        let printed = body.words().find(says);
+        let printed = body.words().find(|word| says_tool(word));
         let Some(word) = printed else {
             // where a person changes the tool, a comment says which
             let named = |kind: &WordKind| match kind {

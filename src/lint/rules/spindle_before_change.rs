@@ -2,12 +2,10 @@
 
 use crate::control::{Kept, Meaning};
 use crate::diag::{Code, Diag};
-use crate::lang::{SequenceId, VarId, VarSet};
+use crate::lang::{SequenceId, VarId};
+use crate::lint::blocks::says_tool;
 use crate::lint::view::{Body, View};
 use crate::sema::Word;
-
-/// The variables that say which tool.
-const TOOLS: VarSet = VarSet::of(&[VarId::Tool, VarId::Comp]);
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (body, change) in changes(view) {
@@ -52,7 +50,7 @@ pub(super) fn changes<'a>(view: &View<'a>) -> Vec<(Body<'a>, usize)> {
     bodies
         .filter_map(|body| {
             let change = line(&body, &|word| view.meaning(word) == Some(Meaning::ToolChange));
-            Some((body, change.or_else(|| line(&body, &|word| word.printed_vars().meets(TOOLS)))?))
+            Some((body, change.or_else(|| line(&body, &|word| says_tool(word)))?))
         })
         .collect()
 }

@@ -3,14 +3,18 @@
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 use crate::span::Span;
-use crate::syntax::Tail;
+use crate::syntax::{PieceKind, Tail};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (tree, source) in view.checked.trees.iter().zip(&view.checked.files) {
         if !source.text.contains('\t') {
             continue;
         }
-        let args: Vec<Span> = tree.statements().flat_map(|s| &s.args).map(|arg| arg.span).collect();
+        let args = tree.statements().flat_map(|s| &s.args).map(|arg| arg.span);
+        let pieces = tree.words().flat_map(|word| &word.pieces);
+        let quotes = pieces.filter(|piece| matches!(piece.kind, PieceKind::Quote(_))).map(|piece| piece.span);
+        let mut texts: Vec<Span> = args.chain(quotes).collect();
+        texts.sort_by_key(|text| text.start);
         for line in tree.lines() {
             let end = match &line.tail {
                 Tail::None => line.span.end,
@@ -21,9 +25,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             for (at, _) in words.match_indices('\t') {
                 let at = line.span.start as usize + at;
                 let span = Span::new(line.span.file, at, at + 1);
-                let arg = args.partition_point(|arg| arg.end <= span.start);
-                if args.get(arg).is_some_and(|arg| arg.start <= span.start) {
-                    continue; // text in quotes
+                let text = texts.partition_point(|text| text.end <= span.start);
+                if texts.get(text).is_some_and(|text| text.start <= span.start) {
+                    continue; // in quotes
                 }
                 diags.push(
                     Diag::new(Code::PF103, "a tab ends the words of its line")

@@ -8,7 +8,7 @@ use super::geometry::Piece;
 use super::line::line_to;
 use super::measure::measured;
 use super::pieces::{chords, ends_meet, pieces};
-use super::reach::{cut_goes_to, reach};
+use super::reach::{begins_somewhere, cut_goes_to, reach};
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::render::fault::{Done, fault};
@@ -56,6 +56,9 @@ pub fn arc(
     let Some(to) = in_plane(&target, axes) else {
         return fault(Code::PR005, "the arc ends at an unknown position", "give both coordinates of its plane");
     };
+    if said.stand.fresh_tool.is_some() {
+        begins_somewhere(&target, shape, said)?;
+    }
     let ccw = arc.direction == Direction::Ccw;
     let centre = centre_of(arc, axes, from, to, ccw, shape)?;
     let coarse = check_radii(axes, from, to, centre, shape)?;

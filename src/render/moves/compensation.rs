@@ -80,7 +80,7 @@ fn compensate(to: &Axes, switch: &Switch, shape: &Shape, want: &mut Want, said: 
     }
     let rapid = rapid && program.routine(id).is_none();
     let target = reach(to, false, shape, want, said, out)?;
-    if said.stand.fresh_tool && !rapid {
+    if said.stand.fresh_tool.is_some() && !rapid {
         begins_somewhere(&target, shape, said)?;
     }
     if !rapid {

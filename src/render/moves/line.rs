@@ -20,7 +20,7 @@ use crate::toolpath::Axes;
 /// A feed move of the path.
 pub fn line(to: &Axes, feed: Option<f64>, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
     let target = reach(to, false, shape, want, said, out)?;
-    if said.stand.fresh_tool {
+    if said.stand.fresh_tool.is_some() {
         begins_somewhere(&target, shape, said)?;
     }
     want.take_feed(feed, shape)?;

@@ -82,8 +82,8 @@ pub fn cut_goes_to(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Sai
 pub fn begins_somewhere(target: &Axes, shape: &Shape, said: &mut Said) -> Done {
     // the upper guides of a wire follow the lower ones
     let axes = if shape.linear == 4 { 2 } else { shape.linear };
-    let unknown = target.given & !said.stand.position.given & ((1 << axes) - 1);
-    said.stand.fresh_tool = false;
+    let needed = target.given | said.stand.fresh_tool.take().unwrap_or(0);
+    let unknown = needed & !said.stand.position.given & ((1 << axes) - 1);
     if unknown == 0 || shape.program.settings.incremental {
         return Ok(());
     }

@@ -205,7 +205,7 @@ fn go_to_call(
 
 /// The subprogram moved the tool, and changed what it says it changed.
 fn after_call(called: Option<usize>, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
-    said.stand.fresh_tool = false;
+    said.stand.fresh_tool = None;
     forget_where(want, said);
     let known = called.map(|i| &subs.defined[i]).filter(|sub| !sub.calls_ahead);
     match known {

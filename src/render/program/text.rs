@@ -21,7 +21,7 @@ pub fn verbatim(text: &str, shape: &Shape, want: &mut Want, said: &mut Said, out
         let message = "the text is a lone `%`, at which a control takes the program to be over";
         return fault(Code::PR035, message, "take it out: StartCode and EndCode print it");
     }
-    said.stand.fresh_tool = false;
+    said.stand.fresh_tool = None;
     if text.trim().is_empty() {
         return Ok(()); // an empty block is not printed
     }

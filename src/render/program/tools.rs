@@ -174,7 +174,7 @@ fn change_tool(
     let id = change_of(want);
     next_tool(tool, shape, want)?;
     want.tool = Some(tool.number);
-    said.stand.fresh_tool = true;
+    said.stand.fresh_tool = Some(said.stand.position.given);
     want.tool_changes += 1;
     let shape = &*shape;
     operation_comment(change, shape.routine(id, want, said), shape, want, said, out)?;

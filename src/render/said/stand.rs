@@ -22,8 +22,9 @@ pub struct Stand {
     pub left_hole: Option<(Axes, f64)>,
     /// The sequence that took the tool away from its place by numbers of its own; a rapid brings it back.
     pub moved_by: Option<Span>,
-    /// The tool has made no cut by a line since its change: the first one must have a beginning.
-    pub fresh_tool: bool,
+    /// While the tool has made no cut by a line or an arc since its change: the axes along which the tool before it had a place. The
+    /// first cut must have a beginning along these too.
+    pub fresh_tool: Option<u8>,
 }
 
 impl Stand {

@@ -47,9 +47,12 @@ impl Way {
             }
             // a leg as short as the tolerance may lead anywhere
             let leads = |a: &Rapid, b: &Rapid| distance(&a.to, &b.to) > LEG * tolerance;
+            // a steep rapid is no part of the vertical one behind it: the height at which they meet counts
+            let crosses = |a: &Rapid, b: &Rapid| !same(&a.to, &b.to, ACROSS, tolerance);
             if let [.., before, last] = self.corners.as_slice()
                 && leads(before, last)
                 && leads(last, rapid)
+                && crosses(before, last) == crosses(last, rapid)
                 && (last.spin.is_none() || last.spin == rapid.spin)
                 && (before.unknown | last.unknown | rapid.unknown) == 0
                 && lies_between(&before.to, &last.to, &rapid.to, tolerance)

@@ -195,6 +195,13 @@ fn right_programs_are_proven() {
             ),
         ),
         (
+            "a cut that no digits show between two rapids behind the last hole",
+            one(
+                r#"{"rapid":[0,0.001,1]},{"cycle":{"kind":"drill","depth":0.9,"clear":0.1,"return":0.48,"feed":6,"points":[[0,0.001,0]]}},{"rapid":[0,0,-0.098]},{"line":[0,0.00001,-0.098]},{"rapid":[0,0.00001,-0.099]}"#,
+            )
+            .replace("\"mm\"", "\"inch\""),
+        ),
+        (
             "mist on a machine without it",
             one(r#"{"rapid":[0,0,25]},{"coolant":"mist"},{"line":[0,0,1]},{"rapid":[0,0,25]}"#),
         ),

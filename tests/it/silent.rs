@@ -322,6 +322,15 @@ fn a_turret_has_no_other_registers() {
         let job = text("{\"number\":1}", 1).replace("{\"rapid\":[0.1,1]}", path);
         assert!(post("haas-lathe", &job)[0].starts_with("PR012"), "{path}");
     }
+    // nor along an axis on which only the tool before had a place
+    let two = text("{\"number\":1},{\"number\":2}", 1);
+    for path in ["{\"line\":[null,0.2]}", "{\"arc\":{\"to\":[null,0.2],\"radius\":0.3,\"direction\":\"cw\"}}"] {
+        let second = format!(
+            "}},{{\"tool\":2,\"spindle\":{{\"speed\":500,\"direction\":\"cw\",\"max\":1000}},\"feed\":0.01,\"path\":[{{\"rapid\":[null,0.5]}},{path}]}}]}}"
+        );
+        let job = format!("{}{second}", two.strip_suffix("}]}").unwrap());
+        assert!(post("haas-lathe", &job)[0].starts_with("P"), "{path}: {:?}", post("haas-lathe", &job));
+    }
     let bore = "{\"rapid\":[0.1,0]},{\"cycle\":{\"kind\":\"bore\",\"depth\":1,\"clear\":0.1,\"orient\":0,\"offset\":0.02,\"feed\":0.01,\"points\":[[0,0]]}}";
     let job = text("{\"number\":1}", 1).replace("{\"rapid\":[0.1,1]}", bore);
     assert!(post("haas-lathe", &job)[0].starts_with("PR006"), "{:?}", post("haas-lathe", &job));

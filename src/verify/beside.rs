@@ -59,20 +59,23 @@ pub fn prove_beside(
     let text = Text { queue: Rc::clone(&queue), chunk: Vec::new(), at: 0 };
     let mut comparer = Comparer::new(text, settings, expectation, tolerance);
     let mut found = 0;
-    loop {
-        let next = queue.borrow_mut().event();
-        let Some((kept, place)) = next else { break };
-        if let (Event::Start(start), true) = (kept.event(), of_job) {
-            comparer.begin_in(start.units);
-        }
-        let flow = comparer.event(kept.event(), place);
-        if comparer.found() > found {
-            found = comparer.found();
-            let queue = queue.borrow();
-            comparer.locate(|line| queue.origin(line));
-        }
-        if flow.is_break() {
-            break;
+    'job: loop {
+        let next = queue.borrow_mut().events();
+        let Some(events) = next else { break };
+        for (kept, place) in &events {
+            let event = kept.event();
+            if let (Event::Start(start), true) = (&event, of_job) {
+                comparer.begin_in(start.units);
+            }
+            let flow = comparer.event(event, *place);
+            if comparer.found() > found {
+                found = comparer.found();
+                let queue = queue.borrow();
+                comparer.locate(|line| queue.origin(line));
+            }
+            if flow.is_break() {
+                break 'job;
+            }
         }
     }
     let (counts, warnings) = (comparer.counts(), comparer.warnings());
@@ -90,7 +93,7 @@ fn only_a_file(why: &'static str) -> io::Error {
 /// What came and was not needed yet.
 struct Queue<I> {
     batches: I,
-    events: VecDeque<(Kept, Place)>,
+    events: VecDeque<Vec<(Kept, Place)>>,
     texts: VecDeque<Vec<u8>>,
     /// Where the lines of the texts came from: of those that wait, of the one that is run and of the one before it.
     traces: VecDeque<Vec<TraceLine>>,
@@ -100,7 +103,9 @@ impl<I: Iterator<Item = Batch>> Queue<I> {
     /// Takes the next batch in; `false`: there is none.
     fn pull(&mut self) -> bool {
         let Some(batch) = self.batches.next() else { return false };
-        self.events.extend(batch.events);
+        if !batch.events.is_empty() {
+            self.events.push_back(batch.events);
+        }
         if !batch.text.is_empty() {
             self.texts.push_back(batch.text);
             self.traces.push_back(batch.trace);
@@ -108,14 +113,15 @@ impl<I: Iterator<Item = Batch>> Queue<I> {
         true
     }
 
-    fn event(&mut self) -> Option<(Kept, Place)> {
+    /// The next events, as many as came at once.
+    fn events(&mut self) -> Option<Vec<(Kept, Place)>> {
         while self.events.is_empty() && self.pull() {}
         self.events.pop_front()
     }
 
     fn text(&mut self) -> io::Result<Option<Vec<u8>>> {
         while self.texts.is_empty() && self.pull() {
-            if self.events.len() > MOST_WAITING {
+            if self.events.iter().map(Vec::len).sum::<usize>() > MOST_WAITING {
                 return Err(only_a_file("the program prints nothing for a long part of the job"));
             }
         }

@@ -14,7 +14,7 @@ use super::states::has_feed;
 use super::tables::PLACES;
 use super::verdict::{Equivalences, Unproven, Verdict};
 use super::wire_codes::Coded;
-use super::{arcs, begin, holes, lines, pauses, threads, ways, wire};
+use super::{arcs, begin, holes, lines, pauses, threads, usual, ways, wire};
 use crate::diag::{Code, Diag};
 use crate::lang::Machine;
 use crate::nc::RunSettings;
@@ -162,6 +162,9 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         match hole {
             Some(_) => self.hole.cut = true,
             None => self.hole.highest = None,
+        }
+        if hole.is_none() && usual::goes_on(self, cut)? {
+            return Ok(());
         }
         if hole.is_some_and(|hole| hole.pecks) {
             if self.hole.pecks.is_empty() {

@@ -153,7 +153,14 @@ pub(super) const DEPTH: usize = 2;
 pub(super) const ACROSS: u8 = ALL & !(1 << DEPTH);
 
 /// Are two places one, on these axes? An angle and the same after a whole turn are.
+#[inline]
 pub(super) fn same(a: &Place, b: &Place, axes: u8, tolerance: f64) -> bool {
+    // most are near on every axis, which needs no branches
+    let all_near = a.iter().zip(b).fold(true, |near, (a, b)| near & ((a - b).abs() <= tolerance));
+    all_near || same_on(a, b, axes, tolerance)
+}
+
+fn same_on(a: &Place, b: &Place, axes: u8, tolerance: f64) -> bool {
     (0..8).filter(|axis| axes & 1 << axis != 0).all(|axis| {
         let difference = a[axis] - b[axis];
         difference.abs() <= tolerance

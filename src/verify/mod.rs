@@ -32,6 +32,7 @@ mod subprograms;
 mod tables;
 mod threads;
 mod unknown;
+mod usual;
 mod verdict;
 mod way;
 mod ways;

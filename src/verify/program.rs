@@ -141,11 +141,16 @@ impl<R: BufRead + Seek> Program<R> {
         self.scale.wanted = units;
     }
 
-    /// The next cut, which stays until it is taken; `None` at the program's end.
+    /// The cut to which the program was run.
+    pub fn cut(&self) -> Option<&Cut> {
+        self.cut.as_ref()
+    }
+
+    /// Runs the program to its next cut, which stays until it is taken; `None` at the program's end.
     ///
     /// # Errors
     /// The program can't be read, or its control refuses a block.
-    pub fn peek(&mut self) -> Result<Option<Cut>, RunError> {
+    pub fn run_to_cut(&mut self) -> Result<Option<&Cut>, RunError> {
         while self.cut.is_none() {
             if self.next == self.items.len() {
                 // a Grbl would take more blocks, if its sender goes on
@@ -164,13 +169,14 @@ impl<R: BufRead + Seek> Program<R> {
             self.items = items;
             self.next += 1;
         }
-        Ok(self.cut)
+        Ok(self.cut())
     }
 
     /// The cut is dealt with.
     pub fn take(&mut self) {
-        if let Some(cut) = self.cut.take() {
+        if let Some(cut) = &self.cut {
             self.at = cut.end();
+            self.cut = None;
             // a cut may say a height that was unknown
             self.unknown = self.scale.axes(self.simulator.state().at_machine());
             self.passage.begin(Rapid { to: self.at, unknown: self.unknown, spin: Some(self.spin) });

@@ -54,8 +54,8 @@ pub fn compare_motions<R: BufRead + Seek>(
     let mut ways = [Way::default(), Way::default()];
     let mut motions = Motions::default();
     loop {
-        let x = a.peek().map_err(|error| NoMotion(0, error))?;
-        let y = b.peek().map_err(|error| NoMotion(1, error))?;
+        let x = a.run_to_cut().map_err(|error| NoMotion(0, error))?.copied();
+        let y = b.run_to_cut().map_err(|error| NoMotion(1, error))?.copied();
         let blocks = |a: &Program<R>, b: &Program<R>| {
             [(x.map_or(0, |cut| cut.line), a.text()), (y.map_or(0, |cut| cut.line), b.text())]
         };

@@ -4,6 +4,9 @@ use super::cut::{Place, UNSAID, place, position};
 use crate::nc::Position;
 use crate::toolpath::Units;
 
+/// No axis has another name in the program.
+const AS_WRITTEN: [u8; 6] = [0, 1, 2, 3, 4, 5];
+
 /// How the numbers of the program become the job's.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
@@ -20,6 +23,7 @@ pub(super) struct Scale {
 }
 
 impl Scale {
+    #[inline]
     pub fn factor(self) -> f64 {
         match (self.units, self.wanted) {
             (Units::Inch, Units::Mm) => 25.4,
@@ -37,8 +41,12 @@ impl Scale {
         }
     }
 
-    pub fn place(self, to: &Position) -> Place {
+    #[inline]
+    pub fn place(&self, to: &Position) -> Place {
         let factor = self.factor();
+        if factor == 1.0 && self.axes == AS_WRITTEN && self.wire.is_none() {
+            return place(to);
+        }
         if let Some(unsaid) = self.wire {
             let [x, y, u, v, ..] = *to;
             let guide = |axis: u8, value: f64| if unsaid & 1 << axis == 0 { value * factor } else { UNSAID };

@@ -100,8 +100,14 @@ impl<R: BufRead + Seek> Sides<R> {
 
     /// The program's next cut.
     pub fn next(&mut self) -> Result<Option<Cut>, Box<Diag>> {
-        match self.program.peek() {
-            Ok(cut) => Ok(cut),
+        self.run_to_cut()?;
+        Ok(self.program.cut().copied())
+    }
+
+    /// Runs the program to its next cut.
+    pub fn run_to_cut(&mut self) -> Result<(), Box<Diag>> {
+        match self.program.run_to_cut().map(drop) {
+            Ok(()) => Ok(()),
             Err(RunError::Refused(diag, line)) if is_unknown(diag.code, self.program.control()) => {
                 let why = unknown_code(&diag, self.program.control());
                 let help = "describe the code in a file of the control, or see what it does at the machine";

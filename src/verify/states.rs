@@ -34,9 +34,7 @@ pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cu
         s.found(code, found.line, help, || message.clone());
     }
     agree &= speed(s, cut, found, tap);
-    if agree {
-        s.agreed = Some(states);
-    }
+    s.agreed = agree.then_some(states);
 }
 
 fn tool([wanted, is]: &[State; 2], tools: bool) -> Option<Differs> {

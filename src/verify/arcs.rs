@@ -37,7 +37,9 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
         let end = found.end();
         let part = Turn { to: position(&end), turns: 0, ..*turn };
         // from where the program stands: its digits may close a circle that the job's do not, and the other way
-        let mut angle = sweep(&found.from, &part);
+        let straight_up = matches!(found.what, What::Line { .. })
+            && [first, second].iter().all(|&axis| (end[axis] - found.from[axis]).abs() < 1e-9);
+        let mut angle = if straight_up { 0.0 } else { sweep(&found.from, &part) };
         let mut bulge = radius * (1.0 - (angle.min(std::f64::consts::TAU) / 2.0).cos());
         let slack = match found.what {
             What::Arc(made) => {

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, distance, is_straight, over, same, shown};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, apart, is_straight, over, same, shown};
 use super::expectation::Expectation;
 use super::intended::Job;
 use super::intent::{Done, Expected, Intent, Threaded};
@@ -54,6 +54,7 @@ impl<R: BufRead + Seek> Comparer<R> {
                 before: super::cut::State::default(),
                 agreed: None,
                 slipped: None,
+                threaded: None,
                 slips: 0,
                 tools,
                 machine: Machine::Mill,
@@ -159,6 +160,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
     }
 
     fn cut(&mut self, cut: &Cut, hole: Option<&Expected>) -> Done {
+        self.threaded = None;
         match hole {
             Some(_) => self.hole.cut = true,
             None => self.hole.highest = None,
@@ -324,7 +326,7 @@ impl<R: BufRead + Seek> Sides<R> {
         // where both are as near, a stop or dwell before it tells
         let pauses = |passage: &Passage| (passage.stops.len(), passage.waits.len());
         let tie = if pauses(&self.program.passage) == pauses(&self.job) { 1e-9 } else { -1e-9 };
-        let nearer = distance(&found.end(), &cut.end()) <= distance(&found.from, &cut.end()) + tie;
+        let nearer = apart(&found.end(), &cut.end()) <= apart(&found.from, &cut.end()) + tie;
         let circle = matches!(found.what, What::Arc(_)) && !found.is_short(tolerance);
         Ok(!joins || !nearer || circle)
     }

@@ -194,6 +194,11 @@ pub(super) fn distance(a: &Place, b: &Place) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
+/// How far apart two places are, straight.
+pub(super) fn apart(a: &Place, b: &Place) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+}
+
 /// `X1 Y2.5 Z-0.1`, with angles where there are any.
 pub(super) fn shown(place: &Place, axes: u8) -> String {
     // a guided wire has no height

@@ -68,7 +68,7 @@ pub(super) struct Expected {
 }
 
 /// What one start of a thread must be; radii.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Threaded {
     /// Where its passes begin: beside it.
     pub begin: Place,

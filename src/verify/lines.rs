@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, What, lies_between, number, over, same, shown, turn_as_far};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, What, apart, lies_between, number, over, same, shown, turn_as_far};
 use super::intent::{Done, Expected};
 use super::state::Sides;
 use super::states;
@@ -82,10 +82,7 @@ fn ends<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Optio
 
 /// The cut as one of its parts must be: in inverse time a part has a part of the time.
 fn in_parts(cut: &Cut, part: &Cut) -> Cut {
-    let length = |cut: &Cut| {
-        let end = cut.end();
-        (0..8).map(|axis| (end[axis] - cut.from[axis]).powi(2)).sum::<f64>().sqrt()
-    };
+    let length = |cut: &Cut| apart(&cut.from, &cut.end());
     let share = length(part) / length(cut);
     match cut.mode {
         FeedMode::InverseTime => Cut { feed: cut.feed.map(|feed| feed / share), ..*cut },

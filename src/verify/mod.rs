@@ -7,6 +7,7 @@ mod arcs;
 mod begin;
 mod beside;
 mod calls;
+mod compared;
 mod comparer;
 mod cut;
 mod expectation;

@@ -2,11 +2,12 @@
 
 use std::io::{BufRead, Seek};
 
+use super::compared::{Compared, compare, leaves_low};
 use super::cut::{ALL, Cut, State, What, number, place, same, same_dwell, shown};
 use super::expectation::Expectation;
 use super::passage::Mark;
 use super::program::Program;
-use super::way::{Compared, Way, compare, leaves_low};
+use super::way::Way;
 use crate::nc::{Cooling, RunError, RunSettings, axes_of};
 use crate::toolpath::{StopKind, Units};
 
@@ -62,6 +63,7 @@ pub fn compare_motions<R: BufRead + Seek>(
         let starts = [a.start(), b.start()];
         for (way, (program, start)) in ways.iter_mut().zip([(&a, starts[0]), (&b, starts[1])]) {
             way.set(Some(start), &program.passage.rapids, tolerance);
+            way.join(tolerance);
         }
         motions.codes += u64::from(a.passage.codes != b.passage.codes);
         let (Some(cut), Some(found)) = (x, y) else {
@@ -84,10 +86,11 @@ pub fn compare_motions<R: BufRead + Seek>(
             return Ok(Motions { difference, ..motions });
         };
         let known = starts.iter().all(|start| start.unknown == 0);
-        let way = match ways[0].is(&ways[1], tolerance) {
+        let [left, right] = &mut ways;
+        let way = match left.is(right, tolerance) {
             true => Compared::Same,
-            false => match compare(&ways[0], &ways[1], known, tolerance) {
-                Compared::AsGood { .. } => higher(compare(&ways[1], &ways[0], known, tolerance)),
+            false => match compare(left, right, known, tolerance) {
+                Compared::AsGood { .. } => higher(compare(right, left, known, tolerance)),
                 other => other,
             },
         };

@@ -3,7 +3,7 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{Cut, Place, Rapid, State};
-use super::intent::Expected;
+use super::intent::{Expected, Threaded};
 use super::own::Own;
 use super::passage::{Frame, Passage};
 use super::program::Program;
@@ -60,6 +60,8 @@ pub(super) struct Sides<R> {
     pub agreed: Option<[State; 2]>,
     /// The last cuts ended at different places: the next begin there, and are in step.
     pub slipped: Option<[Place; 2]>,
+    /// The last thread, while no other cut came: how many passes of it the program made beyond those of the job.
+    pub threaded: Option<(Threaded, usize)>,
     /// How many cuts ended at different places since the last that did not.
     pub slips: u32,
     /// The machine loads tools.

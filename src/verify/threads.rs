@@ -5,6 +5,7 @@ use std::io::{BufRead, Seek};
 use super::begin::unsaid;
 use super::cut::{Cut, DEPTH, RADIUS, Rapid, number, place, same, shown};
 use super::intent::{Done, Threaded};
+use super::passage::Passage;
 use super::state::Sides;
 use super::states;
 use super::tables::{LONGER, PITCH};
@@ -19,6 +20,11 @@ impl Threaded {
         let across = near(found.from[RADIUS] - to[RADIUS], self.taper);
         let is_one = found.lead.is_some() && found.unknown == 0 && along && across;
         is_one.then(|| (to[RADIUS] - self.crest) * self.inward)
+    }
+
+    /// Is it another from the same height on, wherever the tool came from?
+    fn is_again(&self, other: &Threaded) -> bool {
+        self.begin[DEPTH] == other.begin[DEPTH] && *self == Threaded { begin: self.begin, ..other.clone() }
     }
 
     /// Does a rapid between passes go through what is not cut? Along the axis the tool goes beside the crest, and in it goes where
@@ -43,11 +49,12 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
     let mut as_job = true;
     while let Some(found) = s.next()? {
         let Some(depth) = thread.depth(&found, tolerance) else { break };
-        // deeper, or of another lead, it is the next thread's
+        // deeper, outside the crest, of another lead, or behind a stop, it is the next thread's
         let is_cut = count > 0 && (reached - whole).abs() <= 2.0 * tolerance;
         let lead = found.lead.unwrap_or(0.0);
         let has_lead = (lead - thread.lead).abs() <= PITCH * thread.lead;
-        if is_cut && (depth > whole + 2.0 * tolerance || !has_lead) {
+        let beside = depth > whole + 2.0 * tolerance || depth < -2.0 * tolerance;
+        if is_cut && (beside || !has_lead || is_parted(&s.program.passage)) {
             break;
         }
         let from = Rapid { to: found.from, unknown: found.unknown, spin: None };
@@ -81,6 +88,17 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
         line = found.line;
         s.program.take();
     }
+    let made = s.threaded.take().filter(|(before, _)| thread.is_again(before)).map_or(0, |(_, more)| more);
+    let again = count == 0
+        && made >= thread.passes.len()
+        && !is_parted(&s.job)
+        && s.agreed.as_ref().is_some_and(|[wanted, _]| *wanted == cut.state);
+    if again {
+        // the same once more: the passes of both came one after the other
+        s.threaded = Some((thread.clone(), made - thread.passes.len()));
+        leave(s, thread, whole);
+        return Ok(());
+    }
     if count == 0 {
         let found = s.next()?;
         let (line, is) = found.map_or((0, "nothing".into()), |found| {
@@ -109,8 +127,15 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
             format!("a pass of the thread cuts {}, the job's at most {}", number(coarsest), number(longest))
         });
     }
-    s.report.counts.cuts += 1;
     s.report.allowed.threads += u64::from(!as_job || count != thread.passes.len());
+    s.threaded = Some((thread.clone(), count.saturating_sub(thread.passes.len())));
+    leave(s, thread, whole);
+    Ok(())
+}
+
+/// The thread is cut.
+fn leave<R: BufRead + Seek>(s: &mut Sides<R>, thread: &Threaded, whole: f64) {
+    s.report.counts.cuts += 1;
     // out of the last pass, and back beside the beginning
     let mut out = thread.begin;
     out[DEPTH] = thread.end;
@@ -122,7 +147,11 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
     s.job.begin(end);
     s.job.rapids.push(Rapid { to: out, unknown: 0, spin: None });
     s.job.rapids.push(Rapid { to: thread.begin, unknown: 0, spin: None });
-    Ok(())
+}
+
+/// Is there more than rapids on the way from one pass to the next?
+fn is_parted(passage: &Passage) -> bool {
+    passage.changed() || !passage.stops.is_empty() || !passage.waits.is_empty()
 }
 
 /// What must hold at a pass: its lead is compared for itself.
@@ -140,8 +169,7 @@ fn between<R: BufRead + Seek>(s: &mut Sides<R>, thread: &Threaded, to: Rapid, li
         low = low.or(thread.is_crossed(&at, rapid, tolerance).then_some(rapid.to));
         at = *rapid;
     }
-    let changed = passage.changed() || !passage.stops.is_empty() || !passage.waits.is_empty();
-    if changed || !same(&at.to, &to.to, super::cut::ALL, tolerance) {
+    if is_parted(passage) || !same(&at.to, &to.to, super::cut::ALL, tolerance) {
         let message = "a stop, a dwell or another tool between the passes of a thread".to_owned();
         return s.differs(Code::PV001, line, message, "look at what the form prints between the passes");
     }

@@ -2,10 +2,10 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ALL, DEPTH, Rapid, number, same, shown};
+use super::compared::{Compared, compare as compare_way, enters_hole, leaves_hole, leaves_low};
+use super::cut::{ALL, DEPTH, RADIUS, Rapid, number, same, shown};
 use super::passage::{Frame, Leg};
 use super::state::Sides;
-use super::way::{Compared, compare as compare_way, enters_hole, leaves_hole, leaves_low};
 use crate::diag::Code;
 use crate::lang::Machine;
 
@@ -203,8 +203,12 @@ pub(super) fn end<R: BufRead + Seek>(s: &mut Sides<R>) {
 /// slanted rapid may go round its corner, farther from the chuck.
 fn beside_the_part<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     let tolerance = s.limits.tolerance;
+    let is_lathe = s.machine == Machine::Lathe;
     let known = |rapids: &[Rapid]| -> Vec<Rapid> {
-        rapids.iter().filter(|rapid| rapid.unknown == 0).map(|rapid| Rapid { spin: None, ..*rapid }).collect()
+        let mut rapids: Vec<Rapid> = rapids.iter().map(|rapid| Rapid { spin: None, ..*rapid }).collect();
+        rapids.retain(|rapid| rapid.unknown == 0 || is_lathe && rapid.unknown == 1 << RADIUS);
+        rapids.iter_mut().filter(|rapid| rapid.unknown != 0).for_each(|rapid| rapid.to[RADIUS] = f64::NAN);
+        rapids
     };
     let [own, made] = [known(&s.job.rapids), known(&s.program.passage.rapids)];
     let [job, program] = &mut s.ways;
@@ -213,14 +217,14 @@ fn beside_the_part<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     let [from, begun] = starts.map(|start| start.filter(|_| both_known));
     job.set_all(from, &own);
     program.set_all(begun, &made);
-    let [wanted, is] = match job.is_followed(program, s.machine == Machine::Lathe, tolerance) {
+    let [wanted, is] = match job.is_followed(program, is_lathe, tolerance) {
         Ok(rounds) => {
             s.report.allowed.ways += rounds;
             return;
         }
         Err(corners) => *corners,
     };
-    let axes = if s.machine == Machine::Lathe { 0b101 } else { 0b11 };
+    let axes = if is_lathe { 0b101 } else { 0b11 };
     let shown = |corner: Option<Rapid>| corner.map_or("nowhere".to_owned(), |corner| shown(&corner.to, axes));
     s.found(Code::PV001, line, "look at what the form prints for the rapids here", || {
         format!("a rapid goes to {}, the job's to {}", shown(is), shown(wanted))

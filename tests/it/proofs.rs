@@ -202,11 +202,31 @@ fn right_programs_are_proven() {
             .replace("\"mm\"", "\"inch\""),
         ),
         (
+            "a short rapid, and a steep one to a hole",
+            one(
+                r#"{"rapid":[3.303748,2.414227,0.889611]},{"rapid":[3.302748,2.414227,0.889611]},{"cycle":{"kind":"drill","return":0.961747,"depth":0.3,"clear":0.1,"feed":7,"points":[[-2.96535,3.032355,0]]}}"#,
+            )
+            .replace("\"mm\"", "\"inch\""),
+        ),
+        (
+            "a cut that no digits show, a short rapid and a short cut",
+            one(
+                r#"{"rapid":[0,0,30]},{"line":[97.75,-76,25.1]},{"line":[97.75,-75.99975,25.1]},{"rapid":[97.75,-75.99975,25.0975]},{"line":[97.7475,-75.99975,25.0975]}"#,
+            ),
+        ),
+        (
             "mist on a machine without it",
             one(r#"{"rapid":[0,0,25]},{"coolant":"mist"},{"line":[0,0,1]},{"rapid":[0,0,25]}"#),
         ),
     ];
     all_are_right(&jobs, &["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"]);
+    let oriented = [(
+        "a back bore beside the last one, where that one was left",
+        one(
+            r#"{"rapid":[51,-61,25]},{"cycle":{"kind":"back","depth":5,"clear":3,"feed":450,"rapto":11,"orient":90,"offset":1,"points":[[51,-61,0],[51,-62,0]]}}"#,
+        ),
+    )];
+    all_are_right(&oriented, &["fanuc.pf", "haas.pf", "linuxcnc.pf"]);
 }
 
 /// Ways of a lathe that are no longer than its digits, or straight on through a corner.
@@ -232,6 +252,45 @@ fn right_ways_of_lathes_are_proven() {
         ),
     ];
     all_are_right(&jobs.map(|(name, path)| (name, job(&path))), &["fanuc-lathe.pf", "haas-lathe.pf"]);
+}
+
+/// Threads one after the other: the passes of the second are its own.
+#[test]
+fn right_threads_are_proven() {
+    let job = |path: &str| {
+        format!(
+            r#"{{"postform":1,"program":1,"units":"mm","machine":"lathe","tools":[{{"number":1}}],"operations":[{{"tool":1,"spindle":{{"direction":"cw","speed":500,"max":1000}},"feed":0.3,"path":[{{"rapid":[2,42]}},{path}]}}]}}"#
+        )
+    };
+    let thread = |radius: u32, passes: &str| {
+        format!(r#"{{"thread":{{"from":[2,{radius}],"to":[-26,{radius}],"pitch":2,"depth":1,{passes}}}}}"#)
+    };
+    let (whole, four) = (r#""first_depth":1"#, r#""passes":4"#);
+    let jobs = [
+        ("one farther out", format!("{},{}", thread(11, whole), thread(22, four))),
+        ("the same once more", format!("{},{}", thread(11, whole), thread(11, whole))),
+        (
+            "the same once more, from elsewhere",
+            format!("{},{{\"rapid\":[10,48]}},{}", thread(11, four), thread(11, four)),
+        ),
+        ("a stop before the same", format!("{},{{\"stop\":\"program\"}},{}", thread(11, four), thread(11, four))),
+    ];
+    // each pass a block of its own, as on a control without a cycle
+    let passes = include_str!("../data/forms/lathe-radius.pf");
+    for (name, path) in &jobs {
+        is_right(name, of_post("haas-lathe.pf", &job(path)));
+        is_right(name, of_form(passes, &job(path)));
+    }
+}
+
+/// A helix of no width to speak of, which a form with radius words divides where its centre would move.
+#[test]
+fn a_steep_helix_in_parts_is_proven() {
+    let helix = r#"{"rapid":[1,1,1]},{"rapid":[0.9621,-0.05,0.1]},{"line":[0.9620692,-0.05,-0.1432692]},{"arc":{"to":[0.96283,-0.0500907,-0.2],"center":[0.91,-0.49,-0.1432692],"direction":"cw"}}"#;
+    let job = one(helix).replace("\"mm\"", "\"inch\"");
+    let (program, verdict) = of_form(include_str!("../data/forms/radius-words.pf"), &job);
+    assert!(program.contains("R.4431"), "{program}");
+    is_right("a steep helix", (program, verdict));
 }
 
 /// Forms of shops: dwells for the spindle, other letters, a move home before the next tool.

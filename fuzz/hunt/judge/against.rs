@@ -16,6 +16,11 @@ fn cuts(what: &What) -> bool {
     matches!(what, What::Feed | What::Arc { .. } | What::Hole { .. } | What::Thread(_))
 }
 
+/// Is it the same once more?
+fn again(before: &Wanted, wanted: &Wanted) -> bool {
+    before.want == wanted.want && before.to == wanted.to
+}
+
 fn shown(place: &Place) -> String {
     let list: Vec<String> = place.iter().map(|number| format!("{:.4}", number)).collect();
     list.join(" ")
@@ -44,19 +49,19 @@ impl Judge<'_> {
             };
             if one_way && same(&wanted.from, &wanted.to, self.within) && wanted.from[3..] == wanted.to[3..] {
                 // shorter than the digits can say: the program may have it or not
-                let is_made = self.next().is_some_and(|act| {
+                let is_part = |act: Act| {
                     matches!(act.what, What::Feed | What::Arc { .. })
                         && same(&act.from, &wanted.from, 2.0 * self.within)
                         && same(&act.to, &wanted.to, 2.0 * self.within)
-                });
-                if is_made && *left > 0 {
+                };
+                let mut made = self;
+                while *left > 0 && made.next().is_some_and(is_part) {
                     *left -= 1;
-                    let mut made = self;
                     made.take();
                     made.follow(&wants[number + 1..], left)?;
                 }
                 self.allowed = self.allowed.min(wanted.low);
-            } else if let Some(difference) = self.meet(wanted) {
+            } else if let Some(difference) = self.meet(wanted, number > 0 && again(&wants[number - 1], wanted)) {
                 return Some(difference);
             } else if matches!(wanted.want, Want::Arc { .. }) {
                 // parts at its end that are shorter than the digits can say, or the next arc
@@ -116,13 +121,14 @@ impl Judge<'_> {
         lowest
     }
 
-    fn meet(&mut self, wanted: &Wanted) -> Option<String> {
+    /// `again`: the job had the same just before.
+    fn meet(&mut self, wanted: &Wanted, again: bool) -> Option<String> {
         match &wanted.want {
             Want::Stop(_) | Want::Dwell(_) => self.pass(wanted),
             Want::Line => self.line(wanted),
             Want::Arc { .. } => self.arc(wanted),
             Want::Hole { .. } => self.hole(wanted),
-            Want::Thread { .. } => self.thread(wanted),
+            Want::Thread { .. } => self.thread(wanted, again),
         }
     }
 
@@ -204,7 +210,7 @@ impl Judge<'_> {
     }
 
     /// All passes of a thread.
-    fn thread(&mut self, wanted: &Wanted) -> Option<String> {
+    fn thread(&mut self, wanted: &Wanted, again: bool) -> Option<String> {
         let Want::Thread { begin, crest, depth, lead } = wanted.want else { return None };
         let inward = if depth < 0.0 { 1.0 } else { -1.0 };
         let (mut reached, mut passes) = (0.0f64, 0);
@@ -213,8 +219,9 @@ impl Judge<'_> {
             let along = near(act.from[2], begin, self.within) && near(act.to[2], wanted.to[2], self.within);
             let others =
                 (is - lead).abs() > 0.003 * lead || (act.to[0] - crest) * inward > depth.abs() + 2.0 * self.within;
-            // the next thread's
-            if (!along || others) && passes > 0 && near(reached, depth.abs(), 2.0 * self.within) {
+            // the next thread's, which may be farther out
+            let outside = (act.to[0] - crest) * inward < -2.0 * self.within;
+            if (!along || others || outside) && passes > 0 && near(reached, depth.abs(), 2.0 * self.within) {
                 break;
             }
             if !along {
@@ -229,6 +236,9 @@ impl Judge<'_> {
             reached = reached.max((act.to[0] - crest) * inward);
             passes += 1;
             self.take();
+        }
+        if passes == 0 && again {
+            return None; // its passes came behind those of the same thread before it
         }
         if passes == 0 || !near(reached, depth.abs(), 2.0 * self.within) {
             return Some(format!("a thread {reached:.4} deep in {passes} passes, the job's {:.4}", depth.abs()));

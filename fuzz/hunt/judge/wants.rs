@@ -223,6 +223,10 @@ impl Reader {
             self.thread(thread)?;
         } else if let Some(text) = item.get("text").and_then(Value::as_str) {
             // a comment, an optional stop, coolant, a dwell of no time: none moves the tool
+            if text == "M1" {
+                let at = self.at;
+                self.put(Want::Stop(1.0), at);
+            }
             return (text.starts_with('(') || ["M1", "M8", "G4 P0"].contains(&text)).then_some(());
         }
         Some(())

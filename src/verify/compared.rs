@@ -1,0 +1,382 @@
+//! Ways compared: the program's from one cut to the next with the job's.
+
+use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, same};
+use super::way::{Way, across};
+
+/// How a program's way compares with the job's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Compared {
+    /// The job's way, moves of no length and parts of one straight rapid joined.
+    Same,
+    /// A way with another order of axes, or higher, and nowhere lower; each move across has its own in the job, or not.
+    AsGood { step_by_step: bool },
+    /// Lower than the job's at this place.
+    Lower(Place, f64),
+    /// Across to a place where the job does not go.
+    Elsewhere(Place),
+    /// The job's way with the spindle turning otherwise.
+    Turning,
+}
+
+/// So many tolerances long is a rapid across at most that the digits of both its ends make of one that goes up.
+const ROUNDED: f64 = 2.0;
+
+/// Compares the program's way with the job's, rapid by rapid and, where that tells them apart, with the parts of straight rapids
+/// joined. Both ways are then joined.
+pub(super) fn compare(job: &mut Way, program: &mut Way, known_start: bool, tolerance: f64) -> Compared {
+    let by_rapids = compare_as_they_are(job, program, known_start, tolerance);
+    if !matches!(by_rapids, Compared::Same | Compared::Turning | Compared::AsGood { step_by_step: true }) {
+        job.join(tolerance);
+        program.join(tolerance);
+        let joined = compare_as_they_are(job, program, known_start, tolerance);
+        if !matches!((by_rapids, joined), (Compared::AsGood { .. }, Compared::Lower(..) | Compared::Elsewhere(_))) {
+            return joined;
+        }
+    }
+    by_rapids
+}
+
+/// Compares the program's way with the job's.
+///
+/// Where both begin is known, the heights of their moves across are compared end by end. Where the job's beginning is
+/// unknown (after a tool change), the program comes to the job's first place from anywhere, but not lower than that.
+fn compare_as_they_are(job: &Way, program: &Way, known_start: bool, tolerance: f64) -> Compared {
+    let Some(first) = job.corners.first().filter(|_| !known_start) else {
+        return compare_corners(
+            &job.corners,
+            &program.corners,
+            known_start,
+            usize::from(!known_start && program.begun),
+            tolerance,
+        );
+    };
+    // over its first place the job may go down before it goes across
+    let over_it = job.corners.iter().take_while(|corner| same(&corner.to, &first.to, ACROSS, tolerance));
+    let lowest = over_it.map(|corner| corner.to[DEPTH]).fold(first.to[DEPTH], f64::min);
+    let there = |exactly: u8| {
+        program.corners.iter().position(|corner| {
+            corner.unknown == 0
+                && same(&corner.to, &first.to, exactly, tolerance)
+                && corner.to[DEPTH] >= lowest - tolerance
+        })
+    };
+    let Some(arrived) = there(ALL).or_else(|| there(ACROSS)) else {
+        return compare_corners(&job.corners, &program.corners, false, usize::from(program.begun), tolerance);
+    };
+    // the beginning is where the last cut ended
+    let low = program.corners[..=arrived]
+        .iter()
+        .skip(usize::from(program.begun))
+        .find(|corner| height(corner) < lowest - tolerance);
+    let crosses = across(&program.corners[..=arrived], tolerance)
+        .find(|(a, b)| height(a).min(height(b)) < first.to[DEPTH] - tolerance);
+    if let Some(corner) = low.or(crosses.map(|(_, b)| b)) {
+        return Compared::Lower(corner.to, first.to[DEPTH]);
+    }
+    compare_corners(&job.corners, &program.corners[arrived..], true, 0, tolerance)
+}
+
+/// Does the spindle do at a corner of the program what the job says there, if it says anything?
+fn spins(job: &Rapid, program: &Rapid) -> bool {
+    job.spin.is_none_or(|wanted| program.spin.is_none_or(|is| is.serves(wanted)))
+}
+
+/// Must the spindle stand at an angle at this corner, and does it not, each time that the program comes there?
+fn stands_otherwise(corner: &Rapid, program: &[Rapid], tolerance: f64) -> bool {
+    let stands = matches!(corner.spin, Some(Spin::At(_) | Spin::Oriented));
+    let mut there = program.iter().filter(|other| same(&other.to, &corner.to, ALL, tolerance)).peekable();
+    stands && there.peek().is_some() && !there.any(|other| spins(corner, other))
+}
+
+/// Does the spindle do something else on the first rapid than the job says?
+fn leaves_turning_otherwise(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
+    let (Some(left), [start, first, ..]) = (job.get(1), program) else { return false };
+    // out by feed, the tool has left already
+    let left_before = start.unknown == 0 && same(&start.to, &left.to, ALL, tolerance);
+    !left_before && !spins(left, first)
+}
+
+/// A corner's height: what only the machine knows is high.
+fn height(rapid: &Rapid) -> f64 {
+    if rapid.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { rapid.to[DEPTH] }
+}
+
+/// How far along a straight rapid across a place lies, from 0 to 1, the place there, and the rapid's lowest height where
+/// digits can't tell places apart; `None`: the place is beside it.
+fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64, Place, f64)> {
+    // whole turns bring a rotary axis where it was
+    let turns = |axis: usize| (3..6).contains(&axis);
+    let way = |axis: usize| if turns(axis) { (to[axis] - from[axis]) % 360.0 } else { to[axis] - from[axis] };
+    let longest = (0..6).filter(|&axis| axis != DEPTH).max_by(|&a, &b| way(a).abs().total_cmp(&way(b).abs()))?;
+    let (far, whole) = (place[longest] - from[longest], way(longest));
+    let far = if turns(longest) { far - 360.0 * ((far - whole / 2.0) / 360.0).round() } else { far };
+    let part = (far / whole).clamp(0.0, 1.0);
+    let there: Place = std::array::from_fn(|axis| from[axis] + part * way(axis));
+    let steep = if whole == 0.0 { 0.0 } else { (way(DEPTH) / whole).abs() * tolerance };
+    let lowest = (there[DEPTH] - steep).max(from[DEPTH].min(to[DEPTH]));
+    same(place, &there, ACROSS, tolerance).then_some((part, there, lowest))
+}
+
+/// Is a rapid across nowhere beside the job's rapids across, or below them? It may go straight on over their corners.
+fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
+    let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
+    let [from, to] = [a, b].map(|end| {
+        let mut place = end.to;
+        place[DEPTH] = if height(end).is_infinite() { highest } else { place[DEPTH] };
+        place
+    });
+    let is_end = |place: &Place| [from, to].iter().any(|end| same(end, place, ACROSS, tolerance));
+    let crossed = job.iter().filter(|corner| !is_end(&corner.to));
+    let mut stops: Vec<(f64, Place, f64)> = crossed.filter_map(|c| along(&c.to, &from, &to, tolerance)).collect();
+    stops.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let over = |place: &Place, (c, d): (&Rapid, &Rapid)| {
+        along(place, &c.to, &d.to, tolerance).is_some_and(|(_, _, lowest)| place[DEPTH] >= lowest - tolerance)
+    };
+    let places: Vec<Place> = [from].into_iter().chain(stops.iter().map(|stop| stop.1)).chain([to]).collect();
+    (a.unknown | b.unknown) & ACROSS == 0
+        && places.windows(2).all(|piece| across(job, tolerance).any(|rapid| piece.iter().all(|end| over(end, rapid))))
+}
+
+/// `start`: so many corners of the program are where its last cut ended.
+fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: usize, tolerance: f64) -> Compared {
+    if known_start && job.len() == program.len() {
+        let pairs = || job.iter().zip(program);
+        if pairs().all(|(a, b)| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance)) {
+            return if pairs().all(|(a, b)| spins(a, b)) { Compared::Same } else { Compared::Turning };
+        }
+    }
+    let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
+    let crossing = across(job, tolerance).map(|(a, b)| height(a).min(height(b))).fold(highest, f64::min);
+    // at a place the way may be as low as the job's is there, and elsewhere as low as the job crosses
+    for corner in program.iter().skip(start) {
+        // where the job says its height alone, it may be anywhere
+        let there =
+            job.iter().filter(|other| other.unknown & 0b11 != 0 || same(&other.to, &corner.to, ACROSS, tolerance));
+        let at_corners = there.map(|other| other.to[DEPTH]).reduce(f64::min);
+        let floor = at_corners.unwrap_or(crossing);
+        if height(corner) >= floor - tolerance {
+            continue;
+        }
+        // on a steep rapid the digits of X and Y say little of the height
+        let is_on = |(a, b): (&Rapid, &Rapid)| {
+            along(&corner.to, &a.to, &b.to, tolerance)
+                .is_some_and(|(_, _, lowest)| height(corner) >= lowest - tolerance)
+        };
+        if at_corners.is_none() || !across(job, tolerance).any(is_on) {
+            return Compared::Lower(corner.to, floor);
+        }
+    }
+    // a spindle that must stand while the tool leaves, or stand at its angle
+    let turns = known_start && leaves_turning_otherwise(job, program, tolerance)
+        || job.iter().any(|corner| stands_otherwise(corner, program, tolerance));
+    if known_start && across(job, tolerance).count() == across(program, tolerance).count() {
+        let mut pairs = across(job, tolerance).zip(across(program, tolerance));
+        let all = pairs.all(|((a, b), (c, d))| {
+            same(&a.to, &c.to, ACROSS, tolerance)
+                && same(&b.to, &d.to, ACROSS, tolerance)
+                && height(c) >= a.to[DEPTH] - tolerance
+                && height(d) >= b.to[DEPTH] - tolerance
+        });
+        if all {
+            return if turns { Compared::Turning } else { Compared::AsGood { step_by_step: true } };
+        }
+    }
+    // other corners: nowhere across below what the job crosses at, and not at all where the job stays
+    let stays = across(job, tolerance).next().is_none();
+    for (a, b) in across(program, ROUNDED * tolerance).filter(|(a, b)| !is_over(a, b, job, tolerance)) {
+        let low = height(a).min(height(b));
+        if low < highest - tolerance || (stays && known_start && low.is_finite()) {
+            let to = b.to;
+            let goes_there = job.iter().any(|corner| same(&corner.to, &to, ACROSS, tolerance));
+            return if goes_there && !stays { Compared::Lower(to, highest) } else { Compared::Elsewhere(to) };
+        }
+    }
+    if turns { Compared::Turning } else { Compared::AsGood { step_by_step: false } }
+}
+
+/// A place with its angles so many whole turns on that they are near another's.
+fn unwound(place: &Place, like: &Place) -> Place {
+    let turns = |axis: usize| if (3..6).contains(&axis) { ((place[axis] - like[axis]) / 360.0).round() } else { 0.0 };
+    std::array::from_fn(|axis| place[axis] - 360.0 * turns(axis))
+}
+
+/// Out of a hole whose cycle says how the spindle stands and where it moves: are the job's corners there, in their order
+/// and with it?
+pub(super) fn leaves_hole(job: &Way, program: &Way, tolerance: f64) -> Option<Compared> {
+    let corners = &program.corners;
+    let mut from = 0;
+    for corner in job.corners.iter().skip(1).filter(|corner| corner.spin.is_some()) {
+        let is = |at: &Rapid| at.unknown == 0 && same(&at.to, &corner.to, ALL, tolerance);
+        // on the way there, not where it begins
+        let passes = |at: usize| {
+            at > 0
+                && (corners[at - 1].unknown | corners[at].unknown) == 0
+                && !is(&corners[at - 1])
+                && lies_between(&corners[at - 1].to, &unwound(&corner.to, &corners[at].to), &corners[at].to, tolerance)
+        };
+        let there = || (from..corners.len()).filter(|&at| is(&corners[at]) || passes(at));
+        match there().find(|&at| spins(corner, &corners[at])) {
+            Some(at) => from = at,
+            None if there().next().is_some() => return Some(Compared::Turning),
+            None => return Some(Compared::AsGood { step_by_step: false }),
+        }
+    }
+    None
+}
+
+/// Does the program come into a hole as the job does, with the job's moves aside, from the place over the hole on?
+pub(super) fn enters_hole(job: &Way, program: &Way, over: &Place, tolerance: f64) -> bool {
+    let Some(first) = job.corners.iter().position(|corner| same(&corner.to, over, ACROSS, tolerance)) else {
+        return false;
+    };
+    let own = &job.corners[first..];
+    let Some(begin) = program.corners.len().checked_sub(own.len()) else { return false };
+    let mut pairs = own.iter().zip(&program.corners[begin..]);
+    let comes_over = |(a, b): (&Rapid, &Rapid)| {
+        same(&a.to, &b.to, ACROSS, tolerance) && b.unknown & ACROSS == 0 && height(b) >= a.to[DEPTH] - tolerance
+    };
+    pairs.next().is_some_and(comes_over)
+        && pairs.all(|(a, b)| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance) && spins(a, b))
+}
+
+/// The program's way after a last cut: nowhere across below where the job crosses, and down only to where the job goes.
+pub(super) fn leaves_low(job: &Way, program: &Way, tolerance: f64) -> Option<(Place, f64)> {
+    let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();
+    let highest = heights(&job.corners).into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let crossing = across(&job.corners, tolerance).map(|(a, b)| a.to[DEPTH].min(b.to[DEPTH])).fold(highest, f64::min);
+    let low =
+        across(&program.corners, ROUNDED * tolerance).find(|(a, b)| height(a).min(height(b)) < crossing - tolerance);
+    if let Some((_, b)) = low {
+        return Some((b.to, crossing));
+    }
+    // where the job only goes up, so does the program
+    let floor = heights(&job.corners).into_iter().skip(1).reduce(f64::min).unwrap_or(highest);
+    let mut pairs = program.corners.windows(2);
+    let dives = pairs.find(|pair| height(&pair[1]) < height(&pair[0]) && height(&pair[1]) < floor - tolerance);
+    dives.map(|pair| (pair[1].to, floor))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cut::place;
+    use super::*;
+
+    fn way_within(points: &[[f64; 3]], tolerance: f64) -> Way {
+        let rapids: Vec<Rapid> = points
+            .iter()
+            .map(|&[x, y, z]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, spin: None })
+            .collect();
+        let mut way = Way::default();
+        way.set(None, &rapids, tolerance);
+        way
+    }
+
+    fn way(points: &[[f64; 3]]) -> Way {
+        way_within(points, 1e-4)
+    }
+
+    fn compared(job: &[[f64; 3]], program: &[[f64; 3]]) -> Compared {
+        compare(&mut way(job), &mut way(program), true, 1e-4)
+    }
+
+    #[test]
+    fn parts_of_a_straight_rapid_are_the_jobs() {
+        // the job's two rapids lie on one line, down to the hole; the program goes across before it goes down
+        let job = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 5.0], [0.0, 0.0, 3.0]];
+        let program = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 5.0], [0.0, 0.0, 5.0], [0.0, 0.0, 3.0]];
+        assert_eq!(compared(&job, &program), Compared::AsGood { step_by_step: true });
+        let low = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 4.9], [0.0, 0.0, 4.9], [0.0, 0.0, 3.0]];
+        assert!(matches!(compared(&job, &low), Compared::Elsewhere(_) | Compared::Lower(..)));
+        // on a line with the first hole the third lies between: its corner is none of the way to the second
+        let back = [[0.0, 1.2, 0.7], [0.0, -2.7, 0.1], [0.0, -1.3, 0.1], [0.0, -1.6, -0.1]];
+        let up = [
+            [0.0, 1.2, 0.7],
+            [0.0, -2.7, 0.7],
+            [0.0, -2.7, 0.1],
+            [0.0, -1.3, 0.1],
+            [0.0, -1.6, 0.1],
+            [0.0, -1.6, -0.1],
+        ];
+        assert_eq!(compared(&back, &up), Compared::AsGood { step_by_step: true });
+        let on = [[0.0, 0.0, 9.0], [0.0, 0.0, 5.0], [4.0, 0.0, 5.0], [8.0, 0.0, 3.0], [8.0, 0.0, 9.0], [9.0, 0.0, 9.0]];
+        let straight = [[0.0, 0.0, 9.0], [0.0, 0.0, 5.0], [8.0, 0.0, 5.0], [8.0, 0.0, 9.0], [9.0, 0.0, 9.0]];
+        assert_eq!(compared(&on, &straight), Compared::AsGood { step_by_step: false });
+        // at a low height to a place of the machine
+        let mut home = way(&job);
+        home.corners.insert(2, Rapid { unknown: 0b11, ..home.corners[1] });
+        assert!(matches!(compare(&mut way(&job), &mut home, true, 1e-4), Compared::Lower(..) | Compared::Elsewhere(_)));
+        let beside = [[-1.0, -1.0, 7.0], [-0.5, -0.6, 5.0], [0.0, 0.0, 5.0], [0.0, 0.0, 3.0]];
+        assert!(matches!(compared(&job, &beside), Compared::Elsewhere(_)));
+    }
+
+    #[test]
+    fn another_order_of_axes_is_as_good_where_it_is_higher() {
+        let diagonal = [[0.0, 0.0, 5.0], [9.0, 0.0, 1.0]];
+        assert_eq!(compared(&diagonal, &diagonal), Compared::Same);
+        assert_eq!(compared(&diagonal, &[[0.0, 0.0, 5.0], [4.5, 0.0, 3.0], [9.0, 0.0, 1.0]]), Compared::Same);
+        assert_eq!(
+            compared(&diagonal, &[[0.0, 0.0, 5.0], [9.0, 0.0, 5.0], [9.0, 0.0, 1.0]]),
+            Compared::AsGood { step_by_step: true }
+        );
+        assert!(matches!(
+            compared(&diagonal, &[[0.0, 0.0, 5.0], [0.0, 0.0, 1.0], [9.0, 0.0, 1.0]]),
+            Compared::Lower(..)
+        ));
+        assert!(matches!(
+            compared(&diagonal, &[[0.0, 0.0, 5.0], [3.0, 3.0, 2.0], [9.0, 0.0, 1.0]]),
+            Compared::Elsewhere(..)
+        ));
+        assert!(matches!(
+            compared(&diagonal, &[[0.0, 0.0, 5.0], [9.0, 0.0, 5.0], [9.0, 0.0, 0.5], [9.0, 0.0, 1.0]]),
+            Compared::Lower(..)
+        ));
+    }
+
+    /// The job counts its turns on, the form takes whole ones off: the way out of the hole is the same.
+    #[test]
+    fn a_hole_is_left_whatever_its_turns_are() {
+        let p = |z: f64, a: f64, spin: Option<Spin>| Rapid { to: place(&[1.0, 2.0, z, a, 0.0, 0.0]), unknown: 0, spin };
+        let turns = Some(Spin::Turns(crate::nc::Rotation::Cw));
+        let (mut job, mut program) = (Way::default(), Way::default());
+        job.set(Some(p(-1.0, -390.0, None)), &[p(-0.2, -390.0, turns), p(1.4, -390.0, None)], 1e-4);
+        program.set(Some(p(-1.0, -30.0, turns)), &[p(1.4, -30.0, turns)], 1e-4);
+        assert_eq!(leaves_hole(&job, &program, 1e-4), None);
+        program.set(Some(p(-1.0, -60.0, turns)), &[p(1.4, -60.0, turns)], 1e-4);
+        assert!(leaves_hole(&job, &program, 1e-4).is_some());
+    }
+
+    /// On a steep rapid the digits of X and Y say little of the height.
+    #[test]
+    fn home_before_an_index_behind_a_steep_rapid() {
+        let p = |x: f64, y: f64, z: f64, b: f64, unknown: u8| Rapid {
+            to: place(&[x, y, z, 0.0, b, 0.0]),
+            unknown,
+            spin: None,
+        };
+        let job = [
+            p(-1.974702, -1.86326, 0.512099, 0.0, 0),
+            p(-2.094636, -1.792214, 0.049581, 0.0, 0),
+            p(-0.032124, 3.590409, 1.572302, 5.0, 0),
+        ];
+        let program = [
+            p(-1.9747, -1.8633, 0.5121, 0.0, 0),
+            p(-2.0946, -1.7922, 0.0496, 0.0, 0),
+            p(-2.0946, -1.7922, 0.0, 0.0, 0b100),
+            p(-2.0946, -1.7922, 0.0, 5.0, 0b100),
+            p(-0.0321, 3.5904, 0.0, 5.0, 0b100),
+            p(-0.0321, 3.5904, 1.5723, 5.0, 0),
+        ];
+        let mut ways = [Way::default(), Way::default()];
+        ways[0].set(Some(job[0]), &job[1..], 1e-4);
+        ways[1].set(Some(program[0]), &program[1..], 1e-4);
+        let [own, made] = &mut ways;
+        assert_eq!(compare(own, made, true, 1e-4), Compared::AsGood { step_by_step: false });
+        // a corner on the way to a hole far below, which the digits of Y can't tell from a straight way
+        let down = [[0.0, 0.072, 41.388], [0.0, 0.072, 41.363], [0.0, 2.972, -9.426]];
+        let stays = [[0.0, 0.072, 41.388], [0.0, 0.072, 41.363], [0.0, 2.972, 41.363], [0.0, 2.972, -9.426]];
+        let [mut job, mut program] = [way_within(&down, 2e-3), way_within(&stays, 2e-3)];
+        assert!(matches!(compare(&mut job, &mut program, true, 2e-3), Compared::AsGood { .. }));
+        made.corners[1].to[DEPTH] = 0.0494;
+        assert!(matches!(compare(own, made, true, 1e-4), Compared::Lower(..)));
+    }
+}

@@ -323,10 +323,9 @@ impl<R: BufRead + Seek> Sides<R> {
             && has_feed(cut, &found)
             && same(&found.from, &cut.from, ALL, tolerance)
             && same(&found.end(), &cut.end(), ALL, tolerance);
-        // where both are as near, a stop or dwell before it tells
         let pauses = |passage: &Passage| (passage.stops.len(), passage.waits.len());
-        let tie = if pauses(&self.program.passage) == pauses(&self.job) { 1e-9 } else { -1e-9 };
-        let nearer = apart(&found.end(), &cut.end()) <= apart(&found.from, &cut.end()) + tie;
+        let joins = joins && pauses(&self.program.passage) == pauses(&self.job);
+        let nearer = apart(&found.end(), &cut.end()) <= apart(&found.from, &cut.end()) + 1e-9;
         let circle = matches!(found.what, What::Arc(_)) && !found.is_short(tolerance);
         Ok(!joins || !nearer || circle)
     }

@@ -209,6 +209,13 @@ fn right_programs_are_proven() {
             .replace("\"mm\"", "\"inch\""),
         ),
         (
+            "a dwell before a cut that is hardly longer than the one that no digits show",
+            one(
+                r#"{"rapid":[-1.01,2.84,0.51]},{"rapid":[null,null,0.9]},{"line":[-1.01,2.84,0.90001]},{"rapid":[null,2.8401]},{"dwell":0.5},{"line":[-1.01,2.84,0.90001]}"#,
+            )
+            .replace("\"mm\"", "\"inch\""),
+        ),
+        (
             "a cut that no digits show, a short rapid and a short cut",
             one(
                 r#"{"rapid":[0,0,30]},{"line":[97.75,-76,25.1]},{"line":[97.75,-75.99975,25.1]},{"rapid":[97.75,-75.99975,25.0975]},{"line":[97.7475,-75.99975,25.0975]}"#,

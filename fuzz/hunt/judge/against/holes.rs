@@ -25,6 +25,9 @@ impl Judge<'_> {
         {
             return Some(difference);
         }
+        // how high the tool was on its way to the holes
+        let ways = self.acts[..self.find().unwrap_or(self.at)].iter().filter(|act| act.what == What::Rapid);
+        let came = ways.map(|act| act.to[2]).filter(|height| height.is_finite()).fold(*plane, f64::max);
         if let What::Hole { code, r, z, .. } = act.what {
             self.take();
             let right = near(r, *clear, self.within) && near(z, *bottom, self.within);
@@ -90,8 +93,9 @@ impl Judge<'_> {
         let out = if feeds_out { self.next() } else { None };
         if let Some(out) = out.filter(|out| over(out) && near(out.from[2], *bottom, self.within) && out.to[2] > *bottom)
         {
-            // LinuxCNC's own taps feed out to the return plane
-            if !near(out.to[2], *clear, self.within) && !near(out.to[2], *plane, self.within) {
+            // LinuxCNC's own taps feed out to where the series began, where G98 is in force
+            let is_between = out.to[2] >= clear - self.within && out.to[2] <= came + self.within;
+            if !is_between {
                 return Some(format!("line {}: out to {:.4}, not {clear:.4}", out.line, out.to[2]));
             }
             self.take();

@@ -21,6 +21,12 @@ pub(super) enum Compared {
 /// So many tolerances long is a rapid across at most that the digits of both its ends make of one that goes up.
 const ROUNDED: f64 = 2.0;
 
+/// Are the program's rapids the job's, one by one and with its spindle?
+pub(super) fn are_the_same(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
+    let is = |a: &Rapid, b: &Rapid| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance) && spins(a, b);
+    job.len() == program.len() && job.iter().zip(program).all(|(a, b)| is(a, b))
+}
+
 /// Compares the program's way with the job's, rapid by rapid and, where that tells them apart, with the parts of straight rapids
 /// joined. Both ways are then joined.
 pub(super) fn compare(job: &mut Way, program: &mut Way, known_start: bool, tolerance: f64) -> Compared {

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::compared::{Compared, compare as compare_way, enters_hole, leaves_hole, leaves_low};
+use super::compared::{Compared, are_the_same, compare as compare_way, enters_hole, leaves_hole, leaves_low};
 use super::cut::{ALL, DEPTH, RADIUS, Rapid, number, same, shown};
 use super::passage::{Frame, Leg};
 use super::state::Sides;
@@ -20,6 +20,14 @@ pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
         return beside_the_part(s, line);
     }
     let (lost, changed) = (s.job.changed(), s.program.passage.changed());
+    // most ways are, and need no look at their corners
+    let starts = [s.job.start, s.program.passage.start];
+    if let ([Some(a), Some(b)], false) = (starts, lost || changed)
+        && are_the_same(&[a], &[b], tolerance)
+        && are_the_same(&s.job.rapids, &s.program.passage.rapids, tolerance)
+    {
+        return;
+    }
     if lost {
         let leaving = if changed { s.program.passage.leaving().len() } else { 0 };
         leave(s, leaving, line);

@@ -87,6 +87,8 @@ pub fn begins_somewhere(target: &Axes, shape: &Shape, said: &mut Said) -> Done {
     if unknown == 0 || shape.program.settings.incremental {
         return Ok(());
     }
-    let help = "begin it with a rapid to the beginning of its first cut";
-    fault(Code::PR012, "the operation begins with a cut from where nobody knows", help)
+    let unsaid = (0..6).filter(|axis| unknown & 1 << axis != 0).map(|axis| char::from(shape.axes[axis]).to_string());
+    let unsaid = unsaid.collect::<Vec<_>>().join(" and ");
+    let message = format!("the operation begins with a cut, and nothing before it says {unsaid} since the tool change");
+    fault(Code::PR012, message, "begin it with a rapid to the beginning of its first cut")
 }

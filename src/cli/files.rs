@@ -180,6 +180,12 @@ pub fn control(path: &Path) -> Result<&'static Control, String> {
 
 /// The format of a job: as said, else by its extension, else by how it begins.
 fn job_format(path: &Path, args: &ReadArgs) -> Result<Format, String> {
+    if args.from.is_none() && is_form(path) {
+        let name = name(path);
+        return Err(format!(
+            "error: {name} is a form, no job\n  help: `postform lint {name}` looks at forms; of `postform render JOB --form FORM` the job comes first"
+        ));
+    }
     let from = format_of(path, args.from)?;
     fits(from, path, args)?;
     Ok(from)

@@ -318,14 +318,17 @@ impl<R: BufRead + Seek> Sides<R> {
     fn vanishes(&mut self, cut: &Cut) -> Done<bool> {
         let Some(found) = self.next()? else { return Ok(true) };
         let tolerance = self.limits.tolerance;
+        let [to_end, to_begin] = [found.end(), found.from].map(|place| apart(&place, &cut.end()));
+        // its digits show it, whatever rapids lead to it
+        let shows = to_end + tolerance / 2.0 < to_begin;
         let joins = found.unknown == 0
-            && self.joins_alike()
+            && (shows || self.joins_alike())
             && has_feed(cut, &found)
             && same(&found.from, &cut.from, ALL, tolerance)
             && same(&found.end(), &cut.end(), ALL, tolerance);
         let pauses = |passage: &Passage| (passage.stops.len(), passage.waits.len());
         let joins = joins && pauses(&self.program.passage) == pauses(&self.job);
-        let nearer = apart(&found.end(), &cut.end()) <= apart(&found.from, &cut.end()) + 1e-9;
+        let nearer = to_end <= to_begin + 1e-9;
         let circle = matches!(found.what, What::Arc(_)) && !found.is_short(tolerance);
         Ok(!joins || !nearer || circle)
     }

@@ -216,6 +216,13 @@ fn right_programs_are_proven() {
             .replace("\"mm\"", "\"inch\""),
         ),
         (
+            "the shortest cut that digits show, behind a tap",
+            one(
+                r#"{"rapid":[1.9187,-2.6443,1]},{"cycle":{"kind":"tap","depth":0.8797,"clear":0.1,"feed":50,"points":[[1.9187,-2.6443,-0.4383],[2.025,-0.1778,-0.4509]]}},{"line":[2.0251]},{"rapid":[2.0251,-0.1778,1.5602]}"#,
+            )
+            .replace("\"mm\"", "\"inch\""),
+        ),
+        (
             "a cut that no digits show, a short rapid and a short cut",
             one(
                 r#"{"rapid":[0,0,30]},{"line":[97.75,-76,25.1]},{"line":[97.75,-75.99975,25.1]},{"rapid":[97.75,-75.99975,25.0975]},{"line":[97.7475,-75.99975,25.0975]}"#,

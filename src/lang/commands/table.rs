@@ -138,7 +138,7 @@ macro_rules! command_rows {
             Force "Force" (Letters(1, 15)) once (of("")) Ours {force: Vec<u8>} if (Modal) eg "X Y Z"
                 "letters printed again after every tool change and every change from rapid to feed";
             // blocks and their text
-            SequenceNumbers "Sequence#s" (Words(1, 3, "letter start step, as `N 10 10`, `- 0 1` without a letter, or `None`"))
+            SequenceNumbers "Sequence#s" (Words(1, 3, "letter start step, as `N 10 10`, `- 0 1` without a letter, or `None`; without start or step these are 10"))
                 once (of("None")) Ours {numbers: SequenceNumbers}
                 "block numbers";
             First "First#?" (Switch) once (of("Y")) Ours {number_first: bool} if (Numbered)

@@ -42,6 +42,9 @@ pub fn for_cl(job: &Value) -> Value {
             if let Some(new) = item.get("feed") {
                 feed = new.clone();
             }
+            if item.get("home").is_some() {
+                at = [None; 3];
+            }
             for key in ["rapid", "line"] {
                 if let Some(to) = item.get_mut(key) {
                     whole(to, &mut at);
@@ -180,6 +183,8 @@ pub fn cl(job: &Value) -> String {
                 cycle_words(&mut text, cycle, unit);
                 // else the motion after it would be a rapid
                 _ = writeln!(text, "FEDRAT/{feed},{unit}");
+            } else if item.get("home").is_some() {
+                text += "GOHOME\n";
             } else if let Some(seconds) = item.get("dwell") {
                 _ = writeln!(text, "DELAY/{seconds}");
             } else if let Some(stop) = item.get("stop") {

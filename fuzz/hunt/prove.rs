@@ -55,7 +55,11 @@ impl Form {
             name: name.into(),
             control: control.trim().into(),
             kinds,
-            takes: Takes { inch: inch.map(|(_, inch)| inch), customs: ["Custom1", "Custom2", "Custom3"].map(says) },
+            takes: Takes {
+                inch: inch.map(|(_, inch)| inch),
+                customs: ["Custom1", "Custom2", "Custom3"].map(says),
+                home: says("MoveHome"),
+            },
             within: if text.contains("X->5.>2") { 0.011 } else { 0.0035 },
             renames: says("Rename A B"),
             by_diameter: !says("ByDiameter? N"),

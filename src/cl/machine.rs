@@ -94,16 +94,16 @@ pub(super) fn coolnt(words: &[Word], job: &mut Job<'_>) -> Done {
         _ => return fault(Code::PL002, "COOLNT with more than one word", "write ON, FLOOD, MIST or OFF"),
     };
     let coolant = match name {
-        "ON" | "FLOOD" => Coolant::On,
-        "MIST" => Coolant::Mist,
-        "OFF" => Coolant::Off,
-        "THRU" => Coolant::Through,
-        "AIR" => Coolant::Air,
-        "HIGH" => Coolant::High,
+        "ON" | "FLOOD" => Coolant::FLOOD,
+        "MIST" => Coolant::MIST,
+        "OFF" => Coolant::OFF,
+        "THRU" => Coolant::THROUGH,
+        "AIR" => Coolant::AIR,
+        "HIGH" => Coolant::HIGH,
         "TAPKUL" | "LOW" => {
             let message = format!("COOLNT/{name} is printed as flood coolant");
             job.notes.warn(Code::PL008, message, "change the program, or write COOLNT/FLOOD");
-            Coolant::On
+            Coolant::FLOOD
         }
         _ => return fault(Code::PL002, format!("COOLNT does not know `{name}`"), "write ON, FLOOD, MIST or OFF"),
     };

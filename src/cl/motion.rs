@@ -103,12 +103,15 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
     job.push(Event::Line { to: axes, feed })
 }
 
-/// GOHOME/x,y,z: a rapid to that point, up before across and across before down.
+/// GOHOME/x,y,z: a rapid to that point, up before across and across before down. Without a place it is the machine's own.
 pub(super) fn gohome(words: &[Word], state: &mut State<'_>) -> Done {
+    if words.is_empty() {
+        state.motion.position = None;
+        return state.job.between(Event::Home);
+    }
     let values = numbers(words).unwrap_or_default();
     let [x, y, z, axis @ ..] = values.as_slice() else {
-        let help = "say the place in the CAM system, as GOHOME/x,y,z, or take it out";
-        return fault(Code::PL004, "GOHOME to a place that only the machine knows", help);
+        return fault(Code::PL001, "a GOHOME that can't be read", "write GOHOME/x,y,z, or GOHOME alone");
     };
     if let [i, j, k] = axis {
         set_axis([*i, *j, *k], state)?;

@@ -63,7 +63,7 @@ impl Values for Known<'_> {
     }
 
     fn coolant(&self) -> Coolant {
-        Coolant::Off
+        Coolant::OFF
     }
 
     fn property(&self, row: u16) -> f64 {

@@ -163,7 +163,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
             }
             (b'M', 70 | 80 | 90) => {
                 self.only(words, b"")?;
-                let coolant = [Coolant::Mist, Coolant::On, Coolant::Off][usize::from(tenths / 10 - 7)];
+                let coolant = [Coolant::MIST, Coolant::FLOOD, Coolant::OFF][usize::from(tenths / 10 - 7)];
                 self.between(Event::Coolant(coolant))
             }
             _ => {

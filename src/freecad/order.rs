@@ -195,11 +195,11 @@ fn operation(document: &Document, name: &str, object: &Object, label: &str) -> R
         }
     };
     let coolant = match document.inherited(name, "CoolantMode") {
-        None => Coolant::Off,
+        None => Coolant::OFF,
         Some(Value::Text(mode)) => match mode.as_str() {
-            "None" => Coolant::Off,
-            "Flood" => Coolant::On,
-            "Mist" => Coolant::Mist,
+            "None" => Coolant::OFF,
+            "Flood" => Coolant::FLOOD,
+            "Mist" => Coolant::MIST,
             other => {
                 let help = "choose None, Flood or Mist";
                 return wrong(

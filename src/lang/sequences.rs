@@ -92,6 +92,7 @@ sequences! {
     Operation         "Operation"         plain "ML"  ""    Ours "the beginning of an operation: after its tool change, before its first move" "operation" "operations"
     EndOperation      "EndOperation"      plain "ML"  ""    Ours "the end of an operation: after its last move" "end of an operation" "operations"
     CommentLine       "CommentLine"       plain "MLE" ""    Ours "a comment of the job, which is [text], instead of the generated one" "`comment`" "operations"
+    MoveHome          "MoveHome"          plain "MLE" ""    Ours "the machine's own place, where the job says no coordinates" "`home`" "operations"
     WorkChange        "WorkChange"        plain "MLE" ""    Ours "another work offset, where no other sequence prints it" "`work`" "operations"
     SpindleChange     "SpindleChange"     plain "ML"  ""    Ours "another speed or direction, where no other sequence prints it" "`spindle`" "operations"
     CoolantChange     "CoolantChange"     plain "MLE" ""    Ours "other coolant, where no other sequence prints it" "`coolant`" "operations"

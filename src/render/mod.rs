@@ -3,7 +3,9 @@
 
 mod ahead;
 mod before;
+mod beside;
 mod body;
+mod coolant;
 mod cycle;
 mod defaults;
 mod fault;
@@ -44,7 +46,7 @@ use fault::Done;
 use moves::{arc, compensation, line, rapid, rotary, threads};
 use printer::Printer;
 use program::table::Subprograms;
-use program::{calls, comments, finish, sections, start, stops, subprograms, text, tools, variables};
+use program::{calls, comments, finish, home, sections, start, stops, subprograms, text, tools, variables};
 use said::Said;
 use shape::Shape;
 use want::Want;
@@ -171,6 +173,7 @@ impl<'p> Renderer<'p> {
             Event::Edm(action) => sections::edm(action, shape, want, said, out),
             Event::Dwell(seconds) => stops::dwell(seconds, shape, want, said, out),
             Event::Stop(kind) => stops::stop(kind, shape, want, said, out),
+            Event::Home => home::home(shape, want, said, out),
             Event::Comment(text) => comments::comment_block(text, shape, want, said, out),
             Event::Text(text) => text::verbatim(text, shape, want, said, out),
             Event::SubStart(number) => subprograms::sub_start(number, shape, want, said, out, subs),

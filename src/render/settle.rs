@@ -1,5 +1,6 @@
 //! What the control lacks is printed: conditions that no sequence prints, each as a block of its own.
 
+use super::beside::{begin_beside, end_beside};
 use super::body::run_all;
 use super::fault::{Done, fault, fault_at};
 use super::no_value::no_result;
@@ -67,6 +68,7 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
     own_change(SequenceId::SpindleChange, &spindle, shape, want, said, out)?;
     print_spindle(shape, want, said, out)?;
     own_change(SequenceId::CoolantChange, &[VarId::Cool], shape, want, said, out)?;
+    end_beside(want.coolant, shape, want, said, out)?;
     if let Some(ends) = want.ends_coolant.take().filter(|&ends| said.coolant_ended != Some(ends)) {
         value_code(b'M', ends, shape, want, said, out)?;
         out.end_block();
@@ -78,6 +80,7 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
         out.end_block();
         said.conditions.put(VarId::Cool, Some(cool));
     }
+    begin_beside(shape, want, said, out)?;
     own_change(SequenceId::FeedModeChange, &[VarId::Feedtype], shape, want, said, out)?;
     if let Some(feed_type) = want.get(VarId::Feedtype)
         && said.conditions.get(VarId::Feedtype) != Some(feed_type)

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::ahead::{Item, default_work};
+use super::coolant::{codes, codes_of};
 use super::fault::{Done, fault};
 use super::numbers::{ROUNDED, as_number, loses};
 use super::properties::Properties;
@@ -75,7 +76,7 @@ impl Want {
             tool_changes: 0,
             most_rpm: None,
             in_operation: false,
-            coolant: Coolant::Off,
+            coolant: Coolant::OFF,
             ends_coolant: None,
             compensated: false,
             cutting: false,
@@ -259,34 +260,26 @@ impl Want {
     /// `[coolantoff]` ends what is on now.
     pub fn ends_what_is_on(&mut self, shape: &Shape) {
         let settings = &shape.program.settings;
-        let own = settings.coolant_kinds.iter().find(|own| own.kind == self.coolant);
-        self.set(VarId::Coolantoff, own.and_then(|own| own.off).unwrap_or(settings.coolant[1]));
+        let own = codes(self.coolant.first(), settings).and_then(|codes| codes.own_off);
+        self.set(VarId::Coolantoff, own.unwrap_or(settings.coolant[1]));
     }
 
-    /// Coolant of a kind, or none. `[coolantoff]` ends the kind that was on until now.
+    /// Coolant of a kind or of several, or none. `[coolantoff]` ends the kind that was on until now, of several the first.
     pub fn set_coolant(&mut self, coolant: Coolant, shape: &Shape) -> Done {
         let settings = &shape.program.settings;
-        let [on, off, mist] = settings.coolant;
-        let own = |kind: Coolant| settings.coolant_kinds.iter().find(|own| own.kind == kind);
-        let ends = own(self.coolant).and_then(|own| own.off).unwrap_or(off);
-        let code = match (coolant, own(coolant)) {
-            (Coolant::Off, _) => ends,
-            (_, Some(own)) => own.on,
-            (Coolant::On, None) => on,
-            (Coolant::Mist, None) => mist,
-            (other, None) => {
-                let message = format!("the form has no coolant `{}`", other.name());
-                let help = format!(
-                    "add `CoolantKind {} M88 M89` with the machine's codes, or take flood coolant",
-                    other.name()
-                );
-                return fault(Code::PR054, message, help);
-            }
-        };
-        if coolant != self.coolant {
+        let off = settings.coolant[1];
+        let before = self.coolant.first();
+        let ends = codes(before, settings).and_then(|codes| codes.own_off).unwrap_or(off);
+        for kind in coolant.others() {
+            codes_of(kind, settings)?;
+        }
+        let first = coolant.first();
+        let code = if first == Coolant::OFF { ends } else { codes_of(first, settings)?.on };
+        if first != before {
             self.set(VarId::Coolantoff, ends);
             // another kind does not end one that has a code of its own for that
-            self.ends_coolant = Some(ends).filter(|&ends| ends != off && code != ends);
+            let ended = ends != off && code != ends && (first == Coolant::OFF || !coolant.holds(before));
+            self.ends_coolant = Some(ends).filter(|_| ended);
         }
         self.coolant = coolant;
         self.set_condition(VarId::Cool, code);

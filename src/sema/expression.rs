@@ -331,7 +331,7 @@ fn cools(operator: Operator, left: &Expr, right: &Expr, context: &Context) -> Op
     let (ExprKind::Variable(name), ExprKind::Word(word)) = (&left.kind, &right.kind) else { return None };
     let kind = Coolant::parse(word).filter(|_| VarId::parse(name) == Some(VarId::Cool))?;
     let has_code = context.settings.coolant_kinds.iter().any(|own| own.kind == kind);
-    if matches!(kind, Coolant::Through | Coolant::Air | Coolant::High) && !has_code {
+    if matches!(kind, Coolant::THROUGH | Coolant::AIR | Coolant::HIGH) && !has_code {
         return None;
     }
     match operator {

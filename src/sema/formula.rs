@@ -131,7 +131,7 @@ impl Values for NoValues {
     }
 
     fn coolant(&self) -> Coolant {
-        Coolant::Off
+        Coolant::OFF
     }
 
     fn property(&self, _: u16) -> f64 {
@@ -239,7 +239,7 @@ impl Formula {
         };
         match self {
             Formula::Yes(yes) => Ok(*yes),
-            Formula::Cools(kind) => Ok(values.coolant() == *kind),
+            Formula::Cools(kind) => Ok(values.coolant().holds(*kind)),
             Formula::PropertyHolds(row) => Ok(values.property(*row) != 0.0),
             Formula::Has(var) => Ok(values.number(*var).is_some()),
             Formula::True(var) => Ok(values.number(*var).is_some_and(|value| value != 0.0)),

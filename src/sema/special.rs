@@ -73,7 +73,7 @@ impl Setting for SequenceNumbers {
 impl Setting for Vec<CoolantKind> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let kind = match Coolant::parse(&args.all[0].text) {
-            Some(kind @ (Coolant::Through | Coolant::Air | Coolant::Mist | Coolant::High)) => kind,
+            Some(kind @ (Coolant::THROUGH | Coolant::AIR | Coolant::MIST | Coolant::HIGH)) => kind,
             Some(_) => return bad(args.all.first(), "flood coolant and its end are said by `Coolant M8 M9`"),
             None => return bad(args.all.first(), "a kind of coolant is through, air, mist or high"),
         };

@@ -111,6 +111,8 @@ pub enum Event<'a> {
     Spindle(Spindle),
     /// The coolant from here on.
     Coolant(Coolant),
+    /// The tool goes to the machine's own place, which the form says: home.
+    Home,
     /// The value of a variable or property of the form from here on, by name.
     Set(&'a str, &'a Given),
     /// A subprogram of this number begins.

@@ -41,7 +41,10 @@ pub(super) fn meet<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, hole: Option<
 /// Is a short cut of the program the job's, which is a little longer?
 fn is_itself<R: BufRead + Seek>(s: &Sides<R>, cut: &Cut, found: &Cut) -> bool {
     let tolerance = s.limits.tolerance;
-    same(&cut.from, &found.from, ALL, tolerance) && same(&cut.end(), &found.end(), ALL, tolerance)
+    // a full circle ends where it begins, too
+    same(&cut.from, &found.from, ALL, tolerance)
+        && same(&cut.end(), &found.end(), ALL, tolerance)
+        && cut.is_short(4.0 * tolerance)
 }
 
 /// Is a short cut of the program the beginning of the job's cut? One that ends where the job's begins is none of it.

@@ -61,8 +61,8 @@ fn compare_as_they_are(job: &Way, program: &Way, known_start: bool, tolerance: f
     let lowest = over_it.map(|corner| corner.to[DEPTH]).fold(first.to[DEPTH], f64::min);
     let there = |exactly: u8| {
         program.corners.iter().position(|corner| {
-            corner.unknown == 0
-                && same(&corner.to, &first.to, exactly, tolerance)
+            corner.unknown & !first.unknown == 0
+                && same(&corner.to, &first.to, exactly & !first.unknown, tolerance)
                 && corner.to[DEPTH] >= lowest - tolerance
         })
     };
@@ -257,9 +257,18 @@ pub(super) fn leaves_low(job: &Way, program: &Way, tolerance: f64) -> Option<(Pl
     }
     // where the job only goes up, so does the program
     let floor = heights(&job.corners).into_iter().skip(1).reduce(f64::min).unwrap_or(highest);
-    let mut pairs = program.corners.windows(2);
-    let dives = pairs.find(|pair| height(&pair[1]) < height(&pair[0]) && height(&pair[1]) < floor - tolerance);
-    dives.map(|pair| (pair[1].to, floor))
+    // a cycle of the control may have left the hole higher than the job, whose place the program then goes to
+    let comes_back = |rapid: &Rapid| {
+        let left = job.corners.first().filter(|left| left.unknown | rapid.unknown == 0);
+        left.is_some_and(|left| same(&left.to, &rapid.to, ALL, tolerance))
+    };
+    let mut pairs = program.corners.windows(2).enumerate();
+    let dives = pairs.find(|(at, pair)| {
+        height(&pair[1]) < height(&pair[0])
+            && height(&pair[1]) < floor - tolerance
+            && !(*at == 0 && comes_back(&pair[1]))
+    });
+    dives.map(|(_, pair)| (pair[1].to, floor))
 }
 
 #[cfg(test)]

@@ -261,6 +261,10 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         }
     }
 
+    fn home(&mut self, length: Option<f64>) {
+        self.job.goes_home(length);
+    }
+
     fn thread(&mut self, cut: &Cut, thread: &Threaded) -> Done {
         threads::thread(self, cut, thread)
     }

@@ -142,10 +142,11 @@ impl Expectation {
     pub(super) fn cooling(&self, coolant: Coolant) -> Option<Cooling> {
         let [on, off, mist] = self.coolant;
         let (code, named) = match coolant {
-            Coolant::On => (on, Cooling::Flood),
-            Coolant::Mist => (mist, Cooling::Mist),
-            Coolant::Off => (off, Cooling::Off),
-            Coolant::Through | Coolant::Air | Coolant::High => return None,
+            Coolant::FLOOD => (on, Cooling::Flood),
+            Coolant::MIST => (mist, Cooling::Mist),
+            Coolant::OFF => (off, Cooling::Off),
+            // by codes of the form's own, or several at once
+            _ => return None,
         };
         let usual = [(8.0, Cooling::Flood), (7.0, Cooling::Mist), (9.0, Cooling::Off)];
         Some(usual.into_iter().find(|(usual, _)| *usual == code).map_or(named, |(_, cooling)| cooling))

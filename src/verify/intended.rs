@@ -123,6 +123,11 @@ impl Job {
                 to.stop(kind);
                 Ok(())
             }
+            Event::Home => {
+                self.at = Axes { given: self.at.given & !0b111, ..self.at };
+                to.home(self.state.length);
+                Ok(())
+            }
             Event::Feed(feed) => {
                 self.feed = Some(feed);
                 Ok(())

@@ -31,6 +31,8 @@ pub(super) trait Intent {
     fn hole_ends(&mut self, hole: &Expected) -> Done;
     /// The tool or the work offset changes: places are others from here on. `length`: the tool's register.
     fn changed(&mut self, frame: Frame, length: Option<f64>, tool: bool);
+    /// The tool goes to the machine's own place: from there on its place is unknown. `length`: the tool's register.
+    fn home(&mut self, length: Option<f64>);
     /// The job is over.
     fn finish(&mut self) -> Done;
     /// The job is for a wire EDM machine.

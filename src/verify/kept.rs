@@ -51,6 +51,7 @@ impl From<&Event<'_>> for Kept {
             Event::SubStart(number) => Own::Plain(Event::SubStart(number)),
             Event::SubEnd => Own::Plain(Event::SubEnd),
             Event::Edm(action) => Own::Plain(Event::Edm(action)),
+            Event::Home => Own::Plain(Event::Home),
             Event::Finish => Own::Plain(Event::Finish),
         })
     }

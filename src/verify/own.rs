@@ -65,7 +65,7 @@ impl Values for OfJob<'_> {
     }
 
     fn coolant(&self) -> Coolant {
-        Coolant::Off
+        Coolant::OFF
     }
 
     fn property(&self, row: u16) -> f64 {

@@ -57,6 +57,8 @@ pub(super) struct Passage {
     pub does: Vec<Mark<Coded>>,
     /// The tool was changed.
     pub new_tool: bool,
+    /// The job sends the tool to the machine's own place.
+    pub home: bool,
     /// The job's way leaves the axis of its hole.
     pub aside: bool,
     /// The job's way left the axis of its hole before the last change of the frame.
@@ -79,6 +81,7 @@ impl Passage {
             codes: Vec::new(),
             does: Vec::new(),
             new_tool: false,
+            home: false,
             aside: false,
             left_aside: false,
         }
@@ -101,7 +104,7 @@ impl Passage {
         self.turns.clear();
         self.codes.clear();
         self.does.clear();
-        (self.new_tool, self.aside, self.left_aside) = (false, false, false);
+        (self.new_tool, self.home, self.aside, self.left_aside) = (false, false, false, false);
     }
 
     /// A cut that counts for nothing was on the way.
@@ -131,6 +134,32 @@ impl Passage {
             self.left_aside = std::mem::take(&mut self.aside);
         }
         self.legs.push(Leg { frame, from: self.rapids.len(), lengths: Vec::new() });
+    }
+
+    /// The tool goes to the machine's own place: the way from there is one of its own, in the same frame.
+    pub fn goes_home(&mut self, length: Option<f64>) {
+        self.home = true;
+        if self.legs.len() == 1 {
+            self.left_aside = std::mem::take(&mut self.aside);
+        }
+        let frame = self.legs.last().map_or_else(Frame::default, |leg| leg.frame);
+        self.legs.push(Leg { frame, from: self.rapids.len(), lengths: vec![length] });
+    }
+
+    /// Ways from places of the machine along an axis begin anew, as the job's do where it goes home. Is there such a place?
+    pub fn splits_at_home(&mut self, axis: usize) -> bool {
+        let is_home = |rapid: &Rapid| rapid.unknown & 1 << axis != 0;
+        let ends: Vec<usize> = (1..=self.rapids.len())
+            .filter(|&at| is_home(&self.rapids[at - 1]) && !self.rapids.get(at).is_some_and(is_home))
+            .collect();
+        for &at in ends.iter().rev() {
+            let behind = self.legs.iter().rposition(|leg| leg.from < at).unwrap_or_default();
+            if self.legs.get(behind + 1).is_none_or(|next| next.from > at) {
+                let leg = Leg { from: at, ..self.legs[behind].clone() };
+                self.legs.insert(behind + 1, leg);
+            }
+        }
+        !ends.is_empty()
     }
 
     /// The frame changes at a mark, as where the operator changes the tool.

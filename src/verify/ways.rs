@@ -16,6 +16,7 @@ pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
         return;
     }
     moved_with(s, line);
+    goes_home(s, line);
     if s.machine != Machine::Mill {
         return beside_the_part(s, line);
     }
@@ -129,6 +130,16 @@ pub(super) fn moved_with<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     });
 }
 
+/// Where the job goes home, so does the program, and both ways begin anew there.
+fn goes_home<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+    let away = if s.machine == Machine::Lathe { RADIUS } else { DEPTH };
+    if s.job.home && !s.program.passage.splits_at_home(away) {
+        s.found(Code::PV001, line, "print the control's code for it in MoveHome, as `G28 G91 Z0.`", || {
+            "the job sends the tool home here, and the program does not".to_owned()
+        });
+    }
+}
+
 /// The way away from the last cut of a tool or work offset, or of the program: so many of the program's rapids.
 fn leave<R: BufRead + Seek>(s: &mut Sides<R>, until: usize, line: u64) -> bool {
     let tolerance = s.limits.tolerance;
@@ -194,6 +205,7 @@ fn between<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
 
 /// The way after the last cut, to the end of the program.
 pub(super) fn end<R: BufRead + Seek>(s: &mut Sides<R>) {
+    goes_home(s, 0);
     if s.machine != Machine::Mill {
         return beside_the_part(s, 0);
     }

@@ -312,7 +312,8 @@ fn whatever_keeps_a_file_from_being_printed_is_said_at_once() {
 fn places_and_turns_are_those_that_are_written() {
     assert_eq!(body("GOTO/1,0,2\nGOHOME/5,5,40"), ["G1 X1. Z2. F100.", "G0 Z40.", "X5. Y5."]);
     assert_eq!(body("GOTO/1,0,50\nGOHOME/5,5,40")[1..], ["G0 X5. Y5.", "Z40."]);
-    assert!(error("GOHOME").starts_with("PL004 GOHOME to a place"));
+    assert!(error("GOHOME").starts_with("PR008 the tool goes home here"));
+    assert!(error("GOHOME/1,2").starts_with("PL001 a GOHOME that can't be read"));
     let arc = |tail: &str| format!("GOTO/1,0,10\nMOVARC/1,1,10,0,0,1,1{tail}\nGOTO/2,1,10");
     assert_eq!(body(&arc(",ANGLE,90")), body(&arc("")));
     assert_eq!(body(&arc(",ANGLE,450")), body(&arc(",TIMES,2")));

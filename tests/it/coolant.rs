@@ -82,6 +82,59 @@ fn conditions_ask_for_the_kind() {
 }
 
 #[test]
+fn several_kinds_are_on_at_once() {
+    let list = |operations: &[(u32, &str, &str)]| {
+        let job = job(operations);
+        ["through,air", "air,through", "through,on", "air,on", "through"].iter().fold(job, |job, kinds| {
+            let names: Vec<_> = kinds.split(',').map(|kind| format!("\"{kind}\"")).collect();
+            job.replace(&format!("\"coolant\":\"{kinds}\""), &format!("\"coolant\":[{}]", names.join(",")))
+        })
+    };
+    let ends = form(KINDS, "M[cool]").replace("EndCode\n", "EndCode\nM[coolantoff]\n");
+    let print = |operations: &[(u32, &str, &str)]| codes(&ends, &list(operations));
+    // [cool] is the first, the others stand beside it; what has no code of its own to end it ends with everything
+    assert_eq!(print(&[(1, "through,air", LINE)]), ["M88", "M12", "M9", "M89"]);
+    assert_eq!(print(&[(1, "air,through", LINE)]), ["M12", "M88", "M89", "M9"]);
+    assert_eq!(print(&[(1, "through", LINE)]), ["M88", "M89"]);
+    let path = |changes: &str| format!("{LINE},{changes},{{\"line\":[0,0,0]}}");
+    let change = |first: &str, next: &str| print(&[(1, first, &path(&format!("{{\"coolant\":{next}}}")))]);
+    assert_eq!(change("through", "[\"through\",\"air\"]"), ["M88", "M12", "M9", "M89"]);
+    assert_eq!(change("air", "[\"through\",\"air\"]"), ["M12", "M88", "M12", "M9", "M89"]);
+    assert_eq!(change("on", "[\"on\",\"through\"]"), ["M8", "M88", "M89", "M9"]);
+    assert_eq!(change("through,on", "\"on\""), ["M88", "M8", "M89", "M8", "M9"]);
+    assert_eq!(change("air,through", "\"air\""), ["M12", "M88", "M89", "M9"]);
+    assert_eq!(change("through,air", "\"through\""), ["M88", "M12", "M9", "M88", "M89"]);
+    assert_eq!(change("through,air", "\"off\""), ["M88", "M12", "M9", "M89", "M9"]);
+    // before another tool
+    assert_eq!(
+        print(&[(1, "on", LINE), (2, "air,through", LINE), (1, "off", LINE)]),
+        ["M8", "M12", "M88", "M89", "M9", "M9"]
+    );
+    // after a stop all are said again
+    let stop = path("{\"stop\":\"program\"}");
+    assert_eq!(print(&[(1, "air,through", &stop)]), ["M12", "M88", "M0", "M12", "M88", "M89", "M9"]);
+}
+
+#[test]
+fn conditions_ask_whether_a_list_holds_a_kind() {
+    let several = |kinds: &str| job(&[(1, "on", LINE)]).replace("\"coolant\":\"on\"", &format!("\"coolant\":{kinds}"));
+    let lines = "M[cool]\n@if [cool] = air\n  M12\n@end\n@if [cool] = through\n  M101\n@end";
+    assert_eq!(codes(&form(KINDS, lines), &several("[\"on\",\"air\"]")), ["M8", "M12", "M9"]);
+    assert_eq!(codes(&form(KINDS, lines), &several("[\"air\",\"through\"]")), ["M12", "M12", "M101", "M88", "M89"]);
+    for (kinds, message) in [
+        ("[\"on\",\"high\"]", "PR054 the form has no coolant `high`"),
+        ("[\"on\",\"off\"]", "PJ003 a list of coolants names what is on: write \"off\" alone"),
+        ("[\"air\",\"air\"]", "PJ003 the list names air twice"),
+        ("[]", "PJ003 an empty list of coolants: write \"off\""),
+        ("[\"foam\"]", "PJ003"),
+        ("8", "PJ003"),
+    ] {
+        let told = codes(&form(KINDS, "M[cool]"), &several(kinds));
+        assert!(told[0].starts_with(message), "{kinds}: {told:?}");
+    }
+}
+
+#[test]
 fn wrong_kinds_are_refused() {
     for head in [
         "CoolantKind",

@@ -88,9 +88,9 @@ impl Sink for Steps {
                     SpindleTurn::Off => "None",
                 };
                 let coolant = match change.coolant.unwrap() {
-                    Coolant::On => "Flood",
-                    Coolant::Mist => "Mist",
-                    Coolant::Off => "None",
+                    Coolant::FLOOD => "Flood",
+                    Coolant::MIST => "Mist",
+                    Coolant::OFF => "None",
                     other => panic!("{other:?}"),
                 };
                 let (name, speed) = (change.name.as_ref().unwrap(), spindle.speed.unwrap());

@@ -118,3 +118,20 @@ fn a_comment_that_only_another_branch_says_is_not_lost() {
     let comments: Vec<_> = printed.iter().filter(|line| line.starts_with('(')).collect();
     assert_eq!(comments, ["(MIND THE CLAMP)", "(X)"]);
 }
+
+/// Where home is, the form says; from there on nobody knows the place, and every axis is said again.
+#[test]
+fn home_is_a_place_of_the_machine() {
+    let home = |form: &str, items: &str| path(form, &job(&[(1, TURNS, items)]));
+    let goes = "MoveHome\nG91 G28 Z0\nG90\nEnd";
+    let path = format!("{LINE},{{\"rapid\":[1,0,1]}},{{\"home\":true}},{{\"rapid\":[1,0,1]}},{LINE}");
+    assert_eq!(home(goes, &path), ["G1 X1. Z0 F10.", "G0 Z1.", "G91 G28 Z0", "G90", "X1. Y0 Z1.", "G1 Z0"]);
+    // changes that wait come before it
+    let off = format!("{LINE},{{\"rapid\":[1,0,1]}},{{\"spindle\":{{\"direction\":\"off\"}}}},{{\"home\":true}}");
+    assert_eq!(home(goes, &off)[1..], ["G0 Z1.", "M5", "G91 G28 Z0", "G90"]);
+    // a cut behind it has no beginning
+    let cut = format!("{LINE},{{\"home\":true}},{{\"line\":[0,0,0]}}");
+    assert!(home(goes, &cut)[0].starts_with("PR012 the operation begins with a cut"), "{:?}", home(goes, &cut));
+    assert!(home("", &path)[0].starts_with("PR008 the tool goes home here"), "{:?}", home("", &path));
+    assert!(home(goes, "{\"home\":false}")[0].starts_with("PJ003 `home` is false"));
+}

@@ -346,6 +346,23 @@ fn right_programs_of_other_forms_are_proven() {
     );
     is_right("another offset with another tool", of_form(&home, &offsets));
 
+    // the last part of an arc, which no digits of its end show, before a full circle the other way
+    let unusual = |name: &str| std::fs::read_to_string(root().join(format!("tests/data/forms/{name}.pf"))).unwrap();
+    let inch = |path: &str| {
+        format!(
+            r#"{{"postform":1,"program":5,"tools":[{{"number":1}}],"operations":[{{"tool":1,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"feed":35,"path":[{path}]}}]}}"#
+        )
+    };
+    let arcs = inch(
+        r#"{"rapid":[2.1991,0.974,1.2191]},{"line":[-1.6529,3.6587,-0.25]},{"arc":{"to":[-1.6310425,3.6577622,-0.25],"radius":0.25383784193850994,"direction":"ccw"}},{"arc":{"to":[-1.6310425,3.6577622,-0.25],"center":[-1.9185,3.4783,-0.25],"direction":"cw"}}"#,
+    );
+    is_right("a circle behind the rest of an arc", of_form(&unusual("spin-up"), &arcs));
+    // the control leaves the hole higher than the job, and comes back for a cut that no digits show
+    let tapped = inch(
+        r#"{"rapid":[1.0698,1.7598,0.8441]},{"cycle":{"kind":"tap","clear":0.2746,"depth":0.7718,"feed":18.9,"points":[[-0.7609,0.351,-0.2594]]}},{"line":[-0.7609,0.351,0.01521]},{"rapid":[-0.7609,0.351,1.7092]}"#,
+    );
+    is_right("back to where the job left the hole", of_form(&unusual("no-return-plane"), &tapped));
+
     let rotary = plain_post("haas-4axis.pf");
     let renamed = format!("Rename A B\n{rotary}");
     let turned = one(

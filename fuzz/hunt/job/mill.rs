@@ -2,20 +2,20 @@
 
 use serde_json::{Map, Value, json};
 
-use super::Kind;
 use super::cycles::cycle;
 use super::pen::Pen;
 use super::rotary::turn;
 use super::subprograms::{call, subprograms};
+use super::{Kind, Takes};
 use crate::random::Random;
 
 const SECTIONS: &[&str] = &["leadin", "leadout", "plunge", "retract", "sidestep", "zlevel", "row"];
 
 /// Tools and operations.
-pub fn fill(job: &mut Value, kind: Kind, inch: bool, customs: [bool; 3], random: &mut Random) {
+pub fn fill(job: &mut Value, kind: Kind, inch: bool, takes: Takes, random: &mut Random) {
     let tools: Vec<Value> = (1..=4).map(|number| tool(number, inch, random)).collect();
     let mut pen = Pen::new(inch, random);
-    pen.customs = customs;
+    (pen.customs, pen.home) = (takes.customs, takes.home);
     let mut angle = 0.0;
     let subs = if kind == Kind::Subprograms { subprograms(&mut pen) } else { Vec::new() };
     let wanted = 6 + pen.random.below(29);
@@ -29,6 +29,13 @@ pub fn fill(job: &mut Value, kind: Kind, inch: bool, customs: [bool; 3], random:
         begin(&mut pen, kind, &mut angle);
         while pen.moves < before + share && pen.moves < wanted {
             piece(&mut pen, kind, &mut angle, subs.len(), &work);
+            if pen.home && pen.random.once_in(8) {
+                let [x, y, _] = pen.at;
+                let high = pen.length(1.0, 2.0);
+                pen.rapid([x, y, high]);
+                pen.put(json!({ "home": true }));
+                begin(&mut pen, kind, &mut angle);
+            }
         }
         if pen.random.once_in(2) {
             let [x, y, _] = pen.at;

@@ -50,6 +50,8 @@ pub struct Takes {
     pub inch: Option<bool>,
     /// Its own cycles, by number.
     pub customs: [bool; 3],
+    /// Jobs that send the tool home.
+    pub home: bool,
 }
 
 /// A job as a document: an object whose last key is its operations.
@@ -65,7 +67,7 @@ pub fn job(kind: Kind, takes: Takes, random: &mut Random) -> Value {
         job["name"] = json!("PART 7");
     }
     match kind {
-        Kind::Mill | Kind::Rotary | Kind::Subprograms => mill::fill(&mut job, kind, inch, takes.customs, random),
+        Kind::Mill | Kind::Rotary | Kind::Subprograms => mill::fill(&mut job, kind, inch, takes, random),
         Kind::Lathe => lathe::fill(&mut job, inch, random),
         Kind::Wire => wire::fill(&mut job, inch, random),
     }

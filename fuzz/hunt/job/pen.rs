@@ -22,6 +22,8 @@ pub struct Pen<'r> {
     pub per_turn: bool,
     /// Cycles that only the form knows.
     pub customs: [bool; 3],
+    /// The form knows the way home.
+    pub home: bool,
 }
 
 impl<'r> Pen<'r> {
@@ -29,7 +31,17 @@ impl<'r> Pen<'r> {
     pub fn new(inch: bool, random: &'r mut Random) -> Pen<'r> {
         let decimals = if inch { random.pick(&[2, 3, 4, 4, 4, 6]) } else { random.pick(&[0, 1, 2, 3, 3, 3, 5]) };
         let unit = if inch { 1.0 } else { 25.0 };
-        Pen { random, unit, decimals, at: [0.0; 3], path: Vec::new(), moves: 0, per_turn: false, customs: [false; 3] }
+        Pen {
+            random,
+            unit,
+            decimals,
+            at: [0.0; 3],
+            path: Vec::new(),
+            moves: 0,
+            per_turn: false,
+            customs: [false; 3],
+            home: false,
+        }
     }
 
     /// A number with the job's decimals.

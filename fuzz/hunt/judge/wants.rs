@@ -189,6 +189,8 @@ impl Reader {
             self.low = self.low.min(self.at[2]);
             self.at = self.target(to);
             self.low = self.low.min(self.at[2]);
+        } else if item.get("home").is_some() {
+            self.at[..3].fill(f64::NAN);
         } else if let Some(to) = item.get("line") {
             let to = self.target(to);
             self.put(Want::Line, to);

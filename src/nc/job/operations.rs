@@ -29,7 +29,7 @@ impl Reader<'_> {
                 ..Tool::default()
             }),
             spindle: Some(wanted.spindle()),
-            coolant: Some(wanted.coolant.unwrap_or(Coolant::Off)),
+            coolant: Some(wanted.coolant.unwrap_or(Coolant::OFF)),
             work: wanted.work,
             feed: None,
             plunge: None,

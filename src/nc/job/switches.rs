@@ -17,12 +17,12 @@ impl Switches {
     /// Takes a coolant code. `false`: flood and mist would be on together, and a job has one of them, the later.
     pub fn cool(&mut self, cooling: Cooling) -> bool {
         let wanted = match cooling {
-            Cooling::Flood => Coolant::On,
-            Cooling::Mist => Coolant::Mist,
-            Cooling::Off => Coolant::Off,
+            Cooling::Flood => Coolant::FLOOD,
+            Cooling::Mist => Coolant::MIST,
+            Cooling::Off => Coolant::OFF,
         };
         let before = self.coolant.replace(wanted);
-        let flows = |coolant| matches!(coolant, Coolant::On | Coolant::Mist);
+        let flows = |coolant| matches!(coolant, Coolant::FLOOD | Coolant::MIST);
         !flows(wanted) || before.is_none_or(|before| !flows(before) || before == wanted)
     }
 

@@ -8,7 +8,8 @@ use super::table::Subprograms;
 use super::tools::end_operation;
 use crate::compile::{Op, Routine};
 use crate::diag::Code;
-use crate::lang::SequenceId;
+use crate::lang::{Coolant, SequenceId};
+use crate::render::beside::end_beside;
 use crate::render::body::{Mode, go_on, run_part};
 use crate::render::fault::{Done, fault};
 use crate::render::numbered::is_percent;
@@ -45,6 +46,7 @@ pub fn finish(
     begin_main(shape, want, said, out, subs)?;
     check_calls(subs)?;
     set_here(shape, want, said)?;
+    end_beside(Coolant::OFF, shape, want, said, out)?;
     want.ends_what_is_on(shape);
     let Some(routine) = shape.routine(SequenceId::EndCode, want, said) else { return Ok(()) };
     check_reading_of(routine, shape, want, said)?;

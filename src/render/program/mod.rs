@@ -3,6 +3,7 @@
 pub mod calls;
 pub mod comments;
 pub mod finish;
+pub mod home;
 pub mod sections;
 pub mod start;
 pub mod stops;

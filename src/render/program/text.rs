@@ -75,7 +75,10 @@ fn text_codes(text: &str, shape: &Shape, want: &mut Want, said: &mut Said) -> Do
 fn is_the_jobs(code: control::Code, shape: &Shape, want: &mut Want) {
     let var = match shape.group_of(code) {
         Some(Group::Spindle) => VarId::Direct,
-        Some(Group::Coolant) => VarId::Cool,
+        Some(Group::Coolant) => {
+            want.coolant = want.coolant.first(); // the text says one kind
+            VarId::Cool
+        }
         Some(Group::Work) => match &shape.program.work_word {
             None => VarId::Work,
             // G54 is none of the offsets that have a word of their own: nobody knows its number

@@ -10,6 +10,7 @@ use crate::control::Meaning;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, TextId, VarId, VarSet};
 use crate::render::ahead;
+use crate::render::beside::end_beside;
 use crate::render::cycle::hole::hole_position;
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::moves::rotary::change_turns;
@@ -130,7 +131,7 @@ fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut
     }
     match change.coolant {
         Some(coolant) => want.set_coolant(coolant, shape)?,
-        None if new_tool => want.set_coolant(Coolant::Off, shape)?,
+        None if new_tool => want.set_coolant(Coolant::OFF, shape)?,
         None => {}
     }
     if let Some(work) = change.work {
@@ -172,6 +173,7 @@ fn change_tool(
         return fault(Code::PR030, "the tool changes under cutter compensation", help);
     }
     let id = change_of(want);
+    end_beside(Coolant::OFF, shape, want, said, out)?;
     next_tool(tool, shape, want)?;
     want.tool = Some(tool.number);
     said.stand.fresh_tool = Some(said.stand.position.given);

@@ -20,6 +20,10 @@ impl Said {
     /// A G or M code was printed in this line.
     pub fn code(&mut self, code: Code, line: Line, want: &Want, shape: &Shape) {
         let row = shape.code_row(code);
+        if code.letter == b'M' && self.beside_code(code.value(), want, shape) {
+            self.switched = true;
+            return;
+        }
         match code.letter {
             b'M' => self.m_code(code, row, want, shape),
             _ => self.frame_code(code, row, line, want, shape),

@@ -2,7 +2,7 @@
 
 use super::state::Said;
 use crate::control::Group;
-use crate::lang::{VarId, VarSet};
+use crate::lang::{Coolant, VarId, VarSet};
 use crate::render::shape::Shape;
 use crate::render::want::Want;
 
@@ -17,6 +17,9 @@ impl Said {
             if want.get(var).is_some_and(|value| said != Some(value)) {
                 set.insert(var);
             }
+        }
+        if self.lacks_beside(want) {
+            set.insert(VarId::Cool);
         }
         if shape.program.switches_spindle { set.without(SPINDLE) } else { set }
     }
@@ -79,6 +82,7 @@ impl Said {
     pub fn stopped(&mut self, want: &Want, shape: &Shape) {
         let settings = &shape.program.settings;
         let off = [settings.spindle[2], settings.coolant[1]];
+        self.beside = Coolant::OFF;
         for var in [VarId::Speed, VarId::Direct, VarId::Cool] {
             if want.get(var).is_some_and(|value| !off.contains(&value)) {
                 self.conditions.put(var, None);

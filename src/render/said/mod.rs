@@ -2,6 +2,7 @@
 //! where the tool stands. Everything that may have changed the machine behind our back makes it unknown here.
 
 mod angles;
+mod beside;
 mod codes;
 mod conditions;
 mod lacks;

@@ -6,7 +6,7 @@ use super::registers::Registers;
 use super::stand::Stand;
 use crate::compile::{Letter, LetterKind};
 use crate::control::{Code, Group, Meaning};
-use crate::lang::{Machine, VarId};
+use crate::lang::{Coolant, Machine, VarId};
 use crate::number::quantise;
 use crate::render::kept::Kept;
 use crate::render::shape::Shape;
@@ -37,6 +37,8 @@ pub struct Said {
     pub conditions: Conditions,
     /// The code that ended a kind of coolant, while nothing has begun one since.
     pub coolant_ended: Option<f64>,
+    /// The kinds of coolant that are on beside the first.
+    pub beside: Coolant,
     /// Where the tool stands.
     pub stand: Stand,
     /// What the form itself has set.
@@ -80,6 +82,7 @@ impl Said {
             registers: Registers::default(),
             conditions: Conditions::default(),
             coolant_ended: None,
+            beside: Coolant::OFF,
             stand: Stand::default(),
             kept: Kept::default(),
             upon_used: vec![None; upons],

@@ -199,6 +199,12 @@ impl<'s> Builder<'s> {
         if let Some(action) = item.edm {
             return self.push(Event::Edm(action.0));
         }
+        if let Some(home) = item.home {
+            if !home {
+                return fault(Code::PJ003, "`home` is false, so the item says nothing", "take it out, or write true");
+            }
+            return self.push(Event::Home);
+        }
         if let Some(seconds) = item.dwell {
             return self.push(Event::Dwell(not_negative("dwell", seconds)?));
         }
@@ -325,6 +331,7 @@ fn check_one(item: &ItemObject) -> Done {
         item.call.is_some(),
         item.thread.is_some(),
         item.edm.is_some(),
+        item.home.is_some(),
         item.dwell.is_some(),
         item.stop.is_some(),
         item.comment.is_some(),

@@ -6,11 +6,11 @@ use std::marker::PhantomData;
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, Visitor};
 
 use super::context::{Context, Step};
-use super::values::{Number, PeckMode, Position, SpeedMode, StepFrom, Word};
+use super::values::{Kinds, Number, PeckMode, Position, SpeedMode, StepFrom, Word};
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, did_you_mean};
-use crate::toolpath::{Coolant, Direction, FeedMode, Given, Plane, Section, Side, SpindleTurn, StopKind, Units};
 use crate::toolpath::{CycleKind, EdmAction};
+use crate::toolpath::{Direction, FeedMode, Given, Plane, Section, Side, SpindleTurn, StopKind, Units};
 
 /// An object with a fixed list of keys.
 pub trait Object: Default {
@@ -33,7 +33,7 @@ macro_rules! leaves {
         fn read<'de, A: MapAccess<'de>>(map: &mut A, _: &Context) -> Result<Self, A::Error> { map.next_value() }
     })* };
 }
-leaves! { Number String bool Position Vec<Number> }
+leaves! { Number String bool Position Kinds Vec<Number> }
 
 impl<T: super::values::Words> Value for Word<T> {
     fn read<'de, A: MapAccess<'de>>(map: &mut A, _: &Context) -> Result<Self, A::Error> {
@@ -126,7 +126,7 @@ objects! {
         "tool" tool Number, "its tool; left out: the one before";
         "work" work Number, "work offset: a fixture number below 50, else the code";
         "spindle" spindle SpindleObject, "its spindle";
-        "coolant" coolant Word<Coolant>, "its coolant";
+        "coolant" coolant Kinds, "its coolant: a kind, or a list of those that are on at once";
         "feed" feed Number, "feed of moves that name none";
         "plunge" plunge Number, "feed of plunges";
         "feed_mode" feed_mode Word<FeedMode>, "what feeds count (per_minute)";
@@ -146,6 +146,7 @@ objects! {
         "call" call CallObject, "call of a subprogram";
         "thread" thread ThreadObject, "a thread on a lathe";
         "edm" edm Word<EdmAction>, "what a wire EDM machine does between moves";
+        "home" home bool, "`true`: the tool goes to the machine's own place";
         "dwell" dwell Number, "dwell in seconds";
         "stop" stop Word<StopKind>, "a stop";
         "comment" comment String, "a comment to print";
@@ -153,7 +154,7 @@ objects! {
         "feed" feed Number, "feed of this move and those after it";
         "work" work Number, "change of the work offset";
         "spindle" spindle SpindleObject, "change of the spindle";
-        "coolant" coolant Word<Coolant>, "change of the coolant";
+        "coolant" coolant Kinds, "change of the coolant";
         "set" set Values, "values for variables of the form";
     }
     /// A subprogram without its path.

@@ -120,8 +120,6 @@ words! {
     Units: "inch" Units::Inch, "mm" Units::Mm;
     Machine: "mill" Machine::Mill, "lathe" Machine::Lathe, "edm" Machine::Edm;
     SpindleTurn: "cw" SpindleTurn::Cw, "ccw" SpindleTurn::Ccw, "off" SpindleTurn::Off;
-    Coolant: "on" Coolant::On, "flood" Coolant::On, "mist" Coolant::Mist, "off" Coolant::Off,
-        "through" Coolant::Through, "air" Coolant::Air, "high" Coolant::High;
     FeedMode: "per_minute" FeedMode::PerMinute, "per_rev" FeedMode::PerRev, "inverse_time" FeedMode::InverseTime;
     Direction: "cw" Direction::Cw, "ccw" Direction::Ccw;
     Plane: "xy" Plane::Xy, "xz" Plane::Xz, "yz" Plane::Yz;
@@ -137,6 +135,60 @@ words! {
 
 impl Words for CycleKind {
     const WORDS: &'static [(&'static str, Self)] = &CycleKind::NAMES;
+}
+
+impl Words for Coolant {
+    const WORDS: &'static [(&'static str, Self)] = &Coolant::NAMES;
+}
+
+/// Coolant: a kind, or a list of kinds that are on at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kinds(pub Coolant);
+
+impl<'de> Deserialize<'de> for Kinds {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct KindsVisitor;
+        impl<'de> Visitor<'de> for KindsVisitor {
+            type Value = Kinds;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                let kinds: Vec<_> = Coolant::NAMES.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+                write!(f, "{}, or a list of them", kinds.join(" or "))
+            }
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Kinds, E> {
+                Word::deserialize(de::value::StrDeserializer::new(text)).map(|Word(kind)| Kinds(kind))
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Kinds, A::Error> {
+                let mut all: Option<Coolant> = None;
+                while let Some(Word(kind)) = seq.next_element::<Word<Coolant>>()? {
+                    if kind == Coolant::OFF || all == Some(Coolant::OFF) {
+                        return Err(de::Error::custom("a list of coolants names what is on: write \"off\" alone"));
+                    }
+                    if all.is_some_and(|all| all.holds(kind)) {
+                        return Err(de::Error::custom(format!("the list names {} twice", kind.name())));
+                    }
+                    all = Some(all.unwrap_or(Coolant::OFF).and(kind));
+                }
+                all.map(Kinds).ok_or_else(|| de::Error::custom("an empty list of coolants: write \"off\""))
+            }
+        }
+        deserializer.deserialize_any(KindsVisitor)
+    }
+}
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Kinds {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Coolant".into()
+    }
+    fn inline_schema() -> bool {
+        true
+    }
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let one = generator.subschema_for::<Word<Coolant>>();
+        let on: Vec<_> =
+            Coolant::NAMES.iter().filter(|(_, kind)| *kind != Coolant::OFF).map(|(name, _)| *name).collect();
+        schemars::json_schema!({ "anyOf": [one, { "type": "array", "minItems": 1, "uniqueItems": true, "items": { "enum": on } }] })
+    }
 }
 
 /// What a spindle speed counts.

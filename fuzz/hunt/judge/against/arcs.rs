@@ -53,12 +53,15 @@ impl Judge<'_> {
         if whole * size <= 2.0 * self.within {
             // too short to be told from nothing, but for its height
             let reach = size * 2.0 + loose + (wanted.to[third] - wanted.from[third]).abs();
-            while self.next().is_some_and(|act| {
+            while let Some(act) = self.next().filter(|act| {
                 !same(&act.from, &wanted.to, self.within)
                     && act.what != What::Rapid
                     && [&act.from, &act.to].iter().all(|end| is_near(end, &wanted.to, reach))
             }) {
                 self.take();
+                if same(&act.to, &wanted.to, self.within) {
+                    break; // what comes next is another cut
+                }
             }
             return None;
         }

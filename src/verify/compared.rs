@@ -147,7 +147,9 @@ fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
 fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: usize, tolerance: f64) -> Compared {
     if known_start && job.len() == program.len() {
         let pairs = || job.iter().zip(program);
-        if pairs().all(|(a, b)| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance)) {
+        // where the job knows no place, any will do
+        let is = |a: &Rapid, b: &Rapid| b.unknown & !a.unknown == 0 && same(&a.to, &b.to, ALL & !a.unknown, tolerance);
+        if pairs().all(|(a, b)| is(a, b)) {
             return if pairs().all(|(a, b)| spins(a, b)) { Compared::Same } else { Compared::Turning };
         }
     }
@@ -178,8 +180,8 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     if known_start && across(job, tolerance).count() == across(program, tolerance).count() {
         let mut pairs = across(job, tolerance).zip(across(program, tolerance));
         let all = pairs.all(|((a, b), (c, d))| {
-            same(&a.to, &c.to, ACROSS, tolerance)
-                && same(&b.to, &d.to, ACROSS, tolerance)
+            same(&a.to, &c.to, ACROSS & !a.unknown, tolerance)
+                && same(&b.to, &d.to, ACROSS & !b.unknown, tolerance)
                 && height(c) >= a.to[DEPTH] - tolerance
                 && height(d) >= b.to[DEPTH] - tolerance
         });

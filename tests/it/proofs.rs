@@ -357,6 +357,11 @@ fn right_programs_of_other_forms_are_proven() {
         r#"{"rapid":[2.1991,0.974,1.2191]},{"line":[-1.6529,3.6587,-0.25]},{"arc":{"to":[-1.6310425,3.6577622,-0.25],"radius":0.25383784193850994,"direction":"ccw"}},{"arc":{"to":[-1.6310425,3.6577622,-0.25],"center":[-1.9185,3.4783,-0.25],"direction":"cw"}}"#,
     );
     is_right("a circle behind the rest of an arc", of_form(&unusual("spin-up"), &arcs));
+    // from home down at first, and then across: nobody knows from where
+    let home = inch(
+        r#"{"rapid":[0.7375,-2.0667,1.6584]},{"home":true},{"rapid":[null,null,1.0876]},{"rapid":[0.6466,-2.2204,1.6921]},{"line":[-3.1394,-1.7077,-0.3154]}"#,
+    );
+    is_right("down behind home", of_form(&unusual("no-return-plane"), &home));
     // the control leaves the hole higher than the job, and comes back for a cut that no digits show
     let tapped = inch(
         r#"{"rapid":[1.0698,1.7598,0.8441]},{"cycle":{"kind":"tap","clear":0.2746,"depth":0.7718,"feed":18.9,"points":[[-0.7609,0.351,-0.2594]]}},{"line":[-0.7609,0.351,0.01521]},{"rapid":[-0.7609,0.351,1.7092]}"#,

@@ -96,6 +96,9 @@ export class Editor {
   onLine: (file: number, line: number) => void = () => {};
   onSave: () => void = () => {};
   onLeave: () => void = () => {};
+  /** Esc was pressed once: what a second one does. */
+  onHint: () => void = () => {};
+  private escaped = -Infinity;
   /** What is known of a place in the file that is shown. */
   onHelp: (at: At) => Promise<Help | null> = () => Promise.resolve(null);
 
@@ -130,7 +133,7 @@ export class Editor {
         keymap.of([
           { key: "Mod-s", run: () => (this.onSave(), true), preventDefault: true },
           ...completionKeymap,
-          { key: "Escape", run: () => (this.onLeave(), true) },
+          { key: "Escape", run: () => this.escape() },
           ...defaultKeymap, ...historyKeymap, ...searchKeymap, indentWithTab,
         ]),
         EditorView.updateListener.of((update) => {
@@ -144,6 +147,16 @@ export class Editor {
     });
   }
 
+  /** Twice in a row leaves the form: once may have been meant for a list that is closed already. */
+  private escape(): boolean {
+    const now = performance.now();
+    const again = now - this.escaped < 2000;
+    this.escaped = again ? -Infinity : now;
+    if (again) this.onLeave();
+    else this.onHint();
+    return false;
+  }
+
   /** The files of the form; texts that are there already stay as they were typed. */
   setFiles(names: string[], texts: string[]): void {
     const same = names.length === this.names.length && names.every((name, i) => name === this.names[i]);
@@ -152,6 +165,8 @@ export class Editor {
     });
     if (same) return;
     const shown = this.name;
+    // what was typed, and what undoes it
+    if (shown) this.states.set(shown, this.view.state);
     this.names = names;
     this.file = -1;
     this.open(Math.max(0, names.indexOf(shown)));

@@ -30,7 +30,7 @@ async function complete(context: CompletionContext, ask: Ask): Promise<Completio
   const line = context.state.doc.lineAt(context.pos);
   const before = line.text.slice(0, context.pos - line.from);
   // where a word, a bracket or a code has begun, or when it is asked for
-  if (!context.explicit && !/\[[\w#]*$|(^|\s)[GM]\d+$|^\s*\w{2,}$|^\s*(End|Control|Machine|Units)\s+\w*$|@\w*$/.test(before)) return null;
+  if (!context.explicit && !/\[[\w#]*$|(^|\s)[GM]\d+$|^\s*\w{2,}$|^\s*(End|Control|Machine|Units)\s+\w*$|@\w*$|^\s*@for\s+\w*$/.test(before)) return null;
   const told = await ask({ line: line.number - 1, column: before.length, ask: "complete" }).catch(() => null);
   const list = told?.list ?? [];
   if (!list.length || context.aborted) return null;
@@ -55,19 +55,22 @@ function offset(view: EditorView, line: number, column: number): number {
   return Math.min(at.from + column, at.to);
 }
 
-/** As much of Markdown as postform writes: blocks of code, code and bold words. */
+/** As much of Markdown as postform writes: blocks of code, rules, code, bold and slanted words, and signs that stand for themselves. */
 export function markdown(text: string): HTMLElement[] {
   return text.split(/^```.*$/m).flatMap((part, at): HTMLElement[] => {
     if (!part.trim()) return [];
     if (at % 2) return [element("pre", {}, part.replace(/^\n|\n$/g, ""))];
-    return part.trim().split(/\n{2,}/).map((paragraph) => element("p", {}, ...words(paragraph)));
+    return part.trim().split(/\n{2,}/).map((paragraph) => (paragraph === "---" ? element("hr", {}) : element("p", {}, ...words(paragraph))));
   });
 }
 
 function words(text: string): (Node | string)[] {
-  return text.split(/(`[^`]+`|\*\*[^*]+\*\*)/).map((part) => {
-    if (part.startsWith("`")) return element("code", {}, part.slice(1, -1));
-    if (part.startsWith("**")) return element("b", {}, part.slice(2, -2));
-    return part;
+  const parts = text.match(/`[^`]+`|\*\*(?:\\.|[^*\\])+\*\*|\*(?:\\.|[^*\\])+\*|\\.|[^`*\\]+|[^]/g) ?? [];
+  const plain = (part: string) => part.replace(/\\(.)/g, "$1");
+  return parts.map((part) => {
+    if (part.length > 2 && part.startsWith("`")) return element("code", {}, part.slice(1, -1));
+    if (part.length > 4 && part.startsWith("**")) return element("b", {}, plain(part.slice(2, -2)));
+    if (part.length > 2 && part.startsWith("*")) return element("em", {}, plain(part.slice(1, -1)));
+    return plain(part);
   });
 }

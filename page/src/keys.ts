@@ -17,7 +17,7 @@ const KEYS: Key[] = [
   ["0", "all of it", (page) => page.backplot.fit()],
   ["1 2 3 4 5", "from above, the front, the side, the corner, as a lathe", () => {}],
   ["Home End", "first block, last block", () => {}],
-  ["Esc", "from the form to the program", () => {}],
+  ["Esc Esc", "from the form to the program", () => {}],
   ["Ctrl S", "save the form", () => {}],
 ];
 

@@ -9,7 +9,7 @@ import { keys } from "./keys.ts";
 import { Listing } from "./listing.ts";
 import { findingsOf, type Marks, marksOf, noMarks, stops } from "./marks.ts";
 import { base, jobName } from "./names.ts";
-import { noteOf, whereOf } from "./note.ts";
+import { noteOf, stoppedNote, verdictNote, whereOf } from "./note.ts";
 import { Program } from "./program.ts";
 import { type Head, Scene, type Verdict } from "./scene.ts";
 import { StateStrip } from "./state.ts";
@@ -40,6 +40,8 @@ export class Page {
   /** Texts that are on the disk, and those that were typed and not saved. */
   private saved: Record<string, string> = {};
   private typed: Record<string, string> = {};
+  /** Files that are other on the disk than what was typed began with, and nobody said yet which is to stay. */
+  private readonly conflicts = new Set<string>();
   private running = false;
   private again: { key: number } | null = null;
   private playing = 0;
@@ -66,7 +68,7 @@ export class Page {
     backplot.onPick = (line) => this.choose(line, "path");
     backplot.onHover = (line) => this.tell(line ?? this.line, line !== null);
     this.state.onPick = (line) => this.choose(line, "key");
-    this.verdict.onclick = () => this.nextDifference(1);
+    this.verdict.onclick = () => this.explain();
     this.lint.onclick = () => this.nextFinding(1);
     this.saving.onclick = () => void this.save();
     if (editor) {
@@ -75,6 +77,7 @@ export class Page {
       editor.onHelp = async (at) => (await this.host?.help({ job: this.job, texts: this.typed }, at)) ?? null;
       editor.onSave = () => void this.save();
       editor.onLeave = () => listing.focus();
+      editor.onHint = () => (this.foot.textContent = "Esc again: to the keys of the program · Tab: out of the form");
       editor.onOpen = () => {
         this.relight(false);
         if (this.head) editor.setFindings(findingsOf(this.head));
@@ -83,6 +86,9 @@ export class Page {
     this.host?.onChange?.((connected) => {
       this.say(connected ? "" : "postform has ended: this page shows what it showed last");
       if (connected) void this.load();
+    });
+    window.addEventListener("beforeunload", (event) => {
+      if (this.host?.save && Object.keys(this.typed).length) event.preventDefault();
     });
     keys(this);
   }
@@ -186,15 +192,24 @@ export class Page {
       if (before === undefined || before === text) return;
       if (this.typed[name] === undefined) this.editor!.replace(name, text);
       else if (this.typed[name] !== text) {
-        this.say(`${base(name)} was changed on the disk, and here, too.`, ["take the disk's", () => {
-          delete this.typed[name];
-          this.editor!.replace(name, text);
-          this.say("");
-          void this.load();
-        }], ["keep mine", () => this.say("")]);
+        this.conflicts.add(name);
+        this.sayConflict(name);
       } else delete this.typed[name];
     });
     this.saving.hidden = !this.host?.save || !Object.keys(this.typed).length;
+  }
+
+  private sayConflict(name: string): void {
+    const settled = () => {
+      this.conflicts.delete(name);
+      this.say("");
+    };
+    this.say(`${base(name)} was changed on the disk, and here, too.`, ["take the disk's", () => {
+      delete this.typed[name];
+      this.editor!.replace(name, this.saved[name]);
+      settled();
+      void this.load();
+    }], ["keep mine", settled]);
   }
 
   private titles(head: Head): void {
@@ -298,7 +313,10 @@ export class Page {
   /** A line of the form was clicked: the next block that it printed. */
   private chooseFormLine(file: number, line: number): void {
     const printed = this.program?.printedBy(file, line) ?? [];
-    if (!printed.length) return;
+    if (!printed.length) {
+      if (this.program) this.foot.textContent = `line ${line + 1} of the form printed no block here`;
+      return;
+    }
     const form = this.program!.form(this.line);
     if (form && form.file === file && form.line === line) return;
     this.choose(printed.find((at) => at > this.line) ?? printed[0], "form");
@@ -307,12 +325,13 @@ export class Page {
   /** What is known of a block, in words. */
   private tell(line: number, hovers: boolean): void {
     const program = this.program;
+    const stopped = stoppedNote(this.head?.stopped?.findings ?? []);
     if (!program) {
-      this.listing.note.replaceChildren();
+      this.listing.note.replaceChildren(...stopped);
       this.foot.textContent = "";
       return;
     }
-    this.listing.note.replaceChildren(...noteOf(program, line, this.marks, this.formText(line)));
+    this.listing.note.replaceChildren(...stopped, ...noteOf(program, line, this.marks, this.formText(line)));
     this.foot.textContent = (hovers ? "pointer at " : "") + whereOf(program, line);
   }
 
@@ -361,6 +380,16 @@ export class Page {
     this.editor.view.focus();
   }
 
+  /** What the verdict means: its findings one after the other, from where on nothing is proven, or what was allowed. */
+  private explain(): void {
+    const verdict = this.head?.verdict;
+    const bad = [...this.marks.bad.keys()].sort((a, b) => a - b);
+    if (bad.length) return this.choose(bad.find((line) => line > this.line) ?? bad[0], "finding");
+    if (!verdict || this.head?.stopped) return;
+    if (verdict.line) this.choose(verdict.line, "finding");
+    this.listing.note.replaceChildren(...verdictNote(verdict));
+  }
+
   nextDifference(by: number): void {
     const lines = stops(this.marks);
     if (!lines.length) return;
@@ -396,6 +425,7 @@ export class Page {
   async save(): Promise<void> {
     if (!this.host?.save) return;
     for (const [name, text] of Object.entries(this.typed)) {
+      if (this.conflicts.has(name)) return this.sayConflict(name);
       const wrong = await this.host.save(name, text, this.saved[name] ?? "");
       if (wrong) return this.say(`${base(name)} was not saved: ${wrong}`);
       this.saved[name] = text;

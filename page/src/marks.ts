@@ -9,8 +9,8 @@ export interface Marks {
   saved: Set<number>;
   /** Other than in the program that it is compared with; what stood there. */
   against: Map<number, string[]>;
-  /** Differs from the job, or is refused; why. */
-  bad: Map<number, string>;
+  /** Differs from the job, or is refused; why, and what helps. */
+  bad: Map<number, { text: string; help: string }>;
 }
 
 export function noMarks(): Marks {
@@ -32,9 +32,9 @@ export function marksOf(head: Head, old: Program | null): Marks {
       marks.against.set(line + 1, was);
     }
   }
-  for (const found of head.verdict?.findings ?? []) marks.bad.set(found.line, `${found.code}: ${found.message}`);
+  for (const found of head.verdict?.findings ?? []) marks.bad.set(found.line, { text: `${found.code}: ${found.message}`, help: found.help });
   const refused = head.picture?.refused;
-  if (refused?.line) marks.bad.set(refused.line, `${refused.code}: ${refused.message}`);
+  if (refused?.line) marks.bad.set(refused.line, { text: `${refused.code}: ${refused.message}`, help: refused.help ?? "" });
   return marks;
 }
 

@@ -4,12 +4,13 @@ import { element } from "./element.ts";
 import type { Marks } from "./marks.ts";
 import { itemPath, type Program } from "./program.ts";
 import { repeats } from "./repeats.ts";
+import type { Finding, Verdict } from "./scene.ts";
 
 /** `formText`: the line of the form that printed it. */
 export function noteOf(program: Program, line: number, marks: Marks, formText: string): HTMLElement[] {
   const note: HTMLElement[] = [];
   const bad = marks.bad.get(line);
-  if (bad) note.push(element("div", { class: "bad" }, bad));
+  if (bad) note.push(element("div", { class: "bad" }, bad.text), element("div", { class: "help" }, bad.help));
   const was = marks.against.get(line);
   if (was) note.push(element("div", {}, "before: ", ...(was.length ? struck(was.map((word) => ({ word }))) : ["nothing"])));
   const form = program.form(line);
@@ -26,6 +27,20 @@ export function noteOf(program: Program, line: number, marks: Marks, formText: s
     note.push(element("div", { class: "gen" }, who));
   }
   return note;
+}
+
+/** Why there is no program: each finding, where it is in the job, and what helps. */
+export function stoppedNote(findings: Finding[]): HTMLElement[] {
+  return findings.slice(0, 3).flatMap((found) => [
+    element("div", { class: "bad" }, `${found.code}: ${found.message}`),
+    element("div", { class: "help" }, [found.help, found.place && `at ${found.place}`].filter(Boolean).join(" · ")),
+  ]);
+}
+
+/** What a verdict says besides: what was allowed, and what helps. */
+export function verdictNote(verdict: Verdict): HTMLElement[] {
+  const lines = [...verdict.allowed.map((line) => `allowed: ${line}`), verdict.help].filter(Boolean);
+  return [element("div", {}, verdict.text), ...lines.map((line) => element("div", { class: "help" }, line))];
 }
 
 function struck(words: { word: string; why?: string }[]): (Node | string)[] {

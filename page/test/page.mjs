@@ -154,6 +154,7 @@ test("the first difference is shown in all panes", async ({ open }) => {
   ok(await page.locator(".ln.on.bad").count() === 1, "chosen and marked in the program");
   ok((await formLine(page).catch(() => "")) === "" && (await page.locator(".cm-line.cm-bad").innerText()).includes("G83"), "the form line is the Peck's");
   ok(/PV\d+/.test(await page.locator(".note").innerText()), await page.locator(".note").innerText());
+  ok((await page.locator(".note .help").first().innerText()).length > 10, "with what helps");
 });
 
 test("what could stand here is listed, with what it holds, and what a word is", async ({ open }) => {
@@ -198,6 +199,74 @@ test("what changed since the last save is marked, and saved", async ({ open }) =
   const form = readFileSync(join(path, "my.pf"), "utf8");
   writeFileSync(join(path, "my.pf"), form.replace("G80 G90 G94", "G80 G90"));
   await page.waitForFunction(() => !window.page.editor.text.includes("G94"), null, { timeout: 20_000 });
+});
+
+test("what was typed stays where the form gets another file", async ({ open }) => {
+  const { page, path } = await open();
+  writeFileSync(join(path, "mine.toml"), 'name = "mine"\nlike = "fanuc"\n');
+  await type(page, "Machine Mill", " # mine");
+  await page.evaluate(() => {
+    const { view } = window.page.editor;
+    const at = view.state.doc.toString().indexOf("Control fanuc");
+    view.dispatch({ changes: { from: at, to: at + "Control fanuc".length, insert: "Control mine.toml" } });
+  });
+  await page.waitForTimeout(300);
+  await ready(page);
+  const text = () => page.evaluate(() => window.page.editor.text);
+  ok((await text()).includes("Machine Mill # mine"), "what was typed before");
+  await type(page, "Machine Mill # mine", "!");
+  ok((await text()).includes("# mine!"), "and behind it");
+  // a file that only what is typed names is looked at, too
+  writeFileSync(join(path, "mine.toml"), 'name = "mine"\nlike = "nothing"\n');
+  await page.waitForFunction(() => document.querySelectorAll(".files [role=tab]").length === 2, null, { timeout: 20_000 });
+  ok((await page.locator(".verdict").innerText()).includes("nothing"), "what is wrong with it is said");
+  ok((await text()).includes("# mine!"), "and what was typed is there");
+  await page.evaluate(() => window.page.editor.view.focus());
+  for (let undo = 0; undo < 12; undo++) await page.keyboard.press("Control+z");
+  ok(!(await text()).includes("# mine"), "and it can be undone");
+});
+
+test("a save does not write over what somebody else has saved", async ({ open }) => {
+  const { page, path } = await open();
+  await type(page, "Machine Mill", " # mine");
+  const theirs = readFileSync(join(path, "my.pf"), "utf8") + "# theirs\n";
+  writeFileSync(join(path, "my.pf"), theirs);
+  const banner = page.locator(".banner");
+  await banner.waitFor({ timeout: 20_000 });
+  await page.keyboard.press("Control+s");
+  await page.waitForTimeout(300);
+  equal(readFileSync(join(path, "my.pf"), "utf8"), theirs, "not unasked");
+  await banner.getByRole("button", { name: "keep mine" }).click();
+  await page.locator(".cm-content").focus();
+  await page.keyboard.press("Control+s");
+  await page.waitForFunction(() => document.querySelector(".save").hidden);
+  ok(readFileSync(join(path, "my.pf"), "utf8").includes("# mine"), "but when it was chosen");
+});
+
+test("a word that is typed in full is itself, and Esc leaves the form only twice", async ({ open }) => {
+  const { page } = await open();
+  await type(page, "MoveHome\nG91 G28 Z0\nG90\nEnd\n", "\nStop");
+  const list = page.locator(".cm-tooltip-autocomplete");
+  await list.waitFor();
+  ok((await list.locator("[aria-selected]").innerText()).startsWith("Stop"), await list.innerText());
+  ok(!(await list.locator("[aria-selected]").innerText()).startsWith("StopCode"), "no other word");
+  await page.keyboard.press("Escape");
+  await page.keyboard.type("x");
+  ok((await page.evaluate(() => window.page.editor.text)).includes("\nStopx"), "a list is closed, and typing goes on");
+  await page.keyboard.press("Backspace");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Escape");
+  equal(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), "Program");
+});
+
+test("a job that can't be printed says what, where and what helps", async ({ open }) => {
+  const { page, path } = await open();
+  const job = readFileSync(join(path, "bracket.json"), "utf8");
+  writeFileSync(join(path, "bracket.json"), job.replace('"tool": 1', '"tool": 77'));
+  await page.waitForFunction(() => document.querySelector(".verdict").textContent.startsWith("no program"), null, { timeout: 20_000 });
+  const note = await page.locator(".note").innerText();
+  ok(note.includes("PJ006") && note.includes("operations[0]") && note.includes("add it to"), note);
 });
 
 test("jobs are tabs with their verdicts", async ({ open }) => {

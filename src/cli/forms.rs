@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use postform::internals::lint::{Changed, parts};
 use postform::internals::sema::{Checked, Limits, analyse, one_post};
@@ -100,7 +100,13 @@ impl FormFile {
 
 impl Files for FormFile {
     fn read(&self, name: &str) -> Result<Source, String> {
-        let (place, bytes) = called(&self.path, name)?;
+        let (place, bytes) = called(&self.path, name).inspect_err(|_| {
+            // one that is made later is a change
+            if Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
+                let place = self.path.parent().unwrap_or(Path::new("")).join(name);
+                self.called.borrow_mut().insert(files::name(&place), place);
+            }
+        })?;
         let name = files::name(&place);
         self.called.borrow_mut().insert(name.clone(), place);
         Ok(Source::from_bytes(name, &bytes))

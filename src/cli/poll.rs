@@ -37,10 +37,18 @@ impl Watched {
 
     /// Waits until one was changed and none changes any more.
     pub fn wait(&self) {
+        self.wait_while(|| true);
+    }
+
+    /// Waits so as long as the files are those to be watched. `false`: they are others now, and none was changed.
+    pub fn wait_while(&self, watches: impl Fn() -> bool) -> bool {
         loop {
             sleep(PAUSE);
             let mut seen = self.look();
             if seen.0 == self.0 {
+                if !watches() {
+                    return false;
+                }
                 continue;
             }
             // who writes in parts is left to end
@@ -48,7 +56,7 @@ impl Watched {
                 sleep(PAUSE / 3);
                 let next = seen.look();
                 if next.0 == seen.0 {
-                    return;
+                    return true;
                 }
                 seen = next;
             }

@@ -94,7 +94,9 @@ impl Document {
             let line = self.line_of(file, offset).unwrap_or_default();
             // in an expression the last name is the one that is typed
             let name = before[at + 1..].rsplit(|c: char| !(c.is_alphanumeric() || c == '_' || c == '#')).next();
-            return self.variables(span(name.map_or(0, str::len)), before.as_bytes()[at], line, current);
+            // the letter of the word says what it is likely to be
+            let letter = before[..at].bytes().last().filter(u8::is_ascii_alphabetic);
+            return self.variables(span(name.map_or(0, str::len)), before.as_bytes()[at], letter, line, current);
         }
         let word = before.rsplit([' ', '\t']).next().unwrap_or("");
         let first = before.trim_start_matches([' ', '\t']);
@@ -128,7 +130,14 @@ impl Document {
     }
 
     /// The variables of this machine, with what each holds in the current job, and the texts of jobs.
-    fn variables(&self, replaces: Span, bracket: u8, line: Span, current: Option<&Current>) -> Vec<Completion> {
+    fn variables(
+        &self,
+        replaces: Span,
+        bracket: u8,
+        letter: Option<u8>,
+        line: Span,
+        current: Option<&Current>,
+    ) -> Vec<Completion> {
         let machine = self.checked.form.settings.machine;
         let close = if bracket == b'[' { "]" } else { ">" };
         let source = &self.files()[replaces.file as usize].text;
@@ -141,8 +150,10 @@ impl Document {
             text: format!("{name}{close}"),
             snippet: None,
         };
-        let rows = VARIABLES.iter().filter(|row| row.machines.has(machine));
-        let numbers = rows.map(|row| {
+        let likely = letter.map_or(&[][..], |letter| likely(letter.to_ascii_uppercase(), machine));
+        let mut rows: Vec<_> = VARIABLES.iter().filter(|row| row.machines.has(machine)).collect();
+        rows.sort_by_key(|row| likely.iter().position(|var| *var == row.id).unwrap_or(likely.len()));
+        let numbers = rows.into_iter().map(|row| {
             let value = current.and_then(|current| Some((&current.name, self.value(line, row.id, current)?)));
             let held = value.map(|(job, value)| format!(" = {value} in {job}")).unwrap_or_default();
             one(row.name, format!("{}{held}: {}", counts(row.unit), row.meaning))
@@ -219,7 +230,9 @@ impl Document {
         // commands stand before the first sequence
         let any_above =
             self.checked.trees[replaces.file as usize].sequences().any(|node| node.span().start < replaces.start);
-        let commands = COMMANDS.iter().filter(|row| !any_above && (row.repeats || !there(row.id)));
+        // what is typed in full is listed, there or not: nobody gets another one for it
+        let typed = |name: &str| name.eq_ignore_ascii_case(word);
+        let commands = COMMANDS.iter().filter(|row| typed(row.name) || !any_above && (row.repeats || !there(row.id)));
         let mut list: Vec<Completion> = commands
             .map(|row| Completion {
                 label: row.name.to_owned(),
@@ -230,8 +243,9 @@ impl Document {
                 snippet: Some(shape(row.id, machine)),
             })
             .collect();
-        let sequences =
-            SEQUENCES.iter().filter(|row| row.machines.has(machine) && !form.sequences.contains_key(&row.id));
+        let sequences = SEQUENCES
+            .iter()
+            .filter(|row| row.machines.has(machine) && (typed(row.name) || !form.sequences.contains_key(&row.id)));
         list.extend(sequences.map(|row| Completion {
             label: row.name.to_owned(),
             kind: Kind::Sequence,
@@ -282,6 +296,34 @@ impl Document {
             }
             _ => Vec::new(),
         }
+    }
+}
+
+/// What a word of this letter is likely to print, the likeliest first: as the posts have it that ship.
+fn likely(letter: u8, machine: Machine) -> &'static [VarId] {
+    use VarId as V;
+    match (letter, machine) {
+        (b'X', Machine::Lathe) => &[V::V],
+        (b'Z', Machine::Lathe) => &[V::H],
+        (b'X', _) => &[V::H],
+        (b'Y', _) => &[V::V],
+        (b'Z', _) => &[V::D, V::Vclear, V::Rplane],
+        (b'A' | b'B' | b'C', Machine::Mill) => &[V::Rotangle],
+        (b'I', _) => &[V::Ival],
+        (b'J', _) => &[V::Jval],
+        (b'R', _) => &[V::Vclear, V::Arcrad],
+        (b'Q', _) => &[V::Vbite],
+        (b'P', _) => &[V::Dwell],
+        (b'F', _) => &[V::Frate, V::Plunge],
+        (b'S', _) => &[V::Speed],
+        (b'T', _) => &[V::Tool, V::Nexttool, V::Comp],
+        (b'H', _) => &[V::Lcomp],
+        (b'D', _) => &[V::Dcomp],
+        (b'G', _) => &[V::Work, V::Unitmode, V::Side],
+        (b'M', _) => &[V::Direct, V::Cool, V::Coolantoff],
+        (b'O', _) => &[V::Program],
+        (b'N', _) => &[V::Block],
+        _ => &[],
     }
 }
 
@@ -393,6 +435,19 @@ mod tests {
         assert!(page.starts_with("**[toolname] (text)**"), "{page}");
         let (document, offset) = haas("G81 X[h] Y[v]", "G81 X[| Y[v]");
         assert_eq!(listed(&document, offset).iter().find(|item| item.label == "h").unwrap().text, "h]");
+    }
+
+    #[test]
+    fn what_is_likely_stands_first_and_what_is_typed_is_listed() {
+        let first = |from: &str, to: &str| labels(from, to)[0].clone();
+        assert_eq!(first("R[vclear]", "R[|"), "vclear");
+        assert_eq!(first("T[tool] M6", "T[|"), "tool");
+        assert_eq!(first("S[speed]", "S[|"), "speed");
+        assert_eq!(first("X[h] Y[v]", "X[h] Y[|"), "v");
+        // a form has one Tap, and whoever types the word means it
+        let (document, offset) = haas("\nCancel", "\nTap|\nCancel");
+        let list = listed(&document, offset);
+        assert!(list.iter().any(|item| item.label == "Tap"), "{list:?}");
     }
 
     #[test]

@@ -20,7 +20,7 @@ pub fn verdict(proven: Result<Proven, Error>, trace: &[TraceLine], files: &[Sour
         Verdict::Identical => ("proven", format!("proven: {counts}"), &[]),
         Verdict::Equivalent(_) => ("proven", format!("proven equivalent: {counts}"), &[]),
         Verdict::NotProven(unproven) => {
-            ("unproven", format!("not proven: {}{}", unproven.from(), unproven.why), unproven.notes.as_slice())
+            ("unproven", format!("not proven{}: {}", unproven.from(), unproven.why), unproven.notes.as_slice())
         }
         Verdict::Different(found) => {
             ("different", format!("different: {}", count(found.len() as u64, "finding")), found)

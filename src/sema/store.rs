@@ -38,7 +38,7 @@ impl Setting for Option<&'static Control> {
         let Some(control) = Control::named(&name) else {
             let known = control::names().collect::<Vec<_>>().join(", ");
             let message = format!(
-                "there is no control `{name}`: there are {known}, or a file, as `my-vf2.toml`; most other controls are much like `fanuc`"
+                "there is no control `{name}`: there are {known}, or a file, as `my-vf2.toml`; most other controls are much like `fanuc`: `postform new --control-file fanuc -o {name}.toml` makes a file to begin with"
             );
             return bad(args.all.first(), message);
         };

@@ -35,8 +35,13 @@ struct Answer {
 impl Watch {
     /// In a folder with a form, a job, and more arguments.
     fn new(folder: &Folder, arguments: &[&str]) -> Watch {
+        Watch::of(folder, &[&["--job", "job.json"], arguments].concat())
+    }
+
+    /// With no other job than the arguments name.
+    fn of(folder: &Folder, arguments: &[&str]) -> Watch {
         let mut child = Command::new(env!("CARGO_BIN_EXE_postform"))
-            .args(["watch", "my.pf", "--job", "job.json", "--no-open"])
+            .args(["watch", "my.pf", "--no-open"])
             .args(arguments)
             .current_dir(&folder.0)
             .stdout(Stdio::piped())
@@ -342,6 +347,27 @@ fn the_scene_is_the_program() {
     assert_eq!(verdict["kind"], "proven", "{verdict}");
 }
 
+/// Without `--job` the jobs of postform.toml are shown, and without those the sample job of the form's machine; the day is today's.
+#[test]
+fn without_a_job_there_is_one() {
+    let folder = bracket("watch-sample");
+    let dated = folder.read("my.pf").replacen("End", "(PRINTED [date])\nEnd", 1);
+    folder.write("my.pf", &dated);
+    let watch = Watch::of(&folder, &["--date", "2026-03-31"]);
+    let (head, body) = watch.scene(&json!({}));
+    assert_eq!(head["jobs"], json!(["the sample job"]));
+    assert_eq!(head["verdict"]["kind"], "proven", "{}", head["verdict"]);
+    let text = String::from_utf8(section(&head, &body, "text").to_vec()).unwrap();
+    assert!(text.contains("(PRINTED 2026-03-31)"), "{text}");
+    drop(watch);
+    let (head, body) = Watch::of(&folder, &[]).scene(&json!({}));
+    let text = String::from_utf8(section(&head, &body, "text").to_vec()).unwrap();
+    assert!(text.contains("(PRINTED 2"), "{text}");
+    folder.write("postform.toml", "jobs = [\"job.json\"]\n");
+    let (head, _) = Watch::of(&folder, &[]).scene(&json!({}));
+    assert_eq!(head["jobs"], json!(["job.json"]));
+}
+
 /// What is typed is shown and not written.
 #[test]
 fn what_is_typed_is_shown_and_not_written() {
@@ -517,7 +543,6 @@ fn how_watch_ends() {
     for (arguments, says) in [
         (vec!["no-such.pf", "--job", "job.json"], "can't read no-such.pf"),
         (vec!["my.pf", "--job", "no-such.json"], "can't read no-such.json"),
-        (vec!["my.pf"], "--job"),
         (vec!["my.pf", "--job", "-"], "- is none"),
         (vec!["my.pf", "--job", "job.json", "--against", "no-such.nc"], "can't read no-such.nc"),
         (vec!["my.pf", "--job", "job.json", "--port", &port], "can't listen on port"),

@@ -70,8 +70,8 @@ pub struct PlotArgs {
 pub struct WatchArgs {
     /// The form
     pub form: PathBuf,
-    /// A job that is printed with it; several are tabs
-    #[arg(long, value_name = "JOB", required = true)]
+    /// A job that is printed with it; several are tabs [default: those of postform.toml, else a sample job]
+    #[arg(long, value_name = "JOB")]
     pub job: Vec<PathBuf>,
     /// A program of the job to compare with
     #[arg(long, value_name = "PROGRAM")]

@@ -63,9 +63,11 @@ pub fn run(args: WatchArgs) -> Result<Ending, String> {
     let watching = Arc::clone(&shared);
     thread::spawn(move || {
         loop {
-            Watched::new(watching.session.paths()).wait();
-            watching.session.forget();
-            watching.tell();
+            let paths = watching.session.paths();
+            if Watched::new(paths.clone()).wait_while(|| watching.session.watches(&paths)) {
+                watching.session.forget();
+                watching.tell();
+            }
         }
     });
     if opens && let Err(error) = open::that_detached(&address) {

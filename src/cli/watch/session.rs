@@ -11,12 +11,14 @@ use std::time::{Duration, Instant};
 
 use postform::internals::diff::{self, Deadline};
 use postform::internals::lint::Levels;
+use postform::internals::post::sample_job;
 use postform::internals::scene::{At, Printed, Request, Scene, behind, help, program_of, scene};
-use postform::{Files, Job, Limits, Options, Proof, Source};
+use postform::{Files, Job, Limits, Machine, Options, Proof, Source};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::super::args::{LimitsArg, ReadArgs, WatchArgs};
+use super::super::clock;
 use super::super::config::Config;
 use super::super::files::{self, io_message};
 use super::super::forms::FormFile;
@@ -89,6 +91,8 @@ pub struct Session {
     /// How often files were changed.
     generation: AtomicU64,
     saved: Mutex<Option<Saved>>,
+    /// The files of the form as it was shown last, typed and not saved.
+    shown: Mutex<Vec<PathBuf>>,
 }
 
 /// What the form printed for a job as it was saved.
@@ -125,7 +129,8 @@ impl Session {
             }
         })?;
         let form = form.analyse(&HashMap::new()).form;
-        for job in &args.job {
+        let jobs = if args.job.is_empty() { config.jobs.clone() } else { args.job };
+        for job in &jobs {
             files::check_format(job, &args.read)?;
             files::open(job)?;
         }
@@ -135,11 +140,17 @@ impl Session {
         let mut options = args.options.options();
         options.shop_properties.clone_from(&config.properties);
         prompt::answers(&args.options.set, &form.settings.properties, &mut options)?;
+        if options.clock.is_none() {
+            options.clock = Some(clock::now()?);
+        }
         let proof = args.control.proof(None);
         Ok(Session {
             form: args.form,
-            names: args.job.iter().map(|path| files::name(path)).collect(),
-            jobs: args.job,
+            names: match jobs.is_empty() {
+                true => vec!["the sample job".to_owned()],
+                false => jobs.iter().map(|path| files::name(path)).collect(),
+            },
+            jobs,
             against: args.against,
             read: args.read,
             limits,
@@ -149,6 +160,7 @@ impl Session {
             config: config.path,
             generation: AtomicU64::new(0),
             saved: Mutex::new(None),
+            shown: Mutex::default(),
         })
     }
 
@@ -162,7 +174,13 @@ impl Session {
             Err(_) => vec![self.form.clone()],
         };
         paths.extend(self.jobs.iter().chain(&self.against).chain(&self.config).cloned());
+        paths.extend(lock(&self.shown).iter().cloned());
         paths
+    }
+
+    /// Are the files of the form that is shown among these?
+    pub fn watches(&self, paths: &[PathBuf]) -> bool {
+        lock(&self.shown).iter().all(|path| paths.contains(path))
     }
 
     /// What the page shows: a scene, and what takes longer than the picture of a long program behind it: its verdict, and what
@@ -174,6 +192,7 @@ impl Session {
         let generation = self.generation.load(Ordering::Acquire);
         let form = self.read_form()?;
         let (mut scene, printed) = self.print(&form, ask)?;
+        *lock(&self.shown) = form.paths();
         let against = match &self.against {
             Some(path) => Some((files::name(path), read(path)?)),
             None => None,
@@ -186,6 +205,7 @@ impl Session {
             send(scene);
             return Ok(());
         };
+        let machine = self.machine(&form, &ask.texts);
         let is_small = printed.text().len() < SMALL;
         if ask.texts.is_empty() {
             self.keep_saved(ask.job, generation, printed.text());
@@ -196,7 +216,7 @@ impl Session {
             let (printed, against) = (&printed, &against);
             scope.spawn(move || {
                 // a job that can't be read any more is told by the next scene
-                if let Ok(job) = self.job(ask.job) {
+                if let Ok(job) = self.job(ask.job, machine) {
                     _ = proves.send(("verdict", printed.verdict(job)));
                 }
             });
@@ -235,9 +255,10 @@ impl Session {
     /// # Errors
     /// A message: a file can't be read.
     pub fn verdict(&self, ask: &Ask) -> Result<Value, String> {
-        let (scene, printed) = self.print(&self.read_form()?, ask)?;
+        let form = self.read_form()?;
+        let (scene, printed) = self.print(&form, ask)?;
         Ok(match printed {
-            Some(printed) => printed.verdict(self.job(ask.job)?),
+            Some(printed) => printed.verdict(self.job(ask.job, self.machine(&form, &ask.texts))?),
             None => json!({ "kind": "none", "text": scene.said("stopped").map(|stopped| stopped["message"].clone()) }),
         })
     }
@@ -257,19 +278,32 @@ impl Session {
     }
 
     fn request<'a>(&'a self, typed: &'a Typed<'a>, job: usize) -> Result<Request<'a>, String> {
+        let mut options = self.options.clone();
+        options.job_file = self.names.get(job).cloned();
         Ok(Request {
             form: typed.of(typed.form.source()),
             files: typed,
             limits: self.limits,
             levels: &self.levels,
-            job: self.job(job)?,
+            job: self.job(job, self.machine(typed.form, typed.texts))?,
             job_name: self.names.get(job).map_or("", String::as_str),
-            options: self.options.clone(),
+            options,
             proof: self.proof.clone(),
         })
     }
 
-    fn job(&self, job: usize) -> Result<Job<'static>, String> {
+    /// What the form is for, where that says which sample job is shown.
+    fn machine(&self, form: &FormFile, texts: &HashMap<String, String>) -> Machine {
+        match self.jobs.is_empty() {
+            true => form.analyse(texts).form.settings.machine,
+            false => Machine::default(),
+        }
+    }
+
+    fn job(&self, job: usize, machine: Machine) -> Result<Job<'static>, String> {
+        if self.jobs.is_empty() {
+            return Ok(Job::json(sample_job(machine)));
+        }
         files::job(self.jobs.get(job).ok_or("error: there is no such job")?, &self.read, true)
     }
 

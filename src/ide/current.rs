@@ -42,12 +42,12 @@ impl Document {
     /// not answer are answered by their defaults, else by 1, so that something is printed.
     pub fn print(&self, name: &str, mut job: Job<'_>) -> Option<Current> {
         let post = self.post()?;
-        let mut options = Options::default();
+        let mut options = Options { shop_properties: self.properties.clone(), ..Options::default() };
         let mut followed = post.follow(job.again(), &options).ok()?;
         if followed.stopped.is_some() {
             // what the job says itself counts: only what it lacks is made up
             let set = post.prompts().map(|ask| (ask.variable.to_owned(), ask.default.unwrap_or(1.0))).collect();
-            let answered = Options { program: Some(1), set, ..Options::default() };
+            let answered = Options { program: Some(1), set, ..options.clone() };
             let again = post.follow(job.again(), &answered).ok().filter(|again| again.stopped.is_none());
             if let Some(again) = again {
                 (options, followed) = (answered, again);

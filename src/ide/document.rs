@@ -16,6 +16,8 @@ pub struct Document {
     pub(super) checked: Checked,
     found: Found,
     post: Option<Post>,
+    /// What the shop gives the form's properties, by their names.
+    pub(super) properties: Vec<(String, String)>,
 }
 
 impl Document {
@@ -31,7 +33,13 @@ impl Document {
             let warnings = found.diags.iter().filter(|diag| diag.severity > Severity::Note).cloned().collect();
             Post::of(compile(&checked.form), warnings, &checked.files)
         });
-        Document { checked, found, post }
+        Document { checked, found, post, properties: Vec::new() }
+    }
+
+    /// With values of the shop for the form's properties, by their names: what is printed has them.
+    #[must_use]
+    pub fn with_properties(self, properties: &[(String, String)]) -> Document {
+        Document { properties: properties.to_vec(), ..self }
     }
 
     /// The files: the form itself first, then those that it calls. Spans are places in them.

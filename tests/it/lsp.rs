@@ -665,3 +665,20 @@ fn every_form_that_ships_is_served() {
     }
     editor.quit();
 }
+
+/// The shop's values of properties hold in the editor as they do for `render`.
+#[test]
+fn properties_of_the_shop_hold() {
+    let blocks = |name: &str, settings: &str| {
+        let folder = shop(name);
+        folder.write("postform.toml", format!("{SETTINGS}{settings}"));
+        let mut editor = Editor::open(&folder.0, &able(), &Value::Null);
+        editor.show("my.pf", "postform", HAAS);
+        let lens = editor.ask("textDocument/codeLens", &json!({ "textDocument": { "uri": editor.uri("my.pf") } }));
+        let title = lens[0]["command"]["title"].as_str().unwrap().to_owned();
+        editor.quit();
+        title.split(' ').find_map(|word| word.parse::<u32>().ok()).unwrap_or_else(|| panic!("{title}"))
+    };
+    let (with, without) = (blocks("header", ""), blocks("no-header", "[properties]\nheader = \"off\"\n"));
+    assert!(without + 5 < with, "{without} blocks without the header, {with} with it");
+}

@@ -67,7 +67,7 @@ impl View {
         let file = checked.files.iter().position(|source| source.name == own);
         // a form that says that it calls this one, and can't
         let Some(file) = file.map(|file| file as u32) else { return View::new(text, text.path.as_deref(), texts, job) };
-        let document = Document::of(checked, &config.levels);
+        let document = Document::of(checked, &config.levels).with_properties(&config.properties);
         let jobs: Vec<JobText> = job
             .into_iter()
             .map(Path::to_path_buf)
@@ -134,7 +134,8 @@ impl View {
     /// A view of this form and these jobs, with another text for the file that is open.
     pub fn with_text(&self, text: &str) -> View {
         let changed = Changed::from([(self.source().name.clone(), text.to_owned())]);
-        let document = Document::of(self.analyse(&changed), &self.config.levels);
+        let document =
+            Document::of(self.analyse(&changed), &self.config.levels).with_properties(&self.config.properties);
         View {
             document,
             file: self.file,

@@ -85,7 +85,12 @@ impl Plan {
         if clear + depth < 0.0 {
             let message =
                 format!("the bottom, {depth} below the point, is above the clearance plane, {clear} above it");
-            return Err(Problem::new(Code::PC003, message, "give a deeper `depth` or a higher `clear`"));
+            let help = if depth < 0.0 {
+                "`depth` counts down from the point: write it without the minus"
+            } else {
+                "give a deeper `depth` or a higher `clear`"
+            };
+            return Err(Problem::new(Code::PC003, message, help));
         }
         let feed = match (spec.feed, spec.kind) {
             (Some(feed), _) => feed,

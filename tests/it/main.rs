@@ -16,6 +16,7 @@ mod editors;
 mod examples;
 mod file_names;
 mod fmt;
+mod former_users;
 mod freecad;
 mod golden;
 mod grbl;

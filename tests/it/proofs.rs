@@ -357,6 +357,12 @@ fn right_programs_of_other_forms_are_proven() {
         r#"{"rapid":[2.1991,0.974,1.2191]},{"line":[-1.6529,3.6587,-0.25]},{"arc":{"to":[-1.6310425,3.6577622,-0.25],"radius":0.25383784193850994,"direction":"ccw"}},{"arc":{"to":[-1.6310425,3.6577622,-0.25],"center":[-1.9185,3.4783,-0.25],"direction":"cw"}}"#,
     );
     is_right("a circle behind the rest of an arc", of_form(&unusual("spin-up"), &arcs));
+    // two cuts of one digit, one along X and the other along Y, of which digits show one
+    let across = inch(
+        r#"{"rapid":[93.788,84.085,46.211]},{"line":[93.78775,84.085,46.211]},{"rapid":[93.78775,84.086,46.211]},{"line":[93.78775,84.0835,46.211]},{"rapid":[68.733,82.644,46.211]},{"line":[68.733,82.644,-1.199]}"#,
+    )
+    .replacen("\"program\":5", "\"program\":5,\"units\":\"mm\"", 1);
+    is_right("a cut across one that no digits show", of_form(&unusual("metric"), &across));
     // from home down at first, and then across: nobody knows from where
     let home = inch(
         r#"{"rapid":[0.7375,-2.0667,1.6584]},{"home":true},{"rapid":[null,null,1.0876]},{"rapid":[0.6466,-2.2204,1.6921]},{"line":[-3.1394,-1.7077,-0.3154]}"#,

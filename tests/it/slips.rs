@@ -37,6 +37,7 @@ fn slips_in_forms() {
             ["PF302", "`Property fixture number 0 ..`"],
         ),
         (changed("\nEndCode", "\nUpon [coolant]\nM[cool]\nEnd\n\nEndCode"), ["PF202", "it is called `cool`"]),
+        (changed("X->3.>4", "X 1.4"), ["PF305", "`X->4.>4` has up to four digits before the point"]),
         (changed("End Cancel", "End; Cancel"), ["PF002", "write `End Cancel`"]),
         (changed("Control haas", "Control mazak"), ["PF302", "much like `fanuc`"]),
         (changed("M6\n", "M6 ; change\n"), ["PF110", "begins with ` #`"]),
@@ -60,6 +61,10 @@ fn slips_in_jobs() {
         (good.replacen("[1,0,0]", "[1,0,0],", 1), "take out the comma before it"),
         (good.replace('"', "'"), "double quotes"),
         (format!("// a job\n{good}"), "JSON has no comments"),
+        (good.replacen("\"inch\"", "\"metric\"", 1), "write \"mm\""),
+        (good.replacen("\"cw\"", "\"CW\"", 1), "write \"cw\""),
+        (good.replacen("\"work\":54", "\"work\":\"G54\"", 1), "write 54, without quotes"),
+        (job("{\"cycle\":{\"kind\":\"dril\",\"depth\":1,\"points\":[[1,1,0]]}}"), "did you mean `drill`?"),
     ];
     let folder = folder("slips-jobs");
     for (text, wanted) in table {

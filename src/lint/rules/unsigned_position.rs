@@ -39,11 +39,19 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             continue;
         }
         let name = char::from(letter);
-        let better = format!("{name}-{}", format.to_string().trim_start());
+        let digits = format.to_string();
+        let digits = digits.trim_start();
+        let better = format!("{name}-{digits}");
+        // digits that are counted exactly come from other posts' habits
+        let wider = if digits.contains('>') {
+            String::new()
+        } else {
+            format!("; `{name}->4.>4` has up to four digits before the point, and four behind it")
+        };
         diags.push(
             Diag::new(Code::PF305, format!("{name} prints positions and has no sign"))
                 .at(*span, "a negative one would be an error")
-                .help(format!("write `{better}`"))
+                .help(format!("write `{better}`{wider}"))
                 .fix("let it print a minus", false, vec![(*span, better)]),
         );
     }

@@ -6,6 +6,7 @@ use std::fmt::Write;
 use serde::de;
 
 use crate::diag::{Code, Diag, Location};
+use crate::lang::did_you_mean;
 use crate::toolpath::{ReadError, Stop};
 
 /// A step of the path inside the document.
@@ -98,7 +99,11 @@ fn of_serde(error: &serde_json::Error) -> Diag {
     match error.classify() {
         serde_json::error::Category::Eof => Diag::new(Code::PJ007, "the job ends in the middle of a value")
             .help("write the job again: a job cut short must not become a program"),
-        serde_json::error::Category::Data => Diag::new(Code::PJ003, text.to_owned()),
+        serde_json::error::Category::Data => {
+            let mut diag = Diag::new(Code::PJ003, text.to_owned());
+            diag.help = meant(text);
+            diag
+        }
         _ if text.contains("trailing characters") => {
             Diag::new(Code::PJ008, "something stands after the end of the job").help("a job file holds one job")
         }
@@ -114,6 +119,35 @@ fn of_serde(error: &serde_json::Error) -> Diag {
             diag.help = instead(text).map(str::to_owned);
             diag
         }
+    }
+}
+
+/// What was meant by a word that is none of a list, or by a text where a number stands.
+fn meant(text: &str) -> Option<String> {
+    /// What people and other formats write.
+    const ALSO: [(&str, &str); 10] = [
+        ("metric", "mm"),
+        ("millimeter", "mm"),
+        ("millimeters", "mm"),
+        ("imperial", "inch"),
+        ("inches", "inch"),
+        ("in", "inch"),
+        ("clockwise", "cw"),
+        ("counterclockwise", "ccw"),
+        ("m3", "cw"),
+        ("m4", "ccw"),
+    ];
+    let (given, expected) = text.split_once(": string \"")?.1.split_once("\", expected ")?;
+    if expected == "a number" {
+        let digits = given.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+        return digits.parse::<f64>().ok().map(|_| format!("write {digits}, without quotes"));
+    }
+    let words = || expected.split(" or ").map(|word| word.trim_matches('"'));
+    let lower = given.to_lowercase();
+    let known = ALSO.iter().find(|(also, _)| *also == lower).map(|(_, word)| *word);
+    match words().find(|&word| word == lower || known == Some(word)) {
+        Some(word) => Some(format!("write \"{word}\"")),
+        None => did_you_mean(given, words()),
     }
 }
 

@@ -7,6 +7,8 @@ export interface Ask {
   job: number;
   /** Texts of forms that are not saved, by their names. */
   texts: Record<string, string>;
+  /** The program that is shown already: it need not be sent again. */
+  shown?: string | null;
 }
 
 /** A place in a form, and what is asked of it: line and column from 0. */

@@ -22,7 +22,7 @@ export class Page {
   readonly listing = new Listing();
   readonly backplot = new Backplot();
   private readonly state = new StateStrip();
-  private readonly title = element("b", {});
+  private readonly title = element("h1", {});
   private readonly verdict = element("button", { class: "verdict" });
   private readonly lint = element("button", { class: "lint" });
   private readonly tabs = element("div", { class: "tabs", role: "tablist", "aria-label": "Jobs" });
@@ -33,6 +33,8 @@ export class Page {
   private readonly banner = element("div", { class: "banner", role: "alert", hidden: "" });
 
   private head: Head | null = null;
+  /** The head with which the program came that is shown. */
+  private shown: Head | null = null;
   program: Program | null = null;
   private old: Program | null = null;
   private line = 1;
@@ -112,7 +114,7 @@ export class Page {
     this.running = true;
     try {
       let shown: Head | null = null;
-      for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed })) {
+      for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed, shown: this.program && this.shown?.program })) {
         const scene = new Scene(bytes);
         if (!shown) this.show(scene);
         else this.tellMore(scene.head);
@@ -155,8 +157,13 @@ export class Page {
     this.head = head;
     const first = !this.program;
     this.takeTexts(head);
+    // the same program is not sent again
+    if (head.same) Object.assign(head, { picture: this.shown?.picture, "old/picture": this.shown?.["old/picture"] });
+    else if (head.picture) this.shown = head;
     document.body.classList.toggle("stale", !!head.stopped);
-    if (head.picture) {
+    if (head.same) {
+      // as it was
+    } else if (head.picture) {
       this.program = new Program(scene, "", this.program);
       this.old = scene.has("old/text") ? new Program(scene, "old/", this.old) : null;
     } else if (first || !head.stopped) {

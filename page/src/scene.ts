@@ -75,6 +75,10 @@ export interface Head {
   jobs?: string[];
   stopped?: { by: "form" | "job" | "input"; message: string; findings: Finding[] };
   notes?: Finding[];
+  /** What tells the program from others. */
+  program?: string;
+  /** It is the program that is shown. */
+  same?: boolean;
   verdict?: Verdict;
   picture?: PictureHead;
   "old/picture"?: PictureHead;

@@ -4,7 +4,7 @@ import { element } from "./element.ts";
 import type { Held, Program, Register } from "./program.ts";
 
 export class StateStrip {
-  readonly root = element("div", { class: "state", role: "group", "aria-label": "State after the chosen block" });
+  readonly root = element("div", { class: "state", role: "region", "aria-label": "State after the chosen block" });
   onPick: (line: number) => void = () => {};
 
   show(program: Program | null, line: number): void {

@@ -102,7 +102,7 @@ test("a click on a form line shows the block that it printed", async ({ open }) 
 test("what the state says leads to the block that said it", async ({ open }) => {
   const { page } = await open();
   await page.keyboard.press("End");
-  await page.getByRole("group", { name: "State after" }).getByRole("button", { name: /^T\d/ }).click();
+  await page.getByRole("region", { name: "State after" }).getByRole("button", { name: /^T\d/ }).click();
   ok(/T5 M6/.test(await chosen(page)), await chosen(page));
 });
 

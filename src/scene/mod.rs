@@ -127,6 +127,12 @@ impl Printed {
         self.program.text()
     }
 
+    /// What tells what is drawn from others: the blocks, the lines and items that they come from, how they are run, and the program
+    /// of before.
+    pub fn fingerprint(&self, scene: &Scene, old: &[u8]) -> String {
+        scene.fingerprint(&format!("{:?}", self.settings), old)
+    }
+
     /// Says what the program does.
     pub fn draw(&self, scene: &mut Scene) {
         match draw(Cursor::new(self.text()), self.settings) {

@@ -1,5 +1,7 @@
 //! A head in JSON, and sections of numbers.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use serde_json::{Map, Value, json};
 
 /// The first bytes of a scene.
@@ -44,6 +46,19 @@ impl Scene {
         self.body.resize(self.body.len().next_multiple_of(8), 0);
         self.sections.insert(name, json!([self.body.len(), bytes.len()]));
         self.body.extend_from_slice(bytes);
+    }
+
+    /// A number that the same sections have with the same besides, and others have not.
+    pub(super) fn fingerprint(&self, run: &str, old: &[u8]) -> String {
+        let mut hasher = DefaultHasher::new();
+        (&self.body, run, old).hash(&mut hasher);
+        format!("{:016x}", hasher.finish())
+    }
+
+    /// Without its sections: who asked has them.
+    pub fn without_sections(&mut self) {
+        self.sections.clear();
+        self.body.clear();
     }
 
     /// All of it: `PFS2`, the lengths of the head and of the sections, the head, blanks up to a multiple of eight, the sections.

@@ -368,6 +368,22 @@ fn without_a_job_there_is_one() {
     assert_eq!(head["jobs"], json!(["job.json"]));
 }
 
+/// A program that the page shows already is not sent again, and what is said of it is.
+#[test]
+fn the_same_program_is_not_sent_again() {
+    let folder = bracket("watch-same");
+    let watch = Watch::new(&folder, &[]);
+    let (first, _) = watch.scene(&json!({}));
+    let shown = &first["program"];
+    let ask = |texts: &Value| unpacked(&watch.post("scene", &json!({ "job": 0, "texts": texts, "shown": shown })).body);
+    let (again, body) = ask(&json!({ "my.pf": folder.read("my.pf").replacen("Name Fanuc", "Name My Fanuc", 1) }));
+    assert_eq!((&again["same"], body.len(), &again["program"]), (&json!(true), 0, shown));
+    assert_eq!(again["verdict"], first["verdict"]);
+    // a line more before the sequences, and each block comes from another one
+    let (other, body) = ask(&json!({ "my.pf": format!("# mine\n{}", folder.read("my.pf")) }));
+    assert!(other["same"].is_null() && !body.is_empty() && other["program"] != *shown);
+}
+
 /// What is typed is shown and not written.
 #[test]
 fn what_is_typed_is_shown_and_not_written() {

@@ -77,9 +77,10 @@ export class Backplot {
   show(program: Program | null, old: Program | null, differences: number[]): void {
     const before = this.program?.path;
     const path = program?.path;
+    const marked = String(differences) === String(this.bad);
     this.program = program;
     this.bad = differences;
-    if (path && path === before && (old?.path ?? null) === this.oldPath) return this.redraw();
+    if (path && path === before && (old?.path ?? null) === this.oldPath) return marked ? undefined : this.redraw();
     this.painter.forget([...this.levels, ...this.old]);
     if (path !== before) this.levels = path ? levels(path) : [];
     this.old = old?.path ? levels(shifted(old.path, program)) : [];

@@ -40,6 +40,9 @@ pub struct Ask {
     /// Texts of forms that are not saved, by their names.
     #[serde(default)]
     texts: HashMap<String, String>,
+    /// The program that the page shows, as its scene said it.
+    #[serde(default)]
+    shown: Option<String>,
 }
 
 /// What a page asks of a word.
@@ -206,6 +209,14 @@ impl Session {
             return Ok(());
         };
         let machine = self.machine(&form, &ask.texts);
+        let program = printed.fingerprint(&scene, against.as_ref().map_or(&[][..], |(_, old)| old));
+        // most of what is typed prints what was there, and the page need not draw it again
+        let same = ask.shown.as_ref() == Some(&program);
+        scene.say("program", json!(program));
+        if same {
+            scene.say("same", json!(true));
+            scene.without_sections();
+        }
         let is_small = printed.text().len() < SMALL;
         if ask.texts.is_empty() {
             self.keep_saved(ask.job, generation, printed.text());
@@ -234,8 +245,10 @@ impl Session {
             } else {
                 drop(compares);
             }
-            printed.draw(&mut scene);
-            if let Some((_, old)) = old {
+            if !same {
+                printed.draw(&mut scene);
+            }
+            if let Some((_, old)) = old.filter(|_| !same) {
                 printed.draw_old(&mut scene, old);
             }
             if is_small {

@@ -6,6 +6,18 @@ import { itemPath, type Program } from "./program.ts";
 import { repeats } from "./repeats.ts";
 import type { Finding, Verdict } from "./scene.ts";
 
+/** What a form may say of blocks that are made otherwise, by what stands in them. */
+const OWN: [RegExp, string][] = [
+  [/^[(;]/, "CommentLine, or [optext] in Operation"],
+  [/^M0?0$/, "Stop"],
+  [/^M0?1$/, "OptStop, or Stop"],
+  [/^G0?4\D/, "DwellBlock"],
+  [/^(G5[4-9]|G15\d?|E\d+)(\.\d+)?( [HP]\d+)?$/, "WorkChange, or Upon [work]"],
+  [/^(G9[67] )?S\d+( M0?[345])?$|^M0?[345]$/, "SpindleChange"],
+  [/^M0?[789]$|^M8[89]$/, "CoolantChange"],
+  [/^G9[3459]$/, "FeedModeChange"],
+];
+
 /** `formText`: the line of the form that printed it. */
 export function noteOf(program: Program, line: number, marks: Marks, formText: string): HTMLElement[] {
   const note: HTMLElement[] = [];
@@ -22,9 +34,9 @@ export function noteOf(program: Program, line: number, marks: Marks, formText: s
       note.push(element("div", { class: "gone" }, "not printed: ", ...struck(gone), why));
     }
   } else if (program.isTraced) {
-    const isText = /^\s*(N\d+\s*)?\(/.test(program.text(line));
-    const who = isText ? "text of the job" : "no line of the form: postform made this block of the job's item";
-    note.push(element("div", { class: "gen" }, who));
+    const block = program.text(line).replace(/^\s*N\d+\s*/, "");
+    const own = OWN.find(([made]) => made.test(block))?.[1];
+    note.push(element("div", { class: "gen" }, "no line of the form: postform made this block of the job's item", own ? `; the form would print it by ${own}` : ""));
   }
   return note;
 }

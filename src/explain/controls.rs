@@ -167,6 +167,23 @@ name = \"my-control\"
 title = \"My machine\"
 like = \"{name}\"
 
+# What differs besides codes: take the mark away where it does.
+# [dwell]
+# P = \"s\"                          # what P of G4 counts: s or ms
+# [text]
+# line = 80                          # longest block, in characters
+# longer = \"stops\"                 # what becomes of a longer one: stops or cut
+# [numbers]
+# length_without_point = \"units\"   # X10 is 10 mm: units; 0.01 mm: least-increment
+# [start]
+# modes = \"kept\"                   # G91 or G20 of the program before: kept or lost
+# [stops]
+# spindle = \"kept\"                 # M0 leaves spindle and coolant on: kept or lost
+# [arcs]
+# centres = \"incremental\"          # I and J count from the start of the arc: incremental; from zero: absolute
+# [tool]
+# length = \"G43 H\"                 # what turns the tool's length on: G43 H, G43, H or none
+
 # The codes that differ. `is` says what a code does; `words` are the letters that it takes besides axes, F, S and T.
 [codes]
 # coolant through the spindle

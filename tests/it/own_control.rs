@@ -75,6 +75,12 @@ fn a_new_file_is_right_as_it_is_and_with_its_rows() {
     assert_eq!(folder.run(&["lint", "own.pf"]).status.code(), Some(0));
     let rows = folder.read("new.toml").replace("# \"", "\"");
     assert_eq!(rows.matches("\n\"").count(), 3, "{rows}");
+    // the tables besides codes, with their marks taken away
+    let (head, rest) = rows.split_once("away where it does.\n").unwrap();
+    let (tables, codes) = rest.split_once("\n# The codes").unwrap();
+    let tables: String = tables.lines().map(|line| format!("{}\n", line.strip_prefix("# ").unwrap())).collect();
+    assert_eq!(tables.matches(" = ").count(), 8, "{tables}");
+    let rows = format!("{head}away where it does.\n{tables}\n# The codes{codes}");
     folder.write("vf2.toml", rows);
     let lint = folder.run(&["lint", "own.pf"]);
     assert_eq!(out(&lint), "0 errors, 0 warnings, 0 notes\n", "{}", err(&lint));

@@ -32,11 +32,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let point = if decimals == 0 { Point::Always } else { format.point };
         let fixed = decimals > 0 && format.dec.fixed;
         let better = LetterFormat { dec: Digits { count: wanted, fixed }, point, ..*format };
-        // a count or a code would get a point with the others
-        let whole =
-            |word: &&Word| word.printed_var().is_some_and(|var| matches!(var.row().unit, Unit::Count | Unit::Code));
-        let counts = letter == view.settings.cdc_code
-            || view.words().filter(|word| view.format_letter(word) == Some(letter)).any(|word| whole(&word));
+        let counts = counts(view, letter);
         let digits = format.int.count;
         let help = match (counts, name.to_ascii_lowercase()) {
             // the letter of dwells is given: the others take another one
@@ -61,6 +57,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     built_in(view, diags);
 }
 
+/// Does the letter print counts or codes, too? They would get a point with the others.
+fn counts(view: &View, letter: u8) -> bool {
+    let whole = |word: &Word| word.printed_var().is_some_and(|var| matches!(var.row().unit, Unit::Count | Unit::Code));
+    letter == view.settings.cdc_code
+        || view.words().filter(|word| view.format_letter(word) == Some(letter)).any(|word| whole(word))
+}
+
 /// Letters without a format: the built-in ones of counters print whole numbers.
 fn built_in(view: &View, diags: &mut Vec<Diag>) {
     let mut told = Vec::new();
@@ -79,7 +82,14 @@ fn built_in(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF306, message)
                 .at(word.span, "the others are rounded away")
-                .help(format!("add the line `{name}{better}`; print counts by another letter, with `Rename`")),
+                .help(match (counts(view, letter), name.to_ascii_lowercase()) {
+                    (true, small) if small != name => format!(
+                        "print it as `{small}`, with `{small}{better}` and `Rename {small} {name}`, or without a letter: `[{}]`; whole \
+                         numbers stay as they are",
+                        var.name()
+                    ),
+                    _ => format!("add the line `{name}{better}`"),
+                }),
         );
     }
 }

@@ -60,8 +60,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 /// Does the letter print counts or codes, too? They would get a point with the others.
 fn counts(view: &View, letter: u8) -> bool {
     let whole = |word: &Word| word.printed_var().is_some_and(|var| matches!(var.row().unit, Unit::Count | Unit::Code));
-    letter == view.settings.cdc_code
-        || view.words().filter(|word| view.format_letter(word) == Some(letter)).any(|word| whole(word))
+    letter == view.settings.cdc_code || view.words().filter(|word| view.format_letter(word) == Some(letter)).any(whole)
 }
 
 /// Letters without a format: the built-in ones of counters print whole numbers.

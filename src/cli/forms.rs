@@ -102,8 +102,9 @@ impl Files for FormFile {
     fn read(&self, name: &str) -> Result<Source, String> {
         let (place, bytes) = called(&self.path, name).inspect_err(|_| {
             // one that is made later is a change
-            if Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
-                let place = self.path.parent().unwrap_or(Path::new("")).join(name);
+            let place = self.path.parent().unwrap_or(Path::new("")).join(name);
+            let is_below = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+            if is_below && !place.exists() {
                 self.called.borrow_mut().insert(files::name(&place), place);
             }
         })?;

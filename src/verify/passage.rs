@@ -146,9 +146,9 @@ impl Passage {
         self.legs.push(Leg { frame, from: self.rapids.len(), lengths: vec![length] });
     }
 
-    /// Ways from places of the machine along an axis begin anew, as the job's do where it goes home. Is there such a place?
-    pub fn splits_at_home(&mut self, axis: usize) -> bool {
-        let is_home = |rapid: &Rapid| rapid.unknown & 1 << axis != 0;
+    /// Ways from places of the machine along one of these axes begin anew, as the job's do where it goes home. Is there such a place?
+    pub fn splits_at_home(&mut self, axes: u8) -> bool {
+        let is_home = |rapid: &Rapid| rapid.unknown & axes != 0;
         let ends: Vec<usize> = (1..=self.rapids.len())
             .filter(|&at| is_home(&self.rapids[at - 1]) && !self.rapids.get(at).is_some_and(is_home))
             .collect();

@@ -132,7 +132,11 @@ pub(super) fn moved_with<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
 
 /// Where the job goes home, so does the program, and both ways begin anew there.
 fn goes_home<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
-    let away = if s.machine == Machine::Lathe { RADIUS } else { DEPTH };
+    let away = match s.machine {
+        Machine::Mill => 1 << DEPTH,
+        Machine::Lathe => 1 << RADIUS,
+        Machine::Edm => 0b11, // a wire goes nowhere else
+    };
     if s.job.home && !s.program.passage.splits_at_home(away) {
         s.found(Code::PV001, line, "print the control's code for it in MoveHome, as `G28 G91 Z0.`", || {
             "the job sends the tool home here, and the program does not".to_owned()

@@ -110,6 +110,9 @@ fn several_kinds_are_on_at_once() {
         print(&[(1, "on", LINE), (2, "air,through", LINE), (1, "off", LINE)]),
         ["M8", "M12", "M88", "M89", "M9", "M9"]
     );
+    // after a stop each is ended that is on, stopped or not
+    let off = path("{\"stop\":\"program\"},{\"coolant\":\"off\"}");
+    assert_eq!(print(&[(1, "air,through", &off)]), ["M12", "M88", "M0", "M89", "M9", "M9"]);
     // after a stop all are said again
     let stop = path("{\"stop\":\"program\"}");
     assert_eq!(print(&[(1, "air,through", &stop)]), ["M12", "M88", "M0", "M12", "M88", "M89", "M9"]);

@@ -118,6 +118,20 @@ fn wires() {
     );
 }
 
+/// A wire goes home in its plane: it has no axis that takes it away from the part.
+#[test]
+fn a_wire_that_goes_home() {
+    let text = form("wire-edm.pf") + "\nMoveHome\nG91 G28 X0 Y0\nG90\nEnd\n";
+    let post = Post::compile(Source::from_text("home.pf", text), &NoFiles).unwrap();
+    let job = r#"{"postform":1,"program":7,"units":"mm","machine":"edm","operations":[{"feed":3,"path":[{"rapid":[0,0]},{"edm":"thread"},
+        {"line":[5,0]},{"edm":"cut"},{"home":true},{"rapid":[30,0]},{"edm":"thread"},{"line":[35,0]},{"edm":"cut"}]}]}"#;
+    let printed = post.render(Job::json(job), &Options::default()).unwrap();
+    assert!(printed.verdict().is_proven(), "{:#?}\n{}", printed.verdict(), printed.text());
+    let stays = printed.text().replacen("G28 X0 Y0", "", 1);
+    let found = post.verify(Job::json(job), &stays).unwrap();
+    assert!(matches!(&found, Verdict::Different(list) if list[0].code.name() == "PV001"), "{found:#?}");
+}
+
 #[test]
 fn rotary_axes() {
     let job = r#"{"postform":1,"program":7,"units":"inch","tools":[{"number":1}],"operations":[{"tool":1,"work":54,

@@ -89,6 +89,8 @@ pub fn begins_somewhere(target: &Axes, shape: &Shape, said: &mut Said) -> Done {
     }
     let unsaid = (0..6).filter(|axis| unknown & 1 << axis != 0).map(|axis| char::from(shape.axes[axis]).to_string());
     let unsaid = unsaid.collect::<Vec<_>>().join(" and ");
-    let message = format!("the operation begins with a cut, and nothing before it says {unsaid} since the tool change");
+    let message = format!(
+        "the operation begins with a cut, and nothing before it says {unsaid} since the tool change or the way home"
+    );
     fault(Code::PR012, message, "begin it with a rapid to the beginning of its first cut")
 }

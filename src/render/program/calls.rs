@@ -4,7 +4,7 @@ use super::subprograms::{forget_where, plain_cutting};
 use super::table::{Called, Subprograms};
 use crate::compile::Routine;
 use crate::diag::{Code, Diag};
-use crate::lang::{Coolant, SequenceId, VarId, VarSet};
+use crate::lang::{SequenceId, VarId, VarSet};
 use crate::render::before::way_before;
 use crate::render::body::run_all;
 use crate::render::fault::{Done, fault};
@@ -206,7 +206,7 @@ fn go_to_call(
 /// The subprogram moved the tool, and changed what it says it changed.
 fn after_call(called: Option<usize>, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
     said.stand.fresh_tool = None;
-    said.beside = Coolant::OFF; // it is said again
+    said.beside.doubt();
     forget_where(want, said);
     let known = called.map(|i| &subs.defined[i]).filter(|sub| !sub.calls_ahead);
     match known {

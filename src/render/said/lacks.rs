@@ -2,7 +2,7 @@
 
 use super::state::Said;
 use crate::control::Group;
-use crate::lang::{Coolant, VarId, VarSet};
+use crate::lang::{VarId, VarSet};
 use crate::render::shape::Shape;
 use crate::render::want::Want;
 
@@ -82,7 +82,7 @@ impl Said {
     pub fn stopped(&mut self, want: &Want, shape: &Shape) {
         let settings = &shape.program.settings;
         let off = [settings.spindle[2], settings.coolant[1]];
-        self.beside = Coolant::OFF;
+        self.beside.doubt();
         for var in [VarId::Speed, VarId::Direct, VarId::Cool] {
             if want.get(var).is_some_and(|value| !off.contains(&value)) {
                 self.conditions.put(var, None);

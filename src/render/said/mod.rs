@@ -12,6 +12,7 @@ mod stand;
 mod state;
 
 pub use angles::Angles;
+pub use beside::Beside;
 pub use conditions::{CONDITIONS, Conditions};
 pub use line::Line;
 pub use state::{LastMove, Said, Spins};

@@ -1,12 +1,13 @@
 //! What is known of the control, and how it becomes known and unknown.
 
+use super::beside::Beside;
 use super::conditions::Conditions;
 use super::line::Shift;
 use super::registers::Registers;
 use super::stand::Stand;
 use crate::compile::{Letter, LetterKind};
 use crate::control::{Code, Group, Meaning};
-use crate::lang::{Coolant, Machine, VarId};
+use crate::lang::{Machine, VarId};
 use crate::number::quantise;
 use crate::render::kept::Kept;
 use crate::render::shape::Shape;
@@ -38,7 +39,7 @@ pub struct Said {
     /// The code that ended a kind of coolant, while nothing has begun one since.
     pub coolant_ended: Option<f64>,
     /// The kinds of coolant that are on beside the first.
-    pub beside: Coolant,
+    pub beside: Beside,
     /// Where the tool stands.
     pub stand: Stand,
     /// What the form itself has set.
@@ -82,7 +83,7 @@ impl Said {
             registers: Registers::default(),
             conditions: Conditions::default(),
             coolant_ended: None,
-            beside: Coolant::OFF,
+            beside: Beside::OFF,
             stand: Stand::default(),
             kept: Kept::default(),
             upon_used: vec![None; upons],

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, NAMES, Rapid, What, number, over, same, shown};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, NAMES, Rapid, What, lead_alike, number, over, same, shown};
 use super::intent::{Done, Expected};
 use super::state::Sides;
 use super::{pauses, states, ways, wire};
@@ -45,6 +45,7 @@ fn is_itself<R: BufRead + Seek>(s: &Sides<R>, cut: &Cut, found: &Cut) -> bool {
     same(&cut.from, &found.from, ALL, tolerance)
         && same(&cut.end(), &found.end(), ALL, tolerance)
         && cut.is_short(4.0 * tolerance)
+        && lead_alike(cut, found)
 }
 
 /// Is a short cut of the program the beginning of the job's cut? One that ends where the job's begins is none of it.

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, apart, is_straight, over, same, shown};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, apart, is_straight, lead_alike, over, same, shown};
 use super::expectation::Expectation;
 use super::intended::Job;
 use super::intent::{Done, Expected, Intent, Threaded};
@@ -332,10 +332,8 @@ impl<R: BufRead + Seek> Sides<R> {
             && same(&found.end(), &cut.end(), ALL, tolerance);
         let pauses = |passage: &Passage| (passage.stops.len(), passage.waits.len());
         let joins = joins && pauses(&self.program.passage) == pauses(&self.job);
-        // one straight across is another's
-        let [way, other] = [cut, &found].map(|cut| (cut.from, cut.end()));
-        let along: f64 = (0..8).map(|axis| (way.1[axis] - way.0[axis]) * (other.1[axis] - other.0[axis])).sum();
-        let joins = joins && (along > 0.0 || matches!(found.what, What::Arc(_)));
+        // one that leads elsewhere is another's
+        let joins = joins && lead_alike(cut, &found);
         let nearer = to_end <= to_begin + 1e-9;
         let circle = matches!(found.what, What::Arc(_)) && !found.is_short(tolerance);
         Ok(!joins || !nearer || circle)

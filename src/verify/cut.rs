@@ -189,6 +189,13 @@ pub(super) fn lies_between(a: &Place, b: &Place, c: &Place, tolerance: f64) -> b
         && (0..8).all(|axis| (a[axis] + part * (c[axis] - a[axis]) - b[axis]).abs() <= tolerance)
 }
 
+/// Do two cuts lead the same way, rather than back or straight across? Of an arc its ends say nothing.
+pub(super) fn lead_alike(a: &Cut, b: &Cut) -> bool {
+    let [own, other] = [a, b].map(|cut| (cut.from, cut.end()));
+    let along: f64 = (0..8).map(|axis| (own.1[axis] - own.0[axis]) * (other.1[axis] - other.0[axis])).sum();
+    along > 0.0 || matches!(b.what, What::Arc(_))
+}
+
 /// How far apart two places are along their farthest axis.
 pub(super) fn distance(a: &Place, b: &Place) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)

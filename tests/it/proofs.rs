@@ -577,6 +577,17 @@ fn custom_cycles_are_holes() {
     assert!(matches!(verified(&form, &changed, &job), Verdict::NotProven(_)), "{changed}");
 }
 
+/// The form's cycle dwells where the job's does not; cuts of one digit there and back behind it are three, not two.
+#[test]
+fn cuts_of_one_digit_behind_a_custom_cycle_are_told_apart() {
+    let form = fs::read_to_string(root().join("tests/data/forms/custom.pf")).unwrap();
+    let job = one(
+        r#"{"rapid":[96.17,10.88,25]},{"cycle":{"kind":"custom3","depth":9,"clear":2,"feed":60,"points":[[96.17,10.88,0]]}},{"line":[96.16975,10.88,2]},{"rapid":[96.16875,10.88,2]},{"line":[96.17125,10.88,2]},{"rapid":[null,null,25]}"#,
+    );
+    let (program, verdict) = of_form(&form, &job);
+    assert!(verdict.is_proven(), "{verdict:?}\n{program}");
+}
+
 /// The tables of the docs are those of the code.
 #[test]
 fn docs_list_what_is_proven() {

@@ -49,12 +49,12 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
     let mut as_job = true;
     while let Some(found) = s.next()? {
         let Some(depth) = thread.depth(&found, tolerance) else { break };
-        // deeper, outside the crest, of another lead, or behind a stop, it is the next thread's
+        // behind the last pass one of another depth or lead, or behind a stop, is the next thread's
         let is_cut = count > 0 && (reached - whole).abs() <= 2.0 * tolerance;
         let lead = found.lead.unwrap_or(0.0);
         let has_lead = (lead - thread.lead).abs() <= PITCH * thread.lead;
-        let beside = depth > whole + 2.0 * tolerance || depth < -2.0 * tolerance;
-        if is_cut && (beside || !has_lead || is_parted(&s.program.passage)) {
+        let is_other = (depth - whole).abs() > 2.0 * tolerance;
+        if is_cut && (is_other || !has_lead || is_parted(&s.program.passage)) {
             break;
         }
         let from = Rapid { to: found.from, unknown: found.unknown, spin: None };

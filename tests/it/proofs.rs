@@ -282,6 +282,7 @@ fn right_threads_are_proven() {
     let (whole, four) = (r#""first_depth":1"#, r#""passes":4"#);
     let jobs = [
         ("one farther out", format!("{},{}", thread(11, whole), thread(22, four))),
+        ("one whose depth is the crest of the first", format!("{},{}", thread(11, whole), thread(12, whole))),
         ("the same once more", format!("{},{}", thread(11, whole), thread(11, whole))),
         (
             "the same once more, from elsewhere",

@@ -217,11 +217,10 @@ impl Judge<'_> {
         while let Some(act) = self.next() {
             let What::Thread(is) = act.what else { break };
             let along = near(act.from[2], begin, self.within) && near(act.to[2], wanted.to[2], self.within);
-            let others =
-                (is - lead).abs() > 0.003 * lead || (act.to[0] - crest) * inward > depth.abs() + 2.0 * self.within;
+            let depth_of = (act.to[0] - crest) * inward;
             // the next thread's, which may be farther out
-            let outside = (act.to[0] - crest) * inward < -2.0 * self.within;
-            if (!along || others || outside) && passes > 0 && near(reached, depth.abs(), 2.0 * self.within) {
+            let others = (is - lead).abs() > 0.003 * lead || !near(depth_of, depth.abs(), 2.0 * self.within);
+            if (!along || others) && passes > 0 && near(reached, depth.abs(), 2.0 * self.within) {
                 break;
             }
             if !along {
@@ -233,7 +232,7 @@ impl Judge<'_> {
             if let Some(difference) = self.state(wanted, &act).filter(|text| !text.contains(": G9")) {
                 return Some(difference);
             }
-            reached = reached.max((act.to[0] - crest) * inward);
+            reached = reached.max(depth_of);
             passes += 1;
             self.take();
         }

@@ -259,16 +259,17 @@ pub(super) fn leaves_low(job: &Way, program: &Way, tolerance: f64) -> Option<(Pl
     }
     // where the job only goes up, so does the program
     let floor = heights(&job.corners).into_iter().skip(1).reduce(f64::min).unwrap_or(highest);
-    // a cycle of the control may have left the hole higher than the job, whose place the program then goes to
-    let comes_back = |rapid: &Rapid| {
-        let left = job.corners.first().filter(|left| left.unknown | rapid.unknown == 0);
-        left.is_some_and(|left| same(&left.to, &rapid.to, ALL, tolerance))
+    // a cycle of the control may have left the hole higher than the job, whose place the program then goes to, straight down
+    let comes_back = |at: usize| {
+        let is_left = |rapid: &Rapid, axes| {
+            let left = job.corners.first().filter(|left| left.unknown | rapid.unknown == 0);
+            left.is_some_and(|left| same(&left.to, &rapid.to, axes, tolerance))
+        };
+        program.corners[1..=at].iter().all(|rapid| is_left(rapid, ACROSS)) && is_left(&program.corners[at + 1], ALL)
     };
     let mut pairs = program.corners.windows(2).enumerate();
     let dives = pairs.find(|(at, pair)| {
-        height(&pair[1]) < height(&pair[0])
-            && height(&pair[1]) < floor - tolerance
-            && !(*at == 0 && comes_back(&pair[1]))
+        height(&pair[1]) < height(&pair[0]) && height(&pair[1]) < floor - tolerance && !comes_back(*at)
     });
     dives.map(|(_, pair)| (pair[1].to, floor))
 }

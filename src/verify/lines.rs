@@ -2,7 +2,9 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, What, apart, lies_between, number, over, same, shown, turn_as_far};
+use super::cut::{
+    ACROSS, ALL, Cut, DEPTH, What, apart, is_straight, lies_between, number, over, same, shown, turn_as_far,
+};
 use super::intent::{Done, Expected};
 use super::state::Sides;
 use super::states;
@@ -27,7 +29,11 @@ pub(super) fn line<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, first: &Cut, 
         states::feeds(s, &in_parts(cut, &found), &found, is_tap);
         s.program.take();
         let next = s.next()?.filter(|next| {
-            matches!(next.what, What::Line { .. })
+            let is_line = match &next.what {
+                What::Line { .. } => true,
+                What::Arc(turn) => is_straight(next, turn, tolerance), // a part of a helix whose circle no digits show
+            };
+            is_line
                 && s.program.passage.is_plain()
                 && (same(&next.end(), &end, ALL, tolerance) || lies_between(&to, &next.end(), &end, tolerance))
         });

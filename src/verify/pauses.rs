@@ -107,8 +107,15 @@ fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
     // what may be of any length takes what is left
     wanted.sort_by_key(|wait| wait.what.is_nan());
     let mut others = s.program.passage.waits.clone();
-    let out = s.hole.last.filter(|hole| hole.feeds_out || hole.is_tap);
-    let fed_out = out.zip(s.job.start).is_some_and(|(hole, start)| start.to[DEPTH] >= hole.plane - tolerance);
+    // the next tool or work offset may have come since
+    let holes = [s.hole.last, s.hole.before];
+    let fed_out = s.job.start.is_some_and(|start| {
+        holes
+            .iter()
+            .flatten()
+            .filter(|hole| hole.feeds_out || hole.is_tap)
+            .any(|hole| same(&start.to, &hole.at, ACROSS, tolerance) && start.to[DEPTH] >= hole.plane - tolerance)
+    });
     let start = s.job.start;
     let is_over = |at: &Rapid| {
         start.is_some_and(|start| {
@@ -150,7 +157,7 @@ fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
         }
     }
     // at the bottom of a hole that only the form knows
-    let own = [s.hole.last, s.hole.before].into_iter().flatten().any(|last| {
+    let own = holes.into_iter().flatten().any(|last| {
         last.custom && s.program.passage.start.is_some_and(|start| same(&start.to, &last.at, ACROSS, tolerance))
     });
     for other in &others {

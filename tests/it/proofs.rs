@@ -578,15 +578,50 @@ fn custom_cycles_are_holes() {
     assert!(matches!(verified(&form, &changed, &job), Verdict::NotProven(_)), "{changed}");
 }
 
-/// The form's cycle dwells where the job's does not; cuts of one digit there and back behind it are three, not two.
+/// Programs of unusual forms that once were called different.
 #[test]
-fn cuts_of_one_digit_behind_a_custom_cycle_are_told_apart() {
-    let form = fs::read_to_string(root().join("tests/data/forms/custom.pf")).unwrap();
-    let job = one(
-        r#"{"rapid":[96.17,10.88,25]},{"cycle":{"kind":"custom3","depth":9,"clear":2,"feed":60,"points":[[96.17,10.88,0]]}},{"line":[96.16975,10.88,2]},{"rapid":[96.16875,10.88,2]},{"line":[96.17125,10.88,2]},{"rapid":[null,null,25]}"#,
-    );
-    let (program, verdict) = of_form(&form, &job);
-    assert!(verdict.is_proven(), "{verdict:?}\n{program}");
+fn right_programs_of_unusual_forms_are_proven() {
+    let inch = |path: &str| one(path).replace("\"mm\"", "\"inch\"");
+    let jobs = [
+        (
+            "a cycle that dwells where the job's does not, and cuts of one digit there and back behind it",
+            "custom",
+            one(
+                r#"{"rapid":[96.17,10.88,25]},{"cycle":{"kind":"custom3","depth":9,"clear":2,"feed":60,"points":[[96.17,10.88,0]]}},{"line":[96.16975,10.88,2]},{"rapid":[96.16875,10.88,2]},{"line":[96.17125,10.88,2]},{"rapid":[null,null,25]}"#,
+            ),
+        ),
+        (
+            "a dwell over a tapped hole, before another tool",
+            "no-return-plane",
+            mm(
+                r#"{"tool":1,"spindle":{"speed":1100,"direction":"cw"},"path":[{"cycle":{"kind":"tap","depth":7,"clear":2,"feed":90,"points":[[-50,-71,3],[-55,-4,-5]]}},{"dwell":0.5}]},
+            {"tool":2,"spindle":{"speed":2050,"direction":"ccw"},"path":[{"rapid":[-45,-60,38]}]}"#,
+            ),
+        ),
+        (
+            "a cut that no digits show behind a tapped hole that the control leaves higher",
+            "no-return-plane",
+            inch(
+                r#"{"rapid":[-1.4705,-2.0917,0.1]},{"cycle":{"kind":"tap","depth":1.1526,"clear":0.1,"feed":38,"points":[[-1.4705,-2.0917,0],[0.4748,0.0388,-0.4308]]}},{"line":[0.47476]},{"rapid":[0.47476,0.0388,1.4344]}"#,
+            ),
+        ),
+        (
+            "a steep helix whose circle hardly any digits show, by radius words",
+            "radius-words",
+            inch(
+                r#"{"rapid":[-1.3013,-0.759,1.6713]},{"line":[0.0938,0.5800134,-0.3429]},{"arc":{"to":[0.093687,0.579913,-0.3558],"center":[0.0449,0.6349,-0.3429],"direction":"cw"}},{"rapid":[null,null,1]}"#,
+            ),
+        ),
+    ];
+    let mut wrong = String::new();
+    for (name, form, job) in jobs {
+        let text = fs::read_to_string(root().join(format!("tests/data/forms/{form}.pf"))).unwrap();
+        let (program, verdict) = of_form(&text, &job);
+        if !verdict.is_proven() {
+            wrong += &format!("{name}: {verdict:?}\n{program}\n");
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
 }
 
 /// The tables of the docs are those of the code.

@@ -228,15 +228,8 @@ impl Page<'_> {
                 text.push_str(&number.text); // without the brackets of the first forms
             }
             PieceKind::Expression { letter, text: inner, expr } if expr.is_ok() => {
-                let inner = inner.text.trim_matches([' ', '\t']);
-                // a name alone, with blanks around it, is a variable
-                let text_var = TextVar::parse(inner).filter(|_| letter.is_none());
-                let name = VarId::parse(inner).map_or(inner, |var| var.name());
                 text.extend(letter.map(char::from));
-                match text_var {
-                    Some(var) => text.push_str(&var.to_string()),
-                    None => text.extend(["[", name, "]"]),
-                }
+                text.extend(["[", inner.text.trim_matches([' ', '\t']), "]"]);
             }
             PieceKind::TextVariable { letter: None, name } => match TextVar::parse(&name.text) {
                 Some(var) => text.push_str(&var.to_string()),

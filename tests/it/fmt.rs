@@ -141,6 +141,8 @@ fn names_with_blanks_around_them_are_names() {
         let once = laid_out(&text(typed));
         assert_eq!(once, text(wanted), "{typed}");
         assert_eq!(laid_out(&once), once, "{typed}");
+        let errors = |form: &str| support::check(form).diags.iter().filter(|diag| diag.is_error()).count();
+        assert_eq!(errors(&text(typed)), errors(&once), "{typed}");
     }
 }
 

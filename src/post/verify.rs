@@ -8,7 +8,7 @@ use crate::compile;
 use crate::control::Control;
 use crate::diag::{Code, Diag, Findings};
 use crate::error::{Error, ErrorKind};
-use crate::job::Job;
+use crate::job::{Format, Job};
 use crate::nc::RunSettings;
 use crate::toolpath::{Event, Flow, Place, Sink, Units};
 use crate::verify::{Batch, Comparer, Counts, Expectation, Outcome, Verdict, prove_beside};
@@ -176,7 +176,9 @@ fn prove(
     options: &Options,
     proof: &Proof,
 ) -> Result<Proven, Error> {
-    let Plan { settings, expectation, of_job, assumed } = Plan::new(form, options, proof);
+    let Plan { settings, mut expectation, of_job, assumed } = Plan::new(form, options, proof);
+    // a program that is the job says its own registers, where it has any
+    expectation.lengths_due = form.is_some() || job.format() != Format::Nc;
     let comparer = Comparer::new(program, settings, expectation, proof.tolerance);
     let mut comparer = Started { comparer, of_job };
     let read = job.read(&mut comparer);

@@ -68,6 +68,16 @@ pub fn items(each: Each, outer: Option<Item>, survey: &Survey) -> Vec<Item> {
     rows.filter(belongs).map(|row| Item { each, row }).collect()
 }
 
+/// The sums of an item, or of the whole program.
+pub fn sums(item: Option<Item>, survey: &Survey) -> &Totals {
+    match item {
+        Some(Item { each: Each::Tool, row }) => &survey.tools[row].totals,
+        Some(Item { each: Each::Operation, row }) => &survey.operations[row].totals,
+        Some(Item { each: Each::Work, row }) => &survey.works[row].totals,
+        None => &survey.whole,
+    }
+}
+
 /// What the job wants while the lines of a list print for this item.
 pub fn of_item(item: Item, survey: &Survey, shape: &Shape, want: &Want) -> Want {
     let mut want = want.clone();
@@ -78,20 +88,18 @@ pub fn of_item(item: Item, survey: &Survey, shape: &Shape, want: &Want) -> Want 
             operation(used.first, survey, shape, &mut want);
             let number = |row: usize| survey.tools.get(row).map(|used| used.tool.number);
             place_in_order(item.row, survey.tools.len(), number, &mut want);
-            totals(&used.totals, shape, &mut want);
         }
         Each::Operation => {
             operation(item.row, survey, shape, &mut want);
             let number = |row: usize| survey.changes.get(row).copied();
             place_in_order(survey.operations[item.row].change, survey.changes.len(), number, &mut want);
-            totals(&survey.operations[item.row].totals, shape, &mut want);
         }
         Each::Work => {
             let used = &survey.works[item.row];
             want.set(VarId::Work, used.work);
-            totals(&used.totals, shape, &mut want);
         }
     }
+    totals(sums(Some(item), survey), shape, &mut want);
     want
 }
 

@@ -45,16 +45,17 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
             What::Arc(made) => {
                 if made.plane != turn.plane || made.direction != turn.direction {
                     let name = if turn.direction == Direction::Cw { "clockwise" } else { "counter-clockwise" };
-                    let message = format!(
-                        "the arc to {} turns the other way, or in another plane: the job's {name}",
-                        shown(&cut.end(), 0b111)
-                    );
-                    return s.differs(
-                        Code::PV001,
-                        found.line,
-                        message,
-                        "look at ClockWise, CounterClockWise and ArcPlane",
-                    );
+                    let message = || {
+                        let end = shown(&cut.end(), 0b111);
+                        format!("the arc to {end} turns the other way, or in another plane: the job's {name}")
+                    };
+                    let help = "look at ClockWise, CounterClockWise and ArcPlane";
+                    if !same(&found.end(), &cut.end(), ALL, tolerance) {
+                        return s.differs(Code::PV001, found.line, message(), help);
+                    }
+                    s.found(Code::PV001, found.line, help, message);
+                    s.program.take();
+                    return Ok(());
                 }
                 angle = sweep(&found.from, &made);
                 bulge = 0.0;

@@ -8,34 +8,45 @@ use super::state::Sides;
 use super::{pauses, states, ways, wire};
 use crate::diag::Code;
 
-/// The program's next cut, whose way, beginning and state are compared.
-pub(super) fn meet<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, hole: Option<&Expected>) -> Done<Cut> {
-    let mut next = s.next()?;
-    while let Some(found) = &next {
-        if enters_again(s, cut, found) {
+/// How the program's next cut begins.
+enum Begins {
+    /// Where the job's does.
+    There,
+    /// Behind the end of the job's, to which the program goes at rapid.
+    Behind,
+    /// Before it: the program feeds where the job has a rapid.
+    Before,
+}
+
+/// The program's next cut, whose way, beginning and state are compared; `None`: the program goes at rapid where the job cuts.
+pub(super) fn meet<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, hole: Option<&Expected>) -> Done<Option<Cut>> {
+    let found = loop {
+        let Some(found) = s.next()? else { return is_missing(s, cut, hole) };
+        if enters_again(s, cut, &found) {
             s.report.allowed.entries += 1;
             s.program.take();
         } else if !found.by_cycle
-            && s.is_nothing(found)
+            && s.is_nothing(&found)
             && !cut.is_short(s.limits.tolerance)
-            && !is_itself(s, cut, found)
-            && !is_part(s, cut, found)
+            && !is_itself(s, cut, &found)
+            && !is_part(s, cut, &found)
         {
             s.report.allowed.short += 1;
             s.program.pass_over();
         } else {
-            break;
+            match begins(s, cut, &found, hole)? {
+                Begins::There => break found,
+                Begins::Behind => return Ok(None),
+                Begins::Before => s.program.pass_over(),
+            }
         }
-        next = s.next()?;
-    }
-    let Some(found) = next else { return is_missing(s, cut, hole) };
-    begins(s, cut, &found, hole)?;
+    };
     pauses::compare(s);
     wire::compare(s, found.line);
     ways::compare(s, found.line);
     states::compare(s, cut, &found, hole.is_some_and(|hole| hole.is_tap));
     s.slipped = None;
-    Ok(found)
+    Ok(Some(found))
 }
 
 /// Is a short cut of the program the job's, which is a little longer?
@@ -98,18 +109,18 @@ fn enters_again<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut) -> 
 }
 
 /// Checks that both cuts begin at one place.
-fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done {
+fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done<Begins> {
     let tolerance = s.limits.tolerance;
     let unknown = found.unknown & !cut.unknown & ALL;
     if unknown == 0 && same(&cut.from, &found.from, ALL, tolerance) {
-        return Ok(());
+        return Ok(Begins::There);
     }
     if let Some([job, program]) = s.slipped
         && unknown == 0
         && same(&cut.from, &job, ALL, tolerance)
         && same(&found.from, &program, ALL, tolerance)
     {
-        return Ok(()); // follows from where the cut before it ended
+        return Ok(Begins::There); // follows from where the cut before it ended
     }
     let end = cut.end();
     let angles = (3..6).filter(|&axis| cut.from[axis] != found.from[axis]).map(|axis| 1 << axis).sum::<u8>();
@@ -118,13 +129,13 @@ fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Opt
     // the rapid went where the cut goes
     let cuts_by_rapid = |rapid: &Rapid| rapid.unknown == 0 && same(&rapid.to, &end, ALL, tolerance);
     if s.program.passage.rapids.iter().any(cuts_by_rapid) && !same(&end, &cut.from, ALL, tolerance) {
-        let message = format!("a rapid goes to {}, where the job cuts", shown(&end, 0b111));
-        return s.differs(Code::PV007, line, message, "print the feed code (G1) for this move");
+        s.found(Code::PV007, line, "print the feed code (G1) for this move", || {
+            format!("a rapid goes to {}, where the job cuts", shown(&end, 0b111))
+        });
+        return Ok(Begins::Behind);
     }
-    let found_end = found.end();
-    if s.job.rapids.iter().any(|rapid| same(&rapid.to, &found_end, ALL, tolerance)) {
-        let message = format!("a feed move goes to {}, where the job has a rapid", shown(&found_end, 0b111));
-        return s.differs(Code::PV008, line, message, "print the rapid code (G0) for this move");
+    if is_the_jobs_rapid(s, found) {
+        return Ok(Begins::Before);
     }
     if found.by_cycle && found.lead.is_none() && hole.is_none() {
         let place = over(&found.from);
@@ -155,12 +166,27 @@ fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Opt
         let message = format!("the hole at {} is drilled from a height that only the machine knows", over(&hole.at));
         return s.differs(Code::PV005, line, message, "print [d] before the cycle");
     }
-    let message = format!(
-        "the feed begins at Z{}, the job's clearance plane is Z{}",
-        number(found.from[DEPTH]),
-        number(cut.from[DEPTH])
-    );
-    s.differs(Code::PV005, line, message, "print R[vclear] in the cycle, at every hole where it changes")
+    // the hole is the job's all the same, and the next may be, too
+    s.found(Code::PV005, line, "print R[vclear] in the cycle, at every hole where it changes", || {
+        format!(
+            "the feed begins at Z{}, the job's clearance plane is Z{}",
+            number(found.from[DEPTH]),
+            number(cut.from[DEPTH])
+        )
+    });
+    Ok(Begins::There)
+}
+
+/// Does the program feed to where the job goes at rapid? Says so.
+pub(super) fn is_the_jobs_rapid<R: BufRead + Seek>(s: &mut Sides<R>, found: &Cut) -> bool {
+    let (end, tolerance) = (found.end(), s.limits.tolerance);
+    let is = s.job.rapids.iter().any(|rapid| same(&rapid.to, &end, ALL, tolerance));
+    if is {
+        s.found(Code::PV008, found.line, "print the rapid code (G0) for this move", || {
+            format!("a feed move goes to {}, where the job has a rapid", shown(&end, 0b111))
+        });
+    }
+    is
 }
 
 /// The names of axes, unless there are none.

@@ -169,8 +169,9 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             return Ok(());
         }
         if hole.is_some_and(|hole| hole.pecks) {
-            if self.hole.pecks.is_empty() {
-                begin::meet(self, cut, hole)?;
+            if self.hole.pecks.is_empty() && begin::meet(self, cut, hole)?.is_none() {
+                self.job.goes_on(cut.end());
+                return Ok(());
             }
             self.hole.waits_inside |= self.hole.waited.is_some();
             self.hole.pecks.push(*cut);
@@ -182,7 +183,10 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             self.job.goes_on(cut.end());
             return Ok(());
         }
-        let found = begin::meet(self, cut, hole)?;
+        let Some(found) = begin::meet(self, cut, hole)? else {
+            self.job.goes_on(cut.end());
+            return Ok(());
+        };
         self.report.counts.cuts += u64::from(hole.is_none());
         match (cut.what, found.what) {
             // a helix whose circle no digits show
@@ -293,9 +297,13 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
     }
 
     fn finish(&mut self) -> Done {
-        while self.next()?.is_some_and(|found| self.is_nothing(&found)) {
+        while let Some(found) = self.next()? {
+            if self.is_nothing(&found) {
+                self.report.allowed.short += 1;
+            } else if !begin::is_the_jobs_rapid(self, &found) {
+                break;
+            }
             self.program.pass_over();
-            self.report.allowed.short += 1;
         }
         if let Some(found) = self.next()? {
             let end = shown(&found.end(), 0b111);

@@ -28,6 +28,8 @@ pub struct Expectation {
     pub registers: Option<[f64; 2]>,
     /// The machine loads tools (M6) and has length offsets.
     pub tools: bool,
+    /// Where the machine has length offsets, the program turns one on before the tool goes down.
+    pub lengths_due: bool,
     /// Only the program says its units.
     pub units_due: bool,
     /// As which axis of the program each of the job's X Y Z A B C is printed (`Rename`).
@@ -61,6 +63,7 @@ impl Default for Expectation {
             work: None,
             registers: None,
             tools: true,
+            lengths_due: true,
             units_due: true,
             axes: [0, 1, 2, 3, 4, 5],
             coolant: [8.0, 9.0, 7.0],

@@ -13,6 +13,7 @@ mod cut;
 mod expectation;
 mod finding;
 mod holes;
+mod idle;
 mod intended;
 mod intent;
 mod kept;

@@ -18,6 +18,8 @@ pub(super) struct Leg {
     pub frame: Frame,
     /// How many rapids come before the leg.
     from: usize,
+    /// It begins at the machine's own place, to which the job sends the tool.
+    home: bool,
     /// Length registers in force while the tool moved to heights that are known; of the job, the tool's.
     pub lengths: Vec<Option<f64>>,
 }
@@ -96,7 +98,7 @@ impl Passage {
             self.legs.truncate(1);
         }
         if let Some(leg) = self.legs.first_mut() {
-            leg.from = 0;
+            (leg.from, leg.home) = (0, false);
             leg.lengths.clear();
         }
         self.stops.clear();
@@ -133,7 +135,7 @@ impl Passage {
         if self.legs.len() == 1 {
             self.left_aside = std::mem::take(&mut self.aside);
         }
-        self.legs.push(Leg { frame, from: self.rapids.len(), lengths: Vec::new() });
+        self.legs.push(Leg { frame, from: self.rapids.len(), ..Leg::default() });
     }
 
     /// The tool goes to the machine's own place: the way from there is one of its own, in the same frame.
@@ -143,7 +145,7 @@ impl Passage {
             self.left_aside = std::mem::take(&mut self.aside);
         }
         let frame = self.legs.last().map_or_else(Frame::default, |leg| leg.frame);
-        self.legs.push(Leg { frame, from: self.rapids.len(), lengths: vec![length] });
+        self.legs.push(Leg { frame, from: self.rapids.len(), home: true, lengths: vec![length] });
     }
 
     /// Ways from places of the machine along one of these axes begin anew, as the job's do where it goes home. Is there such a place?
@@ -225,6 +227,13 @@ impl Passage {
         };
         let moved = mark.leg == 0 || self.legs.get(mark.leg).is_some_and(|leg| leg.from < mark.at);
         corner.filter(|corner| corner.unknown == 0 && moved)
+    }
+
+    /// Does the tool stand at a place of the machine along one of these axes, or where the job sent it home?
+    pub fn at_home<T>(&self, mark: &Mark<T>, axes: u8) -> bool {
+        let sent = self.legs.get(mark.leg).is_some_and(|leg| leg.home && leg.from == mark.at);
+        let last = mark.at.checked_sub(1).and_then(|last| self.rapids.get(last));
+        sent || last.is_some_and(|rapid| rapid.unknown & axes != 0)
     }
 
     /// Does the tool still stand where the cut ended?

@@ -2,9 +2,10 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ACROSS, DEPTH, Rapid, number, same, same_dwell};
+use super::cut::{ACROSS, ALL, DEPTH, Rapid, number, same, same_dwell};
 use super::passage::{Mark, Passage};
 use super::state::Sides;
+use super::ways;
 use crate::diag::Code;
 use crate::toolpath::StopKind;
 
@@ -39,6 +40,13 @@ fn stops<R: BufRead + Seek>(s: &mut Sides<R>) {
         };
         let made = others.remove(from + at);
         from += at;
+        let away = ways::away(s.machine);
+        if s.job.at_home(stop, away) && !s.program.passage.at_home(&made, away) {
+            told(s, stop, Code::PV019, made.line, "print the stop behind the way home", || {
+                "the job stops with the tool at home, the program before".to_owned()
+            });
+        }
+        s.report.allowed.pauses += u64::from(is_elsewhere(s, stop, &made));
         if let (Some(a), Some(b)) = (s.job.standing(stop), s.program.passage.standing(&made))
             && b.to[DEPTH] < a.to[DEPTH] - tolerance
         {
@@ -57,6 +65,12 @@ fn stops<R: BufRead + Seek>(s: &mut Sides<R>) {
             s.report.allowed.stops += 1;
         }
     }
+}
+
+/// Does the tool stand at another place than the job's?
+fn is_elsewhere<R: BufRead + Seek, T>(s: &Sides<R>, wanted: &Mark<T>, made: &Mark<T>) -> bool {
+    let stands = [s.job.standing(wanted), s.program.passage.standing(made)];
+    matches!(stands, [Some(a), Some(b)] if !same(&a.to, &b.to, ALL, s.limits.tolerance))
 }
 
 /// A machine without tool changes stops for each next tool: behind the job's stops with the one before.
@@ -139,7 +153,8 @@ fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
         let passage = &s.program.passage;
         let there = others.iter().position(|other| serves(passage, other) && is_one(wait.what, other.what));
         if let Some(at) = there {
-            others.remove(at);
+            let made = others.remove(at);
+            s.report.allowed.pauses += u64::from(!in_cut && is_elsewhere(s, wait, &made));
             continue;
         }
         if wait.what.is_nan() {

@@ -88,7 +88,11 @@ impl<R: BufRead + Seek> Program<R> {
             mode: FeedMode::PerMinute,
             cycle: false,
             before_tap: None,
-            due: Due { lengths: expectation.tools, length_told: false, units: expectation.units_due },
+            due: Due {
+                lengths: expectation.tools && expectation.lengths_due,
+                length_told: false,
+                units: expectation.units_due,
+            },
             scale: Scale { units: settings.units, wanted: settings.units, axes: expectation.axes, lathe: false, wire },
             lead: None,
             wire: expectation.wire.clone().unwrap_or_default(),

@@ -33,6 +33,7 @@ allowed! {
     pecks   "hole" "with other pecks" "Holes whose pecks or retracts differ.";
     ways    "way" "in another order of axes or higher" "Ways that move the axes in another order, or higher.";
     tails   "tail" "that ends elsewhere" "Programs that go elsewhere after their last cut, and nowhere lower.";
+    idle    "way" "to no cut otherwise" "Ways of a tool or in a work offset that cuts nothing: elsewhere, and nowhere lower.";
     arcs    "arc" "made of parts" "Arcs made of parts.";
     parts   "straight cut" "made of parts" "Straight cuts made of parts.";
     short   "cut" "shorter than the tolerance left out or put in" "Cuts shorter than the tolerance that only one side has; of the program, than twice the tolerance.";
@@ -41,6 +42,7 @@ allowed! {
     slow    "rapid" "at feed that turn compensation on or off" "Feeds where the job has a rapid that turns compensation on or off.";
     dwells  "dwell" "of the form" "Dwells outside cuts that the job does not have, as for a spindle to spin up.";
     stops   "stop" "of the form" "Stops outside cuts that the job does not have.";
+    pauses  "pause" "elsewhere on the way" "Stops and dwells of the job that the program makes elsewhere on the way; stops nowhere lower.";
     feeds   "feed" "of the form" "Cuts at a feed that the form types, or makes of the job's.";
     speeds  "speed" "of the form" "Cuts at a speed that the form types, or makes of the job's, as `S[min(speed,800)]`; never taps.";
     threads "thread" "with other passes" "Threads whose passes differ: no coarser than the job's, to the same depth.";

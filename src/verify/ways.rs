@@ -4,6 +4,7 @@ use std::io::{BufRead, Seek};
 
 use super::compared::{Compared, are_the_same, compare as compare_way, enters_hole, leaves_hole, leaves_low};
 use super::cut::{ALL, DEPTH, RADIUS, Rapid, number, same, shown};
+use super::idle;
 use super::passage::{Frame, Leg};
 use super::state::Sides;
 use crate::diag::Code;
@@ -34,7 +35,10 @@ pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
         leave(s, leaving, line);
     }
     if changed {
-        between(s, line);
+        between(s, line, false);
+    }
+    if lost {
+        s.report.allowed.idle += idle::otherwise(&s.job, &s.program.passage, false, s.tools, tolerance);
     }
     let [job, program] = &mut s.ways;
     let passage = &s.program.passage;
@@ -126,17 +130,26 @@ pub(super) fn moved_with<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
         Some(length) => {
             format!("the tool comes to this cut with {} in {}", text("H", length), text("work offset ", frame.work))
         }
-        None => format!("on the way to this cut the tool moves in {}", text("work offset ", frame.work)),
+        None => {
+            let tool = if tools { text("T", frame.tool) } else { "the tool".to_owned() };
+            let way = if line == 0 { "behind the last cut" } else { "on the way to this cut" };
+            format!("{way} {tool} moves in {}, where the job moves nothing", text("work offset ", frame.work))
+        }
     });
+}
+
+/// The axes of which one goes home with the tool, as bits.
+pub(super) fn away(machine: Machine) -> u8 {
+    match machine {
+        Machine::Mill => 1 << DEPTH,
+        Machine::Lathe => 1 << RADIUS,
+        Machine::Edm => 0b11, // a wire goes nowhere else
+    }
 }
 
 /// Where the job goes home, so does the program, and both ways begin anew there.
 fn goes_home<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
-    let away = match s.machine {
-        Machine::Mill => 1 << DEPTH,
-        Machine::Lathe => 1 << RADIUS,
-        Machine::Edm => 0b11, // a wire goes nowhere else
-    };
+    let away = away(s.machine);
     if s.job.home && !s.program.passage.splits_at_home(away) {
         s.found(Code::PV001, line, "print the control's code for it in MoveHome, as `G28 G91 Z0.`", || {
             "the job sends the tool home here, and the program does not".to_owned()
@@ -179,14 +192,14 @@ fn goes_as(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
     count == job.len() && known.zip(job).all(|(a, b)| same(&a.to, &b.to, ALL, tolerance))
 }
 
-/// Frames between the first and the last: no rapid is lower there than the job's own.
-fn between<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+/// Frames between the first and the last, or after the first `at_end`: no rapid is lower there than the job's own.
+fn between<R: BufRead + Seek>(s: &mut Sides<R>, line: u64, at_end: bool) {
     let tolerance = s.limits.tolerance;
     let tools = s.tools;
     let legs: Vec<_> = s.program.passage.legs().collect();
     // how a last cut is left is compared for itself
     let first = usize::from(s.job.start.is_some());
-    let inner = legs.get(first..legs.len() - 1).unwrap_or_default();
+    let inner = legs.get(first..legs.len() - usize::from(!at_end)).unwrap_or_default();
     let mut low = None;
     for (leg, rapids) in inner.iter().filter(|(leg, _)| !leg.lengths.is_empty()) {
         let same_frame = |frame: &Frame| frame.work == leg.frame.work && (!tools || frame.tool == leg.frame.tool);
@@ -209,6 +222,7 @@ fn between<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
 
 /// The way after the last cut, to the end of the program.
 pub(super) fn end<R: BufRead + Seek>(s: &mut Sides<R>) {
+    moved_with(s, 0);
     goes_home(s, 0);
     if s.machine != Machine::Mill {
         return beside_the_part(s, 0);
@@ -216,11 +230,12 @@ pub(super) fn end<R: BufRead + Seek>(s: &mut Sides<R>) {
     let passage = &s.program.passage;
     let changed = passage.changed();
     let until = if s.job.changed() && changed { passage.leaving().len() } else { passage.rapids.len() };
-    if changed {
-        between(s, 0);
+    if changed || s.job.start.is_none() {
+        between(s, 0, true);
     }
     let as_job = leave(s, until, 0);
-    s.report.allowed.tails += u64::from(!as_job);
+    let idle = idle::otherwise(&s.job, &s.program.passage, true, s.tools, s.limits.tolerance);
+    s.report.allowed.tails += u64::from(!as_job || idle > 0);
 }
 
 /// On a lathe no side is free of the part, and no way is free of a wire: the tool goes where the job goes, in its order, and to places of the machine. A

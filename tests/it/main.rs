@@ -41,6 +41,7 @@ mod plot;
 mod program_commands;
 mod program_jobs;
 mod proofs;
+mod proofs_changed;
 mod properties;
 mod public_items;
 mod real_programs;

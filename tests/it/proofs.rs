@@ -16,20 +16,20 @@ use postform::internals::verify::{
 use postform::toolpath::{Event, Flow, Place, Sink};
 
 /// A metric job of two tools.
-fn mm(operations: &str) -> String {
+pub fn mm(operations: &str) -> String {
     format!(
         r#"{{"postform":1,"program":7,"units":"mm","tools":[{{"number":1,"diameter":6}},{{"number":2,"diameter":5}}],"operations":[{operations}]}}"#
     )
 }
 
 /// An operation of the first tool.
-fn one(path: &str) -> String {
+pub fn one(path: &str) -> String {
     mm(&format!(
         r#"{{"tool":1,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"coolant":"flood","feed":100,"path":[{path}]}}"#
     ))
 }
 
-fn of_post(name: &str, job: &str) -> (String, Verdict) {
+pub fn of_post(name: &str, job: &str) -> (String, Verdict) {
     of_form(&post(name), job)
 }
 

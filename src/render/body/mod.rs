@@ -391,7 +391,7 @@ impl Body<'_, '_> {
         }
         if ahead::is_reach(var)
             && let Some(survey) = &self.shape.options.survey
-            && !survey.whole.in_one_frame()
+            && !ahead::sums(self.want.item, survey).in_one_frame()
         {
             let message = format!("[{}] in a job of several work offsets", var.name());
             return fault(

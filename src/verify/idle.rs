@@ -1,0 +1,41 @@
+//! Ways that lead to no cut: of a tool or a work offset that cuts nothing, and behind the last cut of the program.
+
+use super::compared::{Compared, compare as compare_way};
+use super::cut::{ALL, Rapid, same};
+use super::passage::{Frame, Passage};
+use super::way::Way;
+
+/// How many such ways of the job the program does not make. `at_end`: the last way of both leads to no cut, either. `tools`: the
+/// machine loads tools.
+pub(super) fn otherwise(job: &Passage, program: &Passage, at_end: bool, tools: bool, tolerance: f64) -> u64 {
+    // the first way leads away from a cut, if there was one
+    let leaves = usize::from(job.start.is_some());
+    let mut made = ways(program, leaves, at_end);
+    let wanted = ways(job, leaves, at_end).filter(|(_, rapids)| !rapids.is_empty());
+    let mut count = 0;
+    for (frame, rapids) in wanted {
+        let is_frame =
+            |other: &Frame| frame.work.is_none_or(|_| frame.work == other.work) && (!tools || frame.tool == other.tool);
+        let there = made.by_ref().find(|(other, rapids)| is_frame(other) && !rapids.is_empty());
+        count += u64::from(!there.is_some_and(|(_, other)| is_made(rapids, other, tolerance)));
+    }
+    count
+}
+
+/// The ways to no cut, with their frames; of the rapids the last to a place of the machine is none of it.
+fn ways(passage: &Passage, leaves: usize, at_end: bool) -> impl Iterator<Item = (Frame, &[Rapid])> {
+    let count = passage.legs().count().saturating_sub(leaves + usize::from(!at_end));
+    passage.legs().skip(leaves).take(count).map(|(leg, rapids)| {
+        let known = rapids.iter().rposition(|rapid| rapid.unknown == 0).map_or(0, |last| last + 1);
+        (leg.frame, &rapids[..known])
+    })
+}
+
+/// Does the program go where the job goes, no lower, and end there?
+fn is_made(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
+    let (mut own, mut other) = (Way::default(), Way::default());
+    own.set(None, job, tolerance);
+    other.set(None, program, tolerance);
+    let ends = job.last().zip(program.last()).is_some_and(|(a, b)| same(&a.to, &b.to, ALL & !a.unknown, tolerance));
+    ends && matches!(compare_way(&mut own, &mut other, false, tolerance), Compared::Same | Compared::AsGood { .. })
+}

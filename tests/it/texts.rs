@@ -119,7 +119,7 @@ fn clock_file_and_form_are_the_callers() {
     let options = Options { clock, job_file: Some("a.json".into()), ..Options::default() };
     let text = render_checked(&form, job("", "", "").as_bytes(), false, options).unwrap().text;
     let version = env!("CARGO_PKG_VERSION");
-    assert!(text.contains(&format!("(2026-03-31 14:05 A.JSON  HAAS {version})")), "{text}");
+    assert!(text.contains(&format!("(2026-03-31 14:05 A.JSON MILL 3 HAAS {version})")), "{text}");
 }
 
 #[test]

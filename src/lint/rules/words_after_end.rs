@@ -17,6 +17,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let is_word = |word: &&Word| match &word.kind {
         WordKind::Text(text) => text != "%",
         WordKind::Note(_) | WordKind::Remark(_) => false,
+        // `END PGM SLOT MM` is no block
+        WordKind::Quote(_) | WordKind::TextVar(_) => false,
         _ => true,
     };
     if let Some(word) = end.lines[last + 1..].iter().flat_map(|line| &line.words).find(is_word) {

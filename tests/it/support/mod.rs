@@ -14,7 +14,7 @@ use postform::internals::compile::compile;
 use postform::internals::control::Control;
 use postform::internals::json::{read_document, read_lines};
 use postform::internals::render::{Options, Renderer, TraceLine, survey_terms};
-use postform::internals::sema::{Checked, Limits, analyse};
+use postform::internals::sema::{Checked, Limits, analyse, one_post};
 use postform::internals::source::Source;
 use postform::internals::survey::Surveyor;
 use postform::toolpath::{Flow, ReadError, Sink, Stop};
@@ -36,7 +36,12 @@ pub fn check(text: &str) -> Checked {
 /// A form from a file; one that it calls stands beside it.
 pub fn check_file(path: &Path) -> Checked {
     let folder = path.parent().unwrap().to_path_buf();
-    analyse(Source::from_bytes(path.to_string_lossy(), &fs::read(path).unwrap()), Limits::Classic, &mut |name| {
+    let mut form = Source::from_bytes(path.to_string_lossy(), &fs::read(path).unwrap());
+    // of a file that holds several posts, the folder says which
+    if let Ok(post) = fs::read_to_string(folder.join("post")) {
+        form = one_post(form, post.trim()).unwrap_or_else(|names| panic!("{names:?}"));
+    }
+    analyse(form, Limits::Classic, &mut |name| {
         fs::read(folder.join(name)).map(|bytes| Source::from_bytes(name, &bytes)).map_err(|e| e.to_string())
     })
 }
@@ -95,7 +100,7 @@ pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) 
     if let Some(error) = checked.diags.iter().find(|d| d.is_error()) {
         return Err(Box::new(error.clone()));
     }
-    let program = compile(&checked.form);
+    let program = compile(&checked.form).identified(&checked.files);
     let read = |sink: &mut dyn Sink| match kind {
         Kind::Lines => read_lines(job, sink),
         Kind::Document => read_document(job, sink),

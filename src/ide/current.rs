@@ -66,9 +66,9 @@ impl Document {
         Some(Current { name: name.to_owned(), text, starts, trace, seen, notes, stopped, proven })
     }
 
-    /// The built-in job for the form's machine, printed: what is shown where no job is named.
+    /// The built-in job for the form, printed: what is shown where no job is named.
     pub fn print_sample(&self) -> Option<Current> {
-        let text = sample_job(self.checked.form.settings.machine);
+        let text = sample_job(&self.checked.form.settings);
         self.print("the sample job", Job::json(text))
     }
 }

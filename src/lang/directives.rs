@@ -55,7 +55,8 @@ const OTHERS: &[(&str, &str)] = &[
 /// The directive that somebody means by a name that is none.
 pub fn directive_meant(name: &str) -> Option<&'static str> {
     let other = OTHERS.iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, own)| *own);
-    other.or_else(|| nearest(name, DIRECTIVES.iter().map(|row| row.name)))
+    let joined: String = name.split([' ', '\t']).collect(); // `@ if`
+    other.or_else(|| nearest(&joined, DIRECTIVES.iter().map(|row| row.name)))
 }
 
 /// What `@for` goes through.

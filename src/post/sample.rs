@@ -1,20 +1,34 @@
 //! What fixes change in a program: a form's program of a job before and after them.
 
+use std::sync::OnceLock;
+
 use super::Post;
 use super::options::Options;
 use crate::compile::compile;
 use crate::error::{Error, ErrorKind};
 use crate::job::Job;
-use crate::lang::Machine;
-use crate::sema::Checked;
+use crate::lang::{Machine, UnitChoice};
+use crate::sema::{Checked, Settings};
 
-/// A whole part for each type of machine: what most sequences print is in it.
-pub fn sample_job(machine: Machine) -> &'static str {
-    match machine {
-        Machine::Mill => include_str!("../../samples/bracket/job.json"),
-        Machine::Lathe => include_str!("../../samples/lathe-part/job.json"),
-        Machine::Edm => include_str!("../../samples/wire/job.json"),
+/// A whole part for each type of machine, in units that the form prints: what most sequences print is in it.
+pub fn sample_job(settings: &Settings) -> &'static str {
+    let (text, inch) = match settings.machine {
+        Machine::Mill => (include_str!("../../samples/bracket/job.json"), true),
+        Machine::Lathe => (include_str!("../../samples/lathe-part/job.json"), true),
+        Machine::Edm => (include_str!("../../samples/wire/job.json"), false),
+    };
+    let wanted = match settings.units {
+        UnitChoice::Both => inch,
+        other => other == UnitChoice::Inch,
+    };
+    if wanted == inch {
+        return text;
     }
+    // the same numbers: a smaller part, or a larger one
+    static OTHERS: [OnceLock<String>; 3] = [const { OnceLock::new() }; 3];
+    let units = [r#""units": "mm""#, r#""units": "inch""#];
+    OTHERS[settings.machine as usize]
+        .get_or_init(|| text.replacen(units[usize::from(inch)], units[usize::from(!inch)], 1))
 }
 
 /// What a form prints for a job, the built-in one where none is given; the inner `Err`: why it prints nothing. Blocks have no
@@ -28,12 +42,12 @@ pub fn sample_program(checked: &Checked, job: Option<Job<'_>>) -> Result<Result<
     }
     let mut form = checked.form.clone();
     form.settings.numbers.letter = None;
-    let machine = form.settings.machine;
+    let sample = sample_job(&form.settings);
     let post = Post::of(compile(&form), Vec::new(), &checked.files);
     // questions are answered, so that something is printed
     let mut options = Options { program: Some(1), proof: None, ..Options::default() };
     options.set = post.prompts().map(|ask| (ask.variable.to_owned(), ask.default.unwrap_or(1.0))).collect();
-    match post.render(job.unwrap_or_else(|| Job::json(sample_job(machine))), &options) {
+    match post.render(job.unwrap_or_else(|| Job::json(sample)), &options) {
         Ok(program) => Ok(Ok(program.into_text())),
         Err(error) if matches!(error.kind(), ErrorKind::Job | ErrorKind::Fault) => {
             let diag = error.findings().diags.iter().find(|diag| diag.is_error());

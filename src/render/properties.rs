@@ -6,12 +6,20 @@ use crate::diag::Code;
 use crate::sema::{Property, PropertyValue, Settings};
 use crate::toolpath::Given;
 
+/// A value of a property.
+#[derive(Clone, Debug, PartialEq)]
+struct Held {
+    value: PropertyValue,
+    /// It is not the form's default.
+    given: bool,
+}
+
 /// The values of the form's properties, by row.
 #[derive(Clone, Debug, Default)]
 pub struct Properties {
-    now: Vec<PropertyValue>,
+    now: Vec<Held>,
     /// What holds for operations that say nothing.
-    of_job: Vec<PropertyValue>,
+    of_job: Vec<Held>,
     /// The caller has said it: nothing else counts.
     fixed: Vec<bool>,
 }
@@ -19,10 +27,11 @@ pub struct Properties {
 impl Properties {
     /// What the form and the shop say, and what the caller says above all.
     pub fn new(settings: &Settings, shop: &[(u16, PropertyValue)], caller: &[(u16, PropertyValue)]) -> Properties {
-        let mut now: Vec<_> = settings.properties.iter().map(|property| property.default.clone()).collect();
+        let own = settings.properties.iter().map(|property| Held { value: property.default.clone(), given: false });
+        let mut now: Vec<_> = own.collect();
         let mut fixed = vec![false; now.len()];
         for (row, value) in shop.iter().chain(caller) {
-            now[usize::from(*row)] = value.clone();
+            now[usize::from(*row)] = Held { value: value.clone(), given: true };
         }
         for (row, _) in caller {
             fixed[usize::from(*row)] = true;
@@ -32,7 +41,12 @@ impl Properties {
 
     /// A value.
     pub fn get(&self, row: u16) -> &PropertyValue {
-        &self.now[usize::from(row)]
+        &self.now[usize::from(row)].value
+    }
+
+    /// Does a value come from without? Else it is the form's default.
+    pub fn is_given(&self, row: u16) -> bool {
+        self.now[usize::from(row)].given
     }
 
     /// What was set so far is the job's.
@@ -54,7 +68,7 @@ impl Properties {
             Given::Text(text) => property.kind.read(text),
         };
         match value {
-            Ok(value) if !self.fixed[row] => self.now[row] = value,
+            Ok(value) if !self.fixed[row] => self.now[row] = Held { value, given: true },
             Ok(_) => {}
             Err(why) => {
                 let message = format!("the property {}: {why}", property.name);

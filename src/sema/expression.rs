@@ -153,7 +153,17 @@ fn typed(expr: &Expr, context: &Context, diags: &mut Vec<Diag>) -> Option<(Formu
             _ => (Formula::Property(row), Kind::Number),
         },
         ExprKind::Variable(name) => match TextVar::parse(name) {
-            Some(text) => (Formula::TextVar(text.id), Kind::Text),
+            Some(text) => {
+                if text.width != 0 {
+                    let alone = name.split(':').next().unwrap_or(name);
+                    diags.push(
+                        Diag::new(Code::PF702, format!("`{name}` has a width, which only what is printed has"))
+                            .at(expr.span, "compared as it is")
+                            .help(format!("write `[{alone}]`; `like \"LID*\"` asks for its beginning")),
+                    );
+                }
+                (Formula::TextVar(text.id), Kind::Text)
+            }
             None => {
                 let name = Spanned { text: name.clone(), span: expr.span };
                 (Formula::Var(variable(&name, context.settings, diags)?), Kind::Number)

@@ -26,12 +26,28 @@ pub(super) fn duplicate_sequence(name: &str, span: Span, first: Span) -> Diag {
         .help("keep one of them")
 }
 
+/// What was meant is text of the control.
+pub(super) fn in_backquotes(diag: Diag, span: Span) -> Diag {
+    let [begin, end] = [span.start, span.end].map(|at| (Span { start: at, end: at, ..span }, "`".to_owned()));
+    diag.help("text of the control stands in backquotes, from the beginning of the line to its end").fix(
+        "put the line in backquotes",
+        false,
+        vec![begin, end],
+    )
+}
+
 pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
     let names = || SEQUENCES.iter().map(|s| s.name).chain(COMMANDS.iter().map(|c| c.name));
     let mut diag = Diag::new(Code::PF201, format!("`{}` is no command or sequence", name)).at(span, "unknown");
     // an abbreviation is no slip of the fingers, but the name that begins with it is meant
     let begins_with = |n: &str| n.get(..name.len()).is_some_and(|head| head.eq_ignore_ascii_case(name));
     let begins = || names().find(|n| name.len() > 2 && begins_with(n));
+    // for posts of other kinds, which may come
+    let kept = ["PlaneOn", "PlaneOff", "BeginCut", "EndCut"].iter().find(|kept| kept.eq_ignore_ascii_case(name));
+    if let Some(kept) = kept {
+        let what = if kept.starts_with("Plane") { "tilted planes" } else { "torches and lasers" };
+        return diag.help(format!("{kept} is kept for {what}, which postform does not print yet: take it out"));
+    }
     diag.help = did_you_mean(name, names())
         .or_else(|| begins().map(|n| format!("did you mean `{n}`?")))
         .or_else(|| Some("a comment begins with `#`".into()));

@@ -5,7 +5,7 @@ use indexmap::map::Entry;
 use super::args::Arguments;
 use super::check::Analysis;
 use super::flow::Flow;
-use super::messages::{duplicate_sequence, is_word, no_name_line, unknown_name};
+use super::messages::{duplicate_sequence, in_backquotes, is_word, no_name_line, unknown_name};
 use super::model::{Line, Sequence, Upon};
 use super::names::{Context, variable};
 use super::settings::Settings;
@@ -174,13 +174,16 @@ impl Analysis {
 
     /// `End` of a sequence that is no canned cycle.
     fn plain_end(&mut self, end: Option<&End>) {
-        if let Some(word) = end.and_then(|end| end.args.first()) {
-            self.report(
-                Diag::new(Code::PF405, format!("`{}` after the End of a sequence that is no canned cycle", word.text))
-                    .at(word.span, "take this out")
-                    .help("only a canned cycle is cancelled"),
-            );
-        }
+        let Some((end, word)) = end.and_then(|end| Some((end, end.args.first()?))) else { return };
+        let diag =
+            Diag::new(Code::PF405, format!("`{}` after the End of a sequence that is no canned cycle", word.text));
+        // the last line of a program in Klartext
+        self.report(if word.text.eq_ignore_ascii_case("PGM") {
+            let last = end.args.last().map_or(word.span, |last| last.span);
+            in_backquotes(diag.at(word.span, "text of the control"), end.word.to(last))
+        } else {
+            diag.at(word.span, "take this out").help("only a canned cycle is cancelled")
+        });
     }
 
     fn on_this_machine(&mut self, name: &str, machines: Machines, span: Span) {
@@ -226,8 +229,17 @@ impl Analysis {
 fn must_print(id: SequenceId) -> bool {
     use SequenceId as S;
     let moves = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed, S::Index, S::Unwind];
-    let changes =
-        [S::FirstToolChange, S::ToolChange, S::SubCall, S::SubEnd, S::Stop, S::OptStop, S::EndCode, S::Cancel];
+    let changes = [
+        S::FirstToolChange,
+        S::ToolChange,
+        S::SubCall,
+        S::SubEnd,
+        S::Stop,
+        S::OptStop,
+        S::MoveHome,
+        S::EndCode,
+        S::Cancel,
+    ];
     id.row().is_cycle || moves.contains(&id) || changes.contains(&id)
 }
 

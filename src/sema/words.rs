@@ -2,6 +2,7 @@
 
 use super::expression::number;
 use super::formula::Formula;
+use super::messages::in_backquotes;
 use super::model::{Line, Word, WordKind};
 use super::names::{Context, property, variable};
 use super::property::{Property, PropertyKind};
@@ -15,6 +16,12 @@ use crate::terminal::steers;
 pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
     let (codes, remark) = body.words.split_at(before_remark(&body.words, context.comment));
     let mut words = Vec::new();
+    if let Some(span) = statement(codes) {
+        let diag = Diag::new(Code::PF001, "a statement of the control's own language, with brackets of its own");
+        diags.push(in_backquotes(diag.at(span, "not to be read as variables"), span));
+        words.push(Word { span, glued: false, kind: WordKind::Quote(String::new()) });
+        return Line { span: body.line.span, words };
+    }
     for word in codes {
         check_texts(&word.pieces, context, diags);
         for (i, piece) in word.pieces.iter().enumerate() {
@@ -33,6 +40,17 @@ pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
     }
     words.shrink_to_fit();
     Line { span: body.line.span, words }
+}
+
+/// `IF [#1 GT 2] GOTO 5`, `WHILE [#1 LT 5] DO1`: where it stands.
+fn statement(words: &[syntax::Word]) -> Option<Span> {
+    let text = |word: &syntax::Word| match word.pieces.first() {
+        Some(Piece { kind: PieceKind::Stray(text), .. }) => text.to_ascii_uppercase(),
+        _ => String::new(),
+    };
+    let [first, second, .., last] = words else { return None };
+    let asks = matches!(text(first).as_str(), "IF" | "WHILE") && text(second).starts_with('[');
+    asks.then(|| first.span.to(last.span))
 }
 
 /// How many words stand before a comment that runs to the end of the block. Like the words in round brackets, those

@@ -220,3 +220,18 @@ fn a_choice_is_one_of_its_words() {
     let lines = "@if [through] = \"HIGH\"\n  M88\n@end";
     assert_eq!(print(&form(THROUGH, lines), &job, caller("through", "high")).unwrap(), ["M88", "M88"]);
 }
+
+/// The form's default counts in the form's units, which are inches where it is for both; what is given counts in the program's.
+#[test]
+fn lengths_of_a_form_for_both_units() {
+    let form = form("Units both\nProperty gap length .25 Gap\nX->4.>4\nQ->4.>3", "Q[gap]");
+    let metric = job("", ["", ""]).replace("\"inch\"", "\"mm\"");
+    let of = |job: &str, options: Options| print(&form, job, options).unwrap()[1].clone();
+    assert_eq!(of(&metric, Options::default()), "Q6.35");
+    assert_eq!(of(&metric, caller("gap", "5")), "Q5.");
+    assert_eq!(of(&metric, shop("gap", "5")), "Q5.");
+    assert_eq!(of(&metric.replacen("\"units\"", "\"set\":{\"gap\":5},\"units\"", 1), Options::default()), "Q5.");
+    let inch = job("", ["", ""]);
+    assert_eq!(of(&inch, Options::default()), "Q.25");
+    assert_eq!(of(&inch, caller("gap", "5")), "Q5.");
+}

@@ -43,13 +43,64 @@ fn slips_in_forms() {
         (changed("M6\n", "M6 ; change\n"), ["PF110", "begins with ` #`"]),
         (changed("M[cool]\n", "M cool\n"), ["PF112", "write `M[cool]`"]),
         (changed("M[cool]\n", "[frate*0.5]\n"), ["PF112", "write the letter before it"]),
+        (changed("M[cool]\n", "M[cool]\nIF [#1 GT 2] GOTO 5\n"), ["PF001", "stands in backquotes"]),
+        (changed("M[cool]\n", "M[cool]\n#500=1\n"), ["PF101", "`` `#500=1` ``"]),
+        (changed("\nM30\n", "\nM30\nEND PGM part MM\n"), ["PF405", "stands in backquotes"]),
+        (changed("M[cool]\n", "M[cool]\n@ if [tool] = 1\nM8\n@end\n"), ["PF707", "did you mean `@if`?"]),
+        (changed("\nEndCode", "\nEndCut\nM5\nEnd\n\nEndCode"), ["PF201", "kept for torches and lasers"]),
     ];
     let folder = folder("slips-forms");
     for (text, wanted) in table {
         fs::write(folder.join("form.pf"), &text).unwrap();
         let (status, said) = said(&folder, &["lint", "form.pf"]);
-        assert_eq!(status, Some(1), "{said}");
+        assert_eq!(status, Some(1), "{wanted:?}: {said}");
         wanted.iter().for_each(|wanted| assert!(said.contains(wanted), "no {wanted} in {said}"));
+    }
+}
+
+/// What a control reads in its own language is put in backquotes by a fix, which shows what is printed then.
+#[test]
+fn statements_of_the_control_are_put_in_backquotes() {
+    let folder = folder("slips-statements");
+    let lines = "M[cool]\n#500=1\nIF [#1 GT 2] GOTO 5\nWHILE [#1 LT 5] DO1\n";
+    for units in ["both", "mm"] {
+        let form =
+            plain_post("haas.pf").replacen("M[cool]\n", lines, 1).replace("Units both", &format!("Units {units}"));
+        let form = if units == "mm" { form.replace("G[unitmode]", "G21") } else { form };
+        fs::write(folder.join("form.pf"), form).unwrap();
+        let (_, said) = said(&folder, &["lint", "--fix", "--unsafe-fixes", "form.pf"]);
+        assert!(said.contains("3 unsafe fixes made") && said.contains("0 errors"), "{said}");
+        let mended = fs::read_to_string(folder.join("form.pf")).unwrap();
+        assert!(mended.contains("`#500=1`\n`IF [#1 GT 2] GOTO 5`\n`WHILE [#1 LT 5] DO1`\n"), "{mended}");
+    }
+}
+
+/// `None` where it makes no sense is said; a way through MoveHome that prints nothing is refused.
+#[test]
+fn sequences_that_lose_what_the_job_says() {
+    let folder = folder("slips-none");
+    let with = |sequence: &str| plain_post("linuxcnc.pf").replacen("\nEndCode", &format!("\n{sequence}\n\nEndCode"), 1);
+    let table = [
+        (with("OptStop\nNone\nEnd"), 0, "the job's optional stop is lost"),
+        (with("WorkChange\nNone\nEnd"), 0, "postform prints the block itself"),
+        (
+            plain_post("linuxcnc.pf").replacen("MoveHome\n", "MoveHome\nNone\nEnd\n#", 1),
+            0,
+            "the job's way home is lost",
+        ),
+        (
+            plain_post("linuxcnc.pf").replacen("MoveHome\n", "MoveHome\n@if [tool] = 9\n  G53 G0 Z0\n@end\nEnd\n#", 1),
+            1,
+            "a way through MoveHome prints nothing",
+        ),
+    ];
+    for (form, status, wanted) in table {
+        fs::write(folder.join("form.pf"), form).unwrap();
+        let found = said(&folder, &["lint", "--color", "never", "form.pf"]);
+        assert!(found.1.contains(wanted), "no {wanted} in {found:?}");
+        if status == 1 {
+            assert_eq!(found.0, Some(1), "{found:?}");
+        }
     }
 }
 

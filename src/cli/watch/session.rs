@@ -13,7 +13,7 @@ use postform::internals::diff::{self, Deadline};
 use postform::internals::lint::Levels;
 use postform::internals::post::sample_job;
 use postform::internals::scene::{At, Printed, Request, Scene, behind, help, program_of, scene};
-use postform::{Files, Job, Limits, Machine, Options, Proof, Source};
+use postform::{Files, Job, Limits, Options, Proof, Source};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -208,7 +208,7 @@ impl Session {
             send(scene);
             return Ok(());
         };
-        let machine = self.machine(&form, &ask.texts);
+        let sample = self.sample(&form, &ask.texts);
         let program = printed.fingerprint(&scene, against.as_ref().map_or(&[][..], |(_, old)| old));
         // most of what is typed prints what was there, and the page need not draw it again
         let same = ask.shown.as_ref() == Some(&program);
@@ -227,7 +227,7 @@ impl Session {
             let (printed, against) = (&printed, &against);
             scope.spawn(move || {
                 // a job that can't be read any more is told by the next scene
-                if let Ok(job) = self.job(ask.job, machine) {
+                if let Ok(job) = self.job(ask.job, sample) {
                     _ = proves.send(("verdict", printed.verdict(job)));
                 }
             });
@@ -271,7 +271,7 @@ impl Session {
         let form = self.read_form()?;
         let (scene, printed) = self.print(&form, ask)?;
         Ok(match printed {
-            Some(printed) => printed.verdict(self.job(ask.job, self.machine(&form, &ask.texts))?),
+            Some(printed) => printed.verdict(self.job(ask.job, self.sample(&form, &ask.texts))?),
             None => json!({ "kind": "none", "text": scene.said("stopped").map(|stopped| stopped["message"].clone()) }),
         })
     }
@@ -298,24 +298,21 @@ impl Session {
             files: typed,
             limits: self.limits,
             levels: &self.levels,
-            job: self.job(job, self.machine(typed.form, typed.texts))?,
+            job: self.job(job, self.sample(typed.form, typed.texts))?,
             job_name: self.names.get(job).map_or("", String::as_str),
             options,
             proof: self.proof.clone(),
         })
     }
 
-    /// What the form is for, where that says which sample job is shown.
-    fn machine(&self, form: &FormFile, texts: &HashMap<String, String>) -> Machine {
-        match self.jobs.is_empty() {
-            true => form.analyse(texts).form.settings.machine,
-            false => Machine::default(),
-        }
+    /// The sample job, where no job is named.
+    fn sample(&self, form: &FormFile, texts: &HashMap<String, String>) -> Option<&'static str> {
+        self.jobs.is_empty().then(|| sample_job(&form.analyse(texts).form.settings))
     }
 
-    fn job(&self, job: usize, machine: Machine) -> Result<Job<'static>, String> {
-        if self.jobs.is_empty() {
-            return Ok(Job::json(sample_job(machine)));
+    fn job(&self, job: usize, sample: Option<&'static str>) -> Result<Job<'static>, String> {
+        if let Some(sample) = sample {
+            return Ok(Job::json(sample));
         }
         files::job(self.jobs.get(job).ok_or("error: there is no such job")?, &self.read, true)
     }

@@ -78,10 +78,13 @@ fn macro_line(comment: Span, text: &str, diags: &mut Vec<Diag>) {
     let words = &text[comment.range()];
     let number = words.trim_start_matches('#').split('=').next().unwrap_or("").trim_end();
     if words.contains('=') && !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()) {
+        let words = words.trim_end();
+        let whole = Span { end: comment.start + words.len() as u32, ..comment };
         diags.push(
             Diag::new(Code::PF101, format!("`{words}` is lost: the line prints nothing"))
                 .at(comment, "a `#` begins a comment")
-                .help("forms can't set macro variables: let the job say it, as `text`"),
+                .help(format!("text of the control stands in backquotes: `` `{words}` ``"))
+                .fix("put it in backquotes", false, vec![(whole, format!("`{words}`"))]),
         );
     }
 }

@@ -3,7 +3,7 @@
 use std::io::{BufRead, Seek};
 
 use super::compared::{Compared, compare, leaves_low};
-use super::cut::{ALL, Cut, State, What, number, place, same, same_dwell, shown};
+use super::cut::{ALL, Cut, Spin, State, What, number, place, same, same_dwell, shown};
 use super::expectation::Expectation;
 use super::passage::Mark;
 use super::program::Program;
@@ -72,7 +72,7 @@ pub fn compare_motions<R: BufRead + Seek>(
             let same_way = ways[0].is(&ways[1], tolerance);
             let leaves_well = same_way || !low(0, 1) && !low(1, 0);
             // the end stops spindle and coolant, said or not
-            let besides = pauses(&a, &b, tolerance);
+            let besides = pauses(&a, &b, tolerance).or_else(|| standing(&a, &b));
             if x.is_none() && y.is_none() && leaves_well && besides.is_none() {
                 motions.ways += u64::from(!same_way);
                 return Ok(motions);
@@ -97,6 +97,7 @@ pub fn compare_motions<R: BufRead + Seek>(
         motions.ways += u64::from(matches!(way, Compared::AsGood { .. }));
         let message =
             differs(&cut, &found, way, tolerance).or_else(|| pauses(&a, &b, tolerance)).or_else(|| switching(&a, &b));
+        let message = message.or_else(|| standing(&a, &b));
         if let Some(message) = message {
             let difference = Some(MotionDifference { message, blocks: blocks(&a, &b) });
             return Ok(Motions { difference, ..motions });
@@ -204,6 +205,24 @@ fn switching<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>) -> Option<St
     };
     let (before, now) = (turns(old), turns(new));
     (before != now).then(|| format!("the spindle on the way here: {}, before {}", listed(&now), listed(&before)))
+}
+
+/// At which angles the spindle stands while the tool moves at rapid.
+fn standing<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>) -> Option<String> {
+    let angles = |program: &Program<R>| -> Vec<String> {
+        let stands = program.passage.rapids.iter().filter_map(|rapid| match rapid.spin? {
+            Spin::At(angle) => Some(format!("{} degrees", number(angle))),
+            Spin::Oriented => Some("an angle of the control's".to_owned()),
+            Spin::Turns(_) => None,
+        });
+        let mut list: Vec<String> = stands.collect();
+        list.dedup();
+        list
+    };
+    let (before, now) = (angles(old), angles(new));
+    let text = |list: &[String]| if list.is_empty() { "no angle".to_owned() } else { listed(list) };
+    (before != now)
+        .then(|| format!("the spindle stands on the way here at {}, before at {}", text(&now), text(&before)))
 }
 
 fn listed(names: &[String]) -> String {

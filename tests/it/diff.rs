@@ -156,6 +156,26 @@ fn pairs_and_their_verdicts() {
 }
 
 /// A detour is no difference, and is said.
+/// A bore is left with the spindle at an angle.
+#[test]
+fn motions_differ_where_the_spindle_stands_at_another_angle() {
+    let bore = |stands: &str| {
+        format!(
+            "G90 G21 G17 G94\nT1 M6\nG0 X0 Y0\nG43 H1 Z5.\nS900 M3\nG1 Z-5. F90.\n{stands}\nG0 X.2\nZ5.\nM3\nX9. Y9.\nG1 Z-5.\nG0 Z5.\nM30\n"
+        )
+    };
+    let settings = [RunSettings::new(control("haas")); 2];
+    let differs = |old: &str, new: &str| {
+        let [old, new] = [bore(old), bore(new)].map(Cursor::new);
+        compare_motions(old, new, settings, Units::Mm, 1e-6).unwrap().difference.map(|found| found.message)
+    };
+    assert_eq!(differs("M19 R90.", "M19 R90."), None);
+    for (new, angle) in [("M19 R270.", "270 degrees"), ("M5", "no angle")] {
+        let found = differs("M19 R90.", new).unwrap();
+        assert_eq!(found, format!("the spindle stands on the way here at {angle}, before at 90 degrees"));
+    }
+}
+
 #[test]
 fn other_ways_are_counted() {
     let detour = BASE.replacen("N110", "G0 X-20.\nN110", 1);

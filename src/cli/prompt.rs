@@ -27,8 +27,12 @@ fn answer(option: &str, properties: &[Property], options: &mut Options) -> Resul
     }
     let number = value.trim().parse::<f64>().ok().filter(|number| number.is_finite());
     options.set_value(name, number.unwrap_or_default()).map_err(|error| {
-        let names = properties.iter().map(|property| property.name.as_str());
-        did_you_mean(own, names).map_or_else(|| error.to_string(), |help| format!("`{own}` is no property; {help}"))
+        let names: Vec<&str> = properties.iter().map(|property| property.name.as_str()).collect();
+        match did_you_mean(own, names.iter().copied()) {
+            Some(help) => format!("`{own}` is no property; {help}"),
+            None if names.is_empty() => error.to_string(),
+            None => format!("{error}; the form's properties are {}", names.join(", ")),
+        }
     })?;
     number.map(|_| ()).ok_or_else(|| format!("`{value}` is no number"))
 }

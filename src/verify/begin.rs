@@ -36,7 +36,11 @@ pub(super) fn meet<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, hole: Option<
         } else {
             match begins(s, cut, &found, hole)? {
                 Begins::There => break found,
-                Begins::Behind => return Ok(None),
+                Begins::Behind => {
+                    // the next cut begins there all the same
+                    s.job.goes_on(cut.end());
+                    return Ok(None);
+                }
                 Begins::Before => s.program.pass_over(),
             }
         }

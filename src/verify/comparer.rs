@@ -170,7 +170,6 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         }
         if hole.is_some_and(|hole| hole.pecks) {
             if self.hole.pecks.is_empty() && begin::meet(self, cut, hole)?.is_none() {
-                self.job.goes_on(cut.end());
                 return Ok(());
             }
             self.hole.waits_inside |= self.hole.waited.is_some();
@@ -183,10 +182,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             self.job.goes_on(cut.end());
             return Ok(());
         }
-        let Some(found) = begin::meet(self, cut, hole)? else {
-            self.job.goes_on(cut.end());
-            return Ok(());
-        };
+        let Some(found) = begin::meet(self, cut, hole)? else { return Ok(()) };
         self.report.counts.cuts += u64::from(hole.is_none());
         match (cut.what, found.what) {
             // a helix whose circle no digits show

@@ -59,8 +59,6 @@ pub(super) struct Passage {
     pub does: Vec<Mark<Coded>>,
     /// The tool was changed.
     pub new_tool: bool,
-    /// The job sends the tool to the machine's own place.
-    pub home: bool,
     /// The job's way leaves the axis of its hole.
     pub aside: bool,
     /// The job's way left the axis of its hole before the last change of the frame.
@@ -83,7 +81,6 @@ impl Passage {
             codes: Vec::new(),
             does: Vec::new(),
             new_tool: false,
-            home: false,
             aside: false,
             left_aside: false,
         }
@@ -106,7 +103,7 @@ impl Passage {
         self.turns.clear();
         self.codes.clear();
         self.does.clear();
-        (self.new_tool, self.home, self.aside, self.left_aside) = (false, false, false, false);
+        (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 
     /// A cut that counts for nothing was on the way.
@@ -140,12 +137,16 @@ impl Passage {
 
     /// The tool goes to the machine's own place: the way from there is one of its own, in the same frame.
     pub fn goes_home(&mut self, length: Option<f64>) {
-        self.home = true;
         if self.legs.len() == 1 {
             self.left_aside = std::mem::take(&mut self.aside);
         }
         let frame = self.legs.last().map_or_else(Frame::default, |leg| leg.frame);
         self.legs.push(Leg { frame, from: self.rapids.len(), home: true, lengths: vec![length] });
+    }
+
+    /// Was the tool sent home?
+    pub fn was_sent_home(&self) -> bool {
+        self.legs.iter().any(|leg| leg.home)
     }
 
     /// Ways from places of the machine along one of these axes begin anew, as the job's do where it goes home. Is there such a place?

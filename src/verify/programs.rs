@@ -95,9 +95,10 @@ pub fn compare_motions<R: BufRead + Seek>(
             },
         };
         motions.ways += u64::from(matches!(way, Compared::AsGood { .. }));
-        let message =
-            differs(&cut, &found, way, tolerance).or_else(|| pauses(&a, &b, tolerance)).or_else(|| switching(&a, &b));
-        let message = message.or_else(|| standing(&a, &b));
+        let message = differs(&cut, &found, way, tolerance)
+            .or_else(|| pauses(&a, &b, tolerance))
+            .or_else(|| switching(&a, &b))
+            .or_else(|| standing(&a, &b));
         if let Some(message) = message {
             let difference = Some(MotionDifference { message, blocks: blocks(&a, &b) });
             return Ok(Motions { difference, ..motions });

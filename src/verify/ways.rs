@@ -150,7 +150,7 @@ pub(super) fn away(machine: Machine) -> u8 {
 /// Where the job goes home, so does the program, and both ways begin anew there.
 fn goes_home<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     let away = away(s.machine);
-    if s.job.home && !s.program.passage.splits_at_home(away) {
+    if s.job.was_sent_home() && !s.program.passage.splits_at_home(away) {
         s.found(Code::PV001, line, "print the control's code for it in MoveHome, as `G28 G91 Z0.`", || {
             "the job sends the tool home here, and the program does not".to_owned()
         });

@@ -26,6 +26,10 @@ impl Block {
         let mut stream = tokens(line);
         loop {
             stream.skip_blanks();
+            if let Some((letter, number, start)) = stream.word() {
+                self.word(letter, number.value, !number.point, start, control)?;
+                continue;
+            }
             let Some(token) = stream.next() else { break };
             match token.kind {
                 Kind::Word(b'O' | b':', _) if !self.is_empty => {

@@ -3,6 +3,8 @@
 //! Blanks inside numbers, missing blanks between words, lower case and both comment styles are read as controls read
 //! them. The scanner knows no code; what no control could read is [`Kind::Unread`].
 
+use super::digits::{Number, is_blank, signed, skip_blanks, unsigned};
+
 /// One token of a line: bytes `start..end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Token {
@@ -47,15 +49,6 @@ pub enum Kind {
     Unread,
 }
 
-/// A number as written.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Number {
-    /// The value of the number, the nearest double.
-    pub value: f64,
-    /// Written with a point.
-    pub point: bool,
-}
-
 /// The tokens of one line, which may end with its line end.
 #[derive(Clone, Debug)]
 pub struct Tokens<'a> {
@@ -80,12 +73,6 @@ pub(super) fn tokens_from(line: &[u8], at: usize) -> Tokens<'_> {
     Tokens { line, at, depth: 0, value: false, fresh: false }
 }
 
-/// Any blank inside a line.
-#[inline]
-fn is_blank(byte: u8) -> bool {
-    byte == b' ' || byte == b'\t'
-}
-
 impl Iterator for Tokens<'_> {
     type Item = Token;
 
@@ -102,6 +89,10 @@ impl Iterator for Tokens<'_> {
                 }
                 return Some(Token { kind: Kind::Blank, start, end: self.at });
             }
+            b'\n' => {
+                self.at = start + 1;
+                return Some(Token { kind: Kind::LineEnd, start, end: self.at });
+            }
             _ => self.other(byte),
         };
         self.fresh = self.fresh && kind == Kind::Delete;
@@ -110,6 +101,20 @@ impl Iterator for Tokens<'_> {
 }
 
 impl Tokens<'_> {
+    /// The next token where it is a letter with its number, as most are, and not the O of a program: the letter, the number and
+    /// the first byte.
+    #[inline(always)]
+    pub(super) fn word(&mut self) -> Option<(u8, Number, usize)> {
+        let start = self.at;
+        let letter = self.line.get(start)?.to_ascii_uppercase();
+        if !letter.is_ascii_uppercase() || letter == b'O' || self.depth > 0 || self.value {
+            return None;
+        }
+        let (number, end) = signed(self.line, start + 1)?;
+        (self.at, self.fresh) = (end, false);
+        Some((letter, number, start))
+    }
+
     /// A word, a letter before an expression, or a name.
     #[inline(always)]
     fn letter(&mut self, letter: u8) -> Kind {
@@ -134,7 +139,7 @@ impl Tokens<'_> {
         let rest = &self.line[self.at + 1..];
         let (kind, len) = match byte {
             b'\r' if rest.first() == Some(&b'\n') => (Kind::LineEnd, 2),
-            b'\r' | b'\n' => (Kind::LineEnd, 1),
+            b'\r' => (Kind::LineEnd, 1),
             b'0'..=b'9' | b'.' => match unsigned(self.line, self.at) {
                 Some((number, end)) if self.value || self.depth > 0 => {
                     self.value = false;
@@ -188,85 +193,6 @@ impl Tokens<'_> {
         let rest = &self.line[self.at + 1..];
         rest.iter().position(|&b| b == b'\r' || b == b'\n').unwrap_or(rest.len())
     }
-}
-
-/// A number with its sign, blanks before it ignored: its end, or `None` if none stands here.
-#[inline(always)]
-fn signed(line: &[u8], at: usize) -> Option<(Number, usize)> {
-    let mut at = skip_blanks(line, at);
-    let negative = match line.get(at) {
-        Some(b'-') => true,
-        Some(b'+') => false,
-        _ => return unsigned(line, at),
-    };
-    at = skip_blanks(line, at + 1);
-    let (mut number, end) = unsigned(line, at)?;
-    if negative {
-        number.value = -number.value;
-    }
-    Some((number, end))
-}
-
-#[inline(always)]
-fn skip_blanks(line: &[u8], mut at: usize) -> usize {
-    while line.get(at).is_some_and(|&b| is_blank(b)) {
-        at += 1;
-    }
-    at
-}
-
-const POWERS: [f64; 23] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20,
-    1e21, 1e22,
-];
-
-/// Digits and at most one point; blanks between them are ignored.
-#[inline(always)]
-fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
-    let (mut mantissa, mut digits, mut decimals, mut point) = (0u64, 0u32, 0usize, false);
-    let mut at = start;
-    loop {
-        let before = at;
-        while let Some(digit) = line.get(at).map(|b| b.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
-            mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
-            at += 1;
-        }
-        digits += (at - before) as u32;
-        if point {
-            decimals += at - before;
-        }
-        match line.get(at) {
-            Some(b'.') if !point => {
-                point = true;
-                at += 1;
-            }
-            Some(&byte) if is_blank(byte) => {
-                let next = skip_blanks(line, at);
-                match line.get(next) {
-                    Some(b'0'..=b'9') => at = next,
-                    Some(b'.') if !point => at = next,
-                    _ => break,
-                }
-            }
-            _ => break,
-        }
-    }
-    if digits == 0 {
-        return None;
-    }
-    let value = if digits <= 15 && decimals < POWERS.len() {
-        mantissa as f64 / POWERS[decimals] // both exact, so this is the nearest double
-    } else {
-        slow(&line[start..at])
-    };
-    Some((Number { value, point }, at))
-}
-
-/// Numbers too long for a double's digits.
-#[cold]
-fn slow(text: &[u8]) -> f64 {
-    let text: String = text.iter().filter(|b| !is_blank(**b)).map(|&b| char::from(b)).collect();
-    text.parse().unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]

@@ -64,8 +64,8 @@ impl Post {
         self.print(job, options, take, None)
     }
 
-    /// The same with what a proof needs: `prove` gets events and text in their order, for [`Post::prove`] on another thread, until
-    /// it wants no more and answers `false`.
+    /// The same with what a proof needs: `prove` gets events and text in their order, for [`Post::prove`] on another thread, and
+    /// gives a batch to be filled next, empty or one that is used up, until it wants no more.
     ///
     /// # Errors
     /// As [`Post::render_parts`].
@@ -74,9 +74,9 @@ impl Post {
         job: Job<'_>,
         options: &Options,
         take: &mut dyn FnMut(Part<'_>) -> io::Result<()>,
-        prove: &mut dyn FnMut(Batch) -> bool,
+        prove: &mut dyn FnMut(Batch) -> Option<Batch>,
     ) -> Result<Rendered, Error> {
-        self.print(job, options, take, Some(Tap { events: Vec::new(), prove }))
+        self.print(job, options, take, Some(Tap { batch: Batch::default(), prove }))
     }
 
     fn print(
@@ -125,8 +125,8 @@ fn fault(what: &str) -> Box<Diag> {
 
 /// What goes to a proof.
 struct Tap<'t> {
-    events: Vec<(Kept, Place)>,
-    prove: &'t mut dyn FnMut(Batch) -> bool,
+    batch: Batch,
+    prove: &'t mut dyn FnMut(Batch) -> Option<Batch>,
 }
 
 /// A sink between reader and output: prints, and passes text on as it comes.
@@ -144,31 +144,36 @@ impl Printer<'_, '_, '_> {
     /// Passes on what waits.
     fn drain(&mut self) {
         let lines = self.renderer.lines();
-        let mut trace = self.renderer.trace().map(std::mem::take).unwrap_or_default();
-        let text = self.renderer.text();
-        let shown = if self.traced { &trace[..] } else { &[] };
-        if let Err(error) = (self.take)(Part { text, trace: shown, lines }) {
+        let mut batch = self.tap.as_mut().map(|tap| std::mem::take(&mut tap.batch)).unwrap_or_default();
+        std::mem::swap(self.renderer.text(), &mut batch.text);
+        if let Some(trace) = self.renderer.trace() {
+            std::mem::swap(trace, &mut batch.trace);
+        }
+        let trace = if self.traced { &batch.trace[..] } else { &[] };
+        if let Err(error) = (self.take)(Part { text: &batch.text, trace, lines }) {
             self.failure = Some(error);
         }
         if let Some(tap) = &mut self.tap {
-            let events = Vec::with_capacity(tap.events.len());
-            let batch =
-                Batch { events: std::mem::replace(&mut tap.events, events), text: text.clone(), trace: trace.clone() };
-            if !(tap.prove)(batch) {
+            batch = (tap.prove)(batch).unwrap_or_else(|| {
                 self.tap = None;
-            }
+                Batch::default()
+            });
         }
-        text.clear();
-        trace.clear();
-        if let Some(kept) = self.renderer.trace() {
-            *kept = trace; // so that a part of a source map allocates nothing
+        // so that the next part allocates nothing
+        batch.clear();
+        std::mem::swap(self.renderer.text(), &mut batch.text);
+        if let Some(trace) = self.renderer.trace() {
+            std::mem::swap(trace, &mut batch.trace);
+        }
+        if let Some(tap) = &mut self.tap {
+            tap.batch = batch;
         }
     }
 
     /// Is there enough to be passed on?
     #[inline]
     fn is_full(&mut self) -> bool {
-        self.renderer.text().len() >= CHUNK || self.tap.as_ref().is_some_and(|tap| tap.events.len() >= EVENTS)
+        self.renderer.text().len() >= CHUNK || self.tap.as_ref().is_some_and(|tap| tap.batch.events.len() >= EVENTS)
     }
 }
 
@@ -176,7 +181,7 @@ impl Sink for Printer<'_, '_, '_> {
     #[inline]
     fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         if let Some(tap) = &mut self.tap {
-            tap.events.push((Kept::from(&event), place));
+            tap.batch.events.push((Kept::from(&event), place));
         }
         self.renderer.event(event, place)?;
         if !self.is_full() {

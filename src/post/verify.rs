@@ -56,14 +56,15 @@ impl Post {
     }
 
     /// Does the program that [`Post::render_beside`] prints make the motions of its job? `batches` may be the end of a channel on
-    /// another thread: it is asked for no more than is compared next, and not at all once the verdict is known. Whether the
-    /// job can be printed to its end is for the other side to say.
+    /// another thread: it is asked for no more than is compared next, and not at all once the verdict is known. Each is dropped
+    /// when it is compared; what stands for a batch may give it back then, to be filled again. Whether the job can be
+    /// printed to its end is for the other side to say.
     ///
     /// # Errors
     /// None that is known: what was printed can be read.
-    pub fn prove(
+    pub fn prove<B: AsRef<Batch>>(
         &self,
-        batches: impl Iterator<Item = Batch>,
+        batches: impl Iterator<Item = B>,
         options: &Options,
         proof: &Proof,
     ) -> Result<Proven, Error> {

@@ -82,7 +82,7 @@ pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -
             return s.differs(Code::PV001, found.line, message, "look at CtrCode, CtrIncremental? and the radius");
         }
         let share = if cut.mode == FeedMode::InverseTime { angle / whole } else { 1.0 };
-        let part = Cut { feed: cut.feed.map(|feed| feed / share), ..*cut };
+        let part = Cut { feed: cut.feed.map(|feed| feed / share), ..cut.clone() };
         states::feeds(s, &part, &found, false);
         s.program.take();
         parts += 1;

@@ -26,6 +26,21 @@ pub struct Batch {
     pub trace: Vec<TraceLine>,
 }
 
+impl AsRef<Batch> for Batch {
+    fn as_ref(&self) -> &Batch {
+        self
+    }
+}
+
+impl Batch {
+    /// Empties it, to be filled again.
+    pub(crate) fn clear(&mut self) {
+        self.events.clear();
+        self.text.clear();
+        self.trace.clear();
+    }
+}
+
 /// How a proof came out.
 #[derive(Clone, Debug)]
 #[must_use]
@@ -39,7 +54,7 @@ pub struct Outcome {
 }
 
 /// Proves a program while it is made. `batches` may be the end of a channel: it is asked for no more than is compared next,
-/// and not at all once the verdict is known. Before the program says its units they are the job's if `of_job`, else those
+/// and not at all once the verdict is known, and each is dropped when it is compared. Before the program says its units they are the job's if `of_job`, else those
 /// of `settings`.
 ///
 /// A program that calls or repeats parts of itself is not proven: only a file can be gone back in
@@ -47,8 +62,8 @@ pub struct Outcome {
 ///
 /// # Errors
 /// None: text in memory can always be read.
-pub fn prove_beside(
-    batches: impl Iterator<Item = Batch>,
+pub fn prove_beside<B: AsRef<Batch>>(
+    batches: impl Iterator<Item = B>,
     settings: RunSettings,
     expectation: Expectation,
     tolerance: Option<f64>,
@@ -56,13 +71,13 @@ pub fn prove_beside(
 ) -> io::Result<Outcome> {
     let queue = Queue { batches, events: VecDeque::new(), texts: VecDeque::new(), traces: VecDeque::new() };
     let queue = Rc::new(RefCell::new(queue));
-    let text = Text { queue: Rc::clone(&queue), chunk: Vec::new(), at: 0 };
+    let text = Text { queue: Rc::clone(&queue), batch: None, at: 0 };
     let mut comparer = Comparer::new(text, settings, expectation, tolerance);
     let mut found = 0;
     'job: loop {
         let next = queue.borrow_mut().events();
-        let Some(events) = next else { break };
-        for (kept, place) in &events {
+        let Some(batch) = next else { break };
+        for (kept, place) in &(*batch).as_ref().events {
             let event = kept.event();
             if let (Event::Start(start), true) = (&event, of_job) {
                 comparer.begin_in(start.units);
@@ -91,68 +106,83 @@ fn only_a_file(why: &'static str) -> io::Error {
 }
 
 /// What came and was not needed yet.
-struct Queue<I> {
+struct Queue<I: Iterator> {
     batches: I,
-    events: VecDeque<Vec<(Kept, Place)>>,
-    texts: VecDeque<Vec<u8>>,
+    /// Batches whose events wait.
+    events: VecDeque<Rc<I::Item>>,
+    /// Batches whose text waits.
+    texts: VecDeque<Rc<I::Item>>,
     /// Where the lines of the texts came from: of those that wait, of the one that is run and of the one before it.
-    traces: VecDeque<Vec<TraceLine>>,
+    traces: VecDeque<Rc<I::Item>>,
 }
 
-impl<I: Iterator<Item = Batch>> Queue<I> {
+impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
     /// Takes the next batch in; `false`: there is none.
     fn pull(&mut self) -> bool {
-        let Some(batch) = self.batches.next() else { return false };
-        if !batch.events.is_empty() {
-            self.events.push_back(batch.events);
+        let Some(batch) = self.batches.next().map(Rc::new) else { return false };
+        let Batch { events, text, .. } = (*batch).as_ref();
+        if !events.is_empty() {
+            self.events.push_back(Rc::clone(&batch));
         }
-        if !batch.text.is_empty() {
-            self.texts.push_back(batch.text);
-            self.traces.push_back(batch.trace);
+        if !text.is_empty() {
+            self.texts.push_back(Rc::clone(&batch));
+            self.traces.push_back(batch);
         }
         true
     }
 
-    /// The next events, as many as came at once.
-    fn events(&mut self) -> Option<Vec<(Kept, Place)>> {
+    /// The next batch with events.
+    fn events(&mut self) -> Option<Rc<I::Item>> {
         while self.events.is_empty() && self.pull() {}
         self.events.pop_front()
     }
 
-    fn text(&mut self) -> io::Result<Option<Vec<u8>>> {
+    /// The next batch with text.
+    fn text(&mut self) -> io::Result<Option<Rc<I::Item>>> {
         while self.texts.is_empty() && self.pull() {
-            if self.events.iter().map(Vec::len).sum::<usize>() > MOST_WAITING {
+            if self.events.iter().map(|batch| (**batch).as_ref().events.len()).sum::<usize>() > MOST_WAITING {
                 return Err(only_a_file("the program prints nothing for a long part of the job"));
             }
         }
-        let Some(text) = self.texts.pop_front() else { return Ok(None) };
+        let Some(batch) = self.texts.pop_front() else { return Ok(None) };
         while self.traces.len() > self.texts.len() + 2 {
             self.traces.pop_front();
         }
-        Ok(Some(text))
+        Ok(Some(batch))
     }
 
     /// Where a line came from that was run not long ago.
     fn origin(&self, line: u64) -> Option<TraceLine> {
-        let lines = self.traces.iter().find(|lines| lines.last().is_some_and(|last| last.line >= line))?;
+        let mut traces = self.traces.iter().map(|batch| &(**batch).as_ref().trace);
+        let lines = traces.find(|lines| lines.last().is_some_and(|last| last.line >= line))?;
         lines.iter().find(|traced| traced.line == line).copied()
     }
 }
 
 /// The program as it comes.
-struct Text<I> {
+struct Text<I: Iterator> {
     queue: Rc<RefCell<Queue<I>>>,
-    chunk: Vec<u8>,
+    /// The batch that is read.
+    batch: Option<Rc<I::Item>>,
+    /// How much of its text was read.
     at: usize,
 }
 
-impl<I: Iterator<Item = Batch>> BufRead for Text<I> {
+impl<I: Iterator<Item: AsRef<Batch>>> Text<I> {
+    /// What is there of the text.
+    fn rest(&self) -> &[u8] {
+        self.batch.as_ref().map_or(&[], |batch| &(**batch).as_ref().text[self.at..])
+    }
+}
+
+impl<I: Iterator<Item: AsRef<Batch>>> BufRead for Text<I> {
     fn fill_buf(&mut self) -> io::Result<&[u8]> {
-        while self.at == self.chunk.len() {
-            let Some(chunk) = self.queue.borrow_mut().text()? else { return Ok(&[]) };
-            (self.chunk, self.at) = (chunk, 0);
+        while self.rest().is_empty() {
+            self.batch = None;
+            let Some(next) = self.queue.borrow_mut().text()? else { return Ok(&[]) };
+            (self.batch, self.at) = (Some(next), 0);
         }
-        Ok(&self.chunk[self.at..])
+        Ok(self.rest())
     }
 
     fn consume(&mut self, amount: usize) {
@@ -160,7 +190,7 @@ impl<I: Iterator<Item = Batch>> BufRead for Text<I> {
     }
 }
 
-impl<I: Iterator<Item = Batch>> Read for Text<I> {
+impl<I: Iterator<Item: AsRef<Batch>>> Read for Text<I> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.fill_buf()?.read(buffer)?;
         self.consume(count);
@@ -168,7 +198,7 @@ impl<I: Iterator<Item = Batch>> Read for Text<I> {
     }
 }
 
-impl<I> Seek for Text<I> {
+impl<I: Iterator> Seek for Text<I> {
     fn seek(&mut self, _: SeekFrom) -> io::Result<u64> {
         Err(only_a_file("the program calls or repeats parts of itself"))
     }

@@ -54,7 +54,7 @@ impl Job {
     }
 
     fn run(&mut self, items: &[(Kept, Place)], to: &mut impl Intent) -> Done {
-        let (state, feed, mode, css) = (self.state, self.feed, self.mode, self.css);
+        let (state, feed, mode, css) = (self.state.clone(), self.feed, self.mode, self.css);
         self.feed = None;
         for (kept, place) in items {
             self.subprograms.done += 1;
@@ -64,11 +64,12 @@ impl Job {
             to.comes_from(*place);
             self.act(kept.event(), to)?;
         }
-        let work = self.state.work;
-        self.state = super::cut::State { work, ..state };
+        let (work, of_caller) = (self.state.work, state.work);
+        self.state = state;
+        self.state.work = work;
         (self.feed, self.mode, self.css) = (feed, mode, css);
         self.cycle = None;
-        self.work_is(state.work, to);
+        self.work_is(of_caller, to);
         Ok(())
     }
 }

@@ -51,7 +51,7 @@ impl<R: BufRead + Seek> Comparer<R> {
                 hole: Holes::default(),
                 limits: Limits { tolerance: tolerance.unwrap_or_default() * BINARY, chord: 0.0 },
                 ways: Default::default(),
-                before: super::cut::State::default(),
+                before: super::cut::Shared::default(),
                 agreed: None,
                 slipped: None,
                 threaded: None,
@@ -173,7 +173,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
                 return Ok(());
             }
             self.hole.waits_inside |= self.hole.waited.is_some();
-            self.hole.pecks.push(*cut);
+            self.hole.pecks.push(cut.clone());
             self.leave(cut);
             return Ok(());
         }
@@ -187,7 +187,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         match (cut.what, found.what) {
             // a helix whose circle no digits show
             (What::Arc(turn), What::Line { .. }) if is_straight(cut, &turn, self.limits.tolerance) => {
-                let straight = Cut { what: What::Line { to: cut.end() }, ..*cut };
+                let straight = Cut { what: What::Line { to: cut.end() }, ..cut.clone() };
                 lines::line(self, &straight, &found, hole)?;
             }
             (What::Arc(turn), _) => arcs::arc(self, cut, &turn)?,
@@ -210,7 +210,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         });
         if feeds {
             self.report.allowed.slow += 1;
-            return self.cut(&Cut { feed: None, ..*cut }, None);
+            return self.cut(&Cut { feed: None, ..cut.clone() }, None);
         }
         self.rapid(Rapid { to: end, unknown: 0, spin: None })
     }

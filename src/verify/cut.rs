@@ -1,5 +1,8 @@
 //! Cuts and the ways to them: what job and program are compared by.
 
+use std::ops::{Deref, DerefMut};
+use std::rc::Rc;
+
 use super::tables::{ANGLE, MOMENT, ORIENTED, ROUNDED};
 use crate::nc::{Cooling, Position, Rotation, Turn, axes_of, sweep};
 use crate::toolpath::{FeedMode, Plane, Side};
@@ -99,8 +102,41 @@ pub(super) struct State {
     pub rigid: Option<bool>,
 }
 
+/// A state that many cuts have: they share it until it changes, and two that share it are alike at a glance.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shared(Rc<State>);
+
+impl From<State> for Shared {
+    fn from(state: State) -> Shared {
+        Shared(Rc::new(state))
+    }
+}
+
+impl Deref for Shared {
+    type Target = State;
+
+    #[inline]
+    fn deref(&self) -> &State {
+        &self.0
+    }
+}
+
+impl DerefMut for Shared {
+    /// The state as its own, to be changed: who shares it keeps what it was.
+    fn deref_mut(&mut self) -> &mut State {
+        Rc::make_mut(&mut self.0)
+    }
+}
+
+impl PartialEq for Shared {
+    #[inline]
+    fn eq(&self, other: &Shared) -> bool {
+        Rc::ptr_eq(&self.0, &other.0) || self.0 == other.0
+    }
+}
+
 /// A cut.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Cut {
     pub from: Place,
     /// Axes of `from` that only the machine knows.
@@ -110,7 +146,7 @@ pub(super) struct Cut {
     pub mode: FeedMode,
     /// It follows the spindle, by so much a turn.
     pub lead: Option<f64>,
-    pub state: State,
+    pub state: Shared,
     /// A canned cycle of the control makes it.
     pub by_cycle: bool,
     /// The program's line, or 0.

@@ -149,7 +149,7 @@ fn peck_state<R: BufRead + Seek>(
     let own =
         pecks.get(count).filter(|peck| (peck.end()[DEPTH] > peck.from[DEPTH]) == up && within(peck) && is_meant(peck));
     let found_one = own.or_else(|| cuts().filter(within).find(is_meant));
-    let wanted = found_one.or_else(|| meant().next()).copied().unwrap_or(*first);
+    let wanted = found_one.or_else(|| meant().next()).unwrap_or(first).clone();
     if count > 0 {
         states::compare(s, &wanted, found, hole.is_tap);
         if s.tools {

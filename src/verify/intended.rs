@@ -1,6 +1,6 @@
 //! The job's side: events as intended cuts and ways.
 
-use super::cut::{Cut, Place, Rapid, Spin, State, UNSAID, What, place};
+use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
 use super::intent::{Done, Intent, unproven};
 use super::passage::Frame;
@@ -33,7 +33,7 @@ pub(super) struct Job {
     pub(super) at: Axes,
     pub(super) feed: Option<f64>,
     pub(super) mode: FeedMode,
-    pub state: State,
+    pub state: Shared,
     pub(super) css: bool,
     pub(super) cycle: Option<Open>,
     diameter: Option<f64>,
@@ -57,7 +57,7 @@ impl Job {
             at: Axes::default(),
             feed: None,
             mode: FeedMode::PerMinute,
-            state: State { side: Some(None), work, ..State::default() },
+            state: Shared::from(State { side: Some(None), work, ..State::default() }),
             css: false,
             cycle: None,
             diameter: None,
@@ -321,7 +321,7 @@ impl Job {
             feed: self.feed,
             mode: self.mode,
             lead: None,
-            state: self.state,
+            state: self.state.clone(),
             by_cycle: false,
             line: 0,
         }

@@ -19,7 +19,7 @@ pub(super) fn line<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, first: &Cut, 
     let tolerance = s.limits.tolerance;
     let end = cut.end();
     let is_tap = hole.is_some_and(|hole| hole.is_tap);
-    let mut found = *first;
+    let mut found = first.clone();
     let mut parts = 1;
     loop {
         let to = found.end();
@@ -91,7 +91,7 @@ fn in_parts(cut: &Cut, part: &Cut) -> Cut {
     let length = |cut: &Cut| apart(&cut.from, &cut.end());
     let share = length(part) / length(cut);
     match cut.mode {
-        FeedMode::InverseTime => Cut { feed: cut.feed.map(|feed| feed / share), ..*cut },
-        _ => *cut,
+        FeedMode::InverseTime => Cut { feed: cut.feed.map(|feed| feed / share), ..cut.clone() },
+        _ => cut.clone(),
     }
 }

@@ -63,8 +63,10 @@ impl Job {
             custom,
         };
         let list = std::mem::take(&mut steps.list);
-        let before = self.state;
-        self.state.rigid = rigid;
+        let before = self.state.clone();
+        if before.rigid != rigid {
+            self.state.rigid = rigid;
+        }
         if let (Some(inwards), Some(Rotation::Cw | Rotation::Ccw)) = (kind.inwards(), before.rotation) {
             self.state.rotation = Some(rotation(inwards)); // whatever the spindle does else
         }
@@ -76,7 +78,7 @@ impl Job {
     }
 
     fn steps(&mut self, steps: &[Step], point: f64, target: Axes, hole: &Expected, to: &mut impl Intent) -> Done {
-        let (feed, state) = (self.feed, self.state);
+        let (feed, state) = (self.feed, self.state.clone());
         // how a tap leaves the spindle outside its hole does not matter
         let mut spin = self.state.rotation.map(Spin::Turns).filter(|_| !hole.is_tap);
         self.at = target;
@@ -116,7 +118,7 @@ impl Job {
                     };
                 }
                 Step::SpindleStart => {
-                    self.state = state;
+                    self.state = state.clone();
                     spin = state.rotation.map(Spin::Turns).filter(|_| !hole.is_tap);
                 }
                 Step::SpindleReverse(ratio) => {

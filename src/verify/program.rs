@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{Cut, Place, Rapid, Spin, State, What, place};
+use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, place};
 use super::expectation::{Expectation, taps_by_m29};
 use super::finding::Finding;
 use super::passage::{Frame, Passage};
@@ -34,7 +34,7 @@ pub(super) struct Program<R> {
     /// Where the tool is.
     at: Place,
     unknown: u8,
-    state: State,
+    state: Shared,
     spin: Spin,
     mode: FeedMode,
     cycle: bool,
@@ -42,8 +42,6 @@ pub(super) struct Program<R> {
     before_tap: Option<Option<Rotation>>,
     due: Due,
     scale: Scale,
-    /// The lead of the cut that is made.
-    lead: Option<f64>,
     /// Codes of the form that thread and cut a wire.
     pub wire: Codes,
     /// Codes of the coolant that are the form's own: on, off, mist.
@@ -83,7 +81,7 @@ impl<R: BufRead + Seek> Program<R> {
             recent: Recent::default(),
             at: place(&[0.0; 6]),
             unknown: 0b111,
-            state,
+            state: state.into(),
             spin: Spin::Turns(Rotation::Stop),
             mode: FeedMode::PerMinute,
             cycle: false,
@@ -94,7 +92,6 @@ impl<R: BufRead + Seek> Program<R> {
                 units: expectation.units_due,
             },
             scale: Scale { units: settings.units, wanted: settings.units, axes: expectation.axes, lathe: false, wire },
-            lead: None,
             wire: expectation.wire.clone().unwrap_or_default(),
             coolant: expectation.coolant,
             passage: Passage::new(Some(start), Frame { tool: None, work: state.work }),
@@ -256,21 +253,14 @@ impl<R: BufRead + Seek> Program<R> {
                 if to == self.at && self.unknown == 0 {
                     return; // a move of no length cuts nothing
                 }
-                let rigid = self.state.rigid;
-                self.lead = *lead;
-                if lead.is_some() {
-                    self.state.rigid = rigid.map(|_| true);
-                }
-                self.cuts_now(What::Line { to }, feed, item);
-                self.state.rigid = rigid;
-                self.lead = None;
+                self.cuts_now(What::Line { to }, feed, *lead, item);
             }
             Action::Arc(turn) => {
                 let mut turn = *turn;
                 turn.to = self.scale.end_of_arc(&turn.to);
                 let factor = self.scale.factor();
                 turn.center.iter_mut().for_each(|value| *value *= factor);
-                self.cuts_now(What::Arc(turn), turn.feed, item);
+                self.cuts_now(What::Arc(turn), turn.feed, None, item);
             }
             Action::Dwell(seconds) if *seconds > 0.0 => {
                 let mark = self.passage.mark(*seconds, item.line, toolpath::Place::default());
@@ -382,13 +372,18 @@ impl<R: BufRead + Seek> Program<R> {
         self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
     }
 
-    fn cuts_now(&mut self, what: What, feed: f64, item: &Item) {
+    fn cuts_now(&mut self, what: What, feed: f64, lead: Option<f64>, item: &Item) {
         if self.length_is_due() {
             self.without_length(item.line, "the tool cuts, and its length offset is not on");
         }
         self.units_are_due(item.line, "the program cuts before it says its units");
-        let surface = if self.state.css { self.scale.surface() } else { 1.0 };
-        let speed = self.state.speed.map(|speed| speed * surface);
+        let mut state = self.state.clone();
+        if let (true, Some(speed)) = (state.css, state.speed) {
+            state.speed = Some(speed * self.scale.surface());
+        }
+        if lead.is_some() && state.rigid == Some(false) {
+            state.rigid = Some(true);
+        }
         let factor = if self.mode == FeedMode::InverseTime { 1.0 } else { self.scale.factor() };
         self.cut = Some(Cut {
             from: self.at,
@@ -396,8 +391,8 @@ impl<R: BufRead + Seek> Program<R> {
             what,
             feed: Some(feed * factor),
             mode: self.mode,
-            lead: self.lead.map(|lead| lead * self.scale.factor()),
-            state: State { speed, ..self.state },
+            lead: lead.map(|lead| lead * self.scale.factor()),
+            state,
             by_cycle: item.by_cycle,
             line: item.line,
         });

@@ -55,18 +55,17 @@ pub fn compare_motions<R: BufRead + Seek>(
     let mut ways = [Way::default(), Way::default()];
     let mut motions = Motions::default();
     loop {
-        let x = a.run_to_cut().map_err(|error| NoMotion(0, error))?.copied();
-        let y = b.run_to_cut().map_err(|error| NoMotion(1, error))?.copied();
-        let blocks = |a: &Program<R>, b: &Program<R>| {
-            [(x.map_or(0, |cut| cut.line), a.text()), (y.map_or(0, |cut| cut.line), b.text())]
-        };
+        let x = a.run_to_cut().map_err(|error| NoMotion(0, error))?.cloned();
+        let y = b.run_to_cut().map_err(|error| NoMotion(1, error))?.cloned();
+        let lines = [&x, &y].map(|cut| cut.as_ref().map_or(0, |cut| cut.line));
+        let blocks = |a: &Program<R>, b: &Program<R>| [(lines[0], a.text()), (lines[1], b.text())];
         let starts = [a.start(), b.start()];
         for (way, (program, start)) in ways.iter_mut().zip([(&a, starts[0]), (&b, starts[1])]) {
             way.set(Some(start), &program.passage.rapids, tolerance);
             way.join(tolerance);
         }
         motions.codes += u64::from(a.passage.codes != b.passage.codes);
-        let (Some(cut), Some(found)) = (x, y) else {
+        let (Some(cut), Some(found)) = (&x, &y) else {
             // in neither direction: going out higher is another motion, too
             let low = |a: usize, b: usize| leaves_low(&ways[a], &ways[b], tolerance).is_some();
             let same_way = ways[0].is(&ways[1], tolerance);
@@ -95,7 +94,7 @@ pub fn compare_motions<R: BufRead + Seek>(
             },
         };
         motions.ways += u64::from(matches!(way, Compared::AsGood { .. }));
-        let message = differs(&cut, &found, way, tolerance)
+        let message = differs(cut, found, way, tolerance)
             .or_else(|| pauses(&a, &b, tolerance))
             .or_else(|| switching(&a, &b))
             .or_else(|| standing(&a, &b));

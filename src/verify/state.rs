@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{Cut, Place, Rapid, State};
+use super::cut::{Cut, Place, Rapid, Shared};
 use super::intent::{Expected, Threaded};
 use super::own::Own;
 use super::passage::{Frame, Passage};
@@ -55,9 +55,9 @@ pub(super) struct Sides<R> {
     /// Kept from comparison to comparison, so that none allocates.
     pub ways: [Way; 2],
     /// What was in force at the program's last cut.
-    pub before: State,
+    pub before: Shared,
     /// States of job and program that were found to agree.
-    pub agreed: Option<[State; 2]>,
+    pub agreed: Option<[Shared; 2]>,
     /// The last cuts ended at different places: the next begin there, and are in step.
     pub slipped: Option<[Place; 2]>,
     /// The last thread, while no other cut came: how many passes of it the program made beyond those of the job.
@@ -103,7 +103,7 @@ impl<R: BufRead + Seek> Sides<R> {
     /// The program's next cut.
     pub fn next(&mut self) -> Result<Option<Cut>, Box<Diag>> {
         self.run_to_cut()?;
-        Ok(self.program.cut().copied())
+        Ok(self.program.cut().cloned())
     }
 
     /// Runs the program to its next cut.

@@ -14,30 +14,32 @@ type Differs = (Code, &'static str, String);
 
 /// Tool, work offset, spindle, coolant, compensation. `tap`: feed and speed are its pitch.
 pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, tap: bool) {
-    let states = [cut.state, found.state];
-    s.before = found.state;
-    if s.agreed == Some(states) {
+    let both = [cut.state.clone(), found.state.clone()];
+    s.before = found.state.clone();
+    if s.agreed.as_ref() == Some(&both) {
+        s.agreed = Some(both); // alike at a glance the next time
         return;
     }
+    let states = both.each_ref().map(|state| &**state);
     let mut agree = true;
     let tools = s.tools;
     let checks = [
-        tool(&states, tools),
-        offsets(&states),
-        turning(&states),
-        coolant(&states),
-        rigid(&states, tap),
-        compensation(&states),
+        tool(states, tools),
+        offsets(states),
+        turning(states),
+        coolant(states),
+        rigid(states, tap),
+        compensation(states),
     ];
     for (code, help, message) in checks.into_iter().flatten() {
         agree = false;
         s.found(code, found.line, help, || message.clone());
     }
     agree &= speed(s, cut, found, tap);
-    s.agreed = agree.then_some(states);
+    s.agreed = agree.then_some(both);
 }
 
-fn tool([wanted, is]: &[State; 2], tools: bool) -> Option<Differs> {
+fn tool([wanted, is]: [&State; 2], tools: bool) -> Option<Differs> {
     let wanted = wanted.tool.filter(|_| tools)?;
     let message = match is.tool {
         Some(is) if is == wanted => return None,
@@ -47,7 +49,7 @@ fn tool([wanted, is]: &[State; 2], tools: bool) -> Option<Differs> {
     Some((Code::PV012, "print T[tool] M6 in the tool change", message))
 }
 
-fn offsets([wanted, is]: &[State; 2]) -> Option<Differs> {
+fn offsets([wanted, is]: [&State; 2]) -> Option<Differs> {
     if let (Some(a), Some(b)) = (wanted.length, is.length)
         && a != b
     {
@@ -60,7 +62,7 @@ fn offsets([wanted, is]: &[State; 2]) -> Option<Differs> {
     Some((Code::PV012, "print G[work] in the tool change, or in `Upon [work]`", message))
 }
 
-fn turning([wanted, is]: &[State; 2]) -> Option<Differs> {
+fn turning([wanted, is]: [&State; 2]) -> Option<Differs> {
     if let (Some(a), Some(b)) = (wanted.rotation, is.rotation)
         && a != b
     {
@@ -94,7 +96,7 @@ fn speed<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, tap: bool)
     false
 }
 
-fn coolant([wanted, is]: &[State; 2]) -> Option<Differs> {
+fn coolant([wanted, is]: [&State; 2]) -> Option<Differs> {
     let (a, b) = (wanted.coolant?, is.coolant?);
     // what a job does not ask for may be on: it is only wet
     if a == b || a == Cooling::Off {
@@ -104,7 +106,7 @@ fn coolant([wanted, is]: &[State; 2]) -> Option<Differs> {
     Some((Code::PV024, "print M[cool] in the tool change, and after a stop", message))
 }
 
-fn rigid([wanted, is]: &[State; 2], tap: bool) -> Option<Differs> {
+fn rigid([wanted, is]: [&State; 2], tap: bool) -> Option<Differs> {
     if !tap || wanted.rigid != Some(true) || is.rigid != Some(false) {
         return None;
     }
@@ -112,7 +114,7 @@ fn rigid([wanted, is]: &[State; 2], tap: bool) -> Option<Differs> {
     Some((Code::PV011, "print M29 S[speed] before the tap", message))
 }
 
-fn compensation([wanted, is]: &[State; 2]) -> Option<Differs> {
+fn compensation([wanted, is]: [&State; 2]) -> Option<Differs> {
     if let (Some(a), Some(b)) = (wanted.side, is.side)
         && a != b
     {

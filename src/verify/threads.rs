@@ -156,7 +156,7 @@ fn is_parted(passage: &Passage) -> bool {
 
 /// What must hold at a pass: its lead is compared for itself.
 fn cut_of(cut: &Cut, found: &Cut) -> Cut {
-    Cut { feed: None, line: found.line, ..*cut }
+    Cut { feed: None, line: found.line, ..cut.clone() }
 }
 
 /// From pass to pass: out across, back along beside the crest, in again.

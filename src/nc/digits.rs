@@ -1,0 +1,119 @@
+//! Digits of an NC program as numbers: with a sign, a point and blanks anywhere between them, as controls read them.
+
+/// A number as written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Number {
+    /// The value of the number, the nearest double.
+    pub value: f64,
+    /// Written with a point.
+    pub point: bool,
+}
+
+/// Any blank inside a line.
+#[inline]
+pub(super) fn is_blank(byte: u8) -> bool {
+    byte == b' ' || byte == b'\t'
+}
+
+/// A number with its sign, blanks before it ignored: its end, or `None` if none stands here.
+#[inline(always)]
+pub(super) fn signed(line: &[u8], at: usize) -> Option<(Number, usize)> {
+    let at = skip_blanks(line, at);
+    let (negative, at) = match line.get(at) {
+        Some(b'-') => (true, skip_blanks(line, at + 1)),
+        Some(b'+') => (false, skip_blanks(line, at + 1)),
+        _ => (false, at),
+    };
+    let (mut number, end) = unsigned(line, at)?;
+    if negative {
+        number.value = -number.value;
+    }
+    Some((number, end))
+}
+
+/// The first byte from here on that is no blank.
+#[inline(always)]
+pub(super) fn skip_blanks(line: &[u8], mut at: usize) -> usize {
+    while line.get(at).is_some_and(|&b| is_blank(b)) {
+        at += 1;
+    }
+    at
+}
+
+/// Powers of ten, up to the most digits that a double holds of any number.
+const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+
+/// Digits and at most one point; blanks between them are ignored.
+#[inline(always)]
+pub(super) fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
+    let text = line.get(start..)?;
+    let (mantissa, whole) = digits(text, 0);
+    let (mut mantissa, mut count, mut decimals, mut at) = (mantissa, whole, 0, whole);
+    let point = text.get(at) == Some(&b'.');
+    if point {
+        (mantissa, decimals) = digits(&text[at + 1..], mantissa);
+        (count, at) = (whole + decimals, at + 1 + decimals);
+    }
+    if let Some([blank, next]) = text.get(at..at + 2)
+        && is_blank(*blank)
+        && matches!(next, b'0'..=b'9' | b'.' | b' ' | b'\t')
+    {
+        return in_parts(line, start);
+    }
+    number(mantissa, count, decimals, point, &text[..at]).map(|number| (number, start + at))
+}
+
+/// How many digits stand at the beginning of a text, and the number that they make behind those read before.
+#[inline(always)]
+fn digits(text: &[u8], before: u64) -> (u64, usize) {
+    let (mut mantissa, mut count) = (before, 0);
+    for byte in text {
+        let digit = byte.wrapping_sub(b'0');
+        if digit > 9 {
+            break;
+        }
+        mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+        count += 1;
+    }
+    (mantissa, count)
+}
+
+/// A number that may have blanks between its digits.
+#[cold]
+fn in_parts(line: &[u8], start: usize) -> Option<(Number, usize)> {
+    let (mut mantissa, mut count, mut decimals, mut point) = (0, 0, 0, false);
+    let mut at = start;
+    loop {
+        let part = digits(&line[at..], mantissa);
+        mantissa = part.0;
+        (count, at) = (count + part.1, at + part.1);
+        if point {
+            decimals += part.1;
+        }
+        let next = skip_blanks(line, at);
+        match line.get(next) {
+            Some(b'0'..=b'9') => at = next,
+            Some(b'.') if !point => (point, at) = (true, next + 1),
+            _ => break,
+        }
+    }
+    number(mantissa, count, decimals, point, &line[start..at]).map(|number| (number, at))
+}
+
+/// The number that so many digits make, of which some are decimals; `None` of no digits.
+#[inline(always)]
+fn number(mantissa: u64, count: usize, decimals: usize, point: bool, text: &[u8]) -> Option<Number> {
+    let value = match count {
+        0 => return None,
+        1..=15 => mantissa as f64 / POWERS[decimals], // both exact, so this is the nearest double
+        _ => slow(text),
+    };
+    Some(Number { value, point })
+}
+
+/// Numbers too long for a double's digits.
+#[cold]
+fn slow(text: &[u8]) -> f64 {
+    let text: String = text.iter().filter(|b| !is_blank(**b)).map(|&b| char::from(b)).collect();
+    text.parse().unwrap_or(f64::NAN)
+}

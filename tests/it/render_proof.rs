@@ -74,6 +74,30 @@ fn what_is_right_is_printed_with_a_line_that_says_so() {
     assert!(err(&output).contains("[wrong.pf:"), "{}", err(&output));
 }
 
+/// Printer and proof hand some thirty batches of a long job to and fro, and its program and source map are those that are
+/// printed alone; what is wrong at its end is found there.
+#[test]
+fn a_long_job_is_proven_in_parts() {
+    let folder = Folder::new("proof-long");
+    let form = plain_post("haas.pf");
+    folder.write("wrong.pf", form.replace("R[vclear]", "R[rplane]"));
+    folder.write("right.pf", form);
+    let lines: Vec<String> = (0..30_000).map(|i| format!("{{\"line\":[{}.5,{},0]}}", i % 7, i % 11)).collect();
+    let drill = r#"{"cycle":{"kind":"drill","clear":0.1,"return":1,"feed":8,"depth":0.5,"points":[[4,4,0]]}}"#;
+    folder.write("job.json", job(&format!("{},{{\"rapid\":[0,0,1]}},{drill}", lines.join(","))));
+    let run = |more: &[&str]| folder.run(&[&["render", "job.json", "--trace", "map.json"][..], more].concat());
+    let alone = run(&["--form", "right.pf", "--no-verify"]);
+    let map = folder.read("map.json");
+    let proven = run(&["--form", "right.pf"]);
+    assert!(err(&proven).contains("(30000 cuts, 1 hole)"), "{}", err(&proven));
+    assert!(out(&proven).lines().count() > 30_000 && out(&proven) == out(&alone));
+    assert!(folder.read("map.json") == map, "the source map is another one");
+    let said = err(&run(&["--form", "wrong.pf"]));
+    for part in ["PV005", "operations[0].path[30002].cycle.points[0]", "[wrong.pf:", "R[rplane]"] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+}
+
 #[test]
 fn what_is_not_proven_is_printed_unless_a_proof_is_required() {
     let folder = Folder::new("proof-none");

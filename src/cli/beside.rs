@@ -24,7 +24,9 @@ impl AsRef<Batch> for Lent {
 
 impl Drop for Lent {
     fn drop(&mut self) {
-        // a printer that is done wants none
+        // the printer has more to do than the proof
+        self.batch.events.clear();
+        // it wants none when it is done
         _ = self.back.send(std::mem::take(&mut self.batch));
     }
 }

@@ -6,17 +6,18 @@ use crate::toolpath::{Arc, Call, CycleSpec, Event, Given, Infeed, Start, Thread,
 #[derive(Clone, Debug)]
 pub struct Kept(Own);
 
+/// What is larger than a straight move, as most events are, lies elsewhere.
 #[derive(Clone, Debug)]
 enum Own {
     Start(Box<Start>),
     ToolChange(Box<ToolChange>),
-    Arc(Arc, Option<f64>),
+    Arc(Box<Arc>, Option<f64>),
     Infeed(Infeed, Option<f64>),
     Cycle(Box<CycleSpec>),
     Comment(Box<str>),
     Text(Box<str>),
     Set(Box<str>, Box<Given>),
-    Call(Call),
+    Call(Box<Call>),
     Thread(Box<Thread>),
     Plain(Event<'static>),
 }
@@ -26,13 +27,13 @@ impl From<&Event<'_>> for Kept {
         Kept(match *event {
             Event::Start(start) => Own::Start(Box::new(start.clone())),
             Event::ToolChange(change) => Own::ToolChange(Box::new(change.clone())),
-            Event::Arc { arc, feed } => Own::Arc(*arc, feed),
+            Event::Arc { arc, feed } => Own::Arc(Box::new(*arc), feed),
             Event::Infeed { infeed, feed } => Own::Infeed(*infeed, feed),
             Event::CycleBegin(spec) => Own::Cycle(Box::new(spec.clone())),
             Event::Comment(text) => Own::Comment(text.into()),
             Event::Text(text) => Own::Text(text.into()),
             Event::Set(name, value) => Own::Set(name.into(), Box::new(value.clone())),
-            Event::SubCall(call) => Own::Call(*call),
+            Event::SubCall(call) => Own::Call(Box::new(*call)),
             Event::Thread(thread) => Own::Thread(Box::new(*thread)),
             Event::Rapid(to) => Own::Plain(Event::Rapid(to)),
             Event::Line { to, feed } => Own::Plain(Event::Line { to, feed }),

@@ -76,7 +76,7 @@ impl Post {
         take: &mut dyn FnMut(Part<'_>) -> io::Result<()>,
         prove: &mut dyn FnMut(Batch) -> Option<Batch>,
     ) -> Result<Rendered, Error> {
-        self.print(job, options, take, Some(Tap { batch: Batch::default(), prove }))
+        self.print(job, options, take, Some(prove))
     }
 
     fn print(
@@ -84,17 +84,18 @@ impl Post {
         mut job: Job<'_>,
         options: &Options,
         take: &mut dyn FnMut(Part<'_>) -> io::Result<()>,
-        tap: Option<Tap<'_>>,
+        prove: Option<&mut dyn FnMut(Batch) -> Option<Batch>>,
     ) -> Result<Rendered, Error> {
         let mut for_renderer = options.for_renderer(&self.0.program.settings)?;
         for_renderer.survey = self.survey(&mut job, options)?;
-        for_renderer.trace |= tap.is_some();
+        for_renderer.trace |= prove.is_some();
         let mut printer = Printer {
             renderer: Renderer::new(&self.0.program, for_renderer),
             growth: Growth { read: job.bytes_read().filter(|_| !options.huge), printed: 0 },
             take,
             traced: options.trace,
-            tap,
+            batch: Batch::default(),
+            prove,
             failure: None,
         };
         let mut read = job.read(&mut printer);
@@ -123,12 +124,6 @@ fn fault(what: &str) -> Box<Diag> {
     Box::new(Diag::new(Code::PX001, what).help("this is a fault of postform: please report it"))
 }
 
-/// What goes to a proof.
-struct Tap<'t> {
-    batch: Batch,
-    prove: &'t mut dyn FnMut(Batch) -> Option<Batch>,
-}
-
 /// A sink between reader and output: prints, and passes text on as it comes.
 struct Printer<'p, 't, 's> {
     renderer: Renderer<'p>,
@@ -136,7 +131,9 @@ struct Printer<'p, 't, 's> {
     take: &'t mut dyn FnMut(Part<'_>) -> io::Result<()>,
     /// Who takes the parts wants the source map.
     traced: bool,
-    tap: Option<Tap<'s>>,
+    /// What is passed on: text and source map, and for a proof the events that they came from.
+    batch: Batch,
+    prove: Option<&'s mut dyn FnMut(Batch) -> Option<Batch>>,
     failure: Option<io::Error>,
 }
 
@@ -144,44 +141,43 @@ impl Printer<'_, '_, '_> {
     /// Passes on what waits.
     fn drain(&mut self) {
         let lines = self.renderer.lines();
-        let mut batch = self.tap.as_mut().map(|tap| std::mem::take(&mut tap.batch)).unwrap_or_default();
-        std::mem::swap(self.renderer.text(), &mut batch.text);
-        if let Some(trace) = self.renderer.trace() {
-            std::mem::swap(trace, &mut batch.trace);
-        }
-        let trace = if self.traced { &batch.trace[..] } else { &[] };
-        if let Err(error) = (self.take)(Part { text: &batch.text, trace, lines }) {
+        self.swap();
+        let trace = if self.traced { &self.batch.trace[..] } else { &[] };
+        if let Err(error) = (self.take)(Part { text: &self.batch.text, trace, lines }) {
             self.failure = Some(error);
         }
-        if let Some(tap) = &mut self.tap {
-            batch = (tap.prove)(batch).unwrap_or_else(|| {
-                self.tap = None;
-                Batch::default()
-            });
+        if let Some(prove) = &mut self.prove {
+            let next = prove(std::mem::take(&mut self.batch));
+            if next.is_none() {
+                self.prove = None;
+            }
+            self.batch = next.unwrap_or_default();
         }
-        // so that the next part allocates nothing
-        batch.clear();
-        std::mem::swap(self.renderer.text(), &mut batch.text);
+        // the next part is printed into the same memory
+        self.batch.clear();
+        self.swap();
+    }
+
+    /// Changes what the renderer printed for what is in the batch.
+    fn swap(&mut self) {
+        std::mem::swap(self.renderer.text(), &mut self.batch.text);
         if let Some(trace) = self.renderer.trace() {
-            std::mem::swap(trace, &mut batch.trace);
-        }
-        if let Some(tap) = &mut self.tap {
-            tap.batch = batch;
+            std::mem::swap(trace, &mut self.batch.trace);
         }
     }
 
     /// Is there enough to be passed on?
     #[inline]
     fn is_full(&mut self) -> bool {
-        self.renderer.text().len() >= CHUNK || self.tap.as_ref().is_some_and(|tap| tap.batch.events.len() >= EVENTS)
+        self.renderer.text().len() >= CHUNK || self.batch.events.len() >= EVENTS
     }
 }
 
 impl Sink for Printer<'_, '_, '_> {
     #[inline]
     fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
-        if let Some(tap) = &mut self.tap {
-            tap.batch.events.push((Kept::from(&event), place));
+        if self.prove.is_some() {
+            self.batch.events.push((Kept::from(&event), place));
         }
         self.renderer.event(event, place)?;
         if !self.is_full() {

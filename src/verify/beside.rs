@@ -54,8 +54,8 @@ pub struct Outcome {
 }
 
 /// Proves a program while it is made. `batches` may be the end of a channel: it is asked for no more than is compared next,
-/// and not at all once the verdict is known, and each is dropped when it is compared. Before the program says its units they are the job's if `of_job`, else those
-/// of `settings`.
+/// and not at all once the verdict is known; each is dropped when it is compared. Before the program says its units they are
+/// the job's if `of_job`, else those of `settings`.
 ///
 /// A program that calls or repeats parts of itself is not proven: only a file can be gone back in
 /// ([`Unproven::in_a_file`](super::Unproven::in_a_file)).

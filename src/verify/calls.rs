@@ -64,8 +64,8 @@ impl Job {
             to.comes_from(*place);
             self.act(kept.event(), to)?;
         }
-        let (work, of_caller) = (self.state.work, state.work);
-        self.state = state;
+        let of_caller = state.work;
+        let work = std::mem::replace(&mut self.state, state).work;
         self.state.work = work;
         (self.feed, self.mode, self.css) = (feed, mode, css);
         self.cycle = None;

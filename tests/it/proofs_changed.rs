@@ -64,6 +64,23 @@ fn pauses_keep_their_places() {
     assert_eq!(after("grbl.pf", &way, &[("M1\n", "(none)\n"), ("X10. Y10.\n", "X10. Y10.\nM1\n")]), behind);
 }
 
+/// Nobody stops with the tool in a hole, and who does outside is counted.
+#[test]
+fn stops_between_pecks_are_seen() {
+    let hole = r#"{"cycle":{"kind":"deep","depth":5,"clear":1,"return":10,"feed":50,"pecks":[{"to":2},{"to":5}],"points":[[0,0,0]]}}"#;
+    let job = one(&format!("{{\"rapid\":[0,0,20]}},{hole}"));
+    let (down, up) = ("G1 Z-2. F50.\n", "G0 Z1.\nZ-1.\n");
+    let pecks = |first: &str, second: &str| {
+        let moves = format!("{down}{first}G0 Z1.\n{second}Z-1.\n");
+        after("linuxcnc.pf", &job, &[(&format!("{down}{up}"), &moves)])
+    };
+    assert_eq!(pecks("", ""), "identical");
+    for stop in ["M0\n", "M1\n"] {
+        assert_eq!(pecks(stop, ""), "PV019 1", "{stop}");
+        assert_eq!(pecks("", stop), "equivalent: 1 stop of the form", "{stop}");
+    }
+}
+
 /// Each difference of one cause is counted, and those behind it are met still.
 #[test]
 fn cuts_behind_a_difference_are_compared() {

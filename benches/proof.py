@@ -4,8 +4,7 @@
 `benches/proof.py POSTFORM FLOOR [ROUNDS]` makes the jobs with the example `floor` and prints for each of them the time of
 --no-verify and what it is multiplied by: as it passes (wall) on all cores and on one, and as the processor is busy (CPU).
 The pairs run in turn and the best of each is taken, because machines are noisy. `two at once` is what two such renders
-without the proof take at the same time: 1.00 where there are two whole cores, and no proof on a second thread can cost
-less. Goals: 1.25 on two cores, 2.2 on one, 32 MB of memory at any length.
+without the proof take at the same time: 1.00 where there are two whole cores. Goals: 1.25 on two cores, 2.2 on one, 32 MB of memory at any length.
 """
 
 import os
@@ -38,11 +37,14 @@ def run(command, source):
     return passed, used.ru_utime + used.ru_stime, used.ru_maxrss
 
 
-def twice(commands):
+def twice(commands, source):
     """Seconds that pass until two commands that run at the same time are done."""
-    start = time.perf_counter()
-    children = [subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for command in commands]
-    if any(child.wait() != 0 for child in children):
+    with open(source or os.devnull, "rb") as one, open(source or os.devnull, "rb") as other:
+        start = time.perf_counter()
+        given = zip(commands, (one, other))
+        children = [subprocess.Popen(command, stdin=file, stderr=subprocess.DEVNULL) for command, file in given]
+        failed = [child.wait() for child in children] != [0, 0]
+    if failed:
         sys.exit(f"{' '.join(commands[0])}: it fails beside another")
     return time.perf_counter() - start
 
@@ -55,16 +57,16 @@ def best(runs):
 def measure(postform, job, piped, rounds, prefix, out):
     """With and without the proof, in turn."""
     what = ["-", "--from", "jsonl"] if piped else [job]
-    render = prefix + [postform, "render"]
-    options = ["--form", FORM, "--set", "header=off", "-o"]
-    command = render + what + options + [out]
-    both = [render + [job] + options + [out + number, "--no-verify"] for number in ("1", "2")]
+    render = prefix + [postform, "render", *what, "--form", FORM, "--set", "header=off", "-o"]
+    command = render + [out]
+    both = [render + [out + number, "--no-verify"] for number in ("1", "2")]
+    source = job if piped else None
     plain, proven, pairs = [], [], []
     for _ in range(rounds):
-        plain.append(run(command + ["--no-verify"], job if piped else None))
-        proven.append(run(command, job if piped else None))
+        plain.append(run(command + ["--no-verify"], source))
+        proven.append(run(command, source))
         if not prefix:
-            pairs.append(twice(both))
+            pairs.append(twice(both, source))
     return best(plain), best(proven), min(pairs, default=0.0)
 
 

@@ -346,7 +346,7 @@ codes! {
     PV016 Error "a cut that the job does not have"
     PV017 Error "a cut that is missing"
     PV018 Error "other cutter compensation"
-    PV019 Error "a stop that is missing"
+    PV019 Error "a stop that is missing, or in the cut"
     PV020 Error "motions that can't be proven"
     PV021 Error "a moved coordinate frame"
     PV022 Error "units that are not said"

@@ -4,6 +4,7 @@ use std::io::{BufRead, Seek};
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell, shown};
 use super::intent::{Done, Expected};
+use super::pauses;
 use super::state::Sides;
 use super::states;
 use super::tables::{LEFT, LONGER};
@@ -44,7 +45,7 @@ pub(super) fn pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) -> Don
         strokes.line = found.line;
         identical &= is_one;
         if count > 0 {
-            stops(s, hole);
+            pauses::between_pecks(s, hole);
         }
         let lowest = s.program.passage.rapids.iter().map(|rapid| rapid.to[DEPTH]).fold(f64::INFINITY, f64::min);
         // a rapid in the hole stays where it was cut
@@ -102,20 +103,6 @@ pub(super) fn pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) -> Don
     s.hole.pecks = pecks;
     s.hole.pecks.clear();
     Ok(())
-}
-
-/// Stops between two strokes, which no job has: wrong with the tool in the hole, and counted outside of it.
-fn stops<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) {
-    for stop in s.program.passage.stops.clone() {
-        let stands = s.program.passage.standing(&stop);
-        if hole.custom || stands.is_some_and(|at| at.to[DEPTH] >= hole.plane - s.limits.tolerance) {
-            s.report.allowed.stops += 1;
-            continue;
-        }
-        s.found(Code::PV019, stop.line, "retract before the stop, or take it out", || {
-            format!("a stop that the job does not have, with the tool in the hole at {}", over(&hole.at))
-        });
-    }
 }
 
 /// Counts a stroke, and the dwell before it.

@@ -3,6 +3,7 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{ACROSS, ALL, DEPTH, Rapid, number, same, same_dwell};
+use super::intent::Expected;
 use super::passage::{Mark, Passage};
 use super::state::Sides;
 use super::ways;
@@ -57,14 +58,29 @@ fn stops<R: BufRead + Seek>(s: &mut Sides<R>) {
         }
     }
     for stop in &others {
-        if s.program.passage.in_cut(stop, tolerance) {
-            s.found(Code::PV019, stop.line, "retract before the stop, or take it out", || {
-                "a stop that the job does not have, with the tool in the cut".to_owned()
-            });
-        } else {
-            s.report.allowed.stops += 1;
-        }
+        let in_cut = s.program.passage.in_cut(stop, tolerance);
+        own_stop(s, stop, in_cut);
     }
+}
+
+/// Stops between two pecks of a hole, where no job has one: the hole is a cut, up to its clearance plane.
+pub(super) fn between_pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) {
+    for stop in s.program.passage.stops.clone() {
+        let stands = s.program.passage.standing(&stop);
+        let is_out = stands.is_some_and(|at| at.to[DEPTH] >= hole.plane - s.limits.tolerance);
+        own_stop(s, &stop, !is_out && !hole.custom);
+    }
+}
+
+/// A stop that the job does not have: wrong with the tool in the cut, and counted outside of it.
+fn own_stop<R: BufRead + Seek>(s: &mut Sides<R>, stop: &Mark<StopKind>, in_cut: bool) {
+    if !in_cut {
+        s.report.allowed.stops += 1;
+        return;
+    }
+    s.found(Code::PV019, stop.line, "retract before the stop, or take it out", || {
+        "a stop that the job does not have, with the tool in the cut".to_owned()
+    });
 }
 
 /// Does the tool stand at another place than the job's?

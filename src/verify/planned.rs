@@ -64,6 +64,7 @@ impl Job {
         };
         let list = std::mem::take(&mut steps.list);
         let before = self.state.clone();
+        // else the holes share one state
         if before.rigid != rigid {
             self.state.rigid = rigid;
         }

@@ -155,7 +155,6 @@ fn pairs_and_their_verdicts() {
     }
 }
 
-/// A detour is no difference, and is said.
 /// A bore is left with the spindle at an angle.
 #[test]
 fn motions_differ_where_the_spindle_stands_at_another_angle() {
@@ -176,6 +175,7 @@ fn motions_differ_where_the_spindle_stands_at_another_angle() {
     }
 }
 
+/// A detour is no difference, and is said.
 #[test]
 fn other_ways_are_counted() {
     let detour = BASE.replacen("N110", "G0 X-20.\nN110", 1);

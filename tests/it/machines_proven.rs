@@ -78,6 +78,22 @@ fn lathes() {
     );
 }
 
+/// Lathes of G code system A have G98 and G99; G95 is system B's, and a tap of a live tool on a Haas.
+#[test]
+fn lathes_have_no_mills_feed_per_revolution() {
+    let part = fs::read_to_string(root().join("samples/lathe-part/job.json")).unwrap();
+    let mut options = Options::default();
+    options.program = Some(1);
+    for name in ["fanuc-lathe.pf", "haas-lathe.pf"] {
+        let post = Post::compile(Source::from_text(name, form(name)), &NoFiles).unwrap();
+        let right = post.render(Job::json(&part), &options).unwrap();
+        let changed = right.text().replacen("G99", "G95", 1);
+        let verdict = post.verify(Job::json(&part), &changed).unwrap();
+        assert!(!verdict.is_proven() && changed != right.text(), "{name}: {verdict}");
+        assert!(verdict.to_string().contains("G95"), "{name}: {verdict}");
+    }
+}
+
 #[test]
 fn wires() {
     let slanted = fs::read_to_string(root().join("samples/wire/job.json")).unwrap();

@@ -315,6 +315,11 @@ impl Printer {
         if self.words > 0 { self.page.text.len() - self.start } else { 0 }
     }
 
+    /// The open block from a length of it on.
+    pub fn block_from(&self, length: usize) -> &[u8] {
+        self.page.text.get(self.start + length..).unwrap_or_default()
+    }
+
     /// Does the open block end inside round brackets?
     pub fn is_in_brackets(&self) -> bool {
         let block = if self.words > 0 { &self.page.text[self.page.text.len() - self.length()..] } else { &[] };

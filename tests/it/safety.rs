@@ -54,7 +54,38 @@ fn a_work_offset_makes_positions_unknown() {
 #[test]
 fn nothing_is_known_after_verbatim_text() {
     let path = "{\"line\":[1,1,0]},{\"text\":\"G65 P9001\"},{\"line\":[1,2,0]}";
-    assert_eq!(path_lines("", "", path), ["G1 X1. Y1. Z0 F10.", "G65 P9001", "G1 X1. Y2. Z0 F10."]);
+    assert_eq!(path_lines("", "", path), ["G1 X1. Y1. Z0 F10.", "G65 P9001", "G54", "S1000 M3", "G94", "G1 X1. Y2. Z0 F10."]);
+}
+
+/// Text in backquotes changes what is known as the same words do when they are typed.
+#[test]
+fn text_in_backquotes_is_read() {
+    let row = "{\"line\":[1,0,0]},{\"begin\":\"row\"},{\"line\":[2,0,0]},{\"end\":\"row\"}";
+    let after = |text: &str| {
+        let quoted = path_lines("Control fanuc", &format!("BeginRow\n{text}\nEnd"), row);
+        quoted[quoted.iter().position(|line| line == text.trim_matches('`')).unwrap() + 1..].join(", ")
+    };
+    let unknown = "G54, S1000 M3, G94, G1 X2. Y0 Z0 F10.";
+    // a macro, a text that is more than words, a code that the control's file knows and does not run
+    for text in ["`G65 P9000 Z-5. F10.`", "`#3006=1(CHECK)`", "`IF[#1EQ0]GOTO10`", "`M98 P8000`", "`G12 I1. F50`"] {
+        assert_eq!(after(text), unknown, "{text}");
+    }
+    for (text, expected) in [
+        ("`F2000`", "X2. F10."),
+        ("`G0`", "G1 X2."),
+        ("`M5`", "S1000 M3, X2."),
+        ("`S50`", "S1000 M3, X2."),
+        ("`G55`", "G54, X2. Y0 Z0"),
+        ("`G95`", "G94, X2. F10."),
+        ("`(G0)`", "X2."),
+        ("`#500=[#500+1]`", "X2."),
+        ("`/M5`", "S1000 M3, X2."),
+    ] {
+        assert_eq!(after(text), expected, "{text}");
+    }
+    // a value in the text is a part of its word
+    let lines = path_lines("Control fanuc", "BeginRow\n`F`[frate*2]\nEnd", row);
+    assert_eq!(lines[1..], ["F20", "X2. F10."]);
 }
 
 /// A feed-mode code makes the feed mean something else.
@@ -716,7 +747,7 @@ fn codes_of_work_offsets_beside_a_word_of_their_own() {
         "BeginRow\nG65 P9810 W[work]\nEnd",
         r#"{"begin":"row"},{"work":55},{"rapid":[1,0,1]},{"end":"row"}"#,
     );
-    assert_eq!(lines, ["G65 P9810 W54.", "G55", "G0 X1. Y0 Z1."]);
+    assert_eq!(lines, ["G65 P9810 W54.", "G55", "S1000 M3", "G94", "G0 X1. Y0 Z1."]);
 }
 
 /// Behind the slash of block delete the control reads a word or not: what it says is known of neither.

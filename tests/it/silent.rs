@@ -553,9 +553,9 @@ fn the_arguments_of_a_macro_are_no_position() {
     for line in ["G65 P9010 X1. Y2.", "G65 P9010 Z2.", "G66 P9010 X2."] {
         assert!(lines(line).iter().any(|line| line == "G0 X0 Y0 Z1."), "{line}: {:?}", lines(line));
     }
-    // and leaves any motion
+    // and leaves any motion, feed, speed and offset
     let row = "{\"line\":[1,0,0]},{\"begin\":\"row\"},{\"line\":[2,0,0]},{\"end\":\"row\"}";
-    assert_eq!(path_lines("", "BeginRow\nG65 P9010\nEnd", row)[2..], ["G1 X2. Y0 Z0"]);
+    assert_eq!(path_lines("", "BeginRow\nG65 P9010\nEnd", row)[2..], ["G54", "S1000 M3", "G94", "G1 X2. Y0 Z0 F10."]);
 }
 
 /// The way to a call, and that of an Upon, is a rapid whatever came before it: another call, text, a cycle.

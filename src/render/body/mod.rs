@@ -113,7 +113,7 @@ pub fn go_on(
 ) -> Done {
     let begin = ops.start;
     let mut left_out = routine.left_out.as_deref().unwrap_or_default();
-    let mut body = Body { shape, want, said, out, mode, line: begin, drops: false };
+    let mut body = Body { shape, want, said, out, mode, line: begin, drops: false, text: Vec::new() };
     let mut i = ops.start;
     loop {
         while let [first, rest @ ..] = left_out
@@ -151,7 +151,8 @@ pub fn go_on(
 
 /// Does what the directives of a sequence set before the lines that a cycle repeats: they count at every hole.
 pub fn run_sets(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    let mut body = Body { shape, want, said, out, mode: Mode::Hole, line: routine.ops.start, drops: false };
+    let line = routine.ops.start;
+    let mut body = Body { shape, want, said, out, mode: Mode::Hole, line, drops: false, text: Vec::new() };
     for i in routine.steps_in(routine.ops.start..routine.repeat) {
         if let Op::Set { index } = shape.program.ops[i] {
             let at = |diag: Box<Diag>| Box::new(diag.at(shape.program.spans[i], "printed from here"));
@@ -172,12 +173,15 @@ struct Body<'r, 'p> {
     line: usize,
     /// A cycle may drop the unchanged words of the line.
     drops: bool,
+    /// What the line printed since its last word with a letter of its own: text, and values in it.
+    text: Vec<u8>,
 }
 
 impl Body<'_, '_> {
     /// Ends a line of the sequence.
     fn end_line(&mut self) {
-        self.said.end_line(self.shape);
+        self.read_text();
+        self.said.end_block(self.want, self.shape);
         if self.out.has_words() {
             let number = self.shape.program.settings.number_last
                 || Some(self.line) != last_line(self.shape, self.want, self.said);
@@ -197,7 +201,29 @@ impl Body<'_, '_> {
         })
     }
 
+    /// Prints an operation. What is no word with a letter is kept, so that the whole text of the line can be read.
     fn operation(&mut self, op: Op, at: usize) -> Done {
+        if matches!(op, Op::Var { .. } | Op::Literal { .. } | Op::Formula { .. }) {
+            self.read_text();
+            return self.print_operation(op, at);
+        }
+        let from = self.out.length();
+        self.print_operation(op, at)?;
+        if self.out.length() > from {
+            self.text.extend_from_slice(self.out.block_from(from));
+        }
+        Ok(())
+    }
+
+    /// Reads the text that was printed since the last word.
+    fn read_text(&mut self) {
+        if !self.text.is_empty() {
+            self.said.text(&self.text, self.line(), self.want, self.shape);
+            self.text.clear();
+        }
+    }
+
+    fn print_operation(&mut self, op: Op, at: usize) -> Done {
         let next_hole = matches!(self.mode, Mode::NextHole { .. });
         match op {
             Op::Line { .. } => {}
@@ -243,11 +269,7 @@ impl Body<'_, '_> {
             Op::Value { var, glued } => self.bare_word(var, glued)?,
             Op::Remark { var, glued } => self.remark(self.value_of(var, b' '), glued)?,
             Op::Text { index, glued } => {
-                let text = &self.shape.program.texts[index as usize];
-                self.out.text(text, glued);
-                if let Some(word) = text.strip_prefix('/') {
-                    self.said.may_be_skipped(word, self.line(), self.want, self.shape);
-                }
+                self.out.text(&self.shape.program.texts[index as usize], glued);
             }
         }
         Ok(())

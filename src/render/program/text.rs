@@ -1,78 +1,56 @@
-//! Text as it stands.
+//! Text of the job, printed as it stands.
 
 use super::stops::settle_between_moves;
-use crate::control::{self, Group};
-use crate::diag::Code;
+use crate::control::{Code, Group};
+use crate::diag;
 use crate::lang::VarId;
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::printer::Printer;
-use crate::render::said::{Line, Said};
+use crate::render::said::{Line, Said, TextWord, words_of};
 use crate::render::shape::Shape;
 use crate::render::want::Want;
 use crate::terminal::steers;
 
-/// Prints a block as it stands: nobody knows what it did.
+/// Prints a block as it stands. What its words switch is what the job wants from there on; letters and positions are
+/// unknown after it.
 pub fn verbatim(text: &str, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
     if let Some(c) = text.chars().find(|&c| steers(c) && c != '\t') {
         let message = format!("the text holds U+{:04X}, which steers instead of being printed", u32::from(c));
-        return fault(Code::PR035, message, "take it out");
+        return fault(diag::Code::PR035, message, "take it out");
     }
     if text.trim() == "%" {
         let message = "the text is a lone `%`, at which a control takes the program to be over";
-        return fault(Code::PR035, message, "take it out: StartCode and EndCode print it");
+        return fault(diag::Code::PR035, message, "take it out: StartCode and EndCode print it");
     }
     said.stand.fresh_tool = None;
     if text.trim().is_empty() {
         return Ok(()); // an empty block is not printed
     }
     settle_between_moves(shape, want, said, out)?;
+    said.text(text.as_bytes(), Line::NONE, want, shape);
+    for TextWord { letter, value } in words_of(text.as_bytes()).unwrap_or_default() {
+        if letter == b'S' {
+            want.set(VarId::Speed, value);
+        } else if let Some(code) = Code::of(letter, value) {
+            if changes_units(code, shape, want) {
+                let message = format!("the text changes the units of the program with {code}");
+                let help = "render with `--units`, and take the code out";
+                return fault_at(diag::Code::PR035, message, help, None);
+            }
+            is_the_jobs(code, shape, want);
+        }
+    }
+    said.end_block(want, shape);
     said.forget_words();
     said.displaced(0x3f, shape);
-    text_codes(text, shape, want, said)?;
+    said.differs |= said.is_misread(shape, want) || !said.lacks(want, shape).is_empty();
     out.text(text, false);
     out.end_block();
     Ok(())
 }
 
-/// The codes of a text outside comments: what they switch is known.
-fn text_codes(text: &str, shape: &Shape, want: &mut Want, said: &mut Said) -> Done {
-    let bytes = text.as_bytes();
-    let (mut at, mut depth) = (0, 0);
-    while at < bytes.len() {
-        let letter = bytes[at].to_ascii_uppercase();
-        at += 1;
-        match letter {
-            b';' if depth == 0 => break,
-            b'(' => depth += 1,
-            b')' => depth -= 1,
-            b'G' | b'M' | b'S' if depth == 0 => {
-                let end = at + bytes[at..].iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count();
-                if let Ok(value) = text[at..end].parse::<f64>() {
-                    if letter == b'S' {
-                        said.conditions.put(VarId::Speed, Some(value));
-                        want.set(VarId::Speed, value);
-                    } else if changes_units(letter, value, shape, want) {
-                        let message = format!("the text changes the units of the program with G{value}");
-                        return fault_at(Code::PR035, message, "render with `--units`, and take the code out", None);
-                    } else {
-                        if let Some(code) = control::Code::of(letter, value) {
-                            said.code(code, Line::NONE, want, shape);
-                            is_the_jobs(code, shape, want);
-                        }
-                    }
-                }
-                at = end;
-            }
-            _ => {}
-        }
-    }
-    said.forget_words();
-    said.differs |= said.is_misread(shape, want) || !said.lacks(want, shape).is_empty();
-    Ok(())
-}
-
 /// Takes what a text switches as what the job wants from there on; what its feeds count is not.
-fn is_the_jobs(code: control::Code, shape: &Shape, want: &mut Want) {
+fn is_the_jobs(code: Code, shape: &Shape, want: &mut Want) {
     let var = match shape.group_of(code) {
         Some(Group::Spindle) => VarId::Direct,
         Some(Group::Coolant) => {
@@ -81,7 +59,7 @@ fn is_the_jobs(code: control::Code, shape: &Shape, want: &mut Want) {
         }
         Some(Group::Work) => match &shape.program.work_word {
             None => VarId::Work,
-            // G54 is none of the offsets that have a word of their own: nobody knows its number
+            // G54 is none of the offsets that have a word of their own: its number is unknown
             Some(word) if word.shares_its_codes => return want.put(VarId::Work, None),
             Some(_) => return,
         },
@@ -92,7 +70,6 @@ fn is_the_jobs(code: control::Code, shape: &Shape, want: &mut Want) {
 }
 
 /// Is this a code of other units than the program's?
-fn changes_units(letter: u8, value: f64, shape: &Shape, want: &Want) -> bool {
-    control::Code::of(letter, value).and_then(|code| shape.group_of(code)) == Some(Group::Units)
-        && want.get(VarId::Unitmode) != Some(value)
+fn changes_units(code: Code, shape: &Shape, want: &Want) -> bool {
+    shape.group_of(code) == Some(Group::Units) && want.get(VarId::Unitmode) != Some(code.value())
 }

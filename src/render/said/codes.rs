@@ -20,6 +20,9 @@ impl Said {
     /// A G or M code was printed in this line.
     pub fn code(&mut self, code: Code, line: Line, want: &Want, shape: &Shape) {
         let row = shape.code_row(code);
+        // of a subprogram of the job it is known what it does
+        self.calls |= row.is_some_and(|row| runs_elsewhere(code, row, shape))
+            && !line.prints(shape, |_, var| var == Some(VarId::Sub));
         if code.letter == b'M' && self.beside_code(code.value(), want, shape) {
             self.switched = true;
             return;
@@ -40,7 +43,7 @@ impl Said {
         }
         let Some(group) = group else { return };
         match group {
-            Group::Plane => self.plane = code,
+            Group::Plane => self.plane = Some(code),
             Group::Motion => self.motion = Some(code),
             Group::Distance => self.distance = Some(code),
             _ => {}
@@ -122,7 +125,7 @@ impl Said {
                 self.depth_moved = true;
                 self.axis_words_are_data(meaning);
             }
-            // it moves by itself, or nobody knows what it does
+            // it moves by itself, or its effect is unknown
             None if !is_harmless(code, meaning, want, shape) => {
                 self.shift = self.shift.max_of(Shift::Block);
                 self.forget_axes(shape);
@@ -138,29 +141,6 @@ impl Said {
             self.shift = self.shift.max_of(Shift::Block);
         }
     }
-
-    /// A word behind the slash of block delete: the control may read it or not, and nothing is known of what it says.
-    #[cold]
-    pub fn may_be_skipped(&mut self, word: &str, line: Line, want: &Want, shape: &Shape) {
-        let mut chars = word.chars();
-        let (Some(letter), Ok(value)) =
-            (chars.next().and_then(|c| u8::try_from(c).ok()), chars.as_str().parse::<f64>())
-        else {
-            return;
-        };
-        if value.is_nan() || value.abs() >= 10_000.0 {
-            return;
-        }
-        self.speed_word(letter, Some(value), shape);
-        if let Some(code) = Code::of(letter, value) {
-            self.code(code, line, want, shape);
-            if let Some(group) = shape.group_of(code) {
-                self.registers.forget_group(group);
-            }
-        }
-        self.displaced(shape.axis_bit(letter), shape);
-        self.registers.forget(letter);
-    }
 }
 
 /// May positions be kept after a G code without a modal group? Where the form's control runs it, where the form's
@@ -169,4 +149,11 @@ fn is_harmless(code: Code, meaning: Option<Meaning>, want: &Want, shape: &Shape)
     let known =
         meaning.is_some_and(|meaning| !matches!(meaning, Meaning::Unsaid | Meaning::Probe) && !meaning.is_call());
     known || shape.program.settings.names_code(code) || want.cycle.is_some()
+}
+
+/// Does a code run what is written elsewhere: a macro, a subprogram, what the control's file knows and does not run?
+fn runs_elsewhere(code: Code, row: &Row, shape: &Shape) -> bool {
+    let settings = &shape.program.settings;
+    let not_run = row.meaning == Meaning::Unsaid && row.not_run.is_some();
+    row.meaning.is_call() || not_run && settings.control.is_some() && !settings.names_code(code)
 }

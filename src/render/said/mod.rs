@@ -10,9 +10,11 @@ mod line;
 mod registers;
 mod stand;
 mod state;
+mod text;
 
 pub use angles::Angles;
 pub use beside::Beside;
 pub use conditions::{CONDITIONS, Conditions};
 pub use line::Line;
 pub use state::{LastMove, Said, Spins};
+pub use text::{TextWord, words_of};

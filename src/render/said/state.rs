@@ -46,8 +46,8 @@ pub struct Said {
     pub kept: Kept,
     /// The value of each Upon's variable when it was used last.
     pub upon_used: Vec<Option<f64>>,
-    /// The plane that the control is in: what was printed last, also before a tool change.
-    pub(super) plane: Code,
+    /// The plane that the control is in: what was printed last, also before a tool change. `None`: unknown.
+    pub(super) plane: Option<Code>,
     /// The distance code that the control is in: what was printed last, also before a tool change.
     pub(super) distance: Option<Code>,
     /// The motion that the control is in: also where the next move says it again.
@@ -58,6 +58,8 @@ pub struct Said {
     pub(super) shift: Shift,
     /// The open block changed the frame of the depth axis.
     pub(super) depth_moved: bool,
+    /// The open block runs what is written elsewhere, as a macro.
+    pub(super) calls: bool,
     /// A code or value that switches something was printed, and nobody looked yet whether the job wants it so.
     pub(super) switched: bool,
     /// The control may not hold what the job wants: the next move must look.
@@ -87,12 +89,13 @@ impl Said {
             stand: Stand::default(),
             kept: Kept::default(),
             upon_used: vec![None; upons],
-            plane: Code::g(17),
+            plane: Some(Code::g(17)),
             distance: None,
             motion: None,
             last_move: LastMove::None,
             shift: Shift::None,
             depth_moved: false,
+            calls: false,
             switched: false,
             differs: false,
             sub: None,
@@ -147,7 +150,7 @@ impl Said {
 
     /// Is the control in this plane?
     pub fn is_in_plane(&self, plane: Code) -> bool {
-        self.plane == plane
+        self.plane == Some(plane)
     }
 
     /// Is the control in the distance code of this number?
@@ -302,8 +305,11 @@ impl Said {
         self.shift = Shift::None;
     }
 
-    /// A line of a sequence ends.
-    pub fn end_line(&mut self, shape: &Shape) {
+    /// A block of a sequence or of the job's text ends.
+    pub fn end_block(&mut self, want: &Want, shape: &Shape) {
+        if std::mem::take(&mut self.calls) {
+            self.called(want, shape);
+        }
         if self.shift == Shift::Block {
             self.shift = Shift::None;
         }

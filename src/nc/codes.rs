@@ -1,5 +1,6 @@
 //! What a control's codes are to the simulator: their groups, the words they use.
 
+use std::borrow::Cow;
 use std::fmt;
 
 pub use crate::control::Group;
@@ -42,45 +43,95 @@ pub fn takes_axes(row: &Row, rules: Rules) -> bool {
 /// The row of ten times a G number; `None`: the control has no such code, or it is not run.
 #[inline]
 pub fn g_code(control: &'static Control, code: u16) -> Option<&'static Row> {
-    control
-        .row(Code { letter: b'G', tenths: code })
-        .filter(|row| row.not_run.is_none() && is_simulated(row.meaning, code))
+    runs(control.row(Code { letter: b'G', tenths: code })?, b'G', code)
 }
 
-/// Why a G code that this control has is not run.
-pub fn why_not_run(control: &Control, code: u16) -> Option<&str> {
-    let row = control.row(Code { letter: b'G', tenths: code })?;
-    let by_number = (!is_simulated(row.meaning, code)).then_some("its meaning is simulated for the usual numbers only");
-    row.not_run.as_deref().or(by_number)
+/// The row of an M number; `None`: the control has no such code, or it is not run.
+pub fn m_code(control: &'static Control, code: u16) -> Option<&'static Row> {
+    let tenths = code.checked_mul(10)?;
+    runs(control.row(Code { letter: b'M', tenths })?, b'M', tenths)
 }
 
-/// Is a G code of this meaning simulated under this number? A meaning says what a code switches; how exactly a cycle drills,
-/// and which work offset or reference point is meant, is known by the number, as LinuxCNC, Fanuc and Haas document it.
+/// The row, if the simulator runs it under this code.
 #[inline]
-fn is_simulated(meaning: Meaning, code: u16) -> bool {
+fn runs(row: &'static Row, letter: u8, tenths: u16) -> Option<&'static Row> {
+    (row.not_run.is_none() && is_simulated(row.meaning, Code { letter, tenths })).then_some(row)
+}
+
+/// Why a code that this control has is not run; `None`: the control has no such code.
+pub fn why_not_run(control: &Control, code: Code) -> Option<Cow<'_, str>> {
+    let row = control.row(code)?;
+    if let Some(why) = &row.not_run {
+        return Some(why.into());
+    }
+    let meaning = row.meaning.name();
+    let letter = char::from(code.letter);
+    Some(match is_run_by(row.meaning, code.letter) {
+        false => format!("there is no rule for `{meaning}` by {} {letter} code", article(letter)).into(),
+        true => format!("`{meaning}` is run under its usual numbers only").into(),
+    })
+}
+
+fn article(letter: char) -> &'static str {
+    if letter == 'M' { "an" } else { "a" }
+}
+
+/// Is a code of this meaning run? A meaning says what a code switches; how exactly a cycle drills, and which work
+/// offset or reference point is meant, is known by the number, as LinuxCNC, Fanuc and Haas document it.
+#[inline]
+fn is_simulated(meaning: Meaning, code: Code) -> bool {
+    use Meaning as M;
+    let number = code.tenths;
+    is_run_by(meaning, code.letter)
+        && match meaning {
+            M::Rapid => number == 0,
+            M::Line => number == 10,
+            M::ArcCw => number == 20,
+            M::ArcCcw => number == 30,
+            M::Thread => matches!(number, 320 | 330),
+            M::RigidTap => number == 331,
+            M::ThreadCycle => matches!(number, 760 | 920),
+            M::Cycle => matches!(number, 730 | 740 | 760 | 810 | 820 | 830 | 840 | 850 | 860 | 870 | 880 | 890),
+            M::CycleEnd => number == 800,
+            M::Work => matches!(number, 540 | 541 | 550 | 560 | 570 | 580 | 590..=593 | 1540),
+            M::Reference => matches!(number, 280 | 300),
+            M::SetReference => matches!(number, 281 | 301),
+            M::Data => number == 100,
+            M::Probe => matches!(number, 382..=385),
+            M::Frame | M::Preset => matches!(number, 520 | 920 | 500),
+            M::FrameOff => matches!(number, 921..=923),
+            _ => true,
+        }
+}
+
+/// By codes of which letter a meaning is run: it is refused by name in all others.
+#[inline]
+const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
     use Meaning as M;
     match meaning {
-        M::Rapid => code == 0,
-        M::Line => code == 10,
-        M::ArcCw => code == 20,
-        M::ArcCcw => code == 30,
-        M::Thread => matches!(code, 320 | 330),
-        M::RigidTap => code == 331,
-        M::ThreadCycle => matches!(code, 760 | 920),
-        M::Cycle => matches!(code, 730 | 740 | 760 | 810 | 820 | 830 | 840 | 850 | 860 | 870 | 880 | 890),
-        M::CycleEnd => code == 800,
-        M::Work => matches!(code, 540 | 541 | 550 | 560 | 570 | 580 | 590..=593 | 1540),
-        M::Reference => matches!(code, 280 | 300),
-        M::SetReference => matches!(code, 281 | 301),
-        M::Frame | M::Preset => matches!(code, 520 | 920 | 500),
-        M::FrameOff => matches!(code, 921..=923),
-        _ => true,
+        M::StopProgram
+        | M::StopOptional
+        | M::End
+        | M::Pallet
+        | M::SpindleCw
+        | M::SpindleCcw
+        | M::SpindleOff
+        | M::SpindleCwCoolant
+        | M::SpindleCcwCoolant
+        | M::Orient
+        | M::Flood
+        | M::Mist
+        | M::Through
+        | M::CoolantOff
+        | M::ToolChange
+        | M::Call
+        | M::Return
+        | M::Override => letter == b'M',
+        M::Harmless => true,
+        // what they do is written elsewhere, or known only at the machine
+        M::Macro | M::MacroOn | M::Transform | M::ToolNumber | M::Unsaid => false,
+        _ => letter == b'G',
     }
-}
-
-/// The row of an M number.
-pub fn m_code(control: &'static Control, code: u16) -> Option<&'static Row> {
-    control.row(Code { letter: b'M', tenths: code.checked_mul(10)? })
 }
 
 /// Groups of M codes: 0 changes nothing that is simulated.

@@ -149,7 +149,7 @@ impl<R: BufRead + Seek> Simulator<R> {
     fn call_with(&mut self, label: String, arguments: &[f64]) -> Done<Jump> {
         let Some(&start) = self.labels.get(&label) else {
             let help = "subprograms in other files are not simulated: define it in this one, before its call";
-            return refuse(Code::PN015, format!("there is no subprogram o{label}"), help);
+            return refuse(Code::PN016, format!("there is no subprogram o{label}"), help);
         };
         self.parameters.enter(arguments);
         self.push(Frame::Call { label, back: self.at, start, times: 1, arguments: true })?;
@@ -355,7 +355,7 @@ impl<R: BufRead + Seek> Simulator<R> {
         }
         let Some(&start) = self.labels.get(&label) else {
             let help = "subprograms in other files are not simulated: add it behind M30";
-            return Err(self.refused(Fault::new(Code::PN015, format!("there is no subprogram O{label}"), help)));
+            return Err(self.refused(Fault::new(Code::PN016, format!("there is no subprogram O{label}"), help)));
         };
         if let Err(fault) = self.push(Frame::Call { label, back, start, times, arguments: false }) {
             return Err(self.refused(fault));

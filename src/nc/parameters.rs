@@ -71,7 +71,7 @@ impl Parameters {
             None if self.control.is_linuxcnc() && number < 5000 => Ok(0.0),
             None => {
                 let help = format!("set it in the program before this block: #{number}=0");
-                refuse(Code::PN014, format!("nothing in the program sets #{number}"), help)
+                refuse(Code::PN016, format!("nothing in the program sets #{number}"), help)
             }
         }
     }
@@ -87,7 +87,9 @@ impl Parameters {
             Some(value) => Ok(*value),
             None => {
                 let help = format!("set it before this block: #<{name}>=0");
-                refuse(Code::PN014, format!("nothing in the program sets #<{name}>"), help)
+                // LinuxCNC has some of its own, and refuses any other
+                let code = if name.starts_with('_') { Code::PN016 } else { Code::PN014 };
+                refuse(code, format!("nothing in the program sets #<{name}>"), help)
             }
         }
     }
@@ -99,11 +101,11 @@ impl Parameters {
     pub fn set(&mut self, target: Target, value: f64) -> Done {
         if !self.control.is_linuxcnc() && matches!(target, Target::Number(34..=99 | 200..=499 | 1000..)) {
             let help = "variables of a program are #1 to #33, #100 to #199 and #500 to #999";
-            return refuse(Code::PN014, "a variable of the control itself is not simulated", help);
+            return refuse(Code::PN016, "a variable of the control itself is not simulated", help);
         }
         if self.control.is_linuxcnc() && matches!(target, Target::Number(5000..)) {
             let help = "set offsets by G10, G52 and G92; #1 to #4999 are the program's";
-            return refuse(Code::PN014, "a parameter of the control itself is not simulated", help);
+            return refuse(Code::PN016, "a parameter of the control itself is not simulated", help);
         }
         match target {
             Target::Number(number) => self.numbered[number] = Some(value),

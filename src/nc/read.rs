@@ -8,7 +8,7 @@ use super::flow::Flow;
 use super::parameters::Parameters;
 use super::scan::{Kind, tokens, tokens_from};
 use super::settings::RunSettings;
-use crate::control::{Control, Turns};
+use crate::control::{self, Control, Turns};
 use crate::diag::Code;
 
 /// G80.
@@ -232,12 +232,12 @@ impl Block {
             return refuse(format!("there is no code M{value}"), "M codes are M0 to M999");
         }
         let Some(row) = m_code(control, code as u16) else {
-            return refuse(format!("M{code} is unknown"), "it is unknown to this control: take it out");
+            let name = control::Code::m(code as u16);
+            return match why_not_run(control, name) {
+                Some(why) => not_run(name, &why, column),
+                None => refuse(format!("{name} is unknown"), "it is unknown to this control: take it out"),
+            };
         };
-        if let Some(why) = &row.not_run {
-            let message = format!("M{code} is not run: {why}");
-            return Err(Fault::at(Code::PN016, column, message, "run the program without it"));
-        }
         if !self.put_m(code as u16, row) {
             return refuse(format!("M{code} is one more M code than a block may have here"), "write two blocks");
         }
@@ -286,15 +286,20 @@ fn twice<T>(letter: u8, column: usize) -> Done<T> {
 
 #[cold]
 fn unknown_g(value: f64, code: u16, column: usize, control: &'static Control) -> Done {
-    Err(match why_not_run(control, code) {
-        Some(why) => {
-            Fault::at(Code::PN016, column, format!("G{value} is not run: {why}"), "run the program without it")
-        }
+    let name = control::Code { letter: b'G', tenths: code };
+    match why_not_run(control, name) {
+        Some(why) => not_run(name, &why, column),
         None => {
             let message = format!("G{value} is no code of this control ({})", control.name());
-            Fault::at(Code::PN003, column, message, "look for a misprint, or choose another `--control`")
+            Err(Fault::at(Code::PN003, column, message, "look for a misprint, or choose another `--control`"))
         }
-    })
+    }
+}
+
+/// A code whose meaning is known, and which is not run.
+#[cold]
+fn not_run<T>(code: control::Code, why: &str, column: usize) -> Done<T> {
+    Err(Fault::at(Code::PN016, column, format!("{code} is not run: {why}"), "run the program without it"))
 }
 
 #[cold]

@@ -254,7 +254,7 @@ fn unsafe_fixes_show_the_program_before_and_after() {
     for part in [
         "form.pf: 1 unsafe fix that --fix --unsafe-fixes would make:\n",
         "form.pf:22: write the digit (PF206)\n",
-        "-G1 F10.\n-Gl X1. Y1. Z0\n+G1 X1. Y1. Z0 F10.\n",
+        "-G1 F10.\n-Gl X1. Y1. Z0 F10.\n+G1 X1. Y1. Z0 F10.\n",
     ] {
         assert!(story.contains(part), "{part}\n{story}");
     }

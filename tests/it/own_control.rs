@@ -155,3 +155,51 @@ fn codes_of_other_numbers_switch_as_their_meaning_says_and_never_move_by_guess()
         assert!(run.status.code() == Some(1) && said.contains("PN016") && said.contains(code), "{code}: {said}");
     }
 }
+
+/// A code whose meaning the file gives is run, or refused by its name: under any number, as a G code and as an M code.
+#[test]
+fn no_meaning_is_passed_over() {
+    use postform::internals::control::{Code, Control, Meaning};
+    use postform::internals::nc::{Action, RunError, RunSettings, Simulator};
+    use std::io::Cursor;
+
+    // they change nothing that is compared, and are told as left out
+    use Meaning as M;
+    let nothing = [M::Harmless, M::TransformOff, M::MacroOff, M::Path, M::TapMode, M::ExactStop, M::Override];
+    let mut run = Vec::new();
+    for &meaning in Meaning::ALL {
+        let makes = if meaning == Meaning::Cycle { ", makes = \"drill\"" } else { "" };
+        for code in ["G777", "M777"] {
+            let row = format!("\"{code}\" = {{ is = \"{}\"{makes} }}", meaning.name());
+            let text = format!("name = \"shop\"\nlike = \"haas\"\n[codes]\n{row}\n");
+            let control: &'static Control = Box::leak(Box::new(Control::read("shop", &text).unwrap()));
+            let program = format!("G0 X1. Y1. Z1.\nT1\nS100\n{code} (HERE)\nM30\n");
+            let mut simulator = Simulator::new(Cursor::new(program), RunSettings::new(control));
+            let mut items = Vec::new();
+            let ended = loop {
+                match simulator.step(&mut items) {
+                    Ok(true) => {}
+                    Ok(false) => break Ok(()),
+                    Err(error) => break Err(error),
+                }
+            };
+            let here = items.iter().filter(|item| item.line == 4).map(|item| &item.action);
+            match ended {
+                Err(RunError::Refused(diag, 4)) if diag.code.name() == "PN016" => {
+                    assert!(diag.message.contains(code), "{row}: {}", diag.message);
+                }
+                ended => {
+                    let passed_over = here.clone().any(|action| matches!(action, Action::LeftOut(..)));
+                    // a dwell without its time is refused as a dwell, a length without H as a length
+                    let lacks_word = matches!(&ended, Err(RunError::Refused(diag, 4)) if ["PN006", "PN007"].contains(&diag.code.name()));
+                    assert!(ended.is_ok() || lacks_word, "{row}: {ended:?}");
+                    assert!(!passed_over || nothing.contains(&meaning), "{row} is passed over");
+                    run.push(format!("{} {code}", meaning.name()));
+                }
+            }
+            assert!(code.parse::<Code>().is_ok());
+        }
+    }
+    assert!(run.contains(&"spindle-cw M777".to_owned()) && run.contains(&"inch G777".to_owned()), "{run:?}");
+    assert!(!run.contains(&"to-r M777".to_owned()) && !run.contains(&"tool-change G777".to_owned()), "{run:?}");
+}

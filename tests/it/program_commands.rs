@@ -40,7 +40,7 @@ fn exit_status_and_streams_of_simulate() {
     let lines: Vec<serde_json::Value> =
         text(&refused.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(lines[1]["rapid"], serde_json::json!([1, 0, 0, 0, 0, 0]));
-    assert_eq!((&lines[2]["line"], &lines[2]["error"]), (&serde_json::json!(3), &serde_json::json!("PN014")));
+    assert_eq!((&lines[2]["line"], &lines[2]["error"]), (&serde_json::json!(3), &serde_json::json!("PN016")));
     assert!(text(&refused.stderr).contains("standard input:3:"), "{}", text(&refused.stderr));
     for (arguments, status) in [
         (&["simulate", "no-such-file.nc"][..], 2),

@@ -133,7 +133,7 @@ fn cycles_of_a_fanuc() {
 fn programs_of_a_fanuc_and_their_subprograms() {
     let program = "%\nO1\nG21 G90 G0 X0. Y0. Z1.\nM98 P100 L2\nM98 P20200\nM30\nO100\nG91 X1.\nG90 M99\nO200\nG91 Y1.\nG90 M99\n%\n";
     assert_eq!(motions(control("fanuc"), program), ["T 0 0 1", "T 1 0 1", "T 2 0 1", "T 2 1 1", "T 2 2 1"]);
-    assert_eq!(refused(control("fanuc"), "G21\nM98 P7\nM30\n"), ("PN015".into(), 2));
+    assert_eq!(refused(control("fanuc"), "G21\nM98 P7\nM30\n"), ("PN016".into(), 2));
     // the home of the axes that are named, by way of a place
     let home = motions(control("fanuc"), "G21 G90 G0 X1. Y2. Z3.\nG91 G28 Z0\nG90\nM30\n");
     assert_eq!(home, ["T 1 2 3", "T 1 2 3", "T 1 2 0"]);
@@ -226,9 +226,9 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
         ("G81 X1. R-2. Z-1. F10.\nM30", "PN011", 1),
         ("M5\nG87 X1. R-2. Z-1. Q.1 F10.\nM30", "PN012", 2),
         ("G41 D1\nG1 X1. F10.\nG81 X2. Z-1. R1.\nM30", "PN013", 3),
-        ("G0 X#9\nM30", "PN014", 1),
+        ("G0 X#9\nM30", "PN016", 1),
         ("G0 X[1/0]\nM30", "PN014", 1),
-        ("M98 P1\nM30", "PN015", 1),
+        ("M98 P1\nM30", "PN016", 1),
         ("G68 X0 Y0 R45.\nM30", "PN016", 1),
         ("IF[#1 EQ 1]GOTO 10\nM30", "PN016", 1),
         ("G0 X5\nM30", "PN017", 1),
@@ -243,7 +243,7 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
     for (program, code, line) in [
         ("o1 sub\nG0 X1\nM2", "PN015", 3),
         ("o1 while [1]\nG4 P0\no1 endwhile\nM2", "PN015", 1),
-        ("o1 call\nM2", "PN015", 1),
+        ("o1 call\nM2", "PN016", 1),
         ("o1 sub\no1 call\no1 endsub\no1 call\nM2", "PN015", 2),
         ("G0 X[[[[1\nM2", "PN014", 1),
         ("G0 X#1#2\nM2", "PN014", 1),
@@ -278,7 +278,7 @@ fn rules_that_are_easily_missed() {
     assert_eq!(both("#1=0\no1 do\n#1=[#1+1]\no1 continue\nG0 X1\no1 while [#1 LT 3]\nM2\n"), Vec::<String>::new());
     assert_eq!(both("\u{feff}G0 X1\nM2\n"), ["T 1 0 0"], "the mark before UTF-8");
     assert_eq!(refused(control("linuxcnc"), "G0 X5 o1 if [1]\nM2\n"), ("PN015".into(), 1));
-    assert_eq!(refused(control("linuxcnc"), "#5161=10\nM2\n"), ("PN014".into(), 1));
+    assert_eq!(refused(control("linuxcnc"), "#5161=10\nM2\n"), ("PN016".into(), 1));
     assert_eq!(refused(control("linuxcnc"), "F10\nG81 X1 Z-1 R1\nG53 X2\nM2\n"), ("PN006".into(), 3));
     assert_eq!(
         refused(control("linuxcnc"), "M3 S1\nT1 M6\nF10\nG84 X2 Z-1 R1\nM2\n"),

@@ -365,7 +365,6 @@ fn one_change_is_never_too_small() {
         ("1", circle, "G43 H1 Z1.", "Z1.\nG43 H1", "PV014"),
         ("1", circle, "G43 H1 Z1.", "G43 H9 Z1.\nG43 H1", "PV014"),
         ("1", circle, "G43 H1 Z1.", "G43 H1 Z1.\nG55 Z.5\nG54 Z1.", "PV001"),
-        ("1", circle, "G43", "#5221=1.\nG43", "PV015"),
         ("1", circle, "S3000 M3", "G96 S3000 M3", "PV011"),
         ("1", circle, "G17 G3", "G0 X3.\nX2.\nG17 G3", "PV001"),
         ("1", circle, "G17 G3", "G0 A360.\nG17 G3", "PV001"),
@@ -520,5 +519,20 @@ fn a_cut_after_holes_of_several_heights_is_the_jobs() {
         let program = rendered(&form, &job, Cycles::Form);
         let verdict = verified(&form, &program, &job);
         assert!(!matches!(verdict, Verdict::Different(_)), "{name}: {verdict:?}\n{program}");
+    }
+}
+
+/// A block that is not run here, and that the control may know how to run, ends the proof and is no difference.
+#[test]
+fn what_is_not_run_is_not_called_different() {
+    let form = check(&post("haas.pf"));
+    let text = inches("1", r#"{"rapid":[2,0,1]},{"line":[2,0,-0.1]},{"rapid":[2,0,1]}"#);
+    let job = document(&text);
+    let program = rendered(&form, &job, Cycles::Form);
+    for block in ["#500=[#500+1]", "#3006=1(CHECK)", "#5221=1.", "M98 P8000", "G65 P9023 Z-1.", "G0 X#700"] {
+        let changed = program.replacen("M30", &format!("{block}\nM30"), 1);
+        let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{block}\n{changed}") };
+        assert!(unproven.why.contains(&format!("in `N120 {block}`")) || unproven.why.contains(block), "{unproven:?}");
+        assert!(unproven.line > 0, "{unproven:?}");
     }
 }

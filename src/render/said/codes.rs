@@ -27,9 +27,10 @@ impl Said {
             self.switched = true;
             return;
         }
-        match code.letter {
-            b'M' => self.m_code(code, row, want, shape),
-            _ => self.frame_code(code, row, line, want, shape),
+        self.switching_code(code, row, want, shape);
+        // an unknown M code switches something of the machine; an unknown G code may move it
+        if code.letter == b'G' || row.is_some() {
+            self.frame_code(code, row, line, want, shape);
         }
         let settings = &shape.program.settings;
         let is_feed_mode = code.letter == b'G' && settings.feed_type.contains(&code.value());
@@ -52,12 +53,15 @@ impl Said {
         self.condition_code(group, code.value(), shape);
     }
 
-    /// What an M code stops or moves.
-    fn m_code(&mut self, code: Code, row: Option<&Row>, want: &Want, shape: &Shape) {
+    /// What a code stops, starts or calls.
+    fn switching_code(&mut self, code: Code, row: Option<&Row>, want: &Want, shape: &Shape) {
         let meaning = row.map(|row| row.meaning);
         self.spindle_code(meaning, shape);
-        self.coolant_code(code.value(), shape);
-        if meaning.is_some_and(Meaning::is_stop) || shape.program.settings.stop_code.contains(&code.value()) {
+        if code.letter == b'M' {
+            self.coolant_code(code.value(), shape);
+        }
+        let own_stop = code.letter == b'M' && shape.program.settings.stop_code.contains(&code.value());
+        if own_stop || meaning.is_some_and(Meaning::is_stop) {
             self.stopped(want, shape);
         } else if meaning.is_some_and(|meaning| meaning.is_call() || meaning == Meaning::ToolChange) {
             self.forget_axes(shape); // a changer, and what is called, go where they like
@@ -154,6 +158,6 @@ fn is_harmless(code: Code, meaning: Option<Meaning>, want: &Want, shape: &Shape)
 /// Does a code run what is written elsewhere: a macro, a subprogram, what the control's file knows and does not run?
 fn runs_elsewhere(code: Code, row: &Row, shape: &Shape) -> bool {
     let settings = &shape.program.settings;
-    let not_run = row.meaning == Meaning::Unsaid && row.not_run.is_some();
-    row.meaning.is_call() || not_run && settings.control.is_some() && !settings.names_code(code)
+    let unsaid = row.meaning == Meaning::Unsaid;
+    row.meaning.is_call() || unsaid && settings.control.is_some() && !settings.names_code(code)
 }

@@ -1,0 +1,171 @@
+//! Text as it stands, in backquotes of a form or from a job: its words change what is known as typed words do.
+
+use super::line::Line;
+use super::state::Said;
+use crate::compile::LetterKind;
+use crate::control::Code;
+use crate::lang::{Machine, VarId};
+use crate::nc::{Kind, tokens};
+use crate::number::quantise;
+use crate::render::shape::Shape;
+use crate::render::want::Want;
+
+/// A word of a text.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextWord {
+    /// Upper case.
+    pub letter: u8,
+    /// The number after it.
+    pub value: f64,
+}
+
+/// The words of a text outside comments, as the scanner of programs reads them. `None`: the text is more than words, as
+/// an expression, a name or a call by name, so that its effect is unknown. Variables of the program alone change
+/// nothing that the renderer keeps: `#500=1` has no words.
+pub fn words_of(text: &[u8]) -> Option<Vec<TextWord>> {
+    let mut words = Vec::new();
+    let tokens = tokens(text).filter(|token| {
+        !matches!(
+            token.kind,
+            Kind::Blank | Kind::LineEnd | Kind::Comment | Kind::OpenComment | Kind::Remark | Kind::Percent
+        )
+    });
+    for (i, token) in tokens.enumerate() {
+        match token.kind {
+            Kind::Word(letter, number) => words.push(TextWord { letter, value: number.value }),
+            Kind::Symbol(b'#') if i == 0 => return sets_variable(text).then_some(words),
+            // a block delete: the words after it may or may not be read
+            Kind::Delete if i == 0 => {}
+            _ => return None,
+        }
+    }
+    Some(words)
+}
+
+/// Is a text that begins with `#` an assignment to a variable of the program, and none of the control's own?
+fn sets_variable(text: &[u8]) -> bool {
+    let mut tokens = tokens(text).filter(|token| token.kind != Kind::Blank).skip(1);
+    let own = match tokens.next().map(|token| token.kind) {
+        Some(Kind::Number(number)) => (1.0..=999.0).contains(&number.value),
+        Some(Kind::Quoted) => true,
+        _ => false,
+    };
+    own && tokens.next().is_some_and(|token| token.kind == Kind::Symbol(b'='))
+}
+
+impl Said {
+    /// A text was printed in a line: what its words change is known; what a text changes that is more than words is not.
+    /// In a form without a control only positions and modal words count as changed by such a text, because its language
+    /// is unknown too. In a cycle the text is the cycle's own, and its end makes positions unknown.
+    #[cold]
+    pub fn text(&mut self, text: &[u8], line: Line, want: &Want, shape: &Shape) {
+        let program = shape.program;
+        let Some(words) = words_of(text) else {
+            match program.settings.control {
+                _ if want.cycle.is_some() => {}
+                Some(_) => self.calls = true,
+                None if program.speaks_g => self.forget_motions(shape),
+                None => {}
+            }
+            return;
+        };
+        let may_be_skipped = text.trim_ascii_start().starts_with(b"/");
+        for word in words {
+            if may_be_skipped {
+                self.skipped_word(word, line, want, shape);
+            } else {
+                self.text_word(word, line, want, shape);
+            }
+        }
+    }
+
+    /// A word of a text, as if it were typed.
+    fn text_word(&mut self, word: TextWord, line: Line, want: &Want, shape: &Shape) {
+        let TextWord { letter, value } = word;
+        if !letter.is_ascii_uppercase() {
+            return;
+        }
+        if let Some(code) = Code::of(letter, value) {
+            self.code(code, line, want, shape);
+            return;
+        }
+        self.displaced(shape.axis_bit(letter), shape);
+        let info = &shape.letters[letter];
+        match quantise(value, info.format.dec.count) {
+            Some(units) if info.kind == LetterKind::Other => self.word(info, units),
+            _ => self.forget(info),
+        }
+        self.speed_word(letter, Some(value), shape);
+    }
+
+    /// A word behind the slash of block delete: whether the control reads it is unknown, and so is what it sets.
+    fn skipped_word(&mut self, word: TextWord, line: Line, want: &Want, shape: &Shape) {
+        let TextWord { letter, value } = word;
+        self.speed_word(letter, Some(value), shape);
+        if let Some(code) = Code::of(letter, value) {
+            self.code(code, line, want, shape);
+            if let Some(group) = shape.group_of(code) {
+                self.registers.forget_group(group);
+            }
+        }
+        self.displaced(shape.axis_bit(letter), shape);
+        self.registers.forget(letter);
+    }
+
+    /// Something ran that is written elsewhere, as a macro: all that it may have changed is unknown. In a cycle it
+    /// makes the holes.
+    pub(super) fn called(&mut self, want: &Want, shape: &Shape) {
+        self.forget_motions(shape);
+        if want.cycle.is_some() {
+            return;
+        }
+        self.plane = None;
+        for var in [VarId::Work, VarId::Speed, VarId::Direct, VarId::Feedtype] {
+            self.conditions.put(var, None);
+        }
+        // not every mill takes G97
+        if shape.program.settings.machine == Machine::Lathe {
+            self.conditions.put(VarId::Speedtype, None);
+        }
+        self.differs = true;
+    }
+
+    /// Where the axes are, how they move and which words are in force is unknown.
+    fn forget_motions(&mut self, shape: &Shape) {
+        self.forget_words();
+        self.forget_axes(shape);
+        self.forget_motion();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(text: &str) -> Option<String> {
+        let shown = |word: &TextWord| format!("{}{}", char::from(word.letter), word.value);
+        words_of(text.as_bytes()).map(|words| words.iter().map(shown).collect::<Vec<_>>().join(" "))
+    }
+
+    #[test]
+    fn a_text_is_its_words_or_unknown() {
+        for (text, expected) in [
+            ("G65 P9023 Z-20. F500", Some("G65 P9023 Z-20 F500")),
+            ("m8(COOLANT G1) ; M9", Some("M8")),
+            ("/M8", Some("M8")),
+            ("#500=[#500+1]", Some("")),
+            ("#<count> = 1", Some("")),
+            ("%", Some("")),
+            ("#3006=1(CHECK)", None),
+            ("#5221=0", None),
+            ("Z#1", None),
+            ("Z[1+2]", None),
+            ("o<sub> call", None),
+            ("IF[#1EQ0]GOTO10", None),
+            ("L X+10 R0 FMAX", None),
+            ("MCALL CYCLE81(10,0)", None),
+        ] {
+            assert_eq!(words(text), expected.map(str::to_owned), "{text}");
+        }
+    }
+}

@@ -84,12 +84,10 @@ pub(super) fn arc_to(arc: &PendingArc, to: [f64; 3], rapid: bool, state: &mut St
         let message = format!("the CIRCLE has the radius {radius}, the tool is {away:.4} from its centre");
         return fault(Code::PR005, message, "look at the motion before it");
     }
-    let dialect = state.job.notes.dialect();
-    // GENER's own circles are left-handed, but only a file that is said to be GENER's is taken for one
-    let gener = (state.job.notes.said && dialect == Dialect::Gener).then_some(Sense::LeftHand);
-    let sense = match arc.sense.or(dialect.sense()).or(gener) {
+    let notes = &state.job.notes;
+    let sense = match arc.sense.or(notes.said_sense()) {
         Some(sense) => sense,
-        None => sense_by_tangent(arc, from, &mut state.arcs)?,
+        None => sense_by_tangent(arc, from, notes.dialect(), &mut state.arcs)?,
     };
     let ccw = (sense == Sense::RightHand) == arc.up;
     arc_event(arc, to, ccw, state)
@@ -154,9 +152,9 @@ fn turns(arc: &PendingArc, from: Option<[f64; 3]>, to: [f64; 3], ccw: bool) -> D
     Ok(((angle - least) / 360.0).round().max(0.0) as u32)
 }
 
-/// Which way circles turn in a file of an unknown system: its arcs leave the motion before them along their
-/// tangent, and all must agree.
-fn sense_by_tangent(arc: &PendingArc, from: [f64; 3], arcs: &mut Arcs) -> Done<Sense> {
+/// Which way circles turn, where the caller did not say it: arcs leave the motion before them along their tangent, and all
+/// must agree, also with what the mark of a known system means.
+fn sense_by_tangent(arc: &PendingArc, from: [f64; 3], dialect: Dialect, arcs: &mut Arcs) -> Done<Sense> {
     let mut unit = [0.0; 3];
     unit[arc.axis] = if arc.up { 1.0 } else { -1.0 };
     let radius = [from[0] - arc.centre[0], from[1] - arc.centre[1], from[2] - arc.centre[2]];
@@ -168,14 +166,19 @@ fn sense_by_tangent(arc: &PendingArc, from: [f64; 3], arcs: &mut Arcs) -> Done<S
     };
     let help = "say with `--dialect` whose circles these are: those of nx, makino and gener turn clockwise about their \
                 axis, those of solidworks counter-clockwise";
-    match (arcs.sense, seen) {
-        (Some(before), Some(now)) if before != now => {
+    match (dialect.sense(), arcs.sense, seen) {
+        (Some(known), _, Some(now)) if known != now => {
+            let message =
+                format!("this CIRCLE turns the other way than those of {}, if it is tangent", dialect.title());
+            fault(Code::PL006, message, help)
+        }
+        (_, Some(before), Some(now)) if before != now => {
             fault(Code::PL006, "this arc turns the other way than those before it, if it is tangent", help)
         }
-        (Some(sense), _) | (None, Some(sense)) => {
+        (Some(sense), _, _) | (None, Some(sense), _) | (None, None, Some(sense)) => {
             arcs.sense = Some(sense);
             Ok(sense)
         }
-        (None, None) => fault(Code::PL006, "which way this CIRCLE turns is not known", help),
+        (None, None, None) => fault(Code::PL006, "which way this CIRCLE turns is not known", help),
     }
 }

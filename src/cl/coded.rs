@@ -145,11 +145,15 @@ pub(super) fn read_options(
 
 /// The format of 1978, whose order each system has its own: only where CATIA is known to have written it.
 fn positional(notes: &Notes<'_>, mut coded: Coded, words: &[Word], depth: f64, in_force: Option<Feed>) -> Done<Coded> {
+    if notes.dialect() != Dialect::Catia {
+        let help = "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2, or name CATIA with `--dialect catia`";
+        return fault(Code::PC032, "numbers without their words, which each system orders in its own way", help);
+    }
     let unit = |name: &str, value| Some((name.to_owned(), value));
     let (clear, feed) = match words {
         [_, Word::Number(clear), Word::Number(feed), Word::Name(name)] => (*clear, unit(name, *feed)),
-        // a tap has the feed that is in force
-        [_, Word::Number(clear)] if coded.kind == Some(CycleKind::Tap) => match in_force {
+        // at the feed that is in force
+        [_, Word::Number(clear)] => match in_force {
             Some(Feed::Minute(feed)) => (*clear, unit("PERMIN", feed)),
             Some(Feed::Revolution(feed)) => (*clear, unit("PERREV", feed)),
             None => return fault(Code::PC005, "the cycle has no feed", "put FEDRAT before it"),
@@ -159,10 +163,6 @@ fn positional(notes: &Notes<'_>, mut coded: Coded, words: &[Word], depth: f64, i
             return fault(Code::PC032, "numbers without their words, in an order that is not known", help);
         }
     };
-    if notes.dialect() != Dialect::Catia {
-        let help = "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2, or name CATIA with `--dialect catia`";
-        return fault(Code::PC032, "numbers without their words, which each system orders in its own way", help);
-    }
     coded.groups.push(Group { depths: vec![depth], steps: Vec::new(), feed });
     coded.options.push((Opt::Clear, vec![clear]));
     Ok(coded)

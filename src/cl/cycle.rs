@@ -11,6 +11,7 @@ use super::state::{CodedReturn, Cycle, ReturnMode, State};
 use super::words::Word;
 use crate::cycle::check;
 use crate::diag::Code;
+use crate::toolpath::CycleKind;
 
 /// CYCLE/type, ON, OFF, NOMORE, AUTO, RETURN.
 pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
@@ -42,7 +43,7 @@ pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
             let shifted = |height| state.motion.shift.of([0.0, 0.0, height])[2];
             let heights =
                 Heights { clearance: shifted(heights.clearance), retract: shifted(heights.retract), ..heights };
-            state.cycle.coded_return = Some(CodedReturn::Height(heights.clearance));
+            state.cycle.returns = state.cycle.return_mode.over(Some(CodedReturn::Height(heights.clearance)));
             state.cycle.heights = Some(heights);
             Ok(())
         }
@@ -51,7 +52,7 @@ pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
             let (coded, rest) = cycle_type(&gener)?;
             begin(coded, rest, true, state)?;
             if returns_to_start(words, dialect) {
-                state.cycle.coded_return = Some(CodedReturn::Start);
+                state.cycle.returns = state.cycle.return_mode.over(Some(CodedReturn::Start));
             }
             Ok(())
         }
@@ -105,7 +106,9 @@ fn begin(coded: Coded, words: &[Word], whole: bool, state: &mut State<'_>) -> Do
     let spec = spec(cycle, job, &coded)?;
     check(&spec)?;
     let above = |numbers: &[f64]| numbers.first().map_or(CodedReturn::Clearance, |above| CodedReturn::Above(*above));
-    cycle.coded_return = coded.numbers(Opt::Return).map(above);
+    let own = coded.numbers(Opt::Return).map(above);
+    // a manual cycle has no return: it stays where it stopped
+    cycle.returns = if spec.kind == CycleKind::Manual { None } else { cycle.return_mode.over(own) };
     cycle.heights = None;
     cycle.plane = None;
     cycle.last = Some(coded);

@@ -35,6 +35,8 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>
             // to where the tool was before the cycle, which is told elsewhere
             (Dialect::Nx, "RTRCTO") if words.next_if(|word| word.is("AUTO")).is_some() => continue,
             (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "RTRCTO") => name("RETURN"),
+            // no return plane
+            (Dialect::Catia, "RETURN") if words.next_if(|word| word.number() == Some(0.0)).is_some() => continue,
             (Dialect::Nx, "BORE") if at_type => {
                 out.extend(nx_bore(words.next_if(|word| word.name().is_some_and(|name| NX_BORES.contains(&name))))?);
                 continue;

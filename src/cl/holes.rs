@@ -3,7 +3,7 @@
 use super::cycle_dialects::Heights;
 use super::fault::{Done, fault};
 use super::job::Job;
-use super::state::{Arcs, CodedReturn, Cycle, Motion, ReturnMode, State};
+use super::state::{Arcs, CodedReturn, Cycle, Motion, State};
 use crate::diag::Code;
 use crate::toolpath::{CycleSpec, Event, Hole};
 
@@ -33,9 +33,8 @@ fn hole(
     };
     if !job.holes_are_open() {
         job.turns()?;
-        // a sink counts the return plane from the first point that it sees
-        let plane = return_plane(at, spec, motion, cycle, job)?;
-        spec.return_height = plane.map(|plane| plane - at[2]).filter(|&height| height > spec.clear.unwrap_or(f64::MIN));
+        // sinks count the plane from the first point that they see, and take the clearance where that is higher
+        spec.return_height = return_plane(at, spec, motion, cycle)?.map(|plane| plane - at[2]);
         job.open_holes(spec)?;
     }
     job.push(Event::Hole(Hole { at: job.axes(at)?, depth: None }))?;
@@ -65,23 +64,22 @@ fn top(bottom: [f64; 3], heights: Heights, spec: &mut CycleSpec, job: &mut Job<'
 }
 
 /// The height to which the tool comes back, one for the whole cycle: set at its first point.
-fn return_plane(
-    at: [f64; 3],
-    spec: &CycleSpec,
-    motion: &Motion,
-    cycle: &mut Cycle,
-    job: &mut Job<'_>,
-) -> Done<Option<f64>> {
+fn return_plane(at: [f64; 3], spec: &CycleSpec, motion: &Motion, cycle: &mut Cycle) -> Done<Option<f64>> {
     if let Some(plane) = cycle.plane {
         return Ok(plane);
     }
-    let clear = at[2] + spec.clear.unwrap_or(0.0);
-    let plane = match (cycle.return_mode, cycle.coded_return) {
-        (ReturnMode::Off, _) | (ReturnMode::AsCoded, None) => None,
-        (ReturnMode::AsCoded, Some(CodedReturn::Clearance)) => Some(clear),
-        (ReturnMode::AsCoded, Some(CodedReturn::Height(height))) => Some(height),
-        (ReturnMode::Above(above), _) | (ReturnMode::AsCoded, Some(CodedReturn::Above(above))) => Some(at[2] + above),
-        (ReturnMode::AtStart, _) | (ReturnMode::AsCoded, Some(CodedReturn::Start)) => match motion.position {
+    let plane = match cycle.returns {
+        None => None,
+        Some(CodedReturn::Above(above)) => Some(at[2] + above),
+        Some(CodedReturn::Height(height)) => Some(height),
+        Some(CodedReturn::Clearance) => match spec.clear {
+            Some(clear) => Some(at[2] + clear),
+            None => {
+                let help = "give the cycle CLEAR, or RETURN a height";
+                return fault(Code::PC040, "RETURN without a height, and no CLEAR before it", help);
+            }
+        },
+        Some(CodedReturn::Start) => match motion.position {
             Some(position) => Some(position[2]),
             None => {
                 let help = "put a GOTO before the cycle, or give CYCLE/RETURN a height";
@@ -89,10 +87,6 @@ fn return_plane(
             }
         },
     };
-    if plane.is_some_and(|plane| plane >= at[2] && plane < clear) {
-        let help = "give RETURN above CLEAR, or leave it out";
-        job.notes.warn(Code::PC053, "the return plane is below the clearance, which is used", help);
-    }
     cycle.plane = Some(plane);
     Ok(plane)
 }

@@ -33,6 +33,8 @@ pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     let register = match (dialect, &words[1..]) {
         // pocket, length, offset
         (Dialect::Autodesk, [_, _, Word::Number(register)]) => Some(*register),
+        // they describe the tool
+        (Dialect::Catia, _) if name == "TOOLNO" => None,
         (_, words) => length_register(name, words)?,
     };
     another_tool(Some(Tool { number, length_offset: register, ..Tool::default() }), state)

@@ -9,7 +9,7 @@ use super::load::{load, tool_path};
 use super::machine::{coolnt, cutcom, spindl, units};
 use super::motion::{from, godlta, gohome, goto_words, rapid, tlaxis, trans};
 use super::setup::Setups;
-use super::setups::{csys, msys};
+use super::setups::{csys, mcs, msys};
 use super::state::State;
 use super::tlon::{indirv, tlon};
 use super::words::Word;
@@ -52,6 +52,9 @@ pub(super) enum Major {
     ToolPath,
     Msys,
     Csys,
+    Mcs,
+    /// Chooses a work offset.
+    Offset,
     Machin,
     Turret,
     /// Known, and of no consequence for the motions.
@@ -75,7 +78,7 @@ const MAJORS: &[(&str, Major)] = &[
     ("STOP", Major::Stop), ("OPSTOP", Major::Opstop), ("TRANS", Major::Trans), ("ORIGIN", Major::Origin),
     ("TLAXIS", Major::Tlaxis), ("SET", Major::Set), ("AUXFUN", Major::Auxfun), ("PREFUN", Major::Prefun),
     ("$DATA", Major::Data), ("FINI", Major::Fini), ("END", Major::Fini), ("END-OF-PATH", Major::EndOfPath),
-    ("TOOLPATH", Major::ToolPath), ("MSYS", Major::Msys), ("CSYS", Major::Csys), ("MACHIN", Major::Machin), ("SYN", Major::Ignored),
+    ("TOOLPATH", Major::ToolPath), ("MSYS", Major::Msys), ("CSYS", Major::Csys), ("MCS", Major::Mcs), ("MACHIN", Major::Machin), ("SYN", Major::Ignored),
     ("MULTAX", Major::Ignored), ("SELECT", Major::Ignored), ("SELCTL", Major::Ignored), ("PAINT", Major::Ignored),
     ("INTOL", Major::Ignored), ("OUTTOL", Major::Ignored), ("TOLER", Major::Ignored), ("AUTOPS", Major::Ignored),
     ("MODE", Major::Set), ("ARCSLP", Major::Ignored), ("CLEARP", Major::Ignored), ("SEQNO", Major::Ignored),
@@ -87,6 +90,8 @@ const MAJORS: &[(&str, Major)] = &[
     ("OPSKIP", Major::Refused), ("ORIANT", Major::Refused), ("ORIENT", Major::Refused),
     ("TLRGT", Major::Refused), ("TLLFT", Major::Refused), ("GOFWD", Major::Refused), ("GOLFT", Major::Refused),
     ("GORGT", Major::Refused), ("GOBACK", Major::Refused), ("SPLINE", Major::Nurbs), ("NURBS", Major::Nurbs),
+    ("ZERO", Major::Offset), ("POSTN", Major::Offset), ("DATUM", Major::Offset), ("FIXTUR", Major::Offset),
+    ("FIXTURE", Major::Offset), ("WCS", Major::Offset),
     ("THREAD", Major::Thread), ("TURRET", Major::Turret), ("MIRROR", Major::Refused), ("ROTHED", Major::Refused), ("SCALE", Major::Refused), ("MATRIX", Major::Refused), ("REFSYS", Major::Refused),
 ];
 
@@ -151,6 +156,15 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
             csys(words, motion, setups, job);
             Ok(())
         }
+        Major::Mcs => {
+            job.notes.fact(shown(name, words));
+            mcs(words, job)
+        }
+        Major::Offset => {
+            let help =
+                "let the CAM system write the operations of each work offset into a file of their own: each is a job";
+            fault(Code::PL004, format!("{name} chooses a work offset, and a CL file is printed in one"), help)
+        }
         Major::Turret => {
             job.turning()?;
             load(name, words, state)
@@ -189,7 +203,9 @@ fn is_aside(major: Major, state: &State<'_>) -> bool {
         }
         Major::Stop | Major::Opstop | Major::Delay | Major::Auxfun | Major::Prefun => true,
         // where setups are only listed nothing else counts
-        Major::Cycle | Major::Refused | Major::Msys => state.setups.as_ref().is_some_and(Setups::are_listed),
+        Major::Cycle | Major::Refused | Major::Offset | Major::Msys | Major::Mcs => {
+            state.setups.as_ref().is_some_and(Setups::are_listed)
+        }
         _ => false,
     }
 }

@@ -52,6 +52,7 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
     let motion = &mut state.motion;
     let rapid = std::mem::take(&mut motion.rapid) | std::mem::take(&mut motion.rapid_after_cycle);
     motion.point = Some(to);
+    let frame = motion.frame.take();
     state.job.spindle.is_new = false;
     if let Some(setups) = &mut state.setups {
         let begins = std::mem::take(&mut setups.is_fresh);
@@ -64,6 +65,9 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
             let help = "a program for one setup can't begin inside a cut: the rest is a job for five axes";
             return fault(Code::PL004, "the tool axis turns while the tool cuts", help);
         }
+    }
+    if let Some(frame) = frame {
+        must_agree(frame, state.motion.axis.0)?;
     }
     if let Some(arc) = state.arcs.pending.take() {
         return arc_to(&arc, to, rapid, state);
@@ -78,12 +82,9 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
     if !rapid {
         approach(motion, feeds, job)?;
     }
-    if let Some(frame) = motion.frame.take() {
-        must_agree(frame, motion.axis.0)?;
-    }
     let axes = job.axes(to)?;
-    // for arcs that do not say which way they turn
-    if job.notes.report.dialect.and_then(super::Dialect::sense).is_none() {
+    // for arcs whose sense the caller did not give
+    if job.notes.said_sense().is_none() {
         arcs.heading = motion.position.and_then(|from| Heading::between(from, to)).or(arcs.heading);
     }
     let across = motion.position.is_none_or(|from| from[..2] != to[..2]);

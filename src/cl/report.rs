@@ -1,6 +1,6 @@
 //! What is said about a file besides its events: who wrote it, warnings, facts.
 
-use super::dialect::Dialect;
+use super::dialect::{Dialect, Sense};
 use crate::diag::{Code, Diag, Location};
 use crate::toolpath::Place;
 
@@ -43,6 +43,16 @@ impl<'r> Notes<'r> {
     /// The dialect: as said or seen, else GENER's.
     pub fn dialect(&self) -> Dialect {
         self.report.dialect.unwrap_or(Dialect::Gener)
+    }
+
+    /// Which way circles turn in files of the system that the caller named. GENER's own are left-handed, but only a file
+    /// that the caller named as GENER's is taken for one.
+    #[inline]
+    pub fn said_sense(&self) -> Option<Sense> {
+        match self.report.dialect.filter(|_| self.said)? {
+            Dialect::Gener => Some(Sense::LeftHand),
+            dialect => dialect.sense(),
+        }
     }
 
     /// Who wrote the file shows in its first lines, unless the caller named it.

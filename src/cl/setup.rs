@@ -51,6 +51,11 @@ impl Frame {
     }
 }
 
+/// Does the z of a coordinate system lie along a tool axis?
+pub(super) fn lies_along(z: [f64; 3], axis: [f64; 3]) -> bool {
+    z.iter().zip(axis).all(|(a, b)| (a - b).abs() < LIKE)
+}
+
 /// The setups so far, and which of them is read.
 #[derive(Debug)]
 pub(super) struct Setups {
@@ -99,7 +104,7 @@ impl Setups {
     /// The x of a setup: the CSYS's where its z is the axis; else level, as Fanuc's G68.3 has it.
     fn x_of(&self, axis: [f64; 3]) -> [f64; 3] {
         if let Some([x, z]) = self.csys
-            && z.iter().zip(axis).all(|(a, b)| (a - b).abs() < LIKE)
+            && lies_along(z, axis)
         {
             // square to the axis that the motions have
             return unit(cross(cross(axis, x), axis)).unwrap_or(x);

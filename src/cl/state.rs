@@ -34,8 +34,8 @@ pub(super) struct Motion {
     /// The next motion after the end of a cycle is a rapid, unless a feed comes first.
     pub rapid_after_cycle: bool,
     pub cutcom: Cutcom,
-    /// A coordinate system of the file that no motion has been in: along z of its z axis, and its line.
-    pub frame: Option<(f64, u64)>,
+    /// A coordinate system of the file that no motion has been in: its z axis, and its line.
+    pub frame: Option<([f64; 3], u64)>,
 }
 
 /// The tool axis, a unit vector; a file begins with an upright tool.
@@ -147,10 +147,23 @@ pub(super) enum ReturnMode {
     Off,
 }
 
+impl ReturnMode {
+    /// Where a cycle comes back to whose statement says `coded`: CYCLE/RETURN goes first. `None`: to each hole's
+    /// clearance.
+    pub fn over(self, coded: Option<CodedReturn>) -> Option<CodedReturn> {
+        match self {
+            ReturnMode::AsCoded => coded,
+            ReturnMode::AtStart => Some(CodedReturn::Start),
+            ReturnMode::Above(above) => Some(CodedReturn::Above(above)),
+            ReturnMode::Off => None,
+        }
+    }
+}
+
 /// Where a cycle comes back to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum CodedReturn {
-    /// As high as its clearance.
+    /// As high as the clearance of the first point.
     Clearance,
     /// A height above the first point of the cycle.
     Above(f64),
@@ -169,8 +182,8 @@ pub(super) struct Cycle {
     pub dwell: LastDwell,
     pub emulate: bool,
     pub return_mode: ReturnMode,
-    /// The return plane as the statement said it.
-    pub coded_return: Option<CodedReturn>,
+    /// The return plane of the cycle in force, decided at its statement; `None`: each hole's own clearance.
+    pub returns: Option<CodedReturn>,
     /// Heights that a system says instead of a clearance.
     pub heights: Option<Heights>,
     /// The return plane, once its first point is known: as a height of the file.

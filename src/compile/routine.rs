@@ -77,6 +77,20 @@ pub struct Branch {
 }
 
 impl Routine {
+    /// Does it print this variable, or ask it in a condition?
+    pub fn asks(&self, var: VarId, program: &Program) -> bool {
+        fn of(nodes: &[Node], var: VarId, program: &Program) -> bool {
+            nodes.iter().any(|node| match node {
+                Node::If(branches) => branches.iter().any(|branch| {
+                    branch.condition.is_some_and(|row| program.formulas[row as usize].vars().has(var))
+                        || of(&branch.nodes, var, program)
+                }),
+                _ => false,
+            })
+        }
+        self.vars.has(var) || self.flow.as_ref().is_some_and(|flow| of(&flow.nodes, var, program))
+    }
+
     /// What its operations say together.
     pub(super) fn look_at(&mut self, program: &Program) {
         let (mut vars, mut texts) = (VarSet::default(), TextSet::default());

@@ -15,6 +15,10 @@ pub fn check(spec: &CycleSpec) -> Result<(), Problem> {
     if spec.feed.is_none() && !matches!(spec.kind, Manual | Custom1 | Custom2 | Custom3) {
         return problem(Code::PC005, "the cycle has no feed", "give `feed`");
     }
+    if spec.ratio.is_some_and(|ratio| ratio <= 0.0) {
+        let help = "give a ratio above zero, or take it out";
+        return problem(Code::PC006, "a `ratio` of 0: the tool would never come out", help);
+    }
     if spec.dwell.is_some() && spec.revs.is_some() {
         return problem(
             Code::PC016,

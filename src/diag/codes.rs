@@ -278,7 +278,7 @@ codes! {
     PR022 Note "a rapid printed by a sequence that may feed"
     PR023 Warning "cutter compensation at the end"
     PR024 Note "an arc printed as lines"
-    PR025 Warning "a feed that its format rounds by more than 1 %, or a tap's by more than 0.25 %"
+    PR025 Warning "a feed or speed that its format rounds by more than 1 %, or a tap's by more than 0.25 %"
     PR026 Note "a comment in several blocks"
     PR027 Error "a block that its control does not read"
     PR028 Error "a program that is far longer than its job"
@@ -300,6 +300,7 @@ codes! {
     PR052 Error "what lies ahead in the job is not known"
     PR053 Error "a value that a property does not take"
     PR054 Error "a kind of coolant that the form does not have"
+    PR055 Warning "a cut with the spindle off"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

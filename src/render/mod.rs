@@ -26,6 +26,7 @@ mod properties;
 mod said;
 mod settle;
 mod shape;
+mod standing;
 mod taken;
 mod targets;
 mod texts;
@@ -147,6 +148,9 @@ impl<'p> Renderer<'p> {
             event,
             Event::Line { .. } | Event::Arc { .. } | Event::Infeed { .. } | Event::Outfeed { rapid: false, .. }
         );
+        if want.cutting || matches!(event, Event::Hole(_)) {
+            standing::warn_of_standing(shape, want, out);
+        }
         match event {
             Event::Rapid(to) => rapid::rapid(&to, shape, want, said, out),
             Event::Line { to, feed } => line::line(&to, feed, shape, want, said, out),

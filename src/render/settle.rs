@@ -11,7 +11,7 @@ use super::targets::set_targets;
 use super::upon::{upons, upons_are_printed};
 use super::values::Now;
 use super::want::{Want, is_no_work};
-use super::words::{code_word, letter_word, value_code};
+use super::words::{code_word, letter_word, speed_word, value_code};
 use crate::compile::{LetterKind, Op, Routine, WorkWord};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
@@ -130,7 +130,7 @@ fn print_spindle(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer)
             said.conditions.put(VarId::Speedtype, Some(mode));
         }
         if let Some(speed) = speed {
-            letter_word(settings.speed_code, speed, shape, said, out)?;
+            speed_word(speed, shape, want, said, out)?;
             said.conditions.put(VarId::Speed, Some(speed));
         }
         if let Some(direct) = direct {

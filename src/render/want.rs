@@ -54,6 +54,8 @@ pub struct Want {
     pub compensated: bool,
     /// The item that is printed cuts.
     pub cutting: bool,
+    /// A cut of this operation with the spindle off was told.
+    pub standing_told: bool,
     /// The canned cycle that is open.
     pub cycle: Option<CycleKind>,
 }
@@ -80,6 +82,7 @@ impl Want {
             ends_coolant: None,
             compensated: false,
             cutting: false,
+            standing_told: false,
             cycle: None,
         };
         want.set(VarId::Incmode, settings.inc_abs[usize::from(!settings.incremental)]);

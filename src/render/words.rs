@@ -150,6 +150,14 @@ pub fn letter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, out: 
     Ok(())
 }
 
+/// The speed of the spindle, always printed.
+pub fn speed_word(speed: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+    let letter = shape.program.settings.speed_code;
+    let info = &shape.letters[letter];
+    check_feed(info, VarId::Speed, speed, quantised(info, speed)?, want, out)?;
+    letter_word(letter, speed, shape, said, out)
+}
+
 /// Prints the feed, when it changed; in inverse time always.
 #[inline]
 pub fn feed_word(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
@@ -202,7 +210,7 @@ fn lost_digits(info: &Letter, var: VarId, value: f64, printed: f64, out: &mut Pr
     if out.notes().iter().any(|note| note.message == message) {
         return Ok(());
     }
-    out.note(Code::PR025, message, "give the letter more decimals, or the job a feed that the format can say");
+    out.note(Code::PR025, message, "give the letter more decimals, or the job a value that the format can say");
     Ok(())
 }
 

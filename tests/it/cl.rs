@@ -139,6 +139,8 @@ fn cycles_of_other_systems_are_read_by_their_dialect() {
     let catia = by(Dialect::Catia, "CYCLE/DRILL,5,2,90,MMPM");
     assert_eq!(drilled(&catia), "G99 G81 X1. Y1. Z-5. R2. F90.");
     assert!(by(Dialect::Gener, "CYCLE/DRILL,5,2,90,MMPM")[0].starts_with("PC032"));
+    let feed = by(Dialect::Catia, "FEDRAT/300,MMPM\nCYCLE/DRILL,5,2");
+    assert_eq!(drilled(&feed), "G99 G81 X1. Y1. Z-5. R2. F300.");
     let tap = by(Dialect::Catia, "FEDRAT/1.25,MMPR\nCYCLE/TAP,5,2");
     assert!(tap.iter().any(|line| line.contains("F1250.")) || tap[0].starts_with("PC021"), "{tap:?}");
     assert!(by(Dialect::Gener, "CYCLE/DRILL,FEDTO,5,MMPM,90")[0].starts_with("PC018 `FEDTO`"));
@@ -389,6 +391,11 @@ fn bores_of_nx_come_out_as_they_are_named() {
 fn coordinate_systems_agree_with_the_tool() {
     let turned = "CSYS/1,0,0,0,0,0,-1,-40,0,1,0,-20";
     assert!(error(&format!("{turned}\nGOTO/1,0,10")).starts_with("PL004 the CSYS of line 7"));
+    // also where a hole is the first point, and where it is turned but a little
+    let hole = format!("{turned}\nCYCLE/DRILL,DEPTH,1,MMPM,9,CLEAR,2\nGOTO/1,0,10\nCYCLE/OFF");
+    assert!(error(&hole).starts_with("PL004 the CSYS of line 7"));
+    let little = "CSYS/1,0,.005,0,0,1,0,0,-.005,0,1,0";
+    assert!(error(&format!("{little}\nGOTO/1,0,10")).starts_with("PL004 the CSYS of line 7"));
     let moved = "CSYS/1,0,0,0,0,1,0,0,0,0,1,0\nGOTO/1,0,10\nCSYS/1,0,0,5,0,1,0,0,0,0,1,0\nGOTO/2,0,10";
     assert!(body(moved)[2].starts_with("PL008 this CSYS is not that of line 7"));
 }
@@ -404,6 +411,14 @@ fn turning_is_a_job_for_a_lathe() {
     for block in ["G96", "Z-1.5748", "F.0118"] {
         assert!(rendered.contains(block), "{block} in\n{rendered}");
     }
+    // CATIA describes a turning tool where its number is
+    let told = "TOOLNO/1,TURN,1,0,3,0.4,$\n0.0,0.0,0.1,MMPR,500.0,SFM,$\nCCLW,ON,0.0,NOTE";
+    assert!(text.contains("TOOLNO/1,TURN"));
+    let described = text.replace("TOOLNO/1,TURN", told);
+    let options =
+        postform::internals::render::Options { units: Some(Units::Inch), program: Some(1), ..Default::default() };
+    let same = support::render_kind(&form, described.as_bytes(), support::Kind::Cl, options).unwrap().text;
+    assert_eq!(same, rendered);
     let off = text.replace("28.00000,    0.00000,  -40", "28.00000,    1.00000,  -40");
     let mut summary = Summary::default();
     let Err(ReadError::Job(diag)) = read_cl(off.as_bytes(), &Options::default(), &mut Report::default(), &mut summary)
@@ -703,4 +718,73 @@ fn jobs_are_known_by_how_they_begin() {
         assert_eq!(Job::open("export", &bytes).unwrap().format(), format, "{name}");
     }
     assert!(Job::open("export", b"hello, world").is_err());
+}
+
+/// The return plane is one height for the whole cycle, whatever stands between its points: the tool comes back to the
+/// higher of it and the hole's clearance.
+#[test]
+fn a_return_plane_holds_for_the_whole_cycle() {
+    let drill = "CYCLE/DRILL,DEPTH,10,MMPM,90,CLEAR,3";
+    let points = "GOTO/1,1,0\nGOTO/2,1,-20\nGOTO/3,1,-20\nCYCLE/OFF";
+    let kept = ["X1. Y1.", "Z3.", "G99 G81 X1. Y1. Z-10. R3. F90.", "G98 X2. Z-30. R-17.", "X3.", "G80"];
+    let low = ["X1. Y1.", "Z3.", "G99 G81 X1. Y1. Z-10. R3. F90.", "X2. Z-30. R-17.", "X3.", "G80"];
+    for returns in ["RETURN", "RETURN,3", "RETURN,2", "RETURN,0"] {
+        assert_eq!(body(&format!("{drill},{returns}\n{points}")), kept, "{returns}");
+    }
+    assert_eq!(body(&format!("CYCLE/RETURN,3\n{drill}\n{points}")), kept);
+    // no plane: none said, or OFF before the cycle; OFF inside it is for the next one
+    assert_eq!(body(&format!("{drill}\n{points}")), low);
+    assert_eq!(body(&format!("CYCLE/RETURN,OFF\n{drill},RETURN\n{points}")), low);
+    assert_eq!(body(&format!("{drill},RETURN\nCYCLE/RETURN,OFF\n{points}")), kept);
+    let catia = Options { dialect: Some(Dialect::Catia), ..Options::default() };
+    assert_eq!(read(&format!("{HEAD}{drill},RETURN,0\n{points}\nFINI\n"), catia)[1..], low);
+    // statements between holes, before one above the plane
+    for between in [
+        "RAPID\nGOTO/2,2,40",
+        "CYCLE/AUTO,OFF\nCYCLE/AUTO,ON",
+        "SPINDL/900,CLW",
+        "COOLNT/FLOOD",
+        "DELAY/1",
+        "PPRINT/HALF",
+    ] {
+        let holes = format!("GOTO/1,1,0\n{between}\nGOTO/2,1,25\nGOTO/3,1,0\nGOTO/4,1,-10\nCYCLE/OFF");
+        let lines = body(&format!("{drill},RETURN,20\n{holes}"));
+        assert!(lines.contains(&"G98 X3. Z-10. R3.".to_owned()), "{between}: {lines:?}");
+    }
+    assert!(error("CYCLE/DRILL,DEPTH,10,MMPM,90,RETURN\nGOTO/1,1,0").starts_with("PC040 RETURN without a height"));
+    let manual = body("CYCLE/RETURN,20\nCYCLE/MANUAL,CLEAR,4\nGOTO/1,1,0\nCYCLE/OFF");
+    assert!(manual.contains(&"M0".to_owned()), "{manual:?}");
+}
+
+/// A CSYS that turns back, and points that do not: on which side of the part they lie is not known.
+#[test]
+fn a_setup_ends_where_a_csys_turns_back() {
+    let up = "CSYS/1,0,0,0,0,1,0,0,0,0,1,0\n";
+    let text = TWO_SIDES.replace("RAPID\nGOTO/0,0,50,0,0,1", &format!("{up}RAPID\nGOTO/0,0,50"));
+    let refused = front_of(&text, 2);
+    assert!(refused[0].starts_with("PL004 the CSYS of line 25 "), "{refused:?}");
+    let said = text.replace(up, &format!("{up}TLAXIS/0,0,1\n"));
+    assert_eq!(front_of(&said, 3), ["G0 X0 Y0 Z50.", "G1 Z1. F100."]);
+}
+
+/// What the mark of a known system means by a CIRCLE is checked at its arcs, as in a file of an unknown system.
+#[test]
+fn the_arcs_of_a_marked_file_agree_with_its_mark() {
+    let csi = |k: i32| format!("CSI_TOOL_PATH/A\n{HEAD}GOTO/1,0,10\nCIRCLE/1,1,10,0,0,{k},1\nGOTO/2,1,10\nFINI\n");
+    assert_eq!(read(&csi(1), Options::default())[2], "G17 G3 X2. Y1. I0 J1.");
+    let other = read(&csi(-1), Options::default());
+    assert!(other[0].starts_with("PL006 this CIRCLE turns the other way than those of SolidWorks CAM"), "{other:?}");
+    let said = Options { dialect: Some(Dialect::Gener), ..Options::default() };
+    assert_eq!(read(&csi(-1), said)[2], "G17 G3 X2. Y1. I0 J1.");
+}
+
+/// A statement that chooses a work offset or a frame is no remark.
+#[test]
+fn work_offsets_and_frames_of_cl_files_are_not_passed_over() {
+    assert!(error("GOTO/1,0,10\nZERO/2").starts_with("PL004 ZERO chooses a work offset"));
+    let upright = "MCS/1,0,0,$\n0,1,0,$\n0,0,1,$\n0,0,0";
+    assert_eq!(body(&format!("{upright}\nGOTO/1,0,10")), ["G1 X1. F100."]);
+    let other = format!("{upright}\nGOTO/1,0,10\n{}", upright.replace("0,0,0", "5,0,0"));
+    assert!(error(&other).starts_with("PL004 this MCS is not that of line 7"));
+    assert!(error("MCS/1,0,0,0,0,-1,0,1,0,0,0,0").starts_with("PL004 an MCS that is turned"));
 }

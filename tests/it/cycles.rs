@@ -207,6 +207,8 @@ fn wrong_combinations_have_names() {
         ("DEEP,DEPTH,2,1,MMPM,5", "depth.order"),
         ("DRILL,DEPTH,1", "feed.missing"),
         ("DRILL,DEPTH,1,MMPM,0", "feed.nonpositive"),
+        ("TAP,FLOAT,DEPTH,1,MMPM,5,RATIO,0", "feed.nonpositive"),
+        ("REAM,DEPTH,1,MMPM,5,RATIO,0", "feed.nonpositive"),
         ("DRILL,DEPTH,1,MMPM,5,MMPM,6", "feed.multiple"),
         ("DRILL,DEPTH,1,TPI,20", "feed.tpi_only_tap"),
         ("DRILL,DEPTH,1,MMPM,5,CLEAR,2,1", "clear2.not_allowed"),

@@ -54,7 +54,10 @@ fn a_work_offset_makes_positions_unknown() {
 #[test]
 fn nothing_is_known_after_verbatim_text() {
     let path = "{\"line\":[1,1,0]},{\"text\":\"G65 P9001\"},{\"line\":[1,2,0]}";
-    assert_eq!(path_lines("", "", path), ["G1 X1. Y1. Z0 F10.", "G65 P9001", "G54", "S1000 M3", "G94", "G1 X1. Y2. Z0 F10."]);
+    assert_eq!(
+        path_lines("", "", path),
+        ["G1 X1. Y1. Z0 F10.", "G65 P9001", "G54", "S1000 M3", "G94", "G1 X1. Y2. Z0 F10."]
+    );
 }
 
 /// Text in backquotes changes what is known as the same words do when they are typed.
@@ -269,6 +272,33 @@ fn a_number_that_does_not_fit_is_an_error() {
     assert!(path_lines("X >2.>4", "", "{\"line\":[-1,0,0]}")[0].starts_with("PR003"));
     assert!(path_lines("F >3", "", "{\"line\":[1,0,0],\"feed\":0.4}")[0].starts_with("PR002"));
     assert!(path_lines("G 2", "", "{\"work\":59.1},{\"line\":[1,0,0]}")[0].starts_with("PR002"));
+    // a speed that its format rounds to 0
+    let slow = path_lines("S >5", "", "{\"spindle\":{\"speed\":0.4}},{\"line\":[1,0,0]}");
+    assert!(slow[0].starts_with("PR002 [speed] is 0.4 and prints as 0"), "{slow:?}");
+    let slow = program(&mill("S >5", ""), &job("{\"line\":[1,0,0]}").replace("\"speed\":1000", "\"speed\":0.4"));
+    assert!(slow[0].starts_with("PR002 [speed]"), "{slow:?}");
+}
+
+/// A mill that cuts with its spindle off is seldom meant: a warning for each operation.
+#[test]
+fn a_cut_with_the_spindle_off_is_warned_of() {
+    let told = |path: &str| {
+        let notes = support::render(&mill("", ""), &job(path)).unwrap().notes;
+        notes.into_iter().filter(|note| note.code.name() == "PR055").map(|note| note.message).collect::<Vec<_>>()
+    };
+    let off = "{\"spindle\":{\"direction\":\"off\"}},{\"line\":[1,0,0]},{\"line\":[2,0,0]}";
+    assert_eq!(told(off), ["tool 1 cuts with the spindle off"]);
+    assert_eq!(told("{\"spindle\":{\"speed\":0}},{\"line\":[1,0,0]}").len(), 1);
+    assert_eq!(told("{\"line\":[1,0,0]},{\"spindle\":{\"direction\":\"off\"}},{\"rapid\":[2,0,1]}"), [""; 0]);
+}
+
+/// A floating tap whose form taps rigidly is told: the holder is another.
+#[test]
+fn a_floating_tap_by_a_rigid_sequence_is_told() {
+    let form = mill("RigidTap? Y", "Tap\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel");
+    let tap = "{\"cycle\":{\"kind\":\"tap\",\"rigid\":false,\"depth\":1,\"clear\":1,\"feed\":50,\"points\":[[1,1,0]]}}";
+    let notes = support::render(&form, &job(tap)).unwrap().notes;
+    assert!(notes.iter().any(|note| note.code.name() == "PR021"), "{notes:?}");
 }
 
 /// Metric lengths in an inch program move 25.4 times as far.

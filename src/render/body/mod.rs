@@ -74,8 +74,9 @@ const POSITIONS: VarSet = VarSet::of(&[
     VarId::Pointd,
 ]);
 
-/// Variables of feeds, pecks and dwells: rounded to nothing, they would stop the machine, never end, or not be.
-const FEEDS: VarSet = VarSet::of(&[VarId::Frate, VarId::Plunge, VarId::Pitch, VarId::Vbite, VarId::Dwell]);
+/// Variables of feeds, speeds, pecks and dwells: rounded to nothing, they would stop the machine, never end, or not be.
+const FEEDS: VarSet =
+    VarSet::of(&[VarId::Frate, VarId::Plunge, VarId::Pitch, VarId::Vbite, VarId::Dwell, VarId::Speed]);
 
 /// Runs a whole sequence in which every word prints.
 pub fn run_all(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {

@@ -33,10 +33,14 @@ pub fn choose_sequence(spec: &CycleSpec, shape: &Shape, out: &mut Printer) -> Do
     let rigid = is_rigid(spec, shape);
     let emulated = shape.options.cycles == Cycles::Emulated || spec.emulate && !rigid;
     let candidate = candidate(spec, shape).filter(|_| !emulated);
-    let floats = |routine: &Routine| !program.settings.rigid_tap && !routine.vars.has(VarId::Rigid);
+    let floats = |routine: &Routine| !program.settings.rigid_tap && !routine.asks(VarId::Rigid, program);
     if rigid && spec.rigid == Some(true) && candidate.and_then(|id| program.routine(id)).is_some_and(floats) {
         let message = "a rigid tap, and the form's tap is for a floating holder";
-        return fault(Code::PC021, message, "say `RigidTap? Y` in the form where its tap is rigid, or print [rigid]");
+        return fault(
+            Code::PC021,
+            message,
+            "say `RigidTap? Y` in the form where its tap is rigid, or ask `@if [rigid]` in it",
+        );
     }
     let why = match candidate.and_then(|id| program.routine(id).map(|routine| (id, routine))) {
         Some((id, routine)) => match cannot_say(spec, routine, shape) {
@@ -48,7 +52,11 @@ pub fn choose_sequence(spec: &CycleSpec, shape: &Shape, out: &mut Printer) -> Do
     };
     if rigid {
         let message = format!("a rigid tap can't be made of single moves, and {why}");
-        return fault(Code::PC021, message, "add a Tap sequence that prints what the tap needs");
+        return fault(
+            Code::PC021,
+            message,
+            "print it in the form's Tap; what no form prints (`ratio`, `decr`, `pecks`) is the control's to set: take it out of the cycle",
+        );
     }
     if candidate.is_some() {
         out.note(Code::PR014, format!("the cycle is printed as single moves: {why}"), "look at the moves");

@@ -15,7 +15,7 @@ use crate::render::settle::settle;
 use crate::render::shape::Shape;
 use crate::render::targets::set_targets;
 use crate::render::want::Want;
-use crate::render::words::{code_word, dwell_block, letter_word, parameter_word, value_code};
+use crate::render::words::{code_word, dwell_block, parameter_word, speed_word, value_code};
 
 /// A hole as single moves.
 pub fn generated_hole(
@@ -121,7 +121,7 @@ fn spindle_block(
             let help = "give the operation a spindle speed, or take `ratio` out";
             return fault(Code::PC009, "a tap that comes out faster must turn faster, and its speed is unknown", help);
         };
-        letter_word(shape.program.settings.speed_code, speed * times, shape, said, out)?;
+        speed_word(speed * times, shape, want, said, out)?;
     }
     value_code(b'M', code, shape, want, said, out)?;
     out.end_block();

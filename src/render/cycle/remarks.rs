@@ -1,5 +1,6 @@
 //! What a cycle leaves out or contradicts, without being wrong.
 
+use super::planned::SAME;
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
 use crate::render::printer::Printer;
@@ -15,7 +16,8 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
         out.note(Code::PC060, message, "give the cycle a `step`, or the form a `CycleStep`");
     }
     let clear = spec.clear.unwrap_or(shape.defaults.clear);
-    if let Some(height) = spec.return_height.filter(|&height| height < clear) {
+    // a first point above the plane comes back to its own clearance: no contradiction
+    if let Some(height) = spec.return_height.filter(|height| (0.0..clear - SAME).contains(height)) {
         let message = format!("the return plane, {height} above the point, is below the clearance, {clear}");
         out.note(Code::PC053, message, "the clearance is used: give `return` above `clear`, or leave it out");
     }
@@ -51,6 +53,12 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
     if spec.min_step.is_some() && spec.decr.is_none() && shape.program.settings.cycle_min_step == 0.0 {
         let message = "`min_step` without effect: the steps do not shrink";
         out.note(Code::PC055, message.into(), "take it out, or give `decr`");
+    }
+    let floats = spec.kind.is_tap() && spec.rigid == Some(false) && !spec.norevr && !spec.rapout;
+    let asks = |id| shape.program.routine(id).is_some_and(|routine| routine.asks(VarId::Rigid, shape.program));
+    if floats && shape.program.settings.rigid_tap && sequence.is_some_and(|id| !asks(id)) {
+        let help = "nothing, if a floating holder may be tapped rigidly; else print what differs in `@if [rigid]`";
+        out.note(Code::PR021, "a floating tap, and the form's tap is rigid".into(), help);
     }
     if let (Some(mode), true) = (spec.mode, sequence.is_some()) {
         let message = format!("how the tap pecks, here `{}`, is the control's own setting", mode.name());

@@ -47,6 +47,7 @@ pub fn tool_change(
         let help = "load a tool before the first motion, or give a CL file one with `--assume-tool`";
         return fault(Code::PJ006, "the operation has no tool", help);
     }
+    want.standing_told = false;
     set_conditions(change, changes, shape, want, out)?;
     want.texts.operation(change, shape);
     match &change.tool {

@@ -147,6 +147,7 @@ struct WordsOf {
     letters: Option<Spanned<String>>,
     everywhere: Option<Spanned<String>>,
     work: Option<Spanned<String>>,
+    most_work: Option<u16>,
 }
 
 /// `[coolant]`: what of it the machine has.
@@ -182,6 +183,7 @@ struct RowText {
     pitch: Option<Spanned<String>>,
     text: Option<String>,
     not_run: Option<String>,
+    only: Option<Spanned<String>>,
 }
 
 /// What stands for the meaning of a code that the control has not, though the one that it is like has it.
@@ -305,6 +307,9 @@ impl Reader<'_> {
         if let Some(letter) = &file.words.work {
             traits.work_letter = Some(self.letter(letter)?);
         }
+        if let Some(most) = file.words.most_work {
+            traits.most_work = Some(most);
+        }
         if let Some(letters) = &file.words.letters {
             traits.letters = self.words(letters)?;
         }
@@ -357,7 +362,8 @@ impl Reader<'_> {
             let makes = row.makes.as_ref().map_or(Ok(Vec::new()), |makes| self.holes(makes))?;
             let pitch = row.pitch.as_ref().map(|letter| self.letter(letter)).transpose()?;
             let (code, text) = (Code { letter: b'G', tenths: 0 }, row.text.clone().unwrap_or_default());
-            let row = Row { code, meaning, words, makes, pitch, text, not_run: row.not_run.clone() };
+            let only = row.only.as_ref().map_or(Ok(Vec::new()), |only| self.values(only))?;
+            let row = Row { code, meaning, words, makes, pitch, text, not_run: row.not_run.clone(), only };
             match parsed {
                 Key::One(code) => rows.put(Row { code, ..row }),
                 Key::Range(first, last) => {
@@ -372,6 +378,19 @@ impl Reader<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Words with their values, as `P0 P10000`.
+    fn values(&self, text: &Spanned<String>) -> Result<Vec<(u8, f64)>, Wrong> {
+        let parse = |word: &str| {
+            let letter = word.bytes().next().filter(u8::is_ascii_uppercase)?;
+            Some((letter, word[1..].parse::<f64>().ok().filter(|value| value.is_finite())?))
+        };
+        let values = text.get_ref().split_ascii_whitespace().map(|word| {
+            let message = || format!("`{}` is no word with its value", word.escape_default());
+            parse(word).ok_or_else(|| self.wrong(text.span().start, message(), "write them as \"P0 P10000\""))
+        });
+        values.collect()
     }
 
     fn words(&self, words: &Spanned<String>) -> Result<Words, Wrong> {

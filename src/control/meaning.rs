@@ -183,6 +183,7 @@ meanings! {
     MacroOff         "macro-off"         None, Free,              "ends calls of a macro";
     Call             "call"              None, Free,              "calls a subprogram";
     Return           "return"            None, Free,              "returns from a subprogram";
+    Output           "output"            None, Free,              "sets an output of the machine";
     Override         "override"          None, Free,              "overrides of feed and speed on or off";
     Harmless         "harmless"          None, Free,              "changes nothing that is compared";
     Unsaid           "unsaid"            None, Free,              "is known, and does what no meaning says";

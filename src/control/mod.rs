@@ -50,6 +50,8 @@ pub struct Row {
     pub text: String,
     /// Why it can't be run, though its meaning is known.
     pub not_run: Option<String>,
+    /// The words, with their values, beside one of which it has this meaning; none: beside any.
+    pub only: Vec<(u8, f64)>,
 }
 
 /// The rows of a control, found by code.

@@ -140,6 +140,8 @@ pub struct Traits {
     pub everywhere: Words,
     /// The letter of a word that selects a work offset, beside its codes.
     pub work_letter: Option<u8>,
+    /// The highest number of that word.
+    pub most_work: Option<u16>,
     /// The letters of all words that it reads; none: nothing public says.
     pub letters: Words,
     /// Blanks and comments do not count for the length of a block.

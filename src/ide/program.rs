@@ -13,12 +13,12 @@ use crate::span::Span;
 /// What a control says of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checked {
-    /// What the control warns of, and what it refuses at the end.
+    /// What the control warns of, and what it refuses.
     pub diags: Vec<Diag>,
     /// Blocks that were run.
     pub blocks: u64,
-    /// The control refuses a block: what stands behind that is not looked at.
-    pub refused: bool,
+    /// How many blocks the control refuses; the others are run.
+    pub refused: u64,
     /// The program was not run to its end, because that would take too long while somebody types.
     pub cut: bool,
 }
@@ -33,7 +33,8 @@ const MOST_FINDINGS: usize = 200;
 pub fn check(text: &str, control: &'static Control) -> Checked {
     let mut checked = run(text, RunSettings::new(control));
     let unpointed = |diag: &Diag| diag.code == FindingCode::PN017;
-    if let Some(mut told) = checked.diags.pop_if(|diag| unpointed(diag)) {
+    if let Some(at) = checked.diags.iter().position(unpointed) {
+        let mut told = checked.diags.swap_remove(at);
         told.severity = Severity::Warning;
         told.help = Some("write X1. for whole units; the rest is read as if each had a point".into());
         checked = run(text, RunSettings { unpointed: Unpointed::Whole, ..RunSettings::new(control) });
@@ -60,8 +61,10 @@ fn run(text: &str, settings: RunSettings) -> Checked {
             Ok(false) | Err(RunError::Io(_)) => break,
             Err(RunError::Refused(diag, _)) => {
                 checked.diags.push(*diag);
-                checked.refused = true;
-                break;
+                checked.refused += 1;
+                if checked.diags.len() > MOST_FINDINGS || !simulator.pass_over() {
+                    break;
+                }
             }
         }
     }
@@ -149,19 +152,19 @@ mod tests {
     fn what_a_control_refuses_is_found_with_its_word() {
         let text = "G21 G90\nG1 X1 F100\nG5 X3\nM30\n";
         let checked = check(text, control("grbl"));
-        assert!(checked.refused && checked.diags.len() == 1, "{checked:?}");
+        assert!(checked.refused == 1 && checked.diags.len() == 1, "{checked:?}");
         let source = Source::from_text("p.nc", text);
         let span = place(&source, checked.diags[0].place.as_ref().unwrap());
         assert_eq!(source.line(span.start), 2);
         let right = check("G21 G90\nG1 X1 F100\nM30\n", control("grbl"));
-        assert_eq!((right.refused, right.blocks, right.diags.len()), (false, 3, 0));
+        assert_eq!((right.refused, right.blocks, right.diags.len()), (0, 3, 0));
     }
 
     #[test]
     fn lengths_without_a_point_are_told_once_and_the_rest_is_read() {
         let checked = check("G21 G90 G54\nG1 X1 F100.\nX2\nG5.9 X1.\nM30\n", control("haas"));
         let told: Vec<_> = checked.diags.iter().map(|diag| (diag.code.name(), diag.severity)).collect();
-        assert_eq!((told[0], checked.refused), (("PN017", Severity::Warning), true), "{told:?}");
+        assert_eq!((told[0], checked.refused), (("PN017", Severity::Warning), 1), "{told:?}");
         assert_eq!(checked.diags.last().and_then(|diag| diag.place.as_ref()?.line), Some(4));
     }
 

@@ -322,6 +322,7 @@ fn read_nc(
     let settings = RunSettings {
         unpointed: reading.unpointed,
         units: reading.units.unwrap_or(Units::Mm),
+        assumed: reading.control.is_none(),
         ..RunSettings::new(reading.control.unwrap_or_else(Control::usual))
     };
     let tool = reading.tool.as_ref().and_then(Assumed::one);

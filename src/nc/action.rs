@@ -25,6 +25,8 @@ pub enum Action {
         to: Position,
         /// Axes that stand at a place in machine coordinates, as bits: where that is in the work is known only there.
         machine: u8,
+        /// Those of them that increments have moved since, so that their position is unknown.
+        astray: u8,
     },
     /// A straight feed move.
     Feed {
@@ -34,6 +36,8 @@ pub enum Action {
         feed: f64,
         /// Feed follows the spindle, by so much a turn: threads.
         lead: Option<f64>,
+        /// Axes whose position only the machine knows, as bits.
+        machine: u8,
     },
     /// An arc or helix at feed.
     Arc(Turn),
@@ -143,6 +147,20 @@ pub struct Turn {
     pub turns: u32,
     /// Feed of the arc, in the feed mode's unit.
     pub feed: f64,
+    /// Axes of its end whose position only the machine knows, as bits.
+    pub machine: u8,
+}
+
+/// Which heights of a hole the program gives; the others only the machine knows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Heights {
+    /// All of them.
+    #[default]
+    Given,
+    /// All but the level to which it returns.
+    ButClear,
+    /// None: they are increments from a place of the machine.
+    Unknown,
 }
 
 /// A hole of a control's canned cycle: all its words, resolved.
@@ -171,4 +189,6 @@ pub struct Drilling {
     pub level: f64,
     /// Feed into the hole, in the feed mode's unit.
     pub feed: f64,
+    /// Which of its heights the program gives.
+    pub heights: Heights,
 }

@@ -75,7 +75,8 @@ impl State {
             }
         };
         // less than a turn, unless it ends where it begins
-        let turn = Turn { to, center, plane: self.modes.plane, direction, turns: turns as u32 - 1, feed };
+        let machine = self.place.at_machine;
+        let turn = Turn { to, center, plane: self.modes.plane, direction, turns: turns as u32 - 1, feed, machine };
         self.place.position = to;
         out.push(Action::Arc(turn));
         Ok(())

@@ -4,7 +4,7 @@ use super::codes::{AXES, CHECKED, Group, bit};
 use super::fault::{Done, refuse};
 use super::flow::Flow;
 use super::parameters::Target;
-use crate::control::{Control, GROUPS, Meaning, Row};
+use crate::control::{GROUPS, Meaning, Row};
 use crate::diag::Code;
 use crate::toolpath::Plane;
 
@@ -179,30 +179,34 @@ impl Block {
         place.map(|place| *place = Some((number, row))).is_some()
     }
 
-    /// Are all words used, where this is the code of its motion?
+    /// Are all words used, where this is the code of its motion? `free`: the letters that need no code, as bits.
     ///
     /// # Errors
     /// A word that nothing uses.
     #[inline]
-    pub fn check_words(&self, motion: Option<&Row>, control: &'static Control) -> Done {
+    pub fn check_words(&self, motion: Option<&Row>, free: u32) -> Done {
         if self.given & CHECKED == 0 && !self.spindle {
             return Ok(());
         }
-        self.check_used(motion, control)
+        self.check_used(motion, free)
     }
 
-    fn check_used(&self, motion: Option<&Row>, control: &'static Control) -> Done {
+    fn check_used(&self, motion: Option<&Row>, free: u32) -> Done {
         let mut used = motion.map_or(0, |row| row.words.bits());
         if self.has_g {
             used |= self.g.iter().flatten().fold(0, |words, row| words | row.words.bits());
         }
         used |= self.m().fold(0, |words, (_, row)| words | row.words.bits());
-        used |= control.traits().everywhere.bits();
+        used |= free;
         let unused = self.given & CHECKED & !used;
         if unused != 0 {
             let letter = char::from(b'A' + unused.trailing_zeros() as u8);
             let message = format!("{letter} is there, and no code that uses it");
-            return refuse(Code::PN005, message, format!("take the {letter} out, or write its code in this block"));
+            let help = match letter {
+                'H' => "write G43 with it, or name the control: `--control`, for a job `--job-control`".to_owned(),
+                _ => format!("take the {letter} out, or write its code in this block"),
+            };
+            return refuse(Code::PN005, message, help);
         }
         let spindle =
             self.m().any(|(_, row)| row.meaning == Meaning::Orient || row.meaning.group() == Some(Group::Spindle))

@@ -1,6 +1,6 @@
 //! What a canned cycle does at its hole, once it stands over it.
 
-use super::action::{Action, Drilling, Position, Rotation};
+use super::action::{Action, Drilling, Heights, Position, Rotation};
 use super::arcs::axes_of;
 use super::fault::{Done, refuse};
 use super::out::Out;
@@ -45,14 +45,48 @@ impl State {
         })
     }
 
+    /// The tool comes to a height of the hole; `clear`: to the level of its return.
+    fn comes_to(&mut self, hole: &Drilling, clear: bool) {
+        let [_, _, across] = axes_of(hole.plane);
+        match hole.heights {
+            Heights::Unknown => self.place.strays(1 << across),
+            Heights::ButClear if clear => self.place.goes_home(1 << across),
+            Heights::Given | Heights::ButClear => self.place.given(across),
+        }
+    }
+
     #[inline]
-    fn rapid_over(&mut self, hole: &Drilling, height: f64, out: &mut Out<'_>) {
+    pub(super) fn rapid_over(&mut self, hole: &Drilling, height: f64, out: &mut Out<'_>) {
+        self.comes_to(hole, false);
         self.place.rapid_to(hole.over(height), out);
+    }
+
+    /// To the level to which the cycle returns.
+    #[inline]
+    pub(super) fn rapid_clear(&mut self, hole: &Drilling, out: &mut Out<'_>) {
+        self.comes_to(hole, true);
+        self.place.rapid_to(hole.over(hole.clear), out);
     }
 
     #[inline]
     fn feed_over(&mut self, hole: &Drilling, height: f64, out: &mut Out<'_>) {
-        self.place.feed_to(hole.over(height), hole.feed, out);
+        self.comes_to(hole, false);
+        self.place.feed_to(hole.over(height), hole.feed, None, out);
+    }
+
+    fn feed_clear(&mut self, hole: &Drilling, out: &mut Out<'_>) {
+        self.comes_to(hole, true);
+        self.place.feed_to(hole.over(hole.clear), hole.feed, None, out);
+    }
+
+    fn rapid_beside(&mut self, hole: &Drilling, height: f64, out: &mut Out<'_>) {
+        self.comes_to(hole, false);
+        self.place.rapid_to(hole.beside(height), out);
+    }
+
+    fn clear_beside(&mut self, hole: &Drilling, out: &mut Out<'_>) {
+        self.comes_to(hole, true);
+        self.place.rapid_to(hole.beside(hole.clear), out);
     }
 
     /// Drills, from over the hole at R to over the hole at the clear level. `from`: the hole was begun, and its next peck
@@ -62,21 +96,23 @@ impl State {
         match hole.code {
             810 => {
                 self.feed_over(hole, hole.bottom, out);
-                self.rapid_over(hole, hole.clear, out);
+                self.rapid_clear(hole, out);
             }
             820 => {
                 self.feed_over(hole, hole.bottom, out);
                 out.push(Action::Dwell(hole.dwell));
-                self.rapid_over(hole, hole.clear, out);
+                self.rapid_clear(hole, out);
             }
             730 | 830 => return self.pecks(hole, from, out),
             740 | 840 => return self.tap(hole, from, out),
             850 => {
                 self.feed_over(hole, hole.bottom, out);
                 // the old manual feeds out all the way
-                self.feed_over(hole, if emc2 { hole.clear } else { hole.r }, out);
-                if !emc2 {
-                    self.rapid_over(hole, hole.clear, out);
+                if emc2 {
+                    self.feed_clear(hole, out);
+                } else {
+                    self.feed_over(hole, hole.r, out);
+                    self.rapid_clear(hole, out);
                 }
             }
             860 => {
@@ -84,7 +120,7 @@ impl State {
                 self.feed_over(hole, hole.bottom, out);
                 out.push(Action::Dwell(hole.dwell));
                 self.turn(Rotation::Stop, out);
-                self.rapid_over(hole, hole.clear, out);
+                self.rapid_clear(hole, out);
                 self.turn(turning, out);
             }
             870 => self.back_bore(hole, out)?,
@@ -99,22 +135,23 @@ impl State {
                         Code::PN034,
                         "G88 does not retract: the operator does, and the next hole is approached as if so",
                     ));
+                    self.comes_to(hole, true);
                     self.place.position = hole.over(hole.clear);
                 } else {
-                    self.rapid_over(hole, hole.clear, out);
+                    self.rapid_clear(hole, out);
                 }
                 self.turn(turning, out);
             }
             890 if self.control.is_linuxcnc() => {
                 self.feed_over(hole, hole.bottom, out);
                 out.push(Action::Dwell(hole.dwell));
-                self.feed_over(hole, hole.clear, out);
+                self.feed_clear(hole, out);
             }
             890 => {
                 self.feed_over(hole, hole.bottom, out);
                 out.push(Action::Dwell(hole.dwell));
                 self.feed_over(hole, hole.r, out);
-                self.rapid_over(hole, hole.clear, out);
+                self.rapid_clear(hole, out);
             }
             760 => self.fine_bore(hole, out),
             _ => {}
@@ -154,7 +191,7 @@ impl State {
         if hole.dwell > 0.0 && !self.control.is_linuxcnc() {
             out.push(Action::Dwell(hole.dwell));
         }
-        self.rapid_over(hole, hole.clear, out);
+        self.rapid_clear(hole, out);
         Ok(None)
     }
 
@@ -170,7 +207,7 @@ impl State {
             depth = (depth - hole.peck).max(hole.bottom);
             self.feed_over(hole, depth, out);
             out.push(Action::Dwell(0.25));
-            self.rapid_over(hole, hole.clear, out);
+            self.rapid_clear(hole, out);
         }
         None
     }
@@ -191,7 +228,6 @@ impl State {
             return refuse(Code::PN012, format!("{name} with the spindle turning the other way"), help);
         }
         let outwards = inwards.reversed();
-        let clear = if linuxcnc { hole.clear } else { hole.r };
         if from.is_none() && !linuxcnc && self.drive.spindle != inwards {
             self.turn(inwards, out);
         }
@@ -208,14 +244,16 @@ impl State {
             wait(hole, out);
             self.turn(outwards, out);
         }
-        self.feed_over(hole, clear, out);
         if linuxcnc {
+            self.feed_clear(hole, out);
             self.turn(Rotation::Stop, out);
+        } else {
+            self.feed_over(hole, hole.r, out);
         }
         self.turn(inwards, out);
         if !linuxcnc {
             self.drive.spindle = inwards;
-            self.rapid_over(hole, hole.clear, out);
+            self.rapid_clear(hole, out);
         }
         Ok(None)
     }
@@ -251,9 +289,9 @@ impl State {
     fn leave_aside(&mut self, hole: &Drilling, turning: Rotation, out: &mut Out<'_>) {
         self.turn(Rotation::Stop, out);
         out.push(Action::Orient(0.0));
-        self.place.rapid_to(hole.beside(hole.bottom), out);
-        self.place.rapid_to(hole.beside(hole.clear), out);
-        self.rapid_over(hole, hole.clear, out);
+        self.rapid_beside(hole, hole.bottom, out);
+        self.clear_beside(hole, out);
+        self.rapid_clear(hole, out);
         self.turn(turning, out);
     }
 
@@ -264,8 +302,8 @@ impl State {
             // a Fanuc's R is below, and Z above: it stands at the initial level now
             self.turn(Rotation::Stop, out);
             out.push(Action::Orient(0.0));
-            self.place.rapid_to(hole.beside(hole.clear), out);
-            self.place.rapid_to(hole.beside(hole.r), out);
+            self.clear_beside(hole, out);
+            self.rapid_beside(hole, hole.r, out);
             self.rapid_over(hole, hole.r, out);
             self.turn(turning, out);
             self.feed_over(hole, hole.bottom, out);
@@ -273,10 +311,10 @@ impl State {
             self.leave_aside(hole, turning, out);
             return Ok(());
         }
-        self.place.rapid_to(hole.beside(hole.r), out);
+        self.rapid_beside(hole, hole.r, out);
         self.turn(Rotation::Stop, out);
         out.push(Action::Orient(0.0));
-        self.place.rapid_to(hole.beside(hole.bottom), out);
+        self.rapid_beside(hole, hole.bottom, out);
         self.rapid_over(hole, hole.bottom, out);
         self.turn(turning, out);
         self.feed_over(hole, hole.level, out);

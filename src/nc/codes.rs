@@ -126,6 +126,7 @@ const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
         | M::ToolChange
         | M::Call
         | M::Return
+        | M::Output
         | M::Override => letter == b'M',
         M::Harmless => true,
         // what they do is written elsewhere, or known only at the machine

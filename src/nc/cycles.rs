@@ -1,6 +1,6 @@
 //! Canned cycles of LinuxCNC and EMC2: what their words mean, how they go from hole to hole (nc.md section 2).
 
-use super::action::{Action, Drilling};
+use super::action::{Action, Drilling, Heights};
 use super::arcs::{CENTERS, axes_of};
 use super::block::Block;
 use super::codes::{Name, letters};
@@ -44,8 +44,9 @@ impl State {
         }
         if !self.holes.series.running || self.control.rules() == Rules::Emc2 {
             self.holes.series.initial = self.place.position[across];
+            self.holes.series.initial_unknown = self.is_unknown(across);
         }
-        let initial = self.holes.series.initial;
+        let (initial, unknown) = (self.holes.series.initial, self.holes.series.initial_unknown);
         let (plane_r, bottom) = if self.modes.absolute { (r, depth) } else { (initial + r, initial + r + depth) };
         if plane_r < bottom {
             let message = format!("the R plane {plane_r} is below the bottom {bottom}");
@@ -54,14 +55,21 @@ impl State {
         self.holes.series.r = Some(r);
         self.holes.series.depth = Some(depth);
         // straight up first, where it is
-        if initial < plane_r {
+        if initial < plane_r && !unknown {
             let mut to = self.place.position;
             to[across] = plane_r;
             out.by_cycle = true;
             self.place.rapid_to(to, out);
         }
         let hole = self.words(code, same, block, name)?;
+        let heights = match (unknown, self.modes.absolute) {
+            (false, _) => Heights::Given,
+            (true, false) => Heights::Unknown,
+            (true, true) if self.modes.to_initial => Heights::ButClear,
+            (true, true) => Heights::Given,
+        };
         let hole = Drilling {
+            heights,
             r: plane_r,
             bottom,
             clear: if self.modes.to_initial { initial.max(plane_r) } else { plane_r },
@@ -119,17 +127,21 @@ impl State {
         }
         for axis in [first, second] {
             if let Some(value) = self.axis_word(block, axis) {
-                at[axis] = if self.modes.absolute { value } else { at[axis] + value };
-                self.place.at_machine &= !(1 << axis);
+                if self.modes.absolute {
+                    at[axis] = value;
+                    self.place.given(axis);
+                } else {
+                    at[axis] += value;
+                    self.place.moves_by(axis, value);
+                }
             }
         }
-        self.place.at_machine &= !(1 << across);
         let hole = work.hole;
         self.announce(&hole, out);
         out.by_cycle = true;
-        if begun == 0 && level > hole.r {
+        if begun == 0 && (level > hole.r || self.is_unknown(across)) {
             self.place.rapid_to(hole.over(level), out);
-            self.place.rapid_to(hole.over(hole.r), out);
+            self.rapid_over(&hole, hole.r, out);
             return Ok(());
         }
         let across_too = self.place.position[first] != hole.at[first] || self.place.position[second] != hole.at[second];
@@ -137,9 +149,9 @@ impl State {
             let message = "the rapid to this hole rises on its way: the hole before returned to R only";
             self.warnings.push((Code::PN031, message));
         }
-        self.place.rapid_to(hole.over(hole.clear), out);
-        if hole.clear > hole.r {
-            self.place.rapid_to(hole.over(hole.r), out);
+        self.rapid_clear(&hole, out);
+        if hole.clear > hole.r || hole.heights != Heights::Given {
+            self.rapid_over(&hole, hole.r, out);
         }
         Ok(())
     }
@@ -190,6 +202,7 @@ impl State {
             shift: [0.0; 2],
             level: 0.0,
             feed,
+            heights: Heights::Given,
         };
         if matches!(code, 740 | 820 | 840 | 860 | 880 | 890) {
             let word = given(block.get(b'P'));

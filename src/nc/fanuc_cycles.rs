@@ -1,6 +1,6 @@
 //! Canned cycles of Fanuc and Haas mills: words are kept until G80, over all cycle codes.
 
-use super::action::Drilling;
+use super::action::{Drilling, Heights};
 use super::arcs::{CENTERS, axes_of};
 use super::block::Block;
 use super::codes::{Name, letters};
@@ -26,6 +26,7 @@ impl State {
         if !self.holes.series.running {
             self.holes.series.running = true;
             self.holes.series.initial = self.place.position[across];
+            self.holes.series.initial_unknown = self.is_unknown(across);
         }
         self.keep_cycle_words(block, b"XYZ"[across]);
         if !block.has(letters("XYZABCR")) {
@@ -60,6 +61,11 @@ impl State {
             shift: self.bore_shift(code),
             level: bottom,
             feed: self.drive.feed,
+            heights: match (series.r_unknown || series.depth_unknown, series.initial_unknown) {
+                (true, _) => Heights::Unknown,
+                (_, true) if code == 870 || self.modes.to_initial => Heights::ButClear,
+                _ => Heights::Given,
+            },
         };
         super::cycles::check_moves(times, &hole)?;
         self.holes.work = Some(Work { hole, times, begun: 0, level: self.place.position[across], depth: None });
@@ -69,18 +75,20 @@ impl State {
     /// Keeps the words of a block for the holes of the series; `depth` is the letter of the axis across the plane.
     /// Increments become places at once: the level they count from is that of the series.
     fn keep_cycle_words(&mut self, block: &Block, depth: u8) {
+        let dwell = block.get(b'P').map(|p| self.seconds(p, block));
         let initial = self.holes.series.initial;
         let series = &mut self.holes.series;
         let word = |letter: u8| block.get(letter);
         if let Some(r) = word(b'R') {
             series.r = Some(if self.modes.absolute { r } else { initial + r });
+            series.r_unknown = !self.modes.absolute && series.initial_unknown;
         }
         if let Some(depth) = word(depth) {
             series.depth = Some(if self.modes.absolute { depth } else { series.r.unwrap_or(initial) + depth });
+            let from_unknown = if series.r.is_some() { series.r_unknown } else { series.initial_unknown };
+            series.depth_unknown = !self.modes.absolute && from_unknown;
         }
-        if let Some(p) = word(b'P') {
-            series.dwell = Some(if block.whole & super::codes::bit(b'P') != 0 { p / 1000.0 } else { p });
-        }
+        series.dwell = dwell.or(series.dwell);
         series.peck = word(b'Q').or(series.peck);
         for (axis, letter) in CENTERS.into_iter().enumerate() {
             series.shift[axis] = word(letter).or(series.shift[axis]);
@@ -122,8 +130,13 @@ impl State {
         let at = &mut work.hole.at;
         for axis in [first, second, 3, 4, 5] {
             if let Some(value) = self.axis_word(block, axis) {
-                at[axis] = if self.modes.absolute { value } else { at[axis] + value };
-                self.place.at_machine &= !(1 << axis);
+                if self.modes.absolute {
+                    at[axis] = value;
+                    self.place.given(axis);
+                } else {
+                    at[axis] += value;
+                    self.place.moves_by(axis, value);
+                }
             }
         }
         let hole = work.hole;
@@ -134,8 +147,7 @@ impl State {
         self.place.rapid_to(hole.over(height), out);
         let known = self.place.at_machine & 1 << across == 0;
         if hole.code != 870 && (height != hole.r || !known) {
-            self.place.at_machine &= !(1 << across);
-            self.place.rapid_to(hole.over(hole.r), out);
+            self.rapid_over(&hole, hole.r, out);
         }
     }
 

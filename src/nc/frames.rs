@@ -2,6 +2,15 @@
 
 use super::action::Position;
 
+/// What G92, or G52 of LinuxCNC, adds to positions of the program.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shift {
+    /// How far the frame was moved.
+    pub by: Position,
+    /// Axes along which that is unknown, as bits: G92 named a position that only the machine knew.
+    pub unknown: u8,
+}
+
 /// The frames of a machine, in the program's units.
 #[derive(Clone, Debug)]
 pub struct Frames {
@@ -12,9 +21,9 @@ pub struct Frames {
     /// Index of the active work offset.
     pub active: usize,
     /// G92, or G52 of LinuxCNC.
-    pub shift: Position,
+    pub shift: Shift,
     /// What G92.3 brings back.
-    pub shift_kept: Position,
+    pub shift_kept: Shift,
     /// Tool length offset on X, Y, Z.
     pub tool: [f64; 3],
 }
@@ -28,8 +37,8 @@ impl Default for Frames {
             work: vec![[0.0; 6]; OFFSETS],
             rotation: vec![0.0; OFFSETS],
             active: 1,
-            shift: [0.0; 6],
-            shift_kept: [0.0; 6],
+            shift: Shift::default(),
+            shift_kept: Shift::default(),
             tool: [0.0; 3],
         }
     }
@@ -44,7 +53,7 @@ impl Frames {
     /// A place of the program in machine coordinates.
     pub fn to_machine(&self, at: &Position) -> Position {
         let mut place = *at;
-        for (value, shift) in place.iter_mut().zip(&self.shift) {
+        for (value, shift) in place.iter_mut().zip(&self.shift.by) {
             *value += shift;
         }
         turn(&mut place, self.angle());
@@ -67,7 +76,7 @@ impl Frames {
             *value -= self.work[self.active][axis] + self.work[0][axis];
         }
         turn(&mut place, -self.angle());
-        for (value, shift) in place.iter_mut().zip(&self.shift) {
+        for (value, shift) in place.iter_mut().zip(&self.shift.by) {
             *value -= shift;
         }
         place
@@ -82,8 +91,8 @@ impl Frames {
     pub fn scale(&mut self, factor: f64) {
         let linear = |place: &mut Position| place[..3].iter_mut().for_each(|v| *v *= factor);
         self.work.iter_mut().for_each(linear);
-        linear(&mut self.shift);
-        linear(&mut self.shift_kept);
+        linear(&mut self.shift.by);
+        linear(&mut self.shift_kept.by);
         self.tool.iter_mut().for_each(|v| *v *= factor);
     }
 }

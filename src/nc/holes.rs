@@ -21,6 +21,12 @@ pub struct Series {
     pub running: bool,
     /// Height of the tool at its beginning.
     pub initial: f64,
+    /// Only the machine knows the height at its beginning.
+    pub initial_unknown: bool,
+    /// R counts from there.
+    pub r_unknown: bool,
+    /// The depth counts from there.
+    pub depth_unknown: bool,
     /// The R plane, as written.
     pub r: Option<f64>,
     /// The depth, as written.

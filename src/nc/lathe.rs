@@ -38,7 +38,7 @@ impl State {
         let offset = word % STATIONS;
         self.tool.length_on = offset != 0.0;
         if self.settings.places_unknown {
-            self.place.at_machine |= 0b111;
+            self.place.becomes_unknown(0b111);
         }
         out.push(Action::Tool((word / STATIONS).trunc()));
         out.push(Action::Length(Some(offset).filter(|offset| *offset != 0.0)));
@@ -77,8 +77,7 @@ impl State {
         let (begin, unsaid) = (self.place.position, self.place.at_machine);
         let mut end = self.target(block)?;
         if code == 320 {
-            self.place.position = end;
-            out.push(Action::Feed { to: end, feed: self.drive.feed, lead });
+            self.place.feed_to(end, self.drive.feed, lead, out);
             return Ok(());
         }
         let mut taper = block.get(b'R').or(block.get(b'I')).unwrap_or(0.0);
@@ -107,8 +106,7 @@ impl State {
             self.place.at_machine = radius_is_said;
             self.place.rapid_to(to, out);
             (to[0], to[2]) = (radius, end[2]);
-            self.place.position = to;
-            out.push(Action::Feed { to, feed: self.drive.feed, lead });
+            self.place.feed_to(to, self.drive.feed, lead, out);
             to[0] = begin[0];
             self.place.at_machine = z_is_said;
             self.place.rapid_to(to, out);

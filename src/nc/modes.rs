@@ -6,7 +6,7 @@ use super::codes::{Group, bit, letters};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
-use crate::control::{Meaning, Rules};
+use crate::control::{DwellUnit, Meaning, Rules};
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Units};
 
@@ -33,6 +33,8 @@ impl State {
 
     /// Everything between feed and motion.
     pub(super) fn set_up(&mut self, block: &Block, motion: Option<u16>, out: &mut Out<'_>) -> Done {
+        self.compensated(block.means(Meaning::Output), "an output")?;
+        self.compensated(block.means(Meaning::ToolChange), "a tool change")?;
         self.spindle_and_tool(block, out)?;
         if block.g_meaning(Group::Once) == Some(Meaning::Dwell) {
             let x_is_no_time = block.has(bit(b'X')) && block.has(bit(b'P'));
@@ -53,6 +55,7 @@ impl State {
         }
         let plane = block.plane().unwrap_or(self.modes.plane);
         if plane != self.modes.plane {
+            self.compensated(true, "another plane")?;
             self.modes.plane = plane;
             out.push(Action::Plane(plane));
         }
@@ -66,6 +69,11 @@ impl State {
             self.modes.diameter = meaning == Meaning::Diameter;
         }
         self.compensation(block, motion, out)?;
+        for (group, what) in
+            [(Group::Work, "a work offset"), (Group::Path, "a path mode"), (Group::Length, "another length offset")]
+        {
+            self.compensated(block.row(group).is_some(), what)?;
+        }
         self.length(block, out)?;
         self.work_offset(block, out)?;
         if let Some(meaning) = block.g_meaning(Group::Distance) {
@@ -87,9 +95,18 @@ impl State {
         Ok(())
     }
 
-    /// P in seconds: on a Fanuc milliseconds when it has no point.
+    /// P in seconds: without a point milliseconds, but for a control that counts seconds.
     pub(super) fn seconds(&self, p: f64, block: &Block) -> f64 {
-        if !self.control.is_linuxcnc() && block.whole & bit(b'P') != 0 { p / 1000.0 } else { p }
+        let seconds = self.control.traits().dwell == DwellUnit::S || block.whole & bit(b'P') == 0;
+        if seconds { p } else { p / 1000.0 }
+    }
+
+    /// LinuxCNC refuses to change these while cutter compensation is on, as its interpreter was observed.
+    pub(super) fn compensated(&self, changes: bool, what: &str) -> Done {
+        if !changes || self.tool.side.is_none() || !self.control.is_linuxcnc() {
+            return Ok(());
+        }
+        refuse(Code::PN013, format!("{what} under cutter compensation"), "end the compensation with G40 first")
     }
 
     pub(super) fn set_units(&mut self, units: Units, feed: Option<f64>, out: &mut Out<'_>) {
@@ -110,7 +127,15 @@ impl State {
 
     pub(super) fn work_offset(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(code) = block.g(Group::Work) else {
-            if let Some(fixture) = self.control.traits().work_letter.and_then(|letter| block.get(letter)) {
+            if let Some(letter) = self.control.traits().work_letter
+                && let Some(fixture) = block.get(letter)
+            {
+                let most = self.control.traits().most_work.map_or(f64::INFINITY, f64::from);
+                if fixture.fract() != 0.0 || !(0.0..=most).contains(&fixture) {
+                    let letter = char::from(letter);
+                    let message = format!("there is no work offset {letter}{fixture}");
+                    return refuse(Code::PN018, message, format!("write {letter}1 to {letter}{most}"));
+                }
                 self.work_is(fixture, out);
             }
             return Ok(());
@@ -131,7 +156,7 @@ impl State {
     /// A work offset by its code or number.
     pub(super) fn work_is(&mut self, work: f64, out: &mut Out<'_>) {
         if self.place.work_is(work) && self.settings.places_unknown {
-            self.place.at_machine |= 0b111;
+            self.place.becomes_unknown(0b111);
         }
         out.push(Action::Work(work));
     }

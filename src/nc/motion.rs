@@ -26,20 +26,27 @@ impl State {
             let Some(value) = self.axis_word(block, axis) else { continue };
             if self.modes.absolute {
                 *place = value;
-                self.place.at_machine &= !(1 << axis);
-                if axis == 2 && self.control.traits().height_is_machine && !self.tool.length_on {
-                    self.place.at_machine |= 0b100; // without its length offset, a FADAL's Z is the machine's
+                // without its length offset, a FADAL's Z is the machine's
+                match axis == 2 && self.control.traits().height_is_machine && !self.tool.length_on {
+                    true => self.place.goes_home(0b100),
+                    false => self.place.given(axis),
                 }
             } else {
                 *place += value;
+                self.place.moves_by(axis, value);
             }
         }
         if block.polar != [None; 2] {
             self.polar(block, &mut to)?;
+            if self.modes.absolute && block.polar.iter().all(Option::is_some) {
+                (0..2).for_each(|axis| self.place.given(axis));
+            }
         }
         if self.control.is_lathe() {
             for (axis, place) in to.iter_mut().enumerate() {
-                *place += self.increment(block, axis).unwrap_or(0.0);
+                let by = self.increment(block, axis).unwrap_or(0.0);
+                *place += by;
+                self.place.moves_by(axis, by);
             }
         }
         Ok(to)
@@ -95,7 +102,7 @@ impl State {
         }
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let to = self.target(block)?;
-        self.place.feed_to(to, feed, out);
+        self.place.feed_to(to, feed, None, out);
         Ok(())
     }
 
@@ -121,27 +128,27 @@ impl State {
         for axis in (0..6).filter(|axis| (named | turned) & 1 << axis == 0) {
             to[axis] = self.place.position[axis];
         }
-        self.place.at_machine |= named;
+        self.place.goes_home(named);
         // a Fanuc goes there at rapid, whatever is in force
         if code == 0 || !self.control.is_linuxcnc() {
             self.place.rapid_to(to, out);
         } else {
             let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
-            self.place.feed_to(to, feed, out);
+            self.place.feed_to(to, feed, None, out);
         }
         Ok(())
     }
 
     /// G33.1: a tap that follows the spindle in, turns it back and follows it out to where it began.
     pub(super) fn rigid_tap(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
-        let (begin, turning) = (self.place.position, self.drive.spindle);
+        let (begin, turning, unknown) = (self.place.position, self.drive.spindle, self.place.at_machine);
         if turning == Rotation::Stop {
             return refuse(Code::PN012, "G33.1 with the spindle stopped", "write M3 or M4 before it");
         }
         self.synchronised(block, out)?;
         out.push(Action::Spindle(turning.reversed(), self.drive.speed));
-        self.place.position = begin;
-        out.push(Action::Feed { to: begin, feed: self.drive.feed, lead: block.get(b'K') });
+        self.place.at_machine = unknown;
+        self.place.feed_to(begin, self.drive.feed, block.get(b'K'), out);
         out.push(Action::Spindle(turning, self.drive.speed));
         Ok(())
     }
@@ -155,8 +162,7 @@ impl State {
         if block.g(Group::Motion).unwrap_or(self.modes.motion) == 331 {
             to[3..].copy_from_slice(&self.place.position[3..]); // a tap turns no axis
         }
-        self.place.position = to;
-        out.push(Action::Feed { to, feed: self.drive.feed, lead: Some(lead) });
+        self.place.feed_to(to, self.drive.feed, Some(lead), out);
         Ok(())
     }
 }

@@ -4,6 +4,7 @@ use super::action::Action;
 use super::block::Block;
 use super::codes::Group;
 use super::fault::{Done, refuse};
+use super::frames::Shift;
 use super::out::Out;
 use super::state::State;
 use crate::control::Rules;
@@ -50,6 +51,7 @@ impl State {
             (p, false) if l == 20.0 => p + 9,
             (p, _) => p,
         };
+        self.compensated(number == active, "a moved frame")?;
         let place = self.place.frames.to_machine(&self.place.position);
         let words: [Option<f64>; 6] = std::array::from_fn(|axis| self.axis_word(block, axis));
         let (absolute, control, position) = (self.modes.absolute, self.control, self.place.position);
@@ -77,22 +79,34 @@ impl State {
 
     pub(super) fn shift_frame(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let place = self.place.frames.to_machine(&self.place.position);
-        let before = self.place.frames.shift;
+        let (before, mut lost) = (self.place.frames.shift, false);
         match block.g(Group::Once) {
-            Some(921) => (self.place.frames.shift, self.place.frames.shift_kept) = ([0.0; 6], [0.0; 6]),
-            Some(922) => self.place.frames.shift = [0.0; 6],
+            Some(921) => (self.place.frames.shift, self.place.frames.shift_kept) = Default::default(),
+            Some(922) => self.place.frames.shift = Shift::default(),
             Some(923) => self.place.frames.shift = self.place.frames.shift_kept,
             code => {
+                self.compensated(true, "a moved frame")?;
                 if !block.has_axes() {
                     return refuse(Code::PN006, "the code needs axis words and has none", "write the axes it shifts");
                 }
                 for axis in 0..6 {
                     let Some(value) = self.axis_word(block, axis) else { continue };
-                    self.place.frames.shift[axis] = if code == Some(520) {
-                        value
-                    } else {
-                        self.place.frames.shift[axis] + self.place.position[axis] - value
-                    };
+                    let (unknown, at, is_linuxcnc) =
+                        (self.is_unknown(axis), self.place.position[axis], self.control.is_linuxcnc());
+                    let shift = &mut self.place.frames.shift;
+                    if code == Some(520) {
+                        shift.by[axis] = value;
+                        if is_linuxcnc {
+                            shift.unknown &= !(1 << axis); // a Fanuc adds it to G92
+                        }
+                        continue;
+                    }
+                    shift.by[axis] += at - value;
+                    if unknown {
+                        shift.unknown |= 1 << axis;
+                        self.place.given(axis); // in the new frame it is known
+                        lost = true;
+                    }
                 }
             }
         }
@@ -100,7 +114,7 @@ impl State {
             self.place.frames.shift_kept = self.place.frames.shift;
         }
         self.place.position = self.place.frames.to_program(&place);
-        if self.place.frames.shift != before {
+        if lost || self.place.frames.shift != before {
             out.push(Action::Frame);
         }
         Ok(())
@@ -127,9 +141,8 @@ impl State {
             to[axis] = home[axis];
         }
         // an axis at angle zero is at its reference point
-        self.place.at_machine |= axes & 0b111;
-        self.place.position = to;
-        out.push(Action::Rapid { to, machine: self.place.at_machine });
+        self.place.goes_home(axes & 0b111);
+        self.place.rapid_to(to, out);
         Ok(())
     }
 }

@@ -4,13 +4,16 @@ use super::action::{Action, Position};
 use super::frames::Frames;
 use super::out::Out;
 
-/// The place of the tool, and the frame in which it is said.
+/// The position of the tool, and the frame in which it counts.
 #[derive(Debug)]
 pub struct Place {
-    /// Position in program coordinates and the program's units.
+    /// Position in program coordinates and the program's units; on axes in `at_machine` it counts from wherever the
+    /// machine stood.
     pub position: Position,
     /// Axes that stand at a place in machine coordinates, as bits.
     pub at_machine: u8,
+    /// Those of them that increments have moved since: they are at that place no longer, and their position is unknown.
+    pub astray: u8,
     /// What program coordinates count from.
     pub frames: Frames,
     /// The work offset in force, by its code or number; `None`: nothing said one, and none is usual.
@@ -22,7 +25,7 @@ pub struct Place {
 impl Place {
     /// A place at zero; `at_machine`: axes whose place only the machine knows.
     pub fn new(at_machine: u8, work: Option<f64>) -> Place {
-        Place { position: [0.0; 6], at_machine, frames: Frames::default(), work, homes: [[0.0; 6]; 2] }
+        Place { position: [0.0; 6], at_machine, astray: 0, frames: Frames::default(), work, homes: [[0.0; 6]; 2] }
     }
 
     /// Takes another work offset: how far it lies from the one before, nobody knows until places are said in it. `true`: it is another.
@@ -30,18 +33,51 @@ impl Place {
         self.work.replace(work) != Some(work)
     }
 
+    /// The program gives the position of an axis.
+    #[inline]
+    pub fn given(&mut self, axis: usize) {
+        self.at_machine &= !(1 << axis);
+        self.astray &= !(1 << axis);
+    }
+
+    /// An axis moves by an increment.
+    #[inline]
+    pub fn moves_by(&mut self, axis: usize, by: f64) {
+        if by != 0.0 {
+            self.astray |= self.at_machine & 1 << axis;
+        }
+    }
+
+    /// Axes go to a position that increments from a place of the machine give.
+    pub fn strays(&mut self, axes: u8) {
+        self.at_machine |= axes;
+        self.astray |= axes;
+    }
+
+    /// Axes go to a place of the machine.
+    pub fn goes_home(&mut self, axes: u8) {
+        self.at_machine |= axes;
+        self.astray &= !axes;
+    }
+
+    /// Axes stay, and from here on only the machine knows where.
+    pub fn becomes_unknown(&mut self, axes: u8) {
+        self.astray &= self.at_machine;
+        self.at_machine |= axes;
+    }
+
     /// A rapid in program coordinates.
     #[inline]
     pub fn rapid_to(&mut self, to: Position, out: &mut Out<'_>) {
         self.position = to;
-        out.push(Action::Rapid { to, machine: self.at_machine });
+        out.push(Action::Rapid { to, machine: self.at_machine, astray: self.astray & self.at_machine });
     }
 
-    /// A straight feed move.
+    /// A straight feed move; `lead`: it follows the spindle, by so much a turn.
     #[inline]
-    pub fn feed_to(&mut self, to: Position, feed: f64, out: &mut Out<'_>) {
+    pub fn feed_to(&mut self, to: Position, feed: f64, lead: Option<f64>, out: &mut Out<'_>) {
         self.position = to;
-        out.push(Action::Feed { to, feed, lead: None });
+        out.push(Action::Feed { to, feed, lead, machine: self.at_machine });
     }
 
     /// Changes the frames; the tool stays where it is.

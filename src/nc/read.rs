@@ -249,12 +249,26 @@ impl Block {
         if self.has_m() {
             self.check_m(control)?;
         }
+        if self.has_modes {
+            self.check_values()?;
+        }
         if control.is_linuxcnc() && self.has(letters("FL")) {
             for letter in [b'F', b'L'] {
                 if self.get(letter).is_some_and(|value| value < 0.0) {
                     let letter = char::from(letter);
                     return refuse(Code::PN018, format!("a negative {letter}"), "write it without the minus");
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// A code that has its meaning beside some values of its word alone is not run beside others.
+    fn check_values(&self) -> Done {
+        for row in self.g.iter().flatten().filter(|row| !row.only.is_empty()) {
+            if !row.only.iter().any(|&(letter, value)| self.get(letter) == Some(value)) {
+                let message = format!("{} with these words is not run", row.code);
+                return refuse(Code::PN016, message, "run the program without it");
             }
         }
         Ok(())

@@ -15,6 +15,13 @@ use crate::toolpath::{FeedMode, Units};
 const LENGTHS: u32 = letters("XYZABCIJKRQ");
 
 impl State {
+    /// The words that need no code in their block. Where the control is not named, H counts only for a length in force: on
+    /// other controls `G56 H1` is one itself.
+    fn free_words(&self) -> u32 {
+        let free = self.control.traits().everywhere.bits();
+        if self.settings.assumed && !self.tool.length_on { free & !bit(b'H') } else { free }
+    }
+
     /// Runs a block.
     ///
     /// # Errors
@@ -29,7 +36,7 @@ impl State {
         let motion = self.motion_of(block)?;
         let in_force = if self.control.is_linuxcnc() { None } else { self.holes.cycle };
         let row = in_force.or(motion).and_then(|code| g_code(self.control, code));
-        block.check_words(row, self.control)?;
+        block.check_words(row, self.free_words())?;
         let mut out = Out::new(items, line);
         if let Some((start, end)) = block.comment {
             out.push(Action::Comment(start, end));
@@ -48,6 +55,7 @@ impl State {
             self.set_up(block, motion, &mut out)?;
         }
         if block.g_meaning(Group::Once) == Some(Meaning::Machine)
+            && (block.has_axes() || self.control.is_linuxcnc())
             && (!matches!(motion, Some(0 | 10)) || in_force.is_some() || begins_cycle(block))
         {
             return refuse(Code::PN006, "G53 without G0 or G1", "write G0 with it, and end a cycle with G80 before");

@@ -22,6 +22,8 @@ pub struct RunSettings {
     pub places_unknown: bool,
     /// I, J and K are places from the beginning, as after G90.1.
     pub centers_absolute: bool,
+    /// The control is not named: the program shows no other than this one.
+    pub assumed: bool,
     /// Which way G76 and G87 of a Fanuc move off the wall along the first axis: a parameter of the machine, 1 or -1.
     pub bore_shift: f64,
 }
@@ -49,6 +51,7 @@ impl RunSettings {
             unpointed: Unpointed::Refused,
             places_unknown: false,
             centers_absolute: false,
+            assumed: false,
             bore_shift: 1.0,
         }
     }

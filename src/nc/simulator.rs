@@ -6,6 +6,7 @@ use std::io::{self, BufRead, Seek, SeekFrom};
 use super::action::{Action, Item, Rotation};
 use super::block::Block;
 use super::fault::{Done, Fault, refuse};
+use super::foreign::foreign;
 use super::jumps::{Frame, Jump, Spot};
 use super::out::Next;
 use super::parameters::Parameters;
@@ -68,6 +69,10 @@ pub struct Simulator<R> {
     /// The block has more to do.
     unfinished: bool,
     blocks: u64,
+    /// Nothing more can be run: the input is over.
+    ended: bool,
+    /// The language of the program was looked at.
+    looked: bool,
     /// O words to pass over before the first block.
     pub(super) passing: usize,
 }
@@ -94,6 +99,8 @@ impl<R: BufRead + Seek> Simulator<R> {
             repeated: 0,
             unfinished: false,
             blocks: 0,
+            ended: false,
+            looked: false,
             passing: 0,
         }
     }
@@ -193,6 +200,9 @@ impl<R: BufRead + Seek> Simulator<R> {
         if self.over {
             return Ok(false);
         }
+        if !std::mem::replace(&mut self.looked, true) {
+            self.check_language()?;
+        }
         if self.passing > 0 {
             self.pass_programs()?;
         }
@@ -210,6 +220,34 @@ impl<R: BufRead + Seek> Simulator<R> {
             Ok(Jump::Skip(label, ends)) => self.skip(&label, ends).map(|()| true),
             Err(fault) => Err(self.refused(fault)),
         }
+    }
+
+    /// Passes over the block that was refused, as an operator would; `false`: nothing comes after it.
+    pub fn pass_over(&mut self) -> bool {
+        if self.ended {
+            return false;
+        }
+        (self.over, self.unfinished) = (false, false);
+        self.block.settings.clear();
+        self.state.gives_up_block();
+        true
+    }
+
+    /// Refuses a program whose first blocks show a language that is not read.
+    #[cold]
+    fn check_language(&mut self) -> Result<(), RunError> {
+        let head = loop {
+            match self.input.fill_buf() {
+                Ok(head) => break head,
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error.into()),
+            }
+        };
+        let Some(found) = foreign(head) else { return Ok(()) };
+        (self.at.line, self.line, self.ended) = (found.line, found.text, true);
+        let message = format!("the program is {}, which postform does not read", found.is);
+        let help = "let the CAM system write it for one of the controls of `--control`";
+        Err(self.refused(Fault::new(Code::PN016, message, help)))
     }
 
     /// Warnings since the last call, as findings.
@@ -285,6 +323,7 @@ impl<R: BufRead + Seek> Simulator<R> {
                 let ends = self.percent || self.blocks > 0;
                 self.percent = true;
                 if ends && control.rules() == Rules::Fanuc {
+                    self.ended = true;
                     let help = "end it with M30 or M2: a Fanuc stops there with an alarm, and its spindle turns on";
                     return refuse(Code::PN010, "the program is over at `%`, and no M30 or M2 ended it", help);
                 }
@@ -334,7 +373,7 @@ impl<R: BufRead + Seek> Simulator<R> {
 
     /// The input is over before the program.
     fn at_end(&mut self) -> Done<bool> {
-        self.over = true;
+        (self.over, self.ended) = (true, true);
         if self.state.settings.control.rules() == Rules::Grbl {
             // it takes block by block, and knows no program
             if self.state.drive.spindle != Rotation::Stop {

@@ -132,13 +132,31 @@ impl State {
 
     /// What G92, or G52, adds to places of the program.
     pub fn shift(&self) -> &Position {
-        &self.place.frames.shift
+        &self.place.frames.shift.by
     }
 
     /// Axes that stand at a place in machine coordinates, as bits.
     #[inline]
     pub fn at_machine(&self) -> u8 {
         self.place.at_machine
+    }
+
+    /// Is the position of an axis known to the machine alone, in a run that begins so?
+    pub(super) fn is_unknown(&self, axis: usize) -> bool {
+        self.settings.places_unknown && self.place.at_machine & 1 << axis != 0
+    }
+
+    /// A block was refused and is passed over: what it had begun is given up.
+    pub(super) fn gives_up_block(&mut self) {
+        self.holes.work = None;
+        if self.settings.places_unknown {
+            self.place.becomes_unknown(0b111);
+        }
+    }
+
+    /// Axes whose frame G92 moved from a place that only the machine knew, as bits.
+    pub fn frame_unknown(&self) -> u8 {
+        self.place.frames.shift.unknown
     }
 
     /// A place of the program in machine coordinates, in the units in force.

@@ -52,7 +52,7 @@ impl Tally {
     /// Adds an action.
     pub fn add(&mut self, item: &Item) {
         match &item.action {
-            Action::Rapid { to, machine } => {
+            Action::Rapid { to, machine, .. } => {
                 self.moves[0] += 1;
                 // how far a place in machine coordinates is, only the machine knows
                 if *machine == 0 {
@@ -60,7 +60,7 @@ impl Tally {
                 }
                 self.at = *to;
             }
-            Action::Feed { to, feed, lead } => {
+            Action::Feed { to, feed, lead, .. } => {
                 self.moves[1] += 1;
                 let length = distance(&self.at, to);
                 self.cut(length, *feed, *lead);

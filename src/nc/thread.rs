@@ -1,6 +1,5 @@
 //! G76 of LinuxCNC: a thread in passes (nc.md section 2.11).
 
-use super::action::Action;
 use super::action::Rotation;
 use super::block::Block;
 use super::codes::letters;
@@ -132,7 +131,6 @@ impl State {
     }
 
     fn threaded(&mut self, to: [f64; 6], lead: f64, out: &mut Out<'_>) {
-        self.place.position = to;
-        out.push(Action::Feed { to, feed: self.drive.feed, lead: Some(lead) });
+        self.place.feed_to(to, self.drive.feed, Some(lead), out);
     }
 }

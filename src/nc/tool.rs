@@ -78,8 +78,13 @@ impl State {
             match row.meaning {
                 Meaning::CoolantOff if !self.control.is_linuxcnc() => {}
                 Meaning::Orient => {
+                    let angle = block.get(b'R').unwrap_or(0.0);
+                    if self.control.is_linuxcnc() && !(0.0..=360.0).contains(&angle) {
+                        let message = format!("M19 to an angle of {angle}");
+                        return refuse(Code::PN018, message, "write an angle from 0 to 360");
+                    }
                     self.drive.spindle = Rotation::Stop; // it stands at its angle
-                    out.push(Action::Orient(block.get(b'R').unwrap_or(0.0)));
+                    out.push(Action::Orient(angle));
                 }
                 Meaning::ToolChange | Meaning::Call | Meaning::Return | Meaning::End => {}
                 meaning if meaning.is_stop() => {}
@@ -116,7 +121,7 @@ impl State {
             return refuse(Code::PN007, "M6 without a tool", "write T and the tool's number before it");
         };
         if self.settings.places_unknown {
-            self.place.at_machine |= 0b100;
+            self.place.goes_home(0b100);
         }
         self.drive.spindle = Rotation::Stop;
         out.push(Action::Tool(tool));
@@ -168,8 +173,9 @@ impl State {
             None => {
                 let counts = self.tool.length_on || self.control.traits().height_is_machine;
                 if let Some(register) = block.get(b'H').filter(|_| counts && !self.control.is_linuxcnc()) {
-                    self.tool.length_on = true;
-                    out.push(Action::Length(Some(register)));
+                    // register 0 holds no length
+                    self.tool.length_on = register != 0.0 || !self.control.traits().height_is_machine;
+                    out.push(Action::Length(Some(register).filter(|register| *register != 0.0)));
                 }
                 return Ok(());
             }

@@ -94,7 +94,7 @@ impl Pen {
         let line = item.line as u32;
         self.registers.act(line, &item.action, &mut self.picture.changes);
         match &item.action {
-            Action::Rapid { to, machine } => self.go(item, Kind::Rapid, self.place(to, *machine), u32::MAX),
+            Action::Rapid { to, machine, .. } => self.go(item, Kind::Rapid, self.place(to, *machine), u32::MAX),
             Action::Feed { to, .. } => self.go(item, Kind::Feed, self.place(to, 0), u32::MAX),
             Action::Arc(turn) => {
                 let to = self.place(&turn.to, 0);

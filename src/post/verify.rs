@@ -142,6 +142,7 @@ impl Proof {
             back_off: self.back_off,
             unpointed: self.unpointed,
             centers_absolute: form.is_some_and(|form| !form.centre_incremental),
+            assumed: self.control.is_none() && of_form.is_none(),
             ..RunSettings::new(control)
         }
     }
@@ -164,7 +165,7 @@ impl Plan {
             expectation: form.map_or_else(Expectation::default, |form| {
                 Expectation::of_form(&form.settings, options.sink_as_printed).typed(form)
             }),
-            of_job: form.is_none() || options.units.is_none(),
+            of_job: options.units.is_none(),
             assumed: proof.control.is_none() && form.is_some_and(|form| form.settings.control.is_none()),
         }
     }
@@ -180,6 +181,7 @@ fn prove(
     let Plan { settings, mut expectation, of_job, assumed } = Plan::new(form, options, proof);
     // a program that is the job says its own registers, where it has any
     expectation.lengths_due = form.is_some() || job.format() != Format::Nc;
+    expectation.units_due &= form.is_some() || options.units.is_none();
     let comparer = Comparer::new(program, settings, expectation, proof.tolerance);
     let mut comparer = Started { comparer, of_job };
     let read = job.read(&mut comparer);

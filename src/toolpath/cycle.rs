@@ -22,9 +22,9 @@ pub enum Orient {
 }
 
 impl Orient {
-    /// The angle in degrees, where the form's is `form`.
+    /// The angle in degrees from 0 to 360, where the form's is `form`.
     pub fn angle(self, form: f64) -> f64 {
-        if let Orient::At(angle) = self { angle } else { form }
+        if let Orient::At(angle) = self { angle.rem_euclid(360.0) } else { form }
     }
 }
 

@@ -377,8 +377,15 @@ impl Job {
             (None, None) => return unproven(Unmodelled::ArcWithout),
         }
         let direction = arc.direction;
-        let turn =
-            Turn { to: target.values, center, plane, direction, turns: arc.turns, feed: self.feed.unwrap_or(0.0) };
+        let turn = Turn {
+            to: target.values,
+            center,
+            plane,
+            direction,
+            turns: arc.turns,
+            feed: self.feed.unwrap_or(0.0),
+            machine: 0,
+        };
         self.cut_to(target, What::Arc(turn), to)
     }
 

@@ -10,6 +10,7 @@ mod calls;
 mod compared;
 mod comparer;
 mod cut;
+mod due;
 mod expectation;
 mod finding;
 mod holes;

@@ -63,6 +63,8 @@ pub(super) struct Passage {
     pub aside: bool,
     /// The job's way left the axis of its hole before the last change of the frame.
     pub left_aside: bool,
+    /// Where increments from a place of the machine led, with their lines.
+    pub astray: Vec<(u64, Place)>,
 }
 
 /// More rapids between two cuts than any job has: they would have to be held.
@@ -83,6 +85,7 @@ impl Passage {
             new_tool: false,
             aside: false,
             left_aside: false,
+            astray: Vec::new(),
         }
     }
 
@@ -103,6 +106,7 @@ impl Passage {
         self.turns.clear();
         self.codes.clear();
         self.does.clear();
+        self.astray.clear();
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 
@@ -190,7 +194,7 @@ impl Passage {
 
     /// Is there more than can be held?
     pub fn is_too_long(&self) -> bool {
-        self.rapids.len() + self.legs.len() + self.stops.len() + self.waits.len() > MOST
+        self.rapids.len() + self.legs.len() + self.stops.len() + self.waits.len() + self.astray.len() > MOST
     }
 
     /// Was the frame changed?
@@ -257,7 +261,9 @@ impl Passage {
 
     /// Where the tool is now, if that is known.
     pub fn here(&self) -> Option<Rapid> {
-        self.rapids.last().copied().or(self.start)
+        // in a new frame no position was given yet
+        let fresh = self.changed() && self.legs.last().is_some_and(|leg| leg.from == self.rapids.len());
+        if fresh { None } else { self.rapids.last().copied().or(self.start) }
     }
 
     /// Does the next cut follow on the last without anything between?

@@ -3,6 +3,7 @@
 use std::io::{BufRead, Seek};
 
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, place};
+use super::due::Due;
 use super::expectation::{Expectation, taps_by_m29};
 use super::finding::Finding;
 use super::passage::{Frame, Passage};
@@ -13,15 +14,6 @@ use crate::control::{Control, Rules};
 use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
-
-/// What the program has not said yet, and what was told of that.
-#[derive(Clone, Copy, Debug)]
-struct Due {
-    /// Tools need their length offset.
-    lengths: bool,
-    length_told: bool,
-    units: bool,
-}
 
 /// A program that is run as far as it was asked for.
 pub(super) struct Program<R> {
@@ -86,11 +78,7 @@ impl<R: BufRead + Seek> Program<R> {
             mode: FeedMode::PerMinute,
             cycle: false,
             before_tap: None,
-            due: Due {
-                lengths: expectation.tools && expectation.lengths_due,
-                length_told: false,
-                units: expectation.units_due,
-            },
+            due: Due::new(expectation),
             scale: Scale { units: settings.units, wanted: settings.units, axes: expectation.axes, lathe: false, wire },
             wire: expectation.wire.clone().unwrap_or_default(),
             coolant: expectation.coolant,
@@ -210,10 +198,7 @@ impl<R: BufRead + Seek> Program<R> {
 
     /// The block number of a line as written: `N120`.
     pub fn number_of(&self, line: u64) -> String {
-        let text = self.text_of(line);
-        let digits = text.strip_prefix(['N', 'n']).map_or("", |rest| rest);
-        let digits: String = digits.chars().take_while(char::is_ascii_digit).collect();
-        if digits.is_empty() { digits } else { format!("N{digits}") }
+        self.recent.number(line)
     }
 
     /// The control that runs it.
@@ -241,8 +226,8 @@ impl<R: BufRead + Seek> Program<R> {
             *unsaid = self.simulator.state().at_machine();
         }
         match &item.action {
-            Action::Rapid { to, machine } => self.rapid(to, *machine, item.line),
-            Action::Feed { to, feed, lead } => {
+            Action::Rapid { to, machine, astray } => self.rapid(to, [*machine, *astray], item.line),
+            Action::Feed { to, feed, lead, .. } => {
                 // a feed that follows the spindle
                 let feed = match (lead, self.mode, self.state.speed) {
                     (Some(lead), FeedMode::PerMinute, Some(speed)) => lead * speed,
@@ -285,7 +270,7 @@ impl<R: BufRead + Seek> Program<R> {
             Action::Length(register) => self.state.length = *register,
             Action::Units(units) => {
                 self.scale.units = *units;
-                self.due.units = false;
+                self.due.units_are_set();
             }
             Action::SurfaceSpeed(limit) => {
                 self.state.css = limit.is_some();
@@ -293,6 +278,7 @@ impl<R: BufRead + Seek> Program<R> {
             }
             Action::SpeedLimit(limit) => self.state.limit = Some(*limit),
             Action::Plane(plane) => self.state.plane = *plane,
+            Action::Frame if self.simulator.state().frame_unknown() != 0 => {} // reported at the first move in it
             Action::Frame | Action::LeftOut(b'G', 100) => {
                 let message = "the program moves its coordinate frame: the job's places lie elsewhere then";
                 self.hazard(Code::PV021, item.line, message, "take G10, G52 or G92 out");
@@ -350,13 +336,20 @@ impl<R: BufRead + Seek> Program<R> {
         }
     }
 
-    fn rapid(&mut self, to: &Position, machine: u8, line: u64) {
+    fn rapid(&mut self, to: &Position, [machine, astray]: [u8; 2], line: u64) {
         let to = self.scale.place(to);
         let unknown = self.scale.axes(machine);
         if unknown == 0 && self.unknown == 0 && to == self.at {
             return; // nothing moves
         }
-        if unknown & 0b100 == 0 {
+        self.check_frame(unknown, line);
+        // a mill's height says how the tool comes; of a lathe both axes do
+        let heights = if self.scale.lathe { 0b101 } else { 0b100 };
+        let watched = if self.scale.wire.is_some() { 0b11 } else { heights };
+        if self.scale.axes(astray) & watched != 0 {
+            self.passage.astray.push((line, to));
+        }
+        if unknown & heights != heights {
             if to[2] != self.at[2] && self.length_is_due() {
                 self.without_length(line, "the tool goes down, and its length offset is not on");
             }
@@ -372,7 +365,16 @@ impl<R: BufRead + Seek> Program<R> {
         self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
     }
 
+    /// A move in a frame that G92 set where only the machine knew the position is a hazard.
+    fn check_frame(&mut self, unknown: u8, line: u64) {
+        if self.scale.axes(self.simulator.state().frame_unknown()) & !unknown != 0 {
+            let message = "the program moves in a frame that G92 set where only the machine knows the position";
+            self.hazard(Code::PV021, line, message, "take G92 out, or write the positions of its axes before it");
+        }
+    }
+
     fn cuts_now(&mut self, what: What, feed: f64, lead: Option<f64>, item: &Item) {
+        self.check_frame(0, item.line);
         if self.length_is_due() {
             self.without_length(item.line, "the tool cuts, and its length offset is not on");
         }
@@ -417,7 +419,7 @@ impl<R: BufRead + Seek> Program<R> {
         if self.state.tool != Some(number) {
             self.state.tool = Some(number);
             self.state.length = None;
-            self.due.length_told = false;
+            self.due.new_tool();
             self.changed();
         }
         if self.scale.lathe {
@@ -446,18 +448,18 @@ impl<R: BufRead + Seek> Program<R> {
     }
 
     fn units_are_due(&mut self, line: u64, message: &str) {
-        if std::mem::take(&mut self.due.units) {
+        if self.due.units() {
             let help = "print G[unitmode] in StartCode, or give the form, if it is for one unit";
             self.hazard(Code::PV022, line, message, help);
         }
     }
 
     fn length_is_due(&self) -> bool {
-        self.due.lengths && self.state.tool.is_some() && self.state.length.is_none()
+        self.due.lengths() && self.state.tool.is_some() && self.state.length.is_none()
     }
 
     fn without_length(&mut self, line: u64, message: &str) {
-        if !std::mem::replace(&mut self.due.length_told, true) {
+        if self.due.reports_length() {
             self.hazard(Code::PV014, line, message, "print G43 H[lcomp] in the tool change, before the height");
         }
     }

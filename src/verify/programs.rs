@@ -71,7 +71,7 @@ pub fn compare_motions<R: BufRead + Seek>(
             let same_way = ways[0].is(&ways[1], tolerance);
             let leaves_well = same_way || !low(0, 1) && !low(1, 0);
             // the end stops spindle and coolant, said or not
-            let besides = pauses(&a, &b, tolerance).or_else(|| standing(&a, &b));
+            let besides = astray(&a, &b, tolerance).or_else(|| pauses(&a, &b, tolerance)).or_else(|| standing(&a, &b));
             if x.is_none() && y.is_none() && leaves_well && besides.is_none() {
                 motions.ways += u64::from(!same_way);
                 return Ok(motions);
@@ -95,6 +95,7 @@ pub fn compare_motions<R: BufRead + Seek>(
         };
         motions.ways += u64::from(matches!(way, Compared::AsGood { .. }));
         let message = differs(cut, found, way, tolerance)
+            .or_else(|| astray(&a, &b, tolerance))
             .or_else(|| pauses(&a, &b, tolerance))
             .or_else(|| switching(&a, &b))
             .or_else(|| standing(&a, &b));
@@ -121,6 +122,13 @@ fn end(cut: &Cut) -> String {
 
 fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64) -> Option<String> {
     let near = |a: f64, b: f64| (a - b).abs() <= tolerance.max(1e-9 * a.abs());
+    if cut.unknown != found.unknown {
+        let [new, old] = [found, cut].map(|cut: &Cut| match cut.unknown {
+            0 => shown(&cut.from, 0b111),
+            _ => "a position that only the machine knows".to_owned(),
+        });
+        return Some(format!("a cut begins at {new}, before at {old}"));
+    }
     if !same(&cut.from, &found.from, ALL, tolerance) {
         return Some(format!("a cut begins at {}, before at {}", shown(&found.from, 0b111), shown(&cut.from, 0b111)));
     }
@@ -175,6 +183,14 @@ fn state(before: &State, now: &State) -> Option<String> {
         return Some(format!("the coolant is {}, before {}", text(now.coolant), text(before.coolant)));
     }
     (before.side != now.side).then(|| "cutter compensation is otherwise".to_owned())
+}
+
+/// Where increments from places of the machine lead: both count from the same place.
+fn astray<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>, tolerance: f64) -> Option<String> {
+    let (a, b) = (&old.passage.astray, &new.passage.astray);
+    let alike = a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(&a.1, &b.1, ALL, tolerance));
+    let message = "increments from a position that only the machine knows lead elsewhere on the way here";
+    (!alike).then(|| message.to_owned())
 }
 
 /// Stops and dwells between two cuts.

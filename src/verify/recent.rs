@@ -25,6 +25,16 @@ impl Recent {
         slot.1.extend_from_slice(text);
     }
 
+    /// The block number of a line as written: `N120`.
+    pub fn number(&self, line: u64) -> String {
+        let text = self.text(line).unwrap_or_default();
+        let digits: String = match text.strip_prefix(['N', 'n']) {
+            Some(rest) => rest.chars().take_while(char::is_ascii_digit).collect(),
+            None => String::new(),
+        };
+        if digits.is_empty() { digits } else { format!("N{digits}") }
+    }
+
     /// Text of a line of the program, if it is still there.
     pub fn text(&self, line: u64) -> Option<String> {
         let (_, text) = self.lines.iter().find(|(number, _)| *number == line)?;

@@ -109,7 +109,13 @@ impl<R: BufRead + Seek> Sides<R> {
     /// Runs the program to its next cut.
     pub fn run_to_cut(&mut self) -> Result<(), Box<Diag>> {
         match self.program.run_to_cut().map(drop) {
-            Ok(()) => Ok(()),
+            Ok(()) => match self.program.passage.astray.first() {
+                Some(&(line, _)) => {
+                    let why = "an increment leads on from a position that only the machine knows".into();
+                    self.unproven(why, "write the position under G90, or go there by G53", line)
+                }
+                None => Ok(()),
+            },
             Err(RunError::Refused(diag, line)) if is_unknown(diag.code, self.program.control()) => {
                 let why = unknown_code(&diag, self.program.control());
                 let help = "describe the code in a file of the control, or see what it does at the machine";

@@ -60,6 +60,7 @@ mod support;
 mod texts;
 mod trace;
 mod transcripts;
+mod unknown_positions;
 mod verdicts;
 mod verify;
 mod watch;

@@ -165,7 +165,8 @@ fn no_meaning_is_passed_over() {
 
     // they change nothing that is compared, and are told as left out
     use Meaning as M;
-    let nothing = [M::Harmless, M::TransformOff, M::MacroOff, M::Path, M::TapMode, M::ExactStop, M::Override];
+    let nothing =
+        [M::Harmless, M::TransformOff, M::MacroOff, M::Path, M::TapMode, M::ExactStop, M::Output, M::Override];
     let mut run = Vec::new();
     for &meaning in Meaning::ALL {
         let makes = if meaning == Meaning::Cycle { ", makes = \"drill\"" } else { "" };
@@ -202,4 +203,23 @@ fn no_meaning_is_passed_over() {
     }
     assert!(run.contains(&"spindle-cw M777".to_owned()) && run.contains(&"inch G777".to_owned()), "{run:?}");
     assert!(!run.contains(&"to-r M777".to_owned()) && !run.contains(&"tool-change G777".to_owned()), "{run:?}");
+}
+
+/// The unit of dwells in a control's file is that of its cycles, too.
+#[test]
+fn dwells_of_cycles_count_as_the_file_says() {
+    use postform::internals::control::Control;
+    use postform::internals::nc::{Action, RunSettings, Simulator};
+    use std::io::Cursor;
+
+    let dwell = |unit: &str| {
+        let text = format!("name = \"shop\"\nlike = \"fanuc\"\n[dwell]\nP = \"{unit}\"\n");
+        let control: &'static Control = Box::leak(Box::new(Control::read("shop", &text).unwrap()));
+        let program = "G21 G90\nM3 S100\nG99 G82 X1. Z-3. R2. P2 F50.\nG80\nM30\n";
+        let mut simulator = Simulator::new(Cursor::new(program), RunSettings::new(control));
+        let mut items = Vec::new();
+        while simulator.step(&mut items).unwrap() {}
+        items.iter().find_map(|item| if let Action::Dwell(seconds) = item.action { Some(seconds) } else { None })
+    };
+    assert_eq!([dwell("s"), dwell("ms")], [Some(2.0), Some(0.002)]);
 }

@@ -239,3 +239,32 @@ fn verify_hears_what_the_renderer_warns_of() {
     assert!(denied.status.code() == Some(1) && text(&denied.stderr).contains("PR025"), "{}", text(&denied.stderr));
     assert!(!text(&run(&[]).stderr).contains("PR025"), "{}", text(&run(&[]).stderr));
 }
+
+/// A program of which nothing shows the control is Fanuc's only where each word is a Fanuc's: `G56 H1` may be a length.
+#[test]
+fn an_assumed_control_reads_no_word_of_another() {
+    let program = b"G21\nG0 G56 H1 X1.\nM30\n";
+    let refused = fed(&["simulate", "-"], program);
+    assert!(refused.status.code() == Some(1) && text(&refused.stderr).contains("PN005"), "{}", text(&refused.stderr));
+    assert_eq!(fed(&["simulate", "-", "--control", "fanuc"], program).status.code(), Some(0));
+    let klartext = fed(&["simulate", "-"], b"0  BEGIN PGM T MM\n1  L X+10 R0 FMAX\n");
+    assert!(
+        text(&klartext.stderr).contains("the program is Klartext of a Heidenhain control"),
+        "{}",
+        text(&klartext.stderr)
+    );
+}
+
+/// Each refused block is reported, and those after it are run.
+#[test]
+fn a_refused_block_is_passed_over() {
+    let refused = fed(&["simulate", "-", "--format", "json"], b"G21\nG0 X#7\nG0 X#8\nG0 X1.\nM30\n");
+    let rows: Vec<serde_json::Value> =
+        text(&refused.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let errors: Vec<_> = rows.iter().filter(|row| row.get("error").is_some()).map(|row| row["line"].clone()).collect();
+    assert_eq!(errors, [2, 3]);
+    assert!(rows.iter().any(|row| row.get("rapid").is_some()) && refused.status.code() == Some(1), "{rows:?}");
+    // what only the machine knows is shown as such
+    let shown = fed(&["simulate", "-", "--start", "unknown"], b"G21 G90\nG0 X1.\nM30\n");
+    assert!(text(&shown.stdout).contains("X1 Y? Z?"), "{}", text(&shown.stdout));
+}

@@ -143,7 +143,7 @@ fn a_pattern_of_holes_stays_one_cycle() {
         assert!(lines.iter().any(|line| line.contains(said)), "{between}: {lines:?}");
     }
     // what is switched on the way is switched there
-    let lines = path(&format!("G0 X1.\n{}G0 X2.\nG55\n{}", each(1), each(2)));
+    let lines = path(&format!("G0 X1.\n{}G0 X2.\nG55\nZ1.\n{}", each(1), each(2)));
     let [moved, work] = ["X2.", "G55"].map(|word| lines.iter().position(|line| line.contains(word)).unwrap());
     assert!(moved < work, "{lines:?}");
     // another depth is a hole of the pattern, another feed is not

@@ -230,6 +230,7 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
         ("G0 X[1/0]\nM30", "PN014", 1),
         ("M98 P1\nM30", "PN016", 1),
         ("G68 X0 Y0 R45.\nM30", "PN016", 1),
+        ("G5 P10001\nM30", "PN016", 1),
         ("IF[#1 EQ 1]GOTO 10\nM30", "PN016", 1),
         ("G0 X5\nM30", "PN017", 1),
         ("G83 X1. Z-1. R0 Q0. F10.\nM30", "PN018", 1),
@@ -466,4 +467,58 @@ fn m_codes_do_what_the_file_of_the_control_says() {
     assert_eq!(motions(control("fanuc"), &two).last().unwrap(), "stop");
     assert_eq!(refused(control("haas"), &two), ("PN004".into(), 4));
     assert_eq!(refused(control("haas"), &format!("{START}G88 X1. Z-1. R1. F10.\nM30\n")), ("PN003".into(), 4));
+}
+
+/// What real Haas programs hold: high precision on and off, a G53 that moves nothing.
+#[test]
+fn codes_that_real_programs_hold_are_read() {
+    assert_eq!(motions(control("haas"), "G20 G5 P10000\nG0 X1.\nG53\nX2.\nG5 P0\nM30\n"), ["T 1 0 0", "T 2 0 0"]);
+}
+
+/// LinuxCNC refuses these while compensation is on; rs274 was asked for each.
+#[test]
+fn compensation_forbids_what_linuxcnc_forbids() {
+    let refused_by = |code: &str| {
+        let program = format!("G21 G90 F9\nG0 X0 Y0\nT1 M6\nG41 D1 G1 X500\n{code}\nM2\n");
+        let mut simulator = Simulator::new(Cursor::new(program), RunSettings::new(control("linuxcnc")));
+        let mut items = Vec::new();
+        loop {
+            match simulator.step(&mut items) {
+                Ok(true) => {}
+                Ok(false) => break String::new(),
+                Err(RunError::Refused(diag, line)) => break format!("{} {line}", diag.code.name()),
+                Err(error) => panic!("{error:?}"),
+            }
+        }
+    };
+    for code in [
+        "G64 P1",
+        "G61",
+        "G54",
+        "G52 X0",
+        "G92 X0",
+        "G18",
+        "M62 P0",
+        "M64 P0",
+        "M68 E0 Q1",
+        "G43 H1",
+        "G49",
+        "T2 M6",
+        "G10 L2 P1 X0",
+        "G53 G0 X1",
+        "G28",
+    ] {
+        assert_eq!(refused_by(code), "PN013 5", "{code}");
+    }
+    for code in ["G17", "G92.1", "G10 L2 P2 X0", "G4 P1", "M3 S100", "M0"] {
+        assert_eq!(refused_by(code), "", "{code}");
+    }
+    assert_eq!(refused(control("linuxcnc"), "M19 R-90\nM2\n"), ("PN018".into(), 1));
+}
+
+/// A Fadal has the work offsets E1 to E24.
+#[test]
+fn work_offsets_of_a_fadal_end_at_24() {
+    assert_eq!(refused(control("fadal"), "G20 G90\nE54 G0 X1.\nM30\n"), ("PN018".into(), 2));
+    assert_eq!(motions(control("fadal"), "G20 G90\nE24 G0 X1.\nM30\n").len(), 1);
 }

@@ -103,6 +103,7 @@ impl ControlArgs {
             block_delete: self.block_delete,
             back_off: self.back_off,
             unpointed,
+            assumed: self.control.is_none() && form.is_none(),
             ..RunSettings::new(control)
         }
     }

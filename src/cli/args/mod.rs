@@ -17,7 +17,7 @@ pub use forms::{
 };
 pub use jobs::{CheckArgs, From, ReadArgs, RenderArgs, RenderOptions, UnitsArg};
 pub use pictures::{PlotArgs, WatchArgs};
-pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, VerifyArgs, VerifyFormat};
+pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, StartArg, VerifyArgs, VerifyFormat};
 
 /// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.
 #[derive(Debug, Parser)]

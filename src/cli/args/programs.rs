@@ -53,11 +53,23 @@ pub enum MotionFormat {
     Json,
 }
 
+/// Where a run begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StartArg {
+    /// At 0 on all axes, as rs274 does
+    Zero,
+    /// Where only the machine knows: what depends on that is shown as `?`, in JSON as null
+    Unknown,
+}
+
 /// `postform simulate`.
 #[derive(Debug, Args)]
 pub struct SimulateArgs {
     /// The NC program, or - for standard input
     pub program: PathBuf,
+    /// Where the tool is at the beginning, and its height after a tool change
+    #[arg(long, value_name = "PLACE", default_value = "zero")]
+    pub start: StartArg,
     /// How it is run
     #[command(flatten)]
     pub control: ControlArgs,

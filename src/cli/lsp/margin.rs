@@ -96,9 +96,10 @@ fn of_program(server: &Server, text: &Text) -> lsp::CodeLens {
             let checked = program::check(&text.source.text, control);
             let blocks = if checked.blocks == 1 { "1 block".to_owned() } else { format!("{} blocks", checked.blocks) };
             let end = match (checked.refused, checked.cut) {
-                (true, _) => format!("refuses the block after {blocks}"),
-                (false, true) => format!("runs {blocks}, and more that were not looked at"),
-                (false, false) => format!("runs {blocks}"),
+                (1, _) => "refuses 1 block".to_owned(),
+                (2.., _) => format!("refuses {} blocks", checked.refused),
+                (0, true) => format!("runs {blocks}, and more that were not looked at"),
+                (0, false) => format!("runs {blocks}"),
             };
             format!("{} ({who}) {end}", control.name())
         }

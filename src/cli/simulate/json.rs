@@ -4,30 +4,31 @@ use postform::internals::nc::{Action, Item};
 
 use super::{plane_name, stop_name, turn_name};
 
-/// One action as a JSON object.
-pub fn json(item: &Item, out: &mut Vec<u8>) {
+/// One action as a JSON object. `unknown`: positions that only the machine knows are null.
+pub fn json(item: &Item, unknown: bool, out: &mut Vec<u8>) {
+    let hidden = |machine: u8| if unknown { machine } else { 0 };
     let start = out.len();
     out.extend_from_slice(b"{\"line\":");
     out.extend_from_slice(itoa::Buffer::new().format(item.line).as_bytes());
     match &item.action {
-        Action::Rapid { to, machine } => {
-            list(b",\"rapid\":[", to, out);
-            if *machine != 0 {
+        Action::Rapid { to, machine, .. } => {
+            list(b",\"rapid\":[", to, hidden(*machine), out);
+            if *machine != 0 && !unknown {
                 out.extend_from_slice(b",\"machine\":\"");
                 out.extend((0..6).filter(|axis| machine & 1 << axis != 0).map(|axis| b"xyzabc"[axis]));
                 out.push(b'"');
             }
         }
-        Action::Feed { to, feed, lead } => {
-            list(b",\"feed\":[", to, out);
+        Action::Feed { to, feed, lead, machine } => {
+            list(b",\"feed\":[", to, hidden(*machine), out);
             match lead {
                 Some(lead) => number(b",\"lead\":", *lead, out),
                 None => number(b",\"f\":", *feed, out),
             }
         }
         Action::Arc(turn) => {
-            list(b",\"arc\":[", &turn.to, out);
-            list(b",\"center\":[", &turn.center, out);
+            list(b",\"arc\":[", &turn.to, hidden(turn.machine), out);
+            list(b",\"center\":[", &turn.center, 0, out);
             name(b",\"plane\":\"", plane_name(turn.plane), out);
             name(b",\"turn\":\"", turn_name(turn.direction), out);
             if turn.turns > 0 {
@@ -55,10 +56,17 @@ pub fn json(item: &Item, out: &mut Vec<u8>) {
     out.extend_from_slice(b"}\n");
 }
 
-fn list(before: &[u8], values: &[f64], out: &mut Vec<u8>) {
+/// Numbers; those of the bits in `unknown` are null.
+fn list(before: &[u8], values: &[f64], unknown: u8, out: &mut Vec<u8>) {
     out.extend_from_slice(before);
     for (i, value) in values.iter().enumerate() {
-        number(if i == 0 { b"" } else { b"," }, *value, out);
+        let comma: &[u8] = if i == 0 { b"" } else { b"," };
+        if unknown & 1 << i == 0 {
+            number(comma, *value, out);
+        } else {
+            out.extend_from_slice(comma);
+            out.extend_from_slice(b"null");
+        }
     }
     out.push(b']');
 }

@@ -7,11 +7,12 @@ mod text;
 use std::io::{self, Write};
 use std::path::Path;
 
-use postform::internals::nc::{RunError, Simulator, Tally};
+use postform::diag::Diag;
+use postform::internals::nc::{RunError, RunSettings, Simulator, Tally};
 use postform::toolpath::{Direction, Plane, StopKind};
 
 use super::Ending;
-use super::args::{ControlArgs, MotionFormat, SimulateArgs};
+use super::args::{ControlArgs, MotionFormat, SimulateArgs, StartArg};
 use super::files::{self, io_message};
 use super::report::{Reporter, place_in};
 use super::say::{message, say};
@@ -20,12 +21,15 @@ use super::say::{message, say};
 const CHUNK: usize = 64 * 1024;
 /// Warnings that are shown; more are counted.
 const MOST_WARNINGS: usize = 20;
+/// Refused blocks after which a program is not run on.
+const MOST_REFUSED: usize = 20;
 
 /// Runs a program and prints what the machine does.
 pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     let config = super::config::Config::near(&args.program)?;
     let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };
-    let settings = control.settings(None, args.units.units());
+    let unknown = args.start == StartArg::Unknown;
+    let settings = RunSettings { places_unknown: unknown, ..control.settings(None, args.units.units()) };
     let mut simulator = Simulator::new(files::open_program(&args.program)?, settings);
     let mut tally = Tally::new(settings.units);
     let mut warnings = Vec::new();
@@ -33,16 +37,17 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     let mut items = Vec::new();
     let mut text = Vec::with_capacity(CHUNK + 4096);
     let mut out = io::stdout().lock();
-    let refused = loop {
+    let mut refused: Vec<Diag> = Vec::new();
+    loop {
         items.clear();
         let step = simulator.step(&mut items);
         for item in &items {
             if args.dry {
                 tally.add(item);
             } else if args.format == MotionFormat::Json {
-                json::json(item, &mut text);
+                json::json(item, unknown, &mut text);
             } else {
-                text::line(item, simulator.text(), &mut text);
+                text::line(item, simulator.text(), unknown, &mut text);
             }
         }
         let new = simulator.take_warnings();
@@ -54,15 +59,20 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
         }
         match step {
             Ok(true) => {}
-            Ok(false) => break None,
-            Err(RunError::Refused(diag, line)) => break Some((diag, line)),
+            Ok(false) => break,
+            Err(RunError::Refused(diag, line)) => {
+                if args.format == MotionFormat::Json {
+                    let row = serde_json::json!({ "line": line, "error": diag.code.name(), "message": diag.message });
+                    text.extend_from_slice(row.to_string().as_bytes());
+                    text.push(b'\n');
+                }
+                refused.push(*diag);
+                if refused.len() == MOST_REFUSED || !simulator.pass_over() {
+                    break;
+                }
+            }
             Err(RunError::Io(error)) => return Err(io_message("read", &args.program, &error)),
         }
-    };
-    if let Some((diag, line)) = refused.as_ref().filter(|_| args.format == MotionFormat::Json) {
-        let row = serde_json::json!({ "line": line, "error": diag.code.name(), "message": diag.message });
-        text.extend_from_slice(row.to_string().as_bytes());
-        text.push(b'\n');
     }
     if args.dry {
         let summary = match args.format {
@@ -81,9 +91,14 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     if left_out > 0 {
         message(&format!("and {left_out} more warnings"));
     }
-    let Some((mut diag, _)) = refused else { return Ok(Ending::Clean) };
-    place_in(&name, &mut diag);
-    say(&reporter.text(&[*diag], &[]));
+    if refused.is_empty() {
+        return Ok(Ending::Clean);
+    }
+    refused.iter_mut().for_each(|diag| place_in(&name, diag));
+    say(&reporter.text(&refused, &[]));
+    if refused.len() == MOST_REFUSED {
+        message(&format!("{MOST_REFUSED} blocks are refused: the rest is not run"));
+    }
     Ok(Ending::Findings)
 }
 

@@ -68,15 +68,20 @@ impl Backwards {
         self.text(letter);
     }
 
-    fn position(&mut self, to: &[f64; 6]) {
+    fn position(&mut self, to: &[f64; 6], unknown: u8) {
         for (letter, value) in [b" C", b" B", b" A"].iter().zip(to[3..].iter().rev()) {
             if *value != 0.0 {
                 self.word(*letter, *value);
             }
         }
-        self.word(b" Z", to[2]);
-        self.word(b" Y", to[1]);
-        self.word(b"X", to[0]);
+        for (axis, letter) in [b"X".as_slice(), b" Y", b" Z"].into_iter().enumerate().rev() {
+            if unknown & 1 << axis != 0 {
+                self.byte(b'?');
+                self.text(letter);
+            } else {
+                self.word(letter, to[axis]);
+            }
+        }
     }
 
     /// The line's number and what is done, before the rest.
@@ -94,26 +99,27 @@ impl Backwards {
     }
 }
 
-/// One action as a line of text.
-pub fn line(item: &Item, block: &[u8], out: &mut Vec<u8>) {
+/// One action as a line of text. `unknown`: positions that only the machine knows are shown as `?`.
+pub fn line(item: &Item, block: &[u8], unknown: bool, out: &mut Vec<u8>) {
+    let hidden = |machine: u8| if unknown { machine } else { 0 };
     let mut text = Backwards::new();
     text.byte(b'\n');
     let what = match &item.action {
-        Action::Rapid { to, machine } => {
-            if *machine != 0 {
+        Action::Rapid { to, machine, .. } => {
+            if *machine != 0 && !unknown {
                 text.text(b" in machine coordinates)");
                 (0..6).rev().filter(|axis| machine & 1 << axis != 0).for_each(|axis| text.byte(b"XYZABC"[axis]));
                 text.text(b"  (");
             }
-            text.position(to);
+            text.position(to, hidden(*machine));
             "rapid"
         }
-        Action::Feed { to, feed, lead } => {
+        Action::Feed { to, feed, lead, machine } => {
             match lead {
                 Some(lead) => text.word(b" lead ", *lead),
                 None => text.word(b" F", *feed),
             }
-            text.position(to);
+            text.position(to, hidden(*machine));
             "feed"
         }
         Action::Arc(turn) => {
@@ -126,7 +132,7 @@ pub fn line(item: &Item, block: &[u8], out: &mut Vec<u8>) {
             text.word(b" Y", turn.center[1]);
             text.word(b"  centre X", turn.center[0]);
             text.word(b" F", turn.feed);
-            text.position(&turn.to);
+            text.position(&turn.to, hidden(turn.machine));
             turn_name(turn.direction)
         }
         Action::Dwell(seconds) => {

@@ -42,7 +42,8 @@ impl State {
             }
         }
         self.place.position = to;
-        out.push(Action::Arc(Turn { to, center, plane: self.modes.plane, direction, turns: 0, feed }));
+        let (plane, machine) = (self.modes.plane, self.place.at_machine);
+        out.push(Action::Arc(Turn { to, center, plane, direction, turns: 0, feed, machine }));
         Ok(())
     }
 }

@@ -47,7 +47,7 @@ impl State {
             self.once(block, out)?;
         }
         let row = motion.and_then(|code| g_code(self.control, code));
-        if block.check_words(row, self.control).is_err() {
+        if block.check_words(row, self.control.traits().everywhere.bits()).is_err() {
             return refuse(36);
         }
         self.grbl_stops(block, out);
@@ -78,9 +78,9 @@ impl State {
         if from == to {
             return refuse(33);
         }
-        self.place.feed_to(to, feed, out);
+        self.place.feed_to(to, feed, None, out);
         for axis in (0..3).filter(|&axis| from[axis] != to[axis]) {
-            self.place.at_machine |= 1 << axis;
+            self.place.becomes_unknown(1 << axis);
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use super::cycles::{hole_of, is_same, spec_of};
 use super::fault::{Done, unsaid};
 use super::pattern::Pattern;
 use super::reader::Reader;
-use crate::nc::action::{Action, Drilling, Position, Rotation};
+use crate::nc::action::{Action, Drilling, Heights, Position, Rotation};
 use crate::toolpath::{Event, First, Plane};
 
 impl Reader<'_> {
@@ -38,6 +38,13 @@ impl Reader<'_> {
         if hole.plane != Plane::Xy {
             let help = "program its moves: a job's cycles go along Z";
             return unsaid(self.place.line, "a canned cycle outside G17", help);
+        }
+        if hole.heights != Heights::Given {
+            let message = match hole.heights {
+                Heights::Unknown => "the heights of a cycle count from a position that only the machine knows",
+                _ => "a cycle returns to a height that only the machine knows",
+            };
+            return unsaid(self.place.line, message, "write a rapid with Z before it, or return to R by G99");
         }
         self.low_approach(hole)?;
         // a rigid tap turns the spindle its own way

@@ -40,7 +40,9 @@ pub(super) struct Reader<'a> {
     pub(super) mode: FeedMode,
     plane: Plane,
     pub(super) at: Position,
-    /// Axes whose place a job knows.
+    /// Where the simulator stands: it counts from 0 where only the machine knows the position.
+    counted: Position,
+    /// Axes whose position a job knows.
     pub(super) known: u8,
     /// The tool went to its reference point, at this line.
     pub(super) home: Option<u64>,
@@ -55,6 +57,8 @@ pub(super) struct Reader<'a> {
     pub(super) tool_name: Option<String>,
     /// What G52 and G92 had added by the first move, and what they have added since.
     pub(super) frame: [f64; 3],
+    /// Axes along which G92 had moved the frame by an unknown amount by the first move, as bits.
+    pub(super) lost: u8,
     pub(super) shift: [f64; 3],
     /// What stands before the next operation, and is done in it.
     pub(super) waiting: Vec<Waiting>,
@@ -82,6 +86,7 @@ impl<'a> Reader<'a> {
             mode: FeedMode::PerMinute,
             plane: Plane::Xy,
             at: [0.0; 6],
+            counted: [0.0; 6],
             known: 0,
             home: None,
             cycle: None,
@@ -92,6 +97,7 @@ impl<'a> Reader<'a> {
             remark: (0, String::new()),
             tool_name: None,
             frame: [0.0; 3],
+            lost: 0,
             shift: [0.0; 3],
             waiting: Vec::new(),
         }
@@ -99,10 +105,13 @@ impl<'a> Reader<'a> {
 
     /// Takes an action of a block, whose text is `block`; `behind`: how the machine stands after it.
     pub fn take(&mut self, item: &Item, block: &[u8], behind: Behind) -> Done {
-        match self.shifted(&item.action) {
-            Some(action) => self.action(&Item { action, ..*item }, block, behind),
-            None => self.action(item, block, behind),
+        let shifted = self.shifted(&item.action).map(|action| Item { action, ..*item });
+        let item = shifted.as_ref().unwrap_or(item);
+        self.action(item, block, behind)?;
+        if let Action::Rapid { to, .. } | Action::Feed { to, .. } | Action::Arc(Turn { to, .. }) = &item.action {
+            self.counted = *to;
         }
+        Ok(())
     }
 
     fn action(&mut self, item: &Item, block: &[u8], behind: Behind) -> Done {
@@ -118,7 +127,11 @@ impl<'a> Reader<'a> {
         }
         self.settle_way(&item.action)?;
         match &item.action {
-            Action::Rapid { to, machine } => self.rapid(to, *machine),
+            Action::Rapid { to, machine, astray } if astray & 0b111 == 0 => self.rapid(to, *machine),
+            Action::Rapid { .. } => {
+                let help = "write the position under G90, or go there by G53";
+                unsaid(item.line, "an increment leads on from a position that only the machine knows", help)
+            }
             Action::Feed { lead: Some(_), .. } => {
                 unsaid(item.line, "a thread that follows the spindle", "a mill's job has no such move")
             }
@@ -184,7 +197,8 @@ impl<'a> Reader<'a> {
     }
 
     fn feed(&mut self, to: &Position, feed: f64, unknown: u8) -> Done {
-        if *to == self.at && self.turning.is_none() {
+        let stays = self.counted_from_start(to, unknown) == self.at && self.known & 0b111 == 0b111;
+        if stays && self.turning.is_none() {
             return Ok(());
         }
         self.cut_begins()?;
@@ -256,7 +270,7 @@ impl<'a> Reader<'a> {
         // a place of the machine: a form goes there by itself, before a tool change and at the end
         self.at = *to;
         if machine & 0b100 != 0 {
-            self.known &= !machine;
+            self.known = 0b111 & !machine;
             self.home.get_or_insert(self.place.line);
             return Ok(());
         }
@@ -343,7 +357,7 @@ impl<'a> Reader<'a> {
         let mut to = *to;
         if self.options.start.is_some() {
             for axis in (0..3).filter(|axis| unknown & 1 << axis != 0) {
-                to[axis] = self.at[axis];
+                to[axis] += self.at[axis] - self.counted[axis];
             }
         }
         to
@@ -351,7 +365,8 @@ impl<'a> Reader<'a> {
 
     fn arc(&mut self, turn: &Turn, unknown: u8) -> Done {
         self.cut_begins()?;
-        let turn = &Turn { to: self.counted_from_start(&turn.to, unknown), ..*turn };
+        let center = std::array::from_fn(|axis| turn.center[axis] + self.at[axis] - self.counted[axis]);
+        let turn = &Turn { to: self.counted_from_start(&turn.to, unknown), center, ..*turn };
         if self.turning.take().is_some() {
             let help = "turn it on and off by straight moves";
             return unsaid(self.place.line, "cutter compensation is switched on an arc", help);
@@ -382,6 +397,10 @@ impl<'a> Reader<'a> {
         if let Some(line) = self.home.take() {
             // the operator finds the tool there
             self.homeward(line, self.at)?;
+            if self.known & 0b011 == 0b011 {
+                let axes = self.axes(&self.at);
+                self.push(Event::Rapid(Axes { given: axes.given & !0b100, ..axes }))?;
+            }
         }
         self.move_begins(First::Nothing)?;
         self.step();

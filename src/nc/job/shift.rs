@@ -10,7 +10,7 @@ impl Reader<'_> {
     /// The frame was moved.
     pub(super) fn frame(&mut self, behind: Behind) -> Done {
         if self.place.operation == 0 {
-            self.frame = behind.shift;
+            (self.frame, self.lost) = (behind.shift, behind.frame);
             if !std::mem::replace(&mut self.framed, true) {
                 let message = "the program sets its work offsets (G10, G52 or G92), which a job can't say";
                 let help = "set them at the machine: positions are those that the program writes";
@@ -19,9 +19,9 @@ impl Reader<'_> {
             return Ok(());
         }
         let by: [f64; 3] = std::array::from_fn(|axis| behind.shift[axis] - self.frame[axis]);
-        // G10 moves the work offset itself; a shift to a place of the machine is nobody's to know
+        // G10 moves the work offset itself; how far a shift to a place of the machine moves it is unknown
         let moved = (0..3).filter(|&axis| by[axis] != self.shift[axis]).fold(0, |axes, axis| axes | 1 << axis);
-        if moved == 0 || moved & behind.unknown != 0 {
+        if moved == 0 || moved & behind.unknown != 0 || behind.frame != self.lost {
             let help =
                 "write the places in one frame: a job has no G10, and no G92 where only the machine knows the place";
             return unsaid(self.place.line, "the program moves its coordinate frame between its moves", help);
@@ -38,8 +38,10 @@ impl Reader<'_> {
         }
         let [.., z] = self.shift;
         match action {
-            Action::Rapid { to, machine } => Some(Action::Rapid { to: self.place_of(to), machine: *machine }),
-            Action::Feed { to, feed, lead } => Some(Action::Feed { to: self.place_of(to), feed: *feed, lead: *lead }),
+            &Action::Rapid { to, machine, astray } => Some(Action::Rapid { to: self.place_of(&to), machine, astray }),
+            &Action::Feed { to, feed, lead, machine } => {
+                Some(Action::Feed { to: self.place_of(&to), feed, lead, machine })
+            }
             Action::Arc(turn) => {
                 let center = std::array::from_fn(|axis| turn.center[axis] + self.shift[axis]);
                 Some(Action::Arc(Turn { to: self.place_of(&turn.to), center, ..*turn }))

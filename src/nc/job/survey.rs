@@ -74,7 +74,7 @@ pub(super) fn survey(
                 }
             };
             match &item.action {
-                Action::Rapid { to, machine } => reach(&mut survey, to, *machine),
+                Action::Rapid { to, machine, .. } => reach(&mut survey, to, *machine),
                 Action::Feed { to, .. } => reach(&mut survey, to, 0),
                 Action::Arc(turn) => reach(&mut survey, &turn.to, 0),
                 Action::Units(now) => {

@@ -1,10 +1,11 @@
 //! Lowering: lines of words become operations.
 
+use super::find_work::find_work;
 use super::letters::LetterTable;
 use super::program::{CycleStyle, List, Literal, Op, Program, Upon};
 use super::routine::{Branch, Flow, Node, Routine};
 use super::sources::Sources;
-use super::work;
+use super::work::WorkWords;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -34,7 +35,7 @@ pub fn compile(form: &Form) -> Program {
         asked: VarSet::default(),
         speaks_g: false,
         switches_spindle: false,
-        work_word: work::of(form),
+        work: WorkWords::default(),
         letters: [LetterTable::new(form, false), LetterTable::new(form, true)],
         custom: [None, None, None],
     };
@@ -63,6 +64,7 @@ pub fn compile(form: &Form) -> Program {
     }
     program.speaks_g = speaks_g(&program);
     program.switches_spindle = switches_spindle(&program);
+    program.work = find_work(&program);
     program
 }
 

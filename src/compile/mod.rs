@@ -1,6 +1,7 @@
 //! From a checked form to a flat program: one array of small operations, run for each event.
 
 mod ahead;
+mod find_work;
 mod letters;
 mod lower;
 mod program;
@@ -14,4 +15,4 @@ pub use lower::compile;
 pub use program::{CycleStyle, List, Literal, Op, Program, Upon};
 pub use routine::{Branch, Flow, Node, Routine};
 pub use sources::Sources;
-pub use work::WorkWord;
+pub use work::{WorkWord, WorkWords};

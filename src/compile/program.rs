@@ -4,7 +4,7 @@ use sha2::{Digest, Sha256};
 
 use super::letters::LetterTable;
 use super::routine::Routine;
-use super::work::WorkWord;
+use super::work::WorkWords;
 use crate::control::Code;
 use crate::lang::{Each, SEQUENCES, SequenceId, TextId, TextSet, TextVar, VarId, VarSet};
 use crate::sema::{Formula, Settings, Target};
@@ -211,8 +211,8 @@ pub struct Program {
     pub speaks_g: bool,
     /// The form's own sequences switch the spindle along the path (torch, laser): none is generated between them.
     pub switches_spindle: bool,
-    /// How the form prints `[work]`, where it is no G code.
-    pub work_word: Option<WorkWord>,
+    /// How the form says its work offset, and which operations do.
+    pub work: WorkWords,
     /// What the form says of each letter, for programs in inches and in millimetres.
     pub letters: [LetterTable; 2],
     /// Remarks of the Custom cycles: the kind that each serves.

@@ -1,59 +1,74 @@
-//! How a form says a work offset: by a G code, or by a word of its own, whose value may be calculated.
+//! How a form says a work offset: by G codes, by words of its own, whose values may be calculated, or behind a text.
 
-use super::letters::LetterTable;
-use crate::control::{Code, Control, Group, Meaning};
-use crate::lang::{SequenceId, VarId, VarSet};
-use crate::sema::{Form, Formula, Line, Word, WordKind};
+use crate::control::{Code, Control, Group};
+use crate::lang::{VarId, additional_work};
+use crate::sema::{Formula, Values};
 
-/// A work offset that is the parameter of a code, or a word of its own: `G154 P[work]`, `G15 H[work]`, `E[work]`.
+/// One way in which a form says its work offset: `G[work]`, `G154 P[work]`, `G15 H[work]`, `E[work]`, `[work]` behind a text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorkWord {
     /// The G code before it in its block.
     pub code: Option<Code>,
-    /// The letter of the word.
-    pub letter: u8,
+    /// The letter of the word; `None`: the value stands behind a text.
+    pub letter: Option<u8>,
+    /// The value is the number of a G code.
+    pub is_code: bool,
     /// How the form makes its value, as `[work-53]`; `None`: it is the job's.
-    pub calculated: Option<Formula>,
-    /// G54 to G59 select offsets beside it. Not where its own code is another one: G56 of an Okuma, which has G15, is a
-    /// length.
+    pub(super) calculated: Option<Formula>,
+}
+
+/// How a form says its work offset, and where. An argument of a macro, of a subprogram or of G10 is none of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WorkWords {
+    /// The ways, those of the tool changes first; none: G codes say it, or nothing.
+    pub ways: Vec<WorkWord>,
+    /// The operations that say it, in their order.
+    pub(super) says: Vec<usize>,
+    /// G54 to G59 select offsets beside words of the form's own. Not where such a word has another code: G56 of an Okuma, which
+    /// has G15, is a length.
     pub shares_its_codes: bool,
 }
 
-/// The word of the work offset; `None`: a G code says it, or nothing. The tool changes know best.
-pub(super) fn of(form: &Form) -> Option<WorkWord> {
-    let letters = LetterTable::new(form, false);
-    let changes = [SequenceId::FirstToolChange, SequenceId::ToolChange].iter().filter_map(|id| form.sequences.get(id));
-    let upons = form.upons.iter().filter(|upon| upon.var == VarId::Work).map(|upon| &upon.lines);
-    let others =
-        form.sequences.values().map(|sequence| &sequence.lines).chain(form.upons.iter().map(|upon| &upon.lines));
-    let lines = changes.map(|sequence| &sequence.lines).chain(upons).chain(others).flatten();
-    let words: Vec<WorkWord> = lines.filter_map(|line| in_block(form.settings.codes(), line)).collect();
-    let by_code = words.iter().any(|word| letters[word.letter].printed == b'G');
-    words.into_iter().next().filter(|_| !by_code)
-}
-
-/// The word in one block, unless it is an argument there: of a macro, a subprogram, or of G10.
-fn in_block(control: &Control, line: &Line) -> Option<WorkWord> {
-    let own = line.words.iter().enumerate().find_map(|(at, word)| match &word.kind {
-        WordKind::Var(letter, VarId::Work) => Some((at, *letter, None)),
-        WordKind::Formula(Some(letter), of) if of.vars() == VarSet::of(&[VarId::Work]) => {
-            Some((at, *letter, Some(Formula::clone(of))))
-        }
-        _ => None,
-    });
-    let (at, letter, calculated) = own?;
-    let takes = |meaning: Meaning| meaning == Meaning::Data || meaning.is_call();
-    if line.words.iter().filter_map(Word::code).any(|code| control.meaning(code).is_some_and(takes)) {
-        return None;
+impl WorkWords {
+    /// Does this operation say the work offset?
+    pub fn says(&self, op: usize) -> bool {
+        self.says.binary_search(&op).is_ok()
     }
-    let selects = |code: &Code| code.letter == b'G' && matches!(control.group(*code), None | Some(Group::Work));
-    let code = line.words[..at].iter().rev().find_map(|word| word.code().or_else(|| quoted(word)).filter(selects));
-    let shares_its_codes = code.is_none_or(|code| control.group(code) == Some(Group::Work));
-    Some(WorkWord { code, letter, calculated, shares_its_codes })
+
+    /// Do G codes alone say it, so that each of them is one?
+    pub fn by_code(&self) -> bool {
+        self.ways.is_empty() || self.ways.iter().any(|way| way.is_code)
+    }
+
+    /// How an offset is said: the first way for which the control has such an offset, and the value of its word.
+    pub fn way(&self, values: &dyn Values, control: &Control) -> Option<(&WorkWord, f64)> {
+        self.ways.iter().find_map(|way| {
+            let value = match &way.calculated {
+                Some(formula) => formula.number(values).ok(),
+                None => values.number(VarId::Work),
+            };
+            value.filter(|value| way.has(*value, control)).map(|value| (way, value))
+        })
+    }
+
+    /// What a program calls the offset that the form says so: its code, its number, or the name of an additional one.
+    pub fn name(&self, values: &dyn Values, control: &Control) -> Option<f64> {
+        let (way, value) = self.way(values, control)?;
+        Some(if way.is_parameter(control) { additional_work(value) } else { value })
+    }
 }
 
-/// A code in backquotes.
-fn quoted(word: &Word) -> Option<Code> {
-    let WordKind::Quote(text) = &word.kind else { return None };
-    text.trim().parse().ok()
+impl WorkWord {
+    /// Is it the parameter of a code that selects additional offsets?
+    fn is_parameter(&self, control: &Control) -> bool {
+        !self.is_code && self.code.is_some_and(|code| control.group(code) == Some(Group::Work))
+    }
+
+    /// Does the control have such an offset, as far as that is known?
+    fn has(&self, value: f64, control: &Control) -> bool {
+        match self.is_code {
+            true => Code::of(b'G', value).is_some_and(|code| control.group(code) == Some(Group::Work)),
+            false => !self.is_parameter(control) || value >= 1.0 && value.fract() == 0.0,
+        }
+    }
 }

@@ -6,7 +6,12 @@ use crate::diag::Code;
 /// Most passes of one thread: more is a slip of the decimal point.
 const MOST_PASSES: usize = 1000;
 
+/// Less of the first pass than this is no pass of its own.
+const REST: f64 = 1e-3;
+
 /// How deep each pass of a thread goes below its crest, in the units of `depth`.
+///
+/// What is left for a last pass and no more than the digits of the job is none: the one before goes to the whole depth.
 ///
 /// Equal chip area: pass k cuts to `first * sqrt(k)`, the last to the whole depth. `passes` sets the first cut to
 /// `depth / sqrt(passes)`; else `first` is given. No pass cuts less than `least`, except the last.
@@ -29,7 +34,7 @@ pub fn thread_passes(depth: f64, first: Option<f64>, passes: Option<usize>, leas
     loop {
         let reached = list.last().copied().unwrap_or(0.0);
         let next = (first * ((list.len() + 1) as f64).sqrt()).max(reached + least);
-        if next >= depth - depth * 1e-9 {
+        if next >= depth - first * REST {
             list.push(depth);
             return Ok(list);
         }
@@ -64,6 +69,14 @@ mod tests {
             }
             if by_count && least == 0.0 { prop_assert_eq!(list.len(), count); }
         }
+    }
+
+    /// A depth and a first pass of few digits, which make seven passes.
+    #[test]
+    fn what_the_digits_leave_is_no_pass() {
+        assert_eq!(thread_passes(0.07937254, Some(0.03), None, 0.0).unwrap().len(), 7);
+        assert_eq!(thread_passes(0.0794, Some(0.03), None, 0.0).unwrap().len(), 7);
+        assert_eq!(thread_passes(0.08, Some(0.03), None, 0.0).unwrap().len(), 8);
     }
 
     #[test]

@@ -50,6 +50,7 @@ codes! {
     PF017 Warning "a subprogram that does not return"
     PF018 Warning "a subprogram without its number"
     PF019 Error "a control's file that can't be read"
+    PF020 Error "a command inside a sequence"
     // PF1: blanks and comments
     PF101 Warning "words lost after a double blank or a tab"
     PF102 Warning "a missing blank between two words"
@@ -301,6 +302,8 @@ codes! {
     PR053 Error "a value that a property does not take"
     PR054 Error "a kind of coolant that the form does not have"
     PR055 Warning "a cut with the spindle off"
+    PR056 Warning "a word of the form that the job takes back"
+    PR057 Error "two tools that are one to the control"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

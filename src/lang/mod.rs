@@ -21,7 +21,7 @@ pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
 pub use suggest::{LONGEST_NAME, did_you_mean, nearest};
 pub use texts::{TEXT_COUNT, TEXTS, Text, TextId, TextSet, TextVar, WIDEST};
 pub use variables::{AHEAD, MOST_VARIABLES, Origin, TOOLS_AHEAD, Unit, VARIABLES, VarId, VarSet, Variable};
-pub use work::work_code;
+pub use work::{additional_work, work_code};
 
 /// Where a rule comes from; the reference keeps the mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -21,7 +21,11 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .into_iter()
         .filter(may_be)
         .map(|candidate| (strsim::damerau_levenshtein(&wrong, &candidate.to_ascii_lowercase()), candidate))
-        .filter(|&(distance, candidate)| distance <= allowed && distance < candidate.chars().count())
+        .filter(|&(distance, candidate)| {
+            // `dd` for `d`: the one letter twice
+            let twice = || wrong.chars().all(|c| candidate.chars().any(|own| own.eq_ignore_ascii_case(&c)));
+            distance <= allowed && (distance < candidate.chars().count() || twice())
+        })
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
 }
@@ -48,6 +52,7 @@ mod tests {
         assert_eq!(nearest("RPLAN", names), Some("rplane"));
         assert_eq!(nearest("feedrate", names), None);
         assert_eq!(nearest("z", names), None);
+        assert_eq!([nearest("vv", names), nearest("zv", names)], [Some("v"), None]);
     }
 
     #[test]

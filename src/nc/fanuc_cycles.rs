@@ -8,6 +8,7 @@ use super::fault::{Done, refuse};
 use super::holes::{Series, Work};
 use super::out::Out;
 use super::state::State;
+use crate::control;
 use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
@@ -49,6 +50,7 @@ impl State {
             _ if self.modes.to_initial => series.initial.max(r),
             _ => r,
         };
+        let (feed, peck) = self.tap_by_pitch(code).unwrap_or((self.drive.feed, series.peck.unwrap_or(0.0)));
         let hole = Drilling {
             code,
             at: self.place.position,
@@ -57,10 +59,10 @@ impl State {
             bottom,
             clear,
             dwell: series.dwell.filter(|_| code != 810 && code != 850).unwrap_or(0.0),
-            peck: series.peck.unwrap_or(0.0),
+            peck,
             shift: self.bore_shift(code),
             level: bottom,
-            feed: self.drive.feed,
+            feed,
             heights: match (series.r_unknown || series.depth_unknown, series.initial_unknown) {
                 (true, _) => Heights::Unknown,
                 (_, true) if code == 870 || self.modes.to_initial => Heights::ButClear,
@@ -70,6 +72,14 @@ impl State {
         super::cycles::check_moves(times, &hole)?;
         self.holes.work = Some(Work { hole, times, begun: 0, level: self.place.position[across], depth: None });
         self.make_holes(block, out)
+    }
+
+    /// The feed of a tap whose pitch has a word of its own, and no pecks: its F counts the turns. Without that word it is a tap
+    /// like any other.
+    fn tap_by_pitch(&self, code: u16) -> Option<(f64, f64)> {
+        let row = self.control.row(control::Code { letter: b'G', tenths: code })?;
+        let pitch = self.holes.series.peck.filter(|pitch| row.pitch == Some(b'Q') && *pitch > 0.0)?;
+        Some((pitch * self.drive.feed, 0.0))
     }
 
     /// Keeps the words of a block for the holes of the series; `depth` is the letter of the axis across the plane.

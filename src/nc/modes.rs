@@ -8,6 +8,7 @@ use super::out::Out;
 use super::state::State;
 use crate::control::{DwellUnit, Meaning, Rules};
 use crate::diag::Code;
+use crate::lang::additional_work;
 use crate::toolpath::{FeedMode, Units};
 
 impl State {
@@ -141,7 +142,9 @@ impl State {
             return Ok(());
         };
         let (number, name) = match (code, block.get(b'P')) {
-            (541 | 1540, Some(p)) if (1.0..=99.0).contains(&p) && p.fract() == 0.0 => (9 + p as usize, 1540.0 + p),
+            (541 | 1540, Some(p)) if (1.0..=99.0).contains(&p) && p.fract() == 0.0 => {
+                (9 + p as usize, additional_work(p))
+            }
             (541 | 1540, _) => {
                 return refuse(Code::PN007, "an additional work offset without its number", "write P1 to P99 with it");
             }

@@ -15,11 +15,11 @@ use crate::toolpath::{FeedMode, Units};
 const LENGTHS: u32 = letters("XYZABCIJKRQ");
 
 impl State {
-    /// The words that need no code in their block. Where the control is not named, H counts only for a length in force: on
-    /// other controls `G56 H1` is one itself.
-    fn free_words(&self) -> u32 {
+    /// The words that need no code in their block. Where the control is not named, H beside a work offset does: on another
+    /// control `G56 H1` is a length.
+    fn free_words(&self, block: &Block) -> u32 {
         let free = self.control.traits().everywhere.bits();
-        if self.settings.assumed && !self.tool.length_on { free & !bit(b'H') } else { free }
+        if self.settings.assumed && block.row(Group::Work).is_some() { free & !bit(b'H') } else { free }
     }
 
     /// Runs a block.
@@ -36,7 +36,7 @@ impl State {
         let motion = self.motion_of(block)?;
         let in_force = if self.control.is_linuxcnc() { None } else { self.holes.cycle };
         let row = in_force.or(motion).and_then(|code| g_code(self.control, code));
-        block.check_words(row, self.free_words())?;
+        block.check_words(row, self.free_words(block))?;
         let mut out = Out::new(items, line);
         if let Some((start, end)) = block.comment {
             out.push(Action::Comment(start, end));

@@ -79,6 +79,13 @@ impl Options {
         properties(&self.properties, settings, true)
     }
 
+    /// The properties that somebody else than the job gives, by their rows; the last of a row counts.
+    pub(super) fn given_properties(&self, settings: &Settings) -> Result<Vec<(u16, PropertyValue)>, Error> {
+        let mut given = properties(&self.shop_properties, settings, false)?;
+        given.extend(self.fixed_properties(settings)?);
+        Ok(given)
+    }
+
     /// The options as the renderer takes them.
     pub(super) fn for_renderer(&self, settings: &Settings) -> Result<render::Options, Error> {
         let set = self.set.iter().map(|(name, value)| Ok((variable(name).map_err(Error::usage)?, *value)));

@@ -142,7 +142,7 @@ impl Proof {
             back_off: self.back_off,
             unpointed: self.unpointed,
             centers_absolute: form.is_some_and(|form| !form.centre_incremental),
-            assumed: self.control.is_none() && of_form.is_none(),
+            assumed: self.control.is_none() && form.is_none(),
             ..RunSettings::new(control)
         }
     }
@@ -163,7 +163,9 @@ impl Plan {
         Plan {
             settings: proof.settings(form, options.units.unwrap_or(Units::Mm)),
             expectation: form.map_or_else(Expectation::default, |form| {
-                Expectation::of_form(&form.settings, options.sink_as_printed).typed(form)
+                // a wrong value is refused where the program is printed
+                let given = options.given_properties(&form.settings).unwrap_or_default();
+                Expectation::of_form(&form.settings, options.sink_as_printed).typed(form).given(&given)
             }),
             of_job: options.units.is_none(),
             assumed: proof.control.is_none() && form.is_some_and(|form| form.settings.control.is_none()),

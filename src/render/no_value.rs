@@ -4,7 +4,6 @@ use super::fault::{Done, fault};
 use super::vars::MOVED;
 use crate::diag::{Code, Diag};
 use crate::lang::{AHEAD, Origin, VarId};
-use crate::sema::Without;
 use crate::span::Span;
 
 /// The error of a variable that has no value.
@@ -17,6 +16,10 @@ pub fn no_value<T>(var: VarId) -> Done<T> {
                 .to_owned()
         }
         _ if AHEAD.has(var) => "the job has no cut that tells it; ask before it, as `@if [hmin]`".to_owned(),
+        VarId::Dcomp => {
+            "give the operation a tool with a `diameter_offset`; a wire without a tool takes \"set\": {\"dcomp\": 1}"
+                .to_owned()
+        }
         VarId::Program => "give the job a `program`, or say it with `--program NUMBER`".to_owned(),
         VarId::H | VarId::V | VarId::D => "begin the operation with a rapid that gives all coordinates".to_owned(),
         _ if MOVED.contains(&var) => {
@@ -31,13 +34,11 @@ pub fn no_value<T>(var: VarId) -> Done<T> {
     fault(Code::PR001, format!("[{}] has no value here", var.name()), help)
 }
 
-/// The error of a calculation that comes to nothing.
+/// The error of a condition that asks for the tools ahead in a job that is read once and does not list them.
 #[cold]
-pub fn no_result<T>(why: Without) -> Done<T> {
-    match why {
-        Without::Value(var) => no_value(var),
-        Without::Divisor(divisor) => Err(Box::new(division_by_zero(divisor))),
-    }
+pub fn no_order() -> Diag {
+    Diag::new(Code::PR052, "the tools that come next are not known")
+        .help("list them under `tool_order` in the job's head, or render without `--stream`")
 }
 
 /// The error of a division by zero.

@@ -204,10 +204,18 @@ impl Printer {
 
     /// A remark on the item that is printed: each kind once.
     pub fn note(&mut self, code: Code, message: String, help: &str) {
+        self.note_at(code, message, help, None);
+    }
+
+    /// A remark on the item that is printed and a line of the form.
+    pub fn note_at(&mut self, code: Code, message: String, help: &str, form: Option<Span>) {
         if !self.notes.iter().any(|n| n.code == code && n.message == message) && self.notes.len() < 100 {
             let mut diag = Diag::new(code, message).help(help);
             diag.place = Some(self.place.into());
-            self.notes.push(diag);
+            self.notes.push(match form {
+                Some(span) => diag.at(span, "printed from here"),
+                None => diag,
+            });
         }
     }
 

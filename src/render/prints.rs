@@ -13,6 +13,15 @@ pub fn prints_code(routine: &Routine, asked: impl Fn(Code) -> bool, shape: &Shap
     })
 }
 
+/// Does a sequence print a word of this letter?
+pub fn prints_letter(routine: &Routine, asked: u8, shape: &Shape) -> bool {
+    routine.steps().any(|i| match shape.program.ops[i] {
+        Op::Var { letter, .. } | Op::Formula { letter, .. } => letter == asked,
+        Op::Literal { index, .. } => shape.program.literals[index as usize].letter == asked,
+        _ => false,
+    })
+}
+
 /// Does a sequence print its motion code: as typed, or by a variable?
 pub fn prints_motion(routine: &Routine, shape: &Shape) -> bool {
     let by_variable = |i: usize| match shape.program.ops[i] {
@@ -45,6 +54,17 @@ pub fn moves_without_motion(routine: &Routine, shape: &Shape) -> bool {
         }
     }
     false
+}
+
+/// Does a sequence say the work offset? An argument of a macro is none.
+pub fn says_work(routine: &Routine, shape: &Shape) -> bool {
+    routine.steps().any(|op| shape.program.work.says(op))
+}
+
+/// Does a sequence say what its speed counts: as typed, or by a variable?
+pub fn says_speed_mode(routine: &Routine, shape: &Shape) -> bool {
+    routine.vars.has(VarId::Speedtype)
+        || prints_code(routine, |code| shape.group_of(code) == Some(Group::SpeedMode), shape)
 }
 
 /// The variables that say where a linear axis goes.

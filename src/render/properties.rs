@@ -3,15 +3,16 @@
 
 use super::fault::{Done, fault};
 use crate::diag::Code;
-use crate::sema::{Property, PropertyValue, Settings};
+use crate::lang::UnitChoice;
+use crate::sema::{Property, PropertyKind, PropertyValue, Settings};
 use crate::toolpath::Given;
 
 /// A value of a property.
 #[derive(Clone, Debug, PartialEq)]
 struct Held {
     value: PropertyValue,
-    /// It is not the form's default.
-    given: bool,
+    /// As a length it counts in the form's units; else in those of the program.
+    in_forms_units: bool,
 }
 
 /// The values of the form's properties, by row.
@@ -27,11 +28,14 @@ pub struct Properties {
 impl Properties {
     /// What the form and the shop say, and what the caller says above all.
     pub fn new(settings: &Settings, shop: &[(u16, PropertyValue)], caller: &[(u16, PropertyValue)]) -> Properties {
-        let own = settings.properties.iter().map(|property| Held { value: property.default.clone(), given: false });
+        let own =
+            settings.properties.iter().map(|property| Held { value: property.default.clone(), in_forms_units: true });
         let mut now: Vec<_> = own.collect();
         let mut fixed = vec![false; now.len()];
+        // a form for both units counts its own numbers in inches; who gives one sees the program's
+        let in_forms_units = settings.units != UnitChoice::Both;
         for (row, value) in shop.iter().chain(caller) {
-            now[usize::from(*row)] = Held { value: value.clone(), given: true };
+            now[usize::from(*row)] = Held { value: value.clone(), in_forms_units };
         }
         for (row, _) in caller {
             fixed[usize::from(*row)] = true;
@@ -44,9 +48,9 @@ impl Properties {
         &self.now[usize::from(row)].value
     }
 
-    /// Does a value come from without? Else it is the form's default.
-    pub fn is_given(&self, row: u16) -> bool {
-        self.now[usize::from(row)].given
+    /// Does a length count in the form's units? Else it counts in the program's.
+    pub fn is_in_forms_units(&self, row: u16) -> bool {
+        self.now[usize::from(row)].in_forms_units
     }
 
     /// What was set so far is the job's.
@@ -61,14 +65,18 @@ impl Properties {
         }
     }
 
-    /// The job gives a value.
-    pub fn set(&mut self, row: usize, property: &Property, given: &Given) -> Done {
+    /// The job gives a value; `scale`: the factor from its lengths to the program's.
+    pub fn set(&mut self, row: usize, property: &Property, given: &Given, scale: f64) -> Done {
         let value = match given {
             Given::Number(number) => property.kind.read(&number.to_string()),
             Given::Text(text) => property.kind.read(text),
         };
+        let value = value.map(|value| match (value, &property.kind) {
+            (PropertyValue::Number(length), PropertyKind::Length) => PropertyValue::Number(length * scale),
+            (value, _) => value,
+        });
         match value {
-            Ok(value) if !self.fixed[row] => self.now[row] = Held { value, given: true },
+            Ok(value) if !self.fixed[row] => self.now[row] = Held { value, in_forms_units: false },
             Ok(_) => {}
             Err(why) => {
                 let message = format!("the property {}: {why}", property.name);

@@ -3,7 +3,6 @@
 use super::beside::{begin_beside, end_beside};
 use super::body::run_all;
 use super::fault::{Done, fault, fault_at};
-use super::no_value::no_result;
 use super::printer::Printer;
 use super::said::Said;
 use super::shape::Shape;
@@ -73,9 +72,10 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
         value_code(b'M', ends, shape, want, said, out)?;
         out.end_block();
     }
-    if let Some(cool) = want.get(VarId::Cool)
+    if let Some(cool) = said.due(VarId::Cool, want)
         && said.conditions.get(VarId::Cool) != Some(cool)
     {
+        takes_back(VarId::Cool, cool, shape, said, out);
         value_code(b'M', cool, shape, want, said, out)?;
         out.end_block();
         said.conditions.put(VarId::Cool, Some(cool));
@@ -89,7 +89,18 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
         out.end_block();
         said.conditions.put(VarId::Feedtype, Some(feed_type));
     }
+    said.conditions_are_settled(want);
     Ok(())
+}
+
+/// The job's condition is about to be printed: did a line of the form say another one?
+fn takes_back(var: VarId, due: f64, shape: &Shape, said: &mut Said, out: &mut Printer) {
+    let Some((typed, line)) = said.take_typed(var) else { return };
+    let letter = if var == VarId::Speed { char::from(shape.program.settings.speed_code) } else { 'M' };
+    let message =
+        format!("the form prints {letter}{typed}, and the job says {letter}{due}, which is printed behind it");
+    let help = "take the word out of the form, or let the job say nothing of it";
+    out.note_at(Code::PR056, message, help, line);
 }
 
 /// The form's own sequence for a change that no other sequence served; what it leaves unsaid is generated behind it.
@@ -116,7 +127,7 @@ fn print_spindle(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer)
     if shape.program.switches_spindle {
         return Ok(());
     }
-    let speed = want.get(VarId::Speed);
+    let speed = said.due(VarId::Speed, want);
     let direct = want.get(VarId::Direct);
     let turns = direct.is_some_and(|code| code == cw || code == ccw);
     let speed_type = want.get(VarId::Speedtype);
@@ -130,14 +141,17 @@ fn print_spindle(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer)
             said.conditions.put(VarId::Speedtype, Some(mode));
         }
         if let Some(speed) = speed {
+            takes_back(VarId::Speed, speed, shape, said, out);
             speed_word(speed, shape, want, said, out)?;
             said.conditions.put(VarId::Speed, Some(speed));
         }
         if let Some(direct) = direct {
+            takes_back(VarId::Direct, direct, shape, said, out);
             value_code(b'M', direct, shape, want, said, out)?;
         }
         out.end_block();
     } else if direct == Some(off) && said.conditions.get(VarId::Direct) != Some(off) {
+        takes_back(VarId::Direct, off, shape, said, out);
         value_code(b'M', off, shape, want, said, out)?;
         out.end_block();
     }
@@ -176,28 +190,41 @@ pub fn speed_mode_before(shape: &Shape, want: &Want, said: &mut Said, out: &mut 
         return Ok(());
     };
     value_code(b'G', mode, shape, want, said, out)?;
-    out.end_block();
     said.conditions.put(VarId::Speedtype, Some(mode));
+    // alone the code would count the speed before it in its own unit
+    if let Some(speed) = want.get(VarId::Speed) {
+        speed_word(speed, shape, want, said, out)?;
+        said.conditions.put(VarId::Speed, Some(speed));
+    }
+    out.end_block();
     Ok(())
 }
 
 /// The work offset as the form prints it.
 fn work_block(work: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    match &shape.program.work_word {
-        Some(WorkWord { code, letter, calculated, .. }) => {
+    let words = &shape.program.work;
+    let now = Now { shape, want, said, letter: b' ', block: None, set: &said.kept };
+    match words.way(&now, shape.program.settings.codes()) {
+        Some((&WorkWord { code, letter: Some(letter), is_code, .. }, value)) => {
             if let Some(code) = code {
-                code_word(&sema::Code::plain(*code), shape, want, said, out)?;
+                code_word(&sema::Code::plain(code), shape, want, said, out)?;
             }
-            let now = Now { shape, want, said, letter: *letter, block: None, set: &said.kept };
-            let value = calculated.as_ref().map_or(Ok(work), |formula| formula.number(&now).or_else(no_result))?;
-            letter_word(*letter, value, shape, said, out)?;
-            said.forget_axes(shape);
+            if is_code {
+                value_code(letter, value, shape, want, said, out)?;
+            } else {
+                letter_word(letter, value, shape, said, out)?;
+                said.forget_axes(shape);
+            }
         }
-        None if is_no_work(work, shape) => {
+        None if words.ways.is_empty() && !is_no_work(work, shape) => value_code(b'G', work, shape, want, said, out)?,
+        Some(_) => {
+            let message = format!("the work offset changes to {work}, which the form says by a text");
+            return fault(Code::PR017, message, "add the sequence `WorkChange` with that text");
+        }
+        None => {
             let message = format!("the work offset changes to {work}, and the form nowhere prints [work]");
             return fault(Code::PR017, message, "print `G[work]` in the tool changes, or add `Upon [work]`");
         }
-        None => value_code(b'G', work, shape, want, said, out)?,
     }
     out.end_block();
     said.conditions.put(VarId::Work, Some(work));

@@ -20,7 +20,10 @@ fn stands(shape: &Shape, want: &Want) -> bool {
     let settings = &shape.program.settings;
     let off = want.get(VarId::Direct) == Some(settings.spindle[2]) && !want.cycle.is_some_and(CycleKind::is_tap);
     let stands = off || want.get(VarId::Speed) == Some(0.0);
-    stands && settings.machine == Machine::Mill && want.cycle != Some(CycleKind::Manual)
+    stands
+        && !shape.program.switches_spindle
+        && settings.machine == Machine::Mill
+        && want.cycle != Some(CycleKind::Manual)
 }
 
 #[cold]

@@ -1,9 +1,11 @@
 //! Names and remarks of the job, for people: their values, and how they fit into a comment or a word.
 
+use super::fault::{Done, fault};
 use super::marks::in_comment;
 use super::plain::plain;
 use super::printer::{LONGEST, Printer};
 use super::shape::Shape;
+use std::collections::HashMap;
 use std::fmt::Display;
 
 use crate::compile::Op;
@@ -79,6 +81,43 @@ pub fn are_empty(comment: &[Op], texts: &Texts, property: &dyn Fn(u16) -> bool) 
     })
 }
 
+/// The names of tools that words have printed, each with the tool's own.
+#[derive(Clone, Debug, Default)]
+pub struct Names(HashMap<String, String>);
+
+impl Names {
+    /// A word prints the name of a tool, by which the control calls it: it must have one, and be the only one of it.
+    pub fn tool(&mut self, text: &Text) -> Done {
+        let own = plain_word(text);
+        if text.text.is_empty() {
+            let help = "give the tool a `name` in the job, or ask before it: `@if [toolname]`";
+            return fault(
+                Code::PR001,
+                format!("{} has no value here, and the control calls its tools by it", text.name),
+                help,
+            );
+        }
+        let other = self.0.entry(own.clone()).or_insert_with(|| text.text.to_owned());
+        if *other == text.text {
+            return Ok(());
+        }
+        let message = format!("the tools `{other}` and `{}` both print as {own}", text.text);
+        fault(Code::PR057, message, "give them names that differ in letters, digits or _ - .")
+    }
+}
+
+/// A text as a word has it, without the blanks of its width.
+fn plain_word(text: &Text) -> String {
+    let wide = usize::from(text.width.unsigned_abs());
+    let most = if wide == 0 { usize::MAX } else { wide };
+    text.text.chars().take(most).map(|c| in_word(c).unwrap_or('_')).collect()
+}
+
+/// A character as a part of a word, if it is one.
+fn in_word(c: char) -> Option<char> {
+    Some(c).filter(|c| c.is_ascii_alphanumeric() || "_-.".contains(*c))
+}
+
 /// A text with its name and width.
 pub struct Text<'a> {
     pub name: &'a dyn Display,
@@ -115,11 +154,13 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
     for c in text.chars().take(taken) {
         block.push(match c {
             c if behind.is_some() => in_comment(c, in_brackets, settings),
-            'A'..='Z' | 'a'..='z' | '0'..='9' | '_' | '-' | '.' => c as u8,
-            _ => {
-                changed = true;
-                b'_'
-            }
+            c => in_word(c).map_or_else(
+                || {
+                    changed = true;
+                    b'_'
+                },
+                |c| c as u8,
+            ),
         });
     }
     if width > 0 {

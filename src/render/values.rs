@@ -5,7 +5,7 @@ use super::said::Said;
 use super::shape::Shape;
 use super::vars::MOVED;
 use super::want::Want;
-use crate::lang::{Coolant, TextId, UnitChoice, VarId};
+use crate::lang::{Coolant, TextId, VarId};
 use crate::sema::{PropertyKind, Target, Values};
 
 /// What is asked for values, on behalf of a letter: angles differ by the axis that prints them.
@@ -66,10 +66,9 @@ impl Values for Now<'_, '_> {
         let target = Target::Property(row);
         let set = self.set.of(target).or_else(|| self.said.kept.of(target));
         let settings = &self.shape.program.settings;
-        // a form for both units counts its own numbers in inches; who gives one sees the program's
-        let is_in_forms_units = settings.units != UnitChoice::Both || !self.want.properties.is_given(row);
         let is_length = settings.properties[usize::from(row)].kind == PropertyKind::Length;
-        let scale = if is_length && is_in_forms_units { self.shape.form_scale } else { 1.0 };
+        let scales = is_length && self.want.properties.is_in_forms_units(row);
+        let scale = if scales { self.shape.form_scale } else { 1.0 };
         set.unwrap_or_else(|| self.want.properties.get(row).number() * scale)
     }
 

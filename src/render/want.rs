@@ -13,9 +13,9 @@ use super::vars::Vars;
 use crate::control::Meaning;
 use crate::control::{self, Group};
 use crate::diag::Code;
-use crate::lang::{Machine, Origin, Unit, VARIABLES, VarId, did_you_mean, work_code};
+use crate::lang::{Machine, Origin, TextId, Unit, VARIABLES, VarId, did_you_mean, work_code};
 use crate::number::quantise;
-use crate::sema::Settings;
+use crate::sema::{Settings, Values};
 use crate::toolpath::{Coolant, CycleKind, FeedMode, Spindle, SpindleTurn};
 
 /// What the job asks for now.
@@ -48,6 +48,8 @@ pub struct Want {
     pub in_operation: bool,
     /// Coolant of this kind is on.
     pub coolant: Coolant,
+    /// The job has said so; else the form may turn some on itself.
+    pub coolant_is_said: bool,
     /// The code that ends another kind of coolant, which nothing printed yet.
     pub ends_coolant: Option<f64>,
     /// Cutter compensation is on.
@@ -79,6 +81,7 @@ impl Want {
             most_rpm: None,
             in_operation: false,
             coolant: Coolant::OFF,
+            coolant_is_said: false,
             ends_coolant: None,
             compensated: false,
             cutting: false,
@@ -220,9 +223,19 @@ impl Want {
             let message = format!("the work offset {work} is a code, and this form counts its offsets from {first}");
             return fault(Code::PR037, message, "give the number of the fixture, from 1, or a code from 54 to 59");
         };
-        if shape.program.work_word.is_none() && is_no_work(code, shape) && settings.machine == Machine::Mill {
-            let message = format!("the work offset {work} would be G{code}, which is none");
-            return fault(Code::PR037, message, "give the code itself, as 59.1, or a fixture number from 1 to 6");
+        let words = &shape.program.work;
+        let of_work = OfWork { work: code, properties: &self.properties };
+        let is_said = match words.ways.is_empty() {
+            true => !is_no_work(code, shape),
+            false => words.way(&of_work, settings.codes()).is_some(),
+        };
+        if !is_said && settings.machine == Machine::Mill {
+            let message = format!("the form has no word for the work offset {work}");
+            let last = first + 5.0;
+            let help = format!(
+                "give a fixture number from 1 to 6, or a code as 59.1; or print more of them beside `G[work]`: `@if [work] > {last}`, `G54.1 P[work-{last}]`"
+            );
+            return fault(Code::PR037, message, help);
         }
         self.set_condition(VarId::Work, code);
         Ok(())
@@ -284,9 +297,44 @@ impl Want {
             let ended = ends != off && code != ends && (first == Coolant::OFF || !coolant.holds(before));
             self.ends_coolant = Some(ends).filter(|_| ended);
         }
-        self.coolant = coolant;
+        (self.coolant, self.coolant_is_said) = (coolant, true);
         self.set_condition(VarId::Cool, code);
         Ok(())
+    }
+
+    /// Another tool, and the job says nothing of its coolant: what the job had on is off, and the form may turn some on itself.
+    pub fn coolant_unsaid(&mut self, shape: &Shape) -> Done {
+        self.set_coolant(Coolant::OFF, shape)?;
+        self.coolant_is_said = false;
+        Ok(())
+    }
+}
+
+/// What a word of a work offset is made of.
+struct OfWork<'w> {
+    work: f64,
+    properties: &'w Properties,
+}
+
+impl Values for OfWork<'_> {
+    fn number(&self, var: VarId) -> Option<f64> {
+        (var == VarId::Work).then_some(self.work)
+    }
+
+    fn text(&self, _: TextId) -> &str {
+        ""
+    }
+
+    fn coolant(&self) -> Coolant {
+        Coolant::OFF
+    }
+
+    fn property(&self, row: u16) -> f64 {
+        self.properties.get(row).number()
+    }
+
+    fn property_text(&self, row: u16) -> &str {
+        self.properties.get(row).text()
     }
 }
 
@@ -316,6 +364,8 @@ pub fn settable(name: &str, settings: &Settings) -> Done<VarId> {
     let jobs = || VARIABLES.iter().filter(|v| v.origin == Origin::Job).map(|v| v.name).chain(own());
     match VarId::parse(name.trim_matches(['[', ']'])) {
         Some(var) if var.row().origin == Origin::Job => Ok(var),
+        // a wire has no tool that says it
+        Some(VarId::Dcomp) if settings.machine == Machine::Edm => Ok(VarId::Dcomp),
         Some(var) => fault(
             Code::PR016,
             format!("[{}] comes from the toolpath and can't be set", var.name()),

@@ -2,13 +2,14 @@
 
 use super::ahead;
 use super::kept::Kept;
-use super::no_value::division_by_zero;
+use super::no_value::{division_by_zero, no_order};
 use super::said::Said;
 use super::shape::Shape;
 use super::values::Now;
 use super::want::Want;
 use crate::compile::{List, Node, Routine};
-use crate::lang::SequenceId;
+use crate::diag::Diag;
+use crate::lang::{SequenceId, TOOLS_AHEAD};
 use crate::sema::{Formula, Value, Without};
 use crate::span::Span;
 
@@ -89,12 +90,26 @@ fn sets(nodes: &[Node], shape: &Shape) -> bool {
 }
 
 fn holds(condition: &Formula, span: Span, now: &Now) -> bool {
+    let wrong = |diag: Diag| now.shape.ways.fault.set(Box::new(diag.at(span, "asked here")));
+    if asks_unknown_order(condition, now) {
+        _ = wrong(no_order());
+        return false;
+    }
     match condition.holds(now) {
         Ok(holds) => holds,
         Err(Without::Divisor(divisor)) => {
-            _ = now.shape.ways.fault.set(Box::new(division_by_zero(divisor).at(span, "asked here")));
+            _ = wrong(division_by_zero(divisor));
             false
         }
         Err(Without::Value(_)) => false,
     }
+}
+
+/// Does a condition ask which tools come, and nobody has said it? Properties alone may decide it all the same.
+fn asks_unknown_order(condition: &Formula, now: &Now) -> bool {
+    now.want.tool_order.is_none()
+        && now.want.tool_changes > 0
+        && now.shape.program.asked.meets(TOOLS_AHEAD)
+        && condition.vars().meets(TOOLS_AHEAD)
+        && condition.decided(now, &|_| true).is_none()
 }

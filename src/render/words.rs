@@ -132,7 +132,7 @@ pub fn value_code(letter: u8, value: f64, shape: &Shape, want: &Want, said: &mut
 pub fn parameter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, out: &mut Printer) -> Done {
     letter_word(letter, value, shape, said, out)?;
     said.forget(&shape.letters[letter]);
-    said.speed_word(letter, None, shape);
+    said.parameter_of_code(letter, shape);
     Ok(())
 }
 

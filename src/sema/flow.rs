@@ -20,6 +20,8 @@ pub const MOST_ARMS: usize = 128;
 pub struct Flow {
     /// What is closed so far, on each level that is open.
     levels: Vec<Level>,
+    /// Directives that lie too deep and wait for their `@end`: they open no level, so that a tree is never deeper.
+    too_deep: usize,
     /// The outermost level.
     steps: Vec<Step>,
     arms: usize,
@@ -60,6 +62,9 @@ impl Flow {
     /// A directive.
     pub fn directive(&mut self, directive: &Directive, context: &Context, diags: &mut Vec<Diag>) {
         self.any = true;
+        if self.lies_too_deep(directive, diags) {
+            return;
+        }
         let at = directive.name.span;
         let name = &directive.name.text;
         let mut wrong = |message: String, label: &str, help: &str| {
@@ -67,7 +72,6 @@ impl Flow {
         };
         match &directive.kind {
             DirectiveKind::If(asked) => {
-                self.not_too_deep(at, diags);
                 let condition = self.condition(asked, directive, context, diags);
                 let arm = Arm { span: at.to(directive.rest.span), condition, steps: Vec::new() };
                 self.levels.push(Level { span: at, kind: Kind::If { arms: vec![arm], has_else: false } });
@@ -93,7 +97,6 @@ impl Flow {
                 }
             }
             DirectiveKind::For => {
-                self.not_too_deep(at, diags);
                 let each = self.list(directive, diags);
                 self.levels.push(Level { span: at.to(directive.rest.span), kind: Kind::For(each, Vec::new()) });
             }
@@ -136,6 +139,7 @@ impl Flow {
                 wrong(format!("`{name}` is no directive"), "unknown", &help);
                 // so that what belongs to it is not wrong, too
                 match meant {
+                    Some("@if" | "@for") if self.levels.len() == DEEPEST => self.too_deep += 1,
                     Some("@if") => {
                         let arm = Arm { span: at, condition: None, steps: Vec::new() };
                         self.levels.push(Level { span: at, kind: Kind::If { arms: vec![arm], has_else: false } });
@@ -160,6 +164,7 @@ impl Flow {
                 .help("write `@end` behind its last line"),
             );
         }
+        self.too_deep = 0;
         while !self.levels.is_empty() {
             self.close();
         }
@@ -167,6 +172,10 @@ impl Flow {
     }
 
     fn close(&mut self) {
+        if self.too_deep > 0 {
+            self.too_deep -= 1;
+            return;
+        }
         if let Some(level) = self.levels.pop() {
             let step = match level.kind {
                 Kind::If { arms, .. } => Step::If(arms),
@@ -199,14 +208,24 @@ impl Flow {
         self.levels.last().is_some_and(|level| matches!(level.kind, Kind::If { .. }))
     }
 
-    fn not_too_deep(&self, at: Span, diags: &mut Vec<Diag>) {
-        if self.levels.len() == DEEPEST {
-            diags.push(
-                Diag::new(Code::PF707, format!("directives lie more than {DEEPEST} deep"))
-                    .at(at, "one too many")
-                    .help("ask for both with `and`, or go on with `@elif`"),
-            );
+    /// Does a directive lie too deep, or belong to one that does? Its lines count as those of the level above.
+    fn lies_too_deep(&mut self, directive: &Directive, diags: &mut Vec<Diag>) -> bool {
+        if directive.kind.opens() && self.levels.len() == DEEPEST {
+            if self.too_deep == 0 {
+                diags.push(
+                    Diag::new(Code::PF707, format!("directives lie more than {DEEPEST} deep"))
+                        .at(directive.name.span, "one too many")
+                        .help("ask for both with `and`, or go on with `@elif`"),
+                );
+            }
+            self.too_deep += 1;
+            return true;
         }
+        let inside = self.too_deep > 0 && directive.kind.closes();
+        if inside && matches!(directive.kind, DirectiveKind::End) {
+            self.too_deep -= 1;
+        }
+        inside
     }
 
     /// What an `@for` goes through.

@@ -39,12 +39,11 @@ impl Analysis {
         if self.line_count == MOST_LINES + 1 {
             self.over_lines = Some(body.line.span);
         }
-        let count: usize = body.words.iter().map(|w| w.pieces.len()).sum();
+        let count = body.begins().count();
         if count <= MOST_WORDS {
             return;
         }
-        let mut pieces = body.words.iter().flat_map(|word| &word.pieces);
-        let at = pieces.nth(MOST_WORDS).map_or(body.line.span, |piece| piece.span);
+        let at = body.begins().nth(MOST_WORDS).map_or(body.line.span, |piece| piece.span);
         let mut diag = Diag::new(Code::PF601, format!("{count} words on a line, the limit is {MOST_WORDS}"))
             .at(at, format!("word {}", MOST_WORDS + 1))
             .help("break the line in two; `--limits extended` makes this a warning");

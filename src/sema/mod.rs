@@ -36,5 +36,5 @@ pub use property::{Property, PropertyKind, PropertyValue, Target};
 pub use settings::{
     ArcCentre, CoolantKind, DwellWord, LineEnd, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit,
 };
-pub use step::{Arm, Step, each_formula, line_counts};
+pub use step::{Arm, Step, each_formula, each_step, line_counts};
 pub use words::before_remark;

@@ -219,8 +219,9 @@ impl Analysis {
         let span = args.iter().fold(first.span, |all, arg| all.to(arg.span));
         // tried on settings of their own: those of the form grow with its commands
         if Settings::blank().apply(&Arguments { id, all: &args, span, typed: true }).is_ok() {
-            let diag = Diag::new(Code::PF003, format!("a command inside a sequence: {}", id.name()));
-            self.report(diag.at(span, "this would be printed").help("move it above the first sequence"));
+            let diag = Diag::new(Code::PF020, format!("{} is a command, and stands inside a sequence", id.name()));
+            let help = "move it above the first sequence; a word of the control's own stands in backquotes";
+            self.report(diag.at(span, "this would be printed").help(help));
         }
     }
 }

@@ -40,10 +40,10 @@ pub fn line_counts(steps: &[Step]) -> (usize, usize) {
             Step::Set(..) => (0, 0),
             Step::For(_, steps, _) => (0, line_counts(steps).1),
             Step::If(arms) => {
-                let counts = || arms.iter().map(|arm| line_counts(&arm.steps));
+                let counts = arms.iter().map(|arm| line_counts(&arm.steps));
+                let both = counts.reduce(|all, own| (all.0.min(own.0), all.1.max(own.1))).unwrap_or_default();
                 let else_is_said = arms.last().is_some_and(|arm| arm.condition.is_none());
-                let least = counts().map(|(least, _)| least).min().unwrap_or_default();
-                (if else_is_said { least } else { 0 }, counts().map(|(_, most)| most).max().unwrap_or_default())
+                (if else_is_said { both.0 } else { 0 }, both.1)
             }
         };
         both = (both.0 + least, both.1 + most);

@@ -29,7 +29,8 @@ impl Motion {
     /// At an unknown place.
     pub fn new(defaults: Defaults, machine: Machine) -> Motion {
         Motion {
-            defaults,
+            // a rigid tap goes in and out at its feed, whoever makes it
+            defaults: Defaults { rigid: true, ..defaults },
             depth: if machine == Machine::Lathe { 0 } else { 2 },
             at: Axes::default(),
             feed: None,

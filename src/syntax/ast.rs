@@ -254,6 +254,16 @@ pub enum PieceKind {
     },
 }
 
+impl Body {
+    /// The parts with which its words begin. Text in backquotes, and what sticks to it, is one word.
+    pub fn begins(&self) -> impl Iterator<Item = &Piece> {
+        self.words.iter().flat_map(|word| {
+            let is_first = move |at: usize| at == 0 || word.pieces[at].lacks_blank_after(&word.pieces[at - 1]);
+            (0..word.pieces.len()).filter(move |&at| is_first(at)).map(move |at| &word.pieces[at])
+        })
+    }
+}
+
 impl Piece {
     /// Is it a word of its own, with a letter and a value?
     pub fn is_word(&self) -> bool {

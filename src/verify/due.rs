@@ -7,6 +7,8 @@ use super::expectation::Expectation;
 pub(super) struct Due {
     lengths: bool,
     length_reported: bool,
+    /// A length offset was on, and the program has taken it off.
+    length_off: bool,
     units: bool,
 }
 
@@ -14,7 +16,7 @@ impl Due {
     /// Of a program that has set nothing.
     pub fn new(expectation: &Expectation) -> Due {
         let lengths = expectation.tools && expectation.lengths_due;
-        Due { lengths, length_reported: false, units: expectation.units_due }
+        Due { lengths, length_reported: false, length_off: false, units: expectation.units_due }
     }
 
     /// The program sets its units.
@@ -30,6 +32,21 @@ impl Due {
     /// Do tools need their length offset?
     pub fn lengths(&self) -> bool {
         self.lengths
+    }
+
+    /// The length offset changes from one register to another.
+    pub fn length_changes(&mut self, from: Option<f64>, to: Option<f64>) {
+        self.length_off = to.is_none() && (self.length_off || from.is_some());
+    }
+
+    /// What to print instead, where no length offset is on.
+    pub fn length_help(&self) -> &'static str {
+        match self.length_off {
+            false => "print G43 H[lcomp] in the tool change, before the height",
+            true => {
+                "after G49 a height counts without the tool: go to the machine's own height, by `G91 G28 Z0` and `G90`, or `G53 G0 Z0`"
+            }
+        }
     }
 
     /// Another tool has another length.

@@ -3,13 +3,13 @@
 use super::own::Own;
 use super::tables::CHORDS;
 use super::wire_codes::{self, Coded, Codes};
-use crate::compile::{Op, Program};
+use crate::compile::{Op, Program, WorkWords};
 use crate::control::{Control, Meaning};
 use crate::cycle::Defaults;
-use crate::lang::{Machine, UnitChoice, VarId};
+use crate::lang::{Machine, UnitChoice, VarId, work_code};
 use crate::nc::Cooling;
 use crate::render::cycle_defaults;
-use crate::sema::Settings;
+use crate::sema::{PropertyValue, Settings};
 use crate::toolpath::{Coolant, EdmAction, Units};
 
 /// What the form says of the job's numbers.
@@ -24,6 +24,8 @@ pub struct Expectation {
     pub first_work: f64,
     /// Work offset that holds before the job names one.
     pub work: Option<f64>,
+    /// How the form says offsets, and the control whose codes it has.
+    pub(super) work_words: Option<(WorkWords, &'static Control)>,
     /// How much is added to a tool's number for its length and diameter registers, where the job names none.
     pub registers: Option<[f64; 2]>,
     /// The machine loads tools (M6) and has length offsets.
@@ -61,6 +63,7 @@ impl Default for Expectation {
             chord: CHORDS,
             first_work: 54.0,
             work: None,
+            work_words: None,
             registers: None,
             tools: true,
             lengths_due: true,
@@ -90,7 +93,7 @@ impl Expectation {
             first_work: settings.work,
             work: Some(settings.work_default),
             registers: Some([settings.lcomp, settings.dcomp]),
-            tools: !settings.control().refuses(crate::control::Code::m(6)),
+            tools: settings.machine != Machine::Edm && !settings.control().refuses(crate::control::Code::m(6)),
             units_due: settings.units == UnitChoice::Both,
             axes: rotary_axes(&settings.rename),
             coolant: settings.coolant,
@@ -122,6 +125,27 @@ impl Expectation {
                 }
                 _ => {}
             }
+        }
+        self.work_words = Some((program.work.clone(), settings.codes()));
+        self.work = self.work.and_then(|work| self.work_of(work));
+        self
+    }
+
+    /// What a program calls an offset of the job; `None`: the form has none such.
+    pub(super) fn work_of(&self, work: f64) -> Option<f64> {
+        let counted = work_code(self.first_work, work)?;
+        let named = |(words, control): &(WorkWords, &'static Control)| self.feeds.work(counted, words, control);
+        Some(self.work_words.as_ref().map_or(counted, named))
+    }
+}
+
+impl Expectation {
+    /// Values of the form's properties from without, by their rows.
+    #[must_use]
+    pub fn given(mut self, properties: &[(u16, PropertyValue)]) -> Expectation {
+        for (row, value) in properties {
+            self.feeds.given(*row, value);
+            self.speeds.given(*row, value);
         }
         self
     }

@@ -9,7 +9,7 @@ use super::tables::Unmodelled;
 use crate::control::{Control, Group, Meaning};
 use crate::cycle::{Steps, check};
 use crate::diag::Diag;
-use crate::lang::{Machine, work_code};
+use crate::lang::Machine;
 use crate::nc::{Cooling, Kind, Rotation, Turn, tokens};
 use crate::toolpath::{
     Arc, Axes, CycleSpec, Direction, EdmAction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start,
@@ -210,7 +210,7 @@ impl Job {
     }
 
     pub(super) fn work(&mut self, work: f64, to: &mut impl Intent) {
-        self.work_is(work_code(self.expectation.first_work, work), to);
+        self.work_is(self.expectation.work_of(work), to);
     }
 
     /// The work offset by its code.

@@ -1,6 +1,7 @@
 //! Feeds and speeds that a form says itself: typed, or calculated from the job's.
 
-use crate::compile::Program;
+use crate::compile::{Program, WorkWords};
+use crate::control::Control;
 use crate::lang::{Coolant, TextId, VarId, VarSet};
 use crate::sema::{Formula, PropertyValue, Values};
 
@@ -18,13 +19,15 @@ pub struct Own {
 impl Own {
     /// Of a form that types and calculates nothing so far.
     pub(super) fn of(program: &Program) -> Own {
-        let number = |value: &PropertyValue| match value {
-            PropertyValue::Number(number) => *number,
-            PropertyValue::YesNo(yes) => f64::from(u8::from(*yes)),
-            PropertyValue::Text(_) => 0.0,
-        };
         let properties = program.settings.properties.iter().map(|property| number(&property.default)).collect();
         Own { properties, ..Own::default() }
+    }
+
+    /// Somebody gives a property its value, which goes before the form's default.
+    pub(super) fn given(&mut self, row: u16, value: &PropertyValue) {
+        if let Some(own) = self.properties.get_mut(usize::from(row)) {
+            *own = number(value);
+        }
     }
 
     /// The form types a number.
@@ -34,11 +37,19 @@ impl Own {
         }
     }
 
-    /// The form calculates a word; it counts where it is made of one of these variables alone.
+    /// The form calculates a word; it counts where it is made of one of these variables alone, or of properties.
     pub(super) fn calculates(&mut self, formula: &Formula, of: &[VarId]) {
-        if of.iter().any(|&var| formula.vars() == VarSet::of(&[var])) && !self.calculated.contains(formula) {
+        let vars = formula.vars();
+        let counts = vars.is_empty() || of.iter().any(|&var| vars == VarSet::of(&[var]));
+        if counts && !self.calculated.contains(formula) {
             self.calculated.push(formula.clone());
         }
+    }
+
+    /// What a program calls the work offset that the form says for this one of the job.
+    pub(super) fn work(&self, work: f64, words: &WorkWords, control: &Control) -> f64 {
+        let values = OfJob { wanted: work, properties: &self.properties };
+        words.name(&values, control).unwrap_or(work)
     }
 
     /// Does the form say a value where the job wants this one? `is`: whether a number is the value.
@@ -46,6 +57,14 @@ impl Own {
         let values = OfJob { wanted, properties: &self.properties };
         self.typed.iter().any(|own| is(*own))
             || self.calculated.iter().any(|formula| formula.number(&values).is_ok_and(&is))
+    }
+}
+
+fn number(value: &PropertyValue) -> f64 {
+    match value {
+        PropertyValue::Number(number) => *number,
+        PropertyValue::YesNo(yes) => f64::from(u8::from(*yes)),
+        PropertyValue::Text(_) => 0.0,
     }
 }
 

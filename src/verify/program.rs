@@ -267,7 +267,10 @@ impl<R: BufRead + Seek> Program<R> {
                 self.spin = if item.by_cycle { Spin::Oriented } else { Spin::At(*angle) };
             }
             Action::Tool(number) => self.tool(*number, item.line),
-            Action::Length(register) => self.state.length = *register,
+            Action::Length(register) => {
+                self.due.length_changes(self.state.length, *register);
+                self.state.length = *register;
+            }
             Action::Units(units) => {
                 self.scale.units = *units;
                 self.due.units_are_set();
@@ -350,7 +353,7 @@ impl<R: BufRead + Seek> Program<R> {
             self.passage.astray.push((line, to));
         }
         if unknown & heights != heights {
-            if to[2] != self.at[2] && self.length_is_due() {
+            if (to[2] != self.at[2] || self.unknown & 0b100 != 0) && self.length_is_due() {
                 self.without_length(line, "the tool goes down, and its length offset is not on");
             }
             self.units_are_due(line, "the program moves before it says its units");
@@ -460,7 +463,7 @@ impl<R: BufRead + Seek> Program<R> {
 
     fn without_length(&mut self, line: u64, message: &str) {
         if self.due.reports_length() {
-            self.hazard(Code::PV014, line, message, "print G43 H[lcomp] in the tool change, before the height");
+            self.hazard(Code::PV014, line, message, self.due.length_help());
         }
     }
 

@@ -517,7 +517,7 @@ fn surface_speeds_have_units_and_their_code() {
         support::Kind::Cl,
         postform::internals::render::Options::default(),
     );
-    assert!(rendered.unwrap().text.contains("G96\nT1 M6\nS30"), "30.48 metres a minute");
+    assert!(rendered.unwrap().text.contains("G96 S30\nT1 M6\nS30"), "30.48 metres a minute");
 }
 
 /// Coolant stays from tool to tool, and CATIA's TOOLNO only describes the tool that LOADTL loads.

@@ -512,3 +512,12 @@ fn a_condition_that_never_changes_is_a_warning() {
     let warning = checked.diags.iter().find(|diag| diag.code.name() == "PF708").unwrap();
     assert_eq!(warning.message, "a condition that is always true");
 }
+
+/// However deep directives lie, they are looked at once.
+#[test]
+fn directives_that_lie_too_deep_cost_no_time() {
+    for (open, levels) in [("@if [val1]", 30), ("@if [val1]", 20_000), ("@for tool", 20_000), ("@iff [val1]", 20_000)] {
+        let text = format!("{}M1\n{}", format!("{open}\n").repeat(levels), "@end\n".repeat(levels));
+        assert!(codes(&form("", &text)).contains(&"PF707"), "{open} {levels}");
+    }
+}

@@ -1,6 +1,6 @@
 //! Kinds of coolant: their codes, what ends them, what a form does not have.
 
-use crate::support::{check, mill, program};
+use crate::support::{check, mill, program, render};
 
 const KINDS: &str = "CoolantKind through M88 M89\nCoolantKind air M12";
 
@@ -165,4 +165,45 @@ fn codes_of_kinds_that_are_typed_are_said() {
     let two = job(&[(1, "through", LINE), (2, "on", LINE)]);
     let lines = "@if [cool] = through\n  M88\n@else\n  M89\n  M8\n@end";
     assert_eq!(codes(&form(KINDS, lines), &two), ["M88", "M89", "M8"]);
+}
+
+/// What a form turns on stands where the job says nothing of coolant; what the job had on ends with its tool.
+#[test]
+fn the_forms_own_coolant_stands() {
+    let silent = |jobs: &[(u32, &str, &str)]| job(jobs).replace("\"coolant\":\"none\",", "");
+    let own = form("", "M8");
+    assert_eq!(codes(&own, &silent(&[(1, "none", LINE), (2, "none", LINE)])), ["M8", "M8"]);
+    // after a stop it is said again
+    let stop = "{\"line\":[1,0,0]},{\"stop\":\"program\"},{\"line\":[0,0,0]}";
+    assert_eq!(codes(&own, &silent(&[(1, "none", stop)])), ["M8", "M0", "M8"]);
+    // the job's own ends with its tool
+    assert_eq!(codes(&form("", "M[cool]"), &silent(&[(1, "on", LINE), (2, "none", LINE)])), ["M8", "M9"]);
+    assert_eq!(codes(&form("", ""), &silent(&[(1, "on", LINE), (2, "none", LINE)])), ["M8", "M9"]);
+    // where both say something it is the job's, and that is told
+    let rendered = render(&own, &job(&[(1, "off", LINE)])).unwrap();
+    assert!(rendered.text.contains("M8\n") && rendered.text.contains("\nM9\n"), "{}", rendered.text);
+    let told: Vec<_> = rendered.notes.iter().map(|note| (note.code.name(), note.labels.len())).collect();
+    assert_eq!(told, [("PR056", 1)]);
+    assert_eq!(rendered.notes[0].message, "the form prints M8, and the job says M9, which is printed behind it");
+}
+
+/// A speed that the tool change prints stands until the job gives another one.
+#[test]
+fn the_forms_own_speed_stands() {
+    let speeds = |form: &str, path: &str| -> Vec<String> {
+        let words = program(form, &job(&[(1, "off", path)])).join(" ");
+        words.split(' ').filter(|word| word.starts_with('S')).map(str::to_owned).collect()
+    };
+    let property = mill("Property rpm number 500 Speed of the machine", "").replace("S[speed]", "S[rpm]");
+    let typed = mill("", "").replace("S[speed]", "S700");
+    assert_eq!([speeds(&property, LINE), speeds(&typed, LINE)], [["S500"], ["S700"]]);
+    let later = "{\"line\":[1,0,0]},{\"spindle\":{\"speed\":1200}},{\"line\":[0,0,0]}";
+    assert_eq!(speeds(&typed, later), ["S700", "S1200"]);
+    let stop = "{\"line\":[1,0,0]},{\"stop\":\"program\"},{\"line\":[0,0,0]}";
+    assert_eq!(speeds(&typed, stop), ["S700", "S700"]);
+    // elsewhere the job's is said behind it
+    let row = mill("", "BeginRow\nS300\nEnd");
+    let path = "{\"begin\":\"row\"},{\"line\":[1,0,0]},{\"end\":\"row\"}";
+    assert_eq!(speeds(&row, path), ["S1000", "S300", "S1000"]);
+    assert_eq!(render(&row, &job(&[(1, "off", path)])).unwrap().notes[0].code.name(), "PR056");
 }

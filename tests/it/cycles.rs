@@ -297,3 +297,12 @@ fn orient_alone_is_the_forms_angle() {
     let rendered = support::render_kind(&checked, text.as_bytes(), support::Kind::Cl, Options::default()).unwrap();
     assert!(rendered.text.contains("M19 R45"), "{}", rendered.text);
 }
+
+/// The F of a tap may count its turns, as in the manual: it is printed as it stands.
+#[test]
+fn a_tap_that_prints_its_speed_stands() {
+    let tap = "LTap\nG74 X[h] Y[v] Z[d] R[vclear] F[speed] Q[vbite]\nEnd Cancel";
+    let path = r#"{"spindle":{"direction":"ccw"}},{"cycle":{"kind":"ltap","rigid":false,"depth":0.5,"clear":0.1,"feed":5,"points":[[1,1,0]]}}"#;
+    let lines = crate::support::path_lines("", tap, path);
+    assert!(lines.iter().any(|line| line.starts_with("G74 X1. Y1. Z-.5 R.1 F1000.")), "{lines:?}");
+}

@@ -330,3 +330,37 @@ fn an_operation_without_moves_has_its_offset() {
     let job = format!("{job},{{\"tool\":1,\"name\":\"note\",\"work\":56,\"path\":[{{\"comment\":\"LOOK\"}}]}}]}}");
     assert_eq!(lines("@for operation\n([opname] G[work])\n@end", &job), ["(OP 0 G55)", "(NOTE G56)"]);
 }
+
+/// A job that is read once and does not list its tools: a form that asks which come is no other program, but an error.
+#[test]
+fn tools_ahead_are_not_guessed() {
+    let text = mill(
+        "Property short yesno no Short",
+        "EndOperation\n@if not [short] and [islasttool]\nM9\n@else\nM1\n@end\nEnd",
+    );
+    let post = Post::compile(Source::from_text("form.pf", text), &NoFiles).unwrap();
+    let plain = job(&[(1, 54, LINE), (2, 54, LINE)]).replace("\"units\":\"mm\"", "\"units\":\"inch\"");
+    let mut once = unproven();
+    once.one_pass = true;
+    let error = post.render(Job::json(&plain), &once).unwrap_err().to_string();
+    assert!(error.contains("the tools that come next are not known"), "{error}");
+    let listed = plain.replacen("\"tools\"", "\"tool_order\":[1,2],\"tools\"", 1);
+    let printed = post.render(Job::json(&listed), &once).unwrap();
+    assert_eq!(printed.text(), post.render(Job::json(&plain), &unproven()).unwrap().text());
+    once.properties.push(("short".into(), "yes".into()));
+    assert!(!post.render(Job::json(&plain), &once).unwrap().text().contains("M9"));
+}
+
+/// A rigid tap goes in and out at its feed.
+#[test]
+fn a_rigid_tap_has_its_time() {
+    let tap = "{\"cycle\":{\"kind\":\"tap\",\"rigid\":true,\"depth\":8,\"clear\":2,\"feed\":600,\"points\":[[0,0,0]]}}";
+    let text = form("([cuttime])")
+        .replace("Cancel\nG80", "Tap\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel\nCancel\nG80");
+    let text = format!("RigidTap? Y\n{text}");
+    assert!(
+        program(&text, &job(&[(1, 54, tap)])).contains(&"(2)".to_owned()),
+        "{:?}",
+        program(&text, &job(&[(1, 54, tap)]))
+    );
+}

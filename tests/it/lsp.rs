@@ -130,7 +130,7 @@ fn a_program_is_read_as_its_control_reads_it() {
     let found = editor.show("part.ngc", "plaintext", &format!("(postform: control hass)\n{program}"));
     assert!(found[0]["message"].as_str().unwrap().contains("there is no control `hass`"), "{found:?}");
     let lens = editor.ask("textDocument/codeLens", &json!({ "textDocument": { "uri": editor.uri("part.nc") } }));
-    assert_eq!(lens[0]["command"]["title"], "grbl (of postform.toml) refuses the block after 2 blocks");
+    assert_eq!(lens[0]["command"]["title"], "grbl (of postform.toml) refuses 1 block");
     // the settings of the editor, where nobody else says it
     folder.write("postform.toml", "");
     editor.tell("workspace/didChangeConfiguration", &json!({ "settings": { "postform": { "control": "linuxcnc" } } }));

@@ -367,3 +367,27 @@ fn between_means_subprograms_first() {
     let at = |what: &str| lines.iter().position(|line| line == what);
     assert!(at("M17").is_some() && at("M17") < at("T1 M6") && at("M99") < at("M17"), "{lines:?}");
 }
+
+/// What a speed counts is said by the tool change, typed or not; in a block of its own it has its speed with it.
+#[test]
+fn a_surface_speed_is_not_said_without_its_speed() {
+    let text = job("{\"line\":[-1,0.5]}")
+        .replace("[0,0,1]", "[0.2,0.5]")
+        .replace("\"units\"", "\"machine\":\"lathe\",\"units\"")
+        .replace("\"work\":54,", "")
+        .replace("\"speed\":1000", "\"speed\":100,\"mode\":\"css\"");
+    let typed = "@if [speedtype] = css\nG96 S[speed] M[direct]\n@else\nG97 S[speed] M[direct]\n@end\nEnd\nToolChange";
+    let form = lathe("", "").replace("S[speed] M[direct]\nEnd\nToolChange", typed);
+    assert_eq!(program(&form, &text)[1..3], ["T1", "G96 S100 M3"]);
+    assert_eq!(program(&lathe("", ""), &text)[1..4], ["G96 S100", "T1", "S100 M3"]);
+}
+
+/// A wire has no tool that says its offset: the job does.
+#[test]
+fn a_wire_without_a_tool_has_its_offset_from_the_job() {
+    let form = "Machine EDM\nStartCode\n%0\nEnd\nInFeed\nG1 G[side] D[dcomp] X[h] Y[v] F[frate]\nEnd\nOutFeed\nG1 G40 X[h] Y[v] F[frate]\nEnd\nEndCode\nM2\nEnd\n";
+    let job = r#"{"postform":1,"units":"inch","machine":"edm","set":{"dcomp":7},"operations":[{"work":54,"feed":2,"path":[{"rapid":[0,0]},{"infeed":[1,0],"side":"left"},{"line":[2,0]},{"outfeed":[3,0]}]}]}"#;
+    assert!(program(form, job).contains(&"G1 G41 D7 X1. Y0 F2.".to_owned()), "{:?}", program(form, job));
+    let none = program(form, &job.replace("\"set\":{\"dcomp\":7},", ""));
+    assert!(none[0].starts_with("PR001 [dcomp]"), "{none:?}");
+}

@@ -230,7 +230,12 @@ fn lengths_of_a_form_for_both_units() {
     assert_eq!(of(&metric, Options::default()), "Q6.35");
     assert_eq!(of(&metric, caller("gap", "5")), "Q5.");
     assert_eq!(of(&metric, shop("gap", "5")), "Q5.");
-    assert_eq!(of(&metric.replacen("\"units\"", "\"set\":{\"gap\":5},\"units\"", 1), Options::default()), "Q5.");
+    let of_job = metric.replacen("\"units\"", "\"set\":{\"gap\":5},\"units\"", 1);
+    assert_eq!(of(&of_job, Options::default()), "Q5.");
+    // a job counts in its own units, whatever the program's are
+    let mut inches = Options::default();
+    inches.units = Some(postform::toolpath::Units::Inch);
+    assert_eq!(of(&of_job.replace("\"gap\":5", "\"gap\":25.4"), inches), "Q1.");
     let inch = job("", ["", ""]);
     assert_eq!(of(&inch, Options::default()), "Q.25");
     assert_eq!(of(&inch, caller("gap", "5")), "Q5.");

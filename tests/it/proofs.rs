@@ -762,3 +762,20 @@ fn a_stop_of_the_job_is_not_the_first_tool_change() {
     let changed = program.replacen("M0\n", "", 1);
     assert!(matches!(verified(&form, &changed, &job), Verdict::Different(_)), "{changed}");
 }
+
+/// An author who goes up behind G49, as the manual does, is told what to write.
+#[test]
+fn up_without_the_length_is_explained() {
+    let form = post("fanuc.pf");
+    let job = mm(&format!(
+        "{},{}",
+        r#"{"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":100,"path":[{"rapid":[0,0,5]},{"line":[9,0,5]}]}"#,
+        r#"{"tool":2,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":100,"path":[{"rapid":[0,0,5]},{"line":[9,0,5]}]}"#
+    ));
+    let (program, _) = of_form(&form, &job);
+    let at = program.find("T2").unwrap_or_default();
+    let line = program[..at].rfind('\n').map_or(0, |end| end + 1);
+    let manual = format!("{}G49 G0 Z0\n{}", &program[..line], &program[line..]);
+    let found = verified(&check(&form), &manual, &document(&job));
+    assert!(format!("{found:?}").contains("`G91 G28 Z0`"), "{found:#?}\n{manual}");
+}

@@ -33,7 +33,7 @@ fn a_rapid_beyond_the_travel_goes_to_the_same_view_within_it() {
     // and counts from there: 760 is 400 of the axis, which is 40 again
     let on = format!("{path},{{\"rapid\":[1,1,1,760]}},{{\"line\":[1,1,1,770]}}");
     let lines = path_lines("Limits A -360 360", DRILL, &on);
-    assert_eq!(lines[5..], ["G0 Z1. A40.", "G1 A50. F10."]);
+    assert_eq!(lines[5..], ["G0 Z1.", "G1 A50. F10."]);
 }
 
 /// A form that goes down in its tool change must turn the part before.
@@ -92,4 +92,12 @@ fn the_part_stays_turned_at_a_tool_change() {
     let text = job("{\"line\":[1,0,1,20]}").replace("20]}]}]}", &format!("20]}}]}},{second}]}}"));
     let form = mill("", "").replace("X[h] Y[v] Z[d]\nEnd", "X[h] Y[v] A[rotangle]\nZ[d]\nEnd");
     assert!(program(&form, &text).contains(&"G0 G54 X3. Y3. A20.".to_owned()), "{:?}", program(&form, &text));
+}
+
+/// A cycle turns no part: the next move does not say the angle again.
+#[test]
+fn an_angle_is_known_behind_a_cycle() {
+    let path = format!("{{\"rapid\":[0,0,1,90]}},{},{{\"rapid\":[3,0,2]}}", holes("[1,1,0],[2,1,0]"));
+    let lines = path_lines("", &format!("{DRILL}\n{INDEX}"), &path);
+    assert_eq!(lines.last().unwrap(), "G0 X3. Y0 Z2.", "{lines:?}");
 }

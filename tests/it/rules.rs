@@ -396,7 +396,7 @@ fn mistakes_are_found_in_other_words_too() {
         ("PF112", "LineCode\nG 1 X[h] Y[v] Z[d] F[frate]\nEnd"),
         ("PF001", "1stToolChange\nT0[tool] M6\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd"),
         ("PF001", "1stToolChange\nT[tool]\u{a0}M6\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd"),
-        ("PF003", "BeginRow\nRapid G00\nM8\nEnd"),
+        ("PF020", "BeginRow\nRapid G00\nM8\nEnd"),
         ("PF002", "BeginRow\nM8\nEndCancel\nEndRow\nM9\nEnd"),
         ("PF002", "BeginRow\nM8\nEndRow   the end of it\nM9\nEnd"),
         ("PF002", "BeginRow\nM8\nEndRow # the end of it\nM9\nEnd"),

@@ -2,7 +2,7 @@
 //! as a machine would.
 
 use crate::support;
-use crate::support::{job, mill, path_lines, program, wrong};
+use crate::support::{job, mill, path_lines, program, render, wrong};
 use postform::diag::Location;
 use postform::internals::compile::compile;
 use postform::internals::json::read_lines;
@@ -573,7 +573,8 @@ fn an_arc_sequence_without_its_centre_word_gives_lines() {
 #[test]
 fn fixture_numbers_end_where_work_offsets_do() {
     assert!(
-        path_lines("", "", "{\"work\":7},{\"rapid\":[1,0,1]}")[0].starts_with("PR037 the work offset 7 would be G60")
+        path_lines("", "", "{\"work\":7},{\"rapid\":[1,0,1]}")[0]
+            .starts_with("PR037 the form has no word for the work offset 7")
     );
     assert_eq!(path_lines("", "", "{\"work\":59.1},{\"rapid\":[1,0,1]}")[0], "G59.1");
 }
@@ -960,4 +961,80 @@ fn a_polar_arc_is_whole() {
     let lines = path_lines("", polar, path);
     assert_eq!(lines[lines.len() - 3..lines.len() - 1], ["G11 I1. J0 R1. C180.", "G12 C0"], "{lines:?}");
     assert!(lines[lines.len() - 1].contains("X0 Y0"), "{lines:?}");
+}
+
+/// A speed that vanishes in its digits would leave the spindle standing.
+#[test]
+fn a_speed_does_not_vanish() {
+    let slow = job("{\"line\":[1,0,1]}").replace("\"speed\":1000", "\"speed\":0.4");
+    for form in [mill("", ""), mill("", "").replace("S[speed]", "S[speed*1]"), mill("", "").replace("S[speed] ", "")] {
+        assert!(
+            program(&form, &slow)[0].starts_with("PR002 [speed] is 0.4 and prints as 0"),
+            "{:?}",
+            program(&form, &slow)
+        );
+    }
+    assert!(program(&mill("S >4.>1", ""), &slow).contains(&"S.4 M3".to_owned()));
+    // no speed is none
+    let none = slow.replace("\"speed\":0.4", "\"speed\":0");
+    assert!(program(&mill("", ""), &none).contains(&"S0 M3".to_owned()));
+}
+
+/// A cut with the spindle off is said, once an operation.
+#[test]
+fn a_cut_with_the_spindle_off_is_told() {
+    let notes = |path: &str| -> Vec<&'static str> {
+        render(&mill("", ""), &job(path)).unwrap().notes.iter().map(|note| note.code.name()).collect()
+    };
+    let off = "{\"line\":[1,0,0]},{\"spindle\":{\"direction\":\"off\"}},";
+    assert_eq!(notes(&format!("{off}{{\"rapid\":[2,0,1]}},{{\"line\":[2,0,0]}},{{\"line\":[3,0,0]}}")), ["PR055"]);
+    assert_eq!(notes(&format!("{off}{{\"rapid\":[2,0,1]}}")), [""; 0]);
+    let on = "{\"spindle\":{\"direction\":\"cw\"}},{\"line\":[3,0,0]}";
+    assert_eq!(notes(&format!("{off}{on}")), [""; 0]);
+}
+
+/// An argument of a macro or of a code of the builder says no work offset: before the positions stands the form's own.
+#[test]
+fn positions_count_from_the_offset_that_was_said() {
+    for line in ["G65 P9000 W[work]", "M100 W[work]"] {
+        let form = mill("", "").replace(
+            "ToolChange\nT[tool] M6\nS[speed] M[direct]\nG0 G[work]",
+            &format!("ToolChange\n{line}\nT[tool] M6\nG0"),
+        );
+        let form = form.replacen(
+            &format!("1stToolChange\n{line}\nT[tool] M6\nG0"),
+            "1stToolChange\nT[tool] M6\nG0 G[work]",
+            1,
+        );
+        let second = "{\"tool\":2,\"work\":55,\"spindle\":{\"speed\":1000,\"direction\":\"cw\"},\"feed\":10,\"path\":[{\"rapid\":[1,0,1]},{\"line\":[2,0,0]}]}";
+        let text = job("{\"line\":[1,0,0]}");
+        let text = format!("{},{second}]}}", text.strip_suffix("]}").unwrap());
+        let lines = program(&form, &text);
+        let at = lines.iter().position(|line| line == "G55").unwrap_or_else(|| panic!("{lines:?}"));
+        let place = lines.iter().position(|line| line == "G0 X1. Y0 Z1.").unwrap_or_else(|| panic!("{lines:?}"));
+        assert!(at < place, "{lines:?}");
+        // a macro may have left another offset
+        let again = lines[place..].iter().any(|line| line == "G55");
+        assert_eq!(again, line.starts_with("G65"), "{lines:?}");
+    }
+}
+
+/// A form may have several words for its offsets, and say them behind a text.
+#[test]
+fn a_form_has_several_words_for_its_offsets() {
+    let more = "@if [work] > 59\nG54.1 P[work-59]\n@else\nG[work]\n@end\nG0 X[h] Y[v] Z[d]";
+    let form = mill("", "").replace("G0 G[work] X[h] Y[v] Z[d]", more);
+    let path = "{\"line\":[1,0,0]},{\"work\":9},{\"rapid\":[1,0,1]},{\"work\":2},{\"rapid\":[2,0,1]}";
+    assert_eq!(
+        program(&form, &job(path))[3..],
+        ["G54", "G0 X0 Y0 Z1.", "G1 X1. Z0 F10.", "G54.1 P3", "G0 X1. Y0 Z1.", "G55", "X2. Y0 Z1.", "M30"]
+    );
+    let counted = format!(
+        "Work 1\nWorkDefault 1\n{}",
+        form.replace("> 59", "> 6").replace("-59]", "-6]").replace("G[work]", "G[work+53]")
+    );
+    assert_eq!(program(&counted, &job(path))[3..7], ["G54", "G0 X0 Y0 Z1.", "G1 X1. Z0 F10.", "G54.1 P3"]);
+    let text = mill("", "WorkChange\n`PRESET `[work-53]\nEnd").replace("G0 G[work]", "`PRESET `[work-53]\nG0");
+    let lines = program(&text, &job("{\"line\":[1,0,0]},{\"work\":55},{\"rapid\":[1,0,1]}"));
+    assert_eq!(lines[3..], ["PRESET 1", "G0 X0 Y0 Z1.", "G1 X1. Z0 F10.", "PRESET 2", "G0 X1. Y0 Z1.", "M30"]);
 }

@@ -177,3 +177,32 @@ fn a_long_name_is_cut_where_no_control_says_how_long() {
     assert_eq!(printed.iter().map(String::len).collect::<Vec<_>>(), [4096]);
     assert!(printed[0].ends_with(" X)"));
 }
+
+/// Outside comments the control calls its tools by the names: each has one, and no two the same.
+#[test]
+fn a_tool_has_a_name_of_its_own() {
+    let none = job("", "", "");
+    let error = &lines("", "`T=\"`[toolname]`\"`", &none)[0];
+    assert!(error.starts_with("PR001 [toolname] has no value here"), "{error}");
+    let two = |first: &str, second: &str| {
+        format!(
+            "{{\"postform\":1,\"units\":\"inch\",\"tools\":[{{\"number\":1,\"name\":\"{first}\"}},{{\"number\":2,\"name\":\"{second}\"}}],\"operations\":[\
+             {{\"tool\":1,\"work\":54,\"spindle\":{{\"speed\":9,\"direction\":\"cw\"}},\"path\":[{{\"rapid\":[0,0,1]}}]}},\
+             {{\"tool\":2,\"work\":54,\"spindle\":{{\"speed\":9,\"direction\":\"cw\"}},\"path\":[{{\"rapid\":[0,0,1]}}]}}]}}"
+        )
+    };
+    let form = mill("", "").replace("T[tool] M6", "`T=\"`[toolname]`\"`\nM6");
+    assert!(
+        program(&form, &two("EM 12", "EM_12"))[0]
+            .starts_with("PR057 the tools `EM 12` and `EM_12` both print as EM_12")
+    );
+    assert!(program(&form, &two("EM 12", "EM 12")).contains(&"T=\"EM_12\"".to_owned()));
+}
+
+/// Text in backquotes is one word with what sticks to it.
+#[test]
+fn a_backquoted_line_is_no_sixteen_words() {
+    let call = "`MCALL CYCLE84(`[h]`,`[v]`,`[d]`,`[h]`,,0,`[v]`,,`[d]`,0,`[speed]`,`[speed]`)`";
+    assert_eq!(codes(&form("", call)), [""; 0]);
+    assert_eq!(codes(&form("", &"M1 ".repeat(16))), ["PF601"]);
+}

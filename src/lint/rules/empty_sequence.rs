@@ -3,8 +3,8 @@
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
-use crate::lint::view::View;
-use crate::sema::Sequence;
+use crate::lint::view::{Body, View};
+use crate::sema::{Sequence, Step, each_step};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in &view.bodies {
@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             }));
             continue;
         }
-        if !body.lines.is_empty() {
+        if !body.lines.is_empty() || sets(body) {
             continue;
         }
         diags.push(
@@ -29,6 +29,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 }),
         );
     }
+}
+
+/// Does a directive set a value? Another sequence prints it.
+fn sets(body: &Body) -> bool {
+    let mut sets = false;
+    each_step(body.steps.unwrap_or_default(), &mut |step| sets |= matches!(step, Step::Set(..)));
+    sets
 }
 
 /// What comes of a sequence that says `None`, where that is not what anybody wants.

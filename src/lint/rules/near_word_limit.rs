@@ -6,7 +6,7 @@ use crate::sema::MOST_WORDS;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body) {
-        let count: usize = body.words.iter().map(|word| word.pieces.len()).sum();
+        let count = body.begins().count();
         if (MOST_WORDS - 1..=MOST_WORDS).contains(&count) {
             diags.push(
                 Diag::new(Code::PF605, format!("{count} words, a line may have {MOST_WORDS}"))

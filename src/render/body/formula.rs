@@ -3,7 +3,7 @@
 use super::{Body, FEEDS, go_on};
 use crate::compile::{LetterKind, List};
 use crate::diag::Code;
-use crate::lang::VarSet;
+use crate::lang::{VarId, VarSet};
 use crate::render::ahead;
 use crate::render::fault::{Done, fault};
 use crate::render::no_value::division_by_zero;
@@ -56,6 +56,28 @@ impl Body<'_, '_> {
         }
     }
 
+    /// The condition that a value is made of alone, with the job's value of it.
+    fn condition_of(&self, vars: VarSet, letter: u8) -> Done<Option<(VarId, f64)>> {
+        match CONDITIONS.into_iter().find(|&var| vars == VarSet::of(&[var])) {
+            Some(var) => Ok(self.value_of(var, letter)?.map(|own| (var, own))),
+            None => Ok(None),
+        }
+    }
+
+    /// A calculated value without a letter: behind a text it may say a condition, too.
+    pub(super) fn bare_formula(&mut self, index: u32, glued: bool) -> Done {
+        let Some(value) = self.calculated(index, b' ')? else { return Ok(()) };
+        let condition = self.condition_of(self.shape.program.formulas[index as usize].vars(), b' ')?;
+        if let Some((var, own)) = condition {
+            self.counts_from(b' ', var, own);
+        }
+        self.out.bare(value, &self.shape.letters.bare, glued)?;
+        if let Some((var, own)) = condition {
+            self.condition_word(b' ', var, own);
+        }
+        Ok(())
+    }
+
     /// A letter and a calculated value. On an axis the control counts it like a typed one: it may stand in another frame.
     /// What a form makes of a condition alone, as `H[work-53]`, is how the form says it: the job's is not said behind it.
     pub(super) fn formula_word(&mut self, letter: u8, index: u32, glued: bool) -> Done {
@@ -63,10 +85,7 @@ impl Body<'_, '_> {
         let info = &shape.letters[letter];
         let Some(value) = self.calculated(index, letter)? else { return Ok(()) };
         let vars = shape.program.formulas[index as usize].vars();
-        let condition = match CONDITIONS.into_iter().find(|&var| vars == VarSet::of(&[var])) {
-            Some(var) => self.value_of(var, letter)?.map(|own| (var, own)),
-            None => None,
-        };
+        let condition = self.condition_of(vars, letter)?;
         if let Some((var, own)) = condition {
             self.counts_from(letter, var, own);
         }
@@ -83,8 +102,8 @@ impl Body<'_, '_> {
             self.said.displaced(shape.axis_bit(letter), shape);
         }
         match condition {
-            Some((var, own)) => self.said.condition_word(letter, var, own, shape),
-            None => self.said.speed_word(letter, Some(value), shape),
+            Some((var, own)) => self.condition_word(letter, var, own),
+            None => self.said.speed_word(letter, value, self.line(), self.want, shape),
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! One run of a sequence: its operations, word by word. What holds only during it begins and ends here.
 
 mod formula;
+mod text;
 
 use crate::control;
 use std::ops::Range;
@@ -20,7 +21,7 @@ use super::want::Want;
 use super::words::check_feed;
 use crate::compile::{Letter, LetterKind, Op, Routine};
 use crate::diag::{Code, Diag};
-use crate::lang::{VarId, VarSet};
+use crate::lang::{TextId, VarId, VarSet};
 use crate::number::quantise;
 
 /// Which words of a line print.
@@ -114,7 +115,7 @@ pub fn go_on(
 ) -> Done {
     let begin = ops.start;
     let mut left_out = routine.left_out.as_deref().unwrap_or_default();
-    let mut body = Body { shape, want, said, out, mode, line: begin, drops: false, text: Vec::new() };
+    let mut body = Body { shape, want, said, out, mode, line: begin, at: begin, drops: false, text: Vec::new() };
     let mut i = ops.start;
     loop {
         while let [first, rest @ ..] = left_out
@@ -132,6 +133,7 @@ pub fn go_on(
             }
             Op::Comment { words } if body.comment_is_empty(i, words as usize) => i += words as usize,
             op => {
+                body.at = i;
                 let mark = body.out.mark();
                 let span = shape.program.spans[i];
                 body.operation(op, i).map_err(|diag| Box::new(diag.at(span, "printed from here")))?;
@@ -152,8 +154,8 @@ pub fn go_on(
 
 /// Does what the directives of a sequence set before the lines that a cycle repeats: they count at every hole.
 pub fn run_sets(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    let line = routine.ops.start;
-    let mut body = Body { shape, want, said, out, mode: Mode::Hole, line, drops: false, text: Vec::new() };
+    let (line, mode) = (routine.ops.start, Mode::Hole);
+    let mut body = Body { shape, want, said, out, mode, line, at: line, drops: false, text: Vec::new() };
     for i in routine.steps_in(routine.ops.start..routine.repeat) {
         if let Op::Set { index } = shape.program.ops[i] {
             let at = |diag: Box<Diag>| Box::new(diag.at(shape.program.spans[i], "printed from here"));
@@ -172,6 +174,8 @@ struct Body<'r, 'p> {
     mode: Mode,
     /// Where the operations of the line begin that is printed.
     line: usize,
+    /// The operation that is done.
+    at: usize,
     /// A cycle may drop the unchanged words of the line.
     drops: bool,
     /// What the line printed since its last word with a letter of its own: text, and values in it.
@@ -195,13 +199,6 @@ impl Body<'_, '_> {
         if self.out.is_too_long() { Line::NONE } else { Line::at(self.line) }
     }
 
-    /// Has the job none of the texts of the comment that begins here?
-    fn comment_is_empty(&self, at: usize, words: usize) -> bool {
-        texts::are_empty(&self.shape.program.ops[at + 1..][..words], &self.want.texts, &|row| {
-            property_text(row, self.want, self.said).is_empty()
-        })
-    }
-
     /// Prints an operation. What is no word with a letter is kept, so that the whole text of the line can be read.
     fn operation(&mut self, op: Op, at: usize) -> Done {
         if matches!(op, Op::Var { .. } | Op::Literal { .. } | Op::Formula { .. }) {
@@ -214,14 +211,6 @@ impl Body<'_, '_> {
             self.text.extend_from_slice(self.out.block_from(from));
         }
         Ok(())
-    }
-
-    /// Reads the text that was printed since the last word.
-    fn read_text(&mut self) {
-        if !self.text.is_empty() {
-            self.said.text(&self.text, self.line(), self.want, self.shape);
-            self.text.clear();
-        }
     }
 
     fn print_operation(&mut self, op: Op, at: usize) -> Done {
@@ -245,11 +234,7 @@ impl Body<'_, '_> {
             | Op::ValueFormula { .. }
             | Op::RemarkFormula { .. }
                 if next_hole => {}
-            Op::ValueFormula { index, glued } => {
-                if let Some(value) = self.calculated(index, b' ')? {
-                    self.out.bare(value, &self.shape.letters.bare, glued)?;
-                }
-            }
+            Op::ValueFormula { index, glued } => self.bare_formula(index, glued)?,
             Op::RemarkFormula { index, glued } => {
                 let value = self.calculated(index, b' ');
                 self.remark(value, glued)?;
@@ -259,6 +244,9 @@ impl Body<'_, '_> {
             Op::TextVar { var, in_comment, glued } => {
                 let behind = in_comment.then(|| texts::typed_behind(at, self.shape));
                 let text = Text { name: &var, width: var.width, text: self.want.texts.get(var.id) };
+                if var.id == TextId::Toolname && !in_comment {
+                    self.said.names.tool(&text)?;
+                }
                 texts::print(&text, behind, glued, self.shape, self.out);
             }
             Op::PropertyText { row, in_comment, glued } => {
@@ -319,7 +307,7 @@ impl Body<'_, '_> {
             }
             _ => {}
         }
-        self.said.condition_word(letter, var, value, shape);
+        self.condition_word(letter, var, value);
         if var == VarId::Block {
             self.out.prints_number();
         }
@@ -329,10 +317,18 @@ impl Body<'_, '_> {
     /// Positions behind the word of another work offset count from there.
     fn counts_from(&mut self, letter: u8, var: VarId, value: f64) {
         if var == VarId::Work
-            && self.shape.program.work_word.as_ref().is_some_and(|word| word.letter == letter)
+            && self.shape.program.work.says(self.at)
+            && self.shape.letters[letter].kind != LetterKind::GCode
             && !self.said.conditions.holds(VarId::Work, value)
         {
             self.said.forget_axes(self.shape);
+        }
+    }
+
+    /// A word with this variable was printed. The work offset is said by some of the words that print it.
+    fn condition_word(&mut self, letter: u8, var: VarId, value: f64) {
+        if var != VarId::Work || self.shape.program.work.says(self.at) {
+            self.said.condition_word(letter, var, value, self.line(), self.want, self.shape);
         }
     }
 
@@ -432,17 +428,6 @@ impl Body<'_, '_> {
         Now { shape: self.shape, want: self.want, said: self.said, letter, block, set: &self.said.kept }
     }
 
-    /// A value without a letter, which the control reads.
-    fn bare_word(&mut self, var: VarId, glued: bool) -> Done {
-        let Some(value) = self.value_of(var, b' ')? else { return Ok(()) };
-        self.out.bare(value, &self.shape.letters.bare, glued)?;
-        if var == VarId::Block {
-            self.out.prints_number();
-        }
-        self.said.condition_word(b' ', var, value, self.shape);
-        Ok(())
-    }
-
     /// A word as typed; its value goes into the registers.
     fn literal_word(&mut self, index: usize, glued: bool) {
         let shape = self.shape;
@@ -482,7 +467,7 @@ impl Body<'_, '_> {
         if Some(info.printed) == shape.program.settings.numbers.letter {
             self.out.prints_number();
         }
-        self.said.speed_word(literal.letter, Some(literal.value), shape);
+        self.said.speed_word(literal.letter, literal.value, self.line(), self.want, shape);
     }
 
     /// In a form of increments a position is read as one, unless the control was told otherwise.

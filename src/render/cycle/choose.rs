@@ -8,7 +8,7 @@ use crate::lang::{Machine, SequenceId, VarId};
 use crate::render::fault::{Done, fault};
 use crate::render::options::Cycles;
 use crate::render::printer::Printer;
-use crate::render::prints::prints_code;
+use crate::render::prints::{prints_code, prints_letter};
 use crate::render::shape::Shape;
 use crate::sema::kind_of_remark;
 use crate::toolpath::{CycleKind, CycleSpec, Peck};
@@ -100,6 +100,8 @@ pub fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<
     let positions = &[VarId::H, VarId::V, VarId::D, VarId::Vclear, VarId::Rplane];
     let steps = program.settings.incremental && prints(positions) && !prints_code(routine, absolute, shape);
     let feeds_out = !spec.norevr && !spec.rapout;
+    // F of a tap may count the turns
+    let feeds = spec.kind.is_tap() && prints_letter(routine, program.settings.feed_code, shape);
     let by_form = shape.defaults.orient;
     let other_angle = spec.orient.is_some_and(|orient| orient.angle(by_form) != by_form);
     let missing = [
@@ -107,7 +109,11 @@ pub fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<
         (across, &[VarId::H], "the position: [h]"),
         (across, &[VarId::V], "the position: [v]"),
         (own && spec.kind != CycleKind::Manual, &[VarId::D, VarId::Depth], "the depth: [d]"),
-        (own && spec.kind != CycleKind::Manual, &[VarId::Frate, VarId::Plunge, VarId::Pitch], "the feed: [frate]"),
+        (
+            own && !feeds && spec.kind != CycleKind::Manual,
+            &[VarId::Frate, VarId::Plunge, VarId::Pitch],
+            "the feed: [frate]",
+        ),
         (!spec.pecks.is_empty(), &[], "absolute pecks (`pecks`)"),
         (spec.times.is_some(), &[], "full retracts between chip breaks (`times`)"),
         (spec.decr.is_some(), &[], "shrinking pecks (`decr`)"),

@@ -9,7 +9,7 @@ use crate::render::kept::Kept;
 use crate::render::numbers::{as_number, quantised};
 use crate::render::printer::Printer;
 use crate::render::said::Said;
-use crate::render::shape::Shape;
+use crate::render::shape::{ROTARY, Shape};
 use crate::render::targets::set_targets;
 use crate::render::upon::run_with_upons;
 use crate::render::vars::Vars;
@@ -91,10 +91,13 @@ pub fn leave_cycle(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Pr
     };
     said.stand.position = last;
     set_targets(&last, shape, want, said)?;
+    // a cycle turns no part: what the control holds of its angles, it holds still
+    let turned = ROTARY.filter(|&axis| !said.differs_from(&last, 1 << axis, shape));
+    let turned = turned.fold(0, |axes, axis| axes | 1 << axis);
     said.forget_letters();
     said.say_motion_again();
-    let known = if exit_known { 0b111 } else { 0b111 & !shape.depth_bit() };
-    for axis in 0..3 {
+    let known = turned | if exit_known { 0b111 } else { 0b111 & !shape.depth_bit() };
+    for axis in 0..6 {
         if known & last.given & 1 << axis != 0 {
             let info = &shape.letters[shape.axes[axis]];
             let units = quantised(info, last.values[axis] * shape.scales[axis])?;

@@ -12,7 +12,7 @@ use crate::render::moves::rapid_blocks::rapid_to;
 use crate::render::moves::reach::reach;
 use crate::render::moves::rotary::turn_to;
 use crate::render::printer::Printer;
-use crate::render::prints::prints_axis;
+use crate::render::prints::{prints_axis, says_work};
 use crate::render::said::{CONDITIONS, Conditions, Said};
 use crate::render::settle::{knows_after_stop, only_work_waits, print_conditions, settle, work_before};
 use crate::render::shape::Shape;
@@ -183,13 +183,13 @@ fn go_to_call(
     plain_cutting(shape, want, said, out)?;
     let target = reach(&call.at, true, shape, want, said, out)?;
     set_targets(&target, shape, want, said)?;
-    if said.is_unsettled(want) && !(routine.vars.has(VarId::Work) && only_work_waits(shape, want, said)) {
+    if said.is_unsettled(want) && !(says_work(routine, shape) && only_work_waits(shape, want, said)) {
         settle(shape, want, said, out)?;
     }
     let at = Axes { given: call.at.given, ..target };
     // all of it: a part alone would go down before it goes across
     if (0..6).any(|axis| at.get(axis).is_some() && !prints_axis(routine, axis, shape)) {
-        if routine.vars.has(VarId::Work) {
+        if says_work(routine, shape) {
             upons(VarSet::of(&[VarId::Work]), shape, want, said, out)?;
             work_before(shape, want, said, out)?;
         }

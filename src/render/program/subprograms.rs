@@ -67,6 +67,7 @@ fn leave_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subpro
     subs.main = Some(Box::new(State {
         vars: want.values().clone(),
         conditions: std::mem::take(&mut said.conditions),
+        own: std::mem::take(&mut said.own),
         upon_used: std::mem::replace(&mut said.upon_used, nothing_served),
         angles: said.stand.angles.clone(),
         feed: want.feed(),
@@ -94,7 +95,7 @@ fn back_to_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subp
     let spins = said.sub.take().unwrap_or_default();
     let left = Left { conditions: said.conditions, upon_used, turned, spins, height, position };
     want.restore(main.vars);
-    (said.conditions, said.stand.angles) = (main.conditions, main.angles);
+    (said.conditions, said.own, said.stand.angles) = (main.conditions, main.own, main.angles);
     want.keep_feed(main.feed, shape);
     if let Some(sub) = subs.open.take().and_then(|open| subs.defined.get_mut(open)) {
         sub.left = left;

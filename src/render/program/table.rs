@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::lang::{VarId, VarSet};
 use crate::render::printer::Page;
-use crate::render::said::{Angles, Conditions, Spins};
+use crate::render::said::{Angles, Conditions, Own, Spins};
 use crate::render::vars::Vars;
 use crate::toolpath::{Axes, Place, key};
 
@@ -79,6 +79,7 @@ impl Subprograms {
 pub struct State {
     pub vars: Vars,
     pub conditions: Conditions,
+    pub own: Own,
     pub upon_used: Vec<Option<f64>>,
     pub angles: Angles,
     pub feed: Option<f64>,

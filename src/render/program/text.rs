@@ -3,7 +3,7 @@
 use super::stops::settle_between_moves;
 use crate::control::{Code, Group};
 use crate::diag;
-use crate::lang::VarId;
+use crate::lang::{VarId, work_code};
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::printer::Printer;
 use crate::render::said::{Line, Said, TextWord, words_of};
@@ -54,14 +54,17 @@ fn is_the_jobs(code: Code, shape: &Shape, want: &mut Want) {
     let var = match shape.group_of(code) {
         Some(Group::Spindle) => VarId::Direct,
         Some(Group::Coolant) => {
-            want.coolant = want.coolant.first(); // the text says one kind
+            // the text says one kind
+            (want.coolant, want.coolant_is_said) = (want.coolant.first(), true);
             VarId::Cool
         }
-        Some(Group::Work) => match &shape.program.work_word {
-            None => VarId::Work,
+        Some(Group::Work) => match &shape.program.work {
+            words if words.by_code() => {
+                return want.put(VarId::Work, work_code(shape.program.settings.work, code.value()));
+            }
             // G54 is none of the offsets that have a word of their own: its number is unknown
-            Some(word) if word.shares_its_codes => return want.put(VarId::Work, None),
-            Some(_) => return,
+            words if words.shares_its_codes => return want.put(VarId::Work, None),
+            _ => return,
         },
         Some(Group::SpeedMode) => VarId::Speedtype,
         _ => return,

@@ -15,7 +15,7 @@ use crate::render::cycle::hole::hole_position;
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::moves::rotary::change_turns;
 use crate::render::printer::Printer;
-use crate::render::prints::prints_axis_words;
+use crate::render::prints::{prints_axis_words, says_speed_mode, says_work};
 use crate::render::said::{LastMove, Said};
 use crate::render::settle::{check_reading_of, speed_mode_before, work_before};
 use crate::render::shape::Shape;
@@ -132,7 +132,7 @@ fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut
     }
     match change.coolant {
         Some(coolant) => want.set_coolant(coolant, shape)?,
-        None if new_tool => want.set_coolant(Coolant::OFF, shape)?,
+        None if new_tool => want.coolant_unsaid(shape)?,
         None => {}
     }
     if let Some(work) = change.work {
@@ -215,10 +215,10 @@ fn change_tool(
         }
         None => {}
     }
-    if routine.vars.meets(POSITION) && !routine.vars.has(VarId::Work) {
+    if routine.vars.meets(POSITION) && !says_work(routine, shape) {
         work_before(shape, want, said, out)?; // the position counts from it
     }
-    if routine.vars.has(VarId::Speed) && !routine.vars.has(VarId::Speedtype) {
+    if routine.vars.has(VarId::Speed) && !says_speed_mode(routine, shape) {
         speed_mode_before(shape, want, said, out)?; // else a surface speed would be revolutions
     }
     check_reading_of(routine, shape, want, said)?;
@@ -226,6 +226,7 @@ fn change_tool(
     said.stand.moved_by = None;
     upons_of_change(routine, shape, want, said);
     run_with_upons(routine, shape, want, said, out)?;
+    said.keep_speed_of_change(want, shape);
     if routine.vars.has(VarId::Coolantoff) {
         want.ends_coolant = None;
     }

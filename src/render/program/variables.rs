@@ -8,13 +8,13 @@ use crate::render::shape::Shape;
 use crate::render::want::{Want, in_program_units, settable};
 use crate::toolpath::Given;
 
-/// Gives a variable or a property a value by its name: a variable's in the job's units, a property's in the form's.
+/// Gives a variable or a property a value by its name, lengths in the job's units.
 pub fn set_named(name: &str, given: &Given, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
     let settings = &shape.program.settings;
     let asked = name.trim_matches(['[', ']']);
     if let Some(row) = settings.properties.iter().position(|property| property.name.eq_ignore_ascii_case(asked)) {
         want.changed = true;
-        return want.properties.set(row, &settings.properties[row], given);
+        return want.properties.set(row, &settings.properties[row], given, shape.scale);
     }
     let var = settable(name, settings)?;
     match given {

@@ -27,7 +27,7 @@ impl Said {
             self.switched = true;
             return;
         }
-        self.switching_code(code, row, want, shape);
+        self.switching_code(code, row, line, want, shape);
         // an unknown M code switches something of the machine; an unknown G code may move it
         if code.letter == b'G' || row.is_some() {
             self.frame_code(code, row, line, want, shape);
@@ -50,15 +50,15 @@ impl Said {
             _ => {}
         }
         self.registers.set_group(group, code);
-        self.condition_code(group, code.value(), shape);
+        self.condition_code(group, code.value(), line, want, shape);
     }
 
     /// What a code stops, starts or calls.
-    fn switching_code(&mut self, code: Code, row: Option<&Row>, want: &Want, shape: &Shape) {
+    fn switching_code(&mut self, code: Code, row: Option<&Row>, line: Line, want: &Want, shape: &Shape) {
         let meaning = row.map(|row| row.meaning);
-        self.spindle_code(meaning, shape);
+        self.spindle_code(meaning, line, want, shape);
         if code.letter == b'M' {
-            self.coolant_code(code.value(), shape);
+            self.coolant_code(code.value(), line, want, shape);
         }
         let own_stop = code.letter == b'M' && shape.program.settings.stop_code.contains(&code.value());
         if own_stop || meaning.is_some_and(Meaning::is_stop) {
@@ -70,7 +70,7 @@ impl Said {
     }
 
     /// A code that stops the spindle at an angle, or turns it with coolant, as `[direct]` and `[cool]` would.
-    fn spindle_code(&mut self, meaning: Option<Meaning>, shape: &Shape) {
+    fn spindle_code(&mut self, meaning: Option<Meaning>, line: Line, want: &Want, shape: &Shape) {
         let settings = &shape.program.settings;
         let (direct, cool) = match meaning {
             Some(Meaning::Orient) => (None, None),
@@ -79,21 +79,21 @@ impl Said {
             _ => return,
         };
         self.conditions.put(VarId::Direct, direct);
-        if cool.is_some() {
-            self.conditions.put(VarId::Cool, cool);
+        if let Some(cool) = cool {
+            self.coolant_said(cool, line, want, shape);
         }
         self.switched = true;
     }
 
     /// A code of the form's kinds of coolant, whatever the control takes it for.
-    fn coolant_code(&mut self, code: f64, shape: &Shape) {
+    fn coolant_code(&mut self, code: f64, line: Line, want: &Want, shape: &Shape) {
         let kinds = &shape.program.settings.coolant_kinds;
         let begins = kinds.iter().any(|kind| kind.on == code);
         let ends = kinds.iter().any(|kind| kind.off == Some(code));
         let own = |cool: f64| kinds.iter().any(|kind| kind.on == cool && kind.off == Some(code));
         // what ends one kind leaves another on
         if begins || ends && self.conditions.get(VarId::Cool).is_some_and(own) {
-            self.conditions.put(VarId::Cool, Some(code));
+            self.coolant_said(code, line, want, shape);
             self.switched = true;
         }
         if begins || ends {

@@ -1,5 +1,6 @@
 //! Conditions that were printed, and those that the control lacks.
 
+use super::line::Line;
 use super::state::Said;
 use crate::control::Group;
 use crate::lang::{VarId, VarSet};
@@ -14,7 +15,7 @@ impl Said {
     pub fn lacks(&self, want: &Want, shape: &Shape) -> VarSet {
         let mut set = VarSet::default();
         for (var, said) in self.conditions.each() {
-            if want.get(var).is_some_and(|value| said != Some(value)) {
+            if self.due(var, want).is_some_and(|value| said != Some(value)) {
                 set.insert(var);
             }
         }
@@ -24,57 +25,58 @@ impl Said {
         if shape.program.switches_spindle { set.without(SPINDLE) } else { set }
     }
 
-    /// A word with this variable was printed.
+    /// A word with this variable was printed in this line.
     #[inline]
-    pub fn condition_word(&mut self, letter: u8, var: VarId, value: f64, shape: &Shape) {
-        if var == VarId::Work {
-            return self.work_word(letter, value, shape);
-        }
+    pub fn condition_word(&mut self, letter: u8, var: VarId, value: f64, line: Line, want: &Want, shape: &Shape) {
         if self.conditions.put(var, Some(value)) {
             self.switched = true;
+            if var == VarId::Speed {
+                self.speed_is_the_jobs();
+            }
+            self.typed(var, value, line, want, shape);
         } else {
-            self.speed_word(letter, Some(value), shape);
+            self.speed_word(letter, value, line, want, shape);
         }
     }
 
-    /// A word of this letter was printed: is it the speed?
+    /// A word of this letter was printed in this line: is it the speed?
     #[inline]
-    pub fn speed_word(&mut self, letter: u8, value: Option<f64>, shape: &Shape) {
+    pub fn speed_word(&mut self, letter: u8, value: f64, line: Line, want: &Want, shape: &Shape) {
         if letter == shape.program.settings.speed_code {
-            self.conditions.put(VarId::Speed, value);
-            self.switched |= value.is_some();
-        }
-    }
-
-    /// The work offset was printed by the letter that it has, and not as the argument of something else.
-    fn work_word(&mut self, letter: u8, value: f64, shape: &Shape) {
-        let own = shape.program.work_word.as_ref().map_or(b'G', |word| word.letter);
-        if own == letter || own == shape.letters[letter].printed {
-            self.conditions.put(VarId::Work, Some(value));
+            self.conditions.put(VarId::Speed, Some(value));
             self.switched = true;
+            self.typed(VarId::Speed, value, line, want, shape);
         }
     }
 
-    /// A code of this group was printed.
-    pub(super) fn condition_code(&mut self, group: Group, value: f64, shape: &Shape) {
+    /// A word of this letter was the parameter of a code: was it the speed, which is unknown then?
+    pub fn parameter_of_code(&mut self, letter: u8, shape: &Shape) {
+        if letter == shape.program.settings.speed_code {
+            self.conditions.put(VarId::Speed, None);
+        }
+    }
+
+    /// A code of this group was printed in this line.
+    pub(super) fn condition_code(&mut self, group: Group, value: f64, line: Line, want: &Want, shape: &Shape) {
         self.switched |= !matches!(group, Group::Motion | Group::Return);
         let var = match group {
-            Group::Work => match &shape.program.work_word {
-                None => VarId::Work,
-                Some(word) if word.shares_its_codes => {
+            Group::Work => match &shape.program.work {
+                words if words.by_code() => VarId::Work,
+                words if words.shares_its_codes => {
                     self.conditions.put(VarId::Work, None);
                     return;
                 }
                 // G56 of an Okuma is a length
-                Some(_) => return,
+                _ => return,
             },
             Group::Spindle => VarId::Direct,
-            Group::Coolant => VarId::Cool,
+            Group::Coolant => return self.coolant_said(value, line, want, shape),
             Group::FeedMode => VarId::Feedtype,
             Group::SpeedMode => VarId::Speedtype,
             _ => return,
         };
         self.conditions.put(var, Some(value));
+        self.typed(var, value, line, want, shape);
     }
 
     /// The program stops, or may. Many controls stop spindle and coolant with it: before the next move that cuts or
@@ -84,7 +86,7 @@ impl Said {
         let off = [settings.spindle[2], settings.coolant[1]];
         self.beside.doubt();
         for var in [VarId::Speed, VarId::Direct, VarId::Cool] {
-            if want.get(var).is_some_and(|value| !off.contains(&value)) {
+            if self.due(var, want).is_some_and(|value| !off.contains(&value)) {
                 self.conditions.put(var, None);
             }
         }

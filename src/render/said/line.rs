@@ -3,6 +3,7 @@
 use crate::compile::Op;
 use crate::lang::VarId;
 use crate::render::shape::Shape;
+use crate::span::Span;
 
 /// Which axis words of a sequence stand in another frame than the job's positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +49,11 @@ impl Line {
             Op::Literal { index, .. } => asked(shape.program.literals[index as usize].letter, None),
             _ => false,
         })
+    }
+
+    /// Where the line stands in the form; `None`: the block is generated.
+    pub fn span(self, shape: &Shape) -> Option<Span> {
+        self.begin.map(|begin| shape.program.spans[begin - 1])
     }
 
     /// Does the line have words of axes?

@@ -3,6 +3,7 @@
 use super::beside::Beside;
 use super::conditions::Conditions;
 use super::line::Shift;
+use super::own::Own;
 use super::registers::Registers;
 use super::stand::Stand;
 use crate::compile::{Letter, LetterKind};
@@ -11,6 +12,7 @@ use crate::lang::{Machine, VarId};
 use crate::number::quantise;
 use crate::render::kept::Kept;
 use crate::render::shape::Shape;
+use crate::render::texts::Names;
 use crate::render::want::Want;
 use crate::sema;
 use crate::toolpath::Axes;
@@ -36,6 +38,8 @@ pub struct Said {
     pub(super) registers: Registers,
     /// Work offset, spindle, coolant, feed mode.
     pub conditions: Conditions,
+    /// What the form said of its own.
+    pub own: Own,
     /// The code that ended a kind of coolant, while nothing has begun one since.
     pub coolant_ended: Option<f64>,
     /// The kinds of coolant that are on beside the first.
@@ -44,6 +48,8 @@ pub struct Said {
     pub stand: Stand,
     /// What the form itself has set.
     pub kept: Kept,
+    /// The names of tools that words have printed.
+    pub names: Names,
     /// The value of each Upon's variable when it was used last.
     pub upon_used: Vec<Option<f64>>,
     /// The plane that the control is in: what was printed last, also before a tool change. `None`: unknown.
@@ -84,10 +90,12 @@ impl Said {
         Said {
             registers: Registers::default(),
             conditions: Conditions::default(),
+            own: Own::default(),
             coolant_ended: None,
             beside: Beside::OFF,
             stand: Stand::default(),
             kept: Kept::default(),
+            names: Names::default(),
             upon_used: vec![None; upons],
             plane: Some(Code::g(17)),
             distance: None,

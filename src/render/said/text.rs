@@ -95,13 +95,13 @@ impl Said {
             Some(units) if info.kind == LetterKind::Other => self.word(info, units),
             _ => self.forget(info),
         }
-        self.speed_word(letter, Some(value), shape);
+        self.speed_word(letter, value, line, want, shape);
     }
 
     /// A word behind the slash of block delete: whether the control reads it is unknown, and so is what it sets.
     fn skipped_word(&mut self, word: TextWord, line: Line, want: &Want, shape: &Shape) {
         let TextWord { letter, value } = word;
-        self.speed_word(letter, Some(value), shape);
+        self.speed_word(letter, value, line, want, shape);
         if let Some(code) = Code::of(letter, value) {
             self.code(code, line, want, shape);
             if let Some(group) = shape.group_of(code) {

@@ -1,0 +1,103 @@
+//! Finds the words by which a form selects its work offset.
+
+use std::ops::Range;
+
+use super::program::{Op, Program};
+use super::work::{WorkWord, WorkWords};
+use crate::control::{Code, Group, Meaning};
+use crate::lang::{SequenceId, VarId, VarSet};
+use crate::nc::{Kind, tokens};
+
+/// A word that may say the offset.
+struct Found {
+    op: usize,
+    word: WorkWord,
+    /// A code, or the parameter of one that selects offsets; a word of its own; a value behind a text: only the best of a form say it.
+    rank: u8,
+}
+
+/// How a form says its work offset. The tool changes know best.
+pub(super) fn find_work(program: &Program) -> WorkWords {
+    let is_line = |at: usize| program.ops.get(at).is_none_or(|op| matches!(op, Op::Line { .. }));
+    let mut found = Vec::new();
+    let mut begin = 0;
+    for at in (1..=program.ops.len()).filter(|at| is_line(*at)) {
+        in_block(begin..at, program, &mut found);
+        begin = at;
+    }
+    let Some(best) = found.iter().map(|found| found.rank).min() else { return WorkWords::default() };
+    found.retain(|found| found.rank == best);
+    let changes =
+        [SequenceId::FirstToolChange, SequenceId::ToolChange].into_iter().filter_map(|id| program.routine(id));
+    let changes: Vec<Range<usize>> = changes.map(|routine| routine.ops.clone()).collect();
+    let upons = program.upons.iter().filter(|upon| upon.var == VarId::Work);
+    let upons: Vec<Range<usize>> = upons.map(|upon| upon.routine.ops.clone()).collect();
+    let lies_in = |parts: &[Range<usize>], op: usize| parts.iter().any(|part| part.contains(&op));
+    found.sort_by_key(|found| match found.op {
+        op if lies_in(&changes, op) => 0,
+        op if lies_in(&upons, op) => 1,
+        _ => 2,
+    });
+    if best == OF_ITS_OWN {
+        let letter = found[0].word.letter;
+        found.retain(|found| found.word.letter == letter);
+    }
+    let mut words = WorkWords { says: found.iter().map(|found| found.op).collect(), ..WorkWords::default() };
+    words.says.sort_unstable();
+    for Found { word, .. } in found {
+        if !words.ways.contains(&word) {
+            words.ways.push(word);
+        }
+    }
+    let control = program.settings.codes();
+    let shares = |way: &WorkWord| way.code.is_none_or(|code| control.group(code) == Some(Group::Work));
+    words.shares_its_codes = words.ways.iter().all(shares);
+    words
+}
+
+const BY_CODE: u8 = 0;
+const OF_ITS_OWN: u8 = 1;
+const BEHIND_TEXT: u8 = 2;
+
+/// The words of one block, unless they are arguments there.
+fn in_block(block: Range<usize>, program: &Program, found: &mut Vec<Found>) {
+    let control = program.settings.codes();
+    let own = VarSet::of(&[VarId::Work]);
+    let formula = |index: u32| Some(&program.formulas[index as usize]).filter(|formula| formula.vars() == own).cloned();
+    let mut codes: Vec<Code> = Vec::new();
+    let begins = found.len();
+    for op in block {
+        let (letter, calculated) = match program.ops[op] {
+            Op::Literal { index, .. } => {
+                codes.extend(program.literals[index as usize].code);
+                continue;
+            }
+            Op::Quote { index, .. } => {
+                codes.extend(tokens(program.texts[index as usize].as_bytes()).filter_map(|token| match token.kind {
+                    Kind::Word(letter, number) => Code::of(letter, number.value),
+                    _ => None,
+                }));
+                continue;
+            }
+            Op::Var { letter, var: VarId::Work, .. } => (Some(letter), None),
+            Op::Value { var: VarId::Work, .. } => (None, None),
+            Op::Formula { letter, index, .. } if formula(index).is_some() => (Some(letter), formula(index)),
+            Op::ValueFormula { index, .. } if formula(index).is_some() => (None, formula(index)),
+            _ => continue,
+        };
+        let is_code = letter.is_some_and(|letter| program.letters[0][letter].printed == b'G');
+        let selects = |code: &&Code| code.letter == b'G' && matches!(control.group(**code), None | Some(Group::Work));
+        let code = codes.iter().rev().find(selects).copied().filter(|_| !is_code && letter.is_some());
+        let rank = match (letter, code) {
+            (None, _) => BEHIND_TEXT,
+            _ if is_code => BY_CODE,
+            (_, Some(code)) if control.group(code) == Some(Group::Work) => BY_CODE,
+            _ => OF_ITS_OWN,
+        };
+        found.push(Found { op, word: WorkWord { code, letter, is_code, calculated }, rank });
+    }
+    let takes = |meaning: Meaning| meaning == Meaning::Data || meaning.is_call();
+    if codes.iter().any(|code| control.meaning(*code).is_some_and(takes)) {
+        found.truncate(begins);
+    }
+}

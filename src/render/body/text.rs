@@ -1,0 +1,36 @@
+//! What a line prints besides words with letters of their own: text, values in it, comments.
+
+use super::Body;
+use crate::lang::VarId;
+use crate::render::fault::Done;
+use crate::render::texts;
+use crate::render::values::property_text;
+
+impl Body<'_, '_> {
+    /// Has the job none of the texts of the comment that begins here?
+    pub(super) fn comment_is_empty(&self, at: usize, words: usize) -> bool {
+        texts::are_empty(&self.shape.program.ops[at + 1..][..words], &self.want.texts, &|row| {
+            property_text(row, self.want, self.said).is_empty()
+        })
+    }
+
+    /// Reads the text that was printed since the last word.
+    pub(super) fn read_text(&mut self) {
+        if !self.text.is_empty() {
+            self.said.text(&self.text, self.line(), self.want, self.shape);
+            self.text.clear();
+        }
+    }
+
+    /// A value without a letter, which the control reads.
+    pub(super) fn bare_word(&mut self, var: VarId, glued: bool) -> Done {
+        let Some(value) = self.value_of(var, b' ')? else { return Ok(()) };
+        self.counts_from(b' ', var, value);
+        self.out.bare(value, &self.shape.letters.bare, glued)?;
+        if var == VarId::Block {
+            self.out.prints_number();
+        }
+        self.condition_word(b' ', var, value);
+        Ok(())
+    }
+}

@@ -1,0 +1,73 @@
+//! What must hold at the next move: the job's conditions, or the form's own where the job gives none.
+
+use super::conditions::Conditions;
+use super::line::Line;
+use super::state::Said;
+use crate::lang::{Machine, VarId};
+use crate::render::shape::Shape;
+use crate::render::want::Want;
+use crate::span::Span;
+
+impl Said {
+    /// What must hold at the next move: the job's, or the form's own where the job gives none.
+    pub fn due(&self, var: VarId, want: &Want) -> Option<f64> {
+        let own = match var {
+            VarId::Cool => self.own.cool.filter(|_| !want.coolant_is_said),
+            VarId::Speed => self.own.speed.filter(|(_, job)| want.get(var) == Some(*job)).map(|(own, _)| own),
+            _ => None,
+        };
+        own.or(want.get(var))
+    }
+
+    /// A code of coolant was printed.
+    pub(super) fn coolant_said(&mut self, code: f64, line: Line, want: &Want, shape: &Shape) {
+        self.conditions.put(VarId::Cool, Some(code));
+        self.own.cool = Some(code).filter(|_| !want.coolant_is_said);
+        self.typed(VarId::Cool, code, line, want, shape);
+    }
+
+    /// A line set a condition: is it another one than the job's? What ends something takes nothing from the job.
+    pub(super) fn typed(&mut self, var: VarId, value: f64, line: Line, want: &Want, shape: &Shape) {
+        let settings = &shape.program.settings;
+        let off = match var {
+            VarId::Cool => settings.coolant[1],
+            VarId::Direct => settings.spindle[2],
+            _ => 0.0,
+        };
+        let other = value != off && self.due(var, want).is_some_and(|due| due != value);
+        let at = line.span(shape).filter(|_| other);
+        self.own.typed.put(var, at.map(|_| value));
+        self.own.line = at.or(self.own.line);
+    }
+
+    /// A word of the form set the job's speed: the form's own is over.
+    pub(super) fn speed_is_the_jobs(&mut self) {
+        self.own.speed = None;
+    }
+
+    /// The tool change is printed: its own speed stands until the job gives another one. On a lathe a typed S may be a limit.
+    pub fn keep_speed_of_change(&mut self, want: &Want, shape: &Shape) {
+        let printed = self.conditions.get(VarId::Speed).filter(|own| *own > 0.0);
+        let mill = shape.program.settings.machine == Machine::Mill;
+        let both = printed.zip(want.get(VarId::Speed)).filter(|(own, job)| mill && own != job);
+        self.own.speed = both;
+        if both.is_some() {
+            self.own.typed.put(VarId::Speed, None);
+        }
+    }
+
+    /// What a line set otherwise than the job, with its place.
+    pub fn take_typed(&mut self, var: VarId) -> Option<(f64, Option<Span>)> {
+        let typed = self.own.typed.get(var)?;
+        self.own.typed.put(var, None);
+        Some((typed, self.own.line))
+    }
+
+    /// All conditions were looked at: coolant of the job's own is not the form's any more.
+    pub fn conditions_are_settled(&mut self, want: &Want) {
+        self.own.typed = Conditions::default();
+        if want.coolant_is_said {
+            self.own.cool = None;
+        }
+    }
+}

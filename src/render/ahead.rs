@@ -31,7 +31,7 @@ pub fn is_reach(var: VarId) -> bool {
 /// What a survey must know of a form. `only_order`: only which tools come, nothing of what they do.
 pub fn survey_terms(program: &Program, sink_as_printed: bool, only_order: bool) -> Terms {
     let settings = &program.settings;
-    let defaults = [Units::Inch, Units::Mm].map(|units| cycle_defaults(settings, units, sink_as_printed));
+    let defaults = [Units::Inch, Units::Mm].map(|units| cycle_defaults(settings, units, units, sink_as_printed));
     Terms { defaults, work: default_work(settings), first_work: settings.work, only_order }
 }
 

@@ -28,14 +28,17 @@ pub fn no_defaults() -> Defaults {
     }
 }
 
-/// What a form gives where a cycle names nothing, in these units.
-pub fn cycle_defaults(settings: &Settings, units: Units, sink_as_printed: bool) -> Defaults {
-    let scale = factor(form_units(settings).unwrap_or(Units::Inch), units);
+/// What a form gives where a cycle of a job in these units names nothing, in the units `into`.
+pub fn cycle_defaults(settings: &Settings, job: Units, into: Units, sink_as_printed: bool) -> Defaults {
+    let scale = factor(form_units(settings).unwrap_or(Units::Inch), into);
     let length = |value: f64| value * scale;
     // what a form for both units says is inches; what it leaves out is what a form for the job's units has
-    let of_job = if units == Units::Mm { UnitChoice::Mm } else { UnitChoice::Inch };
+    let of_job = if job == Units::Mm { UnitChoice::Mm } else { UnitChoice::Inch };
     let usual = Settings::new(settings.machine, of_job);
-    let or = |said: Option<f64>, usual: Option<f64>| said.map(length).or(usual).unwrap_or_default();
+    let usual_scale = factor(job, into);
+    let or = |said: Option<f64>, usual: Option<f64>| {
+        said.map(length).or(usual.map(|value| value * usual_scale)).unwrap_or_default()
+    };
     Defaults {
         clear: or(settings.cycle_clear, usual.cycle_clear),
         step: settings.cycle_step.map(length),

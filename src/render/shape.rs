@@ -94,7 +94,7 @@ impl<'p> Shape<'p> {
         self.scale = factor(job, self.units);
         self.form_scale = factor(form.unwrap_or(Units::Inch), self.units);
         self.letters = &self.program.letters[usize::from(self.units == Units::Mm)];
-        self.defaults = cycle_defaults(settings, self.units, self.options.sink_as_printed);
+        self.defaults = cycle_defaults(settings, job, self.units, self.options.sink_as_printed);
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use super::cut::{ALL, Cut, What, position, same, shown};
+use super::cut::{ALL, Cut, Place, What, position, same, shown};
 use super::intent::Done;
 use super::state::Sides;
 use super::states;
@@ -12,6 +12,14 @@ use crate::toolpath::{Direction, FeedMode};
 
 /// How far parts may leave the circle, in tolerances: centres are rounded too.
 const OFF: f64 = 5.0;
+
+/// Does a short straight cut from the beginning of an arc end on it, not past its end and not back?
+pub(super) fn is_chord(cut: &Cut, turn: &Turn, to: &Place, tolerance: f64) -> bool {
+    let [first, second, _] = axes_of(turn.plane);
+    let radius = |at: &Place| (at[first] - turn.center[first]).hypot(at[second] - turn.center[second]);
+    let angle = sweep(&cut.from, &Turn { to: position(to), turns: 0, ..*turn });
+    (radius(to) - radius(&cut.from)).abs() <= tolerance && angle <= sweep(&cut.from, turn).min(std::f64::consts::PI)
+}
 
 /// The job's arc, as one or in parts; the first was met already.
 pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -> Done {

@@ -5,7 +5,7 @@ use std::io::{BufRead, Seek};
 use super::cut::{ACROSS, ALL, Cut, DEPTH, NAMES, Rapid, What, lead_alike, number, over, same, shown};
 use super::intent::{Done, Expected};
 use super::state::Sides;
-use super::{pauses, states, ways, wire};
+use super::{arcs, pauses, states, ways, wire};
 use crate::diag::Code;
 
 /// How the program's next cut begins.
@@ -69,7 +69,7 @@ fn is_part<R: BufRead + Seek>(s: &Sides<R>, cut: &Cut, found: &Cut) -> bool {
     let goes_along = match (cut.what, found.what) {
         (What::Line { .. }, _) => super::cut::lies_between(&cut.from, &found.end(), &cut.end(), tolerance),
         (What::Arc(turn), What::Arc(made)) => (made.plane, made.direction) == (turn.plane, turn.direction),
-        (What::Arc(_), What::Line { .. }) => false,
+        (What::Arc(turn), What::Line { to }) => arcs::is_chord(cut, &turn, &to, tolerance),
     };
     goes_along && same(&cut.from, &found.from, ALL, tolerance) && !same(&cut.from, &found.end(), ALL, tolerance)
 }

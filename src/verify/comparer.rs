@@ -11,6 +11,7 @@ use super::program::Program;
 use super::report::{Counts, Report};
 use super::state::{Holes, Limits, Sides};
 use super::states::has_feed;
+use super::strokes::Strokes;
 use super::tables::PLACES;
 use super::verdict::{Equivalences, Unproven, Verdict};
 use super::wire_codes::Coded;
@@ -49,7 +50,7 @@ impl<R: BufRead + Seek> Comparer<R> {
                 program,
                 job: Passage::new(None, frame),
                 hole: Holes::default(),
-                limits: Limits { tolerance: tolerance.unwrap_or_default() * BINARY, chord: 0.0 },
+                limits: Limits { tolerance: tolerance.unwrap_or_default() * BINARY, chord: 0.0, increment: 0.0 },
                 ways: Default::default(),
                 before: super::cut::Shared::default(),
                 agreed: None,
@@ -137,9 +138,9 @@ impl<R: BufRead + Seek> Sink for Comparer<R> {
 }
 
 impl<R: BufRead + Seek> Intent for Sides<R> {
-    fn units(&mut self, units: Units, chord: f64) {
+    fn units(&mut self, units: Units, chord: f64, increment: f64) {
         self.program.want(units);
-        self.limits.chord = chord;
+        (self.limits.chord, self.limits.increment) = (chord, increment);
         if self.limits.tolerance == 0.0 {
             self.limits.tolerance = PLACES[usize::from(units == Units::Mm)] * BINARY;
         }
@@ -151,7 +152,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         if here.is_some_and(|here| here.to == rapid.to && here.unknown == rapid.unknown) && rapid.spin.is_none() {
             return Ok(());
         }
-        self.job.aside |= self.hole.over.is_some_and(|over| !same(&over, &rapid.to, ACROSS, self.limits.tolerance));
+        self.job.aside |= self.hole.over.is_some_and(|over| !same(&over.at, &rapid.to, ACROSS, self.limits.tolerance));
         self.job.rapids.push(rapid);
         if self.job.is_too_long() || self.program.passage.is_too_long() {
             return self.unproven("more rapids between two cuts than are held".into(), "split the job", 0);
@@ -168,13 +169,10 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         if hole.is_none() && usual::goes_on(self, cut)? {
             return Ok(());
         }
-        if hole.is_some_and(|hole| hole.pecks) {
-            if self.hole.pecks.is_empty() && begin::meet(self, cut, hole)?.is_none() {
-                return Ok(());
+        if let Some(hole) = hole.filter(|hole| hole.pecks) {
+            if !self.hole.pecks.is_empty() || begin::meet(self, cut, Some(hole))?.is_some() {
+                self.peck(cut, hole);
             }
-            self.hole.waits_inside |= self.hole.waited.is_some();
-            self.hole.pecks.push(cut.clone());
-            self.leave(cut);
             return Ok(());
         }
         if hole.is_none() && cut.is_short(self.limits.tolerance) && self.vanishes(cut)? {
@@ -183,6 +181,12 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             return Ok(());
         }
         let Some(found) = begin::meet(self, cut, hole)? else { return Ok(()) };
+        // drilled in pecks
+        let tolerance = self.limits.tolerance;
+        if let Some(hole) = hole.filter(|hole| hole.may_peck && found.end()[DEPTH] > hole.bottom + tolerance) {
+            self.peck(cut, hole);
+            return Ok(());
+        }
         self.report.counts.cuts += u64::from(hole.is_none());
         match (cut.what, found.what) {
             // a helix whose circle no digits show
@@ -197,7 +201,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
             }
             _ => lines::line(self, cut, &found, hole)?,
         }
-        self.leave(cut);
+        self.leave(cut, hole);
         Ok(())
     }
 
@@ -215,10 +219,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         self.rapid(Rapid { to: end, unknown: 0, spin: None })
     }
 
-    fn wait(&mut self, seconds: f64, hole: bool) {
-        if hole {
-            self.hole.waited = Some(seconds);
-        }
+    fn wait(&mut self, seconds: f64) {
         let mark = self.job.mark(seconds, 0, self.at());
         self.job.waits.push(mark);
     }
@@ -229,15 +230,16 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
     }
 
     fn hole_begins(&mut self, hole: &Expected) {
-        self.hole.over = Some(hole.at);
+        self.hole.over = Some(*hole);
         let here = hole.at[DEPTH].max(hole.plane);
         self.hole.highest = Some(self.hole.highest.map_or(here, |highest| highest.max(here)));
         self.hole.pecks.clear();
-        (self.hole.waited, self.hole.waits_inside, self.hole.cut) = (None, false, false);
+        self.hole.strokes = Strokes::over(hole.plane);
+        self.hole.cut = false;
     }
 
     fn hole_ends(&mut self, hole: &Expected) -> Done {
-        if hole.pecks && !self.hole.pecks.is_empty() {
+        if !self.hole.pecks.is_empty() {
             holes::pecks(self, hole)?;
         }
         self.report.counts.holes += 1;
@@ -322,6 +324,17 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
 }
 
 impl<R: BufRead + Seek> Sides<R> {
+    /// A cut of a hole in pecks, which is compared when the job's hole is whole.
+    fn peck(&mut self, cut: &Cut, hole: &Expected) {
+        let Limits { increment, tolerance, .. } = self.limits;
+        let strokes = &mut self.hole.strokes;
+        self.job.rapids.iter().for_each(|rapid| strokes.comes_to(rapid.to[DEPTH]));
+        strokes.comes_to(cut.from[DEPTH]);
+        strokes.cut(cut.end()[DEPTH], increment, tolerance);
+        self.hole.pecks.push(cut.clone());
+        self.leave(cut, Some(hole));
+    }
+
     /// Did the digits of the program swallow the job's short cut? The program stays as near to the job as it can.
     fn vanishes(&mut self, cut: &Cut) -> Done<bool> {
         let Some(found) = self.next()? else { return Ok(true) };

@@ -100,6 +100,25 @@ pub(super) struct State {
     pub plane: Plane,
     /// The control keeps feed and spindle in step.
     pub rigid: Option<bool>,
+    /// How the spindle turned where a control's floating tap begins; of the job: how it must.
+    pub into_tap: Option<Rotation>,
+}
+
+impl State {
+    /// A control's tap begins, which goes in with this rotation: a rigid one turns the spindle itself, a floating one goes in
+    /// as it turned before.
+    pub fn taps(&mut self, inwards: Rotation) {
+        let floats = self.rigid == Some(false);
+        self.into_tap = self.rotation.filter(|_| floats);
+        if !floats {
+            self.rotation = Some(inwards);
+        }
+    }
+
+    /// The canned cycle is over.
+    pub fn cycle_ends(&mut self) {
+        (self.into_tap, self.rigid) = (None, self.rigid.map(|_| false));
+    }
 }
 
 /// A state that many cuts have: they share it until it changes, and two that share it are alike at a glance.

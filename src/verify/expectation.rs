@@ -1,7 +1,7 @@
 //! What a form fills in where its job is silent, and what it says of its own.
 
 use super::own::Own;
-use super::tables::CHORDS;
+use super::tables::{CHORDS, INCREMENTS};
 use super::wire_codes::{self, Coded, Codes};
 use crate::compile::{Op, Program, WorkWords};
 use crate::control::{Control, Meaning};
@@ -20,6 +20,8 @@ pub struct Expectation {
     pub defaults: [Defaults; 2],
     /// How far short lines may leave an arc, in inches and in millimetres.
     pub chord: [f64; 2],
+    /// One digit of the form along a hole, in inches and in millimetres.
+    pub increment: [f64; 2],
     /// Code of the first work offset: 54.
     pub first_work: f64,
     /// Work offset that holds before the job names one.
@@ -61,6 +63,7 @@ impl Default for Expectation {
         Expectation {
             defaults: [defaults; 2],
             chord: CHORDS,
+            increment: INCREMENTS,
             first_work: 54.0,
             work: None,
             work_words: None,
@@ -85,7 +88,7 @@ impl Expectation {
     /// What a form fills in.
     pub fn of_form(settings: &Settings, sink_as_printed: bool) -> Expectation {
         let defaults = [Units::Inch, Units::Mm]
-            .map(|units| Defaults { rigid: true, ..cycle_defaults(settings, units, sink_as_printed) });
+            .map(|units| Defaults { rigid: true, ..cycle_defaults(settings, units, units, sink_as_printed) });
         let chord = settings.tolerance * if settings.units == UnitChoice::Mm { 1.0 / 25.4 } else { 1.0 };
         Expectation {
             defaults,
@@ -110,6 +113,9 @@ impl Expectation {
         let settings = &program.settings;
         self.wire = (settings.machine == Machine::Edm).then(|| wire_codes::codes_of(program));
         (self.feeds, self.speeds) = (Own::of(program), Own::of(program));
+        let along = settings.axes[if settings.machine == Machine::Lathe { 0 } else { 2 }];
+        self.increment =
+            program.letters.each_ref().map(|letters| 10f64.powi(-i32::from(letters[along].format.dec.count)));
         for op in &program.ops {
             match *op {
                 Op::Literal { index, .. } => match &program.literals[index as usize] {

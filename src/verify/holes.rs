@@ -5,44 +5,33 @@ use std::io::{BufRead, Seek};
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell, shown};
 use super::intent::{Done, Expected};
 use super::pauses;
-use super::state::Sides;
+use super::state::{Limits, Sides};
 use super::states;
-use super::tables::{LEFT, LONGER};
+use super::strokes::Strokes;
+use super::tables::LONGER;
 use crate::diag::Code;
-
-/// What the program's strokes in a hole came to.
-#[derive(Clone, Copy, Debug)]
-struct Strokes {
-    count: u64,
-    longest: f64,
-    /// The tool came out between all pecks.
-    out: bool,
-    deepest: f64,
-    /// A dwell at the deepest place, before another stroke.
-    dwell: Option<f64>,
-    line: u64,
-}
 
 /// The program's cuts in this hole, of which the first was met already.
 pub(super) fn pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) -> Done {
-    let tolerance = s.limits.tolerance;
+    let Limits { tolerance, increment, .. } = s.limits;
     let pecks = std::mem::take(&mut s.hole.pecks);
-    let start = Strokes { count: 0, longest: 0.0, out: true, deepest: hole.plane, dwell: None, line: 0 };
-    let mut strokes = start;
+    let (wanted_strokes, mut strokes) = (s.hole.strokes, Strokes::over(hole.plane));
+    // the longest dwell at the bottom before another cut, and the line of the last cut
+    let (mut waited, mut line) = (0.0f64, 0);
     let mut identical = true;
     let mut count = 0;
     while let Some(found) = s.next()? {
         let wanted = pecks.get(count);
         let is_one = wanted.is_some_and(|wanted| is_same(wanted, &found, tolerance));
         // at the bottom, what is not of the same block's cycle is another hole, or another item of the job
-        let same_block = found.by_cycle && found.line == strokes.line;
+        let same_block = found.by_cycle && found.line == line;
         // up again at feed goes only a tap
         let other_item = found.end()[DEPTH] < found.from[DEPTH] || !hole.is_tap;
         let at_bottom = strokes.deepest <= hole.bottom + tolerance;
         if count > 0 && (!stays_in(s, hole, &found) || at_bottom && other_item && !same_block && !is_one) {
             break;
         }
-        strokes.line = found.line;
+        line = found.line;
         identical &= is_one;
         if count > 0 {
             pauses::between_pecks(s, hole);
@@ -66,15 +55,23 @@ pub(super) fn pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) -> Don
                 format!("a peck of the hole at {} goes to {}", over(&hole.at), shown(&to, 0b111))
             });
         }
-        stroke(s, &found, hole, &mut strokes, count > 0);
-        peck_state(s, &pecks, &found, hole, [strokes.deepest, to[DEPTH]], count);
-        strokes.deepest = strokes.deepest.min(to[DEPTH]);
+        let deepest = strokes.deepest;
+        if count > 0 && (found.from[DEPTH] - deepest).abs() <= tolerance {
+            waited = waited.max(s.program.passage.waits.iter().map(|wait| wait.what).sum());
+        }
+        if to[DEPTH] < deepest {
+            waited = 0.0;
+        }
+        peck_state(s, &pecks, &found, hole, [deepest, to[DEPTH]], count);
+        s.program.passage.rapids.iter().for_each(|rapid| strokes.comes_to(rapid.to[DEPTH]));
+        strokes.comes_to(found.from[DEPTH]);
+        strokes.cut(to[DEPTH], increment, tolerance);
         count += 1;
         s.program.take();
     }
-    let Strokes { deepest, line, .. } = strokes;
+    let deepest = strokes.deepest;
     if !hole.custom {
-        check(s, &pecks, hole, &strokes);
+        check(s, hole, [&wanted_strokes, &strokes], line);
     }
     if (deepest - hole.bottom).abs() > tolerance {
         let at = over(&hole.at);
@@ -90,39 +87,20 @@ pub(super) fn pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) -> Don
             format!("the hole at {at} is cut to Z{}, the job's to Z{}", number(deepest), number(hole.bottom))
         });
     }
-    if s.hole.waits_inside {
-        let (wanted, is) = (hole.dwell.unwrap_or(0.0), strokes.dwell.unwrap_or(0.0));
-        if !same_dwell(wanted, is) {
-            s.found(Code::PV010, line, "print P[dwell] in the cycle", || {
-                format!("the dwell at the bottom is {} s, the job's {} s", number(is), number(wanted))
+    // another cut comes after the dwell at the bottom of a tap alone
+    if hole.is_tap {
+        let wanted = hole.dwell.unwrap_or(0.0);
+        if !same_dwell(wanted, waited) {
+            s.found(Code::PV010, line, "print P[dwell] in the cycle, or P0 where the job has none", || {
+                format!("the dwell at the bottom is {} s, the job's {} s", number(waited), number(wanted))
             });
         }
     }
-    identical &= count == pecks.len();
+    identical &= count == pecks.len() && wanted_strokes.counts == strokes.counts;
     s.report.allowed.pecks += u64::from(!identical && !hole.custom);
     s.hole.pecks = pecks;
     s.hole.pecks.clear();
     Ok(())
-}
-
-/// Counts a stroke, and the dwell before it.
-fn stroke<R: BufRead + Seek>(s: &Sides<R>, found: &Cut, hole: &Expected, strokes: &mut Strokes, later: bool) {
-    let tolerance = s.limits.tolerance;
-    let to = found.end()[DEPTH];
-    let passage = &s.program.passage;
-    if later {
-        let at_bottom = (found.from[DEPTH] - strokes.deepest).abs() <= tolerance || strokes.dwell.is_none();
-        let waited: f64 = passage.waits.iter().map(|wait| wait.what).sum();
-        strokes.dwell = Some(waited).filter(|waited| at_bottom && *waited > 0.0).or(strokes.dwell);
-    }
-    if strokes.count > 0 && to < strokes.deepest - tolerance {
-        strokes.out &= passage.rapids.iter().any(|rapid| rapid.to[DEPTH] >= hole.plane - tolerance);
-    }
-    if to < strokes.deepest {
-        strokes.count += 1;
-        strokes.longest = strokes.longest.max(strokes.deepest - to);
-        strokes.dwell = None;
-    }
 }
 
 /// Spindle, registers and feed of a stroke: those of the job's pecks that cut in the same place.
@@ -166,30 +144,21 @@ fn peck_state<R: BufRead + Seek>(
     }
 }
 
-/// Checks the pecks of a hole: other pecks are as good, but pecks they must be, out of the hole between them where the
-/// job's are.
-fn check<R: BufRead + Seek>(s: &mut Sides<R>, pecks: &[Cut], hole: &Expected, strokes: &Strokes) {
-    let mut deepest = hole.plane;
-    let (mut count, mut longest) = (0, 0.0f64);
-    for peck in pecks {
-        let to = peck.end()[DEPTH];
-        if to < deepest {
-            let length = deepest - to;
-            count += u64::from(length > (LEFT * longest).max(2.0 * s.limits.tolerance));
-            longest = longest.max(length);
-            deepest = to;
-        }
-    }
+/// Checks the pecks of a hole: other pecks are as good, but pecks they must be, and out of the hole as far apart as the
+/// job's.
+fn check<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected, [wanted, made]: [&Strokes; 2], line: u64) {
     let help = "print Q[vbite] with G83 or G73, as the job's kind is";
-    if count > 1 && (strokes.count < 2 || strokes.longest > LONGER * longest) {
-        let is = number(strokes.longest);
-        s.found(Code::PV023, strokes.line, help, || {
-            format!("the hole at {} is cut {is} at once, the job pecks by {}", over(&hole.at), number(longest))
+    let [count, outs] = wanted.counted(s.limits.tolerance);
+    if count > 1 && (made.counts[0] < 2 || made.longest > LONGER * wanted.longest) {
+        s.found(Code::PV023, line, help, || {
+            let (is, by) = (number(made.longest), number(wanted.longest));
+            format!("the hole at {} is cut {is} at once, the job pecks by {by}", over(&hole.at))
         });
     }
-    if count > 1 && hole.retracts && !strokes.out {
-        s.found(Code::PV023, strokes.line, help, || {
-            format!("between pecks the tool stays in the hole at {}, the job brings it out", over(&hole.at))
+    if outs > 0 && (made.counts[1] == 0 || made.farthest > LONGER * wanted.farthest) {
+        s.found(Code::PV023, line, help, || {
+            let (is, by) = (number(made.farthest), number(wanted.farthest));
+            format!("the hole at {} is cut {is} before the tool comes out of it, the job's {by}", over(&hole.at))
         });
     }
 }

@@ -116,7 +116,7 @@ impl Job {
                 Ok(())
             }
             Event::Dwell(seconds) => {
-                wait(seconds, false, to);
+                wait(seconds, to);
                 Ok(())
             }
             Event::Stop(kind) => {
@@ -170,7 +170,8 @@ impl Job {
             Machine::Edm => return unproven(Unmodelled::Machine),
         }
         self.units = Some(start.units);
-        to.units(start.units, self.expectation.chord[usize::from(start.units == Units::Mm)]);
+        let row = usize::from(start.units == Units::Mm);
+        to.units(start.units, self.expectation.chord[row], self.expectation.increment[row]);
         Ok(())
     }
 
@@ -242,7 +243,7 @@ impl Job {
             match (row.meaning, row.meaning.group()) {
                 (Meaning::StopProgram | Meaning::Pallet, _) => to.stop(StopKind::Program),
                 (Meaning::StopOptional, _) => to.stop(StopKind::Optional),
-                (Meaning::Dwell, _) => to.wait(f64::NAN, false),
+                (Meaning::Dwell, _) => to.wait(f64::NAN),
                 (_, Some(Group::Spindle)) => self.state.rotation = None,
                 (_, Some(Group::Coolant)) => self.state.coolant = None,
                 (_, Some(Group::Motion | Group::Distance | Group::Work | Group::Length | Group::Compensation)) => {
@@ -400,9 +401,9 @@ impl Job {
 }
 
 /// A dwell of no length is none.
-pub(super) fn wait(seconds: f64, hole: bool, to: &mut impl Intent) {
+pub(super) fn wait(seconds: f64, to: &mut impl Intent) {
     if seconds > 0.0 {
-        to.wait(seconds, hole);
+        to.wait(seconds);
     }
 }
 

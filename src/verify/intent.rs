@@ -9,8 +9,8 @@ use crate::toolpath::{self, StopKind, Units};
 
 /// What the job's side tells, in the order of its motions.
 pub(super) trait Intent {
-    /// Units of the job, and how far lines may leave an arc in them.
-    fn units(&mut self, units: Units, chord: f64);
+    /// Units of the job, how far lines may leave an arc in them, and one digit of the form along a hole.
+    fn units(&mut self, units: Units, chord: f64, increment: f64);
     /// A rapid.
     fn rapid(&mut self, rapid: Rapid) -> Done;
     /// A cut.
@@ -18,7 +18,7 @@ pub(super) trait Intent {
     /// A rapid that may feed, as it turns compensation on or off.
     fn rapid_or_feed(&mut self, cut: &Cut) -> Done;
     /// A dwell in seconds; not a number: of any length.
-    fn wait(&mut self, seconds: f64, hole: bool);
+    fn wait(&mut self, seconds: f64);
     /// A stop.
     fn stop(&mut self, kind: StopKind);
     /// A thread, all its passes; with what holds there.
@@ -59,8 +59,8 @@ pub(super) struct Expected {
     pub dwell: Option<f64>,
     /// The hole may be made in other pecks.
     pub pecks: bool,
-    /// The tool comes out of the hole between pecks.
-    pub retracts: bool,
+    /// The job drills it in one, and it may be made in pecks.
+    pub may_peck: bool,
     /// A tap: feed and speed are its pitch.
     pub is_tap: bool,
     /// The hole may be left at feed farther up than the job does.

@@ -31,6 +31,7 @@ mod scale;
 mod starts;
 mod state;
 mod states;
+mod strokes;
 mod subprograms;
 mod tables;
 mod threads;

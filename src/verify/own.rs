@@ -1,5 +1,6 @@
 //! Feeds and speeds that a form says itself: typed, or calculated from the job's.
 
+use super::tables::OWN;
 use crate::compile::{Program, WorkWords};
 use crate::control::Control;
 use crate::lang::{Coolant, TextId, VarId, VarSet};
@@ -52,11 +53,12 @@ impl Own {
         words.name(&values, control).unwrap_or(work)
     }
 
-    /// Does the form say a value where the job wants this one? `is`: whether a number is the value.
+    /// Does the form say a value where the job wants this one, and near enough to it? `is`: whether a number is the value.
     pub(super) fn says(&self, wanted: f64, is: impl Fn(f64) -> bool) -> bool {
         let values = OfJob { wanted, properties: &self.properties };
-        self.typed.iter().any(|own| is(*own))
-            || self.calculated.iter().any(|formula| formula.number(&values).is_ok_and(&is))
+        let near = |own: f64| (OWN[0] * wanted..=OWN[1] * wanted).contains(&own) && is(own);
+        self.typed.iter().any(|own| near(*own))
+            || self.calculated.iter().any(|formula| formula.number(&values).is_ok_and(near))
     }
 }
 

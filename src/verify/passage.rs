@@ -1,6 +1,6 @@
 //! What lies between two cuts: rapids, changes of tool and work offset, stops, dwells. Job and program have one each.
 
-use super::cut::{ALL, Place, Rapid, same};
+use super::cut::{ALL, DEPTH, Place, Rapid, same};
 use super::wire_codes::Coded;
 use crate::nc::Rotation;
 use crate::toolpath::{self, StopKind};
@@ -32,7 +32,7 @@ pub(super) struct Mark<T> {
     at: usize,
     /// How often the frame was changed before the mark, since the cut.
     leg: usize,
-    /// The spindle was started before it, since the cut.
+    /// The spindle was started from standing before it, since the cut.
     pub started: bool,
     /// The program's line; 0 of a job.
     pub line: u64,
@@ -53,6 +53,8 @@ pub(super) struct Passage {
     pub waits: Vec<Mark<f64>>,
     /// How the spindle was switched.
     pub turns: Vec<Rotation>,
+    /// The spindle was started from standing.
+    pub started: bool,
     /// Codes of the program that are not simulated: letter, and ten times the number.
     pub codes: Vec<(u8, u16)>,
     /// Codes that thread and cut a wire.
@@ -80,6 +82,7 @@ impl Passage {
             stops: Vec::new(),
             waits: Vec::new(),
             turns: Vec::new(),
+            started: false,
             codes: Vec::new(),
             does: Vec::new(),
             new_tool: false,
@@ -104,6 +107,7 @@ impl Passage {
         self.stops.clear();
         self.waits.clear();
         self.turns.clear();
+        self.started = false;
         self.codes.clear();
         self.does.clear();
         self.astray.clear();
@@ -220,8 +224,7 @@ impl Passage {
 
     /// Notes that something is done here.
     pub fn mark<T>(&self, what: T, line: u64, place: toolpath::Place) -> Mark<T> {
-        let started = self.turns.iter().any(|turn| *turn != Rotation::Stop);
-        Mark { what, at: self.rapids.len(), leg: self.legs.len() - 1, started, line, place }
+        Mark { what, at: self.rapids.len(), leg: self.legs.len() - 1, started: self.started, line, place }
     }
 
     /// Where the tool is at a mark; `None` before the first place that is known.
@@ -250,6 +253,18 @@ impl Passage {
         self.rapids.iter().take(mark.at).all(stays)
     }
 
+    /// Is the tool below this height at a mark, and was it ever since the cut?
+    pub fn below_since<T>(&self, mark: &Mark<T>, height: f64) -> bool {
+        let mut way = self.start.iter().chain(self.rapids.iter().take(mark.at));
+        mark.leg == 0 && self.start.is_some() && way.all(|corner| is_below(corner, height))
+    }
+
+    /// Is the tool below this height at a mark, and stays there until the next cut?
+    pub fn below_until<T>(&self, mark: &Mark<T>, height: f64) -> bool {
+        let stands = self.standing(mark).is_some_and(|corner| is_below(&corner, height));
+        stands && self.rapids.iter().skip(mark.at).all(|corner| is_below(corner, height))
+    }
+
     /// Does the tool stay where the last cut ended, but for rapids that no digits show?
     pub fn stays(&self, tolerance: f64) -> bool {
         self.rapids.is_empty()
@@ -274,4 +289,8 @@ impl Passage {
             && self.waits.is_empty()
             && self.does.is_empty()
     }
+}
+
+fn is_below(corner: &Rapid, height: f64) -> bool {
+    corner.unknown & 1 << DEPTH == 0 && corner.to[DEPTH] < height
 }

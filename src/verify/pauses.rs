@@ -58,7 +58,8 @@ fn stops<R: BufRead + Seek>(s: &mut Sides<R>) {
         }
     }
     for stop in &others {
-        let in_cut = s.program.passage.in_cut(stop, tolerance);
+        let passage = &s.program.passage;
+        let in_cut = passage.in_cut(stop, tolerance) || s.hole.holds(passage, stop, tolerance);
         own_stop(s, stop, in_cut);
     }
 }
@@ -155,14 +156,19 @@ fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
     let is_one = |wanted: f64, is: f64| wanted.is_nan() || same_dwell(wanted, is);
     for wait in &wanted {
         let in_cut = s.job.in_cut(wait, tolerance);
+        let hole = &s.hole;
         let serves = |passage: &Passage, other: &Mark<f64>| match (in_cut, passage.in_cut(other, tolerance)) {
             (true, true) => true,
-            (false, true) => match (s.job.standing(wait), passage.standing(other)) {
-                // it stands in the job's place already
-                (Some(a), Some(b)) => same(&a.to, &b.to, ACROSS, tolerance) && b.to[DEPTH] >= a.to[DEPTH] - tolerance,
-                _ => false,
-            },
-            (false, false) => true,
+            (false, is) if is || hole.holds(passage, other, tolerance) => {
+                match (s.job.standing(wait), passage.standing(other)) {
+                    // it stands in the job's place already
+                    (Some(a), Some(b)) => {
+                        same(&a.to, &b.to, ACROSS, tolerance) && b.to[DEPTH] >= a.to[DEPTH] - tolerance
+                    }
+                    _ => false,
+                }
+            }
+            (false, _) => true,
             // out of a hole at feed, the tool may wait farther up
             (true, false) => fed_out && passage.standing(other).is_some_and(|at| is_over(&at)),
         };
@@ -176,7 +182,9 @@ fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
         if wait.what.is_nan() {
             continue;
         }
-        let another = others.iter().position(|other| serves(passage, other) && !other.started);
+        // what the spindle waits for is not the job's, but in a hole
+        let may_be = |other: &Mark<f64>| !other.started || hole.holds(passage, other, tolerance);
+        let another = others.iter().position(|other| serves(passage, other) && may_be(other));
         let seconds = number(wait.what);
         match another.map(|at| others.remove(at)) {
             Some(other) => told(s, wait, Code::PV010, other.line, "look at the unit of the dwell (`Dwell`)", || {
@@ -192,13 +200,16 @@ fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
         last.custom && s.program.passage.start.is_some_and(|start| same(&start.to, &last.at, ACROSS, tolerance))
     });
     for other in &others {
-        if s.program.passage.in_cut(other, tolerance) && !other.started && !own {
-            let seconds = number(other.what);
-            s.found(Code::PV010, other.line, "take the dwell out, or retract before it", || {
-                format!("a dwell of {seconds} s that the job does not have")
-            });
-        } else {
+        let passage = &s.program.passage;
+        let in_hole = s.hole.holds(passage, other, tolerance);
+        // fed out of a hole, the tool is in no cut where it stands
+        let in_cut = s.hole.inside.is_none() && passage.in_cut(other, tolerance);
+        if !in_hole && (own || other.started || !in_cut) {
             s.report.allowed.dwells += 1;
+            continue;
         }
+        let seconds = number(other.what);
+        let help = "take the dwell out, or go up first; a cycle keeps the P before it: print P0";
+        s.found(Code::PV010, other.line, help, || format!("a dwell of {seconds} s that the job does not have"));
     }
 }

@@ -26,7 +26,6 @@ impl Job {
         let first = open.spec.return_height.map(|height| *open.first_return.get_or_insert(point + height));
         let return_plane = first.map_or(clear, |first| first.max(clear));
         let kind = open.spec.kind;
-        let mode = open.spec.mode;
         let custom = matches!(kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
         let mut steps = std::mem::take(&mut self.steps);
         let top = return_plane - point;
@@ -41,6 +40,7 @@ impl Job {
         let pecks = custom
             || matches!(kind, CycleKind::Deep | CycleKind::Chipbreak)
             || (kind.is_tap() && open.spec.mode.is_some());
+        let floats = open.spec.rigid == Some(false);
         let reverses = kind.is_tap() && !open.spec.norevr && !open.spec.rapout;
         let rigid = open
             .spec
@@ -57,7 +57,7 @@ impl Job {
             bottom: point + planes.bottom,
             dwell: planes.dwell,
             pecks,
-            retracts: kind == CycleKind::Deep || mode == Some(CycleKind::Deep),
+            may_peck: kind == CycleKind::Drill,
             is_tap: kind.is_tap(),
             feeds_out: kind.is_tap() || kind == CycleKind::Ream,
             custom,
@@ -70,6 +70,7 @@ impl Job {
         }
         if let (Some(inwards), Some(Rotation::Cw | Rotation::Ccw)) = (kind.inwards(), before.rotation) {
             self.state.rotation = Some(rotation(inwards)); // whatever the spindle does else
+            self.state.into_tap = Some(rotation(inwards)).filter(|_| floats);
         }
         let done = self.steps(&list, point, target, &expected, to);
         self.state = before;
@@ -110,7 +111,7 @@ impl Job {
                         to.cut(&cut, Some(hole))?;
                     }
                 }
-                Step::Dwell(seconds) => wait(seconds, true, to),
+                Step::Dwell(seconds) => wait(seconds, to),
                 Step::SpindleStop | Step::Orient(_) => {
                     self.state.rotation = self.state.rotation.map(|_| Rotation::Stop);
                     spin = match *step {

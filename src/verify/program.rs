@@ -297,13 +297,11 @@ impl<R: BufRead + Seek> Program<R> {
             }
             Action::Hole(hole) => {
                 self.cycle = true;
-                if matches!(hole.code, 740 | 840) {
+                if let 740 | 840 = hole.code {
                     self.before_tap.get_or_insert(self.state.rotation);
-                    // a rigid one turns the spindle itself, however it stood
-                    if self.state.rigid != Some(false) {
-                        let own = if hole.code == 840 { Rotation::Cw } else { Rotation::Ccw };
-                        self.state.rotation = Some(own);
-                    }
+                    self.state.taps(if hole.code == 840 { Rotation::Cw } else { Rotation::Ccw });
+                } else if self.state.into_tap.is_some() {
+                    self.state.into_tap = None;
                 }
             }
             Action::CycleOff => {
@@ -315,7 +313,7 @@ impl<R: BufRead + Seek> Program<R> {
                     self.state.rotation = Some(Rotation::Stop);
                     self.spin = Spin::Turns(Rotation::Stop);
                 }
-                self.state.rigid = self.state.rigid.map(|_| false);
+                self.state.cycle_ends();
             }
             Action::End => {
                 self.ended = true;
@@ -335,6 +333,7 @@ impl<R: BufRead + Seek> Program<R> {
             _ => {}
         }
         if self.state.rotation != turned {
+            self.passage.started |= turned == Some(Rotation::Stop);
             self.passage.turns.extend(self.state.rotation);
         }
     }

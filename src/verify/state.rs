@@ -5,9 +5,10 @@ use std::io::{BufRead, Seek};
 use super::cut::{Cut, Place, Rapid, Shared};
 use super::intent::{Expected, Threaded};
 use super::own::Own;
-use super::passage::{Frame, Passage};
+use super::passage::{Frame, Mark, Passage};
 use super::program::Program;
 use super::report::{Difference, Report};
+use super::strokes::Strokes;
 use super::unknown::{is_unknown, unknown_code};
 use super::verdict::Unproven;
 use super::way::Way;
@@ -23,13 +24,15 @@ pub(super) struct Limits {
     pub tolerance: f64,
     /// How far short lines may be from their arc.
     pub chord: f64,
+    /// One digit of the form along a hole: what shows that the tool left the bottom.
+    pub increment: f64,
 }
 
 /// The hole that the job is in, and the last one.
 #[derive(Debug, Default)]
 pub(super) struct Holes {
     /// The hole over which the job is: its way aside from there must then be that way.
-    pub over: Option<Place>,
+    pub over: Option<Expected>,
     /// The tool's last hole.
     pub last: Option<Expected>,
     /// The last hole of the tool before, while this one has none; or the last one that was cut, where the operator makes this.
@@ -38,11 +41,21 @@ pub(super) struct Holes {
     pub highest: Option<f64>,
     /// The hole is cut by the program.
     pub cut: bool,
-    /// Feeds of a hole in pecks, and a dwell among them.
+    /// Cuts of a hole in pecks.
     pub pecks: Vec<Cut>,
-    pub waited: Option<f64>,
-    /// The dwell of a hole comes before its last cut.
-    pub waits_inside: bool,
+    /// Where the feed of the hole began in which the last cut was; `None`: it was in none, or in one that only the form knows.
+    pub inside: Option<f64>,
+    /// What the job's pecks of this hole come to.
+    pub strokes: Strokes,
+}
+
+impl Holes {
+    /// Does the tool stand in a hole at a mark: in the last one, and not out of it since, or on its way into this one?
+    pub fn holds<T>(&self, passage: &Passage, mark: &Mark<T>, tolerance: f64) -> bool {
+        let next = self.over.filter(|hole| !hole.custom).map(|hole| hole.plane);
+        self.inside.is_some_and(|plane| passage.below_since(mark, plane - tolerance))
+            || next.is_some_and(|plane| passage.below_until(mark, plane - tolerance))
+    }
 }
 
 /// The state of a comparison: the job's side and the program's.
@@ -142,7 +155,8 @@ impl<R: BufRead + Seek> Sides<R> {
     }
 
     /// The job's cut is dealt with: its next way begins where it ends.
-    pub fn leave(&mut self, cut: &Cut) {
+    pub fn leave(&mut self, cut: &Cut, hole: Option<&Expected>) {
+        self.hole.inside = hole.filter(|hole| !hole.custom).map(|hole| hole.plane);
         self.job.begin(Rapid { to: cut.end(), unknown: 0, spin: None });
     }
 

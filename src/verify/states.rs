@@ -29,6 +29,7 @@ pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cu
         turning(states),
         coolant(states),
         rigid(states, tap),
+        into_tap(states),
         compensation(states),
     ];
     for (code, help, message) in checks.into_iter().flatten() {
@@ -104,6 +105,13 @@ fn coolant([wanted, is]: [&State; 2]) -> Option<Differs> {
     }
     let message = format!("the coolant is {}, the job wants {}", b.name(), a.name());
     Some((Code::PV024, "print M[cool] in the tool change, and after a stop", message))
+}
+
+/// A floating tap goes in as the spindle turns already.
+fn into_tap([wanted, is]: [&State; 2]) -> Option<Differs> {
+    let (a, b) = (wanted.into_tap?, is.into_tap?);
+    let message = format!("the spindle is {} before the floating tap, the job wants {}", b.name(), a.name());
+    (a != b).then_some((Code::PV011, "print M[direct] before the tap, and no M5 after it", message))
 }
 
 fn rigid([wanted, is]: [&State; 2], tap: bool) -> Option<Differs> {

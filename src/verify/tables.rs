@@ -19,6 +19,11 @@ pub(super) const LONGER: f64 = 1.5;
 /// A last peck shorter than this part of the longest is what was left, and need not be one of its own.
 pub(super) const LEFT: f64 = 0.05;
 
+/// One digit of usual programs, in inches and millimetres: where no form gives the format of its letters.
+pub(super) const INCREMENTS: [f64; 2] = [1e-4, 1e-3];
+/// From what part of the job's feed or speed to how many times it the form's own may be.
+pub(super) const OWN: [f64; 2] = [0.2, 2.0];
+
 /// How near each quantity must be, as docs/verify.md says it.
 pub fn tolerances() -> Vec<[String; 2]> {
     let part = |part: f64| format!("{} % of itself", part * 100.0);
@@ -35,11 +40,12 @@ pub fn tolerances() -> Vec<[String; 2]> {
         row("feed", part(ROUNDED)),
         row("speed", format!("{}, and never less than 0.5", part(ROUNDED))),
         row("feed and speed of a tap", part(PITCH)),
+        row("feed or speed of the form's own", format!("{} to {} times the job's", OWN[0], OWN[1])),
         row("dwell", format!("{}, and never less than {MOMENT} s", part(ROUNDED))),
         row(
             "peck",
             format!(
-                "up to {LONGER} times the job's longest; a last one under {} % of it may be left out",
+                "up to {LONGER} times the job's longest, and what is cut before the tool comes out; a last one under {} % of it may be left out",
                 LEFT * 100.0
             ),
         ),

@@ -135,6 +135,7 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
 
 /// The thread is cut.
 fn leave<R: BufRead + Seek>(s: &mut Sides<R>, thread: &Threaded, whole: f64) {
+    s.hole.inside = None;
     s.report.counts.cuts += 1;
     // out of the last pass, and back beside the beginning
     let mut out = thread.begin;

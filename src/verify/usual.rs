@@ -40,7 +40,7 @@ pub(super) fn goes_on<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut) -> Done<bo
         (s.slipped, s.slips) = (None, 0);
         s.report.counts.cuts += 1;
         s.program.take();
-        s.leave(cut);
+        s.leave(cut, None);
     }
     Ok(is_usual)
 }

@@ -30,7 +30,7 @@ macro_rules! allowed {
 }
 
 allowed! {
-    pecks   "hole" "with other pecks" "Holes whose pecks or retracts differ.";
+    pecks   "hole" "with other pecks" "Holes whose pecks or retracts differ, and drilled holes made in pecks.";
     ways    "way" "in another order of axes or higher" "Ways that move the axes in another order, or higher.";
     tails   "tail" "that ends elsewhere" "Programs that go elsewhere after their last cut, and nowhere lower.";
     idle    "way" "to no cut otherwise" "Ways of a tool or in a work offset that cuts nothing: elsewhere, and nowhere lower.";
@@ -40,11 +40,11 @@ allowed! {
     outs    "hole" "left at feed farther up" "Taps and reamed holes that are left at feed up to the return plane.";
     entries "cut" "left and entered again" "Cuts that were left and entered again where they go on.";
     slow    "rapid" "at feed that turn compensation on or off" "Feeds where the job has a rapid that turns compensation on or off.";
-    dwells  "dwell" "of the form" "Dwells outside cuts that the job does not have, as for a spindle to spin up.";
-    stops   "stop" "of the form" "Stops outside cuts that the job does not have.";
+    dwells  "dwell" "of the form" "Dwells that the job does not have: outside cuts and holes, or in a cut after a spindle that stood was started.";
+    stops   "stop" "of the form" "Stops outside cuts and holes that the job does not have.";
     pauses  "pause" "elsewhere on the way" "Stops and dwells of the job that the program makes elsewhere on the way; stops nowhere lower.";
-    feeds   "feed" "of the form" "Cuts at a feed that the form types, or makes of the job's.";
-    speeds  "speed" "of the form" "Cuts at a speed that the form types, or makes of the job's, as `S[min(speed,800)]`; never taps.";
+    feeds   "feed" "of the form" "Cuts at a feed that the form types, or makes of the job's: 0.2 to 2 times it.";
+    speeds  "speed" "of the form" "Cuts at a speed that the form types, or makes of the job's, as `S[min(speed,800)]`: 0.2 to 2 times it; never taps.";
     threads "thread" "with other passes" "Threads whose passes differ: no coarser than the job's, to the same depth.";
     custom  "hole" "of a custom cycle" "Holes of custom cycles: the form's own moves along the axis of the hole, to the job's depth.";
 }

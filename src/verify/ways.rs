@@ -58,7 +58,7 @@ pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
         }
         Compared::AsGood { .. }
             if leaves_hole(job, program, tolerance).is_none()
-                && s.hole.over.is_none_or(|over| enters_hole(job, program, &over, tolerance)) =>
+                && s.hole.over.is_none_or(|over| enters_hole(job, program, &over.at, tolerance)) =>
         {
             s.report.allowed.ways += u64::from(known);
         }

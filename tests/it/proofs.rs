@@ -13,7 +13,7 @@ use postform::internals::render::{Cycles, Options as RenderOptions, Renderer};
 use postform::internals::verify::{
     Batch, Comparer, Equivalences, Expectation, Kept, UNPROVEN, Verdict, prove_beside, tolerances,
 };
-use postform::toolpath::{Event, Flow, Place, Sink};
+use postform::toolpath::{Event, Flow, Place, Sink, Units};
 
 /// A metric job of two tools.
 pub fn mm(operations: &str) -> String {
@@ -317,10 +317,20 @@ fn right_programs_of_other_forms_are_proven() {
     let (program, verdict) = of_form(&spin_up, &one(path));
     assert_eq!(verdict, Verdict::Equivalent(Equivalences { dwells: 1, ..Equivalences::default() }), "{program}");
 
-    let typed = fanuc.replacen("EndCode", "LineCode\nG1 X[h] Y[v] Z[d] F300.\nEnd\n\nEndCode", 1);
-    let (program, verdict) = of_form(&typed, &one(path));
-    let feeds = matches!(verdict, Verdict::Equivalent(Equivalences { feeds: 2, .. }));
-    assert!(feeds && program.contains("F300."), "{verdict:?}\n{program}");
+    // a feed of the form's own, from 0.2 to 2 times the job's 100
+    for (word, printed) in [("F150.", "F150."), ("F200.", "F200."), ("F20.", "F20."), ("F[frate*2]", "F200.")] {
+        let typed = fanuc.replacen("EndCode", &format!("LineCode\nG1 X[h] Y[v] Z[d] {word}\nEnd\n\nEndCode"), 1);
+        let (program, verdict) = of_form(&typed, &one(path));
+        let feeds = matches!(verdict, Verdict::Equivalent(Equivalences { feeds: 2, .. }));
+        assert!(feeds && program.contains(printed), "{verdict:?}\n{program}");
+    }
+    for word in ["F202.", "F19.", "F[frate*2.1]", "F[frate*100]"] {
+        let typed = fanuc.replacen("EndCode", &format!("LineCode\nG1 X[h] Y[v] Z[d] {word}\nEnd\n\nEndCode"), 1);
+        assert!(matches!(of_form(&typed, &one(path)).1, Verdict::Different(_)), "{word}");
+    }
+    let faster =
+        |by: &str| of_form(&fanuc.replace("S[speed] M[direct]", &format!("S[speed*{by}] M[direct]")), &one(path)).1;
+    assert!(matches!(faster("2"), Verdict::Equivalent(_)) && matches!(faster("2.1"), Verdict::Different(_)));
 
     // a machine that turns no faster, and a form that slows its cuts: both are the form's, and counted
     let limited = fanuc.replace("S[speed] M[direct]", "S[min(speed,800)] M[direct]");
@@ -778,4 +788,95 @@ fn up_without_the_length_is_explained() {
     let manual = format!("{}G49 G0 Z0\n{}", &program[..line], &program[line..]);
     let found = verified(&check(&form), &manual, &document(&job));
     assert!(format!("{found:?}").contains("`G91 G28 Z0`"), "{found:#?}\n{manual}");
+}
+
+/// A form may drill in pecks, and dwell at them.
+#[test]
+fn drilled_holes_may_be_pecked() {
+    let drill = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
+    let rule = "Drill\n@if [depth] > 15\nG[retplane] G83 X[h] Y[v] Z[d] R[vclear] Q5. F[frate]\n@else\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\n@end\nEnd Cancel";
+    let form = post("fanuc.pf").replacen(drill, rule, 1);
+    assert!(form.contains("Q5."));
+    let job = |depth: u32| {
+        one(&format!(
+            r#"{{"rapid":[0,0,25]}},{{"cycle":{{"kind":"drill","depth":{depth},"clear":2,"return":20,"feed":50,"points":[[1,1,0],[5,1,0]]}}}},{{"rapid":[5,1,25]}}"#
+        ))
+    };
+    assert_eq!(of_form(&form, &job(15)).1, Verdict::Identical);
+    let (program, verdict) = of_form(&form, &job(21));
+    assert_eq!(verdict, Verdict::Equivalent(Equivalences { pecks: 2, ..Equivalences::default() }), "{program}");
+    let text = job(21);
+    let (checked, job) = (check(&form), document(&text));
+    for (from, to) in [("Z-21.", "Z-20."), ("F50.", "F90."), ("X5.", "X6.")] {
+        let changed = program.replacen(from, to, 1);
+        assert!(changed != program && matches!(verified(&checked, &changed, &job), Verdict::Different(_)), "{changed}");
+    }
+    // a dwell at each step is none at the bottom
+    let deep = one(
+        r#"{"rapid":[0,0,25]},{"cycle":{"kind":"deep","emulate":true,"depth":8,"step":4,"dwell":0.5,"clear":3,"feed":100,"points":[[10,10,0]]}},{"rapid":[10,10,25]}"#,
+    );
+    for at in ["steps", "retracts", "steps retracts"] {
+        let form = post("linuxcnc.pf").replacen("Control linuxcnc", &format!("Control linuxcnc\nCycleDwellAt {at}"), 1);
+        is_right(at, of_form(&form, &deep));
+    }
+}
+
+/// A floating tap goes in with the spindle turning; a rigid one turns it.
+#[test]
+fn floating_taps_want_the_spindle_turning() {
+    let text = post("fanuc.pf");
+    let (before, after) = text.split_once("Tap 2\n").unwrap();
+    let after = after.split_once("End Cancel\n").unwrap().1;
+    let tap = "Tap\nG[retplane] G84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel\n";
+    let floats = format!("{before}{tap}{after}").replace("RigidTap? Y", "RigidTap? N");
+    let job = |rigid: &str| {
+        one(&format!(
+            r#"{{"rapid":[0,0,20]}},{{"cycle":{{"kind":"tap"{rigid},"depth":10,"clear":5,"feed":1000,"points":[[10,10,0],[20,10,0]]}}}},{{"rapid":[0,0,20]}}"#
+        ))
+    };
+    let verdict = |form: &str, rigid: &str, word: &str| {
+        let (text, form) = (job(rigid), check(form));
+        let job = document(&text);
+        let program = rendered(&form, &job, Cycles::Form);
+        let at = program.rfind("Z5.\n").unwrap() + 4; // above the first hole
+        verified(&form, &format!("{}{word}{}", &program[..at], &program[at..]), &job)
+    };
+    let (own, haas) = (r#","rigid":false"#, post("haas.pf"));
+    assert!(verdict(&floats, own, "").is_proven() && verdict(&floats, own, "M4\nM3\n").is_proven());
+    for word in ["M5\n", "M4\n"] {
+        let Verdict::Different(found) = verdict(&floats, own, word) else { panic!("{word}") };
+        assert!(found.iter().all(|found| found.code.name() == "PV011"), "{found:?}");
+        // by M29 or by itself the control turns it
+        assert!(verdict(&haas, own, word).is_proven() && verdict(&text, "", word).is_proven());
+    }
+}
+
+/// What a job leaves out is what the form has for the job's units, whatever the program counts in.
+#[test]
+fn defaults_are_those_of_the_jobs_units_in_any_program() {
+    let posts = ["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"];
+    for (job_units, program_units) in [("mm", Units::Inch), ("inch", Units::Mm)] {
+        for (cycle, posts) in [
+            (r#""kind":"drill","depth":10"#, &posts[..]),
+            (r#""kind":"thru","webs":[3,6,10]"#, &posts[..]),
+            (r#""kind":"back","depth":10,"rapto":20,"orient":30"#, &posts[..3]),
+        ] {
+            let path = format!(
+                r#"{{"rapid":[0,0,30]}},{{"cycle":{{{cycle},"feed":60,"points":[[10,10,0]]}}}},{{"rapid":[0,0,30]}}"#
+            );
+            let text = one(&path).replace("\"units\":\"mm\"", &format!("\"units\":\"{job_units}\""));
+            let job = document(&text);
+            for name in posts {
+                let form = check(&post(name));
+                let program = compile(&form.form);
+                let options =
+                    RenderOptions { units: Some(program_units), program: Some(1), ..RenderOptions::default() };
+                let mut renderer = Renderer::new(&program, options);
+                assert!(job(&mut renderer));
+                let printed = String::from_utf8(std::mem::take(renderer.text())).unwrap();
+                let verdict = verified(&form, &printed, &job);
+                assert!(verdict.is_proven(), "{name} {job_units}: {verdict:?}\n{printed}");
+            }
+        }
+    }
 }

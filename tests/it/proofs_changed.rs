@@ -100,3 +100,161 @@ fn cuts_behind_a_difference_are_compared() {
     assert_eq!(after("linuxcnc.pf", &job, &[("G1 Z-3.", "G0 Z-3.")]), "PV007 5");
     assert_eq!(after("linuxcnc.pf", &job, &[("G0 Z20.\nX", "G1 Z20.\nG0 X")]), "PV008 4");
 }
+
+/// Nothing stands inside a cut that a program makes in parts, and between two cuts only what the job has there.
+#[test]
+fn nothing_stands_inside_a_cut() {
+    let cuts =
+        one(r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"line":[40,0,-1]},{"line":[40,30,-1]},{"rapid":[40,30,25]}"#);
+    let inside = |what: &str| after("haas.pf", &cuts, &[("X40.\n", &format!("X20.\n{what}X40.\n"))]);
+    assert_eq!(inside(""), "equivalent: 1 straight cut made of parts");
+    assert_eq!(inside("G0 Z25.\nZ-1.\nG1 "), "PV001 1");
+    assert_eq!(inside("G0 X10.\nX20.\nG1 "), "PV001 1, PV001 1");
+    assert_eq!(inside("G4 P1.\n"), "PV001 1, PV010 1");
+    assert_eq!(inside("M1\n"), "PV001 1, PV019 1");
+    let between = |what: &str| after("haas.pf", &cuts, &[("Y30.\n", &format!("{what}Y30.\n"))]);
+    assert_eq!(between(""), "identical");
+    assert_eq!(between("G0 X30.\nX40.\nG1 "), "PV001 1");
+    assert_eq!(between("G4 P1.\n"), "PV010 1");
+    assert_eq!(between("M1\n"), "PV019 1");
+    let arc = one(
+        r#"{"rapid":[20,0,25]},{"line":[20,0,-1]},{"arc":{"to":[-20,0],"center":[0,0],"direction":"ccw"}},{"rapid":[-20,0,25]}"#,
+    );
+    let inside = |what: &str| {
+        let parts = format!("G3 X0 Y20. I-20. J0\n{what}G3 X-20. Y0 I0 J-20.");
+        after("haas.pf", &arc, &[("G3 X-20. I-20. J0", &parts)])
+    };
+    assert_eq!(inside(""), "equivalent: 1 arc made of parts");
+    for what in ["G0 Z25.\nZ-1.\n", "G4 P1.\n", "M1\n"] {
+        assert_eq!(inside(what), "PV001 1", "{what}");
+    }
+    let pauses = one(
+        r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"dwell":2},{"line":[40,0,-1]},{"stop":"optional"},{"line":[40,30,-1]},{"rapid":[40,30,25]}"#,
+    );
+    assert_eq!(after("haas.pf", &pauses, &[]), "identical");
+    assert_eq!(after("haas.pf", &pauses, &[("G4 P2.\n", "(none)\n")]), "PV010 1");
+    assert_eq!(after("haas.pf", &pauses, &[("M1\n", "(none)\n")]), "PV019 1");
+}
+
+/// A reamed hole may be left at feed up to the highest position to which the job goes with this tool since its last cut.
+#[test]
+fn holes_are_left_at_feed_up_to_the_return_plane() {
+    let ream =
+        r#"{"cycle":{"kind":"ream","depth":5,"clear":2,"return":10,"feed":50,"emulate":true,"points":[[4,4,0]]}}"#;
+    let drill = r#"{"cycle":{"kind":"drill","depth":5,"clear":2,"return":40,"feed":50,"points":[[0,4,0]]}}"#;
+    let two = ream.replace("[[4,4,0]]", "[[4,4,0],[8,4,0]]");
+    let job = one(&format!(r#"{{"rapid":[0,0,25]}},{two},{{"rapid":[8,4,25]}}"#));
+    assert_eq!(after("haas.pf", &job, &[]), "identical");
+    let left = |up: &str| after("haas.pf", &job, &[("N100 Z2.\n", &format!("N100 {up}\n"))]);
+    let farther = "equivalent: 1 way in another order of axes or higher, 1 hole left at feed farther up";
+    assert_eq!(left("Z2.003"), farther);
+    assert_eq!(left("Z10."), farther);
+    assert_eq!(left("Z10.003"), "PV004 1");
+    assert_eq!(left("Z90."), "PV004 1");
+    assert_eq!(left("Z1."), "PV004 1, PV009 1");
+    // that allows nothing on the way down
+    let cut = |down: &str| after("haas.pf", &job, &[("N90 G1 Z-5. F50.\n", &format!("N90 G1 {down} F50.\n"))]);
+    assert_eq!([cut("Z-4."), cut("Z-6."), cut("Z3.")], ["PV004 1"; 3].map(str::to_owned));
+    // a cut or another tool between: how high the job went before allows nothing
+    let path =
+        format!(r#"{{"rapid":[0,0,50]}},{drill},{{"line":[0,4,30]}},{{"rapid":[0,0,50]}},{ream},{{"rapid":[8,4,50]}}"#);
+    let cut = one(&path);
+    assert!(after("haas.pf", &cut, &[("N160 Z2.\n", "N160 Z10.\n")]).starts_with("equivalent: "));
+    assert_eq!(after("haas.pf", &cut, &[("N160 Z2.\n", "N160 Z40.\n")]), "PV004 1");
+    let spindle = r#""work":54,"spindle":{"speed":1000,"direction":"cw"}"#;
+    let tools = mm(&format!(
+        r#"{{"tool":1,{spindle},"path":[{{"rapid":[0,0,50]}},{drill},{{"rapid":[0,0,50]}}]}},{{"tool":2,{spindle},"path":[{{"rapid":[0,0,50]}},{ream},{{"rapid":[8,4,50]}}]}}"#
+    ));
+    assert!(after("haas.pf", &tools, &[("N210 Z2.\n", "N210 Z10.\n")]).starts_with("equivalent: "));
+    assert_eq!(after("haas.pf", &tools, &[("N210 Z2.\n", "N210 Z40.\n")]), "PV004 1");
+}
+
+/// A form dwells and stops outside of holes, not in them.
+#[test]
+fn nothing_waits_in_a_hole() {
+    let taps = mm(
+        r#"{"tool":1,"work":54,"spindle":{"speed":500,"direction":"cw"},"path":[{"rapid":[0,0,10]},{"cycle":{"kind":"face","dwell":5,"depth":10,"clear":5,"feed":500,"points":[[10,10,0]]}},{"cycle":{"kind":"tap","rigid":false,"depth":10,"clear":5,"feed":500,"points":[[10,30,0],[20,30,0]]}},{"rapid":[0,0,50]}]}"#,
+    );
+    assert_eq!(after("linuxcnc.pf", &taps, &[]), "identical");
+    assert_eq!(after("linuxcnc.pf", &taps, &[(" P0 ", " ")]), "PV010 2");
+    assert_eq!(after("linuxcnc.pf", &taps, &[("G80\nG0", "G80\nG4 P2.\nG0")]), "equivalent: 1 dwell of the form");
+    let tap = one(
+        r#"{"rapid":[0,0,20]},{"cycle":{"kind":"tap","rigid":false,"emulate":true,"depth":10,"clear":5,"feed":500,"points":[[10,10,0]]}},{"rapid":[0,0,20]}"#,
+    );
+    assert_eq!(after("fanuc.pf", &tap, &[("M4\n", "M4\nG4 P9000\n")]), "PV010 1");
+    assert_eq!(after("fanuc.pf", &tap, &[("N100 M3\n", "N100 M3\nG4 P9000\n")]), "equivalent: 1 dwell of the form");
+    // a spindle that stood needs its time, one that is turned round in the cut does not
+    let cuts =
+        one(r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"line":[40,0,-1]},{"line":[40,30,-1]},{"rapid":[40,30,25]}"#);
+    let between = |what: &str| after("haas.pf", &cuts, &[("Y30.\n", &format!("{what}Y30.\n"))]);
+    assert_eq!(between("M5\nM3\nG4 P1.\n"), "equivalent: 1 dwell of the form");
+    assert_eq!(between("M4\nG4 P1.\nM3\n"), "PV010 1");
+    // between webs, at the bottom of a bore, below a back bore; out of each it is counted
+    let hole = |cycle: &str| {
+        one(&format!(
+            r#"{{"rapid":[0,0,50]}},{{"cycle":{{{cycle},"clear":5,"feed":300,"points":[[10,10,0]]}}}},{{"rapid":[10,10,50]}}"#
+        ))
+    };
+    let thru = hole(r#""kind":"thru","webs":[3,6,10]"#);
+    let bore = hole(r#""kind":"bore","depth":10,"orient":90,"offset":0.5"#);
+    let back = hole(r#""kind":"back","depth":10,"rapto":20,"orient":90,"offset":0.5"#);
+    for (job, low, out) in [
+        (&thru, "N90 G0 Z-5.\n", "N110 G0 Z5.\n"),
+        (&bore, "Y9.5\n", "N110 Z5.\n"),
+        (&back, "N100 Z-20.\n", "N160 Z5.\n"),
+    ] {
+        for (what, code, one) in [("M1\n", "PV019 1", "stop"), ("G4 P1.\n", "PV010 1", "dwell")] {
+            assert_eq!(after("haas.pf", job, &[(low, &format!("{low}{what}"))]), code, "{low}");
+            let counted = format!("equivalent: 1 {one} of the form");
+            assert_eq!(after("haas.pf", job, &[(out, &format!("{out}{what}"))]), counted, "{out}");
+        }
+    }
+    for stop in ["M0\nS1000 M3\nM8\n", "M1\n"] {
+        assert_eq!(after("linuxcnc.pf", &thru, &[("G0 Z-5.\n", &format!("G0 Z-5.\n{stop}"))]), "PV019 1");
+    }
+}
+
+/// A chip is broken where the tool leaves the bottom by a digit, and brought out as often as the job does.
+#[test]
+fn pecks_leave_the_bottom() {
+    let chips = |more: &str| {
+        one(&format!(
+            r#"{{"rapid":[0,0,20]}},{{"cycle":{{"kind":"chipbreak","depth":20,"clear":2,"step":5,"back":1,"emulate":true,"feed":100{more},"points":[[10,10,0]]}}}},{{"rapid":[10,10,20]}}"#
+        ))
+    };
+    let lifts = ["Z-2.", "Z-7.", "Z-12.", "Z-17."];
+    let made = |job: &str, changes: &[(String, String)]| {
+        let changes: Vec<(&str, &str)> = changes.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
+        after("linuxcnc.pf", job, &changes)
+    };
+    let lost = lifts.map(|up| (format!("G0 {up}\nG1 "), String::new()));
+    let (job, other) = (chips(""), "equivalent: 1 hole with other pecks");
+    assert_eq!(made(&job, &lost), "PV023 1");
+    assert_eq!(made(&job, &lost[1..2]), "PV023 1", "10 at once, the job 5");
+    let a_digit = lifts.map(|up| {
+        let lower = up[2..up.len() - 1].parse::<u32>().unwrap();
+        (format!("G0 {up}\n"), format!("G0 Z-{lower}.99999\n"))
+    });
+    assert_eq!(made(&job, &a_digit), other);
+    let times = chips(r#","times":2"#);
+    let [first, second] = ["Z-7.", "Z-17."].map(|up| (format!("G0 Z2.\n{up}\n"), format!("G0 {up}\n")));
+    assert_eq!(made(&times, &[]), "identical");
+    assert_eq!(made(&times, &[first.clone(), second.clone()]), "PV023 1");
+    assert_eq!(made(&times, &[first]), "PV023 1", "20 deep before it comes out, the job 10");
+    assert_eq!(made(&times, &[second]), other, "12 of 10: within 1.5");
+}
+
+/// A short line at an arc lies on the arc.
+#[test]
+fn a_short_line_at_an_arc_lies_on_it() {
+    let arc = one(
+        r#"{"rapid":[0,0,5]},{"line":[0,0,-1]},{"arc":{"to":[20,20],"center":[0,20],"direction":"ccw"}},{"rapid":[20,20,5]}"#,
+    );
+    let with = |line: &str| after("haas.pf", &arc, &[("G17 G3", &format!("{line}\nG17 G3"))]);
+    for on in ["X.003", "X.006"] {
+        assert_eq!(with(on), "equivalent: 1 arc made of parts", "{on}");
+    }
+    for off in ["X-.003", "Y.003", "X-.006"] {
+        assert_eq!(with(off), "PV001 1", "{off}");
+    }
+}

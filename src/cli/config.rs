@@ -4,10 +4,13 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use postform::internals::lang::did_you_mean;
+use postform::internals::lint::Changed;
 use postform::internals::terminal::escaped;
-use postform::{Control, ControlName, Levels, Limits};
+use postform::{Control, ControlName, Levels, Limits, Property};
 
 use super::files::{self, io_message};
+use super::forms::FormFile;
 
 /// What holds for a file.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +49,9 @@ impl Config {
         let path = if path == Path::new("-") { Path::new("./-") } else { path };
         let Ok(mut folder) = files::folder(path).canonicalize() else { return Ok(Config::default()) };
         loop {
+            if is_common(&folder) {
+                return Ok(Config::default());
+            }
             let candidate = folder.join(NAME);
             match fs::metadata(&candidate) {
                 Ok(meta) if meta.is_file() => return Config::read(&candidate, meta.len()),
@@ -66,6 +72,7 @@ impl Config {
     }
 
     fn read(path: &Path, length: u64) -> Result<Config, String> {
+        super::inputs::note(path);
         let name = escaped(&path.to_string_lossy());
         if length > LARGEST {
             return Err(format!("error: {name} is larger than 1 MB: it is no configuration"));
@@ -98,6 +105,72 @@ impl Config {
             properties: said.properties,
         })
     }
+}
+
+/// Files that are searched for forms with a property.
+const MOST_FILES: usize = 2000;
+
+impl Config {
+    /// Refuses a name under `[properties]` that no form of the folder has; `own` are those of the form in question.
+    ///
+    /// # Errors
+    /// A message with what was meant.
+    pub fn check_properties(&self, own: &[Property]) -> Result<(), String> {
+        let Some(path) = &self.path else { return Ok(()) };
+        let mut strange: Vec<&str> = self.properties.iter().map(|(name, _)| name.as_str()).collect();
+        strange.retain(|name| !has(own, name));
+        if strange.is_empty() || !self.others(files::folder(path), &mut strange) {
+            return Ok(());
+        }
+        let Some(name) = strange.first() else { return Ok(()) };
+        let names = own.iter().map(|property| property.name.as_str());
+        let help = did_you_mean(name, names).unwrap_or_else(|| {
+            "`postform properties FORM` lists those of a form; take the line out, or fix its name".into()
+        });
+        let file = files::name(path);
+        Err(format!(
+            "error: {file}: `{name}` under [properties] is no property of a form of its folder\n  help: {help}"
+        ))
+    }
+
+    /// Takes out the names that forms of the folder and below have. `false`: there are more files than are searched.
+    fn others(&self, folder: &Path, names: &mut Vec<&str>) -> bool {
+        let (mut folders, mut left) = (vec![folder.to_path_buf()], MOST_FILES);
+        while let (Some(folder), false) = (folders.pop(), names.is_empty()) {
+            for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+                let Some(rest) = left.checked_sub(1) else { return false };
+                left = rest;
+                let path = entry.path();
+                if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+                    folders.push(path);
+                } else if files::is_form(&path)
+                    && path.is_file()
+                    && let Ok(form) = FormFile::read(&path, self.limits.unwrap_or_default())
+                {
+                    let form = form.analyse(&Changed::new()).form;
+                    names.retain(|name| !has(&form.settings.properties, name));
+                }
+            }
+        }
+        true
+    }
+}
+
+fn has(properties: &[Property], name: &str) -> bool {
+    properties.iter().any(|property| property.name.eq_ignore_ascii_case(name))
+}
+
+/// Is a folder the root, or one in which everybody may make files, as /tmp? A file there is not the shop's.
+fn is_common(folder: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        const STICKY: u32 = 0o1002;
+        if fs::metadata(folder).is_ok_and(|meta| meta.permissions().mode() & STICKY == STICKY) {
+            return true;
+        }
+    }
+    folder.parent().is_none()
 }
 
 /// A path as people would type it: from the working folder where it is below.

@@ -7,10 +7,12 @@ use std::time::SystemTime;
 
 use postform::internals::control::Control;
 use postform::internals::sema::MOST_TEXT;
-use postform::internals::terminal::escaped;
+use postform::internals::terminal::{escaped, escaped_lines};
 use postform::{Format, Job};
 
 use super::args::{From, ReadArgs};
+pub use super::destination::folder;
+use super::inputs;
 use super::spool::Spool;
 
 /// Largest form: a longer file is none.
@@ -32,13 +34,9 @@ pub fn output_name(path: &Path) -> String {
     if path == Path::new("-") { "standard output".into() } else { escaped(&path.to_string_lossy()) }
 }
 
-/// The folder that a file is in.
-pub fn folder(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
-}
-
 /// Opens a file, or standard input for `-`.
 pub fn open(path: &Path) -> Result<Box<dyn Read>, String> {
+    inputs::note(path);
     if path == Path::new("-") {
         return Ok(Box::new(io::stdin().lock()));
     }
@@ -66,6 +64,7 @@ pub struct Again {
 impl Again {
     /// Opens a file; standard input and pipes are copied.
     pub fn open(path: &Path) -> Result<Again, String> {
+        inputs::note(path);
         let fail = |error: io::Error| io_message("read", path, &error);
         if path != Path::new("-") {
             let file = File::open(path).map_err(fail)?;
@@ -175,7 +174,7 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
 pub fn control(path: &Path) -> Result<&'static Control, String> {
     let bytes = read_form(path)?;
     let text = String::from_utf8(bytes).map_err(|_| format!("error: {} is not UTF-8", name(path)))?;
-    Control::own(&name(path), &text).map_err(|wrong| format!("error: {wrong}"))
+    Control::own(&name(path), &text).map_err(|wrong| format!("error: {}", escaped_lines(&wrong.to_string())))
 }
 
 /// The format of a job: as said, else by its extension, else by how it begins.
@@ -262,4 +261,34 @@ pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, St
     };
     job.reading = args.reading();
     Ok(job)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write as _;
+
+    use postform::toolpath::{Event, Flow, Place, Sink};
+
+    use super::*;
+
+    /// Writes to the job while it is read.
+    struct Writes(File);
+
+    impl Sink for Writes {
+        fn event(&mut self, _: Event<'_>, _: Place) -> Flow {
+            self.0.write_all(b" ").unwrap();
+            Flow::Continue(())
+        }
+    }
+
+    #[test]
+    fn a_job_that_changes_while_it_is_read_is_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("job.json");
+        let text = r#"{"postform":1,"units":"mm","tools":[{"number":1}],"operations":[{"name":"a","tool":1,"spindle":{"speed":1000,"direction":"cw"},"feed":100,"path":[{"rapid":[0,0,1]},{"line":[1,0,0]}]}]}"#;
+        fs::write(&path, text).unwrap();
+        let mut job = super::job(&path, &ReadArgs::default(), true).unwrap();
+        let error = job.read(&mut Writes(File::options().append(true).open(&path).unwrap())).unwrap_err();
+        assert!(error.io().is_some_and(|error| error.to_string().contains("changed while it was read")), "{error}");
+    }
 }

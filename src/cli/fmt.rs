@@ -3,12 +3,18 @@
 use std::io::Write as _;
 use std::path::Path;
 
+use postform::Limits;
+use postform::diag::{Code, Diag};
 use postform::internals::fmt::format;
+use postform::internals::lint::Changed;
+use postform::internals::sema::Checked;
 use postform::internals::source::Source;
-use rayon::prelude::*;
 
 use super::args::FmtArgs;
+use super::callers;
+use super::each::each;
 use super::files;
+use super::forms::FormFile;
 use super::output;
 use super::report::count;
 use super::say::message;
@@ -25,12 +31,16 @@ pub fn run(args: &FmtArgs) -> Result<Ending, String> {
     if paths.iter().any(|path| path == Path::new("-")) {
         return Err("error: standard input is laid out alone: postform fmt -".into());
     }
-    let results: Vec<_> = paths.par_iter().map(|path| one(path, args.check)).collect();
-    let (mut changed, mut failed) = (0, false);
+    let results = each(paths.iter().collect(), |path| one(path, args));
+    let (mut changed, mut left_out, mut failed) = (0, 0, false);
     for (path, result) in paths.iter().zip(results) {
         match result {
-            Ok(false) => {}
-            Ok(true) => {
+            Ok(Laid::AsItWas) => {}
+            Ok(Laid::LeftOut(why)) => {
+                message(&why);
+                left_out += 1;
+            }
+            Ok(Laid::Otherwise) => {
                 changed += 1;
                 let word = if args.check { "would be laid out otherwise" } else { "laid out" };
                 message(&format!("{}: {word}", files::name(path)));
@@ -45,21 +55,52 @@ pub fn run(args: &FmtArgs) -> Result<Ending, String> {
         let all = count(paths.len(), "form");
         message(&format!("{changed} of {all}; `postform fmt` without --check lays them out"));
     }
-    Ok(match (failed, args.check && changed > 0) {
+    Ok(match (failed, left_out > 0 || args.check && changed > 0) {
         (true, _) => Ending::Failed,
         (_, true) => Ending::Findings,
         _ => Ending::Clean,
     })
 }
 
-/// Lays out one file. `true`: it was laid out otherwise.
-fn one(path: &Path, check: bool) -> Result<bool, String> {
-    let (before, after) = laid_out(path)?;
-    let changes = before != after.as_bytes();
-    if changes && !check {
+/// What came of a file.
+enum Laid {
+    AsItWas,
+    Otherwise,
+    /// It stays as it is, and why.
+    LeftOut(String),
+}
+
+/// Codes of lines that make no sense: a file with such a line may be no form at all.
+const UNREAD: [Code; 5] = [Code::PF001, Code::PF002, Code::PF007, Code::PF201, Code::PF301];
+
+/// Lays out one file.
+fn one(path: &Path, args: &FmtArgs) -> Result<Laid, String> {
+    let name = files::name(path);
+    if !args.force && !callers::is_form(path)? {
+        let help = format!("forms end in .pf; to lay it out all the same: postform fmt --force {name}");
+        let why = format!("error: {name} is no form by its name, and no form calls it: it stays as it is");
+        return Ok(Laid::LeftOut(format!("{why}\n  help: {help}")));
+    }
+    let file = FormFile::read(path, Limits::Extended)?;
+    let checked = file.analyse(&Changed::new());
+    if let Some(unread) = unread(&checked).filter(|_| !args.force) {
+        let line = unread.line(&checked.files);
+        return Ok(Laid::LeftOut(format!("{line}\n  help: {name} stays as it is until every line of it makes sense")));
+    }
+    let after = format(&file.source());
+    if file.bytes() == after.as_bytes() {
+        return Ok(Laid::AsItWas);
+    }
+    if !args.check {
         output::write_whole(path, after.as_bytes())?;
     }
-    Ok(changes)
+    Ok(Laid::Otherwise)
+}
+
+/// The first line of the file itself that makes no sense.
+fn unread(checked: &Checked) -> Option<&Diag> {
+    let own = |diag: &&Diag| diag.labels.first().is_some_and(|label| label.span.file == 0);
+    checked.diags.iter().filter(own).find(|diag| diag.is_error() && UNREAD.contains(&diag.code))
 }
 
 fn filter(path: &Path, check: bool) -> Result<Ending, String> {

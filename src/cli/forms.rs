@@ -51,6 +51,11 @@ impl FormFile {
         FormFile { path: path.to_path_buf(), bytes, post: None, limits, called: RefCell::default() }
     }
 
+    /// The file as it is.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
     /// The form's text.
     pub fn source(&self) -> Source {
         let whole = || Source::from_bytes(files::name(&self.path), &self.bytes);

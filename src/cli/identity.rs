@@ -4,8 +4,7 @@ use std::ffi::{OsStr, OsString};
 use std::io;
 use std::path::Path;
 
-use super::files::folder;
-use super::output::destination;
+use super::destination::{destination, folder};
 
 /// A regular file, or the place of one that is still to be made.
 #[derive(Debug, PartialEq, Eq)]
@@ -37,7 +36,7 @@ impl Identity {
         if path == Path::new("-") {
             return of_stream(&io::stdout());
         }
-        let path = destination(path).ok()?;
+        let path = destination(path).ok()?.path;
         match path.metadata() {
             Ok(_) => Identity::of_input(&path),
             Err(_) => of_path(folder(&path), path.file_name()),

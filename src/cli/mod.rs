@@ -2,16 +2,20 @@
 
 mod args;
 mod beside;
+mod callers;
 mod check;
 mod clock;
 mod colour;
 mod config;
+mod destination;
 mod diff;
+mod each;
 mod explain;
 mod files;
 mod fmt;
 mod forms;
 mod identity;
+mod inputs;
 mod lint;
 mod lsp;
 mod new;
@@ -36,7 +40,8 @@ mod watch;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory as _, Parser as _};
+use postform::internals::terminal::steers;
 
 use postform::diag::{Code, Diag};
 
@@ -73,13 +78,26 @@ impl From<Ending> for ExitCode {
     }
 }
 
+/// Shows what is wrong with the arguments. Where they hold characters that steer a terminal, it is shown without colour, and
+/// these are escaped.
+fn refused(error: &clap::Error) {
+    if !std::env::args_os().any(|arg| arg.to_string_lossy().chars().any(steers)) {
+        _ = error.print(); // a closed terminal is no reason to fail differently
+        return;
+    }
+    let plain = Arguments::command().styles(clap::builder::Styles::plain());
+    if let Err(error) = plain.try_get_matches_from(std::env::args_os()) {
+        say::message(error.render().ansi().to_string().trim_end());
+    }
+}
+
 /// Runs the command of this process.
 pub fn run() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
             let code = if error.use_stderr() { Ending::Failed } else { Ending::Clean };
-            _ = error.print(); // a closed terminal is no reason to fail differently
+            refused(&error);
             return code.into();
         }
     };

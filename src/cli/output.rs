@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use postform::internals::terminal::{escaped, steers};
 
 use super::Ending;
-use super::files::{folder, io_message};
+use super::destination::{Destination, destination};
+use super::files::{io_message, output_name};
+use super::inputs;
 use super::spool::Spool;
 use super::unnamed::Unnamed;
 
@@ -25,8 +27,16 @@ impl Target {
     /// Prepares the output `path`; `-` is standard output.
     ///
     /// # Errors
-    /// A message: the file can't be made.
+    /// A message: the file can't be made, or it is one that was read.
     pub fn open(path: &Path, stream: bool) -> Result<Target, String> {
+        if inputs::holds(path) {
+            return Err(format!("error: {} is an input: choose another output", output_name(path)));
+        }
+        Target::place(path, stream)
+    }
+
+    /// The same for a file that is read and written.
+    fn place(path: &Path, stream: bool) -> Result<Target, String> {
         let fail = |error: io::Error| io_message("write", path, &error);
         if path == Path::new("-") {
             if stream {
@@ -34,19 +44,19 @@ impl Target {
             }
             return Ok(Target::Spooled(Spool::new().map_err(fail)?, None));
         }
-        // a link is followed; a device or pipe must never be replaced by a file
-        let path = destination(path).map_err(fail)?;
-        match fs::metadata(&path) {
-            Ok(meta) if meta.is_dir() => Err(fail(io::Error::from(io::ErrorKind::IsADirectory))),
-            Ok(meta) if !meta.is_file() => Ok(Target::Spooled(Spool::new().map_err(fail)?, Some(path))),
-            meta => {
-                let mode = meta.ok().map(|meta| meta.permissions());
-                if mode.as_ref().is_some_and(fs::Permissions::readonly) {
-                    return Err(format!("error: can't write {}: it is read-only", escaped(&path.to_string_lossy())));
-                }
-                Ok(Target::Beside(Unnamed::beside(path, mode).map_err(fail)?))
-            }
+        let Destination { path: to, stays } = destination(path).map_err(fail)?;
+        if stays {
+            return Ok(Target::Spooled(Spool::new().map_err(fail)?, Some(to)));
         }
+        let meta = fs::metadata(&to).ok();
+        if meta.as_ref().is_some_and(fs::Metadata::is_dir) {
+            return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
+        }
+        let mode = meta.map(|meta| meta.permissions());
+        if mode.as_ref().is_some_and(fs::Permissions::readonly) {
+            return Err(format!("error: can't write {}: it is read-only", escaped(&to.to_string_lossy())));
+        }
+        Ok(Target::Beside(Unnamed::beside(to, mode).map_err(fail)?))
     }
 
     /// Prepares an output in a folder, which gets its name when that is known: see [`Target::named`].
@@ -64,7 +74,11 @@ impl Target {
     /// A message: what has that name must not be replaced.
     pub fn named(self, path: &Path) -> Result<Target, String> {
         let Target::Beside(unnamed) = self else { return Ok(self) };
-        let mode = fs::metadata(path).ok().map(|meta| (meta.is_file(), meta.permissions()));
+        if inputs::holds(path) {
+            return Err(format!("error: {} is an input: choose another folder", output_name(path)));
+        }
+        // a link is no file that may be replaced
+        let mode = fs::symlink_metadata(path).ok().map(|meta| (meta.is_file(), meta.permissions()));
         if mode.as_ref().is_some_and(|(is_file, mode)| !is_file || mode.readonly()) {
             return Err(format!(
                 "error: can't write {}: it is no file that may be replaced",
@@ -103,7 +117,7 @@ impl Target {
                         out.flush()
                     }
                     Some(path) => {
-                        let mut out = File::options().write(true).open(path)?;
+                        let mut out = opened(&path)?;
                         io::copy(&mut file, &mut out)?;
                         out.flush()
                     }
@@ -114,20 +128,25 @@ impl Target {
     }
 }
 
-/// Where an output goes: links are followed, also one that leads to nothing yet.
-///
-/// # Errors
-/// As the system says; links that lead in a circle among them.
-pub fn destination(path: &Path) -> io::Result<PathBuf> {
-    match fs::metadata(path) {
-        // what the link of a pipe leads to has no name
-        Ok(_) => Ok(fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf())),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => match fs::read_link(path) {
-            Ok(next) => destination(&folder(path).join(next)),
-            Err(_) => Ok(path.to_path_buf()),
-        },
-        Err(error) => Err(error),
+/// What is written and not replaced. Where it is this process' own standard output or error it is that stream, so that the
+/// text comes after what was written to it.
+fn opened(path: &Path) -> io::Result<File> {
+    let is = fs::metadata(path)?;
+    #[cfg(unix)]
+    {
+        use std::os::fd::AsFd;
+        use std::os::unix::fs::MetadataExt;
+        let (out, err) = (io::stdout(), io::stderr());
+        for stream in [out.as_fd(), err.as_fd()] {
+            let own = File::from(stream.try_clone_to_owned()?);
+            let meta = own.metadata()?;
+            if (meta.dev(), meta.ino()) == (is.dev(), is.ino()) {
+                return Ok(own);
+            }
+        }
     }
+    // after what is there
+    File::options().write(true).append(is.is_file()).open(path)
 }
 
 /// Writes a file, whole or not at all.
@@ -136,7 +155,7 @@ pub fn destination(path: &Path) -> io::Result<PathBuf> {
 /// A message; what was there is there still.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), String> {
     let fail = |error| io_message("write", path, &error);
-    let mut target = Target::open(path, false)?;
+    let mut target = Target::place(path, false)?;
     target.write(bytes).map_err(fail)?;
     target.complete().map_err(fail)
 }

@@ -16,7 +16,6 @@ use super::Ending;
 use super::args::{ControlArgs, PlotArgs};
 use super::config::Config;
 use super::files::{self, io_message};
-use super::identity::Identity;
 use super::output::Target;
 use super::prepare::prepare;
 use super::rendered::rendered;
@@ -30,10 +29,6 @@ pub fn run(args: &PlotArgs, colour: bool) -> Result<Ending, String> {
     if !is_page && args.output != Path::new("-") && !has_extension(&args.output, "svg") {
         let name = files::output_name(&args.output);
         return Err(format!("error: can't tell what {name} is to be\n  help: call it .svg or .html"));
-    }
-    let identity = Identity::of_output(&args.output);
-    if identity.is_some() && identity == Identity::of_input(&args.file) {
-        return Err(format!("error: {} is an input: choose another output", files::output_name(&args.output)));
     }
     let Some((mut picture, mut program)) = picture(args, &reporter)? else { return Ok(Ending::Findings) };
     let name = files::name(&args.file);

@@ -1,6 +1,6 @@
 //! A form made ready for jobs.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use postform::diag::Diag;
 use postform::{Options, Post};
@@ -21,8 +21,6 @@ pub struct Prepared {
     pub options: Options,
     /// Warnings keep a program from being printed.
     pub denies: bool,
-    /// The files that the program is made of, the configuration among them.
-    pub inputs: Vec<PathBuf>,
 }
 
 /// Reads a form, shows its findings and asks its prompts. `None`: it has errors, which were shown.
@@ -53,6 +51,7 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         message(&format!("{name}: {}, nothing was printed", stops.join(", ")));
         return Ok(None);
     };
+    config.check_properties(post.properties())?;
     options.shop_properties.clone_from(&config.properties);
     prompt::answers(&args.set, post.properties(), &mut options)?;
     if post.says_time() && options.clock.is_none() {
@@ -62,6 +61,5 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         job.file_name().filter(|_| job != standard_input).map(|name| name.to_string_lossy().into_owned());
     prompt::ask(&post, &mut options, args.ask, job == standard_input)
         .map_err(|error| io_message("read", Path::new("standard input"), &error))?;
-    let inputs = file.paths().into_iter().chain(config.path).collect();
-    Ok(Some(Prepared { post, options, denies: args.denies_warnings(), inputs }))
+    Ok(Some(Prepared { post, options, denies: args.denies_warnings() }))
 }

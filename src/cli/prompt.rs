@@ -71,7 +71,7 @@ pub fn ask(post: &Post, options: &mut Options, all: bool, busy: bool) -> io::Res
 /// Asks until the answer makes sense. `None`: the default, which is empty where there is none, or nobody answers.
 fn answered<T>(question: &str, default: &str, read: &dyn Fn(&str) -> Result<T, String>) -> io::Result<Option<T>> {
     loop {
-        let shown = if default.is_empty() { String::new() } else { format!(" [{default}]") };
+        let shown = if default.is_empty() { String::new() } else { format!(" [{}]", escaped(default)) };
         say(&format!("{}{shown}: ", escaped(question)));
         let mut line = String::new();
         if io::stdin().lock().read_line(&mut line)? == 0 {

@@ -5,17 +5,18 @@ use std::path::Path;
 
 use postform::Post;
 use postform::internals::sema::{PropertyKind, PropertyValue};
+use postform::internals::terminal::escaped;
 use serde_json::{Value, json};
 
 use super::Ending;
 use super::args::{PropertiesArgs, PropertiesFormat};
 use super::config::Config;
 use super::forms::FormFile;
-use super::output::shown;
+use super::output::{json, shown};
 use super::report::Reporter;
 use super::say::say;
 
-/// Lists the properties of a form, with what postform.toml says of them.
+/// Lists the properties of a form.
 pub fn run(args: &PropertiesArgs, colour: bool) -> Result<Ending, String> {
     let config = Config::near(&args.form)?;
     let limits = config.limits.unwrap_or_default();
@@ -28,6 +29,7 @@ pub fn run(args: &PropertiesArgs, colour: bool) -> Result<Ending, String> {
             return Ok(Ending::Findings);
         }
     };
+    config.check_properties(post.properties())?;
     let text = match args.format {
         PropertiesFormat::Text => text(&post),
         PropertiesFormat::Json => document(&post, &args.form),
@@ -38,7 +40,11 @@ pub fn run(args: &PropertiesArgs, colour: bool) -> Result<Ending, String> {
 fn text(post: &Post) -> String {
     let mut text = String::new();
     for property in post.properties() {
-        text += &format!("{} = {}\n  {}: {}\n", property.name, property.default, property.kind.takes(), property.text);
+        let [default, takes] = [property.default.to_string(), property.kind.takes().to_string()];
+        text += &escaped(&format!("{} = {default}", property.name));
+        text += "\n  ";
+        text += &escaped(&format!("{takes}: {}", property.text));
+        text += "\n";
     }
     if text.is_empty() { "the form has no properties\n".into() } else { text }
 }
@@ -64,5 +70,5 @@ fn document(post: &Post, form: &Path) -> String {
         })
         .collect();
     let name = form.to_string_lossy();
-    format!("{:#}\n", json!({ "version": 1, "form": name, "properties": rows }))
+    json(&json!({ "version": 1, "form": name, "properties": rows }))
 }

@@ -55,9 +55,7 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let Some(prepared) = prepare(&form, &args.options, &args.job, &reporter)? else {
         return Ok(Ending::Findings);
     };
-    let inputs = prepared.inputs.iter().chain(&config.path).chain([&args.job]);
-    let inputs: Vec<Identity> = inputs.filter_map(|path| Identity::of_input(path)).collect();
-    keep_inputs(args, &inputs)?;
+    distinct(args)?;
     let error = |error: Error| format!("error: {error}");
     if args.stream && prepared.post.reads_ahead(&prepared.options).map_err(error)? {
         let or = prepared.post.reads_once_with().map(|set| format!(", or with --set {set}")).unwrap_or_default();
@@ -129,9 +127,6 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     }
     if is_folder(&args.output) {
         let path = args.output.join(file_name);
-        if Identity::of_output(&path).is_some_and(|identity| inputs.contains(&identity)) {
-            return Err(format!("error: {} is an input: choose another folder", files::output_name(&path)));
-        }
         output.target = output.target.named(&path)?;
         if !args.options.quiet {
             message(&format!("{} is written", files::output_name(&path)));
@@ -184,14 +179,9 @@ impl Told<'_> {
     }
 }
 
-/// An output must not replace what it is made of, nor the other output.
-fn keep_inputs(args: &RenderArgs, inputs: &[Identity]) -> Result<(), String> {
+/// One output must not replace the other.
+fn distinct(args: &RenderArgs) -> Result<(), String> {
     let outputs = [Some(&args.output), args.trace.as_ref()].map(|path| Some((path?, Identity::of_output(path?)?)));
-    for (path, identity) in outputs.iter().flatten() {
-        if inputs.contains(identity) {
-            return Err(format!("error: {} is an input: choose another output", files::output_name(path)));
-        }
-    }
     if let [Some((program, a)), Some((trace, b))] = &outputs
         && a == b
         // both as text to standard output is what was asked for

@@ -13,3 +13,8 @@ pub fn say(report: &str) {
 pub fn message(text: &str) {
     say(&format!("{}\n", escaped_lines(text)));
 }
+
+/// A message: the system gives no thread.
+pub fn no_thread(error: &std::io::Error) -> String {
+    format!("error: no thread can be started: {error}\n  help: end other programs, or raise the limit (`ulimit -u`)")
+}

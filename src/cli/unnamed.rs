@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use postform::internals::terminal::escaped;
 use tempfile::TempPath;
 
-use super::files::folder;
+use super::destination::folder;
 
 /// A file in the folder of its path.
 pub struct Unnamed {

@@ -17,6 +17,12 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
+    /// Are they lengths?
+    pub fn is_possible(&self) -> bool {
+        let Tolerance { least, part, most, chord } = *self;
+        [least, part, most, chord].iter().all(|length| length.is_finite() && *length >= 0.0) && least <= most
+    }
+
     /// Is a circle that begins at one radius and ends at the other no circle?
     pub fn refuses(&self, start: f64, end: f64) -> bool {
         let off = (start - end).abs();

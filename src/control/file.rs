@@ -128,8 +128,8 @@ struct Stops {
 struct ArcsText {
     centres: Option<Centres>,
     /// In millimetres, and in inches where other lengths count there.
-    mm: Option<Tolerance>,
-    inch: Option<Tolerance>,
+    mm: Option<Spanned<Tolerance>>,
+    inch: Option<Spanned<Tolerance>>,
 }
 
 /// What becomes of a block that is longer.
@@ -246,6 +246,14 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
         let at = error.span().map_or(0, |span| span.start);
         reader.wrong(at, error.message().to_owned(), "")
     })?;
+    if file.like.is_none() && file.codes.is_empty() {
+        let message = format!("`{}` has no codes: it is like no control, and lists none", file.name.get_ref());
+        return Err(reader.wrong(
+            file.name.span().start,
+            message,
+            "write like = \"fanuc\", or the codes under [codes]",
+        ));
+    }
     let mut control = match &file.like {
         None => Control::empty(),
         Some(like) if depth == LONGEST_CHAIN => {
@@ -313,8 +321,17 @@ impl Reader<'_> {
         if let Some(letters) = &file.words.letters {
             traits.letters = self.words(letters)?;
         }
-        if let Some(mm) = file.arcs.mm {
-            traits.arcs = Arcs { mm, inch: file.arcs.inch };
+        if let Some(said) =
+            [&file.arcs.mm, &file.arcs.inch].into_iter().flatten().find(|said| !said.get_ref().is_possible())
+        {
+            let help = "write lengths from 0 on, as { least = 0.005, part = 0.001, most = 0.5, chord = 0 }";
+            return Err(self.wrong(said.span().start, "an arc can't be off by that", help));
+        }
+        if let Some(mm) = &file.arcs.mm {
+            traits.arcs = Arcs { mm: *mm.get_ref(), inch: None };
+        }
+        if let Some(inch) = &file.arcs.inch {
+            traits.arcs.inch = Some(*inch.get_ref());
         }
         Ok(())
     }
@@ -358,6 +375,12 @@ impl Reader<'_> {
                 let message = format!("`{}` is no meaning of a code", row.is.get_ref());
                 return Err(self.wrong(row.is.span().start, message, near));
             };
+            if meaning == Meaning::Cycle && row.makes.is_none() && row.not_run.is_none() {
+                let message = format!("`{}` is a cycle, and nothing says which hole it makes", key.get_ref());
+                let names: Vec<&str> = Hole::ALL.iter().map(|hole| hole.name()).collect();
+                let help = format!("write makes = \"drill\"; the holes are {}", names.join(", "));
+                return Err(self.wrong(row.is.span().start, message, help));
+            }
             let words = row.words.as_ref().map_or(Ok(Words::NONE), |words| self.words(words))?;
             let makes = row.makes.as_ref().map_or(Ok(Vec::new()), |makes| self.holes(makes))?;
             let pitch = row.pitch.as_ref().map(|letter| self.letter(letter)).transpose()?;

@@ -13,6 +13,11 @@ pub(super) const LARGEST_DOCUMENT: u64 = 64 << 20;
 /// Largest path of one operation, in bytes: twenty million moves.
 const LARGEST_PATH: u64 = 1 << 30;
 
+/// How many times its packed size a member may be: deflate itself ends at 1,032 times, and paths are far below.
+const MOST_TIMES: u64 = 1000;
+/// As much may come of a member whatever its packed size, in bytes.
+const ALWAYS: u64 = 1 << 20;
+
 /// A document's archive.
 pub(super) struct Archive<R> {
     zip: ZipArchive<R>,
@@ -23,7 +28,7 @@ impl<R: Read + Seek> Archive<R> {
     pub fn open(input: R) -> Result<Archive<R>, ReadError> {
         match ZipArchive::new(input) {
             Ok(zip) => Ok(Archive { zip }),
-            Err(error) => Err(refused("the file", &error)),
+            Err(error) => Err(refused("the file", error)),
         }
     }
 
@@ -32,7 +37,7 @@ impl<R: Read + Seek> Archive<R> {
         let mut text = String::new();
         match self.bounded(name, most)?.read_to_string(&mut text) {
             Ok(_) => Ok(text),
-            Err(error) => Err(unpacked(name, &error)),
+            Err(error) => Err(unpacked(name, error)),
         }
     }
 
@@ -46,8 +51,11 @@ impl<R: Read + Seek> Archive<R> {
 
     fn bounded(&mut self, name: &str, most: u64) -> Result<impl Read + use<'_, R>, ReadError> {
         match self.zip.by_name(name) {
-            Ok(member) => Ok(Bounded { inner: member, left: most }),
-            Err(error) => Err(refused(name, &error)),
+            Ok(member) => {
+                let most = most.min(member.compressed_size().saturating_mul(MOST_TIMES).max(ALWAYS));
+                Ok(Bounded { inner: member, left: most })
+            }
+            Err(error) => Err(refused(name, error)),
         }
     }
 }
@@ -70,16 +78,25 @@ impl<R: Read> Read for Bounded<R> {
 }
 
 /// Why a member could not be opened.
-fn refused(what: &str, error: &ZipError) -> ReadError {
-    ReadError::Job(match error {
-        ZipError::FileNotFound => no_document(format!("the archive has no `{what}`")),
-        error => no_document(format!("{what} can't be unpacked: {error}")),
-    })
+fn refused(what: &str, error: ZipError) -> ReadError {
+    match error {
+        ZipError::Io(error) if is_of_system(&error) => ReadError::Io(error),
+        ZipError::FileNotFound => ReadError::Job(no_document(format!("the archive has no `{what}`"))),
+        error => ReadError::Job(no_document(format!("{what} can't be unpacked: {error}"))),
+    }
 }
 
 /// Why a member could not be read to its end.
-pub(super) fn unpacked(name: &str, error: &std::io::Error) -> ReadError {
+pub(super) fn unpacked(name: &str, error: std::io::Error) -> ReadError {
+    if is_of_system(&error) {
+        return ReadError::Io(error);
+    }
     ReadError::Job(no_document(format!("`{name}` can't be unpacked: {error}")))
+}
+
+/// Did the system refuse to read? Else the archive is damaged.
+fn is_of_system(error: &std::io::Error) -> bool {
+    error.raw_os_error().is_some()
 }
 
 fn no_document(message: String) -> Box<Diag> {

@@ -48,8 +48,9 @@ impl Words {
     }
 }
 
-/// Gives each command of a path with its line, from 1.
+/// Gives each command of a path, the member `name` of the archive, with its line, from 1.
 pub(super) fn each(
+    name: &str,
     path: Option<impl BufRead>,
     mut take: impl FnMut(u64, &Command) -> Result<(), Stop>,
 ) -> Result<(), ReadError> {
@@ -60,7 +61,7 @@ pub(super) fn each(
         line.clear();
         let count = match path.by_ref().take(LONGEST).read_until(b'\n', &mut line) {
             Ok(count) => count as u64,
-            Err(error) => return Err(unpacked("a path", &error)),
+            Err(error) => return Err(unpacked(name, error)),
         };
         if count == 0 {
             return Ok(());

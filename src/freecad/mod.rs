@@ -69,7 +69,7 @@ pub fn read_freecad(
         place.operation += 1;
         let mut convert = Convert::begin(step, place, &mut hold)?;
         let path = archive.member(&step.path)?;
-        command::each(path, |line, command| convert.take(line, command))?;
+        command::each(step.path.as_deref().unwrap_or_default(), path, |line, command| convert.take(line, command))?;
         convert.end()?;
     }
     hold.push(Event::Finish, Place::default())?;

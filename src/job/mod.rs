@@ -190,7 +190,12 @@ impl<'a> Job<'a> {
         }
         self.report = Report::default();
         self.read.set(0);
-        match self.read_on(sink) {
+        let read = self.read_on(sink);
+        // a reader that watches its file reports here whether it stayed as it was
+        if let Input::File(input) = &mut self.input {
+            input.rewind()?;
+        }
+        match read {
             Ok(()) | Err(ReadError::Stopped) => Ok(()),
             Err(ReadError::Io(error)) => Err(error.into()),
             Err(ReadError::Job(diag)) => Err(diag.into()),
@@ -213,7 +218,7 @@ impl<'a> Job<'a> {
     /// # Errors
     /// The input fails; a line of it is no statement.
     pub fn setups(&mut self) -> Result<Vec<Setup>, Error> {
-        let options = cl::Options { dialect: self.reading.dialect, ..cl::Options::default() };
+        let options = cl::Options { setup: None, ..cl_options(&self.reading) };
         let found = match &mut self.input {
             Input::Bytes(bytes) if self.format == Format::Cl => cl::setups(*bytes, &options),
             Input::File(input) if self.format == Format::Cl => {
@@ -295,20 +300,22 @@ fn read_once(
 ) -> Result<(), ReadError> {
     match format {
         Format::JsonLines => read_lines(input, sink),
-        Format::Cl => {
-            let options = cl::Options {
-                dialect: reading.dialect,
-                units: reading.units,
-                tool: reading.tool.clone(),
-                speed: reading.speed,
-                feed: reading.feed,
-                start: reading.start,
-                end: reading.end,
-                setup: reading.setup,
-            };
-            read_cl(input, &options, report, sink)
-        }
+        Format::Cl => read_cl(input, &cl_options(reading), report, sink),
         _ => read_document(input, sink),
+    }
+}
+
+/// How a CL file is read.
+fn cl_options(reading: &Reading) -> cl::Options {
+    cl::Options {
+        dialect: reading.dialect,
+        units: reading.units,
+        tool: reading.tool.clone(),
+        speed: reading.speed,
+        feed: reading.feed,
+        start: reading.start,
+        end: reading.end,
+        setup: reading.setup,
     }
 }
 

@@ -53,19 +53,14 @@ pub fn of_program(shape: &Shape, want: &mut Want) {
 
 /// The rows that a list goes through; inside another list those that belong to its item.
 pub fn items(each: Each, outer: Option<Item>, survey: &Survey) -> Vec<Item> {
-    let rows = match each {
-        Each::Tool => 0..survey.tools.len(),
-        Each::Operation => 0..survey.operations.len(),
-        Each::Work => 0..survey.works.len(),
+    let rows = match (each, outer) {
+        (Each::Operation, Some(Item { each: Each::Tool, row })) => survey.tools[row].operations.clone(),
+        (Each::Operation, Some(Item { each: Each::Work, row })) => survey.works[row].operations.clone(),
+        (Each::Tool, _) => (0..survey.tools.len()).collect(),
+        (Each::Operation, _) => (0..survey.operations.len()).collect(),
+        (Each::Work, _) => (0..survey.works.len()).collect(),
     };
-    let belongs = |row: &usize| match (each, outer) {
-        (Each::Operation, Some(Item { each: Each::Tool, row: tool })) => survey.operations[*row].tool == Some(tool),
-        (Each::Operation, Some(Item { each: Each::Work, row: work })) => {
-            survey.operations[*row].totals.works.contains(&survey.works[work].work)
-        }
-        _ => true,
-    };
-    rows.filter(belongs).map(|row| Item { each, row }).collect()
+    rows.into_iter().map(|row| Item { each, row }).collect()
 }
 
 /// The sums of an item, or of the whole program.
@@ -122,7 +117,7 @@ fn operation(row: usize, survey: &Survey, shape: &Shape, want: &mut Want) {
     want.put(VarId::Direct, direct);
     want.put(VarId::Frate, begins.feed.map(|feed| feed * shape.scale));
     want.put(VarId::Plunge, begins.plunge.or(begins.feed).map(|feed| feed * shape.scale));
-    want.set(VarId::Work, operation.totals.works.first().copied().unwrap_or(operation.work));
+    want.set(VarId::Work, operation.totals.works.first().map_or(operation.work, |work| f64::from_bits(*work)));
 }
 
 /// Which of so many tools it is, and which ones stand before and behind it; behind the last the first.

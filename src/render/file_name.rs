@@ -33,7 +33,15 @@ pub fn file_name(shape: &Shape, want: &Want) -> String {
     let spelt: String = plain(name).chars().map(|c| if is_of_file_names(c) { c } else { '_' }).take(LONGEST).collect();
     let name = spelt.trim_matches(['.', '_']);
     let name = if name.is_empty() { "program" } else { name };
-    format!("{name}.{}", settings.extension.0)
+    let mark = if is_device(name) { "_" } else { "" };
+    format!("{mark}{name}.{}", settings.extension.0)
+}
+
+/// Is it a name that Windows keeps for a device, whatever comes after a point?
+fn is_device(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or_default().to_ascii_uppercase();
+    let port = |begin: &str| stem.strip_prefix(begin).is_some_and(|n| n.len() == 1 && n.as_bytes()[0].is_ascii_digit());
+    ["CON", "PRN", "AUX", "NUL"].contains(&stem.as_str()) || port("COM") || port("LPT")
 }
 
 /// The job's file without its extension.
@@ -50,5 +58,16 @@ fn number(name: &mut String, shape: &Shape, want: &Want) {
     match written.ok().and_then(|()| String::from_utf8(digits).ok()) {
         Some(digits) => name.push_str(&digits),
         None => name.push_str(&number.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_device;
+
+    #[test]
+    fn names_of_devices_are_known() {
+        assert!(["con", "NUL.x", "Com1"].into_iter().all(is_device));
+        assert!(!["CONE", "COM10", "O1", ""].into_iter().any(is_device));
     }
 }

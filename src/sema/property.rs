@@ -1,5 +1,7 @@
 //! Properties: values by names of the form's own, which a shop, a job or a person may give.
 
+use std::collections::HashSet;
+
 use super::args::{Arguments, Read, bad};
 use super::store::Setting;
 use crate::lang::{TextVar, VarId, did_you_mean};
@@ -78,9 +80,9 @@ impl PropertyKind {
                     return Err(format!("`{text}` is no kind of property; {}", meant.unwrap_or_else(all)));
                 };
                 let words: Vec<String> = text["choice(".len()..text.len() - 1].split(',').map(str::to_owned).collect();
-                let same =
-                    |(i, word): (usize, &String)| words[..i].iter().any(|other| other.eq_ignore_ascii_case(word));
-                if words.len() < 2 || words.iter().any(String::is_empty) || words.iter().enumerate().any(same) {
+                let mut seen = HashSet::new();
+                let once = words.iter().all(|word| seen.insert(word.to_ascii_lowercase()));
+                if words.len() < 2 || words.iter().any(String::is_empty) || !once {
                     return Err("a choice has two or more words, each once, as choice(off,on)".into());
                 }
                 PropertyKind::Choice(words)

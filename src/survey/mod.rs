@@ -9,6 +9,8 @@ pub use totals::{Reach, Totals};
 
 use std::collections::HashMap;
 
+use indexmap::IndexSet;
+
 use crate::cycle::Defaults;
 use crate::lang::{Machine, work_code};
 use crate::toolpath::{Call, Event, First, Flow, Place, Sink, Spindle, Stop, Tool, ToolChange, Units, key};
@@ -54,6 +56,8 @@ pub struct ToolUse {
     pub first: usize,
     /// Sums of the moves made with it.
     pub totals: Totals,
+    /// Its operations: rows of [`Survey::operations`].
+    pub operations: Vec<usize>,
 }
 
 /// A work offset of the job.
@@ -63,6 +67,8 @@ pub struct WorkUse {
     pub work: f64,
     /// Sums of the moves made in it.
     pub totals: Totals,
+    /// Its operations: rows of [`Survey::operations`].
+    pub operations: Vec<usize>,
 }
 
 /// What lies ahead in a job. Lengths are in the job's units.
@@ -90,6 +96,7 @@ pub struct Surveyor {
     now: Totals,
     work: f64,
     tool_rows: HashMap<u64, usize>,
+    work_rows: HashMap<u64, usize>,
     subs: Subprograms,
 }
 
@@ -104,6 +111,7 @@ impl Surveyor {
             now: Totals::default(),
             work,
             tool_rows: HashMap::new(),
+            work_rows: HashMap::new(),
             subs: Subprograms::default(),
         }
     }
@@ -112,10 +120,11 @@ impl Surveyor {
     pub fn finish(mut self) -> Survey {
         self.flush();
         let Survey { operations, works, .. } = &mut self.survey;
-        for row in works {
-            let begin = |operation: &&Operation| operation.totals.works.contains(&row.work);
-            row.totals.operations = operations.iter().filter(begin).count() as u64;
+        for (at, operation) in operations.iter().enumerate() {
+            let rows = operation.totals.works.iter().filter_map(|work| self.work_rows.get(work));
+            rows.for_each(|&row| works[row].operations.push(at));
         }
+        works.iter_mut().for_each(|row| row.totals.operations = row.operations.len() as u64);
         self.survey
     }
 
@@ -137,7 +146,7 @@ impl Surveyor {
         if moves.is_still() {
             return;
         }
-        moves.works = vec![work];
+        moves.works = IndexSet::from([key(work)]);
         let tool = self.tool_of_now();
         let survey = &mut self.survey;
         survey.whole.add(&moves, 1.0);
@@ -147,8 +156,8 @@ impl Surveyor {
         if let Some(tool) = tool {
             survey.tools[tool].totals.add(&moves, 1.0);
         }
-        let row = row_of(work, &mut survey.works);
-        row.totals.add(&moves, 1.0);
+        let row = self.row_of(work);
+        self.survey.works[row].totals.add(&moves, 1.0);
     }
 
     fn counted(&self, work: f64) -> f64 {
@@ -172,7 +181,8 @@ impl Surveyor {
             Some(tool) => {
                 let row = *self.tool_rows.entry(key(tool.number)).or_insert_with(|| {
                     let first = self.survey.operations.len();
-                    self.survey.tools.push(ToolUse { tool: tool.clone(), first, totals: Totals::default() });
+                    let totals = Totals::default();
+                    self.survey.tools.push(ToolUse { tool: tool.clone(), first, totals, operations: Vec::new() });
                     self.survey.tools.len() - 1
                 });
                 if Some(row) != before {
@@ -200,9 +210,21 @@ impl Surveyor {
         });
         self.survey.whole.operations += 1;
         if let Some(tool) = tool {
-            self.survey.tools[tool].totals.operations += 1;
+            let row = self.survey.operations.len() - 1;
+            let used = &mut self.survey.tools[tool];
+            used.totals.operations += 1;
+            used.operations.push(row);
         }
-        row_of(self.work, &mut self.survey.works);
+        self.row_of(self.work);
+    }
+
+    /// The row of a work offset, a new one where it is used first.
+    fn row_of(&mut self, work: f64) -> usize {
+        let works = &mut self.survey.works;
+        *self.work_rows.entry(key(work)).or_insert_with(|| {
+            works.push(WorkUse { work, totals: Totals::default(), operations: Vec::new() });
+            works.len() - 1
+        })
     }
 
     /// A call adds what the subprogram does, in the work offset of the call where it says none itself.
@@ -223,15 +245,6 @@ impl Surveyor {
             self.add(part.work.unwrap_or(work), called);
         }
     }
-}
-
-/// The row of a work offset, a new one where it is used first.
-fn row_of(work: f64, works: &mut Vec<WorkUse>) -> &mut WorkUse {
-    let row = works.iter().position(|row| row.work == work).unwrap_or_else(|| {
-        works.push(WorkUse { work, totals: Totals::default() });
-        works.len() - 1
-    });
-    &mut works[row]
 }
 
 impl Sink for Surveyor {

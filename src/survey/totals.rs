@@ -1,6 +1,7 @@
 //! What adds up over cuts, and how far they reach.
 
 use crate::toolpath::Axes;
+use indexmap::IndexSet;
 
 /// Least and greatest position of each linear axis, in the job's units; `None`: no move says it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -50,8 +51,8 @@ pub struct Totals {
     pub cuts: Reach,
     /// How far cuts and rapids reach.
     pub moves: Reach,
-    /// The work offsets in which that counts.
-    pub works: Vec<f64>,
+    /// The work offsets in which that counts, by their keys.
+    pub works: IndexSet<u64>,
 }
 
 impl Totals {
@@ -80,11 +81,7 @@ impl Totals {
         self.untimed |= part.untimed;
         self.cuts.join(&part.cuts);
         self.moves.join(&part.moves);
-        for work in &part.works {
-            if !self.works.contains(work) {
-                self.works.push(*work);
-            }
-        }
+        self.works.extend(&part.works);
     }
 
     /// Is there no move in it?

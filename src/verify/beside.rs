@@ -74,6 +74,13 @@ pub fn prove_beside<B: AsRef<Batch>>(
     let text = Text { queue: Rc::clone(&queue), batch: None, at: 0 };
     let mut comparer = Comparer::new(text, settings, expectation, tolerance);
     let mut found = 0;
+    let mut locate = |comparer: &mut Comparer<Text<_>>| {
+        if comparer.found() > found {
+            found = comparer.found();
+            let queue = queue.borrow();
+            comparer.locate(|line| queue.origin(line));
+        }
+    };
     'job: loop {
         let next = queue.borrow_mut().events();
         let Some(batch) = next else { break };
@@ -83,19 +90,21 @@ pub fn prove_beside<B: AsRef<Batch>>(
                 comparer.begin_in(start.units);
             }
             let flow = comparer.event(event, *place);
-            if comparer.found() > found {
-                found = comparer.found();
-                let queue = queue.borrow();
-                comparer.locate(|line| queue.origin(line));
-            }
+            locate(&mut comparer);
             if flow.is_break() {
                 break 'job;
             }
         }
+        // what stands between two cuts is run as it comes, not held until the job's next cut
+        comparer.run_on(&|| queue.borrow().texts.len() > MOST_TEXTS);
+        locate(&mut comparer);
     }
     let (counts, warnings) = (comparer.counts(), comparer.warnings());
     Ok(Outcome { verdict: comparer.verdict()?, counts, warnings })
 }
+
+/// How many batches of text wait for the job's next cut.
+const MOST_TEXTS: usize = 4;
 
 /// How many events wait for the text that they came to.
 const MOST_WAITING: usize = 1 << 16;

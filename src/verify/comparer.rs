@@ -71,6 +71,13 @@ impl<R: BufRead + Seek> Comparer<R> {
         self.sides.program.begin_in(units);
     }
 
+    /// Runs the program on while its text waits. Before the first operation the job may still set how it is run.
+    pub(super) fn run_on(&mut self, waits: &dyn Fn() -> bool) {
+        if self.begun {
+            self.sides.program.run_on(waits);
+        }
+    }
+
     /// How much was compared so far.
     pub fn counts(&self) -> Counts {
         self.sides.report.counts
@@ -124,7 +131,8 @@ impl<R: BufRead + Seek> Sink for Comparer<R> {
         if matches!(event, Event::ToolChange(_)) && !std::mem::replace(&mut self.begun, true) {
             self.sides.program.begin_behind(self.job.subprograms_first());
         }
-        let Err(diag) = self.job.event(event, &mut self.sides) else { return Flow::Continue(()) };
+        let done = self.job.event(event, &mut self.sides).and_then(|()| self.sides.can_hold());
+        let Err(diag) = done else { return Flow::Continue(()) };
         if diag.code == Code::PV020 {
             let help = diag.help.clone().unwrap_or_default();
             let unproven = Unproven { why: diag.message.clone(), help, place: Some(place), ..Unproven::default() };
@@ -154,9 +162,6 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         }
         self.job.aside |= self.hole.over.is_some_and(|over| !same(&over.at, &rapid.to, ACROSS, self.limits.tolerance));
         self.job.rapids.push(rapid);
-        if self.job.is_too_long() || self.program.passage.is_too_long() {
-            return self.unproven("more rapids between two cuts than are held".into(), "split the job", 0);
-        }
         Ok(())
     }
 
@@ -324,6 +329,16 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
 }
 
 impl<R: BufRead + Seek> Sides<R> {
+    /// Is all held that lies between two cuts?
+    #[inline]
+    fn can_hold(&mut self) -> Done {
+        if self.job.is_too_long() || self.program.passage.is_too_long() {
+            let why = "more rapids, stops and dwells between two cuts than are held";
+            return self.unproven(why.into(), "split the job", 0);
+        }
+        Ok(())
+    }
+
     /// A cut of a hole in pecks, which is compared when the job's hole is whole.
     fn peck(&mut self, cut: &Cut, hole: &Expected) {
         let Limits { increment, tolerance, .. } = self.limits;

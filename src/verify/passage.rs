@@ -71,6 +71,8 @@ pub(super) struct Passage {
 
 /// More rapids between two cuts than any job has: they would have to be held.
 const MOST: usize = 1 << 18;
+/// More stops and dwells between two cuts than any job has: each is compared with each.
+const MOST_MARKS: usize = 1 << 12;
 
 impl Passage {
     /// A passage from a start in a frame.
@@ -197,8 +199,10 @@ impl Passage {
     }
 
     /// Is there more than can be held?
+    #[inline]
     pub fn is_too_long(&self) -> bool {
-        self.rapids.len() + self.legs.len() + self.stops.len() + self.waits.len() + self.astray.len() > MOST
+        let marks = self.stops.len() + self.waits.len() + self.turns.len() + self.does.len();
+        self.rapids.len() + self.legs.len() + self.codes.len() + self.astray.len() > MOST || marks > MOST_MARKS
     }
 
     /// Was the frame changed?

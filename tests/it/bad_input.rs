@@ -435,7 +435,8 @@ fn outputs_do_not_replace_their_inputs() {
     folder.write("form.pf", mill("Call common.pf", ""));
     folder.write("common.pf", "Drill\nG81 X[h] Y[v]\nEnd\n");
     folder.write("job.json", job("{\"line\":[1,1,0]}"));
-    let inputs = ["job.json", "form.pf", "common.pf", "postform.toml"];
+    folder.write("c.toml", "name = \"c\"\nlike = \"fanuc\"\n");
+    let inputs = ["job.json", "form.pf", "common.pf", "postform.toml", "c.toml"];
     let texts = || inputs.map(|name| fs::read_to_string(folder.0.join(name)).unwrap());
     let before = texts();
     let run = |arguments: &str, redirect: &str| {
@@ -447,12 +448,25 @@ fn outputs_do_not_replace_their_inputs() {
         symlink(input, folder.0.join("link")).unwrap();
         fs::hard_link(folder.0.join(input), folder.0.join("hard")).unwrap();
         for name in [input, "link", "hard"] {
-            expect(input, &run(&format!("job.json -o {name}"), ""), 2, &["is an input"]);
-            expect(input, &run(&format!("job.json -o out.nc --trace ./{name}"), ""), 2, &["is an input"]);
+            expect(input, &run(&format!("job.json --control c.toml -o {name}"), ""), 2, &["is an input"]);
+            expect(
+                input,
+                &run(&format!("job.json --control c.toml -o out.nc --trace ./{name}"), ""),
+                2,
+                &["is an input"],
+            );
         }
-        expect(input, &run("job.json", &format!(">> {input}")), 2, &["standard output is an input"]);
+        expect(input, &run("job.json --control c.toml", &format!(">> {input}")), 2, &["standard output is an input"]);
         fs::remove_file(folder.0.join("link")).unwrap();
         fs::remove_file(folder.0.join("hard")).unwrap();
+    }
+    for input in inputs {
+        symlink(input, folder.0.join("x.svg")).unwrap();
+        let line = "exec \"$0\" plot job.json --form form.pf --control c.toml -o x.svg";
+        let mut shell = Command::new("sh");
+        let output = shell.args(["-c", line, env!("CARGO_BIN_EXE_postform")]).current_dir(&folder.0).output().unwrap();
+        expect(input, &output, 2, &["is an input"]);
+        fs::remove_file(folder.0.join("x.svg")).unwrap();
     }
     expect("standard input", &run("- --from json -o job.json", "< job.json"), 2, &["is an input"]);
     // the other output, by another name, through a link to nothing yet, and by the shell
@@ -523,4 +537,27 @@ fn a_program_far_longer_than_its_job_is_asked_about() {
     );
     let job = folder.write("job.json", job(&cycle));
     expect("a huge program", &render(&folder, &job, &form), 1, &["PR028", "100 MB of program", "--huge", "job.json:"]);
+}
+
+/// Names, values and messages of files, and arguments, hold no character that steers a terminal when they are shown.
+#[test]
+fn no_file_and_no_argument_steers_the_terminal() {
+    let folder = crate::support::folder::Folder::new("steers");
+    let bad = "\u{1b}]0;X\u{7}\u{9b}31m\u{202e}";
+    folder.write("x.nc", "M30\n");
+    folder.write("c.toml", "name = \"c\"\nlike = \"\\u001b]0;X\\u0007\\u009b31m\\u202e\"\n");
+    folder.write("f.pf", mill(&format!("Property lift number 1 {bad}"), ""));
+    for args in [
+        &["simulate", "x.nc", "--control", "c.toml"][..],
+        &["properties", "f.pf"],
+        &["properties", "f.pf", "--format", "json"],
+        &["lint", "f.pf", "--format", bad],
+        &[bad],
+    ] {
+        let output = folder.run(args);
+        let text = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
+        assert!(!text.is_empty(), "{args:?}");
+        let steers = |c: char| c != '\n' && postform::internals::terminal::steers(c);
+        assert!(!text.chars().any(steers), "{args:?}: {text:?}");
+    }
 }

@@ -188,3 +188,33 @@ proptest! {
         prop_assert_eq!(before.form.sequences.len(), after.form.sequences.len());
     }
 }
+
+/// What is no form stays as it is: by its name, or because a line of it makes no sense.
+#[test]
+fn what_is_no_form_is_left_alone() {
+    use crate::support::folder::{Folder, err};
+    let folder = Folder::new("no-form");
+    let table: [(&str, &[u8]); 5] = [
+        ("O12.nc", b"M30\n"),
+        ("Makefile", b"all:\n\tgcc x.c\n"),
+        ("p.pf", b"%\nO1 (A)\nG0 X1\n%\n"),
+        ("elf.pf", b"\x7fELF\x02\x01\0\0\n"),
+        ("README.md", b"# A  title\n"),
+    ];
+    for (name, text) in table {
+        folder.write(name, text);
+        let output = folder.run(&["fmt", name]);
+        assert_eq!((output.status.code(), fs::read(folder.0.join(name)).unwrap()), (Some(1), text.to_vec()), "{name}");
+        assert!(err(&output).contains("stays as it is"), "{}", err(&output));
+    }
+    folder.run(&["lint", "--fix", "Makefile"]);
+    assert_eq!(folder.read("Makefile"), "all:\n\tgcc x.c\n");
+    // a part that a form calls, one that is asked for, and standard input
+    folder.write("form.pf", support::mill("Call part.inc", ""));
+    folder.write("part.inc", "RapidCode\nG0 X<h> Y[v] Z[d]\nEnd\n");
+    assert_eq!(folder.run(&["fmt", "part.inc"]).status.code(), Some(0));
+    assert!(folder.read("part.inc").contains("X[h]"));
+    assert_eq!(folder.run(&["fmt", "--force", "O12.nc"]).status.code(), Some(0));
+    assert_eq!(folder.read("O12.nc"), "M 30\n");
+    assert_eq!(folder.feed(&["fmt", "-"], b"M30\n").stdout, b"M 30\n");
+}

@@ -396,6 +396,9 @@ fn broken_documents_are_refused() {
         assert!(said.starts_with(text), "{said}, not {text}");
     };
     starts(b"", "PD001 the file can't be unpacked");
+    // over 1,000 times its packed size
+    let bomb = with_path(&format!("G0 X0 Y0 Z5\n{}", "(x)\n".repeat(2 << 20)));
+    starts(&bomb, "PD001 `Op.nc` can't be unpacked: it unpacks to too much");
     starts(b"{\"postform\": 1}", "PD001 the file can't be unpacked");
     starts(&with_path("")[..200], "PD001 the file can't be unpacked");
     starts(&archive(&[("a", b"b")]), "PD001 the archive has no `Document.xml`");

@@ -412,3 +412,21 @@ fn thousands_of_findings_are_counted() {
     let all = out(&folder.run(&["lint", "f.pf", "--format", "github"]));
     assert!(all.matches("PF201").count() >= 5_000);
 }
+
+#[test]
+fn a_property_that_no_form_has_is_misspelt() {
+    let folder = Folder::new("properties");
+    folder.write("form.pf", mill("Property lift length 1 Lift", ""));
+    fs::create_dir_all(folder.0.join("posts")).unwrap();
+    folder.write("posts/other.pf", mill("Property through yesno no Coolant", ""));
+    folder.write("job.json", support::job("{\"line\":[1,1,0]}"));
+    let run = |line: &str| {
+        folder.write("postform.toml", format!("form = \"form.pf\"\n[properties]\n{line}\n"));
+        folder.run(&["render", "job.json", "--no-verify"])
+    };
+    let wrong = run("lfit = 2");
+    assert!(wrong.status.code() == Some(2) && err(&wrong).contains("did you mean `lift`?"), "{}", err(&wrong));
+    for right in ["LIFT = 2", "through = true"] {
+        assert_eq!(run(right).status.code(), Some(0), "{right}");
+    }
+}

@@ -106,6 +106,13 @@ fn what_is_wrong_in_the_file_is_said_with_line_and_column() {
         ("name = \"vf2\"\nlike = \"haas\"\n[codes]\nG201 = { is = \"work\" }\nG201 = { is = \"work\" }\n", "5:1", ""),
         ("name = \"vf2\"\nlike = \"haas\"\n[text]\nline = \"long\"\n", "4:8", "invalid type"),
         ("name = \"vf2\"\nlike = \"haas\"\n[codes]\n\"G1.25\" = { is = \"work\" }\n", "4:1", ""),
+        (
+            "name = \"vf2\"\nlike = \"haas\"\n[arcs]\nmm = { least = nan, part = 0, most = 1, chord = 0 }\n",
+            "4:6",
+            "from 0 on",
+        ),
+        ("name = \"vf2\"\nlike = \"haas\"\n[codes]\nG81 = { is = \"cycle\" }\n", "4:14", "makes = \"drill\""),
+        ("name = \"vf2\"\n", "1:8", "like = \"fanuc\""),
     ];
     for (text, place, message) in table {
         folder.write("vf2.toml", text);
@@ -134,8 +141,11 @@ fn codes_of_other_numbers_switch_as_their_meaning_says_and_never_move_by_guess()
     let folder = Folder::new("own_control_numbers");
     let codes = [("G70", "inch"), ("G71", "mm"), ("G500", "plane-xz"), ("G191", "increments"), ("G190", "absolute")];
     let moves = [("G6", "rapid"), ("G181", "cycle"), ("G505", "work"), ("G5", "work"), ("G128", "reference")];
-    let rows: Vec<String> =
-        codes.iter().chain(&moves).map(|(code, meaning)| format!("\"{code}\" = {{ is = \"{meaning}\" }}\n")).collect();
+    let row = |(code, meaning): &(&str, &str)| {
+        let makes = if *meaning == "cycle" { ", makes = \"drill\"" } else { "" };
+        format!("\"{code}\" = {{ is = \"{meaning}\"{makes} }}\n")
+    };
+    let rows: Vec<String> = codes.iter().chain(&moves).map(row).collect();
     folder.write("own.toml", format!("name = \"own\"\ntitle = \"Own\"\nlike = \"haas\"\n\n[codes]\n{}", rows.concat()));
     folder.write(
         "switches.nc",

@@ -154,3 +154,20 @@ fn a_pipe_that_stops_reading_is_no_success() {
     let text = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.code() == Some(1) && text.contains("pipe was closed by its reader"), "{text}");
 }
+
+/// A file that a process has open may have no name, or text of others: it is written, and nothing takes its place.
+#[test]
+fn an_open_file_is_written_and_its_link_stays() {
+    let folder = folder("open");
+    symlink("/proc/self/fd/1", folder.join("link")).unwrap();
+    let render = "\"$0\" render job.json --form form.pf --quiet";
+    let program = String::from_utf8(shell(&folder, render).stdout).unwrap();
+    let unnamed =
+        |out: &str| format!("exec 3<>gone; rm gone; {render} {out} >&3; status=$?; cat /proc/$$/fd/3; exit $status");
+    let output = shell(&folder, &unnamed("-o link"));
+    assert_eq!((output.status.code(), String::from_utf8(output.stdout).unwrap()), (Some(0), program.clone()));
+    assert!(!shell(&folder, &unnamed("-o out.nc --trace link")).stdout.is_empty());
+    assert!(folder.join("link").is_symlink());
+    shell(&folder, &format!("{{ echo head; {render} -o link; echo tail; }} > all"));
+    assert_eq!(fs::read_to_string(folder.join("all")).unwrap(), format!("head\n{program}tail\n"));
+}

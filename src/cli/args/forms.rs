@@ -80,6 +80,9 @@ pub struct FmtArgs {
     /// Write nothing, name the forms that are laid out otherwise
     #[arg(long)]
     pub check: bool,
+    /// Lay out files that are no forms by their names, and files with lines that make no sense
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// `postform explain`.

@@ -10,6 +10,7 @@ use postform::internals::terminal::escaped_lines;
 use similar::TextDiff;
 
 use super::super::args::{LintArgs, ReadArgs};
+use super::super::callers;
 use super::super::files;
 use super::super::forms::FormFile;
 use super::super::output;
@@ -31,6 +32,11 @@ pub fn run(file: &FormFile, levels: &Levels, args: &LintArgs) -> Result<Linted, 
     if !args.fix {
         let found = lint(&original, levels);
         return Ok(Linted { story, ..Linted::new(original, found) });
+    }
+    if !callers::is_form(&file.path)? {
+        let name = files::name(&file.path);
+        let why = format!("error: {name} is no form by its name, and no form calls it: it stays as it is");
+        return Err(format!("{why}\n  help: forms end in .pf"));
     }
     for (name, text) in &mended.changed {
         output::write_whole(&file.place(name), text.as_bytes())?;

@@ -9,11 +9,11 @@ use postform::diag::{Findings, Severity};
 use postform::internals::lint::{Changed, Found, lint};
 use postform::internals::report as reports;
 use postform::internals::sema::Checked;
-use rayon::prelude::*;
 
 use super::args::{Format, LimitsArg, LintArgs};
 use super::colour::Colour;
 use super::config::Config;
+use super::each::each;
 use super::forms::{self, FormFile};
 use super::poll;
 use super::report::{Reporter, count};
@@ -54,12 +54,12 @@ fn report(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
         message(&text);
         unread += 1;
     };
-    let files: Vec<_> = forms::named(&args.forms)?.par_iter().map(|path| read(path, args)).collect();
+    let files: Vec<_> = each(forms::named(&args.forms)?, |path| read(&path, args));
     let files = forms::wholes(files.into_iter().filter_map(|file| file.map_err(&mut said).ok()).collect());
     // forms may share a file that they call: fixes are made one after the other
     let results: Vec<Result<Linted, String>> = match args.fix || args.unsafe_fixes {
         true => files.into_iter().map(|file| one(file, args)).collect(),
-        false => files.into_par_iter().map(|file| one(file, args)).collect(),
+        false => each(files, |file| one(file, args)),
     };
     let linted: Vec<Linted> = results.into_iter().filter_map(|result| result.map_err(&mut said).ok()).collect();
     let all = || linted.iter().map(|form| &form.findings);
@@ -74,8 +74,9 @@ fn report(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     match args.format {
         Format::Pretty => {
             let reporter = Reporter::new(colour.on_stdout());
-            let shown = linted.par_iter().map(|form| reporter.text(&form.findings.diags, &form.findings.files));
-            text.extend(shown.collect::<Vec<_>>());
+            text.extend(each(linted.iter().collect(), |form: &Linted| {
+                reporter.text(&form.findings.diags, &form.findings.files)
+            }));
             text += &summary(&linted, unread, args);
         }
         Format::Json => text = output::json(&reports::json(all(), unread)),

@@ -29,6 +29,7 @@ use serde_json::{Value, json};
 use super::Ending;
 use super::args::LspArgs;
 use super::say::message;
+use super::say::no_thread;
 use dispatch::Failure;
 use frames::Frame;
 use server::{Client, Server};
@@ -57,7 +58,7 @@ pub fn run(_: &LspArgs) -> Result<Ending, String> {
     }
     let (send, frames) = sync_channel(WAITING);
     // the thread ends with its input, or with the process
-    thread::spawn(move || {
+    let reader = thread::Builder::new().spawn(move || {
         let mut input = BufReader::new(io::stdin());
         loop {
             let frame = frames::read(&mut input);
@@ -67,6 +68,7 @@ pub fn run(_: &LspArgs) -> Result<Ending, String> {
             }
         }
     });
+    reader.map_err(|error| no_thread(&error))?;
     let mut session = Session { server: Server::default(), state: State::New, next_id: 1 };
     match session.serve(&frames) {
         Ok(ending) => Ok(ending),

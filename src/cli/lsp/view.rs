@@ -13,6 +13,7 @@ use postform::{Job, NoFiles, Source};
 
 use super::texts::{Text, Texts};
 use super::uri;
+use crate::cli::callers;
 use crate::cli::config::Config;
 use crate::cli::files;
 use crate::cli::forms::FormFile;
@@ -206,40 +207,14 @@ pub fn root_of(path: &Path, texts: &Texts) -> PathBuf {
     let mut root = path.to_path_buf();
     // no deeper than forms call each other
     for _ in 0..8 {
-        match caller(&root, texts).filter(|caller| caller != path) {
+        let text = |other: &Path| match texts.of_path(other) {
+            Some(open) => open.source.text.clone(),
+            None => callers::text(other),
+        };
+        match callers::caller(&root, &text).filter(|caller| caller != path) {
             Some(caller) => root = caller,
             None => break,
         }
     }
     root
-}
-
-/// How many forms of a folder are looked at for calls.
-const MOST_FORMS: usize = 200;
-
-fn caller(path: &Path, texts: &Texts) -> Option<PathBuf> {
-    let mut forms: Vec<PathBuf> = Vec::new();
-    // a called form is in the folder of its caller or below
-    for folder in path.ancestors().skip(1).take(2) {
-        let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-        forms.extend(entries.filter(|other| files::is_form(other)).take(MOST_FORMS));
-    }
-    forms.sort();
-    forms.into_iter().filter(|other| other != path).find(|other| {
-        let text = match texts.of_path(other) {
-            Some(open) => open.source.text.clone(),
-            None => {
-                files::read_form(other).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
-            }
-        };
-        text.lines().any(|line| names(line, files::folder(other), path))
-    })
-}
-
-/// Is a line the call of a file?
-fn names(line: &str, folder: &Path, path: &Path) -> bool {
-    let line = line.split('#').next().unwrap_or(line).trim();
-    let Some((command, name)) = line.split_once([' ', '\t']) else { return false };
-    let calls = command.eq_ignore_ascii_case("Call") || command.eq_ignore_ascii_case("CallMe");
-    calls && folder.join(name.trim().trim_matches('"')) == path
 }

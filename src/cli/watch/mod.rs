@@ -19,6 +19,7 @@ use super::args::WatchArgs;
 use super::output::standard_output;
 use super::poll::Watched;
 use super::say::message;
+use super::say::no_thread;
 use guard::Guard;
 use http::{Answer, Asked};
 use session::{Ask, NotSaved, Save, Session};
@@ -61,7 +62,7 @@ pub fn run(args: WatchArgs) -> Result<Ending, String> {
         connections: AtomicUsize::new(0),
     });
     let watching = Arc::clone(&shared);
-    thread::spawn(move || {
+    let watches = thread::Builder::new().spawn(move || {
         loop {
             let paths = watching.session.paths();
             if Watched::new(paths.clone()).wait_while(|| watching.session.watches(&paths)) {
@@ -70,13 +71,15 @@ pub fn run(args: WatchArgs) -> Result<Ending, String> {
             }
         }
     });
+    watches.map_err(|error| no_thread(&error))?;
     if opens && let Err(error) = open::that_detached(&address) {
         message(&format!("no browser can be opened ({error}): open {address} yourself"));
     }
     for stream in listener.incoming() {
         let Ok(stream) = stream else { continue }; // who left before being heard
         let shared = Arc::clone(&shared);
-        thread::spawn(move || shared.serve(stream));
+        // who can't be served is let go
+        _ = thread::Builder::new().spawn(move || shared.serve(stream));
     }
     Ok(Ending::Clean)
 }

@@ -1,5 +1,7 @@
 //! The program's side: its cuts, each with what lies before it.
 
+mod hazards;
+
 use std::io::{BufRead, Seek};
 
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, place};
@@ -10,7 +12,7 @@ use super::passage::{Frame, Passage};
 use super::recent::Recent;
 use super::scale::Scale;
 use super::wire_codes::Codes;
-use crate::control::{Control, Rules};
+use crate::control::Control;
 use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
@@ -43,6 +45,8 @@ pub(super) struct Program<R> {
     cuts: bool,
     /// A code ended the program.
     ended: bool,
+    /// Why it can't go on, met before anything asked for it.
+    failed: Option<RunError>,
     cut: Option<Cut>,
     /// Hazards on the way.
     pub hazards: Vec<Finding>,
@@ -85,6 +89,7 @@ impl<R: BufRead + Seek> Program<R> {
             passage: Passage::new(Some(start), Frame { tool: None, work: state.work }),
             cuts: false,
             ended: false,
+            failed: None,
             cut: None,
             hazards: Vec::new(),
         }
@@ -140,25 +145,45 @@ impl<R: BufRead + Seek> Program<R> {
     /// # Errors
     /// The program can't be read, or its control refuses a block.
     pub fn run_to_cut(&mut self) -> Result<Option<&Cut>, RunError> {
-        while self.cut.is_none() {
-            if self.next == self.items.len() {
-                // a Grbl would take more blocks, if its sender goes on
-                if self.over || self.ended {
-                    return Ok(None);
-                }
-                self.items.clear();
-                self.next = 0;
-                let goes_on = self.simulator.step(&mut self.items);
-                self.recent.keep(self.simulator.line(), self.simulator.text());
-                self.over = !goes_on?;
-                continue;
-            }
-            let items = std::mem::take(&mut self.items);
-            self.take_item(&items[self.next]);
-            self.items = items;
-            self.next += 1;
+        if let Some(error) = self.failed.take() {
+            return Err(error);
         }
+        while self.goes_on()? {}
         Ok(self.cut())
+    }
+
+    /// Runs the program on while more of it waits, as far as its next cut: nothing that the job does before its own is needed
+    /// for that.
+    pub fn run_on(&mut self, waits: &dyn Fn() -> bool) {
+        while self.failed.is_none() && waits() {
+            match self.goes_on() {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(error) => self.failed = Some(error),
+            }
+        }
+    }
+
+    /// Runs a block, or takes what it did; `false`: at a cut, or at the end.
+    #[inline]
+    fn goes_on(&mut self) -> Result<bool, RunError> {
+        // a Grbl would take more blocks, if its sender goes on
+        if self.cut.is_some() || self.next == self.items.len() && (self.over || self.ended) {
+            return Ok(false);
+        }
+        if self.next == self.items.len() {
+            self.items.clear();
+            self.next = 0;
+            let goes_on = self.simulator.step(&mut self.items);
+            self.recent.keep(self.simulator.line(), self.simulator.text());
+            self.over = !goes_on?;
+            return Ok(true);
+        }
+        let items = std::mem::take(&mut self.items);
+        self.take_item(&items[self.next]);
+        self.items = items;
+        self.next += 1;
+        Ok(true)
     }
 
     /// The cut is dealt with.
@@ -367,14 +392,6 @@ impl<R: BufRead + Seek> Program<R> {
         self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
     }
 
-    /// A move in a frame that G92 set where only the machine knew the position is a hazard.
-    fn check_frame(&mut self, unknown: u8, line: u64) {
-        if self.scale.axes(self.simulator.state().frame_unknown()) & !unknown != 0 {
-            let message = "the program moves in a frame that G92 set where only the machine knows the position";
-            self.hazard(Code::PV021, line, message, "take G92 out, or write the positions of its axes before it");
-        }
-    }
-
     fn cuts_now(&mut self, what: What, feed: f64, lead: Option<f64>, item: &Item) {
         self.check_frame(0, item.line);
         if self.length_is_due() {
@@ -447,51 +464,5 @@ impl<R: BufRead + Seek> Program<R> {
         if let Some((_, cooling)) = cooling.into_iter().find(|(is, _)| *is) {
             self.state.coolant = Some(cooling);
         }
-    }
-
-    fn units_are_due(&mut self, line: u64, message: &str) {
-        if self.due.units() {
-            let help = "print G[unitmode] in StartCode, or give the form, if it is for one unit";
-            self.hazard(Code::PV022, line, message, help);
-        }
-    }
-
-    fn length_is_due(&self) -> bool {
-        self.due.lengths() && self.state.tool.is_some() && self.state.length.is_none()
-    }
-
-    fn without_length(&mut self, line: u64, message: &str) {
-        if self.due.reports_length() {
-            self.hazard(Code::PV014, line, message, self.due.length_help());
-        }
-    }
-
-    /// Notes what the program did before its end, besides cutting.
-    pub fn ended(&mut self) {
-        let line = self.simulator.line();
-        if self.simulator.begins_again() {
-            self.hazard(Code::PV016, line, "the program ends with M99, which begins it again", "end it with M30 or M2");
-        } else if !self.ended && self.control.rules() == Rules::Fanuc {
-            self.hazard(Code::PV016, line, "nothing ends the program", "print M30 or M2 in EndCode");
-        } else if !self.ended && self.state.rotation != Some(Rotation::Stop) {
-            // `%` ends it, and switches nothing
-            self.hazard(
-                Code::PV016,
-                line,
-                "the program is over, and its spindle turns on",
-                "print M2 or M30 in EndCode",
-            );
-        }
-    }
-
-    fn hazard(&mut self, code: Code, line: u64, message: &str, help: &'static str) {
-        // a form makes the same mistake at every tool
-        if let Some(told) = self.hazards.iter_mut().find(|told| told.code == code && told.message == message) {
-            told.times += 1;
-            return;
-        }
-        let block = self.text();
-        let (message, place, form) = (message.into(), None, None);
-        self.hazards.push(Finding { code, message, help, place, line, block, form, times: 1 });
     }
 }

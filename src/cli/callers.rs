@@ -1,0 +1,50 @@
+//! Which form calls a file, and so whether a file is a form at all.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::config::Config;
+use super::files;
+
+/// How many forms of a folder are searched for calls.
+const MOST_FORMS: usize = 200;
+
+/// Is a file a form: by its name, because postform.toml names it, or because a form calls it?
+///
+/// # Errors
+/// A message: postform.toml makes no sense.
+pub fn is_form(path: &Path) -> Result<bool, String> {
+    // a file that is not there is reported when it is read
+    let Ok(real) = path.canonicalize() else { return Ok(true) };
+    if files::is_form(path) {
+        return Ok(true);
+    }
+    let named = Config::near(&real)?.form.is_some_and(|form| form.canonicalize().is_ok_and(|form| form == real));
+    Ok(named || caller(&real, &text).is_some())
+}
+
+/// A form as it is on the disk; empty where it can't be read.
+pub fn text(path: &Path) -> String {
+    files::read_form(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
+}
+
+/// The form that calls a file, of those in its folder and in the one above; `text` reads them. The path is a whole one.
+pub fn caller(path: &Path, text: &dyn Fn(&Path) -> String) -> Option<PathBuf> {
+    let mut forms: Vec<PathBuf> = Vec::new();
+    // a called form is in the folder of its caller or below
+    for folder in path.ancestors().skip(1).take(2) {
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        forms.extend(entries.filter(|other| files::is_form(other)).take(MOST_FORMS));
+    }
+    forms.sort();
+    let calls = |other: &PathBuf| text(other).lines().any(|line| names(line, files::folder(other), path));
+    forms.into_iter().filter(|other| other != path).find(calls)
+}
+
+/// Is a line the call of a file?
+fn names(line: &str, folder: &Path, path: &Path) -> bool {
+    let line = line.split('#').next().unwrap_or(line).trim();
+    let Some((command, name)) = line.split_once([' ', '\t']) else { return false };
+    let calls = command.eq_ignore_ascii_case("Call") || command.eq_ignore_ascii_case("CallMe");
+    calls && folder.join(name.trim().trim_matches('"')) == path
+}

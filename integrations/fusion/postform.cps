@@ -183,8 +183,16 @@ function coolant(kind) {
     return "on";
   case COOLANT_MIST:
     return "mist";
+  case COOLANT_THROUGH_TOOL:
+    return "through";
+  case COOLANT_AIR:
+    return "air";
+  case COOLANT_FLOOD_MIST:
+    return ["on", "mist"];
+  case COOLANT_FLOOD_THROUGH_TOOL:
+    return ["on", "through"];
   }
-  refuse("coolant of tool " + tool.number + ": a job has flood and mist; choose one of them for the tool");
+  refuse("coolant of tool " + tool.number + ": a job has no suction and no air through the tool; choose another coolant for it");
 }
 
 function onSectionEnd() {

@@ -194,7 +194,8 @@ test("what no job can say is an error", () => {
   refused("only milling", { type: CONSTANTS.TYPE_TURNING });
   refused("moves the tool axis", { multiAxis: true });
   refused("is tilted", { workPlane: { forward: new Vector(0, 1, 0) } });
-  refused("flood and mist", { tool: tool(1, { coolant: CONSTANTS.COOLANT_THROUGH_TOOL }) });
+  refused("no suction", { tool: tool(1, { coolant: CONSTANTS.COOLANT_SUCTION }) });
+  refused("no air through the tool", { tool: tool(1, { coolant: CONSTANTS.COOLANT_AIR_THROUGH_TOOL }) });
   refused("probing", {}, (engine) => engine.holes("probing-x", {}, [[0, 0, 0]]));
   refused("switched by a rapid", {}, (engine) => {
     engine.compensate(engine.RADIUS_COMPENSATION_LEFT);

@@ -14,11 +14,14 @@ fn form(control: NewControl) -> &'static str {
     match control {
         NewControl::Fanuc => include_str!("../../postforms/fanuc.pf"),
         NewControl::Haas => include_str!("../../postforms/haas.pf"),
+        NewControl::Haas4Axis => include_str!("../../postforms/haas-4axis.pf"),
         NewControl::Fadal => include_str!("../../postforms/fadal.pf"),
+        NewControl::FadalSubs => include_str!("../../postforms/fadal-subs.pf"),
         NewControl::Linuxcnc => include_str!("../../postforms/linuxcnc.pf"),
         NewControl::Grbl => include_str!("../../postforms/grbl.pf"),
-        NewControl::Lathe => include_str!("../../postforms/fanuc-lathe.pf"),
-        NewControl::Edm => include_str!("../../postforms/wire-edm.pf"),
+        NewControl::FanucLathe => include_str!("../../postforms/fanuc-lathe.pf"),
+        NewControl::HaasLathe => include_str!("../../postforms/haas-lathe.pf"),
+        NewControl::WireEdm => include_str!("../../postforms/wire-edm.pf"),
     }
 }
 

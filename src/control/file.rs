@@ -184,6 +184,7 @@ struct RowText {
     text: Option<String>,
     not_run: Option<String>,
     only: Option<Spanned<String>>,
+    stops_spindle: Option<bool>,
 }
 
 /// What stands for the meaning of a code that the control has not, though the one that it is like has it.
@@ -246,12 +247,13 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
         let at = error.span().map_or(0, |span| span.start);
         reader.wrong(at, error.message().to_owned(), "")
     })?;
-    if file.like.is_none() && file.codes.is_empty() {
+    let is_run = file.rules != Some(Rules::None);
+    if is_run && file.like.is_none() && file.codes.is_empty() {
         let message = format!("`{}` has no codes: it is like no control, and lists none", file.name.get_ref());
         return Err(reader.wrong(
             file.name.span().start,
             message,
-            "write like = \"fanuc\", or the codes under [codes]",
+            "write like = \"fanuc\", or the codes under [codes], or rules = \"none\" if its language has no G codes",
         ));
     }
     let mut control = match &file.like {
@@ -276,6 +278,10 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
     control.title = file.title.clone().unwrap_or(control.title);
     reader.traits(&file, &mut control.traits)?;
     reader.rows(&file.codes, &mut control.rows)?;
+    if !control.is_run() {
+        // the codes of another language would count as words of this one
+        control.rows = Rows::default();
+    }
     control.rows.finish();
     Ok(control)
 }
@@ -386,7 +392,8 @@ impl Reader<'_> {
             let pitch = row.pitch.as_ref().map(|letter| self.letter(letter)).transpose()?;
             let (code, text) = (Code { letter: b'G', tenths: 0 }, row.text.clone().unwrap_or_default());
             let only = row.only.as_ref().map_or(Ok(Vec::new()), |only| self.values(only))?;
-            let row = Row { code, meaning, words, makes, pitch, text, not_run: row.not_run.clone(), only };
+            let (not_run, stops_spindle) = (row.not_run.clone(), row.stops_spindle.unwrap_or(false));
+            let row = Row { code, meaning, words, makes, pitch, text, not_run, only, stops_spindle };
             match parsed {
                 Key::One(code) => rows.put(Row { code, ..row }),
                 Key::Range(first, last) => {

@@ -52,6 +52,8 @@ pub struct Row {
     pub not_run: Option<String>,
     /// The words, with their values, beside one of which it has this meaning; none: beside any.
     pub only: Vec<(u8, f64)>,
+    /// The control stops the spindle before it runs the code: coolant through the spindle of a Haas.
+    pub stops_spindle: bool,
 }
 
 /// The rows of a control, found by code.
@@ -285,7 +287,12 @@ impl Control {
 
     /// Does it run programs as NIST's interpreter does, from which LinuxCNC, its predecessors and Grbl come?
     pub fn is_linuxcnc(&self) -> bool {
-        self.traits.rules != Rules::Fanuc
+        !matches!(self.traits.rules, Rules::Fanuc | Rules::None)
+    }
+
+    /// Are its programs run? Not where its file has `rules = "none"`.
+    pub fn is_run(&self) -> bool {
+        self.traits.rules != Rules::None
     }
 
     /// What the control knows of a code: the code's own row, else the row of its whole number, else the row of its

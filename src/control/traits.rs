@@ -18,6 +18,8 @@ pub enum Rules {
     Emc2,
     /// Grbl 1.1, as its own parser answers.
     Grbl,
+    /// Not at all: its language is not that of G codes, as Klartext. Forms print it, and no program is run or proven.
+    None,
 }
 
 /// What a length without a point counts.

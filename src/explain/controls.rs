@@ -20,6 +20,7 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
         Rules::Linuxcnc => "as LinuxCNC runs them",
         Rules::Grbl => "as Grbl runs them",
         Rules::Emc2 => "as EMC2 runs them",
+        Rules::None => "not run: postform does not read their language",
     };
     let line = match (traits.longest_line, traits.stops_at_longer) {
         (None, _) => UNKNOWN.to_owned(),
@@ -85,6 +86,9 @@ fn about(row: &Row) -> String {
     }
     if !row.text.is_empty() {
         text += &format!(": {}", row.text);
+    }
+    if row.stops_spindle {
+        text += "; the spindle stops";
     }
     match &row.not_run {
         Some(why) => format!("{text}; not run: {why}"),
@@ -187,7 +191,7 @@ like = \"{name}\"
 # The codes that differ. `is` says what a code does; `words` are the letters that it takes besides axes, F, S and T.
 [codes]
 # coolant through the spindle
-# \"M88\" = {{ is = \"through\" }}
+# \"M88\" = {{ is = \"through\", stops_spindle = true }}
 # a code of the builder that changes nothing in the program's motions
 # \"G201\" = {{ is = \"harmless\", words = \"P\" }}
 # a code that calls a program of the builder: positions are said again behind it

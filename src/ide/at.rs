@@ -186,7 +186,7 @@ mod tests {
         let found = |text: &str, what: What| Some((text.to_owned(), what));
         assert_eq!(at("ArcPlane", "Arc|Plane"), found("ArcPlane", What::Command(CommandId::ArcPlane)));
         assert_eq!(at("G17 G18 G19", "G17 G|18 G19"), found("G18", What::Argument(CommandId::ArcPlane, 1)));
-        assert_eq!(at("Y->3.>4", "Y-|>3.>4"), found("Y->3.>4", What::Format(b'Y')));
+        assert_eq!(at("Y->4.>4", "Y-|>4.>4"), found("Y->4.>4", What::Format(b'Y')));
         assert_eq!(at("\nCancel", "\nCan|cel"), found("Cancel", What::Sequence(SequenceId::Cancel)));
         assert_eq!(at("Upon [work]", "Up|on [work]"), found("Upon", What::Upon));
         assert_eq!(at("Upon [work]", "Upon [wo|rk]"), found("[work]", What::Variable(VarId::Work, None)));

@@ -163,9 +163,9 @@ mod tests {
         assert!(variable.contains("this line prints ") && variable.contains("```nc\n"), "{variable}");
         let code = text("G40 G49", "G|40 G49");
         assert!(code.starts_with("**G40** on haas\n\n"), "{code}");
-        let format = text("Y->3.>4", "Y->|3.>4");
+        let format = text("Y->4.>4", "Y->|4.>4");
         assert!(
-            format.contains("a minus where the value is negative; up to 3 digits, always a point, up to 4 decimals"),
+            format.contains("a minus where the value is negative; up to 4 digits, always a point, up to 4 decimals"),
             "{format}"
         );
         assert!(format.contains("12.5     → Y12.5\n-0.25    → Y-.25\n3        → Y3."), "{format}");

@@ -106,7 +106,7 @@ mod tests {
         let all = document.symbols(0);
         let named = |name: &str| all.iter().filter(|symbol| symbol.name == name).collect::<Vec<_>>();
         assert_eq!(named("Units")[0].detail, "both");
-        assert_eq!(named("X")[0].detail, "->3.>4");
+        assert_eq!(named("X")[0].detail, "->4.>4");
         assert_eq!((named("Upon [work]").len(), named("Custom1 Face").len(), named("Drill").len()), (1, 1, 1));
         let drill = named("Drill")[0];
         let text = document.slice(drill.span);

@@ -306,6 +306,14 @@ impl<R: BufRead + Seek> Simulator<R> {
             return self.acted(items, |state, block, line, items| state.run_on(block, line, items));
         }
         let control = self.state.settings.control;
+        if !control.is_run() {
+            let message = format!("postform does not read the language of {}", control.name());
+            return refuse(
+                Code::PN016,
+                message,
+                "read the program itself: no program of this control is run or proven",
+            );
+        }
         let traits = control.traits();
         let counts = traits.stops_at_longer && !traits.bare_line;
         let longest = traits.longest_line.filter(|_| counts).unwrap_or(LONGEST);

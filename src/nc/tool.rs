@@ -67,6 +67,9 @@ impl State {
         }
         let mut turned = false;
         for (code, row) in block.m() {
+            if row.stops_spindle {
+                self.turn_spindle(Rotation::Stop, out);
+            }
             let rotation = rotation(row.meaning);
             if let Some(rotation) = rotation {
                 turned = true;

@@ -35,7 +35,11 @@ pub fn codes_of(kind: Coolant, settings: &Settings) -> Done<Codes> {
         None => fault(
             Code::PR054,
             format!("the form has no coolant `{}`", kind.name()),
-            format!("add `CoolantKind {} M88 M89` with the machine's codes, or take flood coolant", kind.name()),
+            format!(
+                "add `CoolantKind {} M88 M89` with the machine's codes (postforms/haas.pf has two kinds), or take flood \
+                 coolant",
+                kind.name()
+            ),
         ),
     }
 }

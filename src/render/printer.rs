@@ -334,6 +334,12 @@ impl Printer {
         block.iter().rev().find(|c| b"()".contains(c)) == Some(&b'(')
     }
 
+    /// Does the open block end between quotation marks?
+    pub fn is_in_quotes(&self) -> bool {
+        let block = if self.words > 0 { &self.page.text[self.page.text.len() - self.length()..] } else { &[] };
+        block.iter().filter(|&&c| c == b'"').count() % 2 == 1
+    }
+
     /// Is a block open?
     #[inline]
     pub fn has_words(&self) -> bool {

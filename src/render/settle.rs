@@ -63,9 +63,7 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
         return fault(Code::PR038, message, help);
     }
     check_own_limit(shape, want, said)?;
-    let spindle = [VarId::Speed, VarId::Direct, VarId::Speedtype];
-    own_change(SequenceId::SpindleChange, &spindle, shape, want, said, out)?;
-    print_spindle(shape, want, said, out)?;
+    spindle_change(shape, want, said, out)?;
     own_change(SequenceId::CoolantChange, &[VarId::Cool], shape, want, said, out)?;
     end_beside(want.coolant, shape, want, said, out)?;
     if let Some(ends) = want.ends_coolant.take().filter(|&ends| said.coolant_ended != Some(ends)) {
@@ -81,6 +79,8 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
         said.conditions.put(VarId::Cool, Some(cool));
     }
     begin_beside(shape, want, said, out)?;
+    // a code of the coolant may have stopped the spindle
+    spindle_change(shape, want, said, out)?;
     own_change(SequenceId::FeedModeChange, &[VarId::Feedtype], shape, want, said, out)?;
     if let Some(feed_type) = want.get(VarId::Feedtype)
         && said.conditions.get(VarId::Feedtype) != Some(feed_type)
@@ -114,10 +114,24 @@ fn own_change(
 ) -> Done {
     match shape.program.routine(id) {
         Some(routine) if said.lacks(want, shape).meets(VarSet::of(vars)) => {
-            run_all(shape.way(routine, want, said), shape, want, said, out)
+            run_all(shape.way(routine, want, said), shape, want, said, out)?;
+            if !shape.program.settings.control().is_run() {
+                // in another language the form's own sequence has printed the change in its own way
+                for &var in vars {
+                    said.conditions.put(var, said.due(var, want));
+                }
+            }
+            Ok(())
         }
         _ => Ok(()),
     }
+}
+
+/// Speed and direction by the form's own sequence, else as a block.
+fn spindle_change(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+    let vars = [VarId::Speed, VarId::Direct, VarId::Speedtype];
+    own_change(SequenceId::SpindleChange, &vars, shape, want, said, out)?;
+    print_spindle(shape, want, said, out)
 }
 
 /// Speed and direction of the spindle that nothing printed yet, unless the form's own sequences say when it turns.

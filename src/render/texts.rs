@@ -87,8 +87,8 @@ pub struct Names(HashMap<String, String>);
 
 impl Names {
     /// A word prints the name of a tool, by which the control calls it: it must have one, and be the only one of it.
-    pub fn tool(&mut self, text: &Text) -> Done {
-        let own = plain_word(text);
+    pub fn tool(&mut self, text: &Text, out: &Printer) -> Done {
+        let own = plain_word(text, fits(out));
         if text.text.is_empty() {
             let help = "give the tool a `name` in the job, or ask before it: `@if [toolname]`";
             return fault(
@@ -107,15 +107,25 @@ impl Names {
 }
 
 /// A text as a word has it, without the blanks of its width.
-fn plain_word(text: &Text) -> String {
+fn plain_word(text: &Text, fits: fn(char) -> Option<char>) -> String {
     let wide = usize::from(text.width.unsigned_abs());
     let most = if wide == 0 { usize::MAX } else { wide };
-    text.text.chars().take(most).map(|c| in_word(c).unwrap_or('_')).collect()
+    text.text.chars().take(most).map(|c| fits(c).unwrap_or('_')).collect()
 }
 
 /// A character as a part of a word, if it is one.
 fn in_word(c: char) -> Option<char> {
     Some(c).filter(|c| c.is_ascii_alphanumeric() || "_-.".contains(*c))
+}
+
+/// A character of a text between quotation marks that the form types, if it can't end them, a block or a comment.
+fn in_quotes(c: char) -> Option<char> {
+    in_word(c).or(Some(c).filter(|c| " ,:/+*=<>&'#[]".contains(*c)))
+}
+
+/// What stays of a text outside comments, by what is printed before it.
+fn fits(out: &Printer) -> fn(char) -> Option<char> {
+    if out.is_in_quotes() { in_quotes } else { in_word }
 }
 
 /// A text with its name and width.
@@ -126,7 +136,8 @@ pub struct Text<'a> {
 }
 
 /// Prints a text of the job. In a comment its characters are those of comments, and it is cut where the control's line is
-/// full: `behind` is what else the block has room for. Outside, letters, digits and `_ - .` stay.
+/// full: `behind` is what else the block has room for. Outside, letters, digits and `_ - .` stay; between quotation
+/// marks blanks and signs too.
 pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out: &mut Printer) {
     let Text { name, width, text } = *text;
     let settings = &shape.program.settings;
@@ -146,6 +157,7 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
     let taken = full.min(room);
     let blanks = room - taken;
     let in_brackets = out.is_in_brackets();
+    let fits = fits(out);
     let block = out.word(glued);
     if width < 0 {
         block.extend(std::iter::repeat_n(b' ', blanks));
@@ -154,7 +166,7 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
     for c in text.chars().take(taken) {
         block.push(match c {
             c if behind.is_some() => in_comment(c, in_brackets, settings),
-            c => in_word(c).map_or_else(
+            c => fits(c).map_or_else(
                 || {
                     changed = true;
                     b'_'

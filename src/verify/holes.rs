@@ -155,7 +155,7 @@ fn check<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected, [wanted, made]: [
             format!("the hole at {} is cut {is} at once, the job pecks by {by}", over(&hole.at))
         });
     }
-    if outs > 0 && (made.counts[1] == 0 || made.farthest > LONGER * wanted.farthest) {
+    if hole.comes_out && outs > 0 && (made.counts[1] == 0 || made.farthest > LONGER * wanted.farthest) {
         s.found(Code::PV023, line, help, || {
             let (is, by) = (number(made.farthest), number(wanted.farthest));
             format!("the hole at {} is cut {is} before the tool comes out of it, the job's {by}", over(&hole.at))

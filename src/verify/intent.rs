@@ -59,6 +59,8 @@ pub(super) struct Expected {
     pub dwell: Option<f64>,
     /// The hole may be made in other pecks.
     pub pecks: bool,
+    /// The tool comes out of the hole between pecks; how a tap does that is the control's own setting.
+    pub comes_out: bool,
     /// The job drills it in one, and it may be made in pecks.
     pub may_peck: bool,
     /// A tap: feed and speed are its pitch.

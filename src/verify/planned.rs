@@ -39,7 +39,8 @@ impl Job {
         }
         let pecks = custom
             || matches!(kind, CycleKind::Deep | CycleKind::Chipbreak)
-            || (kind.is_tap() && open.spec.mode.is_some());
+            || (kind.is_tap() && (open.spec.mode.is_some() || open.spec.step.is_some()));
+        let comes_out = kind == CycleKind::Deep || kind == CycleKind::Chipbreak && open.spec.times.is_some();
         let floats = open.spec.rigid == Some(false);
         let reverses = kind.is_tap() && !open.spec.norevr && !open.spec.rapout;
         let rigid = open
@@ -57,6 +58,7 @@ impl Job {
             bottom: point + planes.bottom,
             dwell: planes.dwell,
             pecks,
+            comes_out,
             may_peck: kind == CycleKind::Drill,
             is_tap: kind.is_tap(),
             feeds_out: kind.is_tap() || kind == CycleKind::Ream,

@@ -1,6 +1,6 @@
 //! Kinds of coolant: their codes, what ends them, what a form does not have.
 
-use crate::support::{check, mill, program, render};
+use crate::support::{check, mill, plain_post, program, render};
 
 const KINDS: &str = "CoolantKind through M88 M89\nCoolantKind air M12";
 
@@ -206,4 +206,30 @@ fn the_forms_own_speed_stands() {
     let path = "{\"begin\":\"row\"},{\"line\":[1,0,0]},{\"end\":\"row\"}";
     assert_eq!(speeds(&row, path), ["S1000", "S300", "S1000"]);
     assert_eq!(render(&row, &job(&[(1, "off", path)])).unwrap().notes[0].code.name(), "PR056");
+}
+
+/// M88 and M89 of a Haas stop the spindle: before the next cut it turns again, whoever printed the code.
+#[test]
+fn a_code_that_stops_the_spindle_is_followed_by_the_spindle() {
+    let on = "{\"line\":[1,0,0]},{\"coolant\":\"through\"},{\"line\":[0,0,0]}";
+    let print = |control: &str| {
+        let printed = program(&form(&format!("Control {control}\n{KINDS}"), "M[cool]"), &job(&[(1, "off", on)]));
+        let words = printed.iter().flat_map(|line| line.split(' ')).filter(|word| word.starts_with(['S', 'M']));
+        words.map(str::to_owned).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(print("haas"), "M6 M9 S1000 M3 M88 S1000 M3 M30");
+    // of a Fanuc nothing public says so: the code is the builder's
+    assert_eq!(print("fanuc"), "M6 M9 S1000 M3 M88 M30");
+}
+
+/// The shipped form prints it first, so that nothing is said twice.
+#[test]
+fn the_form_of_a_haas_says_coolant_through_the_spindle_before_the_spindle() {
+    let printed = program(
+        &plain_post("haas.pf"),
+        &job(&[(1, "through", LINE), (2, "on", LINE)]).replacen('{', "{\"program\":1,", 1),
+    );
+    let at = |word: &str| printed.iter().position(|line| line.split(' ').any(|own| own == word)).unwrap();
+    assert!(at("M88") < at("M3") && at("M3") < at("M89") && at("M89") < at("M8"), "{printed:#?}");
+    assert_eq!(printed.iter().filter(|line| line.contains("M3")).count(), 3, "{printed:#?}"); // two tools and M30
 }

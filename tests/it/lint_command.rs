@@ -362,17 +362,24 @@ fn new_forms_are_clean_laid_out_and_print() {
     let folder = Folder::new("new");
     let jobs =
         ["bracket", "lathe-part", "wire", "plate"].map(|name| root().join("samples").join(name).join("job.json"));
-    for control in ["fanuc", "haas", "fadal", "linuxcnc", "grbl", "lathe", "edm"] {
+    let shipped = std::fs::read_dir(root().join("postforms")).unwrap();
+    let mut shipped: Vec<String> =
+        shipped.map(|entry| entry.unwrap().path().file_stem().unwrap().to_str().unwrap().to_owned()).collect();
+    shipped.sort();
+    let short = ["lathe", "edm"].map(str::to_owned);
+    for control in shipped.iter().chain(&short).map(String::as_str) {
         let name = format!("{control}.pf");
         assert_eq!(folder.run(&["new", "--control", control, "-o", &name]).status.code(), Some(0));
         let lint = folder.run(&["lint", &name]);
         assert_eq!(out(&lint), "0 errors, 0 warnings, 0 notes\n", "{control}");
         assert_eq!(folder.run(&["fmt", "--check", &name]).status.code(), Some(0), "{control}");
         let text = folder.read(&name);
+        let ships = root().join("postforms").join(&name);
+        assert!(short.contains(&control.to_owned()) || text == std::fs::read_to_string(ships).unwrap(), "{control}");
         assert!(text.lines().filter(|line| line.starts_with('#')).count() >= 3, "{control} is not commented");
         let job = match control {
-            "lathe" => &jobs[1],
-            "edm" => &jobs[2],
+            "lathe" | "fanuc-lathe" | "haas-lathe" => &jobs[1],
+            "edm" | "wire-edm" => &jobs[2],
             "grbl" => &jobs[3],
             _ => &jobs[0],
         };

@@ -280,7 +280,7 @@ fn hover_explains_and_says_what_the_line_printed() {
         desk.cursor = place(HAAS, HAAS.find(thing).unwrap() + into);
         desk.ask("textDocument/hover")["contents"]["value"].as_str().unwrap_or("").to_owned()
     };
-    assert!(about("Y->3.>4", 3).contains("12.5     → Y12.5\n-0.25    → Y-.25\n3        → Y3."));
+    assert!(about("Y->4.>4", 3).contains("12.5     → Y12.5\n-0.25    → Y-.25\n3        → Y3."));
     assert!(about("G81", 1).starts_with("**G81** on haas\n\n"));
     assert!(about("ArcPlane", 3).starts_with("**ArcPlane (command)**"));
     desk.editor.show("part.nc", "nc", "G90 G187 P1\n");
@@ -396,7 +396,7 @@ fn actions_mend_allow_and_show_what_they_do_to_the_program() {
 fn formats_are_organised_and_forms_laid_out() {
     let folder = shop("layout");
     let mut editor = Editor::open(&folder.0, &able(), &Value::Null);
-    let text = HAAS.replacen("X->3.>4\nY->3.>4\n", "Y->3.>4 # across\nX->3.>4\n", 1);
+    let text = HAAS.replacen("X->4.>4\nY->4.>4\n", "Y->4.>4 # across\nX->4.>4\n", 1);
     editor.show("my.pf", "postform", &text);
     let uri = editor.uri("my.pf");
     let whole = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 999, "character": 0 } });
@@ -404,7 +404,7 @@ fn formats_are_organised_and_forms_laid_out() {
     let params = json!({ "textDocument": { "uri": uri }, "range": whole, "context": context });
     let actions = editor.ask("textDocument/codeAction", &params);
     let after = edited(&text, &actions[0]["edit"]["changes"][&uri]);
-    assert_eq!(after, HAAS.replacen("Y->3.>4\n", "Y->3.>4 # across\n", 1));
+    assert_eq!(after, HAAS.replacen("Y->4.>4\n", "Y->4.>4 # across\n", 1));
     let text = HAAS.replace("Machine Mill", "machine   Mill");
     editor.change("my.pf", &text);
     let params = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
@@ -442,7 +442,7 @@ fn references_highlights_and_symbols() {
     params["context"] = json!({ "includeDeclaration": true });
     let all = desk.editor.ask("textDocument/references", &params);
     assert_eq!(all.as_array().unwrap().len(), HAAS.matches("[vclear]").count());
-    assert!(all.as_array().unwrap().iter().all(|place| desk.text_of(&place["range"]) == "R[vclear]"));
+    assert!(all.as_array().unwrap().iter().all(|place| desk.text_of(&place["range"]).ends_with("[vclear]")));
     let marks = desk.ask("textDocument/documentHighlight");
     assert_eq!(marks.as_array().unwrap().len(), HAAS.matches("[vclear]").count());
     let symbols = desk.editor.ask("textDocument/documentSymbol", &desk.whole());
@@ -471,7 +471,7 @@ fn folding_and_colours() {
         words.push((&lines[line][column..column + token[2]], token[3]));
     }
     for (word, kind) in
-        [("Machine", 0), ("Mill", 1), ("X->3.>4", 2), ("Drill", 3), ("R[vclear]", 4), ("G81", 5), ("Z0", 6)]
+        [("Machine", 0), ("Mill", 1), ("X->4.>4", 2), ("Drill", 3), ("R[vclear]", 4), ("G81", 5), ("Z0", 6)]
     {
         assert!(words.contains(&(word, kind)), "{word}");
     }
@@ -523,7 +523,7 @@ fn definitions_lead_to_what_says_a_thing() {
     let said = desk.ask("textDocument/definition");
     assert_eq!(desk.text_of(&said[0]["range"]), "Cancel");
     desk.folder.write("common.pf", "Q >3.>3\n");
-    let text = HAAS.replacen("Units both", "Units both\nCall common.pf", 1).replacen("Q >3.>4\n", "", 1);
+    let text = HAAS.replacen("Units both", "Units both\nCall common.pf", 1).replacen("Q >4.>4\n", "", 1);
     desk.editor.change("my.pf", &text);
     desk.cursor = place(&text, text.find("common.pf").unwrap() + 2);
     let said = desk.ask("textDocument/definition");
@@ -557,7 +557,11 @@ fn an_extension_asks_for_programs_itself() {
 fn places_count_utf_16_units() {
     let folder = shop("utf16");
     let mut editor = Editor::open(&folder.0, &able(), &Value::Null);
-    let text = HAAS.replacen("Name Haas VF", "Name Fräse 😀", 1).replacen("M9\nG0 G53", "(ä😀) G90G[work]\nG0 G53", 1);
+    let text = HAAS.replacen("Name Haas VF", "Name Fräse 😀", 1).replacen(
+        "M[coolantoff]\nG0 G53",
+        "(ä😀) G90G[work]\nG0 G53",
+        1,
+    );
     let found = editor.show("my.pf", "postform", &text);
     let blank = found.iter().find(|finding| finding["code"] == "PF102").unwrap();
     assert_eq!(blank["range"]["start"]["character"], "(ä😀) G90".encode_utf16().count());

@@ -24,6 +24,7 @@ mod guide;
 mod headers;
 mod increments;
 mod integrations;
+mod kit;
 mod lint_command;
 mod linuxcnc;
 mod linuxcnc_random;

@@ -11,7 +11,7 @@ title = "Our VF-2"
 like = "haas"
 
 [codes]
-"M88" = { is = "through", text = "coolant through the spindle" }
+"M88" = { is = "through", stops_spindle = true, text = "coolant through the spindle" }
 "G201" = { is = "harmless", words = "P", text = "smoothing by the builder" }
 "G187" = { is = "harmless", words = "PE" }
 "#;
@@ -94,6 +94,58 @@ fn a_new_file_is_right_as_it_is_and_with_its_rows() {
         explained.contains("G154") && explained.contains("longest block") && explained.contains("not known"),
         "{explained}"
     );
+}
+
+/// A language without G codes: the form prints it, and no word of it is taken for a code.
+#[test]
+fn a_control_whose_language_is_not_read_is_printed_and_not_proven() {
+    let folder = folder("own_control_none");
+    folder.write("vf2.toml", "name = \"tnc\"\ntitle = \"Heidenhain TNC\"\nrules = \"none\"\n");
+    folder.write(
+        "own.pf",
+        "Name TNC\nMachine Mill\nControl vf2.toml\nUnits mm\nX+>4~>3\nY+>4~>3\nZ+>4~>3\nF >5\nS >5\nT >2\nM >3\nSequence#s - 0 1\n\n\
+         StartCode\n`BEGIN PGM A MM`\nEnd\n\n\
+         1stToolChange\n`TOOL CALL `[tool]` Z` S[speed]\n`CYCL DEF 247 Q339=`[work-53]\nM[direct]\n\
+         L X[h] Y[v] `R0 FMAX`\nL Z[d] `R0 FMAX`\nEnd\n\n\
+         ToolChange\n`TOOL CALL `[tool]` Z` S[speed]\nM[direct]\nL X[h] Y[v] Z[d] `R0 FMAX`\nEnd\n\n\
+         SpindleChange\n`TOOL CALL S`[speed]\nEnd\n\n\
+         RapidCode\nL X[h] Y[v] Z[d] `R0 FMAX`\nEnd\n\nLineCode\nL X[h] Y[v] Z[d] F[frate]\nEnd\n\n\
+         EndCode\n`L Z+100 R0 FMAX`\n`END PGM A MM`\nEnd\n",
+    );
+    folder.write(
+        "job.json",
+        "{\"postform\":1,\"units\":\"mm\",\"tools\":[{\"number\":3}],\"operations\":[\
+         {\"tool\":3,\"work\":60,\"spindle\":{\"speed\":900,\"direction\":\"cw\"},\"feed\":100,\
+         \"path\":[{\"rapid\":[1,2,50]},{\"line\":[1,2,0]}]},\
+         {\"tool\":3,\"work\":60,\"spindle\":{\"speed\":800,\"direction\":\"cw\"},\"feed\":100,\
+         \"path\":[{\"line\":[5,2,0]},{\"rapid\":[5,2,50]}]}]}",
+    );
+    let lint = folder.run(&["lint", "own.pf"]);
+    assert_eq!(lint.status.code(), Some(0), "{}{}", out(&lint), err(&lint));
+    assert!(!out(&lint).contains("PF4") && !out(&lint).contains("PF5"), "{}", out(&lint));
+    let render = folder.run(&["render", "job.json", "--form", "own.pf"]);
+    assert_eq!(render.status.code(), Some(0), "{}", err(&render));
+    assert_eq!(
+        out(&render).lines().collect::<Vec<_>>(),
+        [
+            "0 BEGIN PGM A MM",
+            "1 TOOL CALL 3 Z S900",
+            "2 CYCL DEF 247 Q339=7",
+            "3 M3",
+            "4 L X+1 Y+2 R0 FMAX",
+            "5 L Z+50 R0 FMAX",
+            "6 L Z0 F100",
+            "7 TOOL CALL S800",
+            "8 L X+5 Y+2 Z0 F100",
+            "9 L Z+50 R0 FMAX",
+            "10 L Z+100 R0 FMAX",
+            "11 END PGM A MM",
+        ]
+    );
+    assert!(err(&render).contains("not proven") && err(&render).contains("does not read"), "{}", err(&render));
+    folder.write("own.nc", "X1 Y2\n");
+    let simulate = folder.run(&["simulate", "own.nc", "--control", "vf2.toml"]);
+    assert!(err(&simulate).contains("does not read the language of tnc"), "{}", err(&simulate));
 }
 
 #[test]

@@ -177,7 +177,7 @@ fn nothing_waits_in_a_hole() {
     );
     assert_eq!(after("linuxcnc.pf", &taps, &[]), "identical");
     assert_eq!(after("linuxcnc.pf", &taps, &[(" P0 ", " ")]), "PV010 2");
-    assert_eq!(after("linuxcnc.pf", &taps, &[("G80\nG0", "G80\nG4 P2.\nG0")]), "equivalent: 1 dwell of the form");
+    assert_eq!(after("linuxcnc.pf", &taps, &[("G80\nG0", "G80\nG4 P2.\nG0")]), "equivalent: 3 dwells of the form");
     let tap = one(
         r#"{"rapid":[0,0,20]},{"cycle":{"kind":"tap","rigid":false,"emulate":true,"depth":10,"clear":5,"feed":500,"points":[[10,10,0]]}},{"rapid":[0,0,20]}"#,
     );

@@ -311,7 +311,7 @@ proptest! {
 fn right_forms_are_left_alone() {
     let cycle = "G[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]";
     let table = [
-        ("lathe", "Peck\nG83 Z[d] R[vclear] Q[vbite] F[frate]\nEnd Cancel\nCancel\nG80\nEnd".to_owned()),
+        ("lathe", "Peck\nG83 Z[d] R[vclear] Q[vbite*10000] F[frate]\nEnd Cancel\nCancel\nG80\nEnd".to_owned()),
         ("", "EndCode\nM9\nM5\nG91 G28 Z0.\nG28 X0. Y0.\nM30\n%0\nEnd".into()),
         ("", "EndCode\nM9\nG91 G28 Z0 M5\nG90\nM30\n(END)\n%0\nEnd".into()),
         ("", "1stToolChange\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43.4 H[lcomp] Z[d] M[cool]\nEnd".into()),
@@ -346,7 +346,7 @@ fn right_forms_are_left_alone() {
         ("", "Tap\nG95 G[retplane] G84 X[h] Y[v] Z[d] R[vclear] F[pitch]\nEnd Cancel\nCancel\nG80 G94\nEnd".into()),
         ("", "Drill   118 deg\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel".into()),
         ("", "BeginRow\nIF GO TO 5\nCALL OO88\nEnd".into()),
-        ("lathe", "Peck\nG74 R0.02\nG74 Z[d] Q[vbite] F[frate]\nEnd".into()),
+        ("lathe", "Peck\nG74 R0.02\nG74 Z[d] Q[vbite*10000] F[frate]\nEnd".into()),
         ("", "Spindle M3 M4 M5\nRapid G00\n\nBeginRow\nM8\nEnd".into()),
         ("grbl", "ToolChange\nM9\nM5\nG0 G53 Z0\nT[tool]\nM0\nG[work]\nS[speed] M[direct]\nM[cool]\nG0 X[h] Y[v]\nZ[d]\nEnd".into()),
         ("", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd".into()),

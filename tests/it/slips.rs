@@ -31,22 +31,22 @@ fn slips_in_forms() {
         haas.replacen(from, to, 1)
     };
     let table = [
-        (changed("X->3.>4", "X=->4.>4"), ["PF301", "`X->3.>4`"]),
+        (changed("X->4.>4", "X=->4.>4"), ["PF301", "`X->4.>4`"]),
         (
             changed("\nStartCode", "\nAsk fixture \"Fixture\" 2\n\nStartCode"),
             ["PF302", "`Property fixture number 0 ..`"],
         ),
         (changed("\nEndCode", "\nUpon [coolant]\nM[cool]\nEnd\n\nEndCode"), ["PF202", "it is called `cool`"]),
-        (changed("X->3.>4", "X 1.4"), ["PF305", "`X->4.>4` has up to four digits before the point"]),
+        (changed("X->4.>4", "X 1.4"), ["PF305", "`X->4.>4` has up to four digits before the point"]),
         (changed("End Cancel", "End; Cancel"), ["PF002", "write `End Cancel`"]),
         (changed("Control haas", "Control mazak"), ["PF302", "much like `fanuc`"]),
         (changed("M6\n", "M6 ; change\n"), ["PF110", "begins with ` #`"]),
-        (changed("M[cool]\n", "M cool\n"), ["PF112", "write `M[cool]`"]),
-        (changed("M[cool]\n", "[frate*0.5]\n"), ["PF112", "write the letter before it"]),
-        (changed("M[cool]\n", "M[cool]\nIF [#1 GT 2] GOTO 5\n"), ["PF001", "stands in backquotes"]),
-        (changed("M[cool]\n", "M[cool]\n#500=1\n"), ["PF101", "`` `#500=1` ``"]),
+        (changed("Z[d] M[cool]\n", "Z[d] M cool\n"), ["PF112", "write `M[cool]`"]),
+        (changed("Z[d] M[cool]\n", "Z[d] [frate*0.5]\n"), ["PF112", "write the letter before it"]),
+        (changed("Z[d] M[cool]\n", "Z[d] M[cool]\nIF [#1 GT 2] GOTO 5\n"), ["PF001", "stands in backquotes"]),
+        (changed("Z[d] M[cool]\n", "Z[d] M[cool]\n#500=1\n"), ["PF101", "`` `#500=1` ``"]),
         (changed("\nM30\n", "\nM30\nEND PGM part MM\n"), ["PF405", "stands in backquotes"]),
-        (changed("M[cool]\n", "M[cool]\n@ if [tool] = 1\nM8\n@end\n"), ["PF707", "did you mean `@if`?"]),
+        (changed("Z[d] M[cool]\n", "Z[d] M[cool]\n@ if [tool] = 1\nM8\n@end\n"), ["PF707", "did you mean `@if`?"]),
         (changed("\nEndCode", "\nEndCut\nM5\nEnd\n\nEndCode"), ["PF201", "kept for torches and lasers"]),
     ];
     let folder = folder("slips-forms");
@@ -64,8 +64,9 @@ fn statements_of_the_control_are_put_in_backquotes() {
     let folder = folder("slips-statements");
     let lines = "M[cool]\n#500=1\nIF [#1 GT 2] GOTO 5\nWHILE [#1 LT 5] DO1\n";
     for units in ["both", "mm"] {
-        let form =
-            plain_post("haas.pf").replacen("M[cool]\n", lines, 1).replace("Units both", &format!("Units {units}"));
+        let form = plain_post("haas.pf")
+            .replacen("Z[d] M[cool]\n", &format!("Z[d] {lines}"), 1)
+            .replace("Units both", &format!("Units {units}"));
         let form = if units == "mm" { form.replace("G[unitmode]", "G21") } else { form };
         fs::write(folder.join("form.pf"), form).unwrap();
         let (_, said) = said(&folder, &["lint", "--fix", "--unsafe-fixes", "form.pf"]);

@@ -178,6 +178,16 @@ fn a_long_name_is_cut_where_no_control_says_how_long() {
     assert!(printed[0].ends_with(" X)"));
 }
 
+/// Between quotation marks a text keeps its blanks and signs, but for what would end it, its block or begin a comment.
+#[test]
+fn between_quotation_marks_blanks_stay() {
+    let print = |line: &str, name: &str| lines("", line, &job("", "", &format!(",\"name\":\"{name}\"")))[0].clone();
+    assert_eq!(print("`MSG(\"`[opname]`\")`", "rough, side 1: [2] + 3"), "MSG(\"rough, side 1: [2] + 3\")");
+    assert_eq!(print("`MSG(\"`[opname]`\")`", "a\\\"b;c(d)e%f|g\\u00e9"), "MSG(\"a_b_c_d_e_f_g_\")");
+    // after the second mark it is over
+    assert_eq!(print("`MSG(\"a\")_`[opname]", "b c"), "MSG(\"a\")_b_c");
+}
+
 /// Outside comments the control calls its tools by the names: each has one, and no two the same.
 #[test]
 fn a_tool_has_a_name_of_its_own() {
@@ -193,10 +203,12 @@ fn a_tool_has_a_name_of_its_own() {
     };
     let form = mill("", "").replace("T[tool] M6", "`T=\"`[toolname]`\"`\nM6");
     assert!(
-        program(&form, &two("EM 12", "EM_12"))[0]
-            .starts_with("PR057 the tools `EM 12` and `EM_12` both print as EM_12")
+        program(&form, &two("EM;12", "EM_12"))[0]
+            .starts_with("PR057 the tools `EM;12` and `EM_12` both print as EM_12")
     );
-    assert!(program(&form, &two("EM 12", "EM 12")).contains(&"T=\"EM_12\"".to_owned()));
+    assert!(program(&form, &two("EM;12", "EM;12")).contains(&"T=\"EM_12\"".to_owned()));
+    // a blank stays between quotation marks, so that these are two names
+    assert!(program(&form, &two("EM 12", "EM_12")).contains(&"T=\"EM 12\"".to_owned()));
 }
 
 /// Text in backquotes is one word with what sticks to it.

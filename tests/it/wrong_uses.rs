@@ -54,7 +54,7 @@ const WRONG: &[(Place, &str)] = &[
     (Change, "Z[d=2]"),
     (Change, "Z[d]+2"),
     (Change, "@if [cool] = throgh\nM88\n@end"),
-    (Change, "@if [cool] = through\nM88\n@end"),
+    (Change, "@if [cool] = high\nM88\n@end"),
     (Change, "@if cool = on\nM88\n@end"),
     (Change, "@if [cool] == on\nM88\n@end"),
     (Change, "@if [cool] != on\nM88\n@end"),

@@ -132,21 +132,30 @@ pub struct NewArgs {
     pub output: PathBuf,
 }
 
-/// What `postform new` has forms for.
+/// What `postform new` has forms for: the forms in postforms, by the names of their files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum NewControl {
     /// Fanuc 0i-M, vertical mill
     Fanuc,
     /// Haas VF
     Haas,
+    /// Haas VF with a rotary table
+    #[value(name = "haas-4axis")]
+    Haas4Axis,
     /// Fadal, format 1
     Fadal,
+    /// Fadal, with subprograms
+    FadalSubs,
     /// LinuxCNC, mill
     Linuxcnc,
     /// Grbl
     Grbl,
     /// Fanuc 0i-T, lathe
-    Lathe,
+    #[value(alias = "lathe")]
+    FanucLathe,
+    /// Haas ST, lathe
+    HaasLathe,
     /// Wire EDM with four axes
-    Edm,
+    #[value(aliases = ["edm", "fanuc-wire"])]
+    WireEdm,
 }

@@ -1,6 +1,6 @@
 //! PF428: coolant that runs while the tool changes, or before the spindle turns.
 
-use crate::control::Meaning;
+use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
 use crate::lint::view::View;
@@ -11,7 +11,12 @@ use super::spindle_before_change::{changes, starts_spindle};
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (body, change) in changes(view) {
         let spindle = body.lines.iter().position(|line| line.words.iter().any(|word| starts_spindle(view, word)));
-        let ready = spindle.map_or(change, |spindle| spindle.max(change));
+        // the code of such a kind stops the spindle: it is printed first
+        let first = view.settings.coolant_kinds.iter().any(|kind| {
+            let row = control::Code::of(b'M', kind.on).and_then(|code| view.settings.control().row(code));
+            row.is_some_and(|row| row.stops_spindle)
+        });
+        let ready = spindle.filter(|_| !first).map_or(change, |spindle| spindle.max(change));
         let on = |word: &&Word| {
             matches!(view.meaning(word), Some(Meaning::Flood | Meaning::Mist))
                 || word.printed_var() == Some(VarId::Cool)

@@ -113,14 +113,21 @@ pub struct Rule {
     pub code: Code,
     /// The file of the rule in `src/lint/rules`.
     pub file: &'static str,
+    /// It looks at what codes mean, so that it has nothing to say of a language without G codes.
+    pub of_codes: bool,
     pub(super) check: fn(&View, &mut Vec<Diag>),
 }
 
 macro_rules! rules {
-    ($($code:ident $file:ident)*) => {
-        /// All rules.
+    ($($code:ident $file:ident $(($codes:ident))?)*) => {
+        /// All rules; those marked `(codes)` look at what codes mean.
         pub const RULES: &[Rule] =
-            &[$(Rule { code: Code::$code, file: stringify!($file), check: $file::check }),*];
+            &[$(Rule {
+                code: Code::$code,
+                file: stringify!($file),
+                of_codes: !stringify!($($codes)?).is_empty(),
+                check: $file::check,
+            }),*];
     };
 }
 
@@ -129,10 +136,10 @@ rules! {
     PF010 unused_sequence
     PF011 unused_command
     PF012 empty_sequence
-    PF013 start_moves
-    PF014 no_program_end
-    PF015 words_after_end
-    PF016 tape_mark
+    PF013 start_moves (codes)
+    PF014 no_program_end (codes)
+    PF015 words_after_end (codes)
+    PF016 tape_mark (codes)
     PF017 sub_without_return
     PF018 sub_without_number
     // blanks and comments
@@ -143,7 +150,7 @@ rules! {
     PF105 open_comment
     PF106 hash_in_word
     PF107 near_remark
-    PF110 foreign_comment_mark
+    PF110 foreign_comment_mark (codes)
     PF111 nested_comment
     PF112 split_word
     // names
@@ -163,71 +170,71 @@ rules! {
     PF306 cut_digits
     PF307 implied_point
     PF308 coarse_centre
-    PF309 typed_without_point
-    PF310 code_format
-    PF311 dwell_unit
+    PF309 typed_without_point (codes)
+    PF310 code_format (codes)
+    PF311 dwell_unit (codes)
     PF312 replace_number
     PF313 wrong_quantity
-    PF314 other_axis
-    PF315 unit_code
-    PF316 units_unprinted
+    PF314 other_axis (codes)
+    PF315 unit_code (codes)
+    PF316 units_unprinted (codes)
     PF317 implied_metric
     PF318 count_with_point
     // sequences and cycles
-    PF403 cancel_emulated
-    PF404 machine_code_without_count
-    PF406 cycle_without_position
-    PF407 cycle_without_depth
+    PF403 cancel_emulated (codes)
+    PF404 machine_code_without_count (codes)
+    PF406 cycle_without_position (codes)
+    PF407 cycle_without_depth (codes)
     PF408 count_swallows_position
-    PF409 cycle_without_cancel
-    PF410 cancel_without_code
-    PF411 cycle_without_plane
-    PF412 cycle_without_feed
-    PF413 peck_without_step
-    PF414 other_cycle
-    PF415 rapid_to_bottom
-    PF416 depth_before_position
-    PF417 ends_in_hole
-    PF418 feed_line_without_feed
-    PF419 tap_without_reverse
-    PF420 index_without_retract
-    PF421 unwind_down_first
-    PF422 return_without_g91
-    PF423 position_in_increments
-    PF424 increments_left_on
-    PF425 length_code_without_h
-    PF426 h_without_length_code
-    PF427 spindle_before_change
-    PF428 coolant_order
-    PF429 change_without_tool
-    PF430 typed_work
-    PF431 arc_without_centre
-    PF432 arc_other_way
-    PF433 motion_without_axis
-    PF434 compensation_words
-    PF435 rapid_that_feeds
-    PF436 cut_at_rapid
-    PF437 length_register
-    PF438 no_motion_code
-    PF439 increment_as_position
-    PF440 part_zero
-    PF441 across_before_up
-    PF442 thread_without_return
-    PF443 ends_too_early
+    PF409 cycle_without_cancel (codes)
+    PF410 cancel_without_code (codes)
+    PF411 cycle_without_plane (codes)
+    PF412 cycle_without_feed (codes)
+    PF413 peck_without_step (codes)
+    PF414 other_cycle (codes)
+    PF415 rapid_to_bottom (codes)
+    PF416 depth_before_position (codes)
+    PF417 ends_in_hole (codes)
+    PF418 feed_line_without_feed (codes)
+    PF419 tap_without_reverse (codes)
+    PF420 index_without_retract (codes)
+    PF421 unwind_down_first (codes)
+    PF422 return_without_g91 (codes)
+    PF423 position_in_increments (codes)
+    PF424 increments_left_on (codes)
+    PF425 length_code_without_h (codes)
+    PF426 h_without_length_code (codes)
+    PF427 spindle_before_change (codes)
+    PF428 coolant_order (codes)
+    PF429 change_without_tool (codes)
+    PF430 typed_work (codes)
+    PF431 arc_without_centre (codes)
+    PF432 arc_other_way (codes)
+    PF433 motion_without_axis (codes)
+    PF434 compensation_words (codes)
+    PF435 rapid_that_feeds (codes)
+    PF436 cut_at_rapid (codes)
+    PF437 length_register (codes)
+    PF438 no_motion_code (codes)
+    PF439 increment_as_position (codes)
+    PF440 part_zero (codes)
+    PF441 across_before_up (codes)
+    PF442 thread_without_return (codes)
+    PF443 ends_too_early (codes)
     // modality
-    PF501 modal_letters
-    PF502 modal_codes
-    PF503 hidden_depth
-    PF504 increments_mixed
-    PF505 one_group_twice
-    PF506 letter_twice
-    PF507 mode_unsaid
+    PF501 modal_letters (codes)
+    PF502 modal_codes (codes)
+    PF503 hidden_depth (codes)
+    PF504 increments_mixed (codes)
+    PF505 one_group_twice (codes)
+    PF506 letter_twice (codes)
+    PF507 mode_unsaid (codes)
     // limits and machine type
     PF605 near_word_limit
     PF606 near_line_limit
     PF607 control_without_code
-    PF608 unknown_code
-    PF609 second_m_code
+    PF608 unknown_code (codes)
+    PF609 second_m_code (codes)
     // what posts say beyond the manual
     PF710 property_unused
     PF711 list_without_use

@@ -245,7 +245,7 @@ impl Body<'_, '_> {
                 let behind = in_comment.then(|| texts::typed_behind(at, self.shape));
                 let text = Text { name: &var, width: var.width, text: self.want.texts.get(var.id) };
                 if var.id == TextId::Toolname && !in_comment {
-                    self.said.names.tool(&text)?;
+                    self.said.names.tool(&text, self.out)?;
                 }
                 texts::print(&text, behind, glued, self.shape, self.out);
             }

@@ -68,8 +68,9 @@ pub fn hole_variables(hole: &Planned, shape: &Shape, want: &mut Want, drill: &Dr
     want.set(VarId::Depth, hole.heights.point - hole.heights.bottom);
     want.set(VarId::Frate, hole.planes.feed);
     want.set(VarId::Plunge, spec.plunge.unwrap_or(hole.planes.feed));
-    // without a step the cycle goes down in one
-    let step = spec.step.or(shape.defaults.step).or(Some(hole.heights.clear - hole.heights.bottom));
+    // without a step the cycle goes down in one; the usual step counts for a tap only where the job names a way of pecking
+    let pecks = !spec.kind.is_tap() || spec.mode.is_some();
+    let step = spec.step.or(shape.defaults.step.filter(|_| pecks)).or(Some(hole.heights.clear - hole.heights.bottom));
     want.put(VarId::Vbite, step);
     want.put(VarId::Peck1, spec.first_step.or(step));
     want.put(VarId::Inidep, spec.first_step.or(step));

@@ -20,6 +20,9 @@ impl Said {
     /// A G or M code was printed in this line.
     pub fn code(&mut self, code: Code, line: Line, want: &Want, shape: &Shape) {
         let row = shape.code_row(code);
+        if row.is_some_and(|row| row.stops_spindle) {
+            self.spindle_stopped(want, shape);
+        }
         // of a subprogram of the job it is known what it does
         self.calls |= row.is_some_and(|row| runs_elsewhere(code, row, shape))
             && !line.prints(shape, |_, var| var == Some(VarId::Sub));

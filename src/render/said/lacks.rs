@@ -79,6 +79,15 @@ impl Said {
         self.typed(var, value, line, want, shape);
     }
 
+    /// A code was printed at which the control stops the spindle: if it has to turn, that is printed again.
+    pub fn spindle_stopped(&mut self, want: &Want, shape: &Shape) {
+        let off = shape.program.settings.spindle[2];
+        if self.due(VarId::Direct, want).is_some_and(|value| value != off) {
+            self.conditions.put(VarId::Direct, None);
+            self.differs = true;
+        }
+    }
+
     /// The program stops, or may. Many controls stop spindle and coolant with it: before the next move that cuts or
     /// crosses they are said again, whoever printed the stop.
     pub fn stopped(&mut self, want: &Want, shape: &Shape) {

@@ -5,7 +5,7 @@ use super::state::Said;
 use crate::compile::LetterKind;
 use crate::control::Code;
 use crate::lang::{Machine, VarId};
-use crate::nc::{Kind, tokens};
+use crate::nc::{Kind, Token, tokens};
 use crate::number::quantise;
 use crate::render::shape::Shape;
 use crate::render::want::Want;
@@ -60,6 +60,14 @@ impl Said {
     #[cold]
     pub fn text(&mut self, text: &[u8], line: Line, want: &Want, shape: &Shape) {
         let program = shape.program;
+        if !program.settings.control().is_run() {
+            // beside the axes of a line it is a part of their move, as `R0 FMAX` is
+            let moves = |token: Token| matches!(token.kind, Kind::Word(letter, _) if shape.axis_bit(letter) != 0);
+            if want.cycle.is_none() && (!line.prints_axes(shape) || tokens(text).any(moves)) {
+                self.forget_motions(shape);
+            }
+            return;
+        }
         let Some(words) = words_of(text) else {
             match program.settings.control {
                 _ if want.cycle.is_some() => {}

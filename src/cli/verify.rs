@@ -7,7 +7,7 @@ use postform::diag::Severity;
 use postform::internals::verify::Verdict;
 use postform::{Error, Job, Proof, Proven};
 
-use super::args::{ControlArgs, VerifyArgs, VerifyFormat};
+use super::args::{ControlArgs, UnitsArg, VerifyArgs, VerifyFormat};
 use super::beside::{self, Printed};
 use super::config::Config;
 use super::files::{self, Again};
@@ -38,7 +38,8 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     };
     let by_config = config.control.filter(|_| prepared.is_none());
     let control = ControlArgs { control: args.control.control.or(by_config), ..args.control.clone() };
-    let proof = control.proof(args.tolerance);
+    let mut proof = control.proof(args.tolerance);
+    proof.units = args.options.units.map(UnitsArg::units);
     let mut job = files::job(&args.job, &args.read, false)?;
     let name = args.nc.as_deref().map_or("the program".to_owned(), files::name);
     let files = prepared.as_ref().map_or(&[][..], |prepared| prepared.post.files());

@@ -211,7 +211,7 @@ pub struct Program {
     pub speaks_g: bool,
     /// The form's own sequences switch the spindle along the path (torch, laser): none is generated between them.
     pub switches_spindle: bool,
-    /// How the form says its work offset, and which operations do.
+    /// How the form prints its work offset, and which operations do.
     pub work: WorkWords,
     /// What the form says of each letter, for programs in inches and in millimetres.
     pub letters: [LetterTable; 2],

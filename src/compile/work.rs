@@ -9,7 +9,7 @@ use crate::sema::{Formula, Values};
 pub struct WorkWord {
     /// The G code before it in its block.
     pub code: Option<Code>,
-    /// The letter of the word; `None`: the value stands behind a text.
+    /// The letter of the word; `None`: the value is printed after a text.
     pub letter: Option<u8>,
     /// The value is the number of a G code.
     pub is_code: bool,
@@ -51,7 +51,7 @@ impl WorkWords {
         })
     }
 
-    /// What a program calls the offset that the form says so: its code, its number, or the name of an additional one.
+    /// What a program calls the offset that the form prints so: its code, its number, or the name of an additional one.
     pub fn name(&self, values: &dyn Values, control: &Control) -> Option<f64> {
         let (way, value) = self.way(values, control)?;
         Some(if way.is_parameter(control) { additional_work(value) } else { value })

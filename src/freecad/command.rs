@@ -42,6 +42,16 @@ impl Words {
         self.values.iter().find(|(own, _)| *own == letter).map(|(_, value)| *value)
     }
 
+    /// The block as it was typed, its feed as `feed` has it.
+    pub fn block(&self, code: control::Code, feed: impl Fn(f64) -> f64) -> String {
+        let words = self.values.iter().map(|&(letter, value)| {
+            let value = if letter == b'F' { feed(value) } else { value };
+            // FreeCAD saves six decimals
+            format!(" {}{}", char::from(letter), (value * 1e6).round() / 1e6)
+        });
+        format!("{code}{}", words.collect::<String>())
+    }
+
     /// The first letter that is there and not among these.
     pub fn beyond(&self, known: &[u8]) -> Option<char> {
         self.values.iter().map(|(letter, _)| *letter).find(|letter| !known.contains(letter)).map(char::from)

@@ -4,6 +4,7 @@ use super::command::{Command, Return, Words};
 use super::cycles::{Cycle, Drilling, kind_of};
 use super::order::{Kind, Operation, Step};
 use super::wrong;
+use crate::control;
 use crate::diag::{Code, Location};
 use crate::toolpath::{
     Arc, Axes, Coolant, CycleKind, Direction, Event, FeedMode, First, Hold, Infeed, Place, Plane, Side, Sink, Spindle,
@@ -31,6 +32,8 @@ pub(super) struct Convert<'a, 'h, 's> {
     /// Compensation that the next move turns on (its side) or off.
     turning: Option<Option<Side>>,
     spindle: (Option<f64>, SpindleTurn),
+    /// A G code was printed as text: what moves after it mean is unknown, so that they are text too.
+    as_text: bool,
 }
 
 impl<'a, 'h, 's> Convert<'a, 'h, 's> {
@@ -80,6 +83,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
             side: None,
             turning: None,
             spindle,
+            as_text: false,
         })
     }
 
@@ -88,6 +92,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         self.place.item = line;
         let taken = match command {
             Command::Comment(text) => self.comment(text),
+            Command::Code(code, words) if self.is_text(*code, words) => self.text(*code, words),
             Command::Code(code, words) => self.code(code.letter, code.tenths, words).map_err(|mut stop| {
                 if let Stop::Wrong(diag) = &mut stop {
                     diag.message = format!("{code}: {}", diag.message);
@@ -114,6 +119,32 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
 
     fn push(&mut self, event: Event<'_>) -> Done {
         self.hold.push(event, self.place)
+    }
+
+    /// Is this a command that the user typed and no job has? A tool change and an end of the program stay errors.
+    fn is_text(&self, code: control::Code, words: &Words) -> bool {
+        let Some(Operation { typed: true, .. }) = self.operation else { return false };
+        let beyond = |known: &[u8]| words.beyond(known).is_some();
+        match (code.letter, code.tenths) {
+            (b'M', 20 | 60 | 300) => false,
+            _ if self.as_text => true,
+            (b'G', 0 | 10) => beyond(b"XYZABCF"),
+            (b'G', 20 | 30) => beyond(b"XYZIJKRF"),
+            (b'G', 40) => beyond(b"P"),
+            (b'G', 400 | 410 | 420) => beyond(b"D"),
+            (b'G', 170 | 180 | 190 | 800 | 900 | 980 | 990) | (b'M', 0 | 10 | 70 | 80 | 90) => beyond(b""),
+            (b'M', 30 | 40 | 50) => beyond(b"S"),
+            (b'G', tenths) => kind_of(tenths).is_none(),
+            _ => true,
+        }
+    }
+
+    /// Prints what the user typed.
+    fn text(&mut self, code: control::Code, words: &Words) -> Done {
+        let Some(operation) = self.operation else { return Ok(()) };
+        self.as_text |= code.letter == b'G';
+        self.position = [None; 6];
+        self.between(Event::Text(&words.block(code, |feed| operation.controller.feed(feed))))
     }
 
     fn code(&mut self, letter: u8, tenths: u16, words: &Words) -> Done {
@@ -207,7 +238,13 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
 
     fn spin(&mut self, speed: Option<f64>, turn: SpindleTurn) -> Done {
         if turn != SpindleTurn::Off && speed.is_none() {
-            return wrong(Code::PD004, "the spindle turns without a speed", "write it as `M3 S1000`");
+            let help = match self.operation {
+                Some(operation) => {
+                    format!("give {} a spindle speed in FreeCAD, or write `M3 S1000`", operation.controller.label)
+                }
+                None => "write it as `M3 S1000`".to_owned(),
+            };
+            return wrong(Code::PD004, "the spindle turns without a speed", help);
         }
         self.spindle = (speed, turn);
         self.between(Event::Spindle(Spindle { speed, turn: Some(turn), ..Spindle::default() }))
@@ -272,7 +309,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
 
     fn arc(&mut self, words: &Words, direction: Direction) -> Done {
         self.end_cycle()?;
-        self.only(words, b"XYZIJKF")?;
+        self.only(words, b"XYZIJKRF")?;
         if self.turning.is_some() {
             let help = "turn it on and off by straight moves";
             return wrong(Code::PD003, "cutter compensation is switched on an arc", help);
@@ -282,6 +319,9 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
             Plane::Xz => (0, 2, 1),
             Plane::Yz => (1, 2, 0),
         };
+        if let Some(radius) = words.get(b'R') {
+            return self.arc_by_radius(words, radius, direction);
+        }
         let offset = |axis: usize| words.get(b"IJK"[axis]).unwrap_or(0.0);
         if offset(third) != 0.0 || (offset(first), offset(second)) == (0.0, 0.0) {
             let help = "say the centre by I and J from the start of the arc (in G17)";
@@ -307,6 +347,17 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         }
         let feed = self.feed(words)?;
         let arc = Arc { to, center: Some(center), radius: None, direction, plane: self.plane, turns: 0 };
+        self.push(Event::Arc { arc: &arc, feed })
+    }
+
+    /// An arc as users type it: FreeCAD's own have centres.
+    fn arc_by_radius(&mut self, words: &Words, radius: f64, direction: Direction) -> Done {
+        if words.beyond(b"XYZRF").is_some() {
+            return wrong(Code::PD003, "an arc with a radius and a centre", "give one of them: I and J, or R");
+        }
+        let to = self.target(words);
+        let feed = self.feed(words)?;
+        let arc = Arc { to, center: None, radius: Some(radius), direction, plane: self.plane, turns: 0 };
         self.push(Event::Arc { arc: &arc, feed })
     }
 

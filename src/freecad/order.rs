@@ -38,6 +38,8 @@ pub(super) struct Operation {
     pub coolant: Coolant,
     /// The top of its holes: where it begins to cut.
     pub top: Option<f64>,
+    /// Its commands are typed by the user: those that no job has are printed as they stand.
+    pub typed: bool,
     /// What its author says of it.
     pub comment: Option<String>,
 }
@@ -218,5 +220,6 @@ fn operation(document: &Document, name: &str, object: &Object, label: &str) -> R
         _ => None,
     };
     let comment = object.text("Comment").filter(|text| !text.trim().is_empty()).map(str::to_owned);
-    Ok(Kind::Operation(Box::new(Operation { controller, coolant, top, comment }), 0.0))
+    let typed = object.class() == Some("ObjectCustom") || object.get("Gcode").is_some();
+    Ok(Kind::Operation(Box::new(Operation { controller, coolant, top, typed, comment }), 0.0))
 }

@@ -151,6 +151,8 @@ pub struct Proof {
     pub unpointed: Unpointed,
     /// How near places must be, in the job's units; else 0.0001 inch or 0.002 mm.
     pub tolerance: Option<f64>,
+    /// What a program counts in before its first code of units, where no form printed it; `None`: it must say so.
+    pub units: Option<Units>,
     /// A program that is not proven is not printed, either.
     pub required: bool,
 }

@@ -128,7 +128,8 @@ impl Proof {
     /// # Errors
     /// The job or the program can't be read, or the job is wrong. What is wrong with the program is in the verdict.
     pub fn verify(&self, job: Job<'_>, program: impl BufRead + Seek) -> Result<Proven, Error> {
-        prove(None, job, program, &Options::default(), self)
+        let options = Options { units: self.units, ..Options::default() };
+        prove(None, job, program, &options, self)
     }
 
     /// How the control runs a program that this form printed.

@@ -98,7 +98,7 @@ fn takes_back(var: VarId, due: f64, shape: &Shape, said: &mut Said, out: &mut Pr
     let Some((typed, line)) = said.take_typed(var) else { return };
     let letter = if var == VarId::Speed { char::from(shape.program.settings.speed_code) } else { 'M' };
     let message =
-        format!("the form prints {letter}{typed}, and the job says {letter}{due}, which is printed behind it");
+        format!("the form prints {letter}{typed}, and the job asks for {letter}{due}, which is printed after it");
     let help = "take the word out of the form, or let the job say nothing of it";
     out.note_at(Code::PR056, message, help, line);
 }
@@ -232,7 +232,7 @@ fn work_block(work: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut 
         }
         None if words.ways.is_empty() && !is_no_work(work, shape) => value_code(b'G', work, shape, want, said, out)?,
         Some(_) => {
-            let message = format!("the work offset changes to {work}, which the form says by a text");
+            let message = format!("the work offset changes to {work}, which the form prints as text");
             return fault(Code::PR017, message, "add the sequence `WorkChange` with that text");
         }
         None => {

@@ -302,7 +302,7 @@ impl Want {
         Ok(())
     }
 
-    /// Another tool, and the job says nothing of its coolant: what the job had on is off, and the form may turn some on itself.
+    /// Another tool, and the job has no coolant for it: what the job had on is off, and the form may turn some on itself.
     pub fn coolant_unsaid(&mut self, shape: &Shape) -> Done {
         self.set_coolant(Coolant::OFF, shape)?;
         self.coolant_is_said = false;

@@ -26,7 +26,7 @@ pub struct Expectation {
     pub first_work: f64,
     /// Work offset that holds before the job names one.
     pub work: Option<f64>,
-    /// How the form says offsets, and the control whose codes it has.
+    /// How the form prints offsets, and the control whose codes it has.
     pub(super) work_words: Option<(WorkWords, &'static Control)>,
     /// How much is added to a tool's number for its length and diameter registers, where the job names none.
     pub registers: Option<[f64; 2]>,

@@ -167,7 +167,7 @@ fn codes_of_kinds_that_are_typed_are_said() {
     assert_eq!(codes(&form(KINDS, lines), &two), ["M88", "M89", "M8"]);
 }
 
-/// What a form turns on stands where the job says nothing of coolant; what the job had on ends with its tool.
+/// What a form turns on stands where the job has no coolant; what the job had on ends with its tool.
 #[test]
 fn the_forms_own_coolant_stands() {
     let silent = |jobs: &[(u32, &str, &str)]| job(jobs).replace("\"coolant\":\"none\",", "");
@@ -184,7 +184,7 @@ fn the_forms_own_coolant_stands() {
     assert!(rendered.text.contains("M8\n") && rendered.text.contains("\nM9\n"), "{}", rendered.text);
     let told: Vec<_> = rendered.notes.iter().map(|note| (note.code.name(), note.labels.len())).collect();
     assert_eq!(told, [("PR056", 1)]);
-    assert_eq!(rendered.notes[0].message, "the form prints M8, and the job says M9, which is printed behind it");
+    assert_eq!(rendered.notes[0].message, "the form prints M8, and the job asks for M9, which is printed after it");
 }
 
 /// A speed that the tool change prints stands until the job gives another one.

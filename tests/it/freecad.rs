@@ -10,6 +10,7 @@ use postform::toolpath::{Axes, Coolant, CycleSpec, Event, Flow, Place, ReadError
 use serde_json::Value;
 
 use crate::support;
+use crate::support::folder::{Folder, err, out};
 use crate::support::nc::Call;
 
 const DOCUMENTS: [&str; 5] = ["bracket-0.20", "by-tool-0.20", "inch-names-0.20", "holes-1.1", "dressups-1.1"];
@@ -359,6 +360,50 @@ impl Sink for Lenient<'_> {
             event => self.0.event(event, place),
         }
     }
+}
+
+/// A document whose operation the user typed: FreeCAD's Custom.
+fn typed(path: &str) -> Vec<u8> {
+    let mut operation = OPERATION.to_vec();
+    operation.push(("Gcode", "<StringList><String value=\"\"/></StringList>"));
+    let text = document(&[("Job", JOB), ("Operations", OPERATIONS), ("Op", &operation), ("Tool", TOOL)]);
+    archive(&[("Document.xml", text.as_bytes()), ("Op.nc", path.as_bytes())])
+}
+
+/// What no job has is printed as it was typed; after a G code it is unknown what the rest means, so that it is text too.
+#[test]
+fn a_custom_operation_prints_what_was_typed() {
+    let folder = Folder::new("freecad-custom");
+    let form = support::root().join("postforms/linuxcnc.pf");
+    let form = form.to_str().unwrap();
+    let post = |rest: &str, more: &[&str]| {
+        folder.write("job.FCStd", typed(&format!("G0 X1 Y1 Z5\n{rest}\nG0 Z50\n")));
+        let output = folder.run(&[&["render", "job.FCStd", "--form", form, "--set", "header=off"], more].concat());
+        out(&output) + &err(&output)
+    };
+    // feeds are millimetres a second in the document
+    for (rest, printed) in [
+        ("M64 P1", "\nM64 P1\nG0 X1. Y1. Z50.\n"),
+        ("G38.2 Z-10 F2", "\nG38.2 Z-10 F120\nG0 Z50\n"),
+        ("G53 X0", "\nG53 X0\nG0 Z50\n"),
+        ("G1 X2 P3 F2", "\nG1 X2 P3 F120\nG0 Z50\n"),
+    ] {
+        let said = post(rest, &[]);
+        assert!(said.contains(printed), "{rest}: {said}");
+    }
+    assert!(post("M64 P1", &[]).contains("identical"));
+    assert!(post("G2 X3 Y3 R2 F2", &[]).contains(" G2 X3. Y3. I2. J0 F120.\n"), "{}", post("G2 X3 Y3 R2 F2", &[]));
+    // text is not converted
+    let said = post("G53 X5", &["--units", "inch"]);
+    assert!(said.contains("PR035") && said.contains("the text has X5 in the units of the job"), "{said}");
+    let none = &Options::default();
+    for code in ["M6 T2", "M2", "M30"] {
+        assert!(refused(&typed(code), none).starts_with("PD003"), "{code}");
+    }
+    // FreeCAD's own operations have no such commands
+    assert!(refused(&with_path("M64 P1"), none).starts_with("PD003 M64: a command that no job can say"));
+    assert!(refused(&with_path("G91 X1"), none).starts_with("PD003"));
+    assert!(refused(&typed("G2 X3 Y3 I1 R1"), none).starts_with("PD003 G2: an arc with a radius and a centre"));
 }
 
 #[test]

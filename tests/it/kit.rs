@@ -80,3 +80,20 @@ fn a_lathe_cuts_threads_in_both_units() {
     assert!(lines.iter().any(|line| line.contains("G21")), "{lines:#?}");
     assert!(said.contains("identical") || said.contains("equivalent"), "{said}");
 }
+
+/// A program that never says its units is not proven without `--units`, and different in the others.
+#[test]
+fn the_units_of_a_program_are_said_by_it_or_by_an_option() {
+    let folder = Folder::new("kit-units");
+    let job = mill("{\"line\":[10,0,-1]}");
+    folder.write("job.json", &job);
+    let (lines, _) = printed("units", "haas.pf", &job);
+    folder.write("job.nc", lines.join("\n").replace("G21 ", ""));
+    let verify = |more: &[&str]| {
+        let output = folder.run(&[&["verify", "job.json", "--nc", "job.nc", "--control", "haas"], more].concat());
+        out(&output) + &err(&output)
+    };
+    assert!(verify(&[]).contains("PV022"), "{}", verify(&[]));
+    assert!(verify(&["--units", "mm"]).contains("identical"), "{}", verify(&["--units", "mm"]));
+    assert!(verify(&["--units", "inch"]).contains("different"), "{}", verify(&["--units", "inch"]));
+}

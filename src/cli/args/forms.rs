@@ -48,7 +48,7 @@ pub struct LintArgs {
     /// Forms, folders of forms, or - for standard input
     #[arg(required = true, value_name = "FORM")]
     pub forms: Vec<PathBuf>,
-    /// Mend what can be mended without changing any program
+    /// Fix what can be fixed without changing any program
     #[arg(long)]
     pub fix: bool,
     /// Show what the other fixes change in a program; with --fix, make them
@@ -66,7 +66,7 @@ pub struct LintArgs {
     /// Which post of a form that holds several, by its Name
     #[arg(long, value_name = "NAME", conflicts_with = "fix")]
     pub post: Option<String>,
-    /// Report anew whenever a form is changed
+    /// Report again whenever a form is changed
     #[arg(long, conflicts_with_all = ["fix", "unsafe_fixes"])]
     pub watch: bool,
 }

@@ -258,7 +258,7 @@ pub struct RenderArgs {
     /// Print the program only if it is proven: `not proven` is not enough
     #[arg(long, alias = "verify", conflicts_with_all = ["no_verify", "stream"])]
     pub require_proof: bool,
-    /// Print anew whenever the form or the job is changed
+    /// Print again whenever the form or the job is changed
     #[arg(long)]
     pub watch: bool,
     /// How the program is run to prove it

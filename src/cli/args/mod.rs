@@ -48,7 +48,7 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Draw the backplot of a job's program, or of a program that is there
     Plot(PlotArgs),
-    /// Show form, program and backplot in a browser, anew with every change
+    /// Show form, program and backplot in a browser, again with every change
     Watch(WatchArgs),
     /// Write forms in the canonical layout
     Fmt(FmtArgs),

@@ -22,13 +22,21 @@ pub fn verbatim(text: &str, shape: &Shape, want: &mut Want, said: &mut Said, out
         let message = "the text is a lone `%`, at which a control takes the program to be over";
         return fault(diag::Code::PR035, message, "take it out: StartCode and EndCode print it");
     }
+    let words = words_of(text.as_bytes()).unwrap_or_default();
+    let is_length = |word: &&TextWord| b"XYZUVWIJKRQF".contains(&word.letter) && word.value != 0.0;
+    if let Some(TextWord { letter, value }) = words.iter().find(is_length).filter(|_| shape.scale != 1.0) {
+        let message =
+            format!("the text has {}{value} in the units of the job, and the program has others", char::from(*letter));
+        let help = "render with `--units` of the job: text is printed as it stands";
+        return fault(diag::Code::PR035, message, help);
+    }
     said.stand.fresh_tool = None;
     if text.trim().is_empty() {
         return Ok(()); // an empty block is not printed
     }
     settle_between_moves(shape, want, said, out)?;
     said.text(text.as_bytes(), Line::NONE, want, shape);
-    for TextWord { letter, value } in words_of(text.as_bytes()).unwrap_or_default() {
+    for TextWord { letter, value } in words {
         if letter == b'S' {
             want.set(VarId::Speed, value);
         } else if let Some(code) = Code::of(letter, value) {

@@ -158,6 +158,10 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
                 "error: {name} is a job, no form\n  help: `postform check {name}` looks at jobs; of `postform render JOB --form FORM` the job comes first"
             ))
         }
+        Ok(_) if bytes.trim_ascii_start().starts_with(b"%") => {
+            let name = name(path);
+            Err(format!("error: {name} is an NC program, no form\n  help: `postform simulate {name}` runs programs"))
+        }
         // what comes of it would be written back by a fix
         Ok(_) if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") => {
             Err(format!("error: {} is UTF-16\n  help: save it as UTF-8: forms are plain text", name(path)))

@@ -391,6 +391,11 @@ fn named(
     if let Some((_, value)) = names.iter().find(|(name, _)| name.eq_ignore_ascii_case(word)) {
         return Some((Formula::Number(*value), Kind::Number));
     }
+    if VarId::parse(word).is_some() {
+        let message = format!("`{word}` is a variable and has no brackets");
+        diags.push(Diag::new(Code::PF706, message).at(span, "a word").help(format!("write `[{word}]`")));
+        return None;
+    }
     let shown = match beside {
         Formula::Var(var) => format!("[{}]", var.name()),
         _ => "what it is compared with".to_owned(),

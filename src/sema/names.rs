@@ -48,6 +48,11 @@ pub fn variable(name: &Spanned, settings: &Settings, diags: &mut Vec<Diag>) -> O
         diag.help = other.map(|(_, own)| format!("it is called `{own}`")).or_else(|| did_you_mean(&name.text, known));
         if name.text.split_once(':').is_some_and(|(name, _)| VarId::parse(name).is_some()) {
             diag.help = Some("only texts have a width: that of a number comes from its letter's format".into());
+        } else if let Some(base) = name.text.strip_suffix("^2").filter(|base| VarId::parse(base).is_some()) {
+            diag.help = Some(format!("a power is a product: `[{base}*{base}]`"));
+        } else if name.text.starts_with('#') {
+            diag.help =
+                Some(format!("a variable of the control stands in backquotes with its letter: `` `X{}` ``", name.text));
         } else if diag.help.is_none() {
             diag.help = Some(no_name(&name.text));
         }

@@ -135,8 +135,10 @@ impl<R: BufRead + Seek> Sides<R> {
                 self.unproven(why, help, line)
             }
             Err(RunError::Refused(diag, line)) => {
-                let message = format!("the control refuses the program: {} ({})", diag.message, diag.code.name());
-                self.differs(Code::PV015, line, message, "see what simulate says of the program")
+                let control = self.program.control().name();
+                let message = format!("{control} refuses the program: {} ({})", diag.message, diag.code.name());
+                let help = "`postform simulate PROGRAM --control NAME` shows the block and what to write";
+                self.differs(Code::PV015, line, message, help)
             }
             Err(RunError::Io(error)) if error.kind() == std::io::ErrorKind::Unsupported => {
                 let told =

@@ -345,6 +345,7 @@ fn right_forms_are_left_alone() {
         ("", "Tap\nG77 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd".into()),
         ("", "Tap\nG95 G[retplane] G84 X[h] Y[v] Z[d] R[vclear] F[pitch]\nEnd Cancel\nCancel\nG80 G94\nEnd".into()),
         ("", "Drill   118 deg\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel".into()),
+        ("", "Custom1   Own way of Kim\nG[retplane] G82 X[h] Y[v] Z[d] R[vclear] P[dwell] F[frate]\nEnd Cancel".into()),
         ("", "BeginRow\nIF GO TO 5\nCALL OO88\nEnd".into()),
         ("lathe", "Peck\nG74 R0.02\nG74 Z[d] Q[vbite*10000] F[frate]\nEnd".into()),
         ("", "Spindle M3 M4 M5\nRapid G00\n\nBeginRow\nM8\nEnd".into()),

@@ -131,8 +131,11 @@ fn slips_on_the_command_line() {
     let folder = folder("slips-line");
     fs::write(folder.join("haas.pf"), plain_post("haas.pf")).unwrap();
     fs::write(folder.join("job.json"), job("{\"line\":[1,0,0]}")).unwrap();
-    let table: [(&[&str], &str); 4] = [
+    fs::write(folder.join("part.nc"), "%\nO1\nM30\n%\n").unwrap();
+    let table: [(&[&str], &str); 6] = [
         (&["lint", "job.json"], "job.json is a job, no form"),
+        (&["lint", "part.nc"], "part.nc is an NC program, no form"),
+        (&["render", "job.json", "--form", "part.nc"], "`postform simulate part.nc` runs programs"),
         (&["check", "haas.pf"], "`postform lint haas.pf` looks at forms"),
         (&["render", "job.json", "--form", "has.pf"], "the forms there: haas.pf"),
         (&["render", "haas.pf", "--form", "job.json"], "the job comes first"),

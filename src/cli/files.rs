@@ -158,7 +158,7 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
                 "error: {name} is a job, no form\n  help: `postform check {name}` looks at jobs; of `postform render JOB --form FORM` the job comes first"
             ))
         }
-        Ok(_) if bytes.trim_ascii_start().starts_with(b"%") => {
+        Ok(_) if !is_form(path) && bytes.trim_ascii_start().starts_with(b"%") => {
             let name = name(path);
             Err(format!("error: {name} is an NC program, no form\n  help: `postform simulate {name}` runs programs"))
         }

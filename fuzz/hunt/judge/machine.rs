@@ -216,11 +216,13 @@ impl Machine {
         let mut machine_place = false;
         let mut reference = false;
         let mut dwell = false;
+        let mut rigid = false;
         let mut motion = None;
         for &(letter, number) in list {
             if letter == b'G' {
                 match number {
                     0.0 | 1.0 | 2.0 | 3.0 => motion = Some(number),
+                    33.1 if self.family == Family::Linuxcnc => rigid = true,
                     4.0 => dwell = true,
                     17.0 | 18.0 | 19.0 => self.plane = number,
                     20.0 => self.units(INCH),
@@ -265,6 +267,8 @@ impl Machine {
             self.act(line, What::Dwell(seconds), at);
         } else if reference {
             self.reference(&block, line);
+        } else if rigid {
+            self.rigid_tap(&block, line)?;
         } else {
             self.moves(&block, motion, machine_place, line)?;
         }

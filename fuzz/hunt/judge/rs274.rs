@@ -64,6 +64,7 @@ fn acts(calls: &str) -> Vec<Act> {
     let mut at: Place = [f64::NAN, f64::NAN, f64::NAN, 0.0, 0.0, 0.0];
     let mut state = State { direction: 5.0, side: (40.0, 0.0), feed: (f64::NAN, 94.0), work: 54.0, ..State::default() };
     let mut plane = 17.0;
+    let mut pitch = 0.0;
     let mut acts = Vec::new();
     for line in calls.lines() {
         let Some((head, rest)) = line.split_once('(') else { continue };
@@ -107,6 +108,20 @@ fn acts(calls: &str) -> Vec<Act> {
                 } else {
                     17.0
                 };
+                continue;
+            }
+            "START_SPEED_FEED_SYNC" => {
+                pitch = number(0) * scale;
+                continue;
+            }
+            // down with the spindle, and back up to where it began
+            "RIGID_TAP" => {
+                for (axis, place) in to.iter_mut().enumerate().take(3) {
+                    *place = number(axis) * scale;
+                }
+                let state = State { feed: (pitch * state.speed, 94.0), ..state };
+                acts.push(Act { line: 0, what: What::Feed, from: at, to, state });
+                acts.push(Act { line: 0, what: What::Feed, from: to, to: at, state });
                 continue;
             }
             "DWELL" => What::Dwell(number(0)),

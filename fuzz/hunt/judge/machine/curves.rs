@@ -34,6 +34,21 @@ impl Machine {
         Ok(())
     }
 
+    /// G33.1 of LinuxCNC: down with the spindle and back up to where it began, K a turn.
+    pub(super) fn rigid_tap(&mut self, block: &Block<'_>, line: usize) -> Result<(), String> {
+        let pitch = block.get(b'K').ok_or("G33.1 without K")? * self.scale;
+        if self.state.direction == 5.0 || self.state.speed <= 0.0 {
+            return Err("G33.1 with the spindle off".into());
+        }
+        let (from, feed) = (self.at, self.state.feed);
+        let to = self.target(block, false);
+        self.state.feed = (pitch * self.state.speed, 94.0);
+        self.act(line, What::Feed, to);
+        self.act(line, What::Feed, from);
+        self.state.feed = feed;
+        Ok(())
+    }
+
     pub(super) fn hole(&mut self, block: &Block<'_>, line: usize) -> Result<(), String> {
         let (scale, absolute, here) = (self.scale, self.absolute, self.at);
         let to = self.target(block, false);

@@ -12,11 +12,11 @@ use crate::nc::{Kind, tokens};
 struct Found {
     op: usize,
     word: WorkWord,
-    /// A code, or the parameter of one that selects offsets; a word of its own; a value behind a text: only the best of a form say it.
+    /// A code, or the parameter of one that selects offsets; a word of its own; a value after a text. Only the best of these in a form counts.
     rank: u8,
 }
 
-/// How a form says its work offset. The tool changes know best.
+/// How a form prints its work offset. The tool changes come first.
 pub(super) fn find_work(program: &Program) -> WorkWords {
     let is_line = |at: usize| program.ops.get(at).is_none_or(|op| matches!(op, Op::Line { .. }));
     let mut found = Vec::new();

@@ -1,10 +1,10 @@
-//! How a form says a work offset: by G codes, by words of its own, whose values may be calculated, or behind a text.
+//! How a form prints a work offset: by G codes, by words of its own, whose values may be calculated, or after a text.
 
 use crate::control::{Code, Control, Group};
 use crate::lang::{VarId, additional_work};
 use crate::sema::{Formula, Values};
 
-/// One way in which a form says its work offset: `G[work]`, `G154 P[work]`, `G15 H[work]`, `E[work]`, `[work]` behind a text.
+/// One way in which a form prints its work offset: `G[work]`, `G154 P[work]`, `G15 H[work]`, `E[work]`, `[work]` after a text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorkWord {
     /// The G code before it in its block.
@@ -17,7 +17,7 @@ pub struct WorkWord {
     pub(super) calculated: Option<Formula>,
 }
 
-/// How a form says its work offset, and where. An argument of a macro, of a subprogram or of G10 is none of it.
+/// How a form prints its work offset, and where. An argument of a macro, of a subprogram or of G10 is none of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WorkWords {
     /// The ways, those of the tool changes first; none: G codes say it, or nothing.

@@ -16,7 +16,20 @@ type Done<T = ()> = Result<T, Stop>;
 /// Letters of the six axes.
 const AXES: &[u8; 6] = b"XYZABC";
 
-/// A step that is being read. Each begins anew: nothing is known of where the step before left the tool.
+/// The words that a command may have. `None`: no job has the command, or it is a cycle, which reads its own.
+fn words_of(letter: u8, tenths: u16) -> Option<&'static [u8]> {
+    Some(match (letter, tenths) {
+        (b'G', 0 | 10) => b"XYZABCF", // F of a rapid is the machine's affair
+        (b'G', 20 | 30) => b"XYZIJKRF",
+        (b'G', 40) => b"P",
+        (b'G', 400 | 410 | 420) => b"D", // the register is the tool's
+        (b'G', 170 | 180 | 190 | 800 | 900 | 980 | 990) | (b'M', 0 | 10 | 70 | 80 | 90) => b"",
+        (b'M', 30 | 40 | 50) => b"S",
+        _ => return None,
+    })
+}
+
+/// A step that is being read. The position where the step before left the tool is unknown.
 pub(super) struct Convert<'a, 'h, 's> {
     label: &'a str,
     /// Comments and stops have none.
@@ -124,18 +137,11 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
     /// Is this a command that the user typed and no job has? A tool change and an end of the program stay errors.
     fn is_text(&self, code: control::Code, words: &Words) -> bool {
         let Some(Operation { typed: true, .. }) = self.operation else { return false };
-        let beyond = |known: &[u8]| words.beyond(known).is_some();
         match (code.letter, code.tenths) {
             (b'M', 20 | 60 | 300) => false,
             _ if self.as_text => true,
-            (b'G', 0 | 10) => beyond(b"XYZABCF"),
-            (b'G', 20 | 30) => beyond(b"XYZIJKRF"),
-            (b'G', 40) => beyond(b"P"),
-            (b'G', 400 | 410 | 420) => beyond(b"D"),
-            (b'G', 170 | 180 | 190 | 800 | 900 | 980 | 990) | (b'M', 0 | 10 | 70 | 80 | 90) => beyond(b""),
-            (b'M', 30 | 40 | 50) => beyond(b"S"),
-            (b'G', tenths) => kind_of(tenths).is_none(),
-            _ => true,
+            (b'G', tenths) if kind_of(tenths).is_some() => false,
+            (letter, tenths) => words_of(letter, tenths).is_none_or(|known| words.beyond(known).is_some()),
         }
     }
 
@@ -148,39 +154,31 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
     }
 
     fn code(&mut self, letter: u8, tenths: u16, words: &Words) -> Done {
+        if let Some(known) = words_of(letter, tenths) {
+            self.only(words, known)?;
+        }
         match (letter, tenths) {
-            (b'G', 0) => {
-                self.only(words, b"XYZABCF")?; // F of a rapid is the machine's affair
-                self.rapid(words)
-            }
-            (b'G', 10) => {
-                self.only(words, b"XYZABCF")?;
-                self.line(words)
-            }
+            (b'G', 0) => self.rapid(words),
+            (b'G', 10) => self.line(words),
             (b'G', 20) => self.arc(words, Direction::Cw),
             (b'G', 30) => self.arc(words, Direction::Ccw),
-            (b'G', 40) => {
-                self.only(words, b"P")?;
-                match words.get(b'P').filter(|seconds| *seconds >= 0.0) {
-                    Some(seconds) => self.between(Event::Dwell(seconds)),
-                    None => wrong(Code::PD003, "a dwell without its seconds P", "write it as `G4 P0.5`"),
-                }
-            }
+            (b'G', 40) => match words.get(b'P').filter(|seconds| *seconds >= 0.0) {
+                Some(seconds) => self.between(Event::Dwell(seconds)),
+                None => wrong(Code::PD003, "a dwell without its seconds P", "write it as `G4 P0.5`"),
+            },
             (b'G', 170 | 180 | 190) => {
                 self.plane = [Plane::Xy, Plane::Xz, Plane::Yz][usize::from(tenths / 10 - 17)];
-                self.only(words, b"")
+                Ok(())
             }
             (b'G', 400 | 410 | 420) => {
-                self.only(words, b"D")?; // the register is the tool's
                 self.compensation([None, Some(Side::Left), Some(Side::Right)][usize::from(tenths / 10 - 40)])
             }
-            (b'G', 800) => {
-                self.only(words, b"")?;
-                self.end_cycle()
+            (b'G', 800) => self.end_cycle(),
+            (b'G', 900) => Ok(()), // positions are absolute
+            (b'G', 980 | 990) => {
+                self.returns = if tenths == 980 { Return::Before } else { Return::Clearance };
+                Ok(())
             }
-            (b'G', 900) => self.only(words, b""), // places are absolute
-            (b'G', 980) => self.returns(Return::Before, words),
-            (b'G', 990) => self.returns(Return::Clearance, words),
             (b'G', tenths) if kind_of(tenths).is_some() => match kind_of(tenths) {
                 Some(kind) => self.hole(kind, words),
                 None => Ok(()),
@@ -188,12 +186,10 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
             (b'M', 0) => self.between(Event::Stop(StopKind::Program)),
             (b'M', 10) => self.between(Event::Stop(StopKind::Optional)),
             (b'M', 30 | 40 | 50) => {
-                self.only(words, b"S")?;
                 let turn = [SpindleTurn::Cw, SpindleTurn::Ccw, SpindleTurn::Off][usize::from(tenths / 10 - 3)];
                 self.spin(words.get(b'S').filter(|speed| *speed > 0.0).or(self.spindle.0), turn)
             }
             (b'M', 70 | 80 | 90) => {
-                self.only(words, b"")?;
                 let coolant = [Coolant::MIST, Coolant::FLOOD, Coolant::OFF][usize::from(tenths / 10 - 7)];
                 self.between(Event::Coolant(coolant))
             }
@@ -229,11 +225,6 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
     fn between(&mut self, event: Event<'_>) -> Done {
         self.end_cycle()?;
         self.push(event)
-    }
-
-    fn returns(&mut self, returns: Return, words: &Words) -> Done {
-        self.returns = returns;
-        self.only(words, b"")
     }
 
     fn spin(&mut self, speed: Option<f64>, turn: SpindleTurn) -> Done {
@@ -309,7 +300,6 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
 
     fn arc(&mut self, words: &Words, direction: Direction) -> Done {
         self.end_cycle()?;
-        self.only(words, b"XYZIJKRF")?;
         if self.turning.is_some() {
             let help = "turn it on and off by straight moves";
             return wrong(Code::PD003, "cutter compensation is switched on an arc", help);

@@ -13,7 +13,7 @@ pub fn work_code(first: f64, work: f64) -> Option<f64> {
     }
 }
 
-/// What an offset is called that is selected by its number behind a code, as `G54.1 P1` or `G154 P1`.
+/// What an offset is called that is selected by its number after a code, as `G54.1 P1` or `G154 P1`.
 pub fn additional_work(number: f64) -> f64 {
     const FIRST: f64 = 1540.0;
     FIRST + number

@@ -114,6 +114,21 @@ impl State {
         }
     }
 
+    /// The words of these axes say where the next hole is: by a position or an increment.
+    pub(super) fn move_over(&mut self, axes: &[usize], block: &Block, at: &mut [f64; 6]) {
+        for &axis in axes {
+            if let Some(value) = self.axis_word(block, axis) {
+                if self.modes.absolute {
+                    at[axis] = value;
+                    self.place.given(axis);
+                } else {
+                    at[axis] += value;
+                    self.place.moves_by(axis, value);
+                }
+            }
+        }
+    }
+
     fn go_to_hole_of_linuxcnc(&mut self, work: &mut Work, block: &Block, out: &mut Out<'_>) -> Done {
         let [first, second, across] = axes_of(self.modes.plane);
         let (begun, level) = (work.begun, work.level);
@@ -125,17 +140,7 @@ impl State {
             self.place.position = held;
             done?;
         }
-        for axis in [first, second] {
-            if let Some(value) = self.axis_word(block, axis) {
-                if self.modes.absolute {
-                    at[axis] = value;
-                    self.place.given(axis);
-                } else {
-                    at[axis] += value;
-                    self.place.moves_by(axis, value);
-                }
-            }
-        }
+        self.move_over(&[first, second], block, at);
         let hole = work.hole;
         self.announce(&hole, out);
         out.by_cycle = true;

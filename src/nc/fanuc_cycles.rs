@@ -137,18 +137,7 @@ impl State {
 
     pub(super) fn go_to_hole_of_fanuc(&mut self, work: &mut Work, block: &Block, out: &mut Out<'_>) {
         let [first, second, across] = axes_of(self.modes.plane);
-        let at = &mut work.hole.at;
-        for axis in [first, second, 3, 4, 5] {
-            if let Some(value) = self.axis_word(block, axis) {
-                if self.modes.absolute {
-                    at[axis] = value;
-                    self.place.given(axis);
-                } else {
-                    at[axis] += value;
-                    self.place.moves_by(axis, value);
-                }
-            }
-        }
+        self.move_over(&[first, second, 3, 4, 5], block, &mut work.hole.at);
         let hole = work.hole;
         self.announce(&hole, out);
         out.by_cycle = true;

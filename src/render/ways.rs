@@ -105,7 +105,7 @@ fn holds(condition: &Formula, span: Span, now: &Now) -> bool {
     }
 }
 
-/// Does a condition ask which tools come, and nobody has said it? Properties alone may decide it all the same.
+/// Does a condition ask which tools come, and is that unknown yet? Properties alone may decide it too.
 fn asks_unknown_order(condition: &Formula, now: &Now) -> bool {
     now.want.tool_order.is_none()
         && now.want.tool_changes > 0

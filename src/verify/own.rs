@@ -47,7 +47,7 @@ impl Own {
         }
     }
 
-    /// What a program calls the work offset that the form says for this one of the job.
+    /// The number or code in the program of a work offset of the job.
     pub(super) fn work(&self, work: f64, words: &WorkWords, control: &Control) -> f64 {
         let values = OfJob { wanted: work, properties: &self.properties };
         words.name(&values, control).unwrap_or(work)

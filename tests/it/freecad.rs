@@ -403,6 +403,9 @@ fn a_custom_operation_prints_what_was_typed() {
     // FreeCAD's own operations have no such commands
     assert!(refused(&with_path("M64 P1"), none).starts_with("PD003 M64: a command that no job can say"));
     assert!(refused(&with_path("G91 X1"), none).starts_with("PD003"));
+    // a stop takes no words, and none is lost
+    assert!(refused(&with_path("M1 P5"), none).starts_with("PD003 M1: a word P that no job can say"));
+    assert!(post("M1 P5", &[]).contains("M1 P5"), "{}", post("M1 P5", &[]));
     assert!(refused(&typed("G2 X3 Y3 I1 R1"), none).starts_with("PD003 G2: an arc with a radius and a centre"));
 }
 

@@ -64,7 +64,7 @@ impl Body<'_, '_> {
         }
     }
 
-    /// A calculated value without a letter: behind a text it may say a condition, too.
+    /// A calculated value without a letter: after a text it may print a condition too.
     pub(super) fn bare_formula(&mut self, index: u32, glued: bool) -> Done {
         let Some(value) = self.calculated(index, b' ')? else { return Ok(()) };
         let condition = self.condition_of(self.shape.program.formulas[index as usize].vars(), b' ')?;

@@ -106,7 +106,7 @@ impl Said {
         self.speed_word(letter, value, line, want, shape);
     }
 
-    /// A word behind the slash of block delete: whether the control reads it is unknown, and so is what it sets.
+    /// A word after the slash of block delete: whether the control reads it is unknown, and so is what it sets.
     fn skipped_word(&mut self, word: TextWord, line: Line, want: &Want, shape: &Shape) {
         let TextWord { letter, value } = word;
         self.speed_word(letter, value, line, want, shape);

@@ -38,6 +38,8 @@ pub enum Action {
         lead: Option<f64>,
         /// Axes whose position only the machine knows, as bits.
         machine: u8,
+        /// Those of them that this move takes to a place in machine coordinates (G53 under G1).
+        home: u8,
     },
     /// An arc or helix at feed.
     Arc(Turn),

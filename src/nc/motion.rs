@@ -134,7 +134,7 @@ impl State {
             self.place.rapid_to(to, out);
         } else {
             let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
-            self.place.feed_to(to, feed, None, out);
+            self.place.feed_home(to, named, feed, out);
         }
         Ok(())
     }

@@ -77,7 +77,13 @@ impl Place {
     #[inline]
     pub fn feed_to(&mut self, to: Position, feed: f64, lead: Option<f64>, out: &mut Out<'_>) {
         self.position = to;
-        out.push(Action::Feed { to, feed, lead, machine: self.at_machine });
+        out.push(Action::Feed { to, feed, lead, machine: self.at_machine, home: 0 });
+    }
+
+    /// A feed move that takes these axes to a place of the machine.
+    pub fn feed_home(&mut self, to: Position, axes: u8, feed: f64, out: &mut Out<'_>) {
+        self.position = to;
+        out.push(Action::Feed { to, feed, lead: None, machine: self.at_machine, home: axes });
     }
 
     /// Changes the frames; the tool stays where it is.

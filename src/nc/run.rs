@@ -55,7 +55,7 @@ impl State {
             self.set_up(block, motion, &mut out)?;
         }
         if block.g_meaning(Group::Once) == Some(Meaning::Machine)
-            && (block.has_axes() || self.control.is_linuxcnc())
+            && (block.has_axes() || matches!(motion, Some(20 | 30)) || self.control.is_linuxcnc())
             && (!matches!(motion, Some(0 | 10)) || in_force.is_some() || begins_cycle(block))
         {
             return refuse(Code::PN006, "G53 without G0 or G1", "write G0 with it, and end a cycle with G80 before");

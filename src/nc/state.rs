@@ -62,6 +62,8 @@ pub(super) struct Drive {
 pub(super) struct Tool {
     /// What T said last.
     pub number: Option<f64>,
+    /// The tool in the spindle: what M6 loaded.
+    pub loaded: Option<f64>,
     /// A tool length offset is on.
     pub length_on: bool,
     /// Side of the path on which the tool is; `None`: cutter compensation is off.

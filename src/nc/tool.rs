@@ -127,6 +127,7 @@ impl State {
             self.place.goes_home(0b100);
         }
         self.drive.spindle = Rotation::Stop;
+        self.tool.loaded = Some(tool);
         out.push(Action::Tool(tool));
         Ok(())
     }
@@ -157,7 +158,7 @@ impl State {
         // LinuxCNC takes the tool's own diameter where no register is named
         let register = match row.code.tenths {
             411 | 421 => None, // a diameter, and no register
-            _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.number),
+            _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.loaded),
             _ => self.tool.diameter_register,
         };
         if register.is_none() && !self.control.is_linuxcnc() && self.control.traits().turns == Turns::Tool {
@@ -200,7 +201,8 @@ impl State {
             }
             _ => {
                 let number = row.code.tenths;
-                let register = block.get(b'H').or(self.tool.number);
+                // LinuxCNC takes the length of the tool in the spindle, whatever T has chosen since
+                let register = block.get(b'H').or(self.tool.loaded);
                 if block.get(b'H').is_none() && !self.control.is_linuxcnc() {
                     let help = "write H with the tool's register: G43 H1";
                     return refuse(Code::PN007, "a tool length offset without H", help);

@@ -95,7 +95,7 @@ impl Pen {
         self.registers.act(line, &item.action, &mut self.picture.changes);
         match &item.action {
             Action::Rapid { to, machine, .. } => self.go(item, Kind::Rapid, self.place(to, *machine), u32::MAX),
-            Action::Feed { to, .. } => self.go(item, Kind::Feed, self.place(to, 0), u32::MAX),
+            Action::Feed { to, home, .. } => self.go(item, Kind::Feed, self.place(to, *home), u32::MAX),
             Action::Arc(turn) => {
                 let to = self.place(&turn.to, 0);
                 let arc = self.picture.arcs.len() as u32;

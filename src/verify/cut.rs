@@ -160,6 +160,8 @@ pub(super) struct Cut {
     pub from: Place,
     /// Axes of `from` that only the machine knows.
     pub unknown: u8,
+    /// Axes that the cut takes to a place of the machine (G53 under G1).
+    pub home: u8,
     pub what: What,
     pub feed: Option<f64>,
     pub mode: FeedMode,

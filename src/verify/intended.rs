@@ -318,6 +318,7 @@ impl Job {
         Cut {
             from: self.whole(&self.at),
             unknown: self.unknown(),
+            home: 0,
             what,
             feed: self.feed,
             mode: self.mode,

@@ -129,6 +129,9 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64) -> Option<Stri
         });
         return Some(format!("a cut begins at {new}, before at {old}"));
     }
+    if cut.home != found.home {
+        return Some("a cut goes to a position of the machine in one of them".to_owned());
+    }
     if !same(&cut.from, &found.from, ALL, tolerance) {
         return Some(format!("a cut begins at {}, before at {}", shown(&found.from, 0b111), shown(&cut.from, 0b111)));
     }

@@ -127,7 +127,13 @@ impl<R: BufRead + Seek> Sides<R> {
                     let why = "an increment leads on from a position that only the machine knows".into();
                     self.unproven(why, "write the position under G90, or go there by G53", line)
                 }
-                None => Ok(()),
+                None => match self.program.cut().filter(|cut| cut.home != 0).map(|cut| cut.line) {
+                    Some(line) => {
+                        let why = "a cut goes to a position of the machine".into();
+                        self.unproven(why, "write G0 with G53, or the position without G53", line)
+                    }
+                    None => Ok(()),
+                },
             },
             Err(RunError::Refused(diag, line)) if is_unknown(diag.code, self.program.control()) => {
                 let why = unknown_code(&diag, self.program.control());

@@ -42,6 +42,23 @@ fn path(blocks: &str) -> Vec<String> {
     lines[..end].to_vec()
 }
 
+/// G43 holds on over a tool change: a tool that cuts with another's length does so in the new program, and it is said.
+#[test]
+fn a_tool_keeps_the_length_offset_that_it_cuts_with() {
+    let second = "G1 Z-.1 F5.\nG0 Z1.\nT2 M6\nS500 M3\nG0 X1. Y1.\n";
+    let (text, warnings) = printed(&format!("{HEAD}{second}Z.5\nG1 Z-.2 F6.\nM30\n")).unwrap();
+    assert!(text.contains("T2 M6") && text.contains("G43 H1 Z.5") && !text.contains("H2"), "{text}");
+    assert_eq!(warnings, ["a tool cuts with length offset H1, which an earlier tool turned on"]);
+    let (text, warnings) = printed(&format!("{HEAD}{second}G43 H2 Z.5\nG1 Z-.2 F6.\nM30\n")).unwrap();
+    assert!(text.contains("G43 H2 Z.5") && warnings.is_empty(), "{warnings:?}\n{text}");
+}
+
+/// G53 goes straight, at rapid: no control has an arc to a position of the machine.
+#[test]
+fn an_arc_in_machine_coordinates_is_refused() {
+    assert_eq!(printed(&format!("{HEAD}G1 Z-.1 F5.\nG53 G2 I1.\nM30\n")).unwrap_err(), "PN006");
+}
+
 #[test]
 fn motions_feeds_and_switches_stay_what_they_were() {
     assert_eq!(path("G1 Z-.1 F5.\nX1. M5\nG0 Z1."), ["G1 Z-.1 F5.", "X1.", "M5", "G0 Z1."]);

@@ -63,6 +63,34 @@ fn motions_to_unknown_positions_are_compared() {
     assert!(same_motion(&dives("300"), &dives("300")) && !same_motion(&dives("300"), &dives("400")));
 }
 
+/// LinuxCNC goes to a place of the machine at feed, too (G53 under G1): where that is in the work is unknown.
+#[test]
+fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
+    let up = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"line":[0,0,0]},{"rapid":[0,0,2]}"#;
+    let (form, text) = (check(&post("linuxcnc.pf")), inches("1", up));
+    let job = document(&text);
+    let program = rendered(&form, &job, Cycles::Form);
+    assert!(verified(&form, &program, &job).is_proven(), "{program}");
+    let changed = program.replacen("\nZ0\n", "\nG53 Z0\n", 1);
+    assert_ne!(changed, program);
+    let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{changed}") };
+    assert_eq!(unproven.why, "a cut goes to a position of the machine");
+    // as a job and as another program, too
+    let settings = RunSettings::new(control("linuxcnc"));
+    let same = |old: &str, new: &str| {
+        let compared =
+            compare_motions(Cursor::new(old.to_owned()), Cursor::new(new.to_owned()), [settings; 2], Units::Mm, 1e-6);
+        compared.unwrap().difference.is_none()
+    };
+    assert!(same(&changed, &changed) && !same(&program, &changed));
+    let checked = check(&post("haas.pf"));
+    let haas = compile(&checked.form);
+    let mut renderer = Renderer::new(&haas, Options { program: Some(1), ..Options::default() });
+    let options = JobOptions { settings, units: None, tool: None, start: None };
+    let read = read_program(Cursor::new(changed.as_str()), &options, &mut Vec::new(), &mut renderer);
+    assert!(matches!(read, Err(ReadError::Job(diag)) if diag.message.contains("a position of the machine")));
+}
+
 /// The program of a job that a program is, or the code of its refusal.
 fn printed(program: &str, start: Option<[f64; 3]>) -> Result<String, String> {
     let checked = check(&crate::support::plain_post("haas.pf"));

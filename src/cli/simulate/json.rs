@@ -14,13 +14,14 @@ pub fn json(item: &Item, unknown: bool, out: &mut Vec<u8>) {
         Action::Rapid { to, machine, .. } => {
             list(b",\"rapid\":[", to, hidden(*machine), out);
             if *machine != 0 && !unknown {
-                out.extend_from_slice(b",\"machine\":\"");
-                out.extend((0..6).filter(|axis| machine & 1 << axis != 0).map(|axis| b"xyzabc"[axis]));
-                out.push(b'"');
+                in_machine(*machine, out);
             }
         }
-        Action::Feed { to, feed, lead, machine } => {
+        Action::Feed { to, feed, lead, machine, home } => {
             list(b",\"feed\":[", to, hidden(*machine), out);
+            if *home != 0 && !unknown {
+                in_machine(*home, out);
+            }
             match lead {
                 Some(lead) => number(b",\"lead\":", *lead, out),
                 None => number(b",\"f\":", *feed, out),
@@ -57,6 +58,13 @@ pub fn json(item: &Item, unknown: bool, out: &mut Vec<u8>) {
 }
 
 /// Numbers; those of the bits in `unknown` are null.
+/// Which axes go to a place of the machine.
+fn in_machine(axes: u8, out: &mut Vec<u8>) {
+    out.extend_from_slice(b",\"machine\":\"");
+    out.extend((0..6).filter(|axis| axes & 1 << axis != 0).map(|axis| b"xyzabc"[axis]));
+    out.push(b'"');
+}
+
 fn list(before: &[u8], values: &[f64], unknown: u8, out: &mut Vec<u8>) {
     out.extend_from_slice(before);
     for (i, value) in values.iter().enumerate() {

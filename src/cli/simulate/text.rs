@@ -84,6 +84,13 @@ impl Backwards {
         }
     }
 
+    /// Which axes go to a place of the machine; before the position, as all is written from the end.
+    fn in_machine(&mut self, axes: u8) {
+        self.text(b" in machine coordinates)");
+        (0..6).rev().filter(|axis| axes & 1 << axis != 0).for_each(|axis| self.byte(b"XYZABC"[axis]));
+        self.text(b"  (");
+    }
+
     /// The line's number and what is done, before the rest.
     fn head(&mut self, line: u64, what: &[u8]) {
         // the line end alone needs no column
@@ -107,14 +114,15 @@ pub fn line(item: &Item, block: &[u8], unknown: bool, out: &mut Vec<u8>) {
     let what = match &item.action {
         Action::Rapid { to, machine, .. } => {
             if *machine != 0 && !unknown {
-                text.text(b" in machine coordinates)");
-                (0..6).rev().filter(|axis| machine & 1 << axis != 0).for_each(|axis| text.byte(b"XYZABC"[axis]));
-                text.text(b"  (");
+                text.in_machine(*machine);
             }
             text.position(to, hidden(*machine));
             "rapid"
         }
-        Action::Feed { to, feed, lead, machine } => {
+        Action::Feed { to, feed, lead, machine, home } => {
+            if *home != 0 && !unknown {
+                text.in_machine(*home);
+            }
             match lead {
                 Some(lead) => text.word(b" lead ", *lead),
                 None => text.word(b" F", *feed),

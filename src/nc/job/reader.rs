@@ -135,6 +135,10 @@ impl<'a> Reader<'a> {
             Action::Feed { lead: Some(_), .. } => {
                 unsaid(item.line, "a thread that follows the spindle", "a mill's job has no such move")
             }
+            Action::Feed { home: 1.., .. } => {
+                let help = "write G0 with G53, or the position without G53";
+                unsaid(item.line, "a cut goes to a position of the machine", help)
+            }
             Action::Feed { to, feed, .. } => self.feed(to, *feed, behind.unknown),
             Action::Arc(turn) => self.arc(turn, behind.unknown),
             Action::Hole(hole) => self.hole(hole),

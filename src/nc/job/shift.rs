@@ -39,8 +39,8 @@ impl Reader<'_> {
         let [.., z] = self.shift;
         match action {
             &Action::Rapid { to, machine, astray } => Some(Action::Rapid { to: self.place_of(&to), machine, astray }),
-            &Action::Feed { to, feed, lead, machine } => {
-                Some(Action::Feed { to: self.place_of(&to), feed, lead, machine })
+            &Action::Feed { to, feed, lead, machine, home } => {
+                Some(Action::Feed { to: self.place_of(&to), feed, lead, machine, home })
             }
             Action::Arc(turn) => {
                 let center = std::array::from_fn(|axis| turn.center[axis] + self.shift[axis]);

@@ -41,7 +41,9 @@ pub(super) fn survey(
     let mut survey = Survey { registers: vec![Registers::default()], top: f64::NEG_INFINITY, ..Survey::default() };
     let mut left_out: BTreeMap<(u8, u16), (u64, u64)> = BTreeMap::new();
     let mut items = Vec::new();
-    let (mut length, mut told, mut named) = (false, false, false);
+    // the register in force, and whether it was turned on for the tool before
+    let (mut length, mut inherited) = (None, false);
+    let (mut told, mut named) = (false, false);
     let (mut units, mut moved, mut last) = (options.units, false, [0.0; 6]);
     let mut base = None;
     loop {
@@ -49,16 +51,25 @@ pub(super) fn survey(
         let more = simulator.step(&mut items).map_err(refused)?;
         let shift = simulator.state().shift()[2];
         for item in &items {
-            if let Action::Feed { .. } | Action::Arc(_) = &item.action
-                && !length
-                && !std::mem::replace(&mut told, true)
-            {
-                let message = "a tool cuts without a length offset, and the form will turn its own on";
-                warnings.push(warning(
-                    item.line,
-                    message,
-                    "look whether the machine has tool lengths, and what its registers hold",
-                ));
+            if let Action::Feed { .. } | Action::Arc(_) = &item.action {
+                match length {
+                    None if !std::mem::replace(&mut told, true) => {
+                        let message = "a tool cuts without a length offset, and the form will turn its own on";
+                        let help = "look whether the machine has tool lengths, and what its registers hold";
+                        warnings.push(warning(item.line, message, help));
+                    }
+                    Some(register) if std::mem::take(&mut inherited) => {
+                        one(&mut survey.registers, |r| &mut r.length, register, item.line, "length offsets, H")?;
+                        let message =
+                            format!("a tool cuts with length offset H{register}, which an earlier tool turned on");
+                        warnings.push(warning(
+                            item.line,
+                            message,
+                            "write G43 with the tool's own H after its M6, if that is meant",
+                        ));
+                    }
+                    _ => {}
+                }
             }
             let mut reach = |survey: &mut Survey, to: &[f64; 6], machine: u8| {
                 moved = true;
@@ -84,14 +95,17 @@ pub(super) fn survey(
                     }
                     units = Some(*now);
                 }
-                Action::Length(None) => length = false,
+                Action::Length(None) => length = None,
                 Action::Length(Some(register)) if *register < 0.0 => {
                     let help = "give the tool a register with the other sign, and G43";
                     return unsaid(item.line, "G44, a length offset that is taken off", help);
                 }
-                Action::Tool(_) => survey.registers.push(Registers::default()),
+                Action::Tool(_) => {
+                    survey.registers.push(Registers::default());
+                    inherited = true;
+                }
                 Action::Length(Some(register)) => {
-                    length = true;
+                    (length, inherited) = (Some(*register), false);
                     let line = item.line;
                     one(&mut survey.registers, |r| &mut r.length, *register, line, "length offsets, H")?;
                 }

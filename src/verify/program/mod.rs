@@ -252,7 +252,7 @@ impl<R: BufRead + Seek> Program<R> {
         }
         match &item.action {
             Action::Rapid { to, machine, astray } => self.rapid(to, [*machine, *astray], item.line),
-            Action::Feed { to, feed, lead, .. } => {
+            Action::Feed { to, feed, lead, home, .. } => {
                 // a feed that follows the spindle
                 let feed = match (lead, self.mode, self.state.speed) {
                     (Some(lead), FeedMode::PerMinute, Some(speed)) => lead * speed,
@@ -260,17 +260,18 @@ impl<R: BufRead + Seek> Program<R> {
                     _ => *feed,
                 };
                 let to = self.scale.place(to);
-                if to == self.at && self.unknown == 0 {
+                let home = self.scale.axes(*home);
+                if to == self.at && self.unknown == 0 && home == 0 {
                     return; // a move of no length cuts nothing
                 }
-                self.cuts_now(What::Line { to }, feed, *lead, item);
+                self.cuts_now(What::Line { to }, home, feed, *lead, item);
             }
             Action::Arc(turn) => {
                 let mut turn = *turn;
                 turn.to = self.scale.end_of_arc(&turn.to);
                 let factor = self.scale.factor();
                 turn.center.iter_mut().for_each(|value| *value *= factor);
-                self.cuts_now(What::Arc(turn), turn.feed, None, item);
+                self.cuts_now(What::Arc(turn), 0, turn.feed, None, item);
             }
             Action::Dwell(seconds) if *seconds > 0.0 => {
                 let mark = self.passage.mark(*seconds, item.line, toolpath::Place::default());
@@ -392,7 +393,7 @@ impl<R: BufRead + Seek> Program<R> {
         self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
     }
 
-    fn cuts_now(&mut self, what: What, feed: f64, lead: Option<f64>, item: &Item) {
+    fn cuts_now(&mut self, what: What, home: u8, feed: f64, lead: Option<f64>, item: &Item) {
         self.check_frame(0, item.line);
         if self.length_is_due() {
             self.without_length(item.line, "the tool cuts, and its length offset is not on");
@@ -409,6 +410,7 @@ impl<R: BufRead + Seek> Program<R> {
         self.cut = Some(Cut {
             from: self.at,
             unknown: self.unknown,
+            home,
             what,
             feed: Some(feed * factor),
             mode: self.mode,

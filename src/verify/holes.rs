@@ -18,6 +18,8 @@ pub(super) fn pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) -> Don
     let (wanted_strokes, mut strokes) = (s.hole.strokes, Strokes::over(hole.plane));
     // the longest dwell at the bottom before another cut, and the line of the last cut
     let (mut waited, mut line) = (0.0f64, 0);
+    // the control made the last cut by a cycle of its own
+    let mut by_cycle = false;
     let mut identical = true;
     let mut count = 0;
     while let Some(found) = s.next()? {
@@ -25,13 +27,13 @@ pub(super) fn pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) -> Don
         let is_one = wanted.is_some_and(|wanted| is_same(wanted, &found, tolerance));
         // at the bottom, what is not of the same block's cycle is another hole, or another item of the job
         let same_block = found.by_cycle && found.line == line;
-        // up again at feed goes only a tap
-        let other_item = found.end()[DEPTH] < found.from[DEPTH] || !hole.is_tap;
+        // up again at feed goes only a tap, and one that a cycle of the control makes is out by itself
+        let other_item = found.end()[DEPTH] < found.from[DEPTH] || !hole.is_tap || by_cycle;
         let at_bottom = strokes.deepest <= hole.bottom + tolerance;
         if count > 0 && (!stays_in(s, hole, &found) || at_bottom && other_item && !same_block && !is_one) {
             break;
         }
-        line = found.line;
+        (line, by_cycle) = (found.line, found.by_cycle);
         identical &= is_one;
         if count > 0 {
             pauses::between_pecks(s, hole);
@@ -128,8 +130,9 @@ fn peck_state<R: BufRead + Seek>(
         _ => true,
     };
     // the job's own peck in this place, where the program pecks as the job does: holes may have thousands
+    let is_own = |peck: &&Cut| within(peck) || is_same(peck, found, tolerance);
     let own =
-        pecks.get(count).filter(|peck| (peck.end()[DEPTH] > peck.from[DEPTH]) == up && within(peck) && is_meant(peck));
+        pecks.get(count).filter(|peck| (peck.end()[DEPTH] > peck.from[DEPTH]) == up && is_own(peck) && is_meant(peck));
     let found_one = own.or_else(|| cuts().filter(within).find(is_meant));
     let wanted = found_one.or_else(|| meant().next()).unwrap_or(first).clone();
     if count > 0 {

@@ -851,6 +851,41 @@ fn floating_taps_want_the_spindle_turning() {
     }
 }
 
+/// A tap that the control pecks is over with its cycle: what is fed up after it is the next cut.
+#[test]
+fn a_feed_after_a_pecking_tap_is_the_next_cut() {
+    let job = one(
+        r#"{"rapid":[0,0,20]},{"cycle":{"kind":"tap","rigid":true,"mode":"deep","step":4,"depth":10,"clear":5,"feed":1000,"points":[[10,10,0]]}},{"line":[10,10,15]},{"line":[20,10,15]},{"rapid":[0,0,20]}"#,
+    );
+    is_right("up after the tap", of_post("fanuc.pf", &job));
+}
+
+/// A last peck that is shorter than the digits has its own feed.
+#[test]
+fn the_feed_of_a_short_last_peck_is_its_own() {
+    let job = one(
+        r#"{"rapid":[0,0,20]},{"cycle":{"kind":"deep","depth":12.258,"clear":5,"feed":500,"pecks":[{"to":3,"feed":500},{"to":7.2,"feed":500},{"to":12.257,"feed":80},{"to":12.258,"feed":80}],"points":[[10,10,0]]}},{"rapid":[0,0,20]}"#,
+    );
+    is_right("pecks with feeds", of_post("fanuc.pf", &job));
+}
+
+/// Without H, LinuxCNC takes the length of the tool in the spindle, not of one that T has chosen for later.
+#[test]
+fn a_length_without_its_register_is_that_of_the_tool_in_the_spindle() {
+    let form = check(&post("linuxcnc.pf"));
+    let path = r#"{"rapid":[0,0,20]},{"line":[0,0,-1]},{"rapid":[0,0,20]}"#;
+    let other = one(path).replacen(r#""number":1,"#, r#""number":1,"length_offset":2,"#, 1);
+    let verdict = |text: &str, from: &str| {
+        let job = document(text);
+        let program = rendered(&form, &job, Cycles::Form);
+        assert!(verified(&form, &program, &job).is_proven() && program.contains(from), "{program}");
+        verified(&form, &program.replacen(from, "T2\nG43\n", 1), &job)
+    };
+    assert!(verdict(&one(path), "G43 H1\n").is_proven());
+    let Verdict::Different(found) = verdict(&other, "G43 H2\n") else { panic!("H1 for H2") };
+    assert!(found.iter().all(|found| found.code.name() == "PV014"), "{found:?}");
+}
+
 /// What a job leaves out is what the form has for the job's units, whatever the program counts in.
 #[test]
 fn defaults_are_those_of_the_jobs_units_in_any_program() {

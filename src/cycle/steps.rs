@@ -29,8 +29,13 @@ pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &
     steps.push(Step::Rapid(clear));
     if let Some(rapto) = spec.rapto.filter(|_| spec.kind != K::Back) {
         enter = clear - rapto;
-        if enter < bottom {
-            let message = format!("the extra rapid of {rapto} from the clearance plane ends below the bottom");
+        let (lowest, what) = match spec.kind {
+            K::Thru => (-webs(spec, &[-bottom])[0], "the bottom of the first web"),
+            K::Csink => (contact(spec).unwrap_or(bottom), "where the tool meets the hole"),
+            _ => (bottom, "the bottom"),
+        };
+        if enter < lowest {
+            let message = format!("the extra rapid of {rapto} from the clearance plane ends below {what}");
             return Err(Problem::new(Code::PC013, message, "give a smaller `rapto`"));
         }
         steps.push(Step::Rapid(enter));
@@ -52,8 +57,7 @@ pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &
         K::Deep | K::Chipbreak => peck(spec, plan, enter, defaults, pecks, steps)?,
         K::Thru => thru(spec, plan, defaults, steps),
         K::Csink => {
-            if let (Some(hole), Some(angle)) = (spec.hole_diameter, spec.angle) {
-                let contact = -(hole / 2.0) / (angle.to_radians() / 2.0).tan();
+            if let Some(contact) = contact(spec) {
                 let above = (contact + defaults.sink_clear.unwrap_or(clear)).min(enter);
                 if above > bottom && above < enter {
                     steps.push(Step::Rapid(above));
@@ -75,10 +79,21 @@ pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &
     Ok(())
 }
 
+/// How high the cone of a countersink meets the hole that is there, if the job gives its diameter.
+fn contact(spec: &CycleSpec) -> Option<f64> {
+    let (hole, angle) = (spec.hole_diameter?, spec.angle?);
+    Some(-(hole / 2.0) / (angle.to_radians() / 2.0).tan())
+}
+
+/// End of the first web, start and end of each further one, counted down; one web to `whole` where the job lists none.
+fn webs<'s>(spec: &'s CycleSpec, whole: &'s [f64; 1]) -> &'s [f64] {
+    if spec.webs.is_empty() { whole } else { &spec.webs }
+}
+
 /// Drilling through webs: end, then start and end of each further web.
 fn thru(spec: &CycleSpec, plan: &Plan, defaults: &Defaults, steps: &mut Vec<Step>) {
     let whole = [-plan.bottom];
-    let webs = if spec.webs.is_empty() { &whole[..] } else { &spec.webs };
+    let webs = webs(spec, &whole);
     let back = spec.back.unwrap_or(defaults.back_thru);
     let mut reached = -webs[0];
     steps.push(Step::Feed(reached, plan.feed));
@@ -153,6 +168,16 @@ mod tests {
         assert_eq!(steps(|_| (), CycleKind::Back), Err(Code::PC012));
         assert_eq!(steps(|s| s.webs = vec![0.5, 1.0], CycleKind::Thru), Err(Code::PC022));
         assert_eq!(steps(|s| s.rapto = Some(2.0), CycleKind::Drill), Err(Code::PC013));
+        // into the first web, into the edge of the hole that is there
+        let webs = |s: &mut CycleSpec, rapto| (s.depth, s.webs, s.rapto) = (None, vec![0.3, 0.6, 1.0], Some(rapto));
+        assert!(steps(|s| webs(s, 0.4), CycleKind::Thru).is_ok());
+        assert_eq!(steps(|s| webs(s, 0.5), CycleKind::Thru), Err(Code::PC013));
+        let sink = |s: &mut CycleSpec, rapto| {
+            (s.depth, s.diameter, s.hole_diameter, s.angle, s.rapto) =
+                (None, Some(1.0), Some(0.5), Some(90.0), Some(rapto));
+        };
+        assert!(steps(|s| sink(s, 0.3), CycleKind::Csink).is_ok());
+        assert_eq!(steps(|s| sink(s, 0.4), CycleKind::Csink), Err(Code::PC013));
         assert_eq!(steps(|_| (), CycleKind::Custom1), Err(Code::PC001));
     }
 

@@ -743,3 +743,29 @@ fn each_hole_has_its_own_clearance() {
     let heights: Vec<&String> = lines.iter().filter(|line| line.starts_with('Z') || line.starts_with("G0 Z")).collect();
     assert_eq!(heights, ["Z.1", "G0 Z.1", "Z-.4", "G0 Z-.4", "Z.35", "G0 Z.35"], "{lines:?}");
 }
+
+/// The last start of a thread begins lower, and the control comes back there: the tool goes up before it crosses or stops.
+#[test]
+fn the_last_start_of_a_thread_goes_up() {
+    let taps = |after: &str| {
+        let tap = r#"{"rapid":[0,0,2]},{"cycle":{"kind":"tap","rigid":true,"starts":2,"depth":0.5,"clear":0.25,"feed":100,"points":[[0,1,0],[2,1,0]]}}"#;
+        post("fanuc", &job(&format!("{tap}{after}")))
+    };
+    for after in ["", r#",{"stop":"optional"}"#] {
+        let lines = taps(after);
+        let cycles: Vec<usize> = (0..lines.len()).filter(|&at| lines[at].contains(" R.2")).collect();
+        assert!(cycles.len() == 4, "{lines:?}");
+        for last in [cycles[1], cycles[3]] {
+            assert!(lines[last + 1].ends_with("G80") && lines[last + 2].ends_with("G0 Z.25"), "{lines:?}");
+        }
+    }
+}
+
+/// A rigid tap that the control does not turn the spindle for finds it turning its own way.
+#[test]
+fn a_tap_by_g33_1_turns_the_spindle_its_way() {
+    let path = r#"{"spindle":{"direction":"ccw"}},{"rapid":[0,0,2]},{"cycle":{"kind":"tap","rigid":true,"depth":0.8,"clear":0.1,"feed":9,"points":[[0,1,0]]}}"#;
+    let lines = post("linuxcnc", &job(path));
+    let tap = lines.iter().position(|line| line.contains("G33.1")).unwrap();
+    assert!(lines[tap - 1].contains("M3"), "{lines:?}");
+}

@@ -3,7 +3,7 @@
 use super::choose::{cannot_say, scaled};
 use super::generated::generated_hole;
 use super::open::{Drilling, leave_cycle};
-use super::planned::{Heights, Planned, hole_variables};
+use super::planned::{Heights, Planned, SAME, hole_variables};
 use super::sequence::sequence_hole;
 use crate::compile::Routine;
 use crate::cycle::Plan;
@@ -136,6 +136,11 @@ pub fn make_hole(
                 planned.heights = heights.of_start(start, starts, &planned.planes)?;
                 planned.target.set(shape.depth, planned.heights.return_plane);
                 sequence_hole(routine, &planned, shape, want, said, out, drill)?;
+            }
+            if planned.heights.return_plane < heights.return_plane - SAME {
+                // the last start of a thread comes out lower: nothing may be crossed there
+                leave_cycle(shape, want, said, out, drill)?;
+                split_rapid(&target, shape, want, said, out)?;
             }
         }
         None => generated_hole(&planned, shape, want, said, out, drill)?,

@@ -12,20 +12,21 @@ growth:
     cargo build --release
     benches/growth.py target/release/postform
 
-# random jobs through all forms, and right programs made wrong: what comparing gets wrong is printed
-hunt jobs="1000000" programs="20000" seed="0":
+# random jobs through all forms, right programs made wrong, and blocks inserted: what comparing gets wrong is printed
+hunt jobs="1000000" programs="20000" inserted="20000" seed="0":
     git rev-parse --short HEAD; date -u +%F
     cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin jobs {{jobs}} {{seed}}
     cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin programs {{programs}} {{seed}}
+    cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin programs {{inserted}} {{seed}} all all insert
 
-# the same for one kind of job: mill, rotary, subprograms, lathe, wire
+# the same for one kind of job: mill, rotary, subprograms, lathe, wire, cl, nc, freecad
 hunt-kind kind jobs="20000" programs="5000" seed="0":
     cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin jobs {{jobs}} {{seed}} {{kind}}
     cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin programs {{programs}} {{seed}} {{kind}}
 
 # ten million of them: a night
 hunt-long:
-    just hunt 10000000 1000000
+    just hunt 10000000 1000000 1000000
 
 # what the proof costs: render with it and without it, in turn
 proof-cost:

@@ -12,7 +12,9 @@ use std::time::Instant;
 
 use postform_fuzz::case::{Asked, Case, End};
 use postform_fuzz::forms::forms;
+use postform_fuzz::job::Kind;
 use postform_fuzz::prove::Proof;
+use postform_fuzz::random::Random;
 use postform_fuzz::shrink::shrunk;
 use postform_fuzz::tally::Tally;
 use postform_fuzz::text::ending;
@@ -21,6 +23,14 @@ use postform_fuzz::text::ending;
 const SHOWN: u64 = 2;
 /// One program in so many goes through LinuxCNC's interpreter.
 const INTERPRETED: u64 = 16;
+/// One job in so many is also proven while it is printed, in parts of any size.
+const BESIDE: u64 = 8;
+/// One job in so many is also printed with a form that has one mistake.
+const WRONG_FORMS: u64 = 4;
+/// What a form's own sequences say, and stands as it is typed: whether the spindle stops in Bore, how a wire is threaded.
+const FORMS_OWN: [&str; 2] = ["out with the spindle turning", "Stop is missing"];
+/// Two of the last digits of an inch, in millimetres.
+const DIGITS: f64 = 0.0052;
 /// How near places must be for `verify`, in millimetres.
 const PLACES: f64 = 0.002;
 
@@ -30,8 +40,16 @@ fn main() -> ExitCode {
     let mut hunt = Hunt { tally: Tally::default(), folder: std::env::var_os("FOUND").map(PathBuf::from) };
     let start = Instant::now();
     for seed in asked.first..asked.first + asked.count {
-        if let Some((case, _)) = asked.case(seed) {
+        if let Some((case, mut random)) = asked.case(seed) {
             hunt.look(&case);
+            if seed.is_multiple_of(BESIDE) {
+                hunt.beside(&case, &mut random);
+            }
+        }
+        if seed.is_multiple_of(WRONG_FORMS)
+            && let Some(case) = asked.wrong(seed)
+        {
+            hunt.wrong_form(&case);
         }
     }
     hunt.tally.print();
@@ -57,10 +75,19 @@ fn gist(why: &str) -> String {
 }
 
 /// What a program that is called different is: `rounded` where the judge sees it too and lint or the renderer names the digits that are
-/// lost, `defects` where the judge sees it too, else one of the `alarms`.
-fn called(case: &Case<'_>, end: &End) -> &'static str {
+/// lost, `refused by the control` where it does not run the program, `swallowed by inches` where a metric job's shortest moves are
+/// lost in the digits of an inch, `defects` where the judge sees it too, else one of the `alarms`.
+fn called(case: &Case, end: &End) -> &'static str {
     let End::Printed(program, Proof::Different(list), lost) = end else { return "alarms" };
+    // a program that is a job may do what the control of the form refuses
+    if case.kind == Kind::Program && list.iter().all(|(code, _)| code == "PV015") {
+        return "refused by the control";
+    }
     let feeds = list.iter().all(|(code, _)| code == "PV006");
+    // four digits of an inch are more than how near the places of a metric job must be
+    if !feeds && case.inch && case.job["units"] == "mm" && case.is_within(program, DIGITS) {
+        return "swallowed by inches";
+    }
     let is_wrong = |within: f64| matches!(case.judged_within(program, within), Some(Err(_)));
     match lost {
         true if feeds || is_wrong(PLACES) || case.is_rounded(program) => "rounded",
@@ -70,7 +97,7 @@ fn called(case: &Case<'_>, end: &End) -> &'static str {
 }
 
 impl Hunt {
-    fn look(&mut self, case: &Case<'_>) {
+    fn look(&mut self, case: &Case) {
         let end = case.end();
         let name = end.name();
         let verdict = name.split(' ').next().unwrap_or("");
@@ -91,17 +118,71 @@ impl Hunt {
         }
     }
 
+    /// The proof in parts says what the proof of the whole says.
+    fn beside(&mut self, case: &Case, random: &mut Random) {
+        let End::Printed(_, proof, _) = case.end() else { return };
+        let parts = case.proof_beside(random);
+        // only a file can be gone back in: calls and loops
+        if matches!(parts, Proof::NotProven(_)) {
+            return self.tally.count("beside", "not proven");
+        }
+        let is_same = parts.name() == proof.name();
+        self.tally.count("beside", if is_same { "the same" } else { "another" });
+        if !is_same {
+            println!("== seed {}: {}: in parts {parts:?}, as a whole {}", case.seed, case.form.name, proof.name());
+            self.tally
+                .count("wrong", format!("{} in parts {}, as a whole {}", case.form.name, parts.name(), proof.name()));
+        }
+    }
+
+    /// A form with a mistake: what it prints may be refused or called different, but is not proven where the judge sees it.
+    fn wrong_form(&mut self, case: &Case) {
+        let end = case.end();
+        let End::Printed(program, proof, _) = &end else {
+            self.tally.count("wrong forms", end.name().split(' ').next().unwrap_or(""));
+            return match end {
+                End::Panicked => self.found(case, "wrong", "panic", &mut |end, _| matches!(end, End::Panicked)),
+                _ => {}
+            };
+        };
+        let name = proof.name();
+        let verdict = name.split(' ').next().unwrap_or("").to_owned();
+        // codes of the machine's builder, for one
+        if let Err((_, why)) = case.run(program) {
+            return self.tally.count("wrong forms", format!("{verdict}, not run by the judge: {}", gist(&why)));
+        }
+        let is_own = |why: &String| FORMS_OWN.iter().any(|own| gist(why).contains(own));
+        let judged = case.judged(program).filter(|judged| !judged.as_ref().is_err_and(is_own));
+        let said = match &judged {
+            None => "not read",
+            Some(Ok(())) => "right",
+            Some(Err(_)) => "wrong",
+        };
+        self.tally.count("wrong forms", format!("{verdict}, judged {said}"));
+        if let (true, Some(Err(why))) = (proof.holds(), judged) {
+            let gist = gist(&why);
+            self.found(case, "wrong", &format!("wrong form, {verdict}: {gist}"), &mut |end, case| match end {
+                End::Printed(program, proof, _) => {
+                    proof.holds() && matches!(case.judged(program), Some(Err(why)) if self::gist(&why) == gist)
+                }
+                _ => false,
+            });
+        }
+    }
+
     /// Something is called different: a false alarm, or a wrong program.
-    fn different(&mut self, case: &Case<'_>, end: &End, name: &str) {
+    fn different(&mut self, case: &Case, end: &End, name: &str) {
         let group = called(case, end);
         match group {
-            "rounded" => self.tally.count(group, format!("{} {name}", case.form.name)),
+            "rounded" | "refused by the control" | "swallowed by inches" => {
+                self.tally.count(group, format!("{} {name}", case.form.name))
+            }
             _ => self.found(case, group, name, &mut |end, case| end.name() == name && called(case, end) == group),
         }
     }
 
     /// What is in the job.
-    fn contents(&mut self, case: &Case<'_>) {
+    fn contents(&mut self, case: &Case) {
         let said = case.said();
         let list = |value: &serde_json::Value, key: &str| value[key].as_array().cloned().unwrap_or_default();
         for path in list(&said, "operations").iter().chain(&list(&said, "subprograms")) {
@@ -118,7 +199,7 @@ impl Hunt {
     }
 
     /// The judges' word.
-    fn judge(&mut self, case: &Case<'_>, program: &str, name: &str) {
+    fn judge(&mut self, case: &Case, program: &str, name: &str) {
         let verdict = name.split(' ').next().unwrap_or("");
         let judged = case.judged(program);
         let said = match &judged {
@@ -155,13 +236,7 @@ impl Hunt {
     }
 
     /// Something is wrong: the first of its kind are made small and shown.
-    fn found(
-        &mut self,
-        case: &Case<'_>,
-        group: &'static str,
-        what: &str,
-        still: &mut dyn FnMut(&End, &Case<'_>) -> bool,
-    ) {
+    fn found(&mut self, case: &Case, group: &'static str, what: &str, still: &mut dyn FnMut(&End, &Case) -> bool) {
         let name = format!("{} {what}", case.form.name);
         self.tally.count(group, name.clone());
         if self.tally.get(group, &name) > SHOWN {
@@ -172,6 +247,9 @@ impl Hunt {
             still(&case.end(), &case)
         }));
         println!("== seed {}: {} ({}, {}) {what}", case.seed, case.form.name, case.kind.name(), ending(case.format));
+        if what.starts_with("wrong form") {
+            println!("{}", case.form.text);
+        }
         println!("{}", small.text().trim_end());
         if let End::Printed(program, proof, _) = small.end() {
             if let Proof::Different(list) = proof {

@@ -1,7 +1,8 @@
 //! Right programs made wrong in one place: comparing them with their jobs must see it.
 //!
-//! `programs COUNT SEED KIND FORM`, of which each may be missing; `FOUND=FOLDER` keeps what is found. Those that are called identical or
-//! equivalent and do something else are listed by what they differ in.
+//! `programs COUNT SEED KIND FORM`, of which each may be missing; with `insert` at the end blocks are inserted anywhere, holes
+//! included. `FOUND=FOLDER` keeps what is found. Those that are called identical or equivalent and do something else are listed by
+//! what they differ in.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -11,20 +12,20 @@ use postform_fuzz::case::{Asked, Case, End};
 use postform_fuzz::forms::forms;
 use postform_fuzz::judge::Act;
 use postform_fuzz::judge::pair::{Class, difference, without_short};
-use postform_fuzz::mutate::{Mutant, mutant};
+use postform_fuzz::mutate::{Mutant, mutant, with_block};
 use postform_fuzz::tally::Tally;
 
 /// How many are shown of each kind.
 const SHOWN: u64 = 3;
 /// How many changed programs are made of a right one.
 const EACH: usize = 10;
-/// Differences that no part is lost by.
-const HARMLESS: [Class; 5] = [Class::Way, Class::Pecks, Class::Tail, Class::Near, Class::Short];
 /// How near places must be, in millimetres.
 const NEAR: f64 = 0.004;
 
 fn main() {
-    let asked = Asked::of(std::env::args().skip(1), forms());
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let change = if args.iter().any(|arg| arg == "insert") { with_block } else { mutant };
+    let asked = Asked::of(args.into_iter().filter(|arg| arg != "insert"), forms());
     std::panic::set_hook(Box::new(|_| {}));
     let mut hunt = Hunt { tally: Tally::default(), folder: std::env::var_os("FOUND").map(PathBuf::from) };
     let start = Instant::now();
@@ -38,12 +39,12 @@ fn main() {
         if !proof.holds() {
             continue;
         }
-        let Ok(right) = case.form.run(&program, case.job["units"] == "inch") else {
+        let Ok(right) = case.run(&program) else {
             hunt.tally.count("not run", case.form.name.clone());
             continue;
         };
         for _ in 0..EACH {
-            if let Some(mutant) = mutant(&program, &mut random) {
+            if let Some(mutant) = change(&program, &mut random) {
                 made += 1;
                 hunt.look(&case, &program, &right, &mutant, made);
             }
@@ -59,11 +60,10 @@ struct Hunt {
 }
 
 impl Hunt {
-    fn look(&mut self, case: &Case<'_>, program: &str, right: &[Act], mutant: &Mutant, made: u64) {
-        let text = case.text();
+    fn look(&mut self, case: &Case, program: &str, right: &[Act], mutant: &Mutant, made: u64) {
         self.tally.count("mutations", mutant.kind);
         self.tally.count("forms", case.form.name.clone());
-        let verify = || case.form.verify(&mutant.text, &text, case.format);
+        let verify = || case.verify(&mutant.text);
         let Ok(proof) = catch_unwind(AssertUnwindSafe(verify)) else {
             self.tally.count("verdicts", "panic");
             return self.show(case, program, mutant, made, "panic", "comparing panics");
@@ -72,11 +72,11 @@ impl Hunt {
         if !proof.holds() {
             return;
         }
-        let judged = case.form.run(&mutant.text, case.job["units"] == "inch");
+        let judged = case.run(&mutant.text);
         let crests = case.crests();
         let differs = |acts: Vec<Act>| match difference(right, &acts, &crests, NEAR) {
             // but for moves that no digits of a program tell
-            Some((class, why)) if !HARMLESS.contains(&class) => {
+            Some((class, why)) if !class.is_harmless() => {
                 let long = difference(&without_short(right), &without_short(&acts), &crests, NEAR);
                 Some(long.map_or((Class::Short, why), |long| long))
             }
@@ -91,13 +91,13 @@ impl Hunt {
         self.tally.count("quiet", format!("{}: {name}", proof.name()));
         let group = format!("{name}, {}", mutant.kind);
         self.tally.count("quiet by mutation", group.clone());
-        let harmless = class.is_ok_and(|class| HARMLESS.contains(&class));
+        let harmless = class.is_ok_and(Class::is_harmless);
         if !harmless && self.tally.get("quiet by mutation", &group) <= SHOWN {
             self.show(case, program, mutant, made, &format!("{}, {name}", proof.name()), &why);
         }
     }
 
-    fn show(&self, case: &Case<'_>, program: &str, mutant: &Mutant, made: u64, what: &str, why: &str) {
+    fn show(&self, case: &Case, program: &str, mutant: &Mutant, made: u64, what: &str, why: &str) {
         println!("== seed {}: {} ({}) {what}", case.seed, case.form.name, mutant.kind);
         println!("{}\n{why}", mutant.what);
         let Some(folder) = &self.folder else { return };

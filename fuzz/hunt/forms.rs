@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::prove::Form;
+use crate::random::Random;
 
 /// All forms, by name.
 ///
@@ -23,4 +24,67 @@ pub fn forms() -> Vec<Form> {
         Form::read(&name, &text).unwrap_or_else(|error| panic!("{error}"))
     };
     paths.iter().map(read).collect()
+}
+
+/// A form with one mistake, as an author makes it: a line or a word lost, doubled or in the wrong place, another variable, digit
+/// or letter. `None` where the chosen mistake finds nothing.
+pub fn changed(text: &str, random: &mut Random) -> Option<String> {
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let is_code = |line: &String| !line.trim().is_empty() && !line.trim_start().starts_with('#');
+    let at = (0..20).map(|_| random.below(lines.len())).find(|&at| is_code(&lines[at]))?;
+    match random.below(8) {
+        0 => _ = lines.remove(at),
+        1 => lines.insert(at, lines[at].clone()),
+        2 => {
+            let next = (at + 1..lines.len()).find(|&next| is_code(&lines[next]))?;
+            lines.swap(at, next);
+        }
+        3 => {
+            let words: Vec<&str> = lines[at].split(' ').collect();
+            let drop = random.below(words.len());
+            let kept = words.iter().enumerate().filter(|(number, _)| *number != drop).map(|(_, word)| *word);
+            lines[at] = kept.collect::<Vec<_>>().join(" ");
+        }
+        // another variable
+        4 => {
+            let names = variables(text);
+            let own = variables(&lines[at]);
+            let from = own.get(random.below(own.len()))?;
+            lines[at] = lines[at].replacen(from.as_str(), &names[random.below(names.len())], 1);
+        }
+        // a digit
+        5 => {
+            let digits: Vec<usize> =
+                lines[at].char_indices().filter(|(_, c)| c.is_ascii_digit()).map(|(place, _)| place).collect();
+            let place = *digits.get(random.below(digits.len()))?;
+            let digit = random.below(10).to_string();
+            lines[at].replace_range(place..=place, &digit);
+        }
+        // a letter of a word
+        6 => {
+            let letters: Vec<usize> =
+                lines[at].char_indices().filter(|(_, c)| c.is_ascii_uppercase()).map(|(place, _)| place).collect();
+            let place = *letters.get(random.below(letters.len()))?;
+            let letter = random.pick(&["X", "Y", "Z", "F", "S", "R", "Q", "P", "G", "M", "T", "H", "I", "J", "A"]);
+            lines[at].replace_range(place..=place, letter);
+        }
+        // a sign of a format or an expression
+        _ => {
+            let signs: Vec<usize> =
+                lines[at].char_indices().filter(|(_, c)| "*-+.<>".contains(*c)).map(|(place, _)| place).collect();
+            let place = *signs.get(random.below(signs.len()))?;
+            lines[at].remove(place);
+        }
+    }
+    let other = lines.join("\n") + "\n";
+    (other != text).then_some(other)
+}
+
+/// All `[names]` of a text.
+fn variables(text: &str) -> Vec<String> {
+    let mut names: Vec<String> =
+        text.split('[').skip(1).filter_map(|rest| rest.split_once(']')).map(|(name, _)| format!("[{name}]")).collect();
+    names.sort();
+    names.dedup();
+    names
 }

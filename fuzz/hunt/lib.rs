@@ -9,6 +9,7 @@ pub mod forms;
 pub mod job;
 pub mod judge;
 pub mod mutate;
+pub mod planner;
 pub mod prove;
 pub mod random;
 pub mod shrink;

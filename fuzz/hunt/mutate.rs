@@ -24,6 +24,60 @@ pub const KINDS: &[&str] = &[
     "move block",
 ];
 
+/// Blocks that do something of their own wherever they stand: at the top, between the cuts, in a hole.
+const INSERTED: &[&str] = &[
+    "G91",
+    "G90",
+    "G92 X0",
+    "G92 Z5.",
+    "G92 X1. Y1. Z1.",
+    "G52 X1.",
+    "G52 X0 Y0 Z0",
+    "G4 P500",
+    "G4 P5.",
+    "M0",
+    "M1",
+    "M5",
+    "M3",
+    "M4",
+    "M9",
+    "M8",
+    "M19",
+    "G10 L2 P1 X1.",
+    "G68 X0 Y0 R10.",
+    "G51 X0 Y0 Z0 P2",
+    "G28 Z0",
+    "G91 G28 Z0",
+    "G53 Z0",
+    "G0 G53 Z0",
+    "G49",
+    "G43 H3",
+    "G54",
+    "G55",
+    "G80",
+    "G98",
+    "G99",
+    "G18",
+    "G17",
+    "G41 D1",
+    "G40",
+    "G20",
+    "G21",
+    "G95",
+    "G93",
+    "S100",
+    "F1.",
+    "T4",
+    "T4 M6",
+    "Z1.",
+    "X0",
+    "G0 Z-1.",
+    "G1 Z-1.",
+    "#1=5",
+    "M98 P9",
+    "M30",
+];
+
 /// A program with one change.
 pub struct Mutant {
     /// The whole text.
@@ -39,6 +93,20 @@ struct At {
     from: usize,
     to: usize,
     letter: u8,
+}
+
+/// Inserts a block into a program, anywhere.
+pub fn with_block(program: &str, random: &mut Random) -> Option<Mutant> {
+    let block = random.pick(INSERTED);
+    let mut lines: Vec<&str> = program.lines().collect();
+    let at = 1 + random.below(lines.len().saturating_sub(1));
+    let before = *lines.get(at)?;
+    lines.insert(at, block);
+    Some(Mutant {
+        text: lines.join("\n") + "\n",
+        kind: block,
+        what: format!("line {}: {block} before {before}", at + 1),
+    })
 }
 
 /// Changes a program in one place; `None` where the chosen change finds none.

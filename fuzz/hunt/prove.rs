@@ -1,11 +1,12 @@
 //! A form as the hunt uses it: it prints jobs and compares programs with them.
 
 use postform::internals::verify::Finding;
-use postform::toolpath::Place;
-use postform::{Error, Format, Job, NoFiles, Options, Post, Source, Verdict};
+use postform::toolpath::{Place, Units};
+use postform::{Batch, Error, Job, NoFiles, Options, Post, Proven, Source, Verdict};
 
 use crate::job::{Kind, Takes};
 use crate::judge::{Act, MAIN, lathe, run, wire};
+use crate::random::Random;
 
 /// A form that prints.
 pub struct Form {
@@ -17,6 +18,8 @@ pub struct Form {
     pub kinds: Vec<Kind>,
     /// What they may say.
     pub takes: Takes,
+    /// The units of its programs, inches or not, where it has its own; else they are those of the job.
+    pub inch: Option<bool>,
     /// How near its digits come to a place, in millimetres, and what adding such places may add.
     pub within: f64,
     /// The job's A is another letter of the program's.
@@ -25,6 +28,8 @@ pub struct Form {
     pub by_diameter: bool,
     /// `lint` says that its formats round away what a job may say.
     pub cuts_digits: bool,
+    /// Its text.
+    pub text: String,
     post: Post,
 }
 
@@ -48,27 +53,26 @@ impl Form {
             _ => {
                 let more = [(Kind::Rotary, text.contains("A[rotangle]")), (Kind::Subprograms, says("SubCall"))];
                 let more = more.into_iter().filter(|(_, can)| *can).map(|(kind, _)| kind);
-                [Kind::Mill].into_iter().chain(more).collect()
+                let mills = [Kind::Mill, Kind::Statements, Kind::Program, Kind::Document];
+                mills.into_iter().chain(more).collect()
             }
         };
         Ok(Form {
             name: name.into(),
             control: control.trim().into(),
             kinds,
-            takes: Takes {
-                inch: inch.map(|(_, inch)| inch),
-                customs: ["Custom1", "Custom2", "Custom3"].map(says),
-                home: says("MoveHome"),
-            },
+            inch: inch.map(|(_, inch)| inch),
+            takes: Takes { customs: ["Custom1", "Custom2", "Custom3"].map(says), home: says("MoveHome") },
             within: if text.contains("X->5.>2") { 0.011 } else { 0.0035 },
             renames: says("Rename A B"),
             by_diameter: !says("ByDiameter? N"),
             cuts_digits,
+            text: text.into(),
             post,
         })
     }
 
-    /// Runs a program of this form by the judge's own machine.
+    /// Runs a program of this form by the judge's own machine; `inch`: so it counts before it says.
     ///
     /// # Errors
     /// The line, and why it stops there.
@@ -80,16 +84,14 @@ impl Form {
         }
     }
 
-    /// Prints a job; true where it says that digits were lost.
+    /// Prints a job, in inches or millimetres; true where it says that digits were lost.
     ///
     /// # Errors
     /// The code and the message of what it refuses.
-    pub fn render(&self, job: &str, format: Format) -> Result<(String, bool), Said> {
-        let mut options = Options::default();
-        // a CL file has no number
-        options.program = Some(MAIN);
+    pub fn render(&self, job: Job<'_>, inch: bool) -> Result<(String, bool), Said> {
+        let mut options = options(inch);
         options.proof = None;
-        let program = self.post.render(Job::bytes(format, job), &options);
+        let program = self.post.render(job, &options);
         let lost = |program: &postform::Program| program.notes().iter().any(|note| note.code.name() == "PR025");
         program
             .map(|program| {
@@ -99,29 +101,60 @@ impl Form {
             .map_err(|error| said(&error))
     }
 
-    /// Compares a program with its job.
-    pub fn verify(&self, program: &str, job: &str, format: Format) -> Proof {
-        self.verify_within(program, job, format, None)
-    }
-
-    /// The same, with places this near in the job's units.
-    pub fn verify_within(&self, program: &str, job: &str, format: Format, tolerance: Option<f64>) -> Proof {
+    /// Compares a program with its job, with places this near in the job's units.
+    pub fn verify(&self, program: &str, job: Job<'_>, inch: bool, tolerance: Option<f64>) -> Proof {
         let mut proof = postform::Proof::default();
         proof.tolerance = tolerance;
         let program = std::io::Cursor::new(program);
-        let proven = self.post.verify_with(Job::bytes(format, job), program, &Options::default(), &proof);
-        match proven.map(|proven| proven.verdict) {
-            Ok(Verdict::Identical) => Proof::Identical,
-            Ok(Verdict::Equivalent(_)) => Proof::Equivalent,
-            Ok(Verdict::Different(findings)) => {
-                let place = |place: Option<Place>| place.map(|place| place.to_string()).unwrap_or_default();
-                let what = |f: &Finding| format!("line {}: {} [{}] {}", f.line, f.message, f.block, place(f.place));
-                Proof::Different(findings.iter().map(|f| (f.code.name().to_owned(), what(f))).collect())
-            }
-            Ok(Verdict::NotProven(unproven)) => Proof::NotProven(("unproven".into(), unproven.why)),
-            Ok(_) => Proof::NotProven(("unknown".into(), "a verdict that is not known here".into())),
-            Err(error) => Proof::NotProven(said(&error)),
+        proof_of(self.post.verify_with(job, program, &options(inch), &proof))
+    }
+
+    /// Prints a job and proves it meanwhile, as `render` of the command line does, but in parts of any size.
+    pub fn prove_beside(&self, job: Job<'_>, inch: bool, random: &mut Random) -> Proof {
+        let mut whole = Batch::default();
+        let rendered = self.post.render_beside(job, &options(inch), &mut |_| Ok(()), &mut |batch| {
+            whole.events.extend(batch.events);
+            whole.text.extend(batch.text);
+            whole.trace.extend(batch.trace);
+            Some(Batch::default())
+        });
+        if let Err(error) = rendered {
+            return Proof::NotProven(said(&error));
         }
+        let mut batches = Vec::new();
+        let Batch { mut events, mut text, .. } = whole;
+        while !events.is_empty() || !text.is_empty() {
+            let mut batch = Batch::default();
+            let (some, more) = (random.below(events.len() + 1), random.below(text.len() + 1));
+            let of = 1 + random.below(8);
+            batch.events = events.drain(..some.div_ceil(of)).collect();
+            batch.text = text.drain(..more.div_ceil(of)).collect();
+            batches.push(batch);
+        }
+        proof_of(self.post.prove(batches.into_iter(), &options(inch), &postform::Proof::default()))
+    }
+}
+
+/// A CL file has no number.
+fn options(inch: bool) -> Options {
+    let mut options = Options::default();
+    options.program = Some(MAIN);
+    options.units = Some(if inch { Units::Inch } else { Units::Mm });
+    options
+}
+
+fn proof_of(proven: Result<Proven, Error>) -> Proof {
+    match proven.map(|proven| proven.verdict) {
+        Ok(Verdict::Identical) => Proof::Identical,
+        Ok(Verdict::Equivalent(_)) => Proof::Equivalent,
+        Ok(Verdict::Different(findings)) => {
+            let place = |place: Option<Place>| place.map(|place| place.to_string()).unwrap_or_default();
+            let what = |f: &Finding| format!("line {}: {} [{}] {}", f.line, f.message, f.block, place(f.place));
+            Proof::Different(findings.iter().map(|f| (f.code.name().to_owned(), what(f))).collect())
+        }
+        Ok(Verdict::NotProven(unproven)) => Proof::NotProven(("unproven".into(), unproven.why)),
+        Ok(_) => Proof::NotProven(("unknown".into(), "a verdict that is not known here".into())),
+        Err(error) => Proof::NotProven(said(&error)),
     }
 }
 

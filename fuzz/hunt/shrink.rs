@@ -74,7 +74,7 @@ fn remove(value: &mut Value, path: &[String], from: usize, size: usize) -> bool 
         }
         Some(Value::Object(map)) if size == 1 && from < map.len() => {
             let key = map.keys().nth(from).cloned().unwrap_or_default();
-            if ["operations", "path", "kind", "postform", "units", "program"].contains(&key.as_str()) {
+            if ["operations", "path", "lines", "name", "kind", "postform", "units", "program"].contains(&key.as_str()) {
                 return false;
             }
             map.shift_remove(&key).is_some()

@@ -1,4 +1,4 @@
-//! A job as the text that is read: a document, JSON Lines, or a CL file.
+//! A job as the text that is read: a document, JSON Lines, a CL file, a program.
 
 use std::fmt::Write;
 
@@ -11,6 +11,8 @@ use crate::cl::cl;
 pub fn ending(format: Format) -> &'static str {
     match format {
         Format::Cl => "cl",
+        Format::Nc => "nc",
+        Format::Freecad => "commands",
         Format::JsonLines => "jsonl",
         _ => "json",
     }
@@ -18,7 +20,20 @@ pub fn ending(format: Format) -> &'static str {
 
 /// The job in this format; in CL, what CL can't say is left out ([`crate::cl::for_cl`]).
 pub fn written(job: &Value, format: Format) -> String {
+    let lines_of = |job: &Value| {
+        list(job, "lines").iter().filter_map(Value::as_str).fold(String::new(), |text, line| text + line + "\n")
+    };
     match format {
+        Format::Cl if job.get("lines").is_some() => {
+            let units = if job["units"] == json!("mm") { "MM" } else { "INCHES" };
+            format!("PARTNO/7\nUNITS/{units}\n{}FINI\n", lines_of(job))
+        }
+        Format::Nc => lines_of(job),
+        // what its paths hold, to be looked at
+        Format::Freecad => list(job, "operations")
+            .iter()
+            .map(|operation| format!("{}:\n{}", operation["name"], lines_of(operation)))
+            .collect(),
         Format::Cl => cl(job),
         Format::JsonLines => lines(job),
         _ => job.to_string(),

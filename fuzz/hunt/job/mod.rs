@@ -1,10 +1,12 @@
 //! Random jobs: right ones, as a CAM system could write them, with everything that a job can say.
 
 mod cycles;
+pub mod document;
 mod lathe;
 mod mill;
 mod pen;
 mod rotary;
+mod statements;
 mod subprograms;
 mod wire;
 
@@ -25,16 +27,25 @@ pub enum Kind {
     Lathe,
     /// Wire EDM.
     Wire,
+    /// A CL file with all that CYCLE can say; a list of lines.
+    Statements,
+    /// An NC program that another form printed; a list of lines.
+    Program,
+    /// A FreeCAD document; a list of commands for each operation.
+    Document,
 }
 
 impl Kind {
     /// All, with the names that the command line takes.
-    pub const ALL: [(&'static str, Kind); 5] = [
+    pub const ALL: [(&'static str, Kind); 8] = [
         ("mill", Kind::Mill),
         ("rotary", Kind::Rotary),
         ("subprograms", Kind::Subprograms),
         ("lathe", Kind::Lathe),
         ("wire", Kind::Wire),
+        ("cl", Kind::Statements),
+        ("nc", Kind::Program),
+        ("freecad", Kind::Document),
     ];
 
     /// Its name.
@@ -46,18 +57,20 @@ impl Kind {
 /// What the form that will print a job takes.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Takes {
-    /// Jobs in these units alone.
-    pub inch: Option<bool>,
     /// Its own cycles, by number.
     pub customs: [bool; 3],
     /// Jobs that send the tool home.
     pub home: bool,
 }
 
-/// A job as a document: an object whose last key is its operations.
+/// A job as a document: an object whose last key is its operations. A program is made of a milling job.
 pub fn job(kind: Kind, takes: Takes, random: &mut Random) -> Value {
     let inch = random.once_in(2);
-    let inch = takes.inch.unwrap_or(inch);
+    match kind {
+        Kind::Statements => return statements::statements(inch, random),
+        Kind::Document => return document::commands(random),
+        _ => {}
+    }
     let mut job = json!({
         "postform": 1,
         "program": 1 + random.below(8999),
@@ -67,9 +80,10 @@ pub fn job(kind: Kind, takes: Takes, random: &mut Random) -> Value {
         job["name"] = json!("PART 7");
     }
     match kind {
-        Kind::Mill | Kind::Rotary | Kind::Subprograms => mill::fill(&mut job, kind, inch, takes, random),
+        Kind::Rotary | Kind::Subprograms => mill::fill(&mut job, kind, inch, takes, random),
         Kind::Lathe => lathe::fill(&mut job, inch, random),
         Kind::Wire => wire::fill(&mut job, inch, random),
+        _ => mill::fill(&mut job, Kind::Mill, inch, takes, random),
     }
     job
 }

@@ -3,8 +3,10 @@
 
 mod arcs;
 mod holes;
+mod planned;
 
 use super::{Act, Place, Want, Wanted, What, near, same};
+use crate::planner::Kind;
 
 /// What differs first, in words; `None`: the program does its job. `within`: millimetres.
 pub fn difference(wants: &[Wanted], acts: &[Act], within: f64) -> Option<String> {
@@ -88,7 +90,12 @@ impl Judge<'_> {
         (self.at..self.acts.len()).find(|&at| {
             // a feed of no length cuts nothing
             let act = &self.acts[at];
-            cuts(&act.what) && (act.what != What::Feed || !same(&act.from, &act.to, 1e-9))
+            let nothing = match act.what {
+                What::Feed => same(&act.from, &act.to, 1e-9),
+                What::Hole { r, z, .. } => near(r, z, 1e-9),
+                _ => false,
+            };
+            cuts(&act.what) && !nothing
         })
     }
 
@@ -128,6 +135,7 @@ impl Judge<'_> {
             Want::Line => self.line(wanted),
             Want::Arc { .. } => self.arc(wanted),
             Want::Hole { .. } => self.hole(wanted),
+            Want::Planned(hole) => self.planned(wanted, hole),
             Want::Thread { .. } => self.thread(wanted, again),
         }
     }
@@ -135,6 +143,7 @@ impl Judge<'_> {
     /// A stop or dwell before the next cut.
     fn pass(&mut self, wanted: &Wanted) -> Option<String> {
         let mut at = self.at;
+        let mut too_low = None;
         while let Some(act) = self.acts.get(at) {
             let found = match (&wanted.want, act.what) {
                 (Want::Stop(kind), What::Stop(is)) => *kind == is,
@@ -142,15 +151,23 @@ impl Judge<'_> {
                 _ => false,
             };
             if found {
-                let low = self.way(wanted, at);
-                (self.low, self.allowed) = (f64::INFINITY, f64::INFINITY);
-                self.at = at + 1;
-                return low;
+                // where no word says the tool, it may be the stop at which a person changes it
+                let low = if act.state.tool == 0.0 { None } else { self.way(wanted, at) };
+                if low.is_none() {
+                    (self.low, self.allowed) = (f64::INFINITY, f64::INFINITY);
+                    self.at = at + 1;
+                    return None;
+                }
+                // or a stop of the form, and the job's comes later
+                too_low = too_low.or(low);
             }
             if cuts(&act.what) && !same(&act.from, &act.to, self.within) {
                 break;
             }
             at += 1;
+        }
+        if too_low.is_some() {
+            return too_low;
         }
         Some(format!("{:?} is missing before line {}", wanted.want, self.acts.get(at).map_or(0, |act| act.line)))
     }
@@ -158,22 +175,32 @@ impl Judge<'_> {
     fn state(&self, wanted: &Wanted, act: &Act) -> Option<String> {
         let state = &act.state;
         let line = act.line;
-        if state.tool != wanted.tool && state.tool != 0.0 {
+        if state.tool != wanted.tool && state.tool != 0.0 && wanted.tool != 0.0 {
             return Some(format!("line {line}: tool {} for {}", state.tool, wanted.tool));
         }
-        if state.length.is_some_and(|length| length != wanted.length) {
+        if state.length.is_some_and(|length| !wanted.length.is_nan() && length != wanted.length) {
             return Some(format!("line {line}: length register {:?} for {}", state.length, wanted.length));
         }
         let work = if state.work < 50.0 { state.work + 53.0 } else { state.work };
-        if work != wanted.work {
+        // a job that names none gets the form's
+        if !wanted.work.is_nan() && work != wanted.work {
             return Some(format!("line {line}: work offset {work} for {}", wanted.work));
         }
-        let is_tap = matches!(&wanted.want, Want::Hole { kind, .. } if kind.ends_with("tap"));
+        let is_tap = match &wanted.want {
+            Want::Hole { kind, .. } => kind.ends_with("tap"),
+            Want::Planned(hole) => hole.kind == Kind::Tap,
+            _ => false,
+        };
         if !is_tap && state.direction != wanted.spindle.0 {
             return Some(format!("line {line}: spindle M{} for M{}", state.direction, wanted.spindle.0));
         }
         if (state.speed - wanted.spindle.1).abs() > 0.01 * wanted.spindle.1 + 0.5 {
             return Some(format!("line {line}: S{} for S{}", state.speed, wanted.spindle.1));
+        }
+        // more than the job wants cools, too
+        let lacks = |coolant: u8| coolant != 0 && state.coolant == 0 || coolant & 2 > state.coolant & 2;
+        if wanted.coolant.is_some_and(lacks) {
+            return Some(format!("line {line}: coolant {} for {:?}", state.coolant, wanted.coolant));
         }
         // revolutions may be counted as minutes
         if state.feed.1 != wanted.feed.1 && state.feed.1 != 94.0 && !is_tap {

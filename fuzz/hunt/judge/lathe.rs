@@ -53,8 +53,15 @@ fn place(at: &mut Value) {
     *at = json!([of(1), null, of(0)]);
 }
 
+/// What a surface speed counts, in metres a minute; revolutions count themselves.
+pub fn surface(is_surface: bool, scale: f64) -> f64 {
+    if is_surface && scale == INCH { 0.3048 } else { 1.0 }
+}
+
 struct Lathe {
     scale: f64,
+    /// S is a surface speed.
+    surface: bool,
     diameter: f64,
     at: Place,
     state: State,
@@ -73,6 +80,7 @@ struct Lathe {
 pub fn run(program: &str, by_diameter: bool, inch: bool) -> Result<Vec<Act>, (usize, String)> {
     let mut lathe = Lathe {
         scale: if inch { INCH } else { 1.0 },
+        surface: false,
         diameter: if by_diameter { 2.0 } else { 1.0 },
         at: [f64::NAN, 0.0, f64::NAN, 0.0, 0.0, 0.0],
         state: State { direction: 5.0, side: (40.0, 0.0), feed: (f64::NAN, 94.0), work: 54.0, ..State::default() },
@@ -102,8 +110,10 @@ impl Lathe {
         let get = |letter: u8| list.iter().rfind(|(other, _)| *other == letter).map(|(_, number)| *number);
         let has = |letter: u8, number: f64| list.contains(&(letter, number));
         let [home, machine, limit, dwell] = [28.0, 53.0, 50.0, 4.0].map(|code| has(b'G', code));
+        let mut said = None;
         for &(letter, number) in list {
             match (letter, number) {
+                (b'G', 96.0 | 97.0) => self.surface = number == 96.0,
                 (b'G', 0.0 | 1.0 | 2.0 | 3.0 | 32.0 | 76.0) => self.motion = number,
                 (b'G', 92.0) => (self.motion, self.taper) = (number, 0.0),
                 (b'G', 20.0) => self.scale = INCH,
@@ -111,7 +121,7 @@ impl Lathe {
                 (b'G', 40.0..=42.0) => self.state.side = (number, 0.0),
                 (b'G', 98.0) => self.state.feed.1 = 94.0,
                 (b'G', 99.0) => self.state.feed.1 = 95.0,
-                (b'G', 4.0 | 18.0 | 28.0 | 50.0 | 53.0 | 54.0 | 80.0 | 96.0 | 97.0) => {}
+                (b'G', 4.0 | 18.0 | 28.0 | 50.0 | 53.0 | 54.0 | 80.0) => {}
                 (b'G', other) => return Err(format!("G{other}")),
                 (b'T', word) => {
                     (self.state.tool, self.state.length) = ((word / 100.0).trunc(), Some(word % 100.0));
@@ -119,7 +129,7 @@ impl Lathe {
                     let at = self.at;
                     self.act(line, What::Tool, at);
                 }
-                (b'S', speed) if !limit => self.state.speed = speed,
+                (b'S', speed) if !limit => said = Some(speed),
                 (b'F', feed) => self.state.feed.0 = feed * self.scale,
                 (b'M', 3.0..=5.0) => self.state.direction = number,
                 (b'M', 8.0) => self.state.coolant |= 2,
@@ -128,6 +138,9 @@ impl Lathe {
                 (b'M', other) => return Err(format!("M{other}")),
                 _ => {}
             }
+        }
+        if let Some(speed) = said {
+            self.state.speed = speed * surface(self.surface, self.scale);
         }
         let at = self.at;
         if dwell {

@@ -170,6 +170,8 @@ struct Machine {
     to_r: bool,
     next_tool: f64,
     cycle: Option<Cycle>,
+    /// Where the frame of G92 or G52 begins.
+    shift: [f64; 3],
     acts: Vec<Act>,
 }
 
@@ -202,7 +204,18 @@ impl Machine {
             to_r: false,
             next_tool: 0.0,
             cycle: None,
+            shift: [0.0; 3],
             acts: Vec::new(),
+        }
+    }
+
+    /// G92: here is that place. G52: the frame begins there.
+    fn frame(&mut self, block: &Block<'_>, is_here: bool) {
+        for (axis, letter) in b"XYZ".iter().enumerate() {
+            if let Some(number) = block.get(*letter) {
+                let place = number * self.scale;
+                self.shift[axis] = if is_here { self.at[axis] - place } else { place };
+            }
         }
     }
 
@@ -217,6 +230,7 @@ impl Machine {
         let mut reference = false;
         let mut dwell = false;
         let mut rigid = false;
+        let mut frame = None;
         let mut motion = None;
         for &(letter, number) in list {
             if letter == b'G' {
@@ -232,6 +246,7 @@ impl Machine {
                     41.0 | 42.0 => self.state.side = (number, block.get(b'D').unwrap_or(self.state.side.1)),
                     43.0 => self.length(Some(block.get(b'H').unwrap_or(self.state.tool))),
                     49.0 => self.length(None),
+                    52.0 | 92.0 => frame = Some(number == 92.0),
                     53.0 => machine_place = true,
                     54.0..60.0 => self.work(number),
                     80.0 => {
@@ -265,6 +280,8 @@ impl Machine {
             let seconds = self.family.dwell(&self.control, seconds);
             let at = self.at;
             self.act(line, What::Dwell(seconds), at);
+        } else if let Some(is_here) = frame {
+            self.frame(&block, is_here);
         } else if reference {
             self.reference(&block, line);
         } else if rigid {
@@ -347,9 +364,9 @@ impl Machine {
                     self.state.tool = self.next_tool;
                     let at = self.at;
                     self.act(line, What::Tool, at);
-                    if self.family != Family::Linuxcnc {
-                        self.at[2] = f64::NAN;
-                    }
+                    // where a tool is changed is the machine's own matter
+                    self.at[2] = f64::NAN;
+                    self.state.direction = 5.0;
                 }
                 7.0 => self.state.coolant |= 1,
                 8.0 => self.state.coolant |= 2,
@@ -391,7 +408,7 @@ impl Machine {
             let number = if axis < 3 { number * self.scale } else { number };
             to[axis] = match (machine_place, self.absolute) {
                 (true, _) => f64::NAN,
-                (false, true) => number,
+                (false, true) => number + self.shift.get(axis).unwrap_or(&0.0),
                 (false, false) => to[axis] + number,
             };
         }
@@ -424,7 +441,7 @@ impl Machine {
             self.motion = code;
         }
         let axes = b"XYZABC".iter().any(|letter| block.get(*letter).is_some());
-        let centre = b"IJ".iter().any(|letter| block.get(*letter).is_some());
+        let centre = b"IJK".iter().any(|letter| block.get(*letter).is_some());
         if self.cycle.is_some() && !machine_place {
             return match axes || block.get(b'R').is_some() {
                 true => self.hole(block, line),

@@ -1,9 +1,11 @@
 //! A judge of its own: a small machine that runs programs, and the cuts that a job asks for. Nothing here knows how
 //! postform reads, plans or compares.
 
+pub mod done;
 pub mod lathe;
 mod machine;
 mod modes;
+pub mod planned;
 mod scan;
 mod wants;
 pub mod wire;

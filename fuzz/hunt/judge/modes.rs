@@ -25,8 +25,8 @@ impl Family {
     pub fn dwell(self, control: &str, number: f64) -> f64 {
         match self {
             Family::Linuxcnc => number,
-            // Haas counts seconds where there is a point, and these forms print one
-            _ if control == "haas" => number,
+            // Haas counts seconds where there is a point, and so much has none
+            _ if control == "haas" && number < 50.0 => number,
             _ => number / 1000.0,
         }
     }

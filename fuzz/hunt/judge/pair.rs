@@ -44,6 +44,13 @@ pub enum Class {
     Tail,
 }
 
+impl Class {
+    /// Is no part lost by it?
+    pub fn is_harmless(self) -> bool {
+        matches!(self, Class::Way | Class::Pecks | Class::Tail | Class::Near | Class::Short)
+    }
+}
+
 /// Moves with straight cuts as rapids that are no longer than 0.0001 inch.
 pub fn without_short(acts: &[Act]) -> Vec<Act> {
     let straight = |what: What| matches!(what, What::Feed | What::Thread(_));

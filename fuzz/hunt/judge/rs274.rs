@@ -124,6 +124,10 @@ fn acts(calls: &str) -> Vec<Act> {
                 acts.push(Act { line: 0, what: What::Feed, from: to, to: at, state });
                 continue;
             }
+            "ORIENT_SPINDLE" => {
+                state.direction = 5.0;
+                What::Orient(number(1))
+            }
             "DWELL" => What::Dwell(number(0)),
             "PROGRAM_STOP" => What::Stop(0.0),
             "OPTIONAL_PROGRAM_STOP" => What::Stop(1.0),
@@ -144,6 +148,14 @@ fn acts(calls: &str) -> Vec<Act> {
             }
             "SET_SPINDLE_SPEED" => {
                 state.speed = number(1);
+                continue;
+            }
+            "MIST_ON" | "MIST_OFF" => {
+                state.coolant = (state.coolant & 2) | u8::from(name == "MIST_ON");
+                continue;
+            }
+            "FLOOD_ON" | "FLOOD_OFF" => {
+                state.coolant = (state.coolant & 1) | (2 * u8::from(name == "FLOOD_ON"));
                 continue;
             }
             "START_SPINDLE_CLOCKWISE" => {

@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::{INCH, Place};
+use crate::planner::Hole;
 
 /// One thing that must be done.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,8 @@ pub enum Want {
     Arc { plane: &'static str, center: [f64; 2], ccw: bool, turns: f64 },
     /// A hole: where the feed begins and ends, and the kind.
     Hole { kind: String, clear: f64, bottom: f64, out: f64 },
+    /// A hole with its moves, by the second planner.
+    Planned(Box<Hole>),
     /// A thread: where its passes begin along the axis, radius of the crest at the end, depth with its sign, lead.
     Thread { begin: f64, crest: f64, depth: f64, lead: f64 },
     /// A stop: 0 or 1.
@@ -44,6 +47,8 @@ pub struct Wanted {
     pub low: f64,
     /// 40, 41 or 42.
     pub side: f64,
+    /// Mist is 1, flood is 2, both are 3; `None` where it is not compared.
+    pub coolant: Option<u8>,
 }
 
 struct Reader {
@@ -63,6 +68,8 @@ struct Reader {
     subs: Vec<Value>,
     /// A lathe or a wire: no way is free.
     lathe: bool,
+    /// The speed is a surface speed.
+    surface: bool,
 }
 
 /// The list, or nothing for a job that this does not read: with calls, custom cycles, or codes as text.
@@ -89,6 +96,7 @@ pub fn wants(job: &Value) -> Option<Vec<Wanted>> {
         jogged: false,
         subs: job["subprograms"].as_array().cloned().unwrap_or_default(),
         lathe: lathe || wire,
+        surface: false,
     };
     if lathe {
         reader.at[1] = 0.0;
@@ -135,8 +143,11 @@ impl Reader {
     }
 
     fn spindle(&mut self, spindle: &Value) {
+        if let Some(mode) = spindle.get("mode") {
+            self.surface = mode == "css";
+        }
         if let Some(speed) = spindle.get("speed").and_then(Value::as_f64) {
-            self.spindle.1 = speed;
+            self.spindle.1 = speed * super::lathe::surface(self.surface, self.unit);
             if self.spindle.0 == 5.0 && spindle.get("direction").is_none() {
                 self.spindle.0 = 3.0;
             }
@@ -176,6 +187,7 @@ impl Reader {
             feed: self.feed,
             low,
             side: self.side,
+            coolant: None,
         });
         self.at = to;
         self.low = f64::INFINITY;

@@ -39,8 +39,8 @@ impl Judge<'_> {
             }
             let known: &[f64] = match kind.as_str() {
                 "drill" | "csink" | "face" => &[81.0, 82.0],
-                "deep" => &[83.0, 81.0, 82.0],
-                "chipbreak" => &[73.0, 81.0, 82.0],
+                // a form may peck where the job breaks chips, and the reverse
+                "deep" | "chipbreak" => &[83.0, 73.0, 81.0, 82.0],
                 "tap" => &[84.0, 81.0, 82.0],
                 "ltap" => &[74.0, 81.0, 82.0],
                 "bore" => &[85.0, 86.0, 76.0, 89.0, 82.0],

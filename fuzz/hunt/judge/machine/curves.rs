@@ -52,13 +52,13 @@ impl Machine {
     pub(super) fn hole(&mut self, block: &Block<'_>, line: usize) -> Result<(), String> {
         let (scale, absolute, here) = (self.scale, self.absolute, self.at);
         let to = self.target(block, false);
-        let to_r = self.to_r;
+        let (to_r, high) = (self.to_r, self.shift[2]);
         let Some(cycle) = &mut self.cycle else { return Ok(()) };
         if let Some(r) = block.get(b'R') {
-            cycle.r = Some(if absolute { r * scale } else { cycle.initial + r * scale });
+            cycle.r = Some(if absolute { r * scale + high } else { cycle.initial + r * scale });
         }
         if let Some(z) = block.get(b'Z') {
-            let base = if absolute { 0.0 } else { cycle.r.unwrap_or(f64::NAN) };
+            let base = if absolute { high } else { cycle.r.unwrap_or(f64::NAN) };
             cycle.z = Some(base + z * scale);
         }
         if let Some(q) = block.get(b'Q') {
@@ -94,6 +94,12 @@ impl Machine {
         let mut end = over;
         end[2] = out;
         self.act(line, what, end);
+        // a tap starts a spindle that stands
+        match code {
+            84.0 if self.state.direction == 5.0 => self.state.direction = 3.0,
+            74.0 if self.state.direction == 5.0 => self.state.direction = 4.0,
+            _ => {}
+        }
         Ok(())
     }
 }

@@ -1,0 +1,81 @@
+//! A program that is a job: what the judge's machine does with it, as the list that another program is compared with.
+
+use super::wants::{Want, Wanted};
+use super::{Act, What};
+
+/// The list of what was done; `None`: with a cycle that jogs, or that this does not name.
+pub fn wants(acts: &[Act]) -> Option<Vec<Wanted>> {
+    let mut list: Vec<Wanted> = Vec::new();
+    let mut low = f64::INFINITY;
+    let mut side = 40.0;
+    for act in acts {
+        // a job goes into compensation, and out of it, at feed
+        let turned = std::mem::replace(&mut side, act.state.side.0) != act.state.side.0;
+        if act.what == What::Rapid && turned {
+            return None;
+        }
+        // where a register was turned off, or the frame is another, only the machine knows how high or where it cuts
+        if act.cuts() && act.to.iter().any(|place| place.is_nan()) {
+            return None;
+        }
+        let want = match act.what {
+            What::Rapid => {
+                // across from a height that only the machine knows
+                if act.from[2].is_nan() && act.to[2].is_nan() {
+                    low = f64::NEG_INFINITY;
+                }
+                low = low.min(act.from[2]).min(act.to[2]);
+                continue;
+            }
+            What::Tool => {
+                low = f64::INFINITY;
+                continue;
+            }
+            What::Orient(_) | What::End => continue,
+            What::Hole { .. } if !act.cuts() => continue,
+            What::Feed => Want::Line,
+            What::Arc { plane, center, ccw, turns } => {
+                let plane = match plane {
+                    18.0 => "xz",
+                    19.0 => "yz",
+                    _ => "xy",
+                };
+                Want::Arc { plane, center, ccw, turns }
+            }
+            What::Hole { code, r, z, out, .. } => {
+                let kind = match code {
+                    81.0 => "drill",
+                    82.0 => "face",
+                    83.0 => "deep",
+                    73.0 => "chipbreak",
+                    84.0 => "tap",
+                    74.0 => "ltap",
+                    85.0 | 89.0 => "ream",
+                    86.0 => "bore",
+                    _ => return None,
+                };
+                Want::Hole { kind: kind.into(), clear: r, bottom: z, out }
+            }
+            What::Dwell(seconds) => Want::Dwell(seconds),
+            What::Stop(kind) => Want::Stop(kind),
+            What::Thread(_) => return None,
+        };
+        let state = &act.state;
+        list.push(Wanted {
+            want,
+            from: act.from,
+            to: act.to,
+            tool: state.tool,
+            length: state.length.unwrap_or(f64::NAN),
+            work: if state.work < 50.0 { state.work + 53.0 } else { state.work },
+            spindle: (state.direction, state.speed),
+            feed: state.feed,
+            low: low.min(act.from[2]).min(act.to[2]),
+            side: state.side.0,
+            // a job has one kind
+            coolant: Some(state.coolant).filter(|coolant| *coolant != 3),
+        });
+        low = f64::INFINITY;
+    }
+    Some(list)
+}

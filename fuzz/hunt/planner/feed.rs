@@ -1,0 +1,27 @@
+//! Feeds: a number and what it counts.
+
+const INCH: f64 = 25.4;
+
+/// Millimetres a minute; `words` as in "Cutting Feed" of the CYCLE chapter. `None` for another word, or a feed per revolution while
+/// the spindle stands.
+pub fn per_minute(word: &str, value: f64, file_unit: f64, revolutions: f64) -> Option<f64> {
+    let (length, per_turn) = match word {
+        "IPM" => (INCH, false),
+        "IPR" => (INCH, true),
+        "MMPM" => (1.0, false),
+        "MMPR" => (1.0, true),
+        "PERMIN" => (file_unit, false),
+        "PERREV" => (file_unit, true),
+        "TPI" => return (revolutions > 0.0).then(|| INCH / value * revolutions),
+        _ => return None,
+    };
+    match per_turn {
+        false => Some(value * length),
+        true => (revolutions > 0.0).then_some(value * length * revolutions),
+    }
+}
+
+/// Is it the name of a feed?
+pub fn is_feed(word: &str) -> bool {
+    ["IPM", "IPR", "MMPM", "MMPR", "PERMIN", "PERREV", "TPI"].contains(&word)
+}

@@ -27,8 +27,9 @@ const INTERPRETED: u64 = 16;
 const BESIDE: u64 = 8;
 /// One job in so many is also printed with a form that has one mistake.
 const WRONG_FORMS: u64 = 4;
-/// What a form's own sequences say, and stands as it is typed: whether the spindle stops in Bore, how a wire is threaded.
-const FORMS_OWN: [&str; 2] = ["out with the spindle turning", "Stop is missing"];
+/// What a form's own lines say, and stands as it is typed: whether the spindle stops in Bore, how a wire is threaded, the codes of
+/// its coolant.
+const FORMS_OWN: [&str; 3] = ["out with the spindle turning", "Stop is missing", "coolant"];
 /// Two of the last digits of an inch, in millimetres.
 const DIGITS: f64 = 0.0052;
 /// How near places must be for `verify`, in millimetres.

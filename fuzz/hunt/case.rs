@@ -273,6 +273,10 @@ impl Case {
     fn wants(&self) -> Option<Vec<Wanted>> {
         match self.kind {
             Kind::Program | Kind::Document => {
+                // frames that a program moves are left out before its first move, and followed after it
+                if ["G52", "G92"].iter().any(|code| self.text().contains(code)) {
+                    return None;
+                }
                 let acts = match &self.writer {
                     Some(writer) => writer.run(&self.text(), self.is_inch()),
                     None => run(&document::program(&self.job), "linuxcnc", false),

@@ -31,6 +31,14 @@ const LANGUAGES: [(&str, &[Mark]); 5] = [
             Block("WORKPIECE"),
             Block("DEFREAL"),
             Word("SUPA"),
+            // `I=AC(10)`, whose number looks like a comment
+            Word("X=AC"),
+            Word("Y=AC"),
+            Word("Z=AC"),
+            Word("I=AC"),
+            Word("J=AC"),
+            Word("X=IC"),
+            Word("Z=IC"),
         ],
     ),
     (
@@ -110,6 +118,7 @@ mod tests {
             ("0  BEGIN PGM T MM", "Klartext of a Heidenhain control"),
             ("%_N_T_MPF", "in the language of Siemens controls"),
             ("G0 X1\nN60 MCALL CYCLE83(50)", "in the language of Siemens controls"),
+            ("G2 X1 Y2 I=AC(10) J=AC(0)", "in the language of Siemens controls"),
             ("IN;SP1;PU0,0;", "HPGL, for a plotter"),
             (";FLAVOR:Marlin", "for a 3D printer (Marlin)"),
             ("N20 G15 H1", "for an Okuma OSP control"),

@@ -6,7 +6,7 @@ use super::codes::Group;
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
-use crate::control::{Meaning, Turns};
+use crate::control::{Meaning, ToolLength, Turns};
 use crate::diag::Code;
 use crate::toolpath::Side;
 
@@ -175,10 +175,11 @@ impl State {
             Some(row) => row,
             // a Fanuc changes the offset in force by H alone, a FADAL turns it on
             None => {
-                let counts = self.tool.length_on || self.control.traits().height_is_machine;
+                let by_register = self.control.traits().tool_length == ToolLength::Register;
+                let counts = self.tool.length_on || by_register;
                 if let Some(register) = block.get(b'H').filter(|_| counts && !self.control.is_linuxcnc()) {
                     // register 0 holds no length
-                    self.tool.length_on = register != 0.0 || !self.control.traits().height_is_machine;
+                    self.tool.length_on = register != 0.0 || !by_register;
                     out.push(Action::Length(Some(register).filter(|register| *register != 0.0)));
                 }
                 return Ok(());
@@ -201,9 +202,9 @@ impl State {
             }
             _ => {
                 let number = row.code.tenths;
-                // LinuxCNC takes the length of the tool in the spindle, whatever T has chosen since
+                // without H some controls take the length of the tool in the spindle, whatever T has chosen since
                 let register = block.get(b'H').or(self.tool.loaded);
-                if block.get(b'H').is_none() && !self.control.is_linuxcnc() {
+                if block.get(b'H').is_none() && self.control.traits().tool_length != ToolLength::Code {
                     let help = "write H with the tool's register: G43 H1";
                     return refuse(Code::PN007, "a tool length offset without H", help);
                 }

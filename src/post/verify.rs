@@ -161,13 +161,17 @@ struct Plan {
 
 impl Plan {
     fn new(form: Option<&compile::Program>, options: &Options, proof: &Proof) -> Plan {
+        let settings = proof.settings(form, options.units.unwrap_or(Units::Mm));
         Plan {
-            settings: proof.settings(form, options.units.unwrap_or(Units::Mm)),
-            expectation: form.map_or_else(Expectation::default, |form| {
-                // a wrong value is refused where the program is printed
-                let given = options.given_properties(&form.settings).unwrap_or_default();
-                Expectation::of_form(&form.settings, options.sink_as_printed).typed(form).given(&given)
-            }),
+            settings,
+            expectation: form.map_or_else(
+                || Expectation::of_control(settings.control),
+                |form| {
+                    // a wrong value is refused where the program is printed
+                    let given = options.given_properties(&form.settings).unwrap_or_default();
+                    Expectation::of_form(&form.settings, options.sink_as_printed).typed(form).given(&given)
+                },
+            ),
             of_job: options.units.is_none(),
             assumed: proof.control.is_none() && form.is_some_and(|form| form.settings.control.is_none()),
         }

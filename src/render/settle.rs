@@ -90,6 +90,7 @@ pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &m
         said.conditions.put(VarId::Feedtype, Some(feed_type));
     }
     said.conditions_are_settled(want);
+    want.ends_what_is_on(shape);
     Ok(())
 }
 

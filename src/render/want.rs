@@ -291,8 +291,8 @@ impl Want {
         }
         let first = coolant.first();
         let code = if first == Coolant::OFF { ends } else { codes_of(first, settings)?.on };
+        self.set(VarId::Coolantoff, ends);
         if first != before {
-            self.set(VarId::Coolantoff, ends);
             // another kind does not end one that has a code of its own for that
             let ended = ends != off && code != ends && (first == Coolant::OFF || !coolant.holds(before));
             self.ends_coolant = Some(ends).filter(|_| ended);

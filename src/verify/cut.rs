@@ -168,6 +168,8 @@ pub(super) struct Cut {
     /// It follows the spindle, by so much a turn.
     pub lead: Option<f64>,
     pub state: Shared,
+    /// What sequences print for that the job has had: since its last spindle word, and whose feed this cut may have.
+    pub by: [u8; 2],
     /// A canned cycle of the control makes it.
     pub by_cycle: bool,
     /// The program's line, or 0.

@@ -1,6 +1,7 @@
 //! What a program has not set yet, and what was reported of that.
 
 use super::expectation::Expectation;
+use crate::control::{Control, ToolLength};
 
 /// What a program has not set yet, and what was reported of that.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +15,9 @@ pub(super) struct Due {
 
 impl Due {
     /// Of a program that has set nothing.
-    pub fn new(expectation: &Expectation) -> Due {
-        let lengths = expectation.tools && expectation.lengths_due;
+    pub fn new(expectation: &Expectation, control: &Control) -> Due {
+        let has_lengths = control.traits().tool_length != ToolLength::None;
+        let lengths = expectation.tools && expectation.lengths_due && has_lengths;
         Due { lengths, length_reported: false, length_off: false, units: expectation.units_due }
     }
 

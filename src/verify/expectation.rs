@@ -1,12 +1,12 @@
 //! What a form fills in where its job is silent, and what it says of its own.
 
-use super::own::Own;
+use super::own::{Own, by, printed_by};
 use super::tables::{CHORDS, INCREMENTS};
 use super::wire_codes::{self, Coded, Codes};
 use crate::compile::{Op, Program, WorkWords};
 use crate::control::{Control, Meaning};
 use crate::cycle::Defaults;
-use crate::lang::{Machine, UnitChoice, VarId, work_code};
+use crate::lang::{Machine, SEQUENCES, UnitChoice, VarId, work_code};
 use crate::nc::Cooling;
 use crate::render::cycle_defaults;
 use crate::sema::{PropertyValue, Settings};
@@ -85,6 +85,11 @@ impl Default for Expectation {
 }
 
 impl Expectation {
+    /// What a control fills in where no form says more.
+    pub fn of_control(control: &Control) -> Expectation {
+        Expectation { tools: loads_tools(control), ..Expectation::default() }
+    }
+
     /// What a form fills in.
     pub fn of_form(settings: &Settings, sink_as_printed: bool) -> Expectation {
         let defaults = [Units::Inch, Units::Mm]
@@ -96,7 +101,7 @@ impl Expectation {
             first_work: settings.work,
             work: Some(settings.work_default),
             registers: Some([settings.lcomp, settings.dcomp]),
-            tools: settings.machine != Machine::Edm && !settings.control().refuses(crate::control::Code::m(6)),
+            tools: settings.machine != Machine::Edm && loads_tools(settings.control()),
             units_due: settings.units == UnitChoice::Both,
             axes: rotary_axes(&settings.rename),
             coolant: settings.coolant,
@@ -116,25 +121,35 @@ impl Expectation {
         let along = settings.axes[if settings.machine == Machine::Lathe { 0 } else { 2 }];
         self.increment =
             program.letters.each_ref().map(|letters| 10f64.powi(-i32::from(letters[along].format.dec.count)));
-        for op in &program.ops {
-            match *op {
-                Op::Literal { index, .. } => match &program.literals[index as usize] {
-                    word if word.letter == settings.feed_code => self.feeds.types(word.value),
-                    word if word.letter == settings.speed_code => self.speeds.types(word.value),
-                    word => self.types_m29 |= word.letter == b'M' && word.value == 29.0,
-                },
-                Op::Formula { letter, index, .. } if letter == settings.feed_code => {
-                    self.feeds.calculates(&program.formulas[index as usize], &[VarId::Frate, VarId::Plunge]);
-                }
-                Op::Formula { letter, index, .. } if letter == settings.speed_code => {
-                    self.speeds.calculates(&program.formulas[index as usize], &[VarId::Speed]);
-                }
-                _ => {}
-            }
+        let sequences = SEQUENCES.iter().filter_map(|row| program.routine(row.id).map(|own| (own, printed_by(row.id))));
+        let upons = program.upons.iter().map(|upon| (&upon.routine, by::JOB));
+        for (routine, by) in sequences.chain(upons) {
+            self.types(program, &program.ops[routine.ops.clone()], by);
         }
         self.work_words = Some((program.work.clone(), settings.codes()));
         self.work = self.work.and_then(|work| self.work_of(work));
         self
+    }
+
+    /// What the lines of a sequence type that these print.
+    fn types(&mut self, program: &Program, ops: &[Op], by: u8) {
+        let settings = &program.settings;
+        for op in ops {
+            match *op {
+                Op::Literal { index, .. } => match &program.literals[index as usize] {
+                    word if word.letter == settings.feed_code => self.feeds.types(word.value, by),
+                    word if word.letter == settings.speed_code => self.speeds.types(word.value, by),
+                    word => self.types_m29 |= word.letter == b'M' && word.value == 29.0,
+                },
+                Op::Formula { letter, index, .. } if letter == settings.feed_code => {
+                    self.feeds.calculates(&program.formulas[index as usize], &[VarId::Frate, VarId::Plunge], by);
+                }
+                Op::Formula { letter, index, .. } if letter == settings.speed_code => {
+                    self.speeds.calculates(&program.formulas[index as usize], &[VarId::Speed], by);
+                }
+                _ => {}
+            }
+        }
     }
 
     /// What a program calls an offset of the job; `None`: the form has none such.
@@ -199,4 +214,9 @@ pub(super) fn taps_by_m29(control: &Control) -> bool {
     let m29 = crate::control::Code { letter: b'M', tenths: 290 };
     let by_itself = control.is_like("haas") || control.is_like("fadal") || control.is_linuxcnc();
     !by_itself && control.row(m29).is_some_and(|row| row.meaning == Meaning::Harmless && row.text.contains("rigid"))
+}
+
+/// Does the control load tools? Not where it refuses M6, as a Grbl does.
+fn loads_tools(control: &Control) -> bool {
+    !control.refuses(crate::control::Code::m(6))
 }

@@ -3,10 +3,11 @@
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
 use super::intent::{Done, Intent, unproven};
+use super::own::by;
 use super::passage::Frame;
 use super::subprograms::Subprograms;
 use super::tables::Unmodelled;
-use crate::control::{Control, Group, Meaning};
+use crate::control::{Control, Group, Meaning, ToolLength};
 use crate::cycle::{Steps, check};
 use crate::diag::Diag;
 use crate::lang::Machine;
@@ -42,6 +43,10 @@ pub(super) struct Job {
     machine: Machine,
     /// The tool by the job's number.
     tool: Option<f64>,
+    /// What sequences print for that it has had; the cutting ones since its last spindle word.
+    by: u8,
+    /// What prints the cut that is made.
+    cuts_by: u8,
     pub(super) subprograms: Subprograms,
 }
 
@@ -65,6 +70,8 @@ impl Job {
             compensation: false,
             machine: Machine::Mill,
             tool: None,
+            by: by::JOB,
+            cuts_by: by::JOB,
             subprograms: Subprograms::default(),
         }
     }
@@ -80,6 +87,8 @@ impl Job {
 
     /// Does what an event asks for.
     pub(super) fn act(&mut self, event: Event<'_>, to: &mut impl Intent) -> Done {
+        self.cuts_by = made_by(&event);
+        self.by |= self.cuts_by;
         match event {
             Event::Start(start) => self.start(start, to),
             Event::ToolChange(change) => self.tool_change(change, to),
@@ -185,18 +194,24 @@ impl Job {
             self.state.tool = Some(tool.number);
             let [length, diameter] =
                 self.expectation.registers.map_or([None; 2], |by| by.map(|by| Some(tool.number + by)));
-            self.state.length = tool.length_offset.or(length).filter(|_| self.expectation.tools);
+            let has_lengths = self.control.traits().tool_length != ToolLength::None;
+            self.state.length = tool.length_offset.or(length).filter(|_| self.expectation.tools && has_lengths);
             self.diameter = tool.diameter_offset.or(diameter).filter(|_| !self.is_lathe());
             if self.is_lathe() && self.control.of_lathe().is_lathe() {
                 let [number, register] = turret(tool, length);
                 (self.state.tool, self.state.length) = (number, register);
             }
             (self.state.speed, self.state.rotation) = (None, None);
+            self.counts_speed(false);
             self.state.coolant = Some(Cooling::Off);
             self.at = Axes { given: self.at.given & !0b111, ..self.at };
             self.changed(true, to);
         }
         if let Some(spindle) = &change.spindle {
+            // a speed of an operation counts revolutions unless it says otherwise
+            if spindle.speed.is_some() && spindle.css.is_none() {
+                self.counts_speed(false);
+            }
             self.spindle(spindle);
         }
         if let Some(coolant) = change.coolant {
@@ -255,18 +270,22 @@ impl Job {
         if axes { unproven(Unmodelled::Text) } else { Ok(()) }
     }
 
-    fn spindle(&mut self, spindle: &Spindle) {
-        let counts = spindle.css.unwrap_or(self.css);
-        if counts != self.css {
+    /// What speeds count from here on: at the surface, or revolutions. Another count has no speed yet.
+    fn counts_speed(&mut self, at_surface: bool) {
+        if at_surface != self.css {
             self.state.speed = None;
         }
-        self.css = counts;
-        self.state.css = self.css;
+        (self.css, self.state.css) = (at_surface, at_surface);
+    }
+
+    fn spindle(&mut self, spindle: &Spindle) {
+        self.counts_speed(spindle.css.unwrap_or(self.css));
         self.state.limit = spindle.max.or(self.state.limit);
         if let Some(turn) = spindle.turn {
             self.state.rotation = Some(rotation(turn));
         }
         self.state.speed = spindle.speed.or(self.state.speed);
+        self.by &= !by::CUTS;
     }
 
     /// A place of the job: a lathe's are Z and radius.
@@ -324,6 +343,7 @@ impl Job {
             mode: self.mode,
             lead: None,
             state: self.state.clone(),
+            by: [self.by | self.cuts_by, self.by & !by::CUTS | self.cuts_by],
             by_cycle: false,
             line: 0,
         }
@@ -398,6 +418,19 @@ impl Job {
         }
         self.expectation.wire_codes(action).for_each(|code| to.wire(code));
         Ok(())
+    }
+}
+
+/// What an event has sequences print for.
+fn made_by(event: &Event<'_>) -> u8 {
+    match event {
+        Event::Hole(_) => by::HOLE,
+        Event::Infeed { .. } => by::INFEED,
+        Event::Outfeed { .. } => by::OUTFEED,
+        Event::Begin(_) | Event::End(_) => by::SECTION,
+        Event::Stop(_) | Event::Dwell(_) | Event::Home => by::PAUSE,
+        Event::SubStart(_) | Event::SubEnd | Event::SubCall(_) => by::SUB,
+        _ => by::JOB,
     }
 }
 

@@ -87,7 +87,7 @@ fn speed<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, tap: bool)
         return true;
     }
     // a tap whose feed stays cuts another thread
-    if !tap && s.own[1].says(a, |own| (own - b).abs() <= 0.5) {
+    if !tap && s.own[1].says(a, cut.by[0], |own| (own - b).abs() <= 0.5) {
         s.report.allowed.speeds += 1;
         return false; // each cut is counted
     }
@@ -168,7 +168,7 @@ pub(super) fn feeds<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut,
     if is_feed(wanted, is, tap) {
         return;
     }
-    if !tap && s.own[0].says(wanted, |own| is_feed(own, typed, true)) {
+    if !tap && s.own[0].says(wanted, cut.by[1], |own| is_feed(own, typed, true)) {
         s.report.allowed.feeds += 1;
         return;
     }

@@ -47,6 +47,21 @@ fn each_kind_has_its_code() {
     assert!(print("foam")[0].starts_with("PJ003"));
 }
 
+/// `[coolantoff]` ends what is on, not what was on before that.
+#[test]
+fn each_kind_is_ended_by_its_own_code() {
+    let ends = mill(KINDS, "").replace("ToolChange\nT[tool] M6\n", "ToolChange\nM[coolantoff]\nT[tool] M6\nM[cool]\n");
+    let text = ends.replace("1stToolChange\nM[coolantoff]\n", "1stToolChange\n");
+    let tools = job(&[(1, "through", LINE), (2, "on", LINE), (1, "on", LINE), (2, "through", LINE)]);
+    assert_eq!(codes(&text, &tools), ["M88", "M89", "M8", "M9", "M8", "M9", "M88"]);
+    // changed in an operation, and ended by a stop
+    let stops = form(KINDS, "M[cool]").replace("EndCode\n", "Stop\nM[coolantoff]\nM0\nEnd\n\nEndCode\n");
+    let changed =
+        "{\"coolant\":\"through\"},{\"line\":[1,0,0]},{\"coolant\":\"on\"},{\"line\":[0,0,0]},{\"stop\":\"program\"}";
+    let printed = codes(&stops, &job(&[(1, "off", changed)]));
+    assert_eq!(printed[printed.len() - 2..], ["M9", "M0"], "{printed:?}");
+}
+
 #[test]
 fn what_has_a_code_of_its_own_to_end_it_is_ended_by_that() {
     let two = job(&[(1, "through", LINE), (2, "on", LINE)]);

@@ -285,3 +285,27 @@ fn dwells_of_cycles_count_as_the_file_says() {
     };
     assert_eq!([dwell("s"), dwell("ms")], [Some(2.0), Some(0.002)]);
 }
+
+/// How a control turns lengths on is run as its file gives it.
+#[test]
+fn lengths_of_tools_are_those_of_the_file() {
+    let folder = folder("own_lengths");
+    let job = fs::read(root().join("samples/drill-machine/job.json")).unwrap();
+    folder.write("drill.json", job);
+    let plain = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
+    for (length, words) in [("none", ""), ("H", "H[lcomp] "), ("G43", "G43 "), ("G43 H", "G43 H[lcomp] ")] {
+        folder.write(
+            "own.toml",
+            format!("name = \"own\"\ntitle = \"Own\"\nlike = \"fanuc\"\n[tool]\nlength = \"{length}\"\n"),
+        );
+        let form = plain.replace("Control fanuc", "Control own.toml").replace("G43 H[lcomp] ", words);
+        folder.write("length.pf", form);
+        let render = folder.run(&["render", "drill.json", "--form", "length.pf", "--program", "1"]);
+        assert_eq!(render.status.code(), Some(0), "{length}: {}", err(&render));
+        assert!(
+            err(&render).contains("identical") || err(&render).contains("equivalent"),
+            "{length}: {}",
+            err(&render)
+        );
+    }
+}

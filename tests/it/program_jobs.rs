@@ -53,6 +53,13 @@ fn a_tool_keeps_the_length_offset_that_it_cuts_with() {
     assert!(text.contains("G43 H2 Z.5") && warnings.is_empty(), "{warnings:?}\n{text}");
 }
 
+/// A tool that cuts with its length and without it cuts in two frames.
+#[test]
+fn a_tool_has_its_length_or_none() {
+    assert_eq!(printed(&format!("{HEAD}G1 Z-.1 F5.\nG49\nG1 Z-.2\nM30\n")).unwrap_err(), "PN036");
+    assert!(printed(&format!("{HEAD}G1 Z-.1 F5.\nG0 Z1.\nG49\nM30\n")).is_ok());
+}
+
 /// G53 goes straight, at rapid: no control has an arc to a position of the machine.
 #[test]
 fn an_arc_in_machine_coordinates_is_refused() {

@@ -860,6 +860,44 @@ fn a_feed_after_a_pecking_tap_is_the_next_cut() {
     is_right("up after the tap", of_post("fanuc.pf", &job));
 }
 
+/// A speed of an operation counts revolutions unless it says otherwise, also after one at the surface.
+#[test]
+fn a_speed_without_its_mode_counts_revolutions() {
+    let job = r#"{"postform":1,"program":7,"units":"mm","machine":"lathe","tools":[{"number":1},{"number":3}],"operations":[
+        {"tool":1,"work":54,"spindle":{"speed":180,"direction":"cw","mode":"css","max":2500},"feed_mode":"per_rev","feed":0.2,"path":[{"rapid":[2,16]},{"rapid":[2,12]},{"line":[-30,12]},{"rapid":[2,18]}]},
+        {"tool":3,"work":54,"spindle":{"speed":600,"direction":"cw"},"feed_mode":"per_rev","feed":0.1,"path":[{"rapid":[5,0]},{"line":[-30,0]},{"rapid":[5,0]},{"rapid":[5,20]}]}]}"#;
+    for post in ["fanuc-lathe.pf", "haas-lathe.pf"] {
+        let (program, verdict) = of_post(post, job);
+        assert!(program.contains("G97 S600"), "{program}");
+        is_right(post, (program, verdict));
+    }
+}
+
+/// A feed that a sequence types is that of the cuts which it prints, and none of a job that it never prints for.
+#[test]
+fn a_typed_feed_counts_where_its_sequence_prints() {
+    let form = check(&post("fanuc.pf").replacen(
+        "InFeed\nG1 G[side] D[dcomp] X[h] Y[v] F[frate]",
+        "InFeed\nG1 G[side] D[dcomp] X[h] Y[v] F150.",
+        1,
+    ));
+    let plain = one(r#"{"rapid":[0,0,25]},{"line":[0,0,1]},{"line":[9,0,1]},{"rapid":[9,0,25]}"#);
+    let infeed = one(
+        r#"{"rapid":[0,0,25]},{"line":[0,0,1]},{"infeed":[9,0],"side":"left"},{"line":[9,9,1]},{"outfeed":[0,9]},{"rapid":[0,9,25]}"#,
+    );
+    let feeds = |text: &str, from: &str, to: &str| {
+        let job = document(text);
+        let program = rendered(&form, &job, Cycles::Form);
+        let changed = program.replace(from, to);
+        assert!(changed != program || from == to, "{program}");
+        verified(&form, &changed, &job)
+    };
+    assert!(feeds(&infeed, "", "").is_proven() && feeds(&plain, "", "").is_proven());
+    // of another cut of a job that has infeeds, and of a job that has none
+    assert!(matches!(feeds(&infeed, "Y9. F100.", "Y9."), Verdict::Different(_)));
+    assert!(matches!(feeds(&plain, "F100.", "F150."), Verdict::Different(_)));
+}
+
 /// A last peck that is shorter than the digits has its own feed.
 #[test]
 fn the_feed_of_a_short_last_peck_is_its_own() {

@@ -8,6 +8,8 @@ pub fn wants(acts: &[Act]) -> Option<Vec<Wanted>> {
     let mut list: Vec<Wanted> = Vec::new();
     let mut low = f64::INFINITY;
     let mut side = 40.0;
+    // how the spindle turned at the last tap: what it does after it is the control's own matter until a word says it
+    let mut tapped = None;
     for act in acts {
         // a job goes into compensation, and out of it, at feed
         let turned = std::mem::replace(&mut side, act.state.side.0) != act.state.side.0;
@@ -61,6 +63,11 @@ pub fn wants(acts: &[Act]) -> Option<Vec<Wanted>> {
             What::Thread(_) => return None,
         };
         let state = &act.state;
+        tapped = tapped.filter(|direction| *direction == state.direction);
+        let direction = if tapped.is_some() { f64::NAN } else { state.direction };
+        if matches!(act.what, What::Hole { code: 84.0 | 74.0, .. }) {
+            tapped = Some(state.direction);
+        }
         list.push(Wanted {
             want,
             from: act.from,
@@ -68,7 +75,7 @@ pub fn wants(acts: &[Act]) -> Option<Vec<Wanted>> {
             tool: state.tool,
             length: state.length.unwrap_or(f64::NAN),
             work: if state.work < 50.0 { state.work + 53.0 } else { state.work },
-            spindle: (state.direction, state.speed),
+            spindle: (direction, state.speed),
             feed: state.feed,
             low: low.min(act.from[2]).min(act.to[2]),
             side: state.side.0,

@@ -43,6 +43,8 @@ pub(super) fn survey(
     let mut items = Vec::new();
     // the register in force, and whether it was turned on for the tool before
     let (mut length, mut inherited) = (None, false);
+    // the tool has cut with its length on
+    let mut with_length = false;
     let (mut told, mut named) = (false, false);
     let (mut units, mut moved, mut last) = (options.units, false, [0.0; 6]);
     let mut base = None;
@@ -53,6 +55,14 @@ pub(super) fn survey(
         for item in &items {
             if let Action::Feed { .. } | Action::Arc(_) = &item.action {
                 match length {
+                    None if with_length => {
+                        let help = "turn it off after the tool's last cut: as a job the tool has one length";
+                        return unsaid(
+                            item.line,
+                            "a tool cuts with its length offset and, after G49, without it",
+                            help,
+                        );
+                    }
                     None if !std::mem::replace(&mut told, true) => {
                         let message = "a tool cuts without a length offset, and the form will turn its own on";
                         let help = "look whether the machine has tool lengths, and what its registers hold";
@@ -70,6 +80,7 @@ pub(super) fn survey(
                     }
                     _ => {}
                 }
+                with_length |= length.is_some();
             }
             let mut reach = |survey: &mut Survey, to: &[f64; 6], machine: u8| {
                 moved = true;
@@ -102,7 +113,7 @@ pub(super) fn survey(
                 }
                 Action::Tool(_) => {
                     survey.registers.push(Registers::default());
-                    inherited = true;
+                    (inherited, with_length) = (true, false);
                 }
                 Action::Length(Some(register)) => {
                     (length, inherited) = (Some(*register), false);

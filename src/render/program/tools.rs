@@ -230,6 +230,7 @@ fn change_tool(
     if routine.vars.has(VarId::Coolantoff) {
         want.ends_coolant = None;
     }
+    want.ends_what_is_on(shape);
     if let Some(target) = target {
         said.stand.move_to(&Axes { given: target.given & said.stand.placed, ..target });
     }

@@ -82,7 +82,7 @@ impl<R: BufRead + Seek> Program<R> {
             mode: FeedMode::PerMinute,
             cycle: false,
             before_tap: None,
-            due: Due::new(expectation),
+            due: Due::new(expectation, settings.control),
             scale: Scale { units: settings.units, wanted: settings.units, axes: expectation.axes, lathe: false, wire },
             wire: expectation.wire.clone().unwrap_or_default(),
             coolant: expectation.coolant,
@@ -416,6 +416,7 @@ impl<R: BufRead + Seek> Program<R> {
             mode: self.mode,
             lead: lead.map(|lead| lead * self.scale.factor()),
             state,
+            by: [0; 2],
             by_cycle: item.by_cycle,
             line: item.line,
         });

@@ -10,6 +10,10 @@ impl Judge<'_> {
         if hole.kind == Kind::Manual {
             return self.by_hand(wanted, hole);
         }
+        // RAPTO to the bottom: nothing is left to be fed
+        if near(begins(hole).from, hole.bottom, 1e-9) {
+            return None;
+        }
         let Some(act) = self.next() else { return Some(format!("the hole at {} is missing", shown(&wanted.to))) };
         if !self.over(&act, hole.over) {
             return Some(format!(

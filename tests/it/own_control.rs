@@ -309,3 +309,23 @@ fn lengths_of_tools_are_those_of_the_file() {
         );
     }
 }
+
+/// An address of another language beside the axes of an arc is part of its move: nothing is printed again after it.
+#[test]
+fn an_address_with_its_value_is_part_of_its_move() {
+    let folder = folder("own_arcs");
+    let plain = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
+    let arc = "CwCode\nG2 X[h] Y[v] Z[d] `I=AC(`[hctr]`)` `J=AC(`[vctr]`)` F[frate]\nEnd\n\nEndCode\n";
+    folder.write("arcs.pf", plain.replacen("EndCode\n", arc, 1));
+    folder.write(
+        "job.json",
+        r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1}],"operations":[{"tool":1,"work":54,
+        "spindle":{"speed":1000,"direction":"cw"},"feed":100,"path":[{"rapid":[0,0,5]},{"line":[0,0,-1]},
+        {"arc":{"to":[10,10],"center":[10,0],"direction":"cw"}},{"line":[90,10]},{"rapid":[90,10,5]}]}]}"#,
+    );
+    let render = folder.run(&["render", "job.json", "--form", "arcs.pf"]);
+    let program = out(&render);
+    let after = program.lines().skip_while(|line| !line.contains("I=AC(10) J=AC(0)")).nth(1).unwrap_or_default();
+    assert!(after.ends_with("G1 X90."), "{program}\n{}", err(&render));
+    assert!(err(&render).contains("in the language of Siemens controls"), "{}", err(&render));
+}

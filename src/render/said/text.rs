@@ -42,6 +42,27 @@ pub fn words_of(text: &[u8]) -> Option<Vec<TextWord>> {
     Some(words)
 }
 
+/// Addresses that another language writes with `=`, and that say how the arc of their block goes, as Siemens' `I=AC(10)`, `CR=5`.
+const OF_ARCS: [&str; 9] = ["I", "J", "K", "CR", "AR", "TURN", "I1", "J1", "K1"];
+
+/// Is a text beside the axes of a line only such addresses, or parts of them? They change nothing besides the move.
+fn is_argument(text: &[u8]) -> bool {
+    let mut parts = text.split(u8::is_ascii_whitespace).filter(|part| !part.is_empty());
+    parts.all(is_of_arc)
+}
+
+fn is_of_arc(part: &[u8]) -> bool {
+    match part.split(|&byte| byte == b'=').collect::<Vec<_>>()[..] {
+        [closing] => !closing.is_empty() && closing.iter().all(|byte| b")]".contains(byte)),
+        [name, value] => {
+            let is_value = |byte: &u8| byte.is_ascii_digit() || b"+-.()".contains(byte);
+            let value = value.strip_prefix(b"AC(").or_else(|| value.strip_prefix(b"IC(")).unwrap_or(value);
+            OF_ARCS.iter().any(|own| own.as_bytes() == name) && value.iter().all(is_value)
+        }
+        _ => false,
+    }
+}
+
 /// Is a text that begins with `#` an assignment to a variable of the program, and none of the control's own?
 fn sets_variable(text: &[u8]) -> bool {
     let mut tokens = tokens(text).filter(|token| token.kind != Kind::Blank).skip(1);
@@ -71,6 +92,7 @@ impl Said {
         let Some(words) = words_of(text) else {
             match program.settings.control {
                 _ if want.cycle.is_some() => {}
+                _ if line.prints_axes(shape) && is_argument(text) => {}
                 Some(_) => self.calls = true,
                 None if program.speaks_g => self.forget_motions(shape),
                 None => {}

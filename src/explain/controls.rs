@@ -136,7 +136,9 @@ pub fn page(control: &Control) -> String {
 pub fn index() -> String {
     let mut text = String::from(
         "# Controls\n\n<!-- made from controls/*.toml: `just overwrite` -->\n\nA control is a file: CONTRIBUTING.md says how to add one, \
-         `postform new --control-file NAME` prints one to start from.\n\n| control | title | codes | cycles |\n| --- | --- | --- | --- |\n",
+         `postform new --control-file NAME` prints one to start from. \
+         One with `rules = \"none\"` is a language without G codes, as Klartext: its forms print, lint takes none of their words for codes, \
+         and the verdict says that it is not read.\n\n| control | title | codes | cycles |\n| --- | --- | --- | --- |\n",
     );
     for control in names().filter_map(Control::named) {
         let (codes, cycles) = counts(control);
@@ -170,6 +172,9 @@ pub fn file(control: &Control) -> String {
 name = \"my-control\"
 title = \"My machine\"
 like = \"{name}\"
+
+# A language without G codes, as Klartext: its forms print, lint takes none of their words for codes, nothing is proven.
+# rules = \"none\"
 
 # What differs besides codes: take the mark away where it does.
 # [dwell]

@@ -180,7 +180,11 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
     }
     if changed {
         let message = format!("{name}, `{text}`, has characters that are no part of a word: `_` stands for each");
-        out.note(Code::PR050, message, "use letters, digits and _ - . in it, or print it in a comment");
+        out.note(
+            Code::PR050,
+            message,
+            "use letters, digits and _ - . in it, or print it between quotation marks or in a comment",
+        );
     }
 }
 

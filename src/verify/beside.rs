@@ -69,7 +69,8 @@ pub fn prove_beside<B: AsRef<Batch>>(
     tolerance: Option<f64>,
     of_job: bool,
 ) -> io::Result<Outcome> {
-    let queue = Queue { batches, events: VecDeque::new(), texts: VecDeque::new(), traces: VecDeque::new() };
+    let queue =
+        Queue { batches, events: VecDeque::new(), texts: VecDeque::new(), traces: VecDeque::new(), unread: false };
     let queue = Rc::new(RefCell::new(queue));
     let text = Text { queue: Rc::clone(&queue), batch: None, at: 0 };
     let mut comparer = Comparer::new(text, settings, expectation, tolerance);
@@ -98,6 +99,9 @@ pub fn prove_beside<B: AsRef<Batch>>(
         // what stands between two cuts is run as it comes, not held until the job's next cut
         comparer.run_on(&|| queue.borrow().texts.len() > MOST_TEXTS);
         locate(&mut comparer);
+        if comparer.is_stuck() {
+            queue.borrow_mut().drop_texts();
+        }
     }
     let (counts, warnings) = (comparer.counts(), comparer.warnings());
     Ok(Outcome { verdict: comparer.verdict()?, counts, warnings })
@@ -123,9 +127,17 @@ struct Queue<I: Iterator> {
     texts: VecDeque<Rc<I::Item>>,
     /// Where the lines of the texts came from: of those that wait, of the one that is run and of the one before it.
     traces: VecDeque<Rc<I::Item>>,
+    /// No more text is read: the control refused a block, which is said at the job's next cut.
+    unread: bool,
 }
 
 impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
+    /// Text is not needed any more.
+    fn drop_texts(&mut self) {
+        self.unread = true;
+        self.texts.clear();
+    }
+
     /// Takes the next batch in; `false`: there is none.
     fn pull(&mut self) -> bool {
         let Some(batch) = self.batches.next().map(Rc::new) else { return false };
@@ -133,7 +145,7 @@ impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
         if !events.is_empty() {
             self.events.push_back(Rc::clone(&batch));
         }
-        if !text.is_empty() {
+        if !text.is_empty() && !self.unread {
             self.texts.push_back(Rc::clone(&batch));
             self.traces.push_back(batch);
         }

@@ -6,7 +6,7 @@ use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, apart, is_straight, lead_
 use super::expectation::Expectation;
 use super::intended::Job;
 use super::intent::{Done, Expected, Intent, Threaded};
-use super::passage::{Frame, Passage};
+use super::passage::{Frame, Passage, TOO_LONG};
 use super::program::Program;
 use super::report::{Counts, Report};
 use super::state::{Holes, Limits, Sides};
@@ -69,6 +69,11 @@ impl<R: BufRead + Seek> Comparer<R> {
     /// The program counts in these units until it says others.
     pub fn begin_in(&mut self, units: Units) {
         self.sides.program.begin_in(units);
+    }
+
+    /// Did the control refuse a block that is ahead of the job? That is said at the job's next cut.
+    pub(super) fn is_stuck(&self) -> bool {
+        self.sides.program.has_failed()
     }
 
     /// Runs the program on while its text waits. Before the first operation the job may still set how it is run.
@@ -333,8 +338,7 @@ impl<R: BufRead + Seek> Sides<R> {
     #[inline]
     fn can_hold(&mut self) -> Done {
         if self.job.is_too_long() || self.program.passage.is_too_long() {
-            let why = "more rapids, stops and dwells between two cuts than are held";
-            return self.unproven(why.into(), "split the job", 0);
+            return self.unproven(TOO_LONG.into(), "split the job", 0);
         }
         Ok(())
     }

@@ -69,6 +69,8 @@ pub(super) struct Passage {
     pub astray: Vec<(u64, Place)>,
 }
 
+/// Why nothing is proven where a passage is too long.
+pub(super) const TOO_LONG: &str = "more rapids, stops and dwells between two cuts than are held";
 /// More rapids between two cuts than any job has: they would have to be held.
 const MOST: usize = 1 << 18;
 /// More stops and dwells between two cuts than any job has: each is compared with each.

@@ -5,7 +5,7 @@ use std::io::{BufRead, Seek};
 use super::compared::{Compared, compare, leaves_low};
 use super::cut::{ALL, Cut, Spin, State, What, number, place, same, same_dwell, shown};
 use super::expectation::Expectation;
-use super::passage::Mark;
+use super::passage::{Mark, TOO_LONG};
 use super::program::Program;
 use super::way::Way;
 use crate::nc::{Cooling, RunError, RunSettings, axes_of};
@@ -57,6 +57,11 @@ pub fn compare_motions<R: BufRead + Seek>(
     loop {
         let x = a.run_to_cut().map_err(|error| NoMotion(0, error))?.cloned();
         let y = b.run_to_cut().map_err(|error| NoMotion(1, error))?.cloned();
+        for (number, program) in [&a, &b].into_iter().enumerate() {
+            if program.passage.is_too_long() {
+                return Err(NoMotion(number, RunError::Io(std::io::Error::other(TOO_LONG))));
+            }
+        }
         let lines = [&x, &y].map(|cut| cut.as_ref().map_or(0, |cut| cut.line));
         let blocks = |a: &Program<R>, b: &Program<R>| [(lines[0], a.text()), (lines[1], b.text())];
         let starts = [a.start(), b.start()];

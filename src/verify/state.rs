@@ -5,7 +5,7 @@ use std::io::{BufRead, Seek};
 use super::cut::{Cut, Place, Rapid, Shared};
 use super::intent::{Expected, Threaded};
 use super::own::Own;
-use super::passage::{Frame, Mark, Passage};
+use super::passage::{Frame, Mark, Passage, TOO_LONG};
 use super::program::Program;
 use super::report::{Difference, Report};
 use super::strokes::Strokes;
@@ -122,6 +122,7 @@ impl<R: BufRead + Seek> Sides<R> {
     /// Runs the program to its next cut.
     pub fn run_to_cut(&mut self) -> Result<(), Box<Diag>> {
         match self.program.run_to_cut().map(drop) {
+            Ok(()) if self.program.passage.is_too_long() => self.unproven(TOO_LONG.into(), "split the job", 0),
             Ok(()) => match self.program.passage.astray.first() {
                 Some(&(line, _)) => {
                     let why = "an increment leads on from a position that only the machine knows".into();

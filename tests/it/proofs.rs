@@ -746,6 +746,20 @@ fn a_proof_beside_the_renderer_holds_no_long_job() {
 }
 
 /// A back bore as the first hole of a tool whose place the job has not told yet.
+/// What lies between two cuts of a program is bounded too, and text after a block that the control refuses is not held.
+#[test]
+fn a_proof_holds_no_long_way_of_the_program() {
+    let form = check(&post("fanuc.pf"));
+    let text = one(r#"{"rapid":[0,0,25]},{"line":[0,0,1]},{"line":[9,0,1]},{"rapid":[9,0,25]}"#);
+    let job = document(&text);
+    let program = rendered(&form, &job, Cycles::Form);
+    for block in ["M0\n", "G4 P500\n", "G0 Z50.\nG0 Z1.\n"] {
+        let many = program.replacen("X9.\n", &format!("{}G1 X9.\n", block.repeat(300_000)), 1);
+        let Verdict::NotProven(unproven) = verified(&form, &many, &job) else { panic!("{block}") };
+        assert_eq!(unproven.why, "more rapids, stops and dwells between two cuts than are held");
+    }
+}
+
 #[test]
 fn a_back_bore_may_come_first() {
     let job = one(

@@ -365,6 +365,18 @@ fn right_forms_are_left_alone() {
     }
 }
 
+/// A dwell that DwellBlock prints needs no decimals of the letter of `Dwell`.
+#[test]
+fn a_dwell_by_its_sequence_needs_no_format() {
+    let fanuc = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
+    let plain = fanuc.replace(" P[dwell]", "").replace("Dwell G4 P ms", "Dwell G4 F s").replace("F >5.>4", "F >5.>1");
+    let seconds = |text: &str| {
+        let found = found(&support::check(text)).diags;
+        found.iter().any(|diag| diag.code == Code::PF306 && diag.message.contains("a dwell in seconds"))
+    };
+    assert!(seconds(&plain) && !seconds(&format!("{plain}\nDwellBlock\n(WAIT [dwell])\nEnd\n")));
+}
+
 /// The same mistakes in other words.
 #[test]
 fn mistakes_are_found_in_other_words_too() {

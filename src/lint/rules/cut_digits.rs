@@ -1,7 +1,7 @@
 //! PF306: a format that rounds away what the machine can do.
 
 use crate::diag::{Code, Diag};
-use crate::lang::{Machine, Unit, VarId};
+use crate::lang::{Machine, SequenceId, Unit, VarId};
 use crate::lint::view::View;
 use crate::number::{Digits, LetterFormat, Point};
 use crate::sema::Word;
@@ -20,8 +20,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             true => (length(view), "a position".to_owned()),
             false => (wanted, what),
         };
-        // a dwell between moves is printed by the letter of `Dwell`, whatever sequences print
-        let dwells = letter == view.settings.dwell.letter && !view.settings.dwell.milliseconds && wanted < 2;
+        // a dwell between moves is printed by the letter of `Dwell`, whatever sequences print, but where DwellBlock prints it
+        let dwell = &view.settings.dwell;
+        let generated = view.body(SequenceId::DwellBlock).is_none();
+        let dwells = letter == dwell.letter && !dwell.milliseconds && generated && wanted < 2;
         let (wanted, what) = if dwells { (2, "a dwell in seconds".to_owned()) } else { (wanted, what) };
         if format.dec.count >= wanted {
             continue;

@@ -2,7 +2,7 @@
 
 use crate::control::DwellUnit;
 use crate::diag::{Code, Diag};
-use crate::lang::{CommandId, VarId};
+use crate::lang::{CommandId, SequenceId, VarId};
 use crate::lint::view::View;
 use crate::number::Point;
 
@@ -12,7 +12,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let cycle =
         view.words().find(|word| word.printed_var() == Some(VarId::Dwell) && view.printed_letter(word) == Some(b'P'));
     let command = view.command(CommandId::Dwell).or(view.command(CommandId::Control)).map(|command| command.line.span);
-    let place = if settings.dwell.letter == b'P' { command } else { cycle.map(|word| word.span) };
+    let generated = settings.dwell.letter == b'P' && view.body(SequenceId::DwellBlock).is_none();
+    let place = if generated { command } else { cycle.map(|word| word.span) };
     let Some(place) = place else { return };
     let wanted = match view.traits().dwell {
         DwellUnit::Ms => true,

@@ -140,7 +140,8 @@ impl<R: BufRead + Seek> Program<R> {
         self.cut.as_ref()
     }
 
-    /// Runs the program to its next cut, which stays until it is taken; `None` at the program's end.
+    /// Runs the program to its next cut, which stays until it is taken; `None` at the program's end, or where more lies before the
+    /// cut than is held ([`Passage::is_too_long`]).
     ///
     /// # Errors
     /// The program can't be read, or its control refuses a block.
@@ -148,7 +149,7 @@ impl<R: BufRead + Seek> Program<R> {
         if let Some(error) = self.failed.take() {
             return Err(error);
         }
-        while self.goes_on()? {}
+        while self.goes_on()? && !self.passage.is_too_long() {}
         Ok(self.cut())
     }
 
@@ -162,6 +163,11 @@ impl<R: BufRead + Seek> Program<R> {
                 Err(error) => self.failed = Some(error),
             }
         }
+    }
+
+    /// Could the program not be run on?
+    pub fn has_failed(&self) -> bool {
+        self.failed.is_some()
     }
 
     /// Runs a block, or takes what it did; `false`: at a cut, or at the end.

@@ -310,7 +310,9 @@ impl Judge<'_> {
             self.take();
             if same(&act.to, &wanted.to, self.within) {
                 // an axis that a form sends home and no job turns
-                let off = |axis: &usize| !swept[*axis].is_nan() && !near(swept[*axis], wanted.to[axis + 3] - wanted.from[axis + 3], 0.01);
+                let off = |axis: &usize| {
+                    !swept[*axis].is_nan() && !near(swept[*axis], wanted.to[axis + 3] - wanted.from[axis + 3], 0.01)
+                };
                 let off = wanted.from[3..].iter().all(|angle| !angle.is_nan()) && (0..3).any(|axis| off(&axis));
                 return off
                     .then(|| format!("line {}: turned by {swept:?} on the way to {}", act.line, shown(&wanted.to)));

@@ -91,7 +91,7 @@ impl Again {
 /// A file that must stay as it is while it is read more than once.
 struct Steady {
     file: File,
-    stamp: Option<(u64, SystemTime)>,
+    stamp: Option<(u64, SystemTime, (i64, i64))>,
 }
 
 impl Steady {
@@ -100,10 +100,17 @@ impl Steady {
     }
 }
 
-/// Size and time of the last change, where the system says them.
-fn stamp(file: &File) -> Option<(u64, SystemTime)> {
+/// Size and time of the last change, where the system says them; also that of its entry, which no program can put back.
+fn stamp(file: &File) -> Option<(u64, SystemTime, (i64, i64))> {
     let meta = file.metadata().ok()?;
-    Some((meta.len(), meta.modified().ok()?))
+    #[cfg(unix)]
+    let entry = {
+        use std::os::unix::fs::MetadataExt;
+        (meta.ctime(), meta.ctime_nsec())
+    };
+    #[cfg(not(unix))]
+    let entry = (0, 0);
+    Some((meta.len(), meta.modified().ok()?, entry))
 }
 
 impl Read for Steady {
@@ -294,5 +301,23 @@ mod tests {
         let mut job = super::job(&path, &ReadArgs::default(), true).unwrap();
         let error = job.read(&mut Writes(File::options().append(true).open(&path).unwrap())).unwrap_err();
         assert!(error.io().is_some_and(|error| error.to_string().contains("changed while it was read")), "{error}");
+    }
+
+    /// As `touch -r` does after a change in place: size and time are those of before.
+    #[cfg(unix)]
+    #[test]
+    fn a_time_that_is_put_back_hides_no_change() {
+        let mut file = tempfile::tempfile().unwrap();
+        file.write_all(b"before").unwrap();
+        let before = file.metadata().unwrap().modified().unwrap();
+        let mut steady = Steady::new(file.try_clone().unwrap());
+        assert!(steady.seek(io::SeekFrom::Start(0)).is_ok());
+        // the clock of a file system ticks by milliseconds
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        file.seek(io::SeekFrom::Start(0)).unwrap();
+        file.write_all(b"behind").unwrap();
+        file.set_modified(before).unwrap();
+        assert_eq!(file.metadata().unwrap().modified().unwrap(), before);
+        assert!(steady.seek(io::SeekFrom::Start(0)).is_err());
     }
 }

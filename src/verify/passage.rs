@@ -75,6 +75,8 @@ pub(super) const TOO_LONG: &str = "more rapids, stops and dwells between two cut
 const MOST: usize = 1 << 18;
 /// More stops and dwells between two cuts than any job has: each is compared with each.
 const MOST_MARKS: usize = 1 << 12;
+/// More changes of the tool or the work offset between two cuts than any job has: the same.
+const MOST_LEGS: usize = 1 << 11;
 
 impl Passage {
     /// A passage from a start in a frame.
@@ -204,7 +206,9 @@ impl Passage {
     #[inline]
     pub fn is_too_long(&self) -> bool {
         let marks = self.stops.len() + self.waits.len() + self.turns.len() + self.does.len();
-        self.rapids.len() + self.legs.len() + self.codes.len() + self.astray.len() > MOST || marks > MOST_MARKS
+        self.rapids.len() + self.codes.len() + self.astray.len() > MOST
+            || marks > MOST_MARKS
+            || self.legs.len() > MOST_LEGS
     }
 
     /// Was the frame changed?

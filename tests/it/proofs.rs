@@ -758,6 +758,11 @@ fn a_proof_holds_no_long_way_of_the_program() {
         let Verdict::NotProven(unproven) = verified(&form, &many, &job) else { panic!("{block}") };
         assert_eq!(unproven.why, "more rapids, stops and dwells between two cuts than are held");
     }
+    // each change of the offset is compared with each
+    let there = r#"{"work":55},{"rapid":[0,0,50]},{"work":54},{"rapid":[0,0,50]},"#.repeat(2000);
+    let job =
+        one(&format!(r#"{{"rapid":[0,0,25]}},{{"line":[0,0,1]}},{{"rapid":[0,0,50]}},{there}{{"line":[0,0,40]}}"#));
+    assert!(matches!(of_post("fanuc.pf", &job).1, Verdict::NotProven(_)));
 }
 
 #[test]

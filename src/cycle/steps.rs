@@ -34,7 +34,8 @@ pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &
             K::Csink => (contact(spec).unwrap_or(bottom), "where the tool meets the hole"),
             _ => (bottom, "the bottom"),
         };
-        if enter < lowest {
+        // 0.1 - 0.4 is a little less than -0.3
+        if enter < lowest - 1e-9 {
             let message = format!("the extra rapid of {rapto} from the clearance plane ends below {what}");
             return Err(Problem::new(Code::PC013, message, "give a smaller `rapto`"));
         }

@@ -72,7 +72,7 @@ pub(super) struct Passage {
 /// Why nothing is proven where a passage is too long.
 pub(super) const TOO_LONG: &str = "more rapids, stops and dwells between two cuts than are held";
 /// More rapids between two cuts than any job has: they would have to be held.
-const MOST: usize = 1 << 18;
+const MOST: usize = 1 << 16;
 /// More stops and dwells between two cuts than any job has: each is compared with each.
 const MOST_MARKS: usize = 1 << 12;
 /// More changes of the tool or the work offset between two cuts than any job has: the same.

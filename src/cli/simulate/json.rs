@@ -57,7 +57,6 @@ pub fn json(item: &Item, unknown: bool, out: &mut Vec<u8>) {
     out.extend_from_slice(b"}\n");
 }
 
-/// Numbers; those of the bits in `unknown` are null.
 /// Which axes go to a place of the machine.
 fn in_machine(axes: u8, out: &mut Vec<u8>) {
     out.extend_from_slice(b",\"machine\":\"");
@@ -65,6 +64,7 @@ fn in_machine(axes: u8, out: &mut Vec<u8>) {
     out.push(b'"');
 }
 
+/// Numbers; those of the bits in `unknown` are null.
 fn list(before: &[u8], values: &[f64], unknown: u8, out: &mut Vec<u8>) {
     out.extend_from_slice(before);
     for (i, value) in values.iter().enumerate() {

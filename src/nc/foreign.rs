@@ -37,7 +37,9 @@ const LANGUAGES: [(&str, &[Mark]); 5] = [
             Word("Z=AC"),
             Word("I=AC"),
             Word("J=AC"),
+            Word("K=AC"),
             Word("X=IC"),
+            Word("Y=IC"),
             Word("Z=IC"),
         ],
     ),
@@ -74,38 +76,63 @@ pub struct Foreign {
 pub fn foreign(start: &[u8]) -> Option<Foreign> {
     let start = start.get(..SEARCHED).unwrap_or(start);
     let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
-    start.split(|&byte| byte == b'\n').zip(1..).find_map(|(line, number)| {
+    let (mut blocks, mut ends) = (Vec::with_capacity(start.len()), Vec::new());
+    let mut shown: Option<(usize, &str)> = None;
+    let mut note = |line: usize, is| {
+        if shown.is_none_or(|(first, _)| line < first) {
+            shown = Some((line, is));
+        }
+    };
+    for (number, line) in start.split(|&byte| byte == b'\n').enumerate() {
         let line = line.trim_ascii();
-        let block = block_of(line);
-        let shows = |mark: &Mark| match mark {
-            Line(begin) => line.get(..begin.len()).is_some_and(|head| head.eq_ignore_ascii_case(begin.as_bytes())),
-            Block(begin) => block.starts_with(begin.as_bytes()),
-            Word(word) => memmem::find(&block, word.as_bytes()).is_some(),
-        };
-        let (is, _) = LANGUAGES.iter().find(|(_, marks)| marks.iter().any(shows))?;
-        Some(Foreign { is, line: number, text: line.to_vec() })
-    })
+        let begin = blocks.len();
+        push_block(line, &mut blocks);
+        let block = &blocks[begin..];
+        for (is, marks) in &LANGUAGES {
+            let begins = |mark: &Mark| match mark {
+                Line(begin) => line.get(..begin.len()).is_some_and(|head| head.eq_ignore_ascii_case(begin.as_bytes())),
+                Block(begin) => block.starts_with(begin.as_bytes()),
+                Word(_) => false,
+            };
+            if marks.iter().any(begins) {
+                note(number, *is);
+            }
+        }
+        blocks.push(b'\n');
+        ends.push(blocks.len());
+    }
+    for (is, marks) in &LANGUAGES {
+        for mark in *marks {
+            if let Word(word) = mark
+                && let Some(at) = memmem::find(&blocks, word.as_bytes())
+            {
+                note(ends.partition_point(|&end| end <= at), *is);
+            }
+        }
+    }
+    let (line, is) = shown?;
+    let text = start.split(|&byte| byte == b'\n').nth(line).unwrap_or_default().trim_ascii().to_vec();
+    Some(Foreign { is, line: line as u64 + 1, text })
 }
 
-/// A line without its block number, blanks and comments, in capital letters.
-fn block_of(line: &[u8]) -> Vec<u8> {
+/// Appends a line without its block number, blanks and comments, in capital letters.
+fn push_block(line: &[u8], blocks: &mut Vec<u8>) {
+    let begin = blocks.len();
     let mut inside = false;
-    let mut block = Vec::with_capacity(line.len());
     for &byte in line {
         match byte {
             b';' if !inside => break,
             b'(' => inside = true,
             b')' => inside = false,
             _ if inside || byte.is_ascii_whitespace() => {}
-            _ => block.push(byte.to_ascii_uppercase()),
+            _ => blocks.push(byte.to_ascii_uppercase()),
         }
     }
-    let head = usize::from(block.first() == Some(&b'N'));
-    let digits = block[head..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let head = begin + usize::from(blocks.get(begin) == Some(&b'N'));
+    let digits = blocks[head..].iter().take_while(|byte| byte.is_ascii_digit()).count();
     if digits > 0 {
-        block.drain(..head + digits);
+        blocks.drain(begin..head + digits);
     }
-    block
 }
 
 #[cfg(test)]
@@ -119,6 +146,7 @@ mod tests {
             ("%_N_T_MPF", "in the language of Siemens controls"),
             ("G0 X1\nN60 MCALL CYCLE83(50)", "in the language of Siemens controls"),
             ("G2 X1 Y2 I=AC(10) J=AC(0)", "in the language of Siemens controls"),
+            ("(CYCLE81)\nN20 Y=IC(10)", "in the language of Siemens controls"),
             ("IN;SP1;PU0,0;", "HPGL, for a plotter"),
             (";FLAVOR:Marlin", "for a 3D printer (Marlin)"),
             ("N20 G15 H1", "for an Okuma OSP control"),

@@ -2,7 +2,7 @@
 
 use super::action::{Action, Item};
 use super::block::Block;
-use super::codes::{Group, bit, g_code, letters};
+use super::codes::{Group, bit, letters};
 use super::fault::{Done, refuse};
 use super::out::{Next, Out};
 use super::settings::Unpointed;
@@ -35,7 +35,7 @@ impl State {
         }
         let motion = self.motion_of(block)?;
         let in_force = if self.control.is_linuxcnc() { None } else { self.holes.cycle };
-        let row = in_force.or(motion).and_then(|code| g_code(self.control, code));
+        let row = in_force.or(motion).and_then(|code| self.motion_row(code));
         block.check_words(row, self.free_words(block))?;
         let mut out = Out::new(items, line);
         if let Some((start, end)) = block.comment {

@@ -71,8 +71,8 @@ pub struct Simulator<R> {
     blocks: u64,
     /// Nothing more can be run: the input is over.
     ended: bool,
-    /// The language of the program was looked at.
-    looked: bool,
+    /// The first block was read, or is read now.
+    begun: bool,
     /// O words to pass over before the first block.
     pub(super) passing: usize,
 }
@@ -100,7 +100,7 @@ impl<R: BufRead + Seek> Simulator<R> {
             unfinished: false,
             blocks: 0,
             ended: false,
-            looked: false,
+            begun: false,
             passing: 0,
         }
     }
@@ -200,11 +200,8 @@ impl<R: BufRead + Seek> Simulator<R> {
         if self.over {
             return Ok(false);
         }
-        if !std::mem::replace(&mut self.looked, true) {
-            self.check_language()?;
-        }
-        if self.passing > 0 {
-            self.pass_programs()?;
+        if !self.begun {
+            self.begin()?;
         }
         if !self.unfinished && !self.read_line()? {
             return self.at_end().map_err(|fault| self.refused(fault));
@@ -233,8 +230,18 @@ impl<R: BufRead + Seek> Simulator<R> {
         true
     }
 
-    /// Refuses a program whose first blocks show a language that is not read.
+    /// Looks at the language of the program, and passes over what comes before it.
     #[cold]
+    fn begin(&mut self) -> Result<(), RunError> {
+        self.begun = true;
+        self.check_language()?;
+        if self.passing > 0 {
+            self.pass_programs()?;
+        }
+        Ok(())
+    }
+
+    /// Refuses a program whose first blocks show a language that is not read.
     fn check_language(&mut self) -> Result<(), RunError> {
         let head = loop {
             match self.input.fill_buf() {
@@ -300,11 +307,39 @@ impl<R: BufRead + Seek> Simulator<R> {
         Ok(true)
     }
 
+    /// Lets the control act for the line, or for the rest of it, and says where the program goes.
     #[inline]
     fn line_step(&mut self, items: &mut Vec<Item>) -> Done<Jump> {
-        if std::mem::take(&mut self.unfinished) {
-            return self.acted(items, |state, block, line, items| state.run_on(block, line, items));
+        let before = items.len();
+        let next = if std::mem::take(&mut self.unfinished) {
+            self.state.run_on(&self.block, self.at.line, items)?
+        } else {
+            if let Some(jump) = self.read_block(items)? {
+                return Ok(jump);
+            }
+            self.state.run(&mut self.block, self.at.line, items)?
+        };
+        self.unfinished = next == Next::Rest;
+        // a block alone may make as many as a loop
+        if self.unfinished || !self.frames.is_empty() {
+            self.repeated += (items.len() - before) as u64;
+            if self.repeated > MOST_REPEATED {
+                let message = format!("over {MOST_REPEATED} actions by repeats, loops and pecks");
+                return refuse(Code::PN015, message, "look at Q, at K or L, and at loops inside each other");
+            }
         }
+        match next {
+            Next::Rest | Next::On => Ok(Jump::On),
+            Next::End => Ok(Jump::End),
+            Next::Call(_, 0) => Ok(Jump::On),
+            Next::Call(number, times) => Ok(Jump::Find(format!("{number}"), times)),
+            Next::Return => self.return_from("a subprogram"),
+        }
+    }
+
+    /// Reads the line into the block; a jump where there is nothing for the control to do.
+    #[inline]
+    fn read_block(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         let control = self.state.settings.control;
         if !control.is_run() {
             let message = format!("postform does not read the language of {}", control.name());
@@ -335,48 +370,21 @@ impl<R: BufRead + Seek> Simulator<R> {
                     let help = "end it with M30 or M2: a Fanuc stops there with an alarm, and its spindle turns on";
                     return refuse(Code::PN010, "the program is over at `%`, and no M30 or M2 ended it", help);
                 }
-                return Ok(if ends { Jump::End } else { Jump::On });
+                return Ok(Some(if ends { Jump::End } else { Jump::On }));
             }
-            return Ok(Jump::On);
+            return Ok(Some(Jump::On));
         }
         if self.block.deleted {
             if self.state.settings.block_delete {
-                return Ok(Jump::On);
+                return Ok(Some(Jump::On));
             }
             items.push(Item { line: self.at.line, by_cycle: false, action: Action::LeftOut(b'/', 0) });
         }
         self.blocks += 1;
         if let Some(flow) = self.block.flow.take() {
-            return self.follow(flow);
+            return self.follow(flow).map(Some);
         }
-        self.acted(items, State::run)
-    }
-
-    /// Lets the control act for the block, and says where the program goes.
-    #[inline]
-    fn acted(
-        &mut self,
-        items: &mut Vec<Item>,
-        act: impl FnOnce(&mut State, &mut Block, u64, &mut Vec<Item>) -> Done<Next>,
-    ) -> Done<Jump> {
-        let before = items.len();
-        let next = act(&mut self.state, &mut self.block, self.at.line, items)?;
-        self.unfinished = next == Next::Rest;
-        // a block alone may make as many as a loop
-        if self.unfinished || !self.frames.is_empty() {
-            self.repeated += (items.len() - before) as u64;
-            if self.repeated > MOST_REPEATED {
-                let message = format!("over {MOST_REPEATED} actions by repeats, loops and pecks");
-                return refuse(Code::PN015, message, "look at Q, at K or L, and at loops inside each other");
-            }
-        }
-        match next {
-            Next::Rest | Next::On => Ok(Jump::On),
-            Next::End => Ok(Jump::End),
-            Next::Call(_, 0) => Ok(Jump::On),
-            Next::Call(number, times) => Ok(Jump::Find(format!("{number}"), times)),
-            Next::Return => self.return_from("a subprogram"),
-        }
+        Ok(None)
     }
 
     /// The input is over before the program.

@@ -2,12 +2,13 @@
 
 use super::action::{Position, Rotation};
 use super::block::Block;
+use super::codes::g_code;
 use super::fault::{Done, refuse};
 use super::holes::Holes;
 use super::lathe::Threads;
 use super::place::Place;
 use super::settings::RunSettings;
-use crate::control::{Control, Rules};
+use crate::control::{Control, Row, Rules};
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane, Side, Units};
 
@@ -20,6 +21,8 @@ pub struct State {
     pub(super) settings: RunSettings,
     pub(super) control: &'static Control,
     pub(super) modes: Modes,
+    /// The row of the G code that was looked up last as a motion or cycle.
+    motion_row: Option<&'static Row>,
     pub(super) place: Place,
     pub(super) drive: Drive,
     pub(super) tool: Tool,
@@ -106,6 +109,7 @@ impl State {
                 to_initial: !control.is_linuxcnc(),
                 diameter: control.is_lathe(),
             },
+            motion_row: None,
             place: Place::new(
                 match settings.places_unknown {
                     true if control.is_wire() => 0b1111,
@@ -120,6 +124,16 @@ impl State {
             holes: Holes::default(),
             warnings: Vec::new(),
         }
+    }
+
+    /// The row of a motion or cycle by ten times its G number; `None`: the control has no such code, or it is not run. Most
+    /// blocks move as the one before them, so the last one is kept.
+    #[inline]
+    pub(super) fn motion_row(&mut self, code: u16) -> Option<&'static Row> {
+        if self.motion_row.is_none_or(|row| row.code.tenths != code) {
+            self.motion_row = g_code(self.control, code);
+        }
+        self.motion_row
     }
 
     /// Units before the first G20 or G21.

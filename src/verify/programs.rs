@@ -6,7 +6,7 @@ use super::compared::{Compared, compare, leaves_low};
 use super::cut::{ALL, Cut, Spin, State, What, number, place, same, same_dwell, shown};
 use super::expectation::Expectation;
 use super::passage::{Mark, TOO_LONG};
-use super::program::Program;
+use super::program::{Doubt, Program};
 use super::way::Way;
 use crate::nc::{Cooling, RunError, RunSettings, axes_of};
 use crate::toolpath::{StopKind, Units};
@@ -58,7 +58,7 @@ pub fn compare_motions<R: BufRead + Seek>(
         let x = a.run_to_cut().map_err(|error| NoMotion(0, error))?.cloned();
         let y = b.run_to_cut().map_err(|error| NoMotion(1, error))?.cloned();
         for (number, program) in [&a, &b].into_iter().enumerate() {
-            if program.passage.is_too_long() {
+            if program.doubt() == Some(Doubt::TooLong) {
                 return Err(NoMotion(number, RunError::Io(std::io::Error::other(TOO_LONG))));
             }
         }

@@ -5,8 +5,8 @@ use std::io::{BufRead, Seek};
 use super::cut::{Cut, Place, Rapid, Shared};
 use super::intent::{Expected, Threaded};
 use super::own::Own;
-use super::passage::{Frame, Mark, Passage, TOO_LONG};
-use super::program::Program;
+use super::passage::{Frame, Mark, Passage};
+use super::program::{Doubt, Program};
 use super::report::{Difference, Report};
 use super::strokes::Strokes;
 use super::unknown::{is_unknown, unknown_code};
@@ -122,19 +122,9 @@ impl<R: BufRead + Seek> Sides<R> {
     /// Runs the program to its next cut.
     pub fn run_to_cut(&mut self) -> Result<(), Box<Diag>> {
         match self.program.run_to_cut().map(drop) {
-            Ok(()) if self.program.passage.is_too_long() => self.unproven(TOO_LONG.into(), "split the job", 0),
-            Ok(()) => match self.program.passage.astray.first() {
-                Some(&(line, _)) => {
-                    let why = "an increment leads on from a position that only the machine knows".into();
-                    self.unproven(why, "write the position under G90, or go there by G53", line)
-                }
-                None => match self.program.cut().filter(|cut| cut.home != 0).map(|cut| cut.line) {
-                    Some(line) => {
-                        let why = "a cut goes to a position of the machine".into();
-                        self.unproven(why, "write G0 with G53, or the position without G53", line)
-                    }
-                    None => Ok(()),
-                },
+            Ok(()) => match self.program.doubt().map(Doubt::told) {
+                Some((why, help, line)) => self.unproven(why.into(), help, line),
+                None => Ok(()),
             },
             Err(RunError::Refused(diag, line)) if is_unknown(diag.code, self.program.control()) => {
                 let why = unknown_code(&diag, self.program.control());

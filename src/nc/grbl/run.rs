@@ -5,7 +5,7 @@ use super::error::refuse;
 use crate::control::Meaning;
 use crate::nc::action::{Action, Cooling, Rotation};
 use crate::nc::block::Block;
-use crate::nc::codes::{Group, g_code};
+use crate::nc::codes::Group;
 use crate::nc::fault::Done;
 use crate::nc::out::{Next, Out};
 use crate::nc::state::State;
@@ -46,7 +46,7 @@ impl State {
         if frame_goes {
             self.once(block, out)?;
         }
-        let row = motion.and_then(|code| g_code(self.control, code));
+        let row = motion.and_then(|code| self.motion_row(code));
         if block.check_words(row, self.control.traits().everywhere.bits()).is_err() {
             return refuse(36);
         }

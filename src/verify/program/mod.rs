@@ -1,8 +1,11 @@
 //! The program's side: its cuts, each with what lies before it.
 
+mod doubt;
 mod hazards;
 
 use std::io::{BufRead, Seek};
+
+pub(super) use doubt::Doubt;
 
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, place};
 use super::due::Due;
@@ -43,6 +46,8 @@ pub(super) struct Program<R> {
     /// What lies before the cut.
     pub passage: Passage,
     cuts: bool,
+    /// Why nothing can be said of the cut.
+    doubt: Option<Doubt>,
     /// A code ended the program.
     ended: bool,
     /// Why it can't go on, met before anything asked for it.
@@ -88,6 +93,7 @@ impl<R: BufRead + Seek> Program<R> {
             coolant: expectation.coolant,
             passage: Passage::new(Some(start), Frame { tool: None, work: state.work }),
             cuts: false,
+            doubt: None,
             ended: false,
             failed: None,
             cut: None,
@@ -141,16 +147,22 @@ impl<R: BufRead + Seek> Program<R> {
     }
 
     /// Runs the program to its next cut, which stays until it is taken; `None` at the program's end, or where more lies before the
-    /// cut than is held ([`Passage::is_too_long`]).
+    /// cut than is held ([`Doubt::TooLong`]).
     ///
     /// # Errors
     /// The program can't be read, or its control refuses a block.
     pub fn run_to_cut(&mut self) -> Result<Option<&Cut>, RunError> {
-        if let Some(error) = self.failed.take() {
-            return Err(error);
+        if self.failed.is_some() {
+            return self.failed.take().map_or(Ok(None), Err);
         }
-        while self.goes_on()? && !self.passage.is_too_long() {}
+        while self.goes_on()? {}
         Ok(self.cut())
+    }
+
+    /// Why nothing can be said of the cut to which the program was run.
+    #[inline]
+    pub fn doubt(&self) -> Option<Doubt> {
+        self.doubt
     }
 
     /// Runs the program on while more of it waits, as far as its next cut: nothing that the job does before its own is needed
@@ -170,25 +182,32 @@ impl<R: BufRead + Seek> Program<R> {
         self.failed.is_some()
     }
 
-    /// Runs a block, or takes what it did; `false`: at a cut, or at the end.
+    /// Takes what the last block did as far as its next cut, and runs the next block if there was none; `false`: at a cut, at
+    /// the end, or where the passage is too long.
     #[inline]
     fn goes_on(&mut self) -> Result<bool, RunError> {
+        if self.next < self.items.len() {
+            let items = std::mem::take(&mut self.items);
+            while self.cut.is_none()
+                && let Some(item) = items.get(self.next)
+            {
+                self.take_item(item);
+                self.next += 1;
+            }
+            self.items = items;
+            if self.cut.is_none() && self.passage.is_too_long() {
+                self.doubt = Some(Doubt::TooLong);
+            }
+        }
         // a Grbl would take more blocks, if its sender goes on
-        if self.cut.is_some() || self.next == self.items.len() && (self.over || self.ended) {
+        if self.cut.is_some() || self.over || self.ended || self.doubt == Some(Doubt::TooLong) {
             return Ok(false);
         }
-        if self.next == self.items.len() {
-            self.items.clear();
-            self.next = 0;
-            let goes_on = self.simulator.step(&mut self.items);
-            self.recent.keep(self.simulator.line(), self.simulator.text());
-            self.over = !goes_on?;
-            return Ok(true);
-        }
-        let items = std::mem::take(&mut self.items);
-        self.take_item(&items[self.next]);
-        self.items = items;
-        self.next += 1;
+        self.items.clear();
+        self.next = 0;
+        let goes_on = self.simulator.step(&mut self.items);
+        self.recent.keep(self.simulator.line(), self.simulator.text());
+        self.over = !goes_on?;
         Ok(true)
     }
 
@@ -196,7 +215,7 @@ impl<R: BufRead + Seek> Program<R> {
     pub fn take(&mut self) {
         if let Some(cut) = &self.cut {
             self.at = cut.end();
-            self.cut = None;
+            (self.cut, self.doubt) = (None, None);
             // a cut may say a height that was unknown
             self.unknown = self.scale.axes(self.simulator.state().at_machine());
             self.passage.begin(Rapid { to: self.at, unknown: self.unknown, spin: Some(self.spin) });
@@ -382,6 +401,7 @@ impl<R: BufRead + Seek> Program<R> {
         let watched = if self.scale.wire.is_some() { 0b11 } else { heights };
         if self.scale.axes(astray) & watched != 0 {
             self.passage.astray.push((line, to));
+            self.doubt.get_or_insert(Doubt::Astray(line));
         }
         if unknown & heights != heights {
             if (to[2] != self.at[2] || self.unknown & 0b100 != 0) && self.length_is_due() {
@@ -405,6 +425,9 @@ impl<R: BufRead + Seek> Program<R> {
             self.without_length(item.line, "the tool cuts, and its length offset is not on");
         }
         self.units_are_due(item.line, "the program cuts before it says its units");
+        if home != 0 {
+            self.doubt.get_or_insert(Doubt::Home(item.line));
+        }
         let mut state = self.state.clone();
         if let (true, Some(speed)) = (state.css, state.speed) {
             state.speed = Some(speed * self.scale.surface());

@@ -193,15 +193,13 @@ fn prove(
     let mut comparer = Started { comparer, of_job };
     let read = job.read(&mut comparer);
     let mut comparer = comparer.comparer;
-    let (counts, warnings) = (comparer.counts(), comparer.warnings());
+    let (counts, warnings, decided) = (comparer.counts(), comparer.warnings(), comparer.is_decided());
     let verdict = comparer.verdict().map_err(|error| Error::of_io(ErrorKind::Program, error))?;
     let verdict = if assumed { verdict.assumed(settings.control.name()) } else { verdict };
-    match (read, &verdict) {
+    match read {
+        Err(error) if !decided => Err(error.after(warnings, &[])),
         // the comparison stopped the reader: the rest of the job was not looked at
-        (Err(_), Verdict::Different(_) | Verdict::NotProven(_)) | (Ok(()), _) => {
-            Ok(Proven { verdict, counts, warnings })
-        }
-        (Err(error), _) => Err(error.after(warnings, &[])),
+        _ => Ok(Proven { verdict, counts, warnings }),
     }
 }
 

@@ -108,16 +108,22 @@ impl<R: BufRead + Seek> Comparer<R> {
         self.sides.program.warnings()
     }
 
+    /// Is the verdict known, whatever the rest of the job may be?
+    pub fn is_decided(&self) -> bool {
+        self.found() > 0 || self.sides.report.unproven.is_some()
+    }
+
     /// The verdict, after the last event or after one that found a difference.
     ///
     /// # Errors
     /// The program can't be read.
     pub fn verdict(self) -> Result<Verdict, std::io::Error> {
-        let Sides { mut program, report, failure, .. } = self.sides;
+        let Sides { mut program, mut report, failure, .. } = self.sides;
         if let Some(error) = failure {
             return Err(error);
         }
-        let Report { mut findings, allowed, unproven, .. } = report;
+        let unproven = report.unproven();
+        let Report { mut findings, allowed, .. } = report;
         findings.append(&mut program.hazards);
         findings.sort_by_key(|finding| finding.line);
         Ok(match unproven {
@@ -146,6 +152,7 @@ impl<R: BufRead + Seek> Sink for Comparer<R> {
         if self.sides.report.is_decided() || self.sides.failure.is_some() {
             return Flow::Break(Stop::Enough);
         }
+        self.sides.report.wrong = Some(diag.clone());
         Flow::Break(Stop::from(diag).placed(|| place.into()))
     }
 }
@@ -329,15 +336,16 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
         wire::compare(self, 0);
         ways::end(self);
         self.program.ended();
+        self.report.finished = true;
         Ok(())
     }
 }
 
 impl<R: BufRead + Seek> Sides<R> {
-    /// Is all held that lies between two cuts?
+    /// Is all held that the job does between two cuts? What the program does is asked where it is run to its next cut.
     #[inline]
     fn can_hold(&mut self) -> Done {
-        if self.job.is_too_long() || self.program.passage.is_too_long() {
+        if self.job.is_too_long() {
             return self.unproven(TOO_LONG.into(), "split the job", 0);
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::finding::Finding;
 use super::verdict::{Equivalences, Unproven};
-use crate::diag::Code;
+use crate::diag::{Code, Diag};
 use crate::toolpath;
 
 /// How much was compared.
@@ -34,12 +34,28 @@ pub(super) struct Report {
     /// The job's item.
     pub place: toolpath::Place,
     pub unproven: Option<Unproven>,
+    /// What is wrong with the job, where that ended the comparison.
+    pub wrong: Option<Box<Diag>>,
+    /// The job was compared to its end.
+    pub finished: bool,
 }
 
 impl Report {
     /// Is the verdict known before the end of the job?
     pub fn is_decided(&self) -> bool {
         !self.findings.is_empty() || self.unproven.is_some()
+    }
+
+    /// Why nothing is proven; a job that was not compared to its end never is.
+    pub fn unproven(&mut self) -> Option<Unproven> {
+        if self.unproven.is_some() || self.finished {
+            return self.unproven.take();
+        }
+        let (why, help) = match self.wrong.take() {
+            Some(diag) => (diag.message, diag.help.unwrap_or_default()),
+            None => ("the job was not compared to its end".into(), String::new()),
+        };
+        Some(Unproven { why, help, place: Some(self.place), ..Unproven::default() })
     }
 
     /// Adds a difference; one of the same cause is counted with the first.

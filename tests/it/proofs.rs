@@ -745,7 +745,6 @@ fn a_proof_beside_the_renderer_holds_no_long_job() {
     assert!(matches!(&outcome.verdict, Verdict::NotProven(why) if why.in_a_file), "{:?}", outcome.verdict);
 }
 
-/// A back bore as the first hole of a tool whose place the job has not told yet.
 /// What lies between two cuts of a program is bounded too, and text after a block that the control refuses is not held.
 #[test]
 fn a_proof_holds_no_long_way_of_the_program() {
@@ -765,6 +764,44 @@ fn a_proof_holds_no_long_way_of_the_program() {
     assert!(matches!(of_post("fanuc.pf", &job).1, Verdict::NotProven(_)));
 }
 
+/// The proof ends where the job can't be planned, and what it did not compare is not proven: a control drills what the planner
+/// refuses.
+#[test]
+fn a_job_that_is_not_compared_to_its_end_is_not_proven() {
+    let job = one(
+        r#"{"rapid":[0,0,25]},{"cycle":{"kind":"deep","depth":100,"clear":2,"return":2,"feed":50,"step":0.005,"points":[[0,0,0]]}}"#,
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let [file, out] = ["job.json", "out.nc"].map(|name| folder.path().join(name).display().to_string());
+    fs::write(&file, job).unwrap();
+    let told = postform(&["render", &file, "--form", "postforms/fanuc.pf", "-o", &out]);
+    let said = text(&told.stderr);
+    assert!(said.contains("not proven") && said.contains("more than 10000 pecks in one hole"), "{said}");
+    assert_eq!(told.status.code(), Some(0), "{said}");
+    assert!(fs::read_to_string(&out).unwrap().contains("G83"));
+    let told = postform(&["verify", &file, "--form", "postforms/fanuc.pf", "--nc", &out]);
+    assert!(text(&told.stderr).contains("PC028"), "{}", text(&told.stderr));
+    assert_eq!(told.status.code(), Some(1));
+    // events that end before the job does
+    let mut comparer = Comparer::new(
+        Cursor::new("%\nM30\n%\n"),
+        RunSettings::new(control("fanuc")),
+        Expectation::of_control(control("fanuc")),
+        None,
+    );
+    let short = one(r#"{"rapid":[0,0,25]}"#);
+    let job = document(&short);
+    struct Cut<'a>(&'a mut Comparer<Cursor<&'static str>>);
+    impl Sink for Cut<'_> {
+        fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+            if matches!(event, Event::Start(_)) { self.0.event(event, place) } else { Flow::Continue(()) }
+        }
+    }
+    assert!(job(&mut Cut(&mut comparer)));
+    assert!(matches!(comparer.verdict().unwrap(), Verdict::NotProven(_)));
+}
+
+/// A back bore as the first hole of a tool whose place the job has not told yet.
 #[test]
 fn a_back_bore_may_come_first() {
     let job = one(

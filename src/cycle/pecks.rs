@@ -3,10 +3,7 @@
 use super::plan::{Defaults, Plan, Step};
 use super::problem::Problem;
 use crate::diag::Code;
-use crate::toolpath::{self, CycleKind, CycleSpec};
-
-/// Most pecks of one hole: more is a slip of the decimal point.
-const MOST_PECKS: usize = 10_000;
+use crate::toolpath::{self, CycleKind, CycleSpec, MOST_PECKS};
 
 /// Depths that differ by less are one (units of any length).
 const SAME: f64 = 1e-9;

@@ -28,6 +28,9 @@ impl Orient {
     }
 }
 
+/// Most pecks of one hole: more is a slip of the decimal point.
+pub const MOST_PECKS: usize = 10_000;
+
 /// A canned cycle without its points. Lengths are in the job's units; heights are distances
 /// along the tool axis from each point.
 #[derive(Clone, Debug, PartialEq)]

@@ -21,6 +21,7 @@ mod tool;
 pub(crate) mod json;
 
 pub use axes::{Axes, Units};
+pub(crate) use cycle::MOST_PECKS;
 pub use cycle::{CycleSpec, Hole, Orient, Peck};
 pub(crate) use dwell::LastDwell;
 pub use event::{Call, EdmAction, Event, StopKind};

@@ -252,6 +252,12 @@ fn jobs() {
         ("a word that is none", with("{\"begin\":\"leedin\"}"), 1, vec!["PJ003", "leedin"]),
         ("section not closed", with("{\"begin\":\"leadin\"}"), 1, vec!["PJ011", "still open"]),
         ("sections crossed", with("{\"begin\":\"leadin\"},{\"begin\":\"row\"},{\"end\":\"leadin\"}"), 1, vec!["PJ011"]),
+        (
+            "pecks without end",
+            with(&format!("{{\"cycle\":{{\"kind\":\"deep\",\"pecks\":[{}]}}}}", ["{\"to\":1}"; 10_001].join(","))),
+            1,
+            vec!["PJ003", "a list of more than 10000", "operations[0].path[1].cycle.pecks[10000]"],
+        ),
         ("an arc without a centre", with("{\"arc\":{\"to\":[1,1],\"direction\":\"cw\"}}"), 1, vec!["PJ005"]),
         (
             "an arc with unequal radii",

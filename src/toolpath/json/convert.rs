@@ -141,7 +141,7 @@ pub(super) fn spec_of(object: &CycleObject) -> Result<CycleSpec, Box<Diag>> {
     let above_zero = |name, n: Option<Number>| n.map(|n| positive(name, n)).transpose();
     let from_zero = |name, n: Option<Number>| n.map(|n| not_negative(name, n)).transpose();
     let mut pecks = Vec::new();
-    for peck in object.pecks.iter().flatten() {
+    for peck in object.pecks.iter().flat_map(|pecks| &pecks.0) {
         let Some(to) = peck.to else {
             return fault(Code::PJ004, "a peck without `to`", "say how deep it goes");
         };
@@ -170,7 +170,7 @@ pub(super) fn spec_of(object: &CycleObject) -> Result<CycleSpec, Box<Diag>> {
         diameter: above_zero("diameter", object.diameter)?,
         angle: above_zero("angle", object.angle)?,
         hole_diameter: above_zero("hole_diameter", object.hole_diameter)?,
-        webs: object.webs.iter().flatten().map(|n| n.0).collect(),
+        webs: object.webs.iter().flat_map(|webs| &webs.0).map(|n| n.0).collect(),
         pecks,
         mode: object.mode.map(|m| match m.0 {
             PeckMode::Deep => CycleKind::Deep,

@@ -6,10 +6,10 @@ use std::marker::PhantomData;
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, Visitor};
 
 use super::context::{Context, Step};
-use super::values::{Kinds, Number, PeckMode, Position, SpeedMode, StepFrom, Word};
+use super::values::{Few, Kinds, Number, PeckMode, Position, SpeedMode, StepFrom, Word};
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, did_you_mean};
-use crate::toolpath::{CycleKind, EdmAction};
+use crate::toolpath::{CycleKind, EdmAction, MOST_PECKS};
 use crate::toolpath::{Direction, FeedMode, Given, Plane, Section, Side, SpindleTurn, StopKind, Units};
 
 /// An object with a fixed list of keys.
@@ -34,6 +34,19 @@ macro_rules! leaves {
     })* };
 }
 leaves! { Number String bool Position Kinds Vec<Number> }
+
+impl Value for Few<Number> {
+    fn read<'de, A: MapAccess<'de>>(map: &mut A, context: &Context) -> Result<Self, A::Error> {
+        let list: Vec<Number> = Value::read(map, context)?;
+        if list.len() > MOST_PECKS { Err(too_many(MOST_PECKS)) } else { Ok(Few(list)) }
+    }
+}
+
+impl Value for Few<PeckObject> {
+    fn read<'de, A: MapAccess<'de>>(map: &mut A, context: &Context) -> Result<Self, A::Error> {
+        map.next_value_seed(ListSeed { most: MOST_PECKS, ..ListSeed::new(context) }).map(Few)
+    }
+}
 
 impl<T: super::values::Words> Value for Word<T> {
     fn read<'de, A: MapAccess<'de>>(map: &mut A, _: &Context) -> Result<Self, A::Error> {
@@ -216,12 +229,12 @@ objects! {
         "diameter" diameter Number, "diameter of a countersink";
         "angle" angle Number, "angle of a countersink";
         "hole_diameter" hole_diameter Number, "hole under a countersink";
-        "webs" webs Vec<Number>, "depths of a cycle through webs: end, start, end, ..";
+        "webs" webs Few<Number>, "depths of a cycle through webs: end, start, end, ..";
         "mode" mode Word<PeckMode>, "how a tap pecks";
         "offset_y" offset_y Number, "jog off the wall along y; `offset` is then along x";
         "step_from" step_from Word<StepFrom>, "where steps begin to count (clear)";
         "emulate" emulate bool, "print single moves, whatever the form has";
-        "pecks" pecks Vec<PeckObject>, "absolute steps";
+        "pecks" pecks Few<PeckObject>, "absolute steps";
         "norevr" norevr bool, "a tap that does not reverse";
         "rapout" rapout bool, "a tap that rapids out";
         "jog" jog Number, "lift of a boring cycle's jog";
@@ -419,13 +432,20 @@ impl<'de, T: Object> Visitor<'de> for ObjectSeed<'_, T> {
 /// Reads a list of objects.
 struct ListSeed<'c, T> {
     context: &'c Context,
+    /// Most objects of the list.
+    most: usize,
     object: PhantomData<T>,
 }
 
 impl<'c, T> ListSeed<'c, T> {
     fn new(context: &'c Context) -> Self {
-        ListSeed { context, object: PhantomData }
+        ListSeed { context, most: usize::MAX, object: PhantomData }
     }
+}
+
+/// A list is longer than its most.
+fn too_many<E: serde::de::Error>(most: usize) -> E {
+    E::custom(format!("a list of more than {most}: is a decimal point missing?"))
 }
 
 impl<'de, T: Object> DeserializeSeed<'de> for ListSeed<'_, T> {
@@ -445,6 +465,7 @@ impl<'de, T: Object> Visitor<'de> for ListSeed<'_, T> {
         loop {
             self.context.enter(Step::Index(list.len() as u64));
             match seq.next_element_seed(ObjectSeed::new(self.context))? {
+                Some(_) if list.len() == self.most => return Err(too_many(self.most)),
                 Some(object) => list.push(object),
                 None => break,
             }

@@ -215,6 +215,24 @@ pub enum StepFrom {
     Point,
 }
 
+/// A list that one hole needs whole: as long as the most pecks of a hole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Few<T>(pub Vec<T>);
+
+#[cfg(feature = "schema")]
+impl<T: schemars::JsonSchema> schemars::JsonSchema for Few<T> {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        format!("Few_{}", T::schema_name()).into()
+    }
+    fn inline_schema() -> bool {
+        true
+    }
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let one = generator.subschema_for::<T>();
+        schemars::json_schema!({ "type": "array", "maxItems": crate::toolpath::MOST_PECKS, "items": one })
+    }
+}
+
 /// A position: up to six numbers, `null` keeps an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Position(pub Axes);

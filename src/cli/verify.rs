@@ -40,7 +40,8 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let control = ControlArgs { control: args.control.control.or(by_config), ..args.control.clone() };
     let mut proof = control.proof(args.tolerance);
     proof.units = args.options.units.map(UnitsArg::units);
-    let mut job = files::job(&args.job, &args.read, false)?;
+    // a program that is printed may need its job once more: for what lies ahead in it, or to be printed into a file
+    let mut job = files::job(&args.job, &args.read, args.nc.is_none())?;
     let name = args.nc.as_deref().map_or("the program".to_owned(), files::name);
     let files = prepared.as_ref().map_or(&[][..], |prepared| prepared.post.files());
     let sides = Sides { job: &args.job, program: &name, files };

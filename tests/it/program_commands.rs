@@ -175,6 +175,10 @@ fn verify_reads_standard_input() {
     let program = fs::read(root().join("samples/bracket/expected.fanuc.nc")).unwrap();
     let output = fed(&["verify", "samples/bracket/job.json", "--nc", "-"], &program);
     assert!(text(&output.stdout).starts_with("equivalent: standard input"), "{}", text(&output.stdout));
+    // a program that calls parts of itself is printed once more, into a file
+    let job_of_subs = fs::read(root().join("samples/pattern/job.json")).unwrap();
+    let output = fed(&["verify", "-", "--form", "postforms/fadal-subs.pf"], &job_of_subs);
+    assert!(text(&output.stdout).starts_with("identical: "), "{}", text(&output.stdout));
     // half a job is no proof of half a program
     let output = fed(&["verify", "-", "--form", "postforms/grbl.pf"], &job[..job.len() / 2]);
     assert_eq!(output.status.code(), Some(1));

@@ -359,7 +359,6 @@ def pair(n):
 
 for options in ((), ("--ignore", "all"), ("--ignore", "none"), ("--format", "json"), ("--format", "html"),
                 ("--layout", "side")):
-    # the deadline is 0.8 s, which counts as found in time
     @row(" ".join(("diff: words of one line", *options)), (10_000, 100_000), status=(1,), seconds=2.0)
     def _(n, options=options): return pair(n), ["diff", "a.nc", "b.nc", *options]
 

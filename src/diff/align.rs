@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 use std::ops::Range;
-use std::time::Instant;
 
-use similar::{Algorithm, DiffTag, capture_diff_slices_deadline};
+use similar::{Algorithm, DiffTag, capture_diff_slices};
 
+use super::gaps::gaps;
 use super::ignore::Ignore;
 use super::key::key;
 use super::program::Program;
@@ -18,23 +18,11 @@ pub struct Options {
     pub ignore: Ignore,
     /// By how much numbers of a changed block may differ and be the same.
     pub tolerance: f64,
-    /// When to stop looking for the shortest answer: a longer one that is right comes then. `None`: it is looked for to the
-    /// end, which for programs of a million lines may be long.
-    pub deadline: Option<Deadline>,
-}
-
-/// A time, and the clock that knows whether it has come: the library has none.
-#[derive(Clone, Copy, Debug)]
-pub struct Deadline {
-    /// The time at which the search for the shortest answer ends.
-    pub at: Instant,
-    /// The clock, which is `Instant::now` where there is one.
-    pub now: fn() -> Instant,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { ignore: Ignore::USUAL, tolerance: 0.0, deadline: None }
+        Options { ignore: Ignore::USUAL, tolerance: 0.0 }
     }
 }
 
@@ -67,10 +55,6 @@ pub struct Hunk {
 pub struct Comparison {
     /// Hunks in the order of the programs.
     pub hunks: Vec<Hunk>,
-    /// The search for the shortest answer was given up: this one is right and may be longer.
-    pub is_coarse: bool,
-    /// When to stop looking for short answers, inside blocks too.
-    pub until: Option<Instant>,
 }
 
 impl Comparison {
@@ -85,22 +69,24 @@ impl Comparison {
     }
 }
 
-/// Lines that count, with their keys.
+/// Lines that count, with their keys, of the part of a program that is compared.
 struct Lines {
     keys: Vec<u64>,
     numbers: Vec<u32>,
+    /// The first line after them that counts.
+    next: usize,
 }
 
 impl Lines {
-    fn of(program: &Program, ignore: &Ignore) -> Lines {
-        let mut lines = Lines { keys: Vec::with_capacity(program.len()), numbers: Vec::with_capacity(program.len()) };
-        for number in 0..program.len() {
-            if let Some(key) = key(program.line(number), ignore) {
-                lines.keys.push(key);
-                lines.numbers.push(number as u32);
-            }
+    fn of(program: &Program, part: Range<usize>, ignore: &Ignore) -> Lines {
+        let (mut keys, mut numbers) = (Vec::with_capacity(part.len()), Vec::with_capacity(part.len()));
+        let counted = |number: &usize| key(program.line(*number), ignore).map(|key| (key, *number as u32));
+        for (key, number) in part.clone().filter_map(|number| counted(&number)) {
+            keys.push(key);
+            numbers.push(number);
         }
-        lines
+        let next = (part.end..program.len()).find(|number| counted(number).is_some());
+        Lines { keys, numbers, next: next.unwrap_or(program.len()) }
     }
 
     fn number(&self, at: usize) -> usize {
@@ -108,31 +94,30 @@ impl Lines {
     }
 
     /// Lines of the program that a range of those that count covers; an empty one stands before the next line.
-    fn covered(&self, range: &Range<usize>, whole: usize) -> Range<usize> {
+    fn covered(&self, range: &Range<usize>) -> Range<usize> {
         if range.is_empty() {
-            let at = self.numbers.get(range.start).map_or(whole, |&number| number as usize);
+            let at = self.numbers.get(range.start).map_or(self.next, |&number| number as usize);
             return at..at;
         }
         self.number(range.start)..self.number(range.end - 1) + 1
     }
 }
 
-/// Compares two programs.
+/// Compares two programs. The same programs have the same comparison on every machine: the search for the shortest one is
+/// bounded in steps, and where two large programs have little in common a longer one may come.
 pub fn compare(old: &Program, new: &Program, options: &Options) -> Comparison {
-    let (before, after) = (Lines::of(old, &options.ignore), Lines::of(new, &options.ignore));
-    let until = options.deadline.map(|deadline| deadline.at);
-    let ops = capture_diff_slices_deadline(Algorithm::RawMyers, &before.keys, &after.keys, until);
-    let is_coarse = options.deadline.is_some_and(|deadline| (deadline.now)() > deadline.at);
-    let mut comparison = Comparison { hunks: Vec::new(), is_coarse, until };
-    for op in ops {
-        let (tag, from, to) = op.as_tag_tuple();
-        if tag == DiffTag::Equal {
-            continue;
-        }
-        let edits = pair(old, new, &before, &after, from.clone(), to.clone(), options);
-        if !edits.is_empty() {
-            let (old, new) = (before.covered(&from, old.len()), after.covered(&to, new.len()));
-            comparison.hunks.push(Hunk { old, new, edits });
+    let mut comparison = Comparison::default();
+    for [from, to] in gaps(old, new) {
+        let (before, after) = (Lines::of(old, from, &options.ignore), Lines::of(new, to, &options.ignore));
+        for op in capture_diff_slices(Algorithm::Myers, &before.keys, &after.keys) {
+            let (tag, from, to) = op.as_tag_tuple();
+            if tag == DiffTag::Equal {
+                continue;
+            }
+            let edits = pair(old, new, &before, &after, from.clone(), to.clone(), options);
+            if !edits.is_empty() {
+                comparison.hunks.push(Hunk { old: before.covered(&from), new: after.covered(&to), edits });
+            }
         }
     }
     find_moves(&mut comparison, old, new, &options.ignore);

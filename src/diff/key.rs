@@ -1,15 +1,22 @@
 //! A line as a number: lines are the same when their numbers are.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::{BuildHasher, Hash, Hasher};
+
+use foldhash::quality::{FixedState, FoldHasher};
 
 use super::ignore::Ignore;
 use crate::nc::{Kind, Token, tokens};
+
+/// A hasher whose numbers are the same on every machine.
+pub(super) fn hasher() -> FoldHasher<'static> {
+    FixedState::with_seed(0).build_hasher()
+}
 
 /// The key of a line; `None` when nothing of it counts.
 ///
 /// Two different lines have one key by chance once in 2^64: a program has fewer lines than that.
 pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
-    let mut whole = DefaultHasher::new();
+    let mut whole = hasher();
     let mut sum = 0u64;
     let (mut counts, mut has_blanks, mut leaves_out) = (false, false, false);
     let mut parts = tokens(line).peekable();
@@ -26,7 +33,7 @@ pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
         }
         counts |= !is_blank(&token);
         has_blanks |= is_blank(&token);
-        let mut one = DefaultHasher::new();
+        let mut one = hasher();
         hash_token(&token, line, ignore, &mut one);
         // what belongs to a letter stays with it
         if matches!(token.kind, Kind::Letter(_)) {

@@ -1,13 +1,14 @@
 //! What changed between two NC programs: blocks compared by their words, not by their text.
 
 mod align;
+mod gaps;
 mod ignore;
 mod key;
 mod program;
 mod summary;
 mod words;
 
-pub use align::{Comparison, Deadline, Edit, Hunk, Options, compare};
+pub use align::{Comparison, Edit, Hunk, Options, compare};
 pub use ignore::Ignore;
 pub use program::Program;
 pub use summary::Summary;

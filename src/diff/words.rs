@@ -1,13 +1,12 @@
 //! Inside a changed block: which words changed.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::{Hash, Hasher};
 use std::ops::Range;
-use std::time::Instant;
 
-use similar::{Algorithm, DiffTag, capture_diff_slices_deadline};
+use similar::{Algorithm, DiffTag, capture_diff_slices};
 
 use super::ignore::Ignore;
-use super::key::is_seen;
+use super::key::{hasher, is_seen};
 use crate::nc::{Kind, tokens};
 
 /// A word or comment of a block.
@@ -19,21 +18,14 @@ pub(super) struct Word {
     pub letter: u8,
     /// The number behind the letter, where there is one.
     pub value: Option<f64>,
-    /// The word as it is compared.
-    key: Vec<u8>,
+    /// The word as a number, made of what is compared: two different words have one by chance once in 2^64.
+    key: u64,
 }
 
 impl Word {
     /// Is another word the same, as compared?
     pub fn is(&self, other: &Word) -> bool {
         self.key == other.key
-    }
-
-    /// The word as a number, made of what is compared: two different words of a line have one by chance once in 2^64.
-    fn hashed(&self) -> u64 {
-        let mut hasher = DefaultHasher::new();
-        self.key.hash(&mut hasher);
-        hasher.finish()
     }
 }
 
@@ -49,7 +41,7 @@ pub(super) fn words(line: &[u8], ignore: &Ignore) -> Vec<Word> {
         let continues = matches!(token.kind, Kind::Symbol(_) | Kind::Number(_) | Kind::Name | Kind::Quoted);
         if let Some(last) = list.last_mut().filter(|_| open && continues) {
             last.span.end = token.end;
-            last.key.extend_from_slice(text);
+            last.key = key_of(&(last.key, text));
             continue;
         }
         let (letter, value) = match token.kind {
@@ -58,14 +50,20 @@ pub(super) fn words(line: &[u8], ignore: &Ignore) -> Vec<Word> {
             _ => (0, None),
         };
         let key = match value.filter(|_| ignore.format) {
-            Some(value) => [&[letter][..], &value.to_bits().to_le_bytes()].concat(),
-            None if ignore.case && letter != 0 => text.to_ascii_uppercase(),
-            None => text.to_vec(),
+            Some(value) => key_of(&(letter, value.to_bits())),
+            None if ignore.case && letter != 0 => key_of(&text.to_ascii_uppercase()),
+            None => key_of(&text),
         };
         open = value.is_none();
         list.push(Word { span: token.start..token.end, letter, value, key });
     }
     list
+}
+
+fn key_of(part: &impl Hash) -> u64 {
+    let mut hasher = hasher();
+    part.hash(&mut hasher);
+    hasher.finish()
 }
 
 /// Are two blocks the same when numbers may differ by so much?
@@ -85,12 +83,12 @@ pub(super) fn likeness(old: &[Word], new: &[Word]) -> f64 {
     shared as f64 / old.len().max(new.len()).max(1) as f64
 }
 
-/// The places of changed words in an old and a new block; more than need be where the search takes longer than `until`.
-pub fn changed_spans(old: &[u8], new: &[u8], ignore: &Ignore, until: Option<Instant>) -> [Vec<Range<usize>>; 2] {
+/// The places of changed words in an old and a new block.
+pub fn changed_spans(old: &[u8], new: &[u8], ignore: &Ignore) -> [Vec<Range<usize>>; 2] {
     let (before, after) = (words(old, ignore), words(new, ignore));
-    let keys = |list: &[Word]| -> Vec<u64> { list.iter().map(Word::hashed).collect() };
+    let keys = |list: &[Word]| -> Vec<u64> { list.iter().map(|word| word.key).collect() };
     let mut spans = [Vec::new(), Vec::new()];
-    for op in capture_diff_slices_deadline(Algorithm::RawMyers, &keys(&before), &keys(&after), until) {
+    for op in capture_diff_slices(Algorithm::Myers, &keys(&before), &keys(&after)) {
         let (tag, from, to) = op.as_tag_tuple();
         if tag != DiffTag::Equal {
             spans[0].extend(before[from].iter().map(|word| word.span.clone()));

@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 use std::io::Cursor;
 use std::ops::Range;
-use std::time::Instant;
 
 use postform::internals::diff::{Comparison, Edit, Hunk, Options, Program, Summary, changed_spans};
 use postform::internals::nc::RunSettings;
@@ -66,31 +65,20 @@ pub fn page(
          <style>{STYLE}</style></head>\n<body>\n<h1>What changed</h1>\n<p><code>{a}</code> before, <code>{b}</code> after: {found}</p>\n"
     );
     text += path;
-    if comparison.is_coarse {
-        text += "<p>The programs are too different for the shortest answer: this one is right and longer.</p>\n";
-    }
     for group in grouped(&comparison.hunks, context) {
-        table(old, new, group, context, options, comparison.until, &mut text);
+        table(old, new, group, context, options, &mut text);
     }
     text += "</body>\n</html>\n";
     text
 }
 
-fn table(
-    old: &Side,
-    new: &Side,
-    hunks: &[Hunk],
-    context: usize,
-    options: &Options,
-    until: Option<Instant>,
-    out: &mut String,
-) {
+fn table(old: &Side, new: &Side, hunks: &[Hunk], context: usize, options: &Options, out: &mut String) {
     let (Some(first), Some(last)) = (hunks.first(), hunks.last()) else { return };
     out.push_str("<table>\n");
     let mut at = (first.old.start.saturating_sub(context), first.new.start.saturating_sub(context));
     for hunk in hunks {
         unchanged(old, new, at.0..hunk.old.start, at.1..hunk.new.start, out);
-        hunk.edits.iter().for_each(|edit| row(old, new, edit, options, until, out));
+        hunk.edits.iter().for_each(|edit| row(old, new, edit, options, out));
         // who printed what is new
         if let Some(origin) = hunk.new.clone().next().and_then(|line| new.origin(line)) {
             _ = writeln!(
@@ -120,7 +108,7 @@ fn unchanged(old: &Side, new: &Side, before: Range<usize>, after: Range<usize>, 
     }
 }
 
-fn row(old: &Side, new: &Side, edit: &Edit, options: &Options, until: Option<Instant>, out: &mut String) {
+fn row(old: &Side, new: &Side, edit: &Edit, options: &Options, out: &mut String) {
     let none = cell(None, b"", &[], "");
     match *edit {
         Edit::Removed(line) => cells(&cell(Some(line), old.program.text(line), &[], "old"), &none, out),
@@ -132,7 +120,7 @@ fn row(old: &Side, new: &Side, edit: &Edit, options: &Options, until: Option<Ins
         ),
         Edit::Changed(a, b) => {
             let (before, after) = (old.program.text(a), new.program.text(b));
-            let [gone, come] = changed_spans(before, after, &options.ignore, until);
+            let [gone, come] = changed_spans(before, after, &options.ignore);
             cells(&cell(Some(a), before, &gone, "old"), &cell(Some(b), after, &come, "new"), out);
         }
     }

@@ -17,8 +17,7 @@ pub fn document(old: &Side, new: &Side, comparison: &Comparison, summary: &Summa
             Edit::Added(line) => json!({ "kind": "added", "new": line + 1, "new_text": text(new, line) }),
             Edit::Moved(a, b) => json!({ "kind": "moved", "old": a + 1, "new": b + 1, "old_text": text(old, a) }),
             Edit::Changed(a, b) => {
-                let [gone, come] =
-                    changed_spans(old.program.text(a), new.program.text(b), &options.ignore, comparison.until);
+                let [gone, come] = changed_spans(old.program.text(a), new.program.text(b), &options.ignore);
                 let words = |side: &Side, line: usize, spans: Vec<std::ops::Range<usize>>| -> Vec<String> {
                     let bytes = side.program.text(line);
                     spans.into_iter().map(|span| String::from_utf8_lossy(&bytes[span]).into_owned()).collect()
@@ -42,7 +41,7 @@ pub fn document(old: &Side, new: &Side, comparison: &Comparison, summary: &Summa
         })
         .collect();
     let document = json!({
-        "postform_diff": 1, "same": comparison.is_same(), "coarse": comparison.is_coarse, "old": old.name, "new": new.name,
+        "postform_diff": 1, "same": comparison.is_same(), "old": old.name, "new": new.name,
         "summary": {
             "changed": summary.changed, "added": summary.added, "removed": summary.removed, "moved": summary.moved,
             "letters": summary.letters, "more": summary.more, "less": summary.less,

@@ -6,9 +6,8 @@ mod sides;
 mod text;
 
 use std::io::{Cursor, IsTerminal, Write};
-use std::time::{Duration, Instant};
 
-use postform::internals::diff::{Deadline, Ignore, Options, Program, Summary, compare};
+use postform::internals::diff::{Ignore, Options, Program, Summary, compare};
 use postform::internals::nc::{Kind, RunError, RunSettings, tokens};
 use postform::internals::verify::{Motions, NoMotion, compare_motions};
 use postform::toolpath::Units;
@@ -20,12 +19,9 @@ use super::say::say;
 use super::{Ending, output};
 use sides::{Side, sides};
 
-/// How long the shortest answer is looked for.
-const PATIENCE: Duration = Duration::from_millis(800);
-
 /// Compares two programs.
 pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
-    let options = Options { ignore: ignored(&args.ignore)?, tolerance: args.tolerance, ..Options::default() };
+    let options = Options { ignore: ignored(&args.ignore)?, tolerance: args.tolerance };
     if args.motion && args.format == DiffFormat::Html {
         return Err("error: --motion has one difference, which --format text or json shows".into());
     }
@@ -46,8 +42,6 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
             }
         }
     } else {
-        let options =
-            Options { deadline: Some(Deadline { at: Instant::now() + PATIENCE, now: Instant::now }), ..options };
         let comparison = compare(&old.program, &new.program, &options);
         let summary = Summary::of(&comparison, &old.program, &new.program, &options.ignore);
         let text = match args.format {

@@ -29,15 +29,12 @@ pub fn unified(
     if comparison.is_same() {
         return String::new();
     }
-    let mut page = Page { old, new, comparison, options, colour, text: String::new() };
+    let mut page = Page { old, new, options, colour, text: String::new() };
     _ = writeln!(page.text, "--- {}\n+++ {}", old.name, new.name);
     for group in grouped(&comparison.hunks, args.context) {
         page.group(group, args.context);
     }
     page.text += &sentence(summary);
-    if comparison.is_coarse {
-        page.text += "the programs are too different for the shortest answer: this one is right and longer\n";
-    }
     page.text
 }
 
@@ -94,6 +91,9 @@ pub fn side_by_side(
     text + &sentence(summary)
 }
 
+/// In hunks of more edits than this the changed words are not marked: their lines alone are printed.
+const MOST_MARKED: usize = 1_000;
+
 /// Hunks whose contexts meet stand together.
 pub fn grouped(hunks: &[Hunk], context: usize) -> impl Iterator<Item = &[Hunk]> {
     hunks.chunk_by(move |a, b| b.old.start.saturating_sub(a.old.end) <= 2 * context)
@@ -102,7 +102,6 @@ pub fn grouped(hunks: &[Hunk], context: usize) -> impl Iterator<Item = &[Hunk]> 
 struct Page<'a> {
     old: &'a Side,
     new: &'a Side,
-    comparison: &'a Comparison,
     options: &'a Options,
     colour: bool,
     text: String,
@@ -120,8 +119,9 @@ impl Page<'_> {
         let mut at = start;
         for hunk in hunks {
             self.unchanged(at..hunk.old.start);
+            let marks = hunk.edits.len() <= MOST_MARKED;
             for edit in &hunk.edits {
-                self.edit(edit);
+                self.edit(edit, marks);
             }
             self.origin(hunk);
             at = hunk.old.end;
@@ -136,14 +136,18 @@ impl Page<'_> {
         }
     }
 
-    fn edit(&mut self, edit: &Edit) {
+    fn edit(&mut self, edit: &Edit, marks: bool) {
         let (old, new) = (&self.old.program, &self.new.program);
         match *edit {
             Edit::Removed(line) => self.line(RED, &format!("-{}", shown(old.text(line)))),
             Edit::Added(line) => self.line(GREEN, &format!("+{}", shown(new.text(line)))),
+            Edit::Changed(a, b) if !marks => {
+                self.line(RED, &format!("-{}", shown(old.text(a))));
+                self.line(GREEN, &format!("+{}", shown(new.text(b))));
+            }
             Edit::Changed(a, b) => {
                 let (before, after) = (old.text(a), new.text(b));
-                let [gone, come] = changed_spans(before, after, &self.options.ignore, self.comparison.until);
+                let [gone, come] = changed_spans(before, after, &self.options.ignore);
                 self.line(RED, &format!("-{}", shown(before)));
                 self.marks(before, &gone);
                 self.line(GREEN, &format!("+{}", shown(after)));

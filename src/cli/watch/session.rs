@@ -7,9 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant};
 
-use postform::internals::diff::{self, Deadline};
+use postform::internals::diff;
 use postform::internals::lint::Levels;
 use postform::internals::post::sample_job;
 use postform::internals::scene::{At, Printed, Request, Scene, behind, help, program_of, scene};
@@ -24,9 +23,6 @@ use super::super::files::{self, io_message};
 use super::super::forms::FormFile;
 use super::super::output::write_whole;
 use super::super::prompt;
-
-/// How long programs are compared for the shortest answer: somebody types.
-const PATIENCE: Duration = Duration::from_millis(250);
 
 /// A program of fewer bytes is proven before anybody sees that its picture waits.
 const SMALL: usize = 256 << 10;
@@ -236,10 +232,10 @@ impl Session {
                 scope.spawn(move || {
                     if typed {
                         let before = self.saved_program(ask.job, generation);
-                        let found = printed.since_saved(before.as_deref(), &comparing());
+                        let found = printed.since_saved(before.as_deref(), &diff::Options::default());
                         _ = found.map(|found| compares.send(("saved", found)));
                     }
-                    let found = old.and_then(|(name, old)| printed.against(name, old, &comparing()));
+                    let found = old.and_then(|(name, old)| printed.against(name, old, &diff::Options::default()));
                     _ = found.map(|found| compares.send(("against", found)));
                 });
             } else {
@@ -382,11 +378,6 @@ impl Session {
 /// With `\n` alone.
 fn lines(text: &str) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
-}
-
-fn comparing() -> diff::Options {
-    let deadline = Deadline { at: Instant::now() + PATIENCE, now: Instant::now };
-    diff::Options { deadline: Some(deadline), ..diff::Options::default() }
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {

@@ -11,8 +11,9 @@ pub(super) type Gap = [Range<usize>; 2];
 /// So many lines after a difference, on either side, it is looked for lines that are the same again.
 const WINDOW: usize = 64;
 
-/// So many lines in a row must be the same again: fewer may be so by chance, as the moves of a pattern.
-const RUN: usize = 8;
+/// So many lines in a row must be the same again: fewer may be so by chance in programs whose blocks repeat, and the answer would be
+/// longer than it must be.
+const RUN: usize = 32;
 
 /// Finds the parts. Where the programs do not meet again within a few lines, the last part is all that is left, without the
 /// lines that are the same at the end.

@@ -236,6 +236,36 @@ fn edits_far_apart_are_all_that_is_found() {
     assert_eq!(edits, [Edit::Changed(1_000, 1_000), Edit::Added(100_000), Edit::Removed(149_999)]);
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+    /// Of a few edits in blocks that repeat, the comparison is as short as the shortest.
+    #[test]
+    fn few_edits_have_the_shortest_answer(
+        blocks in proptest::collection::vec((0..3u8, 0..3u8), 250..300),
+        edits in proptest::collection::vec((0..250usize, 0..4u8, 1..30usize), 1..10),
+    ) {
+        let old: Vec<String> = blocks.iter().map(|(x, y)| format!("G1 X{x} Y{y}\n")).collect();
+        let mut new = old.clone();
+        for (number, (at, kind, length)) in edits.into_iter().enumerate() {
+            let at = at.min(new.len() - 1);
+            match kind {
+                0 => new[at] = format!("G1 X9 Y{number}\n"),
+                1 => new.insert(at, format!("M{number}\n")),
+                2 => _ = new.remove(at),
+                _ => {
+                    let part: Vec<String> = new.drain(at..(at + length).min(new.len())).collect();
+                    new.splice(0..0, part);
+                }
+            }
+        }
+        let shortest = similar::capture_diff_slices(similar::Algorithm::RawMyers, &old, &new);
+        let kept: usize = shortest.iter().filter(|op| op.tag() == similar::DiffTag::Equal).map(|op| op.old_range().len()).sum();
+        let comparison = compare(&program(&old.concat()), &program(&new.concat()), &Options::default());
+        let gone = comparison.hunks.iter().map(|hunk| hunk.old.len()).sum::<usize>();
+        prop_assert_eq!(old.len() - gone, kept);
+    }
+}
+
 /// Blocks of so many words that have nothing in common are compared in bounded time, and every word is told.
 #[test]
 fn long_blocks_are_compared_in_bounded_time() {

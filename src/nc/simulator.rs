@@ -147,6 +147,12 @@ impl<R: BufRead + Seek> Simulator<R> {
         &self.line
     }
 
+    /// The text of the line that was run last, to be taken before the next step; `None`: the line has more to do.
+    #[inline]
+    pub fn text_to_keep(&mut self) -> Option<&mut Vec<u8>> {
+        if self.unfinished { None } else { Some(&mut self.line) }
+    }
+
     /// The line that was run last.
     pub fn line(&self) -> u64 {
         self.at.line

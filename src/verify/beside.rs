@@ -75,12 +75,10 @@ pub fn prove_beside<B: AsRef<Batch>>(
     let text = Text { queue: Rc::clone(&queue), batch: None, at: 0 };
     let mut comparer = Comparer::new(text, settings, expectation, tolerance);
     let mut found = 0;
-    let mut locate = |comparer: &mut Comparer<Text<_>>| {
-        if comparer.found() > found {
-            found = comparer.found();
-            let queue = queue.borrow();
-            comparer.locate(|line| queue.origin(line));
-        }
+    let locate = |comparer: &mut Comparer<Text<_>>| {
+        let queue = queue.borrow();
+        comparer.locate(|line| queue.origin(line));
+        comparer.found()
     };
     'job: loop {
         let next = queue.borrow_mut().events();
@@ -91,14 +89,18 @@ pub fn prove_beside<B: AsRef<Batch>>(
                 comparer.begin_in(start.units);
             }
             let flow = comparer.event(event, *place);
-            locate(&mut comparer);
+            if comparer.found() > found {
+                found = locate(&mut comparer);
+            }
             if flow.is_break() {
                 break 'job;
             }
         }
         // what stands between two cuts is run as it comes, not held until the job's next cut
         comparer.run_on(&|| queue.borrow().texts.len() > MOST_TEXTS);
-        locate(&mut comparer);
+        if comparer.found() > found {
+            found = locate(&mut comparer);
+        }
         if comparer.is_stuck() {
             queue.borrow_mut().drop_texts();
         }
@@ -197,6 +199,7 @@ impl<I: Iterator<Item: AsRef<Batch>>> Text<I> {
 }
 
 impl<I: Iterator<Item: AsRef<Batch>>> BufRead for Text<I> {
+    #[inline]
     fn fill_buf(&mut self) -> io::Result<&[u8]> {
         while self.rest().is_empty() {
             self.batch = None;

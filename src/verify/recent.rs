@@ -11,23 +11,21 @@ pub(super) struct Recent {
 }
 
 impl Recent {
-    /// A line that was run.
+    /// A line that was run; its text is taken, for an older one.
     #[inline]
-    pub fn keep(&mut self, line: u64, text: &[u8]) {
+    pub fn keep(&mut self, line: u64, text: &mut Vec<u8>) {
         if self.lines.len() < KEPT {
-            self.lines.push((line, text.to_vec()));
+            self.lines.push((line, std::mem::take(text)));
             return;
         }
         let slot = &mut self.lines[self.next];
         self.next = (self.next + 1) % KEPT;
         slot.0 = line;
-        slot.1.clear();
-        slot.1.extend_from_slice(text);
+        std::mem::swap(&mut slot.1, text);
     }
 
-    /// The block number of a line as written: `N120`.
-    pub fn number(&self, line: u64) -> String {
-        let text = self.text(line).unwrap_or_default();
+    /// The block number of a line's text as written: `N120`.
+    pub fn number(text: &str) -> String {
         let digits: String = match text.strip_prefix(['N', 'n']) {
             Some(rest) => rest.chars().take_while(char::is_ascii_digit).collect(),
             None => String::new(),

@@ -2,6 +2,7 @@
 
 mod doubt;
 mod hazards;
+mod texts;
 
 use std::io::{BufRead, Seek};
 
@@ -205,9 +206,11 @@ impl<R: BufRead + Seek> Program<R> {
         }
         self.items.clear();
         self.next = 0;
-        let goes_on = self.simulator.step(&mut self.items);
-        self.recent.keep(self.simulator.line(), self.simulator.text());
-        self.over = !goes_on?;
+        let line = self.simulator.line();
+        if let Some(text) = self.simulator.text_to_keep() {
+            self.recent.keep(line, text);
+        }
+        self.over = !self.simulator.step(&mut self.items)?;
         Ok(true)
     }
 
@@ -234,21 +237,6 @@ impl<R: BufRead + Seek> Program<R> {
     /// Where the way began: at the end of the last cut.
     pub fn start(&self) -> Rapid {
         self.passage.start.unwrap_or(Rapid { to: self.at, unknown: 0b111, spin: None })
-    }
-
-    /// The text of the line that is being run.
-    pub fn text(&self) -> String {
-        String::from_utf8_lossy(self.simulator.text()).trim().to_owned()
-    }
-
-    /// The text of a line not long before; else empty.
-    pub fn text_of(&self, line: u64) -> String {
-        if line == 0 { String::new() } else { self.recent.text(line).unwrap_or_default() }
-    }
-
-    /// The block number of a line as written: `N120`.
-    pub fn number_of(&self, line: u64) -> String {
-        self.recent.number(line)
     }
 
     /// The control that runs it.

@@ -1,0 +1,24 @@
+//! Texts of the program's lines, for findings.
+
+use std::io::{BufRead, Seek};
+
+use super::Program;
+use crate::verify::recent::Recent;
+
+impl<R: BufRead + Seek> Program<R> {
+    /// The text of the line that is being run.
+    pub fn text(&self) -> String {
+        String::from_utf8_lossy(self.simulator.text()).trim().to_owned()
+    }
+
+    /// The text of a line not long before; else empty.
+    pub fn text_of(&self, line: u64) -> String {
+        let now = || (line == self.simulator.line()).then(|| self.text());
+        self.recent.text(line).or_else(now).unwrap_or_default()
+    }
+
+    /// The block number of a line as written: `N120`.
+    pub fn number_of(&self, line: u64) -> String {
+        Recent::number(&self.text_of(line))
+    }
+}

@@ -367,6 +367,11 @@ def _(n):
     return ({"a.nc": " ".join(f"G{i % 99}.{i}" for i in range(n)) + "\nM30\n",
              "b.nc": " ".join(f"M{i % 99}.{i}" for i in range(n)) + "\nM30\n"}, ["diff", "a.nc", "b.nc"])
 
+@row("diff: changed comments that do not count", (10_000, 100_000), seconds=2.0)
+def _(n):
+    lines = lambda word: "\n".join(f"({word if i % 40 == 0 else 'line'} {i})" for i in range(n))
+    return {"a.nc": lines("old") + "\n", "b.nc": lines("new") + "\n"}, ["diff", "a.nc", "b.nc", "--ignore", "comments"]
+
 @row("diff: comments of one line", (10_000, 100_000), status=(1,), seconds=2.0)
 def _(n):
     return ({"a.nc": " ".join(f"(a{i})" for i in range(n)) + "\nM30\n",

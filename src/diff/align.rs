@@ -73,30 +73,32 @@ impl Comparison {
 struct Lines {
     keys: Vec<u64>,
     numbers: Vec<u32>,
-    /// The first line after them that counts.
-    next: usize,
+    /// Where the part ends.
+    end: usize,
 }
 
 impl Lines {
     fn of(program: &Program, part: Range<usize>, ignore: &Ignore) -> Lines {
+        let end = part.end;
         let (mut keys, mut numbers) = (Vec::with_capacity(part.len()), Vec::with_capacity(part.len()));
-        let counted = |number: &usize| key(program.line(*number), ignore).map(|key| (key, *number as u32));
-        for (key, number) in part.clone().filter_map(|number| counted(&number)) {
-            keys.push(key);
-            numbers.push(number);
+        for number in part {
+            if let Some(key) = key(program.line(number), ignore) {
+                keys.push(key);
+                numbers.push(number as u32);
+            }
         }
-        let next = (part.end..program.len()).find(|number| counted(number).is_some());
-        Lines { keys, numbers, next: next.unwrap_or(program.len()) }
+        Lines { keys, numbers, end }
     }
 
     fn number(&self, at: usize) -> usize {
         self.numbers[at] as usize
     }
 
-    /// Lines of the program that a range of those that count covers; an empty one stands before the next line.
+    /// Lines of the program that a range of those that count covers; an empty one stands before the next line that counts, or at the end of
+    /// the part.
     fn covered(&self, range: &Range<usize>) -> Range<usize> {
         if range.is_empty() {
-            let at = self.numbers.get(range.start).map_or(self.next, |&number| number as usize);
+            let at = self.numbers.get(range.start).map_or(self.end, |&number| number as usize);
             return at..at;
         }
         self.number(range.start)..self.number(range.end - 1) + 1

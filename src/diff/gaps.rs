@@ -27,7 +27,6 @@ pub(super) fn gaps(old: &Program, new: &Program) -> Vec<Gap> {
         while a < a_end && b < b_end && same(a, b) {
             (a, b) = (a + 1, b + 1);
         }
-        // the tail may begin inside what is the same at the beginning
         if (a, b) == (a_end, b_end) {
             return gaps;
         }

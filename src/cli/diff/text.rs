@@ -141,13 +141,10 @@ impl Page<'_> {
         match *edit {
             Edit::Removed(line) => self.line(RED, &format!("-{}", shown(old.text(line)))),
             Edit::Added(line) => self.line(GREEN, &format!("+{}", shown(new.text(line)))),
-            Edit::Changed(a, b) if !marks => {
-                self.line(RED, &format!("-{}", shown(old.text(a))));
-                self.line(GREEN, &format!("+{}", shown(new.text(b))));
-            }
             Edit::Changed(a, b) => {
                 let (before, after) = (old.text(a), new.text(b));
-                let [gone, come] = changed_spans(before, after, &self.options.ignore);
+                let [gone, come] =
+                    if marks { changed_spans(before, after, &self.options.ignore) } else { Default::default() };
                 self.line(RED, &format!("-{}", shown(before)));
                 self.marks(before, &gone);
                 self.line(GREEN, &format!("+{}", shown(after)));

@@ -153,8 +153,8 @@ impl<R: BufRead + Seek> Program<R> {
     /// # Errors
     /// The program can't be read, or its control refuses a block.
     pub fn run_to_cut(&mut self) -> Result<Option<&Cut>, RunError> {
-        if self.failed.is_some() {
-            return self.failed.take().map_or(Ok(None), Err);
+        if let Some(error) = self.failed.take() {
+            return Err(error);
         }
         while self.goes_on()? {}
         Ok(self.cut())

@@ -9,8 +9,8 @@ overwrite:
 
 # how time and memory grow with the input: fails where they grow faster
 growth:
-    cargo build --release
-    benches/growth.py target/release/postform
+    cargo build --profile dist
+    benches/growth.py target/dist/postform
 
 # random jobs through all forms, right programs made wrong, and blocks inserted: what comparing gets wrong is printed
 hunt jobs="1000000" programs="20000" inserted="20000" seed="0":
@@ -30,8 +30,8 @@ hunt-long:
 
 # what the proof costs: render with it and without it, in turn
 proof-cost:
-    cargo build --release --bin postform --example floor
-    benches/proof.py target/release/postform target/release/examples/floor
+    cargo build --profile dist --bin postform --example floor
+    benches/proof.py target/dist/postform target/dist/examples/floor
 
 # mutated jobs of all formats through their readers: a panic is printed with its seed
 readers count="1000000" seed="0":
@@ -40,7 +40,7 @@ readers count="1000000" seed="0":
 
 # figures for docs/performance.md
 bench:
-    cargo bench --bench render
+    cargo bench --profile dist --bench render
     benches/throughput
 
 # the post for FreeCAD's window, inside FreeCAD (installs Debian's): its programs are those of the saved documents
@@ -58,8 +58,8 @@ page-test: page
 
 # the page with the bracket, a hundred thousand moves and a million: figures for docs/performance.md
 page-figures: page
-    cargo build --release --locked
-    cd page && POSTFORM=../target/release/postform node test/figures.mjs
+    cargo build --profile dist --locked
+    cd page && POSTFORM=../target/dist/postform node test/figures.mjs
 
 # the page without a server, in docs/playground
 playground:

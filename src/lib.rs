@@ -24,8 +24,8 @@
 //! - [`Verdict`] says whether a program makes the motions of its job. One that makes others is an [`Error`], too.
 //! - [`toolpath`] has the events of a job, for readers of your own; [`diag`] has the findings, with their codes.
 //!
-//! The library does no I/O of its own: bytes and names come in. Files, the terminal and the command line are in the binary,
-//! which the feature `cli` builds; the library alone needs `default-features = false`.
+//! The library does no I/O of its own: bytes and names come in. Files, the terminal and the command line are in the package
+//! `postform-cli`. The feature `freecad` reads FreeCAD documents as jobs.
 #![forbid(unsafe_code)]
 #![warn(clippy::print_stdout, clippy::print_stderr, clippy::disallowed_methods, clippy::disallowed_types)]
 
@@ -50,7 +50,6 @@ mod number;
 mod picture;
 mod post;
 mod render;
-#[cfg(feature = "json")]
 mod report;
 mod scene;
 mod sema;
@@ -137,7 +136,6 @@ pub mod internals {
     pub mod render {
         pub use crate::render::*;
     }
-    #[cfg(feature = "json")]
     pub mod report {
         pub use crate::report::*;
     }

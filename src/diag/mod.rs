@@ -1,4 +1,4 @@
-//! Findings as data: raised anywhere, shown by the rim.
+//! Findings as data: raised anywhere, shown by the command line.
 
 mod codes;
 mod findings;

@@ -1,6 +1,6 @@
 //! What can be done about findings, and to a form as a whole.
 
-use similar::{ChangeTag, TextDiff};
+use similar::{Algorithm, DiffOp, capture_diff_slices};
 
 use super::Document;
 use crate::diag::{Diag, Fix, Severity};
@@ -188,21 +188,17 @@ fn capital(title: &str) -> String {
 
 /// What differs between two programs.
 fn compare(before: &str, after: &str) -> Preview {
-    let diff = TextDiff::from_lines(before, after);
+    let [old, new]: [Vec<&str>; 2] = [before, after].map(|text| text.lines().collect());
     let (mut gone, mut come, mut lines) = (0, 0, Vec::new());
-    for change in diff.iter_all_changes() {
-        let mark = match change.tag() {
-            ChangeTag::Equal => continue,
-            ChangeTag::Delete => {
-                gone += 1;
-                '-'
-            }
-            ChangeTag::Insert => {
-                come += 1;
-                '+'
-            }
-        };
-        lines.push(format!("{mark}{}", change.value().trim_end()));
+    for op in capture_diff_slices(Algorithm::Myers, &old, &new) {
+        let (_, old_lines, new_lines) = op.as_tag_tuple();
+        if matches!(op, DiffOp::Equal { .. }) {
+            continue;
+        }
+        gone += old_lines.len();
+        come += new_lines.len();
+        lines.extend(old[old_lines].iter().map(|line| format!("-{}", line.trim_end())));
+        lines.extend(new[new_lines].iter().map(|line| format!("+{}", line.trim_end())));
     }
     if lines.len() > MOST_LINES {
         let more = lines.len() - MOST_LINES;

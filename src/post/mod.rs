@@ -8,6 +8,7 @@ mod origin;
 mod program;
 mod render;
 mod sample;
+pub mod shipped;
 mod verify;
 
 pub use follow::{Followed, Seen};

@@ -31,6 +31,11 @@ use crate::source::Source;
 use crate::terminal::escaped;
 use crate::toolpath::Units;
 
+/// The page of `postform watch`, as `page/` builds it.
+pub const WATCH_PAGE: &str = include_str!("../../page/dist/watch.html");
+/// The page of `postform plot` without a scene, as `page/` builds it.
+pub const PLOT_PAGE: &str = include_str!("../../page/dist/plot.html");
+
 /// What is shown.
 pub struct Request<'a> {
     /// The form.

@@ -1,9 +1,8 @@
 //! Programs and what LinuxCNC 2.9's interpreter made of them when they were recorded: the same motions, the same refusals at the same block.
 
-use crate::support::control;
+use crate::support::{control, root};
 use std::fs;
 use std::io::Cursor;
-use std::path::PathBuf;
 
 use crate::support::nc::{difference, interpreted, simulated};
 use postform::internals::nc::{RunSettings, Simulator};
@@ -31,7 +30,7 @@ fn compare(program: &str, canon: &str) -> Option<String> {
 
 /// The cases of a file, each with what is wrong with it.
 fn cases(file: &str) -> Vec<(Value, Option<String>)> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(file);
+    let path = root().join("tests/data").join(file);
     let cases: Vec<Value> = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     let compared = |case: Value| {
         let canon: Vec<&str> = case["calls"].as_array().unwrap().iter().map(|call| call.as_str().unwrap()).collect();

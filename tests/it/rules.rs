@@ -16,6 +16,14 @@ fn forms() -> impl Iterator<Item = &'static CodeRow> {
     CODES.iter().filter(|row| row.name.starts_with("PF"))
 }
 
+/// The rules whose pages are tested: all, or the one that the variable RULE names, while it is written.
+fn tested() -> Vec<&'static CodeRow> {
+    let only = std::env::var("RULE").ok();
+    let rows: Vec<_> = forms().filter(|row| only.as_deref().is_none_or(|only| only == row.name)).collect();
+    assert!(!rows.is_empty(), "RULE={} is no rule", only.unwrap_or_default());
+    rows
+}
+
 fn files(folder: &str, extension: &str) -> BTreeSet<String> {
     let names = fs::read_dir(root().join(folder)).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
     names.filter_map(|name| Some(name.strip_suffix(extension)?.to_owned())).collect()
@@ -35,7 +43,7 @@ fn codes_pages_and_files_are_one_to_one() {
 
 #[test]
 fn pages_have_their_headings_and_titles() {
-    for row in forms() {
+    for row in tested() {
         let page = Page::read(row.name);
         assert_eq!(page.title, format!("# {}: {}", row.name, row.title));
         let headings: Vec<&str> = page.sections.iter().map(|(heading, _)| heading.as_str()).collect();
@@ -51,7 +59,7 @@ fn pages_have_their_headings_and_titles() {
 #[test]
 fn examples_are_found_and_better_forms_are_clean() {
     let mut wrong = Vec::new();
-    for row in forms() {
+    for row in tested() {
         let page = Page::read(row.name);
         let example = found(&page.fence("Example").checked()).diags;
         if codes(&example) != [row.name] {
@@ -67,7 +75,7 @@ fn examples_are_found_and_better_forms_are_clean() {
 
 #[test]
 fn fixes_do_what_their_pages_say() {
-    for row in forms() {
+    for row in tested() {
         let page = Page::read(row.name);
         let form = page.fence("Example").checked();
         let kinds: Vec<&str> = found(&form)

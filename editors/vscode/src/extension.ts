@@ -43,7 +43,7 @@ async function start(isOutdated: () => boolean): Promise<void> {
       return;
     }
     const where = setting === "" ? "on the PATH or installed by pip" : `at ${setting}, where the setting postform.path says`;
-    void failed(`postform is not ${where}. Install it with \`pip install postform\` or \`cargo install postform\`, or say where it is.`);
+    void failed(`postform is not ${where}. Install it with \`pip install postform\` or \`cargo install postform-cli\`, or say where it is.`);
     return;
   }
   const run: ServerOptions = { command: path, args: ["lsp"] };

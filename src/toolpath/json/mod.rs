@@ -17,3 +17,6 @@ pub use document::read_document;
 pub use lines::read_lines;
 #[cfg(feature = "schema")]
 pub use schema::schema;
+
+/// The JSON Schema of job files, as text.
+pub const SCHEMA: &str = include_str!("../../../docs/job.schema.json");

@@ -24,8 +24,9 @@ pub fn control(name: &str) -> &'static Control {
     Control::named(name).unwrap_or_else(Control::usual)
 }
 
+/// The folder of the repository.
 pub fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().to_path_buf()
 }
 
 /// A form from text; it calls no other.

@@ -9,8 +9,8 @@ use super::server::Server;
 use super::texts::Kind;
 use super::uri;
 use super::view::View;
-use crate::cli::files;
-use crate::cli::forms;
+use crate::files;
+use crate::forms;
 
 /// The parts of a form.
 pub fn outline(view: &View) -> Vec<lsp::DocumentSymbol> {

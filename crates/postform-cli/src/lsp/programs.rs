@@ -14,7 +14,7 @@ use super::server::Server;
 use super::texts::Text;
 use super::uri;
 use super::view::View;
-use crate::cli::config::Config;
+use crate::config::Config;
 
 /// Where programs are written: a folder of this server, which goes with it.
 #[derive(Debug, Default)]

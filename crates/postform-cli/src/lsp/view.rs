@@ -13,10 +13,10 @@ use postform::{Job, NoFiles, Source};
 
 use super::texts::{Text, Texts};
 use super::uri;
-use crate::cli::callers;
-use crate::cli::config::Config;
-use crate::cli::files;
-use crate::cli::forms::FormFile;
+use crate::callers;
+use crate::config::Config;
+use crate::files;
+use crate::forms::FormFile;
 
 /// Largest job that is printed while somebody types.
 const LARGEST_JOB: u64 = 32 << 20;

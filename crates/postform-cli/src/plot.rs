@@ -8,7 +8,7 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD as BASE64;
 use postform::internals::nc::RunSettings;
 use postform::internals::picture::{self, Picture, Sheet};
-use postform::internals::scene::of_program;
+use postform::internals::scene::{PLOT_PAGE, of_program};
 use postform::toolpath::Units;
 use postform::{Format, Job, Proof};
 
@@ -66,12 +66,9 @@ fn still(picture: &Picture, title: String, args: &PlotArgs) -> String {
     picture::svg(picture, &Sheet { title, view, width: f64::from(args.width) })
 }
 
-/// The page without a scene, as `page/` builds it.
-const PAGE: &str = include_str!("../../page/dist/plot.html");
-
 /// A page that stands alone, with a scene in it.
 fn page(scene: &[u8]) -> String {
-    PAGE.replacen(">SCENE<", &format!(">{}<", BASE64.encode(scene)), 1)
+    PLOT_PAGE.replacen(">SCENE<", &format!(">{}<", BASE64.encode(scene)), 1)
 }
 
 fn has_extension(path: &Path, wanted: &str) -> bool {

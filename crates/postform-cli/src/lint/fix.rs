@@ -1,5 +1,7 @@
 //! `--fix` and `--unsafe-fixes`: forms mended in place.
 
+use std::fmt::Write as _;
+use std::ops::Range;
 use std::path::Path;
 
 use postform::diag::Diag;
@@ -7,7 +9,7 @@ use postform::internals::lint::{Changed, Levels, Mended, lint, mend};
 use postform::internals::post::sample_program;
 use postform::internals::sema::Checked;
 use postform::internals::terminal::escaped_lines;
-use similar::TextDiff;
+use similar::{Algorithm, DiffTag, capture_diff_slices, group_diff_ops};
 
 use super::super::args::{LintArgs, ReadArgs};
 use super::super::callers;
@@ -69,15 +71,39 @@ fn chosen(original: &Checked, safe: Mended, all: Mended, args: &LintArgs) -> Res
     story += &match (old, &new) {
         (Ok(old), Ok(new)) if old == *new => format!("the program of {job} stays the same\n"),
         (Ok(old), Ok(new)) => {
-            let diff = TextDiff::from_lines(&old, new);
-            let diff = diff.unified_diff().context_radius(2).header("before", "after").to_string();
-            format!("the program of {job}:\n{}", escaped_lines(&diff))
+            format!("the program of {job}:\n{}", escaped_lines(&unified(&old, new)))
         }
         (Err(why), Ok(new)) => format!("{job} could not be printed ({why}); now it is\n{}", escaped_lines(new)),
         (_, Err(why)) => format!("nobody can see what they change: {job} is not printed with them ({why})\n"),
     };
     story.push('\n');
     Ok((if new.is_ok() { all } else { safe }, story))
+}
+
+/// What changes in a program, as a unified diff with two lines around each change.
+fn unified(old: &str, new: &str) -> String {
+    let [old, new]: [Vec<&str>; 2] = [old, new].map(|text| text.lines().collect());
+    let range = |range: Range<usize>| match range.len() {
+        0 => format!("{},0", range.start),
+        1 => format!("{}", range.start + 1),
+        count => format!("{},{count}", range.start + 1),
+    };
+    let mut text = "--- before\n+++ after\n".to_owned();
+    for group in group_diff_ops(capture_diff_slices(Algorithm::Myers, &old, &new), 2) {
+        let [Some(first), Some(last)] = [group.first(), group.last()] else { continue };
+        let is_in = range(first.old_range().start..last.old_range().end);
+        _ = writeln!(text, "@@ -{is_in} +{} @@", range(first.new_range().start..last.new_range().end));
+        for op in &group {
+            let is_same = op.tag() == DiffTag::Equal;
+            for line in &old[op.old_range()] {
+                _ = writeln!(text, "{}{line}", if is_same { ' ' } else { '-' });
+            }
+            for line in new[op.new_range()].iter().filter(|_| !is_same) {
+                _ = writeln!(text, "+{line}");
+            }
+        }
+    }
+    text
 }
 
 /// `form.pf:12: write the digit (PF206)`

@@ -13,8 +13,8 @@ use serde::Deserialize;
 use super::programs::{Programs, form_of};
 use super::texts::{Kind, Text, Texts};
 use super::view::{View, root_of};
-use crate::cli::config::Config;
-use crate::cli::files;
+use crate::config::Config;
+use crate::files;
 
 /// What the editor's settings may say, under `postform`.
 #[derive(Clone, Debug, Default, Deserialize)]

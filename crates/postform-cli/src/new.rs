@@ -3,6 +3,7 @@
 use std::io::{self, Write as _};
 
 use postform::internals::explain::controls;
+use postform::internals::post::shipped;
 
 use super::args::{NewArgs, NewControl};
 use super::files::{io_message, name};
@@ -12,16 +13,16 @@ use super::{Ending, output};
 /// The form to start from: one that ships, lint-clean and rendered in tests.
 fn form(control: NewControl) -> &'static str {
     match control {
-        NewControl::Fanuc => include_str!("../../postforms/fanuc.pf"),
-        NewControl::Haas => include_str!("../../postforms/haas.pf"),
-        NewControl::Haas4Axis => include_str!("../../postforms/haas-4axis.pf"),
-        NewControl::Fadal => include_str!("../../postforms/fadal.pf"),
-        NewControl::FadalSubs => include_str!("../../postforms/fadal-subs.pf"),
-        NewControl::Linuxcnc => include_str!("../../postforms/linuxcnc.pf"),
-        NewControl::Grbl => include_str!("../../postforms/grbl.pf"),
-        NewControl::FanucLathe => include_str!("../../postforms/fanuc-lathe.pf"),
-        NewControl::HaasLathe => include_str!("../../postforms/haas-lathe.pf"),
-        NewControl::WireEdm => include_str!("../../postforms/wire-edm.pf"),
+        NewControl::Fanuc => shipped::FANUC,
+        NewControl::Haas => shipped::HAAS,
+        NewControl::Haas4Axis => shipped::HAAS_4AXIS,
+        NewControl::Fadal => shipped::FADAL,
+        NewControl::FadalSubs => shipped::FADAL_SUBS,
+        NewControl::Linuxcnc => shipped::LINUXCNC,
+        NewControl::Grbl => shipped::GRBL,
+        NewControl::FanucLathe => shipped::FANUC_LATHE,
+        NewControl::HaasLathe => shipped::HAAS_LATHE,
+        NewControl::WireEdm => shipped::WIRE_EDM,
     }
 }
 

@@ -6,7 +6,7 @@ use std::io::Write as _;
 use postform::Format;
 use postform::diag::Diag;
 use postform::internals::cl::{Dialect, Report, Setup};
-use postform::internals::json::schema;
+use postform::internals::json::SCHEMA;
 use postform::toolpath::{Summary, Units};
 
 use super::args::CheckArgs;
@@ -19,8 +19,7 @@ use super::{Ending, output};
 /// Reads a job and prints what is in it.
 pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     let Some(path) = args.job.as_ref().filter(|_| !args.schema) else {
-        let text = format!("{:#}\n", schema());
-        output::standard_output(|out| out.write_all(text.as_bytes()))?;
+        output::standard_output(|out| out.write_all(SCHEMA.as_bytes()))?;
         return Ok(Ending::Clean);
     };
     let mut summary = Summary::default();

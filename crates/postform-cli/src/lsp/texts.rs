@@ -7,7 +7,7 @@ use gen_lsp_types::Uri;
 use postform::Source;
 
 use super::uri;
-use crate::cli::files;
+use crate::files;
 
 /// What a file is, by its name or by what the editor says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,6 @@
-//! The rim: arguments, files, the terminal. Everything that decides is in the library.
+//! The command line of postform: arguments, files, the terminal. Everything that decides is in the library.
+#![forbid(unsafe_code)]
+#![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod args;
 mod beside;
@@ -91,8 +93,7 @@ fn refused(error: &clap::Error) {
     }
 }
 
-/// Runs the command of this process.
-pub fn run() -> ExitCode {
+fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {

@@ -11,6 +11,7 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
+use postform::internals::scene::WATCH_PAGE;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -23,9 +24,6 @@ use super::say::no_thread;
 use guard::Guard;
 use http::{Answer, Asked};
 use session::{Ask, NotSaved, Save, Session};
-
-/// The page, as `page/` builds it.
-const PAGE: &str = include_str!("../../../page/dist/watch.html");
 
 /// Connections at once: a page has two or three.
 const MOST_CONNECTIONS: usize = 64;
@@ -191,7 +189,7 @@ fn said(value: Result<Value, String>) -> Answer {
 }
 
 fn page() -> Answer {
-    let mut answer = Answer::of("text/html; charset=utf-8", PAGE);
+    let mut answer = Answer::of("text/html; charset=utf-8", WATCH_PAGE);
     // beside what the page says itself: no other page may have it in a frame
     answer.fields.push(("Content-Security-Policy", "frame-ancestors 'none'".to_owned()));
     answer

@@ -10,7 +10,7 @@ use super::convert::{diagnostic, line, range, trouble};
 use super::server::Server;
 use super::texts::{Kind, Text};
 use super::view::View;
-use crate::cli::config::Config;
+use crate::config::Config;
 
 /// Findings of one text that are sent.
 const MOST: usize = 1000;

@@ -1,7 +1,5 @@
 //! Ways through a program that are not straight on: subprograms, branches, loops.
 
-use std::io::{BufRead, Seek};
-
 use super::fault::{Done, Fault, refuse};
 use super::flow::{Flow, Step};
 use super::scan::{Kind, tokens};
@@ -72,7 +70,7 @@ pub(super) enum Jump {
     Skip(String, Ends),
 }
 
-impl<R: BufRead + Seek> Simulator<R> {
+impl Simulator<'_> {
     pub(super) fn push(&mut self, frame: Frame) -> Done {
         if self.frames.len() == DEEPEST {
             let help = "look for a subprogram that calls itself";

@@ -38,12 +38,23 @@ impl From<io::Error> for RunError {
     }
 }
 
-/// Runs a program.
+/// A program as it is read: line by line, and gone back in where it jumps.
+pub(super) trait Input: BufRead + Seek {}
+
+impl<T: BufRead + Seek> Input for T {}
+
+impl std::fmt::Debug for dyn Input + '_ {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Input")
+    }
+}
+
+/// Runs a program. One compiled simulator serves all inputs: what it asks of them is a line at a time.
 ///
 /// Memory does not grow with the program: a line is read at a time, and jumps seek in the input.
 #[derive(Debug)]
-pub struct Simulator<R> {
-    pub(super) input: R,
+pub struct Simulator<'a> {
+    pub(super) input: Box<dyn Input + 'a>,
     pub(super) state: State,
     pub(super) parameters: Parameters,
     pub(super) block: Block,
@@ -77,9 +88,13 @@ pub struct Simulator<R> {
     pub(super) passing: usize,
 }
 
-impl<R: BufRead + Seek> Simulator<R> {
+impl<'a> Simulator<'a> {
     /// A simulator at the beginning of a program.
-    pub fn new(input: R, settings: RunSettings) -> Simulator<R> {
+    pub fn new(input: impl BufRead + Seek + 'a, settings: RunSettings) -> Simulator<'a> {
+        Simulator::of(Box::new(input), settings)
+    }
+
+    fn of(input: Box<dyn Input + 'a>, settings: RunSettings) -> Simulator<'a> {
         Simulator {
             input,
             state: State::new(settings),
@@ -177,7 +192,7 @@ impl<R: BufRead + Seek> Simulator<R> {
     ///
     /// # Errors
     /// The input can't be gone back in.
-    pub fn again(self) -> io::Result<Simulator<R>> {
+    pub fn again(self) -> io::Result<Simulator<'a>> {
         let settings = self.state.settings;
         self.again_with(settings)
     }
@@ -186,9 +201,9 @@ impl<R: BufRead + Seek> Simulator<R> {
     ///
     /// # Errors
     /// The input can't be gone back in.
-    pub fn again_with(mut self, settings: RunSettings) -> io::Result<Simulator<R>> {
+    pub fn again_with(mut self, settings: RunSettings) -> io::Result<Simulator<'a>> {
         self.input.seek(SeekFrom::Start(0))?;
-        Ok(Simulator::new(self.input, settings))
+        Ok(Simulator::of(self.input, settings))
     }
 
     /// Blocks run so far.

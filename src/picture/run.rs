@@ -63,7 +63,7 @@ impl Pen {
         Pen { picture, registers: Registers::new(), at: [f64::NAN; 3], tool: 0, factor: 1.0, units }
     }
 
-    fn run<R: BufRead + Seek>(&mut self, mut simulator: Simulator<R>) -> io::Result<Simulator<R>> {
+    fn run<'a>(&mut self, mut simulator: Simulator<'a>) -> io::Result<Simulator<'a>> {
         self.registers.after(0, simulator.state().modal(), &mut self.picture.changes);
         let mut items = Vec::new();
         loop {

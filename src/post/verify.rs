@@ -204,12 +204,12 @@ fn prove(
 }
 
 /// Before the first event, the program counts in the job's units unless it was printed in others.
-struct Started<R> {
-    comparer: Comparer<R>,
+struct Started<'a> {
+    comparer: Comparer<'a>,
     of_job: bool,
 }
 
-impl<R: BufRead + Seek> Sink for Started<R> {
+impl Sink for Started<'_> {
     fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
         if let (Event::Start(start), true) = (&event, self.of_job) {
             self.comparer.begin_in(start.units);

@@ -1,7 +1,5 @@
 //! Arcs: a program may make them of parts, or of short lines.
 
-use std::io::{BufRead, Seek};
-
 use super::cut::{ALL, Cut, Place, What, position, same, shown};
 use super::intent::Done;
 use super::state::Sides;
@@ -22,7 +20,7 @@ pub(super) fn is_chord(cut: &Cut, turn: &Turn, to: &Place, tolerance: f64) -> bo
 }
 
 /// The job's arc, as one or in parts; the first was met already.
-pub(super) fn arc<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, turn: &Turn) -> Done {
+pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
     let (tolerance, chord) = (s.limits.tolerance, s.limits.chord);
     let [first, second, across] = axes_of(turn.plane);
     let radius = (cut.from[first] - turn.center[first]).hypot(cut.from[second] - turn.center[second]);

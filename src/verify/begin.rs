@@ -1,7 +1,5 @@
 //! Where a cut begins: the program has one, of the same kind, from the same place.
 
-use std::io::{BufRead, Seek};
-
 use super::cut::{ACROSS, ALL, Cut, DEPTH, NAMES, Rapid, What, lead_alike, number, over, same, shown};
 use super::intent::{Done, Expected};
 use super::state::Sides;
@@ -19,7 +17,7 @@ enum Begins {
 }
 
 /// The program's next cut, whose way, beginning and state are compared; `None`: the program goes at rapid where the job cuts.
-pub(super) fn meet<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, hole: Option<&Expected>) -> Done<Option<Cut>> {
+pub(super) fn meet(s: &mut Sides<'_>, cut: &Cut, hole: Option<&Expected>) -> Done<Option<Cut>> {
     let found = loop {
         let Some(found) = s.next()? else { return is_missing(s, cut, hole) };
         if enters_again(s, cut, &found) {
@@ -54,7 +52,7 @@ pub(super) fn meet<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, hole: Option<
 }
 
 /// Is a short cut of the program the job's, which is a little longer?
-fn is_itself<R: BufRead + Seek>(s: &Sides<R>, cut: &Cut, found: &Cut) -> bool {
+fn is_itself(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     let tolerance = s.limits.tolerance;
     // a full circle ends where it begins, too
     same(&cut.from, &found.from, ALL, tolerance)
@@ -64,7 +62,7 @@ fn is_itself<R: BufRead + Seek>(s: &Sides<R>, cut: &Cut, found: &Cut) -> bool {
 }
 
 /// Is a short cut of the program the beginning of the job's cut? One that ends where the job's begins is none of it.
-fn is_part<R: BufRead + Seek>(s: &Sides<R>, cut: &Cut, found: &Cut) -> bool {
+fn is_part(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     let tolerance = s.limits.tolerance;
     let goes_along = match (cut.what, found.what) {
         (What::Line { .. }, _) => super::cut::lies_between(&cut.from, &found.end(), &cut.end(), tolerance),
@@ -74,7 +72,7 @@ fn is_part<R: BufRead + Seek>(s: &Sides<R>, cut: &Cut, found: &Cut) -> bool {
     goes_along && same(&cut.from, &found.from, ALL, tolerance) && !same(&cut.from, &found.end(), ALL, tolerance)
 }
 
-fn is_missing<R: BufRead + Seek, T>(s: &mut Sides<R>, cut: &Cut, hole: Option<&Expected>) -> Done<T> {
+fn is_missing<T>(s: &mut Sides<'_>, cut: &Cut, hole: Option<&Expected>) -> Done<T> {
     if let Some(hole) = hole {
         let message = format!("the hole at {} is not drilled: the program is over", over(&hole.at));
         return s.differs(Code::PV002, 0, message, "look at the cycle, and at what ends it");
@@ -93,7 +91,7 @@ fn is_missing<R: BufRead + Seek, T>(s: &mut Sides<R>, cut: &Cut, hole: Option<&E
 
 /// Does the program go straight down again to where the cut goes on, after the tool was taken out, as to unwind an
 /// axis?
-fn enters_again<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut) -> bool {
+fn enters_again(s: &mut Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     let What::Line { to } = found.what else { return false };
     let tolerance = s.limits.tolerance;
     let way = &s.program.passage;
@@ -113,7 +111,7 @@ fn enters_again<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut) -> 
 }
 
 /// Checks that both cuts begin at one place.
-fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done<Begins> {
+fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done<Begins> {
     let tolerance = s.limits.tolerance;
     let unknown = found.unknown & !cut.unknown & ALL;
     if unknown == 0 && same(&cut.from, &found.from, ALL, tolerance) {
@@ -182,7 +180,7 @@ fn begins<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Opt
 }
 
 /// Does the program feed to where the job goes at rapid? Says so.
-pub(super) fn is_the_jobs_rapid<R: BufRead + Seek>(s: &mut Sides<R>, found: &Cut) -> bool {
+pub(super) fn is_the_jobs_rapid(s: &mut Sides<'_>, found: &Cut) -> bool {
     let (end, tolerance) = (found.end(), s.limits.tolerance);
     let is = s.job.rapids.iter().any(|rapid| same(&rapid.to, &end, ALL, tolerance));
     if is {

@@ -75,7 +75,7 @@ pub fn prove_beside<B: AsRef<Batch>>(
     let text = Text { queue: Rc::clone(&queue), batch: None, at: 0 };
     let mut comparer = Comparer::new(text, settings, expectation, tolerance);
     let mut found = 0;
-    let locate = |comparer: &mut Comparer<Text<_>>| {
+    let locate = |comparer: &mut Comparer<'_>| {
         let queue = queue.borrow();
         comparer.locate(|line| queue.origin(line));
         comparer.found()

@@ -28,16 +28,21 @@ const BINARY: f64 = 1.0 + 1e-6;
 /// Compares a program with the events of its job: push them, then ask for the verdict.
 ///
 /// Neither side is held: the program is read as far as the events need it, so that both may be streams.
-pub struct Comparer<R> {
+pub struct Comparer<'a> {
     job: Job,
-    sides: Sides<R>,
+    sides: Sides<'a>,
     /// The first operation has begun.
     begun: bool,
 }
 
-impl<R: BufRead + Seek> Comparer<R> {
+impl<'a> Comparer<'a> {
     /// A comparison with this program. `tolerance` in the job's units; else 0.0001 inch or 0.002 mm.
-    pub fn new(program: R, settings: RunSettings, expectation: Expectation, tolerance: Option<f64>) -> Comparer<R> {
+    pub fn new(
+        program: impl BufRead + Seek + 'a,
+        settings: RunSettings,
+        expectation: Expectation,
+        tolerance: Option<f64>,
+    ) -> Comparer<'a> {
         let program = Program::new(program, settings, &expectation);
         let tools = expectation.tools;
         let own = [expectation.feeds.clone(), expectation.speeds.clone()];
@@ -135,7 +140,7 @@ impl<R: BufRead + Seek> Comparer<R> {
     }
 }
 
-impl<R: BufRead + Seek> Sink for Comparer<R> {
+impl Sink for Comparer<'_> {
     /// Has seen enough when nothing more can be compared: [`Comparer::verdict`] tells why.
     fn event(&mut self, event: Event<'_>, place: toolpath::Place) -> Flow {
         self.sides.report.place = place;
@@ -157,7 +162,7 @@ impl<R: BufRead + Seek> Sink for Comparer<R> {
     }
 }
 
-impl<R: BufRead + Seek> Intent for Sides<R> {
+impl Intent for Sides<'_> {
     fn units(&mut self, units: Units, chord: f64, increment: f64) {
         self.program.want(units);
         (self.limits.chord, self.limits.increment) = (chord, increment);
@@ -341,7 +346,7 @@ impl<R: BufRead + Seek> Intent for Sides<R> {
     }
 }
 
-impl<R: BufRead + Seek> Sides<R> {
+impl Sides<'_> {
     /// Is all held that the job does between two cuts? What the program does is asked where it is run to its next cut.
     #[inline]
     fn can_hold(&mut self) -> Done {

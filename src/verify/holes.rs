@@ -1,7 +1,5 @@
 //! Holes in pecks: a control's cycle may make other pecks than the job, and the same hole.
 
-use std::io::{BufRead, Seek};
-
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell, shown};
 use super::intent::{Done, Expected};
 use super::pauses;
@@ -12,7 +10,7 @@ use super::tables::LONGER;
 use crate::diag::Code;
 
 /// The program's cuts in this hole, of which the first was met already.
-pub(super) fn pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) -> Done {
+pub(super) fn pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     let Limits { tolerance, increment, .. } = s.limits;
     let pecks = std::mem::take(&mut s.hole.pecks);
     let (wanted_strokes, mut strokes) = (s.hole.strokes, Strokes::over(hole.plane));
@@ -106,14 +104,7 @@ pub(super) fn pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) -> Don
 }
 
 /// Spindle, registers and feed of a stroke: those of the job's pecks that cut in the same place.
-fn peck_state<R: BufRead + Seek>(
-    s: &mut Sides<R>,
-    pecks: &[Cut],
-    found: &Cut,
-    hole: &Expected,
-    [deepest, to]: [f64; 2],
-    count: usize,
-) {
+fn peck_state(s: &mut Sides<'_>, pecks: &[Cut], found: &Cut, hole: &Expected, [deepest, to]: [f64; 2], count: usize) {
     let tolerance = s.limits.tolerance;
     let Some(first) = pecks.first() else { return };
     let up = to > found.from[DEPTH];
@@ -149,7 +140,7 @@ fn peck_state<R: BufRead + Seek>(
 
 /// Checks the pecks of a hole: other pecks are as good, but pecks they must be, and out of the hole as far apart as the
 /// job's.
-fn check<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected, [wanted, made]: [&Strokes; 2], line: u64) {
+fn check(s: &mut Sides<'_>, hole: &Expected, [wanted, made]: [&Strokes; 2], line: u64) {
     let help = "print Q[vbite] with G83 or G73, as the job's kind is";
     let [count, outs] = wanted.counted(s.limits.tolerance);
     if count > 1 && (made.counts[0] < 2 || made.longest > LONGER * wanted.longest) {
@@ -167,7 +158,7 @@ fn check<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected, [wanted, made]: [
 }
 
 /// Is the program's next cut in this hole too?
-fn stays_in<R: BufRead + Seek>(s: &Sides<R>, hole: &Expected, found: &Cut) -> bool {
+fn stays_in(s: &Sides<'_>, hole: &Expected, found: &Cut) -> bool {
     let here = |place: &_| same(&hole.at, place, ACROSS, s.limits.tolerance);
     let passage = &s.program.passage;
     // behind a change of tool it is another hole at this place

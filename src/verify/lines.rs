@@ -1,7 +1,5 @@
 //! Straight cuts, which a program may make in parts.
 
-use std::io::{BufRead, Seek};
-
 use super::cut::{
     ACROSS, ALL, Cut, DEPTH, What, apart, is_straight, lies_between, number, over, same, shown, turn_as_far,
 };
@@ -15,7 +13,7 @@ use crate::toolpath::FeedMode;
 const MOST_SLIPS: u32 = 3;
 
 /// A straight cut, as one or in parts that lie on it.
-pub(super) fn line<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, first: &Cut, hole: Option<&Expected>) -> Done {
+pub(super) fn line(s: &mut Sides<'_>, cut: &Cut, first: &Cut, hole: Option<&Expected>) -> Done {
     let tolerance = s.limits.tolerance;
     let end = cut.end();
     let is_tap = hole.is_some_and(|hole| hole.is_tap);
@@ -50,7 +48,7 @@ pub(super) fn line<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, first: &Cut, 
 }
 
 /// Checks that both straight cuts end at one place.
-fn ends<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done {
+fn ends(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done {
     let tolerance = s.limits.tolerance;
     let (from, end, is, line) = (&cut.from, cut.end(), found.end(), found.line);
     if same(&end, &is, ALL, tolerance) {

@@ -1,7 +1,5 @@
 //! Stops and dwells between cuts: the job's are made, where the tool may stand, and others only outside cuts.
 
-use std::io::{BufRead, Seek};
-
 use super::cut::{ACROSS, ALL, DEPTH, Rapid, number, same, same_dwell};
 use super::intent::Expected;
 use super::passage::{Mark, Passage};
@@ -11,7 +9,7 @@ use crate::diag::Code;
 use crate::toolpath::StopKind;
 
 /// Stops and dwells since the last cut.
-pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>) {
+pub(super) fn compare(s: &mut Sides<'_>) {
     let passage = &s.program.passage;
     let nothing = [&s.job, passage].into_iter().all(|side| side.stops.is_empty() && side.waits.is_empty());
     if nothing && (s.tools || !s.job.new_tool) {
@@ -26,7 +24,7 @@ fn kind_of(kind: StopKind) -> &'static str {
 }
 
 /// The program makes the job's stops, in their order, and nowhere lower.
-fn stops<R: BufRead + Seek>(s: &mut Sides<R>) {
+fn stops(s: &mut Sides<'_>) {
     let tolerance = s.limits.tolerance;
     let mut others = s.program.passage.stops.clone();
     operators_change(s, &mut others);
@@ -65,7 +63,7 @@ fn stops<R: BufRead + Seek>(s: &mut Sides<R>) {
 }
 
 /// Stops between two pecks of a hole, where no job has one: the hole is a cut, up to its clearance plane.
-pub(super) fn between_pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected) {
+pub(super) fn between_pecks(s: &mut Sides<'_>, hole: &Expected) {
     for stop in s.program.passage.stops.clone() {
         let stands = s.program.passage.standing(&stop);
         let is_out = stands.is_some_and(|at| at.to[DEPTH] >= hole.plane - s.limits.tolerance);
@@ -74,7 +72,7 @@ pub(super) fn between_pecks<R: BufRead + Seek>(s: &mut Sides<R>, hole: &Expected
 }
 
 /// A stop that the job does not have: wrong with the tool in the cut, and counted outside of it.
-fn own_stop<R: BufRead + Seek>(s: &mut Sides<R>, stop: &Mark<StopKind>, in_cut: bool) {
+fn own_stop(s: &mut Sides<'_>, stop: &Mark<StopKind>, in_cut: bool) {
     if !in_cut {
         s.report.allowed.stops += 1;
         return;
@@ -85,13 +83,13 @@ fn own_stop<R: BufRead + Seek>(s: &mut Sides<R>, stop: &Mark<StopKind>, in_cut: 
 }
 
 /// Does the tool stand at another place than the job's?
-fn is_elsewhere<R: BufRead + Seek, T>(s: &Sides<R>, wanted: &Mark<T>, made: &Mark<T>) -> bool {
+fn is_elsewhere<T>(s: &Sides<'_>, wanted: &Mark<T>, made: &Mark<T>) -> bool {
     let stands = [s.job.standing(wanted), s.program.passage.standing(made)];
     matches!(stands, [Some(a), Some(b)] if !same(&a.to, &b.to, ALL, s.limits.tolerance))
 }
 
 /// A machine without tool changes stops for each next tool: behind the job's stops with the one before.
-fn operators_change<R: BufRead + Seek>(s: &mut Sides<R>, others: &mut Vec<Mark<StopKind>>) {
+fn operators_change(s: &mut Sides<'_>, others: &mut Vec<Mark<StopKind>>) {
     if !s.job.new_tool || s.tools {
         return;
     }
@@ -118,21 +116,14 @@ fn operators_change<R: BufRead + Seek>(s: &mut Sides<R>, others: &mut Vec<Mark<S
 }
 
 /// A difference about an item of the job that came some time ago.
-fn told<R: BufRead + Seek, T>(
-    s: &mut Sides<R>,
-    mark: &Mark<T>,
-    code: Code,
-    line: u64,
-    help: &'static str,
-    message: impl Fn() -> String,
-) {
+fn told<T>(s: &mut Sides<'_>, mark: &Mark<T>, code: Code, line: u64, help: &'static str, message: impl Fn() -> String) {
     let here = std::mem::replace(&mut s.report.place, mark.place);
     s.found(code, line, help, message);
     s.report.place = here;
 }
 
 /// The job's dwells are made; others only where the tool does not stand in a cut, or while the spindle spins up.
-fn waits<R: BufRead + Seek>(s: &mut Sides<R>) {
+fn waits(s: &mut Sides<'_>) {
     let tolerance = s.limits.tolerance;
     let mut wanted = std::mem::take(&mut s.job.waits);
     // what may be of any length takes what is left

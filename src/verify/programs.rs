@@ -39,14 +39,12 @@ pub struct NoMotion(pub usize, pub RunError);
 ///
 /// # Errors
 /// One of them can't be run.
-pub fn compare_motions<R: BufRead + Seek>(
-    old: R,
-    new: R,
-    settings: [RunSettings; 2],
+pub fn compare_motions(
+    programs: [(impl BufRead + Seek, RunSettings); 2],
     units: Units,
     tolerance: f64,
 ) -> Result<Motions, NoMotion> {
-    let [mut a, mut b] = [(old, settings[0]), (new, settings[1])].map(|(input, settings)| {
+    let [mut a, mut b] = programs.map(|(input, settings)| {
         let expectation = Expectation { tools: false, units_due: false, ..Expectation::default() };
         let mut program = Program::new(input, settings, &expectation);
         program.want(units);
@@ -63,7 +61,7 @@ pub fn compare_motions<R: BufRead + Seek>(
             }
         }
         let lines = [&x, &y].map(|cut| cut.as_ref().map_or(0, |cut| cut.line));
-        let blocks = |a: &Program<R>, b: &Program<R>| [(lines[0], a.text()), (lines[1], b.text())];
+        let blocks = |a: &Program<'_>, b: &Program<'_>| [(lines[0], a.text()), (lines[1], b.text())];
         let starts = [a.start(), b.start()];
         for (way, (program, start)) in ways.iter_mut().zip([(&a, starts[0]), (&b, starts[1])]) {
             way.set(Some(start), &program.passage.rapids, tolerance);
@@ -194,7 +192,7 @@ fn state(before: &State, now: &State) -> Option<String> {
 }
 
 /// Where increments from places of the machine lead: both count from the same place.
-fn astray<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>, tolerance: f64) -> Option<String> {
+fn astray(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
     let (a, b) = (&old.passage.astray, &new.passage.astray);
     let alike = a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(&a.1, &b.1, ALL, tolerance));
     let message = "increments from a position that only the machine knows lead elsewhere on the way here";
@@ -202,13 +200,13 @@ fn astray<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>, tolerance: f64)
 }
 
 /// Stops and dwells between two cuts.
-fn pauses<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>, tolerance: f64) -> Option<String> {
+fn pauses(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
     let stop = |kind: StopKind| if kind == StopKind::Program { "M0" } else { "M1" };
-    let stops = |program: &Program<R>| -> Vec<String> {
+    let stops = |program: &Program<'_>| -> Vec<String> {
         program.passage.stops.iter().map(|made| stop(made.what).to_owned()).collect()
     };
-    let in_cut = |program: &Program<R>, wait: &Mark<f64>| program.passage.in_cut(wait, tolerance);
-    let waits = |program: &Program<R>| -> Vec<String> {
+    let in_cut = |program: &Program<'_>, wait: &Mark<f64>| program.passage.in_cut(wait, tolerance);
+    let waits = |program: &Program<'_>| -> Vec<String> {
         let place = |wait: &Mark<f64>| if in_cut(program, wait) { " in the cut" } else { "" };
         program.passage.waits.iter().map(|wait| format!("{} s{}", number(wait.what), place(wait))).collect()
     };
@@ -223,8 +221,8 @@ fn pauses<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>, tolerance: f64)
 }
 
 /// What the spindle does on the ways.
-fn switching<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>) -> Option<String> {
-    let turns = |program: &Program<R>| -> Vec<String> {
+fn switching(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
+    let turns = |program: &Program<'_>| -> Vec<String> {
         program.passage.turns.iter().map(|turn| turn.name().to_owned()).collect()
     };
     let (before, now) = (turns(old), turns(new));
@@ -232,8 +230,8 @@ fn switching<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>) -> Option<St
 }
 
 /// At which angles the spindle stands while the tool moves at rapid.
-fn standing<R: BufRead + Seek>(old: &Program<R>, new: &Program<R>) -> Option<String> {
-    let angles = |program: &Program<R>| -> Vec<String> {
+fn standing(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
+    let angles = |program: &Program<'_>| -> Vec<String> {
         let stands = program.passage.rapids.iter().filter_map(|rapid| match rapid.spin? {
             Spin::At(angle) => Some(format!("{} degrees", number(angle))),
             Spin::Oriented => Some("an angle of the control's".to_owned()),

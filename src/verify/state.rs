@@ -1,7 +1,5 @@
 //! What the two sides of a comparison are made of, and how a difference is told.
 
-use std::io::{BufRead, Seek};
-
 use super::cut::{Cut, Place, Rapid, Shared};
 use super::intent::{Expected, Threaded};
 use super::own::Own;
@@ -59,8 +57,8 @@ impl Holes {
 }
 
 /// The state of a comparison: the job's side and the program's.
-pub(super) struct Sides<R> {
-    pub program: Program<R>,
+pub(super) struct Sides<'a> {
+    pub program: Program<'a>,
     /// What the job does since its last cut, as a passage.
     pub job: Passage,
     pub hole: Holes,
@@ -87,7 +85,7 @@ pub(super) struct Sides<R> {
     pub failure: Option<std::io::Error>,
 }
 
-impl<R: BufRead + Seek> Sides<R> {
+impl Sides<'_> {
     /// A difference after which the two sides are in step still.
     pub fn found(&mut self, code: Code, line: u64, help: &'static str, message: impl Fn() -> String) {
         let program = &self.program;

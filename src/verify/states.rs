@@ -1,7 +1,5 @@
 //! What is in force at a cut: tool, registers, work offset, spindle, coolant, compensation, feed.
 
-use std::io::{BufRead, Seek};
-
 use super::cut::{Cut, State, number};
 use super::state::Sides;
 use super::tables::{PITCH, ROUNDED};
@@ -13,7 +11,7 @@ use crate::toolpath::{self, FeedMode, Plane};
 type Differs = (Code, &'static str, String);
 
 /// Tool, work offset, spindle, coolant, compensation. `tap`: feed and speed are its pitch.
-pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, tap: bool) {
+pub(super) fn compare(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     let both = [cut.state.clone(), found.state.clone()];
     s.before = found.state.clone();
     if s.agreed.as_ref() == Some(&both) {
@@ -80,7 +78,7 @@ fn turning([wanted, is]: [&State; 2]) -> Option<Differs> {
     Some((Code::PV011, "print G[speedtype]", format!("the speed counts {counts}, the job's does not")))
 }
 
-fn speed<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, tap: bool) -> bool {
+fn speed(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) -> bool {
     let wanted = cut.state.speed.filter(|_| cut.state.rotation != Some(Rotation::Stop));
     let (Some(a), Some(b)) = (wanted, found.state.speed) else { return true };
     if (a - b).abs() <= (if tap { PITCH } else { ROUNDED } * a).max(0.5) {
@@ -148,7 +146,7 @@ fn compensation([wanted, is]: [&State; 2]) -> Option<Differs> {
 }
 
 /// The feed, within what its digits are rounded off.
-pub(super) fn feeds<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, found: &Cut, tap: bool) {
+pub(super) fn feeds(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     let (Some(wanted), Some(mut is)) = (cut.feed, found.feed) else { return };
     let typed = is;
     // a tap's feed is its pitch, however it counts

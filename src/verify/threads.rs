@@ -1,7 +1,5 @@
 //! Threads of a lathe: other passes make the same thread, if they are no coarser and end at its depth.
 
-use std::io::{BufRead, Seek};
-
 use super::begin::unsaid;
 use super::cut::{Cut, DEPTH, RADIUS, Rapid, number, place, same, shown};
 use super::intent::{Done, Threaded};
@@ -41,7 +39,7 @@ impl Threaded {
 }
 
 /// All passes of a thread.
-pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Threaded) -> Done {
+pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
     let tolerance = s.limits.tolerance;
     let whole = thread.passes.last().copied().unwrap_or(0.0);
     let help = "look at what the form prints for the thread: AutoThread, CanThread, or Thread and ThreadPasses";
@@ -134,7 +132,7 @@ pub(super) fn thread<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut, thread: &Th
 }
 
 /// The thread is cut.
-fn leave<R: BufRead + Seek>(s: &mut Sides<R>, thread: &Threaded, whole: f64) {
+fn leave(s: &mut Sides<'_>, thread: &Threaded, whole: f64) {
     s.hole.inside = None;
     s.report.counts.cuts += 1;
     // out of the last pass, and back beside the beginning
@@ -161,7 +159,7 @@ fn cut_of(cut: &Cut, found: &Cut) -> Cut {
 }
 
 /// From pass to pass: out across, back along beside the crest, in again.
-fn between<R: BufRead + Seek>(s: &mut Sides<R>, thread: &Threaded, to: Rapid, line: u64) -> Done {
+fn between(s: &mut Sides<'_>, thread: &Threaded, to: Rapid, line: u64) -> Done {
     let tolerance = s.limits.tolerance;
     let passage = &s.program.passage;
     let mut at = s.program.start();

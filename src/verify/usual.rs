@@ -1,8 +1,6 @@
 //! The usual cut: a straight one behind another, alike in job and program. It is compared where it stands, because most cuts
 //! of long jobs are such; each other cut goes the long way, which finds the same of this one.
 
-use std::io::{BufRead, Seek};
-
 use super::cut::{ALL, Cut, What, same, turn_as_far};
 use super::intent::Done;
 use super::passage::Passage;
@@ -16,7 +14,7 @@ const LONG: f64 = 4.0;
 ///
 /// # Errors
 /// The program can't be run to its next cut.
-pub(super) fn goes_on<R: BufRead + Seek>(s: &mut Sides<R>, cut: &Cut) -> Done<bool> {
+pub(super) fn goes_on(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
     let What::Line { to } = &cut.what else { return Ok(false) };
     let goes_on = |passage: &Passage| passage.is_plain() && !passage.new_tool;
     if !goes_on(&s.job) || cut.unknown != 0 || cut.lead.is_some() {

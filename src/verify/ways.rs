@@ -1,7 +1,5 @@
 //! The ways between cuts: a program may go higher than the job, never lower or elsewhere.
 
-use std::io::{BufRead, Seek};
-
 use super::compared::{Compared, are_the_same, compare as compare_way, enters_hole, leaves_hole, leaves_low};
 use super::cut::{ALL, DEPTH, RADIUS, Rapid, number, same, shown};
 use super::idle;
@@ -11,7 +9,7 @@ use crate::diag::Code;
 use crate::lang::Machine;
 
 /// The ways to a cut.
-pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     let tolerance = s.limits.tolerance;
     if s.program.passage.rapids.is_empty() && s.job.rapids.is_empty() && !s.job.changed() {
         return;
@@ -77,13 +75,13 @@ pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
     }
 }
 
-fn stays_at_wall<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+fn stays_at_wall(s: &mut Sides<'_>, line: u64) {
     s.found(Code::PV001, line, "print the cycle's orientation and shift, as G76 Q[sleave]", || {
         "the tool does not leave the wall of the hole as the job says".to_owned()
     });
 }
 
-fn turns_otherwise<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+fn turns_otherwise(s: &mut Sides<'_>, line: u64) {
     s.found(Code::PV011, line, "look at the spindle codes of the cycle", || {
         "the spindle does not turn, or stand at its angle, as the job says while the tool leaves".to_owned()
     });
@@ -91,7 +89,7 @@ fn turns_otherwise<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
 
 /// Checks the frames of a way: on it the tool may be moved in the job's frames and with their registers, and in no
 /// others.
-pub(super) fn moved_with<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     let tools = s.tools;
     let passage = &s.program.passage;
     let before = (s.frame_before(), s.before.length);
@@ -148,7 +146,7 @@ pub(super) fn away(machine: Machine) -> u8 {
 }
 
 /// Where the job goes home, so does the program, and both ways begin anew there.
-fn goes_home<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+fn goes_home(s: &mut Sides<'_>, line: u64) {
     let away = away(s.machine);
     if s.job.was_sent_home() && !s.program.passage.splits_at_home(away) {
         s.found(Code::PV001, line, "print the control's code for it in MoveHome, as `G28 G91 Z0.`", || {
@@ -158,7 +156,7 @@ fn goes_home<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
 }
 
 /// The way away from the last cut of a tool or work offset, or of the program: so many of the program's rapids.
-fn leave<R: BufRead + Seek>(s: &mut Sides<R>, until: usize, line: u64) -> bool {
+fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     let tolerance = s.limits.tolerance;
     let [job, program] = &mut s.ways;
     if s.job.start.is_none() {
@@ -193,7 +191,7 @@ fn goes_as(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
 }
 
 /// Frames between the first and the last, or after the first `at_end`: no rapid is lower there than the job's own.
-fn between<R: BufRead + Seek>(s: &mut Sides<R>, line: u64, at_end: bool) {
+fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
     let tolerance = s.limits.tolerance;
     let tools = s.tools;
     let legs: Vec<_> = s.program.passage.legs().collect();
@@ -221,7 +219,7 @@ fn between<R: BufRead + Seek>(s: &mut Sides<R>, line: u64, at_end: bool) {
 }
 
 /// The way after the last cut, to the end of the program.
-pub(super) fn end<R: BufRead + Seek>(s: &mut Sides<R>) {
+pub(super) fn end(s: &mut Sides<'_>) {
     moved_with(s, 0);
     goes_home(s, 0);
     if s.machine != Machine::Mill {
@@ -240,7 +238,7 @@ pub(super) fn end<R: BufRead + Seek>(s: &mut Sides<R>) {
 
 /// On a lathe no side is free of the part, and no way is free of a wire: the tool goes where the job goes, in its order, and to places of the machine. A
 /// slanted rapid may go round its corner, farther from the chuck.
-fn beside_the_part<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+fn beside_the_part(s: &mut Sides<'_>, line: u64) {
     let tolerance = s.limits.tolerance;
     let is_lathe = s.machine == Machine::Lathe;
     let known = |rapids: &[Rapid]| -> Vec<Rapid> {

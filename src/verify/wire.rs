@@ -1,15 +1,13 @@
 //! What a wire EDM machine does between cuts: the codes by which a form threads and cuts the wire, in the job's order and at
 //! its places.
 
-use std::io::{BufRead, Seek};
-
 use super::cut::{ALL, same};
 use super::state::Sides;
 use super::wire_codes::{self, Coded};
 use crate::diag::Code;
 
 /// The codes since the last cut: those of the job's actions, at their places.
-pub(super) fn compare<R: BufRead + Seek>(s: &mut Sides<R>, line: u64) {
+pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     if s.job.does.is_empty() && s.program.passage.does.is_empty() {
         return;
     }

@@ -34,7 +34,7 @@ fn compared(old: &str, new: &str, ignore: Ignore, tolerance: f64) -> Comparison 
 /// Do both machines do the same?
 fn same_motion(old: &str, new: &str) -> bool {
     let settings = RunSettings::new(control("fanuc"));
-    compare_motions(Cursor::new(old), Cursor::new(new), [settings; 2], Units::Mm, 1e-6).unwrap().difference.is_none()
+    compare_motions([old, new].map(|text| (Cursor::new(text), settings)), Units::Mm, 1e-6).unwrap().difference.is_none()
 }
 
 /// The program in inches: every length and feed divided.
@@ -165,7 +165,10 @@ fn motions_differ_where_the_spindle_stands_at_another_angle() {
     let settings = [RunSettings::new(control("haas")); 2];
     let differs = |old: &str, new: &str| {
         let [old, new] = [bore(old), bore(new)].map(Cursor::new);
-        compare_motions(old, new, settings, Units::Mm, 1e-6).unwrap().difference.map(|found| found.message)
+        compare_motions([(old, settings[0]), (new, settings[1])], Units::Mm, 1e-6)
+            .unwrap()
+            .difference
+            .map(|found| found.message)
     };
     assert_eq!(differs("M19 R90.", "M19 R90."), None);
     for (new, angle) in [("M19 R270.", "270 degrees"), ("M5", "no angle")] {
@@ -179,7 +182,12 @@ fn motions_differ_where_the_spindle_stands_at_another_angle() {
 fn other_ways_are_counted() {
     let detour = BASE.replacen("N110", "G0 X-20.\nN110", 1);
     let settings = [RunSettings::new(control("fanuc")); 2];
-    let found = compare_motions(Cursor::new(BASE), Cursor::new(detour.as_str()), settings, Units::Mm, 1e-6).unwrap();
+    let found = compare_motions(
+        [(Cursor::new(BASE), settings[0]), (Cursor::new(detour.as_str()), settings[1])],
+        Units::Mm,
+        1e-6,
+    )
+    .unwrap();
     assert_eq!((found.difference, found.ways), (None, 1));
 }
 

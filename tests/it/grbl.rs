@@ -52,7 +52,7 @@ type Ended = (Vec<(u64, Done)>, Option<(u64, u64)>);
 
 /// The simulator between two lines.
 struct Run {
-    simulator: Simulator<Cursor<Vec<u8>>>,
+    simulator: Simulator<'static>,
     scale: f64,
     at: [f64; 3],
     /// The zero of the line before.

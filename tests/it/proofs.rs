@@ -791,7 +791,7 @@ fn a_job_that_is_not_compared_to_its_end_is_not_proven() {
     );
     let short = one(r#"{"rapid":[0,0,25]}"#);
     let job = document(&short);
-    struct Cut<'a>(&'a mut Comparer<Cursor<&'static str>>);
+    struct Cut<'a>(&'a mut Comparer<'static>);
     impl Sink for Cut<'_> {
         fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
             if matches!(event, Event::Start(_)) { self.0.event(event, place) } else { Flow::Continue(()) }

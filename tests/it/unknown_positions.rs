@@ -46,7 +46,7 @@ fn g92_at_an_unknown_position_moves_the_frame() {
 
 fn same_motion(old: &str, new: &str) -> bool {
     let settings = RunSettings::new(control("fanuc"));
-    compare_motions(Cursor::new(old), Cursor::new(new), [settings; 2], Units::Mm, 1e-6).unwrap().difference.is_none()
+    compare_motions([old, new].map(|text| (Cursor::new(text), settings)), Units::Mm, 1e-6).unwrap().difference.is_none()
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     let settings = RunSettings::new(control("linuxcnc"));
     let same = |old: &str, new: &str| {
         let compared =
-            compare_motions(Cursor::new(old.to_owned()), Cursor::new(new.to_owned()), [settings; 2], Units::Mm, 1e-6);
+            compare_motions([old, new].map(|text| (Cursor::new(text.to_owned()), settings)), Units::Mm, 1e-6);
         compared.unwrap().difference.is_none()
     };
     assert!(same(&changed, &changed) && !same(&program, &changed));

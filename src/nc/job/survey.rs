@@ -1,7 +1,6 @@
 //! The first run of a program that is read as a job: what must be known before its first move.
 
 use std::collections::BTreeMap;
-use std::io::{BufRead, Seek};
 
 use super::fault::{refused, unsaid, warning};
 use super::options::JobOptions;
@@ -34,7 +33,7 @@ pub(super) struct Survey {
 
 /// Runs the program once.
 pub(super) fn survey(
-    simulator: &mut Simulator<impl BufRead + Seek>,
+    simulator: &mut Simulator<'_>,
     options: &JobOptions,
     warnings: &mut Vec<Diag>,
 ) -> Result<Survey, ReadError> {

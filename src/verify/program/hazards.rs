@@ -1,14 +1,12 @@
 //! What a program does that no control would refuse and no shop wants: found on the way, whatever the job asks for.
 
-use std::io::{BufRead, Seek};
-
 use super::Program;
 use crate::control::Rules;
 use crate::diag::Code;
 use crate::nc::Rotation;
 use crate::verify::finding::Finding;
 
-impl<R: BufRead + Seek> Program<R> {
+impl Program<'_> {
     /// A move in a frame that G92 set where only the machine knew the position is a hazard.
     pub(super) fn check_frame(&mut self, unknown: u8, line: u64) {
         if self.scale.axes(self.simulator.state().frame_unknown()) & !unknown != 0 {

@@ -22,8 +22,8 @@ use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
 
 /// A program that is run as far as it was asked for.
-pub(super) struct Program<R> {
-    simulator: Simulator<R>,
+pub(super) struct Program<'a> {
+    simulator: Simulator<'a>,
     control: &'static Control,
     items: Vec<Item>,
     next: usize,
@@ -58,9 +58,9 @@ pub(super) struct Program<R> {
     pub hazards: Vec<Finding>,
 }
 
-impl<R: BufRead + Seek> Program<R> {
+impl<'a> Program<'a> {
     /// A program that runs with these settings, and by what a form says of its words.
-    pub fn new(input: R, settings: RunSettings, expectation: &Expectation) -> Program<R> {
+    pub fn new(input: impl BufRead + Seek + 'a, settings: RunSettings, expectation: &Expectation) -> Program<'a> {
         let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..settings };
         // as switched on
         let state = State {

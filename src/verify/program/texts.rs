@@ -1,11 +1,9 @@
 //! Texts of the program's lines, for findings.
 
-use std::io::{BufRead, Seek};
-
 use super::Program;
 use crate::verify::recent::Recent;
 
-impl<R: BufRead + Seek> Program<R> {
+impl Program<'_> {
     /// The text of the line that is being run.
     pub fn text(&self) -> String {
         String::from_utf8_lossy(self.simulator.text()).trim().to_owned()

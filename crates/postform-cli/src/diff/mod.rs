@@ -130,7 +130,7 @@ fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Resu
     let tolerance = if args.tolerance > 0.0 { args.tolerance } else { 1e-6 };
     let inputs = [old, new].map(|side| Cursor::new(side.program.bytes()));
     let [a, b] = inputs;
-    match compare_motions(a, b, settings, units, tolerance) {
+    match compare_motions([(a, settings[0]), (b, settings[1])], units, tolerance) {
         Ok(found) => Ok(Outcome::Compared(found)),
         Err(NoMotion(which, RunError::Refused(mut diag, _))) => {
             place_in(if which == 0 { &old.name } else { &new.name }, &mut diag);

@@ -252,9 +252,9 @@ impl<'a> Job<'a> {
                 input.rewind()?;
                 let input = Counted { input, count };
                 match format {
-                    Format::Nc => read_nc(BufReader::with_capacity(PROGRAM_BUFFER, input), reading, report, sink),
+                    Format::Nc => read_nc(input, reading, report, sink),
                     Format::Freecad => {
-                        let input = BufReader::with_capacity(PROGRAM_BUFFER, input);
+                        let input = BufReader::with_capacity(DOCUMENT_BUFFER, input);
                         read_document_of_freecad(input, reading, report, sink)
                     }
                     _ => read_once(input, format, reading, report, sink),
@@ -287,8 +287,8 @@ impl fmt::Debug for Job<'_> {
     }
 }
 
-/// Bytes of a program that are read at once.
-const PROGRAM_BUFFER: usize = 128 << 10;
+/// Bytes of a document that are read at once.
+const DOCUMENT_BUFFER: usize = 128 << 10;
 
 /// Formats that are read from beginning to end.
 fn read_once(
@@ -321,7 +321,7 @@ fn cl_options(reading: &Reading) -> cl::Options {
 
 /// An NC program is run twice.
 fn read_nc(
-    input: impl io::BufRead + Seek,
+    input: impl io::Read + Seek,
     reading: &Reading,
     report: &mut Report,
     sink: &mut dyn Sink,

@@ -1,7 +1,7 @@
 //! Runs a program block by block: reads lines, follows subprograms and loops, and hands on what the machine does.
 
 use std::collections::HashMap;
-use std::io::{self, BufRead, Seek, SeekFrom};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 
 use super::action::{Action, Item, Rotation};
 use super::block::Block;
@@ -38,10 +38,10 @@ impl From<io::Error> for RunError {
     }
 }
 
-/// A program as it is read: line by line, and gone back in where it jumps.
-pub(super) trait Input: BufRead + Seek {}
+/// A program as it is read: from its beginning on, and gone back in where it jumps.
+pub(super) trait Input: Read + Seek {}
 
-impl<T: BufRead + Seek> Input for T {}
+impl<T: Read + Seek> Input for T {}
 
 impl std::fmt::Debug for dyn Input + '_ {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -49,12 +49,15 @@ impl std::fmt::Debug for dyn Input + '_ {
     }
 }
 
-/// Runs a program. One compiled simulator serves all inputs: what it asks of them is a line at a time.
+/// How much of a program is read at a time, in bytes.
+const BUFFER: usize = 128 << 10;
+
+/// Runs a program. One compiled simulator serves all inputs: it has a buffer of its own, which is all that is asked for each line.
 ///
 /// Memory does not grow with the program: a line is read at a time, and jumps seek in the input.
 #[derive(Debug)]
 pub struct Simulator<'a> {
-    pub(super) input: Box<dyn Input + 'a>,
+    pub(super) input: BufReader<Box<dyn Input + 'a>>,
     pub(super) state: State,
     pub(super) parameters: Parameters,
     pub(super) block: Block,
@@ -90,11 +93,11 @@ pub struct Simulator<'a> {
 
 impl<'a> Simulator<'a> {
     /// A simulator at the beginning of a program.
-    pub fn new(input: impl BufRead + Seek + 'a, settings: RunSettings) -> Simulator<'a> {
-        Simulator::of(Box::new(input), settings)
+    pub fn new(input: impl Read + Seek + 'a, settings: RunSettings) -> Simulator<'a> {
+        Simulator::of(BufReader::with_capacity(BUFFER, Box::new(input)), settings)
     }
 
-    fn of(input: Box<dyn Input + 'a>, settings: RunSettings) -> Simulator<'a> {
+    fn of(input: BufReader<Box<dyn Input + 'a>>, settings: RunSettings) -> Simulator<'a> {
         Simulator {
             input,
             state: State::new(settings),
@@ -425,6 +428,10 @@ impl<'a> Simulator<'a> {
 
     pub(super) fn go(&mut self, spot: Spot) -> Result<(), RunError> {
         self.farthest = self.farthest.max(self.at.line);
+        if self.jumps == 0 {
+            // an input that can't be gone back in refuses each jump, also one that the buffer could serve
+            self.input.get_mut().stream_position()?;
+        }
         let offset = i128::from(spot.byte) - i128::from(self.at.byte);
         match i64::try_from(offset) {
             // stays inside the buffer where it can

@@ -1,6 +1,6 @@
 //! A program run, and what it does kept.
 
-use std::io::{self, BufRead, Seek};
+use std::io::{self, Read, Seek};
 
 use super::state::Registers;
 use super::{Hole, Kind, Move, Picture};
@@ -18,7 +18,7 @@ const MOST_MOVES: usize = 20_000_000;
 ///
 /// # Errors
 /// The input fails. What the control refuses is in the picture, which then ends there.
-pub fn draw(input: impl BufRead + Seek, settings: RunSettings) -> io::Result<Picture> {
+pub fn draw(input: impl Read + Seek, settings: RunSettings) -> io::Result<Picture> {
     let simulator = Simulator::new(input, RunSettings { places_unknown: true, ..settings });
     let mut pen = Pen::new(settings.units);
     let simulator = pen.run(simulator)?;

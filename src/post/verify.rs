@@ -1,6 +1,6 @@
 //! Programs proven: run as the control would, and compared with their job.
 
-use std::io::{BufRead, Cursor, Seek};
+use std::io::{Cursor, Read, Seek};
 
 use super::Post;
 use super::options::{Options, Proof};
@@ -43,7 +43,7 @@ impl Post {
     pub fn verify_with(
         &self,
         job: Job<'_>,
-        program: impl BufRead + Seek,
+        program: impl Read + Seek,
         options: &Options,
         proof: &Proof,
     ) -> Result<Proven, Error> {
@@ -127,7 +127,7 @@ impl Proof {
     ///
     /// # Errors
     /// The job or the program can't be read, or the job is wrong. What is wrong with the program is in the verdict.
-    pub fn verify(&self, job: Job<'_>, program: impl BufRead + Seek) -> Result<Proven, Error> {
+    pub fn verify(&self, job: Job<'_>, program: impl Read + Seek) -> Result<Proven, Error> {
         let options = Options { units: self.units, ..Options::default() };
         prove(None, job, program, &options, self)
     }
@@ -181,7 +181,7 @@ impl Plan {
 fn prove(
     form: Option<&compile::Program>,
     mut job: Job<'_>,
-    program: impl BufRead + Seek,
+    program: impl Read + Seek,
     options: &Options,
     proof: &Proof,
 ) -> Result<Proven, Error> {

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
-use std::io::{self, BufRead, Read, Seek, SeekFrom};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::rc::Rc;
 
 use super::comparer::Comparer;
@@ -198,26 +198,15 @@ impl<I: Iterator<Item: AsRef<Batch>>> Text<I> {
     }
 }
 
-impl<I: Iterator<Item: AsRef<Batch>>> BufRead for Text<I> {
-    #[inline]
-    fn fill_buf(&mut self) -> io::Result<&[u8]> {
-        while self.rest().is_empty() {
-            self.batch = None;
-            let Some(next) = self.queue.borrow_mut().text()? else { return Ok(&[]) };
-            (self.batch, self.at) = (Some(next), 0);
-        }
-        Ok(self.rest())
-    }
-
-    fn consume(&mut self, amount: usize) {
-        self.at += amount;
-    }
-}
-
 impl<I: Iterator<Item: AsRef<Batch>>> Read for Text<I> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let count = self.fill_buf()?.read(buffer)?;
-        self.consume(count);
+        while self.rest().is_empty() {
+            self.batch = None;
+            let Some(next) = self.queue.borrow_mut().text()? else { return Ok(0) };
+            (self.batch, self.at) = (Some(next), 0);
+        }
+        let count = self.rest().read(buffer)?;
+        self.at += count;
         Ok(count)
     }
 }

@@ -1,6 +1,6 @@
 //! Compares a job's cuts with those of a program, one by one.
 
-use std::io::{BufRead, Seek};
+use std::io::{Read, Seek};
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, apart, is_straight, lead_alike, over, same, shown};
 use super::expectation::Expectation;
@@ -38,7 +38,7 @@ pub struct Comparer<'a> {
 impl<'a> Comparer<'a> {
     /// A comparison with this program. `tolerance` in the job's units; else 0.0001 inch or 0.002 mm.
     pub fn new(
-        program: impl BufRead + Seek + 'a,
+        program: impl Read + Seek + 'a,
         settings: RunSettings,
         expectation: Expectation,
         tolerance: Option<f64>,

@@ -1,6 +1,6 @@
 //! Two programs by what a machine does: another way to write the same motions is no difference.
 
-use std::io::{BufRead, Seek};
+use std::io::{Read, Seek};
 
 use super::compared::{Compared, compare, leaves_low};
 use super::cut::{ALL, Cut, Spin, State, What, number, place, same, same_dwell, shown};
@@ -40,7 +40,7 @@ pub struct NoMotion(pub usize, pub RunError);
 /// # Errors
 /// One of them can't be run.
 pub fn compare_motions(
-    programs: [(impl BufRead + Seek, RunSettings); 2],
+    programs: [(impl Read + Seek, RunSettings); 2],
     units: Units,
     tolerance: f64,
 ) -> Result<Motions, NoMotion> {

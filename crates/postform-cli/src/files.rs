@@ -1,7 +1,7 @@
 //! Input files.
 
 use std::fs::{self, File};
-use std::io::{self, BufReader, Read, Seek};
+use std::io::{self, Read, Seek};
 use std::path::Path;
 use std::time::SystemTime;
 
@@ -47,13 +47,8 @@ pub fn open(path: &Path) -> Result<Box<dyn Read>, String> {
 }
 
 /// An NC program, which must be a file that can be gone back in: others are copied into one.
-pub fn open_program(path: &Path) -> Result<BufReader<File>, String> {
-    Ok(buffered(Again::open(path)?.file))
-}
-
-/// A file as a program is read.
-pub fn buffered(file: File) -> BufReader<File> {
-    BufReader::with_capacity(PROGRAM_BUFFER, file)
+pub fn open_program(path: &Path) -> Result<File, String> {
+    Ok(Again::open(path)?.file)
 }
 
 /// An input that is read more than once: what can't be gone back in is copied into a file.
@@ -127,9 +122,6 @@ impl Seek for Steady {
         self.file.seek(to)
     }
 }
-
-/// Bytes of a program that are read at once.
-const PROGRAM_BUFFER: usize = 128 << 10;
 
 /// Is a file a form, by its name?
 pub fn is_form(path: &Path) -> bool {

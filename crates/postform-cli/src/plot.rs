@@ -1,7 +1,7 @@
 //! `postform plot`.
 
 use std::fs::File;
-use std::io::{BufReader, Read, Seek};
+use std::io::{Read, Seek};
 use std::path::Path;
 
 use base64::Engine as _;
@@ -76,7 +76,7 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
 }
 
 /// The program that was meant, run, and its text. `None`: there is none, which was shown.
-fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, BufReader<File>)>, String> {
+fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, File)>, String> {
     let config = Config::near(&args.file)?;
     let is_program = args.form.is_none() && args.read.from.is_none_or(|from| from.format() == Format::Nc) && {
         args.read.from.is_some() || Format::of_name(&args.file.to_string_lossy()) == Some(Format::Nc)
@@ -101,10 +101,10 @@ fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, BufR
     };
     let proof: Proof = args.control.proof(None);
     let settings = prepared.post.run_settings(&proof, units);
-    drawn(files::buffered(program), settings, Path::new("the program")).map(Some)
+    drawn(program, settings, Path::new("the program")).map(Some)
 }
 
-fn drawn(mut input: BufReader<File>, settings: RunSettings, path: &Path) -> Result<(Picture, BufReader<File>), String> {
+fn drawn(mut input: File, settings: RunSettings, path: &Path) -> Result<(Picture, File), String> {
     let picture = picture::draw(&mut input, settings).map_err(|error| io_message("read", path, &error))?;
     Ok((picture, input))
 }

@@ -47,7 +47,7 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let sides = Sides { job: &args.job, program: &name, files };
     let tried = match (&args.nc, &prepared) {
         (Some(path), prepared) => {
-            let program = files::buffered(Again::open(path)?.into_file()?);
+            let program = Again::open(path)?.into_file()?;
             let proven = match prepared {
                 Some(prepared) => prepared.post.verify_with(job.again(), program, &prepared.options, &proof),
                 None => proof.verify(job.again(), program),
@@ -112,6 +112,6 @@ pub fn in_a_file(
     }
     let Ok((file, _)) = rendered(job, sides.job, prepared, false, reporter)? else { return Ok(proven) };
     let (post, options) = (&prepared.post, &prepared.options);
-    let proven = post.verify_with(job.again(), files::buffered(file), options, proof);
+    let proven = post.verify_with(job.again(), file, options, proof);
     Ok(proven.and_then(|proven| post.located(proven, job.again(), options)))
 }

@@ -12,7 +12,7 @@ mod shift;
 mod survey;
 mod switches;
 
-use std::io::{BufRead, Seek};
+use std::io::{Read, Seek};
 
 use super::settings::RunSettings;
 use super::simulator::Simulator;
@@ -31,7 +31,7 @@ use survey::survey;
 /// # Errors
 /// The input fails; the control refuses the program; the program does what no job can say.
 pub fn read_program(
-    input: impl BufRead + Seek,
+    input: impl Read + Seek,
     options: &JobOptions,
     warnings: &mut Vec<Diag>,
     sink: &mut dyn Sink,
@@ -67,7 +67,7 @@ fn counted(warnings: Vec<Diag>) -> Vec<Diag> {
 }
 
 fn read_twice(
-    input: impl BufRead + Seek,
+    input: impl Read + Seek,
     options: &JobOptions,
     warnings: &mut Vec<Diag>,
     sink: &mut dyn Sink,

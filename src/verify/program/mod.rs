@@ -4,7 +4,7 @@ mod doubt;
 mod hazards;
 mod texts;
 
-use std::io::{BufRead, Seek};
+use std::io::{Read, Seek};
 
 pub(super) use doubt::Doubt;
 
@@ -60,7 +60,7 @@ pub(super) struct Program<'a> {
 
 impl<'a> Program<'a> {
     /// A program that runs with these settings, and by what a form says of its words.
-    pub fn new(input: impl BufRead + Seek + 'a, settings: RunSettings, expectation: &Expectation) -> Program<'a> {
+    pub fn new(input: impl Read + Seek + 'a, settings: RunSettings, expectation: &Expectation) -> Program<'a> {
         let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..settings };
         // as switched on
         let state = State {

@@ -38,6 +38,10 @@ readers count="1000000" seed="0":
     git rev-parse --short HEAD; date -u +%F
     cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin readers {{count}} {{seed}}
 
+# small changes of a source file that no test notices, by the tests with these names: `just mutants src/number/quantise.rs numbers`
+mutants file *tests:
+    cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin mutants {{file}} {{tests}}
+
 # figures for docs/performance.md
 bench:
     cargo bench --profile dist --bench render

@@ -2,7 +2,8 @@
 //!
 //! All changes are compiled at once into a copy of the repository, each behind a number, and the environment variable
 //! `POSTFORM_MUTANT` selects one: the tests named are built once and run once for each. A change that no test notices is printed
-//! with its line. Changes: conditions that are always true or always false, `<` for `<=`, `+` for `-`, `/` for `*`, and statements left out.
+//! with its line. `CASES=FOLDER` keeps a random program, with its job and its right verdict, for each of those. Changes: conditions
+//! that are always true or always false, `<` for `<=`, `+` for `-`, `/` for `*`, and statements left out.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -24,6 +25,9 @@ pub fn on(mutant: u32) -> bool {
     *ACTIVE.get_or_init(read) == mutant
 }
 ";
+
+/// How many random jobs are printed to find a program whose verdict a change alters.
+const JOBS: &str = "40000";
 
 /// A test run may take so many times as long as without a change.
 const PATIENCE: u32 = 6;
@@ -192,9 +196,13 @@ impl VisitMut for Changes {
     }
 }
 
-/// Copies what git has of the repository, as it is now.
+/// Copies the files of the repository as they are now, but for those that git ignores.
 fn copy(from: &Path, to: &Path) {
-    let listed = Command::new("git").args(["ls-files", "-z"]).current_dir(from).output().expect("git");
+    let listed = Command::new("git")
+        .args(["ls-files", "-z", "--cached", "--others", "--exclude-standard"])
+        .current_dir(from)
+        .output()
+        .expect("git");
     for name in String::from_utf8(listed.stdout).expect("names in UTF-8").split('\0').filter(|name| !name.is_empty()) {
         let (old, new) = (from.join(name), to.join(name));
         let Ok(bytes) = fs::read(&old) else { continue };
@@ -253,6 +261,25 @@ fn pass(programs: &[PathBuf], tree: &Path, tests: &[String], mutant: u32, limit:
     })
 }
 
+/// Looks for a random program whose verdict is another with each change, and keeps it in a folder; the changes for which there is none.
+fn cases(tree: &Path, folder: &Path, survivors: &[u32]) -> Vec<u32> {
+    let corpus = |arguments: &[&str], mutant: u32| {
+        let mut cargo = Command::new("cargo");
+        cargo
+            .args("run --quiet --release --manifest-path fuzz/Cargo.toml --bin corpus --".split(' '))
+            .args([JOBS, "0"]);
+        cargo.args(arguments).env("POSTFORM_MUTANT", mutant.to_string()).env("RUSTFLAGS", "-A warnings");
+        cargo.env("CARGO_TARGET_DIR", tree.join("../corpus")).current_dir(tree).stderr(Stdio::null());
+        cargo.output().expect("cargo")
+    };
+    let verdicts = tree.join("../verdicts");
+    fs::write(&verdicts, corpus(&[], 0).stdout).expect("a file in target/");
+    fs::create_dir_all(folder).expect("the folder of the cases");
+    let arguments = [verdicts.to_string_lossy(), folder.to_string_lossy()];
+    let finds = |number: &u32| corpus(&[&arguments[0], &arguments[1]], *number).status.success();
+    survivors.iter().copied().filter(|number| !finds(number)).collect()
+}
+
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
     let Some(file) = arguments.next() else {
@@ -278,13 +305,23 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     }
     let limit = begun.elapsed() * PATIENCE + Duration::from_secs(2);
-    let mut survivors = 0;
+    let mut survivors = Vec::new();
     for (&number, (line, what)) in &changes.made {
         if pass(&programs, &tree, &tests, number, limit) {
-            survivors += 1;
+            survivors.push(number);
             println!("{file}:{line}: no test fails where {what}");
         }
     }
-    println!("{file}: {} of {} changes are noticed by a test", changes.made.len() - survivors, changes.made.len());
-    ExitCode::from(u8::from(survivors > 0))
+    println!(
+        "{file}: {} of {} changes are noticed by a test",
+        changes.made.len() - survivors.len(),
+        changes.made.len()
+    );
+    if let Some(folder) = std::env::var_os("CASES") {
+        for number in cases(&tree, &root.join(folder), &survivors) {
+            let (line, what) = &changes.made[&number];
+            println!("{file}:{line}: no random program has another verdict where {what}");
+        }
+    }
+    ExitCode::from(u8::from(!survivors.is_empty()))
 }

@@ -195,6 +195,11 @@ impl Case {
         self.form.verify(program, self.reads(&self.bytes()), self.inch, None)
     }
 
+    /// The verdict of another program in one line, with all that is counted.
+    pub fn verdict(&self, program: &str) -> String {
+        self.form.verdict(program, self.reads(&self.bytes()), self.inch)
+    }
+
     /// The proof of the program while it is printed, in parts of any size.
     pub fn proof_beside(&self, random: &mut Random) -> Proof {
         let bytes = self.bytes();

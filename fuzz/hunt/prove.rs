@@ -1,5 +1,7 @@
 //! A form as the hunt uses it: it prints jobs and compares programs with them.
 
+use std::collections::BTreeSet;
+
 use postform::internals::verify::Finding;
 use postform::toolpath::{Place, Units};
 use postform::{Batch, Error, Job, NoFiles, Options, Post, Proven, Source, Verdict};
@@ -107,6 +109,32 @@ impl Form {
         proof.tolerance = tolerance;
         let program = std::io::Cursor::new(program);
         proof_of(self.post.verify_with(job, program, &options(inch), &proof))
+    }
+
+    /// The verdict in one line, with all that is counted: as `tests/data/proofs` has it.
+    pub fn verdict(&self, program: &str, job: Job<'_>, inch: bool) -> String {
+        let program = std::io::Cursor::new(program);
+        match self
+            .post
+            .verify_with(job, program, &options(inch), &postform::Proof::default())
+            .map(|proven| proven.verdict)
+        {
+            Ok(Verdict::Identical) => "identical".into(),
+            Ok(Verdict::Equivalent(allowed)) => {
+                let counted = allowed.named().filter(|(_, count)| *count > 0);
+                format!(
+                    "equivalent: {}",
+                    counted.map(|(name, count)| format!("{count} {name}")).collect::<Vec<_>>().join(", ")
+                )
+            }
+            Ok(Verdict::Different(findings)) => {
+                let codes: BTreeSet<&str> = findings.iter().map(|finding| finding.code.name()).collect();
+                format!("different: {}", codes.into_iter().collect::<Vec<_>>().join(", "))
+            }
+            Ok(Verdict::NotProven(unproven)) => format!("not proven: {}", unproven.why),
+            Ok(_) => "unknown".into(),
+            Err(error) => format!("error: {}", said(&error).0),
+        }
     }
 
     /// Prints a job and proves it meanwhile, as `render` of the command line does, but in parts of any size.

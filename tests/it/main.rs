@@ -41,6 +41,7 @@ mod own_values;
 mod plot;
 mod program_commands;
 mod program_jobs;
+mod proof_corpus;
 mod proofs;
 mod proofs_changed;
 mod properties;

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
+use postform::diag::Severity;
 use postform::{NoFiles, Post, Source};
 
 fn main() -> ExitCode {
@@ -15,10 +16,10 @@ fn main() -> ExitCode {
             return ExitCode::FAILURE;
         };
         let findings = match Post::compile(Source::from_bytes(name, &bytes), &NoFiles) {
-            Ok(post) => post.warnings().clone(),
+            Ok(post) => post.findings().clone(),
             Err(error) => error.into_findings(),
         };
-        for diag in &findings.diags {
+        for diag in findings.diags.iter().filter(|diag| diag.severity > Severity::Note) {
             println!("cargo::error={}", diag.line(&findings.files));
             ending = ExitCode::FAILURE;
         }

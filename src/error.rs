@@ -28,7 +28,7 @@ pub enum ErrorKind {
 
 /// Why something was not done, with all that was found until then: the warnings first, then what stopped it.
 ///
-/// It shows as one line; [`Error::findings`] has the places, the help and the fixes.
+/// It shows as one line, with `{:#}` and the line of the form below it; [`Error::findings`] has the places, the help and the fixes.
 pub struct Error(Box<Inner>);
 
 struct Inner {
@@ -72,6 +72,11 @@ impl Error {
         self
     }
 
+    /// The findings, to complete their places.
+    pub(crate) fn diags_mut(&mut self) -> &mut [Diag] {
+        &mut self.0.findings.diags
+    }
+
     /// What kind of failure this is.
     pub fn kind(&self) -> ErrorKind {
         self.0.kind
@@ -109,7 +114,8 @@ impl From<io::Error> for Error {
 }
 
 impl fmt::Display for Error {
-    /// The first error, and how many more there are.
+    /// The first error, and how many more there are. `{:#}` adds the line of the form that it is about, with a mark under the
+    /// words.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Inner { findings, message, source, .. } = &*self.0;
         let mut errors = findings.diags.iter().filter(|diag| diag.is_error());
@@ -118,10 +124,15 @@ impl fmt::Display for Error {
             (None, Some(source)) => write!(f, "{source}")?,
             (None, None) => f.write_str(message)?,
         }
+        let first = findings.diags.iter().find(|diag| diag.is_error());
         match errors.count() {
-            0 => Ok(()),
-            1 => f.write_str(" (and 1 more error)"),
-            more => write!(f, " (and {more} more errors)"),
+            0 => {}
+            1 => f.write_str(" (and 1 more error)")?,
+            more => write!(f, " (and {more} more errors)")?,
+        }
+        match first.and_then(|first| first.marked(&findings.files)).filter(|_| f.alternate()) {
+            Some(marked) => write!(f, "\n{marked}"),
+            None => Ok(()),
         }
     }
 }

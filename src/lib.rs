@@ -76,94 +76,107 @@ pub use job::{Format, Job, Reading};
 pub use lang::{Machine, SequenceId, VarId};
 pub use lint::{Level, Levels};
 pub use nc::{JobOptions as NcOptions, RunSettings, Unpointed};
-pub use post::{Files, NoFiles, Options, Part, Post, Program, Prompt, Proof, Proven, Rendered};
+pub use post::{Files, NoFiles, Options, Post, Program, Prompt, Proof, Proven, Rendered};
 pub use render::{Clock, Cycles, TraceLine};
 pub use sema::{Limits, Property};
 pub use source::Source;
 pub use span::Span;
-pub use verify::{Batch, Counts, Equivalences, Finding, Unproven, Verdict};
+pub use verify::{Counts, Equivalences, Finding, Unproven, UnprovenKind, Verdict};
 
 /// What the command line, the tests and the benchmarks of this repository use besides the front door. It is no part of the
 /// public library, and changes without notice.
 #[doc(hidden)]
 pub mod internals {
     pub mod cl {
-        pub use crate::cl::*;
+        pub use crate::cl::{Assumed, AssumedSpeed, Dialect, Options, Report, Setup, parse_position, read_cl, setups};
     }
     pub mod compile {
-        pub use crate::compile::*;
+        pub use crate::compile::compile;
     }
     pub mod control {
-        pub use crate::control::*;
+        pub use crate::control::{Code, Control, Meaning, is_file, names};
     }
     pub mod cycle {
-        pub use crate::cycle::*;
+        pub use crate::cycle::{stepped_pecks, thread_passes};
     }
     pub mod diff {
-        pub use crate::diff::*;
+        pub use crate::diff::{Comparison, Edit, Hunk, Ignore, Options, Program, Summary, changed_spans, compare};
     }
     pub mod explain {
-        pub use crate::explain::*;
+        pub use crate::explain::{controls, explain, list, reference};
     }
     pub mod fmt {
-        pub use crate::fmt::*;
+        pub use crate::fmt::format;
     }
     #[cfg(feature = "freecad")]
     pub mod freecad {
-        pub use crate::freecad::*;
+        pub use crate::freecad::{Options, Report, read_freecad};
     }
     pub mod ide {
-        pub use crate::ide::*;
+        pub use crate::ide::{
+            Action, ActionKind, Completion, CompletionKind, Current, Document, Hint, Symbol, SymbolKind, TokenKind,
+            about, program, symbols_of, utf16,
+        };
     }
     pub mod lang {
-        pub use crate::lang::*;
+        pub use crate::lang::{COMMANDS, CommandId, Machine, SEQUENCES, SequenceId, VARIABLES, did_you_mean};
     }
     pub mod lint {
-        pub use crate::lint::*;
+        pub use crate::lint::{Changed, Found, Level, Levels, Mended, RULES, lint, mend, parts};
     }
     pub mod nc {
-        pub use crate::nc::*;
+        pub use crate::nc::{
+            Action, Cooling, Item, JobOptions, Kind, Position, Rotation, RunError, RunSettings, Simulator, Tally, Turn,
+            Unpointed, clock, rapid_rate, read_program, tokens,
+        };
     }
     pub mod number {
-        pub use crate::number::*;
+        pub use crate::number::{LetterFormat, Point, Sign, quantise, write_number};
     }
     pub mod picture {
-        pub use crate::picture::*;
+        pub use crate::picture::{Kind, Picture, Register, Sheet, View, draw, svg, svg_over};
     }
     pub mod post {
-        pub use crate::post::*;
+        pub use crate::post::{Part, sample_job, sample_program, shipped};
     }
     pub mod render {
-        pub use crate::render::*;
+        pub use crate::render::{Clock, Cycles, Options, Renderer, TraceLine, survey_terms};
     }
     pub mod report {
-        pub use crate::report::*;
+        pub use crate::report::{github, json, proof, sarif};
     }
     pub mod scene {
-        pub use crate::scene::*;
+        pub use crate::scene::{
+            At, PLOT_PAGE, Printed, Request, Scene, WATCH_PAGE, behind, help, of_program, program_of, scene,
+        };
     }
     pub mod sema {
-        pub use crate::sema::*;
+        pub use crate::sema::{Checked, Limits, MOST_TEXT, PropertyKind, PropertyValue, analyse, one_post};
     }
     pub mod source {
-        pub use crate::source::*;
+        pub use crate::source::Source;
     }
     pub mod survey {
-        pub use crate::survey::*;
+        pub use crate::survey::Surveyor;
     }
     pub mod syntax {
-        pub use crate::syntax::*;
+        pub use crate::syntax::{Form, Head, Statement, Tail, parse};
     }
     pub mod terminal {
-        pub use crate::terminal::*;
+        pub use crate::terminal::{escaped, escaped_lines, steers};
     }
     pub mod trace {
-        pub use crate::trace::*;
+        pub use crate::trace::Trace;
     }
     pub mod verify {
-        pub use crate::verify::*;
+        pub use crate::verify::{
+            Batch, Comparer, Equivalences, Expectation, Finding, Kept, Motions, NoMotion, UNPROVEN, Verdict,
+            compare_motions, prove_beside, tolerances,
+        };
     }
     pub mod json {
-        pub use crate::toolpath::json::*;
+        #[cfg(feature = "schema")]
+        pub use crate::toolpath::json::schema;
+        pub use crate::toolpath::json::{SCHEMA, read_document, read_lines};
     }
 }

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use postform::internals::verify::Batch;
 use postform::internals::verify::Finding;
 use postform::toolpath::{Place, Units};
-use postform::{Batch, Error, Job, NoFiles, Options, Post, Proven, Source, Verdict};
+use postform::{Error, Job, NoFiles, Options, Post, Proven, Source, Verdict};
 
 use crate::job::{Kind, Takes};
 use crate::judge::{Act, MAIN, lathe, run, wire};
@@ -45,7 +46,7 @@ impl Form {
     /// What is wrong with it.
     pub fn read(name: &str, text: &str) -> Result<Form, Error> {
         let post = Post::compile(Source::from_text(name, text), &NoFiles)?;
-        let cuts_digits = post.warnings().diags.iter().any(|diag| diag.code.name() == "PF306");
+        let cuts_digits = post.findings().diags.iter().any(|diag| diag.code.name() == "PF306");
         let says = |line: &str| text.lines().any(|other| other.trim_end() == line);
         let inch = [("Units inch", true), ("Units mm", false)].into_iter().find(|(line, _)| says(line));
         let control = text.lines().find_map(|line| line.strip_prefix("Control ")).unwrap_or("fanuc");

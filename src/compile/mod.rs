@@ -9,10 +9,10 @@ mod routine;
 mod sources;
 mod work;
 
-pub use ahead::{Asks, Fixed};
+pub use ahead::Asks;
 pub use letters::{Letter, LetterKind, LetterTable};
 pub use lower::compile;
 pub use program::{CycleStyle, List, Literal, Op, Program, Upon};
-pub use routine::{Branch, Flow, Node, Routine};
+pub use routine::{Node, Routine};
 pub use sources::Sources;
 pub use work::{WorkWord, WorkWords};

@@ -14,8 +14,8 @@ mod words;
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
-pub use arcs::{Arcs, Tolerance};
-pub use code::{Code, NoCode};
+pub use arcs::Tolerance;
+pub use code::Code;
 pub use file::Wrong;
 pub use hole::Hole;
 pub use meaning::{AxisWords, Frame, GROUPS, Group, Meaning};

@@ -89,9 +89,11 @@ pub enum Kept {
     #[default]
     Unknown,
     /// A stop keeps what was on.
-    Kept,
+    #[serde(rename = "kept")]
+    Yes,
     /// A stop puts back or ends what was on.
-    Lost,
+    #[serde(rename = "lost")]
+    No,
 }
 
 /// What its spindle turns.

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::{Diag, Severity};
 use crate::source::Source;
+use crate::terminal::escaped;
 
 /// What was found, with the form's text: enough to show it or to write a report of it.
 #[derive(Clone, Debug, Default)]
@@ -49,5 +50,19 @@ impl Diag {
         let place = place.map(|place| place + ": ").unwrap_or_default();
         let help = self.help.as_ref().map(|help| format!(" ({help})")).unwrap_or_default();
         format!("{place}{} {}: {}{help}", self.severity.name(), self.code.name(), self.message)
+    }
+
+    /// The line of the form that the finding is about, with a mark under the words: two lines without an end. `None`: it is
+    /// about no form. `files` are those of the form.
+    pub(crate) fn marked(&self, files: &[Source]) -> Option<String> {
+        let span = self.labels.first()?.span;
+        let source = files.get(span.file as usize)?;
+        let (line, column) = source.line_column(span.start);
+        let text = source.text.lines().nth(line as usize - 1)?;
+        let before: String = text.chars().take(column as usize - 1).map(|c| if c == '\t' { c } else { ' ' }).collect();
+        let rest = text.chars().count().saturating_sub(column as usize - 1);
+        let marks = "^".repeat(source.slice(span).chars().count().clamp(1, rest.max(1)));
+        let margin = " ".repeat(line.to_string().len());
+        Some(format!("{line} | {}\n{margin} | {before}{marks}", escaped(text)))
     }
 }

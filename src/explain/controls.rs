@@ -11,8 +11,8 @@ const UNKNOWN: &str = "not known";
 fn facts(control: &Control) -> Vec<(&'static str, String)> {
     let traits = control.traits();
     let kept = |kept: Kept| match kept {
-        Kept::Kept => "stays as it is",
-        Kept::Lost => "is put back, or stops",
+        Kept::Yes => "stays as it is",
+        Kept::No => "is put back, or stops",
         Kept::Unknown => UNKNOWN,
     };
     let rules = match traits.rules {

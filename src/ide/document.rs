@@ -2,7 +2,7 @@
 
 use crate::compile::compile;
 use crate::control::Control;
-use crate::diag::{Diag, Severity};
+use crate::diag::Diag;
 use crate::lint::{Found, Levels, lint};
 use crate::post::{Files, Post};
 use crate::sema::{Checked, Limits, analyse};
@@ -29,10 +29,8 @@ impl Document {
     /// A form that was analysed.
     pub fn of(checked: Checked, levels: &Levels) -> Document {
         let found = lint(&checked, levels);
-        let post = (!found.diags.iter().any(Diag::is_error)).then(|| {
-            let warnings = found.diags.iter().filter(|diag| diag.severity > Severity::Note).cloned().collect();
-            Post::of(compile(&checked.form), warnings, &checked.files)
-        });
+        let is_right = !found.diags.iter().any(Diag::is_error);
+        let post = is_right.then(|| Post::of(compile(&checked.form), found.diags.clone(), &checked.files));
         Document { checked, found, post, properties: Vec::new() }
     }
 

@@ -23,15 +23,11 @@ mod tokens;
 pub mod utf16;
 mod words;
 
-pub use actions::{Action, Kind as ActionKind, Preview};
+pub use actions::{Action, Kind as ActionKind};
 pub use at::{At, What};
 pub use complete::{Completion, Kind as CompletionKind, about};
-pub use current::{Current, Printed};
+pub use current::Current;
 pub use document::Document;
-pub use folding::Fold;
 pub use hints::Hint;
-pub use hover::Hover;
-pub use rename::{CantRename, Renamed};
-pub use signature::Signature;
 pub use symbols::{Kind as SymbolKind, Symbol, symbols_of};
-pub use tokens::{Kind as TokenKind, Token};
+pub use tokens::Kind as TokenKind;

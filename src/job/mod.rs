@@ -11,6 +11,7 @@ use std::rc::Rc;
 
 use crate::cl::{self, Assumed, AssumedSpeed, Dialect, Report, Setup, read_cl};
 use crate::control::Control;
+use crate::diag::Diag;
 use crate::error::Error;
 use crate::nc::{JobOptions, RunSettings, Unpointed, read_program};
 use crate::toolpath::json::{read_document, read_lines};
@@ -69,11 +70,13 @@ pub struct Job<'a> {
     report: Report,
     /// Bytes read so far.
     read: Rc<Cell<u64>>,
+    /// What its findings call it.
+    name: Option<Rc<str>>,
 }
 
 impl<'a> Job<'a> {
     fn new(format: Format, input: Input<'a>) -> Job<'a> {
-        Job { input, format, reading: Reading::default(), report: Report::default(), read: Rc::default() }
+        Job { input, format, reading: Reading::default(), report: Report::default(), read: Rc::default(), name: None }
     }
 
     /// One JSON document (`docs/job.md`).
@@ -112,7 +115,27 @@ impl<'a> Job<'a> {
                 "can't tell what the job is, by its name or by how it begins: it is no JSON, CL file or NC program",
             )
         })?;
-        Ok(Job::bytes(format, text))
+        Ok(Job::bytes(format, text).named(name))
+    }
+
+    /// The name by which errors, warnings and notes of this job give their places: `bracket.json:12:9`.
+    pub fn named(mut self, name: &str) -> Job<'a> {
+        self.name = Some(name.into());
+        self
+    }
+
+    /// An error of this job: its places get the job's name.
+    pub(crate) fn names(&self, mut error: Error) -> Error {
+        self.name_places(error.diags_mut());
+        error
+    }
+
+    /// Gives the places in this job its name.
+    pub(crate) fn name_places(&self, diags: &mut [Diag]) {
+        let Some(name) = &self.name else { return };
+        for place in diags.iter_mut().filter_map(|diag| diag.place.as_mut()) {
+            place.file.get_or_insert_with(|| name.to_string());
+        }
     }
 
     /// A job in a file or anything else that can be gone back in. It is read from its beginning, whatever its size.
@@ -142,7 +165,7 @@ impl<'a> Job<'a> {
             Input::Stream(input) => Input::Stream(input.take()),
             Input::Events(make) => Input::Events(Box::new(make)),
         };
-        Job { reading: self.reading.clone(), ..Job::new(self.format, input) }
+        Job { reading: self.reading.clone(), name: self.name.clone(), ..Job::new(self.format, input) }
     }
 
     /// Can the job be read only once?

@@ -13,13 +13,13 @@ mod variables;
 mod work;
 
 pub(crate) use commands::command_rows;
-pub use commands::{Args, COMMANDS, Command, CommandId, Used, Without};
+pub use commands::{Args, COMMANDS, Command, CommandId, Used};
 pub use coolant::Coolant;
 pub use directives::{DIRECTIVES, DirectiveRow, Each, directive_meant};
 pub use machine::{Machine, Machines, UnitChoice};
-pub use sequences::{SEQUENCES, Sequence, SequenceId, SequenceName};
-pub use suggest::{LONGEST_NAME, did_you_mean, nearest};
-pub use texts::{TEXT_COUNT, TEXTS, Text, TextId, TextSet, TextVar, WIDEST};
+pub use sequences::{SEQUENCES, SequenceId, SequenceName};
+pub use suggest::{LONGEST_NAME, did_you_mean};
+pub use texts::{TEXT_COUNT, TEXTS, TextId, TextSet, TextVar, WIDEST};
 pub use variables::{AHEAD, MOST_VARIABLES, Origin, TOOLS_AHEAD, Unit, VARIABLES, VarId, VarSet, Variable};
 pub use work::{additional_work, work_code};
 

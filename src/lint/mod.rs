@@ -14,7 +14,7 @@ pub use levels::{Level, Levels};
 pub(crate) use mend::edited;
 pub use mend::{Changed, Mended, mend};
 pub use parts::parts;
-pub use rules::{RULES, Rule};
+pub use rules::RULES;
 
 use crate::compile::{Program, compile};
 use crate::diag::{Code, Diag, Severity};
@@ -54,8 +54,8 @@ pub fn lint(checked: &Checked, levels: &Levels) -> Found {
 pub struct Ready {
     /// The program that prints the form.
     pub program: Program,
-    /// Warnings of lint about the form, in the order of their places; notes are for [`lint`].
-    pub warnings: Vec<Diag>,
+    /// Warnings and notes of lint about the form, in the order of their places.
+    pub findings: Vec<Diag>,
 }
 
 /// Compiles a form that was analysed. Levels and the comments of the form hold.
@@ -71,11 +71,11 @@ pub fn ready(checked: &Checked, levels: &Levels) -> Result<Ready, Vec<Diag>> {
 /// # Errors
 /// As [`ready`].
 pub fn ready_of(checked: &Checked, mut diags: Vec<Diag>) -> Result<Ready, Vec<Diag>> {
-    diags.retain(|diag| diag.severity > Severity::Note);
-    match diags.iter().any(Diag::is_error) {
-        true => Err(diags),
-        false => Ok(Ready { program: compile(&checked.form), warnings: diags }),
+    if diags.iter().any(Diag::is_error) {
+        diags.retain(|diag| diag.severity > Severity::Note);
+        return Err(diags);
     }
+    Ok(Ready { program: compile(&checked.form), findings: diags })
 }
 
 /// Leaves the cause alone where words of a sequence were not understood: what the sequence lacks only follows from

@@ -39,16 +39,13 @@ mod tally;
 mod thread;
 mod tool;
 
-pub use action::{Action, Cooling, Drilling, Heights, Item, Position, Rotation, Turn};
+pub use action::{Action, Cooling, Item, Position, Rotation, Turn};
 pub(crate) use arcs::axes_of;
-pub use digits::Number;
-pub use foreign::{Foreign, foreign};
 pub use job::{JobOptions, read_program};
 pub use modal::Modal;
-pub use scan::{Kind, Token, Tokens, tokens};
+pub use scan::{Kind, Token, tokens};
 pub use settings::{RunSettings, Unpointed};
 pub use simulator::{RunError, Simulator};
-pub use state::State;
 pub use tally::Tally;
 pub(crate) use tally::sweep;
 pub use tally::{clock, rapid_rate};

@@ -7,6 +7,6 @@ mod format;
 mod quantise;
 mod write;
 
-pub use format::{BadFormat, Digits, LetterFormat, Point, Sign};
-pub use quantise::{MAX_DECIMALS, POWERS, quantise};
+pub use format::{Digits, LetterFormat, Point, Sign};
+pub use quantise::{POWERS, quantise};
 pub use write::{Unprintable, write_number};

@@ -12,7 +12,7 @@ mod view;
 
 pub use run::draw;
 pub use state::{Change, Register};
-pub use strips::{Piece, Strips};
+pub use strips::Strips;
 pub use svg::{Sheet, svg, svg_over};
 pub use view::View;
 

@@ -18,6 +18,7 @@ impl Post {
     ///
     /// # Errors
     /// The form has no such property, or it takes no such value.
+    #[doc(hidden)]
     pub fn reads_ahead(&self, options: &Options) -> Result<bool, Error> {
         Ok(self.asks(options)?.all)
     }
@@ -26,12 +27,14 @@ impl Post {
     ///
     /// # Errors
     /// As [`Post::reads_ahead`].
+    #[doc(hidden)]
     pub fn may_read_twice(&self, options: &Options) -> Result<bool, Error> {
         let Asks { all, tools } = self.asks(options)?;
         Ok(all || tools)
     }
 
     /// A property and a value with which a job is read once, as `header=no`, if there is one.
+    #[doc(hidden)]
     pub fn reads_once_with(&self) -> Option<String> {
         let settings = &self.0.program.settings;
         let values = settings.properties.iter().enumerate().flat_map(|(row, property)| {

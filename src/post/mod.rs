@@ -72,7 +72,7 @@ pub struct Post(Arc<Compiled>);
 #[derive(Debug)]
 struct Compiled {
     program: compile::Program,
-    warnings: Findings,
+    findings: Findings,
 }
 
 impl Post {
@@ -92,16 +92,16 @@ impl Post {
         let checked = analyse(form, limits, &mut |name| files.read(name));
         let found = ready(&checked, levels);
         match found {
-            Ok(ready) => Ok(Post::of(ready.program, ready.warnings, &checked.files)),
+            Ok(ready) => Ok(Post::of(ready.program, ready.findings, &checked.files)),
             Err(diags) => Err(Error::form(Findings { diags, files: checked.files, suppressed: 0 })),
         }
     }
 
-    /// A form that was checked and compiled, with the warnings of its findings.
-    pub(crate) fn of(program: compile::Program, warnings: Vec<Diag>, files: &[Source]) -> Post {
+    /// A form that was checked and compiled, with its warnings and notes.
+    pub(crate) fn of(program: compile::Program, diags: Vec<Diag>, files: &[Source]) -> Post {
         let program = program.identified(files);
-        let warnings = Findings { diags: warnings, files: files.to_vec(), suppressed: 0 };
-        Post(Arc::new(Compiled { program, warnings }))
+        let findings = Findings { diags, files: files.to_vec(), suppressed: 0 };
+        Post(Arc::new(Compiled { program, findings }))
     }
 
     /// The control that the form names.
@@ -126,13 +126,13 @@ impl Post {
         texts.has(TextId::Date) || texts.has(TextId::Time)
     }
 
-    /// The form's warnings, and its text.
-    pub fn warnings(&self) -> &Findings {
-        &self.0.warnings
+    /// The form's warnings and notes, with its text. A form with errors makes no post.
+    pub fn findings(&self) -> &Findings {
+        &self.0.findings
     }
 
     /// Files of the form: the form itself, then those that it calls. Spans are places in them.
     pub fn files(&self) -> &[Source] {
-        &self.0.warnings.files
+        &self.0.findings.files
     }
 }

@@ -13,6 +13,7 @@ impl Post {
     ///
     /// # Errors
     /// The job can't be read, or an option makes no sense.
+    #[doc(hidden)]
     pub fn origins(&self, mut job: Job<'_>, options: &Options, lines: &[u64]) -> Result<Vec<Option<TraceLine>>, Error> {
         let options = Options { trace: true, ..options.clone() };
         let mut for_renderer = options.for_renderer(&self.0.program.settings)?;

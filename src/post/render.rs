@@ -55,6 +55,7 @@ impl Post {
     ///
     /// # Errors
     /// As [`Post::render`], or `take` fails. What it got is then a part of a program: throw it away.
+    #[doc(hidden)]
     pub fn render_parts(
         &self,
         job: Job<'_>,
@@ -69,6 +70,7 @@ impl Post {
     ///
     /// # Errors
     /// As [`Post::render_parts`].
+    #[doc(hidden)]
     pub fn render_beside(
         &self,
         job: Job<'_>,
@@ -87,7 +89,7 @@ impl Post {
         prove: Option<&mut dyn FnMut(Batch) -> Option<Batch>>,
     ) -> Result<Rendered, Error> {
         let mut for_renderer = options.for_renderer(&self.0.program.settings)?;
-        for_renderer.survey = self.survey(&mut job, options)?;
+        for_renderer.survey = self.survey(&mut job, options).map_err(|error| job.names(error))?;
         for_renderer.trace |= prove.is_some();
         let mut printer = Printer {
             renderer: Renderer::new(&self.0.program, for_renderer),
@@ -110,12 +112,13 @@ impl Post {
         }
         let mut notes = job.take_report().warnings;
         notes.extend_from_slice(printer.renderer.notes());
+        job.name_places(&mut notes);
         match read {
             Ok(()) => {
                 let (lines, file_name) = (printer.renderer.lines(), printer.renderer.file_name());
                 Ok(Rendered { notes, lines, file_name })
             }
-            Err(error) => Err(error.after(notes, self.files())),
+            Err(error) => Err(job.names(error).after(notes, self.files())),
         }
     }
 }

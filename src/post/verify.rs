@@ -51,6 +51,7 @@ impl Post {
     }
 
     /// How the control of this form runs a program that it printed, which counts in these units until it says others.
+    #[doc(hidden)]
     pub fn run_settings(&self, proof: &Proof, units: Units) -> RunSettings {
         proof.settings(Some(&self.0.program), units)
     }
@@ -62,6 +63,7 @@ impl Post {
     ///
     /// # Errors
     /// None that is known: what was printed can be read.
+    #[doc(hidden)]
     pub fn prove<B: AsRef<Batch>>(
         &self,
         batches: impl Iterator<Item = B>,
@@ -103,6 +105,7 @@ impl Post {
     ///
     /// # Errors
     /// The job can't be read again, or an option makes no sense.
+    #[doc(hidden)]
     pub fn located(&self, mut proven: Proven, job: Job<'_>, options: &Options) -> Result<Proven, Error> {
         let findings = match &mut proven.verdict {
             Verdict::Different(findings) => findings,
@@ -197,7 +200,7 @@ fn prove(
     let verdict = comparer.verdict().map_err(|error| Error::of_io(ErrorKind::Program, error))?;
     let verdict = if assumed { verdict.assumed(settings.control.name()) } else { verdict };
     match read {
-        Err(error) if !decided => Err(error.after(warnings, &[])),
+        Err(error) if !decided => Err(job.names(error).after(warnings, &[])),
         // the comparison stopped the reader: the rest of the job was not looked at
         _ => Ok(Proven { verdict, counts, warnings }),
     }

@@ -11,7 +11,7 @@ mod pack;
 mod program;
 mod verdict;
 
-pub use help::{Ask, At, help};
+pub use help::{At, help};
 pub use pack::Scene;
 
 use std::io::Cursor;
@@ -67,7 +67,7 @@ pub fn scene(request: Request<'_>) -> (Scene, Option<Printed>) {
     let found = lint(&checked, request.levels);
     scene.say("form", form::form(&checked.files, &found.diags, found.suppressed));
     let post = match ready_of(&checked, found.diags) {
-        Ok(ready) => Post::of(ready.program, ready.warnings, &checked.files),
+        Ok(ready) => Post::of(ready.program, ready.findings, &checked.files),
         Err(diags) => {
             let findings = Findings { diags, files: checked.files, suppressed: 0 };
             stopped(&mut scene, Error::form(findings), &[]);

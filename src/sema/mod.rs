@@ -27,14 +27,12 @@ mod words;
 
 pub use check::{Checked, analyse};
 pub use code::Code;
-pub use file_name::{Extension, NamePart, ProgramName, is_of_file_names};
+pub use file_name::{NamePart, is_of_file_names};
 pub use formula::{Formula, Value, Values, Without};
 pub use library::one_post;
 pub use limits::{Limits, MOST_LINES, MOST_TEXT, MOST_WORDS};
-pub use model::{Form, Line, Sequence, Upon, Word, WordKind, kind_of_remark};
+pub use model::{Form, Line, Sequence, Word, WordKind, kind_of_remark};
 pub use property::{Property, PropertyKind, PropertyValue, Target};
-pub use settings::{
-    ArcCentre, CoolantKind, DwellWord, LineEnd, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit,
-};
-pub use step::{Arm, Step, each_formula, each_step, line_counts};
+pub use settings::{ArcCentre, LineEnd, Replacement, SequenceNumbers, Settings};
+pub use step::{Step, each_formula, each_step, line_counts};
 pub use words::before_remark;

@@ -5,7 +5,7 @@ mod motion;
 mod subprograms;
 mod totals;
 
-pub use totals::{Reach, Totals};
+pub use totals::Totals;
 
 use std::collections::HashMap;
 
@@ -233,7 +233,7 @@ impl Surveyor {
         self.motion.forget_place();
         let call = Call { work: call.work.map(|work| self.counted(work)), ..*call };
         let mut way = Totals::default();
-        way.moves.to_place(&call.at);
+        way.moves.moves_to(&call.at);
         if self.subs.is_open() {
             return self.subs.call(&call, &way);
         }

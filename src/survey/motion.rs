@@ -124,7 +124,7 @@ impl Motion {
 
     fn rapid(&mut self, to: &Axes, sums: &mut Totals) {
         self.go(to);
-        sums.moves.to_place(&self.at);
+        sums.moves.moves_to(&self.at);
     }
 
     fn line(&mut self, to: &Axes, feed: Option<f64>, sums: &mut Totals) {
@@ -133,8 +133,8 @@ impl Motion {
         let between = |axis| Some(self.at.get(axis)? - from.get(axis)?);
         let square: f64 = (0..3).filter_map(between).map(|distance| distance * distance).sum();
         for place in [&from, &self.at] {
-            sums.cuts.to_place(place);
-            sums.moves.to_place(place);
+            sums.cuts.moves_to(place);
+            sums.moves.moves_to(place);
         }
         self.cut(square.sqrt(), feed, sums);
     }
@@ -172,7 +172,7 @@ impl Motion {
         };
         let Some(curve) = curve() else {
             // printing it says what is wrong
-            return sums.cuts.to_place(&self.at);
+            return sums.cuts.moves_to(&self.at);
         };
         let mut parts = std::mem::take(&mut self.parts);
         parts.clear();
@@ -186,7 +186,7 @@ impl Motion {
         }
         self.parts = parts;
         for place in [&from, &self.at] {
-            sums.cuts.to_place(place);
+            sums.cuts.moves_to(place);
         }
         sums.moves.join(&sums.cuts);
         let rise = from.get(across).zip(self.at.get(across)).map_or(0.0, |(from, to)| to - from);
@@ -200,8 +200,8 @@ impl Motion {
                 root.set(1, crest - thread.depth);
             }
             for place in [place, &root] {
-                sums.cuts.to_place(place);
-                sums.moves.to_place(place);
+                sums.cuts.moves_to(place);
+                sums.moves.moves_to(place);
             }
         }
         let square: f64 = (0..2).map(|axis| thread.to.values[axis] - thread.from.values[axis]).map(|d| d * d).sum();
@@ -216,7 +216,7 @@ impl Motion {
     fn hole(&mut self, hole: &Hole, sums: &mut Totals) {
         sums.holes += 1;
         self.go(&hole.at);
-        sums.moves.to_place(&self.at);
+        sums.moves.moves_to(&self.at);
         let depth_axis = self.depth;
         // a point without its height is as high as the one before it
         let (Some(spec), Some(point)) = (&self.cycle, hole.at.get(depth_axis).or(self.point)) else { return };

@@ -15,7 +15,7 @@ impl Reach {
     }
 
     /// Reaches to a place, as far as it is given.
-    pub fn to_place(&mut self, place: &Axes) {
+    pub fn moves_to(&mut self, place: &Axes) {
         for axis in 0..3 {
             if let Some(value) = place.get(axis) {
                 self.to(axis, value);

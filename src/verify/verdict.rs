@@ -64,10 +64,26 @@ pub enum Verdict {
     Different(Vec<Finding>),
 }
 
+/// What kind of reason there is that a program is not proven.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum UnprovenKind {
+    /// From a block of the program or an item of the job on, what it does is unknown: [`Unproven::line`] and
+    /// [`Unproven::place`] have it.
+    #[default]
+    Unknown,
+    /// The form names no control and the caller gave none: the program was compared by the rules of an assumed one.
+    ControlAssumed,
+    /// The options asked for no proof.
+    NotAsked,
+}
+
 /// Why nothing is proven.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Unproven {
+    /// The kind of reason.
+    pub kind: UnprovenKind,
     /// The reason, as `fanuc has no G201 that we know`.
     pub why: String,
     /// What to do about the reason.
@@ -105,6 +121,7 @@ impl Verdict {
             other => return other,
         };
         Verdict::NotProven(Box::new(Unproven {
+            kind: UnprovenKind::ControlAssumed,
             why: format!("the form names no `Control`; by the rules of {control} the program is {would}"),
             help: "write `Control` into the form, or give --control".into(),
             notes,
@@ -112,10 +129,10 @@ impl Verdict {
         }))
     }
 
-    /// The verdict on a program that nobody compared.
+    /// The verdict on a program that was not compared.
     pub(crate) fn not_asked_for() -> Verdict {
         let (why, help) = ("no proof was asked for".into(), "ask for one with the options".into());
-        Verdict::NotProven(Box::new(Unproven { why, help, ..Unproven::default() }))
+        Verdict::NotProven(Box::new(Unproven { kind: UnprovenKind::NotAsked, why, help, ..Unproven::default() }))
     }
 
     /// In a word or two: `identical`, `equivalent`, `not proven`, `different`.

@@ -5,7 +5,8 @@ use std::io::{self, Cursor};
 use std::path::Path;
 use std::process::Command;
 
-use postform::{Error, ErrorKind, Format, Job, NoFiles, Options, Post, Source, Verdict};
+use postform::diag::Severity;
+use postform::{Error, ErrorKind, Format, Job, NoFiles, Options, Post, Source, UnprovenKind, Verdict};
 
 use crate::support::root;
 
@@ -58,6 +59,49 @@ fn a_form_with_errors_makes_no_post() {
     assert!(text.starts_with("fanuc.pf:") && text.contains("`hh`"), "{text}");
     let diag = error.findings().diags.iter().find(|diag| diag.is_error()).unwrap();
     assert_eq!(error.findings().files[0].slice(diag.labels[0].span), "hh");
+}
+
+#[test]
+fn an_error_shows_the_line_that_it_is_about() {
+    let broken = FORM.replace("EndCode\nM9", "EndCode\nX[hh]");
+    let line = broken.lines().position(|line| line == "X[hh]").unwrap() + 1;
+    let error = Post::compile(Source::from_text("fanuc.pf", broken), &NoFiles).unwrap_err();
+    let (first, marked) = (error.to_string(), format!("{error:#}"));
+    let margin = " ".repeat(line.to_string().len());
+    assert_eq!(marked, format!("{first}\n{line} | X[hh]\n{margin} |   ^^"));
+    // a job has no line of a form
+    let error = post().render(Job::json("{}").named("part.json"), &Options::default()).unwrap_err();
+    assert_eq!(format!("{error:#}"), error.to_string());
+}
+
+#[test]
+fn findings_of_a_job_have_its_name() {
+    let (cut, options) = (&JOB[..JOB.len() / 2], Options::default());
+    let file = |error: Error| error.into_findings().diags.pop().unwrap().place.unwrap().file;
+    let name = Some("bracket.json".to_owned());
+    assert_eq!(file(post().render(Job::json(cut).named("bracket.json"), &options).unwrap_err()), name);
+    assert_eq!(file(post().render(Job::open("bracket.json", cut).unwrap(), &options).unwrap_err()), name);
+    assert_eq!(file(post().verify(Job::json(cut).named("bracket.json"), EXPECTED).unwrap_err()), name);
+    assert_eq!(file(post().render(Job::json(cut), &options).unwrap_err()), None);
+}
+
+#[test]
+fn a_post_has_its_notes_and_a_verdict_its_kind() {
+    let form = FORM.replacen("Control fanuc\n", "", 1).replace("EndCode\nM9", "EndCode\nM9\t");
+    let unnamed = Post::compile(Source::from_text("fanuc.pf", form), &NoFiles).unwrap();
+    let codes: Vec<_> = unnamed.findings().diags.iter().map(|diag| (diag.severity, diag.code.name())).collect();
+    assert!(codes.iter().any(|(severity, _)| *severity == Severity::Note), "{codes:?}");
+    let kind = |verdict: &Verdict| match verdict {
+        Verdict::NotProven(unproven) => unproven.kind,
+        other => panic!("{other}"),
+    };
+    let program = unnamed.render(Job::json(JOB), &Options::default()).unwrap();
+    assert_eq!(kind(program.verdict()), UnprovenKind::ControlAssumed);
+    let mut options = Options::default();
+    options.proof = None;
+    assert_eq!(kind(post().render(Job::json(JOB), &options).unwrap().verdict()), UnprovenKind::NotAsked);
+    let unknown = EXPECTED.replacen("G43", "G201", 1);
+    assert_eq!(kind(&post().verify(Job::json(JOB), unknown).unwrap()), UnprovenKind::Unknown);
 }
 
 #[test]

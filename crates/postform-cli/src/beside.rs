@@ -5,7 +5,9 @@ use std::panic::resume_unwind;
 use std::sync::mpsc::{Sender, channel, sync_channel};
 use std::thread;
 
-use postform::{Batch, Error, Job, Options, Part, Post, Proof, Proven, Rendered};
+use postform::internals::post::Part;
+use postform::internals::verify::Batch;
+use postform::{Error, Job, Options, Post, Proof, Proven, Rendered};
 
 /// How many batches wait for the proof, each of some 64 KB of program: the printer then waits, too.
 const WAITING: usize = 4;

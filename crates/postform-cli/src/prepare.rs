@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use postform::diag::Diag;
+use postform::diag::{Diag, Severity};
 use postform::{Options, Post};
 
 use super::args::{LimitsArg, RenderOptions};
@@ -34,11 +34,12 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
     let limits = args.limits.map(LimitsArg::limits).or(config.limits).unwrap_or_default();
     let file = FormFile::read(form, limits)?.of_post(args.post.as_deref())?;
     let (post, found) = match Post::compile_with(file.source(), &file, limits, &config.levels) {
-        Ok(post) => (Some(post.clone()), post.warnings().clone()),
+        Ok(post) => (Some(post.clone()), post.findings().clone()),
         Err(error) => (None, error.into_findings()),
     };
-    let (files, found) = (found.files, found.diags);
-    let (errors, warnings): (Vec<Diag>, Vec<Diag>) = found.into_iter().partition(Diag::is_error);
+    // notes are for lint
+    let (files, found) = (found.files, found.diags.into_iter().filter(|diag| diag.severity > Severity::Note));
+    let (errors, warnings): (Vec<Diag>, Vec<Diag>) = found.partition(Diag::is_error);
     say(&reporter.text(&errors, &files));
     let shown: Vec<Diag> = warnings.iter().filter(|diag| args.shows(diag)).cloned().collect();
     let name = files::name(form);

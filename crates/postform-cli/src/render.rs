@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 
 use postform::diag::Severity;
 use postform::internals::lint::Changed;
+use postform::internals::post::Part;
 use postform::internals::render::TraceLine;
 use postform::internals::source::Source;
 use postform::internals::verify::Verdict;
-use postform::{Error, ErrorKind, Part, Proven};
+use postform::{Error, ErrorKind, Proven};
 
 use super::Ending;
 use super::args::RenderArgs;

@@ -8,7 +8,7 @@ use crate::lint::view::View;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
     // other controls begin each program in a state of their own
-    if !view.is_mill() || view.settings.incremental || view.traits().modes_at_start != Kept::Kept {
+    if !view.is_mill() || view.settings.incremental || view.traits().modes_at_start != Kept::Yes {
         return;
     }
     let [_, positions] = view.settings.inc_abs;

@@ -29,7 +29,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 /// A tool change or a stop of the program after the spindle was started, which nothing starts again. Some controls leave
 /// it turning at a stop.
 fn stopped_again<'a>(view: &View<'a>, body: &Body<'a>) -> Option<&'a Word> {
-    let keeps = view.traits().spindle_at_stop == Kept::Kept;
+    let keeps = view.traits().spindle_at_stop == Kept::Yes;
     let stops = |word: &&Word| {
         let own = |meaning| matches!(meaning, Meaning::SpindleOff | Meaning::ToolChange);
         view.meaning(word).is_some_and(|meaning| own(meaning) || !keeps && meaning.is_stop())

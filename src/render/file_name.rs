@@ -1,6 +1,6 @@
 //! What the file of a program is called.
 
-use super::plain::plain;
+use super::ascii::plain;
 use super::shape::Shape;
 use super::want::Want;
 use crate::lang::{TextId, VarId};

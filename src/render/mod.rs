@@ -2,23 +2,23 @@
 //! control holds (`said`), what is printed (`printer`), and the functions that make one of the other.
 
 mod ahead;
-mod before;
-mod beside;
+mod ascii;
 mod body;
+mod branches;
+mod comment_marks;
 mod coolant;
 mod cycle;
 mod defaults;
 mod fault;
 mod file_name;
-mod kept;
-mod marks;
+mod form_sets;
+mod more_coolants;
 mod moves;
 mod needs;
 mod no_value;
-mod numbered;
 mod numbers;
 mod options;
-mod plain;
+mod prelude;
 mod printer;
 mod prints;
 mod program;
@@ -26,16 +26,16 @@ mod properties;
 mod said;
 mod settle;
 mod shape;
-mod standing;
-mod taken;
+mod stopped_spindle;
+mod taken_branches;
 mod targets;
 mod texts;
 mod turret;
+mod unnumbered;
 mod upon;
 mod values;
 mod vars;
 mod want;
-mod ways;
 mod words;
 
 use crate::compile::Program;
@@ -149,7 +149,7 @@ impl<'p> Renderer<'p> {
             Event::Line { .. } | Event::Arc { .. } | Event::Infeed { .. } | Event::Outfeed { rapid: false, .. }
         );
         if want.cutting || matches!(event, Event::Hole(_)) {
-            standing::warn_of_standing(shape, want, out);
+            stopped_spindle::warn_of_standing(shape, want, out);
         }
         match event {
             Event::Rapid(to) => rapid::rapid(&to, shape, want, said, out),

@@ -1,8 +1,8 @@
 //! What the control lacks is printed: conditions that no sequence prints, each as a block of its own.
 
-use super::beside::{begin_beside, end_beside};
 use super::body::run_all;
 use super::fault::{Done, fault, fault_at};
+use super::more_coolants::{begin_beside, end_beside};
 use super::printer::Printer;
 use super::said::Said;
 use super::shape::Shape;

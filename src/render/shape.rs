@@ -4,7 +4,7 @@
 use super::defaults::{cycle_defaults, factor, form_units, no_defaults};
 use super::fault::{Done, fault};
 use super::options::Options;
-use super::taken::Ways;
+use super::taken_branches::Ways;
 use super::vars::{LAST_VARS, MEASURES, MOVE_VARS};
 use crate::compile::{LetterTable, Program};
 use crate::control::{Code, Group, Meaning, Row};

@@ -1,8 +1,8 @@
 //! Names and remarks of the job, for people: their values, and how they fit into a comment or a word.
 
+use super::ascii::plain;
+use super::comment_marks::in_comment;
 use super::fault::{Done, fault};
-use super::marks::in_comment;
-use super::plain::plain;
 use super::printer::{LONGEST, Printer};
 use super::shape::Shape;
 use std::collections::HashMap;

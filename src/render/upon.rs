@@ -1,8 +1,8 @@
 //! Upon sequences: printed when a variable changes, before what uses it.
 
-use super::before::way_before;
 use super::body::run_all;
 use super::fault::{Done, fault_at};
+use super::prelude::way_before;
 use super::printer::Printer;
 use super::prints::prints_axis_words;
 use super::said::Said;

@@ -1,6 +1,6 @@
 //! The values that variables print now, for words, calculations and conditions.
 
-use super::kept::Kept;
+use super::form_sets::Kept;
 use super::said::Said;
 use super::shape::Shape;
 use super::vars::MOVED;

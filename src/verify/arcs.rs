@@ -2,8 +2,8 @@
 
 use super::cut::{ALL, Cut, Place, What, position, same, shown};
 use super::intent::Done;
-use super::state::Sides;
-use super::states;
+use super::modal;
+use super::sides::Sides;
 use crate::diag::Code;
 use crate::nc::{Turn, axes_of, sweep};
 use crate::toolpath::{Direction, FeedMode};
@@ -38,7 +38,7 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
             return s.differs(Code::PV001, found.line, message, "look at the arcs of the form");
         }
         if parts > 0 {
-            states::compare(s, cut, &found, false);
+            modal::compare(s, cut, &found, false);
         }
         let end = found.end();
         let part = Turn { to: position(&end), turns: 0, ..*turn };
@@ -89,7 +89,7 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
         }
         let share = if cut.mode == FeedMode::InverseTime { angle / whole } else { 1.0 };
         let part = Cut { feed: cut.feed.map(|feed| feed / share), ..cut.clone() };
-        states::feeds(s, &part, &found, false);
+        modal::feeds(s, &part, &found, false);
         s.program.take();
         parts += 1;
         // the digits of each part turn it

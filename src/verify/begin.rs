@@ -1,9 +1,9 @@
 //! Where a cut begins: the program has one, of the same kind, from the same place.
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, NAMES, Rapid, What, lead_alike, number, over, same, shown};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, NAMES, Rapid, number, over, same, shown};
 use super::intent::{Done, Expected};
-use super::state::Sides;
-use super::{arcs, pauses, states, ways, wire};
+use super::sides::Sides;
+use super::{align, modal, pauses, rapids, wire};
 use crate::diag::Code;
 
 /// How the program's next cut begins.
@@ -19,57 +19,23 @@ enum Begins {
 /// The program's next cut, whose way, beginning and state are compared; `None`: the program goes at rapid where the job cuts.
 pub(super) fn meet(s: &mut Sides<'_>, cut: &Cut, hole: Option<&Expected>) -> Done<Option<Cut>> {
     let found = loop {
-        let Some(found) = s.next()? else { return is_missing(s, cut, hole) };
-        if enters_again(s, cut, &found) {
-            s.report.allowed.entries += 1;
-            s.program.take();
-        } else if !found.by_cycle
-            && s.is_nothing(&found)
-            && !cut.is_short(s.limits.tolerance)
-            && !is_itself(s, cut, &found)
-            && !is_part(s, cut, &found)
-        {
-            s.report.allowed.short += 1;
-            s.program.pass_over();
-        } else {
-            match begins(s, cut, &found, hole)? {
-                Begins::There => break found,
-                Begins::Behind => {
-                    // the next cut begins there all the same
-                    s.job.goes_on(cut.end());
-                    return Ok(None);
-                }
-                Begins::Before => s.program.pass_over(),
+        let Some(found) = align::partner(s, cut)? else { return is_missing(s, cut, hole) };
+        match begins(s, cut, &found, hole)? {
+            Begins::There => break found,
+            Begins::Behind => {
+                // the next cut begins there all the same
+                s.job.goes_on(cut.end());
+                return Ok(None);
             }
+            Begins::Before => s.program.pass_over(),
         }
     };
     pauses::compare(s);
     wire::compare(s, found.line);
-    ways::compare(s, found.line);
-    states::compare(s, cut, &found, hole.is_some_and(|hole| hole.is_tap));
+    rapids::compare(s, found.line);
+    modal::compare(s, cut, &found, hole.is_some_and(|hole| hole.is_tap));
     s.slipped = None;
     Ok(Some(found))
-}
-
-/// Is a short cut of the program the job's, which is a little longer?
-fn is_itself(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
-    let tolerance = s.limits.tolerance;
-    // a full circle ends where it begins, too
-    same(&cut.from, &found.from, ALL, tolerance)
-        && same(&cut.end(), &found.end(), ALL, tolerance)
-        && cut.is_short(4.0 * tolerance)
-        && lead_alike(cut, found)
-}
-
-/// Is a short cut of the program the beginning of the job's cut? One that ends where the job's begins is none of it.
-fn is_part(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
-    let tolerance = s.limits.tolerance;
-    let goes_along = match (cut.what, found.what) {
-        (What::Line { .. }, _) => super::cut::lies_between(&cut.from, &found.end(), &cut.end(), tolerance),
-        (What::Arc(turn), What::Arc(made)) => (made.plane, made.direction) == (turn.plane, turn.direction),
-        (What::Arc(turn), What::Line { to }) => arcs::is_chord(cut, &turn, &to, tolerance),
-    };
-    goes_along && same(&cut.from, &found.from, ALL, tolerance) && !same(&cut.from, &found.end(), ALL, tolerance)
 }
 
 fn is_missing<T>(s: &mut Sides<'_>, cut: &Cut, hole: Option<&Expected>) -> Done<T> {
@@ -87,27 +53,6 @@ fn is_missing<T>(s: &mut Sides<'_>, cut: &Cut, hole: Option<&Expected>) -> Done<
     }
     let message = format!("the program is over, and the cut to {to} is missing");
     s.differs(Code::PV017, 0, message, "look at what the form prints for this move")
-}
-
-/// Does the program go straight down again to where the cut goes on, after the tool was taken out, as to unwind an
-/// axis?
-fn enters_again(s: &mut Sides<'_>, cut: &Cut, found: &Cut) -> bool {
-    let What::Line { to } = found.what else { return false };
-    let tolerance = s.limits.tolerance;
-    let way = &s.program.passage;
-    if way.rapids.is_empty() || way.changed() || s.job.changed() {
-        return false;
-    }
-    let here = s.job.start.is_some_and(|start| same(&start.to, &cut.from, ALL, tolerance))
-        || way.rapids.iter().any(|rapid| rapid.unknown & 1 << DEPTH != 0);
-    let height_known = found.unknown & 1 << DEPTH == 0;
-    if !here || found.unknown & ACROSS != 0 || !same(&cut.from, &to, ALL, tolerance) {
-        return false;
-    }
-    let [_, program] = &mut s.ways;
-    program.set(way.start, &way.rapids, tolerance);
-    let above = !height_known || found.from[DEPTH] > to[DEPTH] + tolerance;
-    same(&found.from, &to, ACROSS, tolerance) && above && program.stays_above(to[DEPTH])
 }
 
 /// Checks that both cuts begin at one place.

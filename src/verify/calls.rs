@@ -2,7 +2,7 @@
 
 use super::intended::Job;
 use super::intent::{Done, Intent, unproven};
-use super::kept::Kept;
+use super::owned_event::Kept;
 use super::tables::Unmodelled;
 use crate::toolpath::{Call, Place};
 

@@ -2,20 +2,19 @@
 
 use std::io::{Read, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, apart, is_straight, lead_alike, over, same, shown};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, is_straight, over, same, shown};
 use super::expectation::Expectation;
 use super::intended::Job;
 use super::intent::{Done, Expected, Intent, Threaded};
 use super::passage::{Frame, Passage, TOO_LONG};
 use super::program::Program;
 use super::report::{Counts, Report};
-use super::state::{Holes, Limits, Sides};
-use super::states::has_feed;
+use super::sides::{Holes, Limits, Sides};
 use super::strokes::Strokes;
 use super::tables::PLACES;
 use super::verdict::{Equivalences, Unproven, Verdict};
 use super::wire_codes::Coded;
-use super::{arcs, begin, holes, lines, pauses, threads, usual, ways, wire};
+use super::{align, arcs, begin, fast_path, holes, lines, pauses, rapids, threads, wire};
 use crate::diag::{Code, Diag};
 use crate::lang::Machine;
 use crate::nc::RunSettings;
@@ -188,7 +187,7 @@ impl Intent for Sides<'_> {
             Some(_) => self.hole.cut = true,
             None => self.hole.highest = None,
         }
-        if hole.is_none() && usual::goes_on(self, cut)? {
+        if hole.is_none() && fast_path::goes_on(self, cut)? {
             return Ok(());
         }
         if let Some(hole) = hole.filter(|hole| hole.pecks) {
@@ -197,9 +196,7 @@ impl Intent for Sides<'_> {
             }
             return Ok(());
         }
-        if hole.is_none() && cut.is_short(self.limits.tolerance) && self.vanishes(cut)? {
-            self.report.allowed.short += 1;
-            self.job.goes_on(cut.end());
+        if hole.is_none() && align::leaves_out(self, cut)? {
             return Ok(());
         }
         let Some(found) = begin::meet(self, cut, hole)? else { return Ok(()) };
@@ -317,15 +314,7 @@ impl Intent for Sides<'_> {
     }
 
     fn finish(&mut self) -> Done {
-        while let Some(found) = self.next()? {
-            if self.is_nothing(&found) {
-                self.report.allowed.short += 1;
-            } else if !begin::is_the_jobs_rapid(self, &found) {
-                break;
-            }
-            self.program.pass_over();
-        }
-        if let Some(found) = self.next()? {
+        if let Some(found) = align::after_the_last(self)? {
             let end = shown(&found.end(), 0b111);
             if found.by_cycle {
                 let again =
@@ -339,7 +328,7 @@ impl Intent for Sides<'_> {
         }
         pauses::compare(self);
         wire::compare(self, 0);
-        ways::end(self);
+        rapids::end(self);
         self.program.ended();
         self.report.finished = true;
         Ok(())
@@ -365,37 +354,5 @@ impl Sides<'_> {
         strokes.cut(cut.end()[DEPTH], increment, tolerance);
         self.hole.pecks.push(cut.clone());
         self.leave(cut, Some(hole));
-    }
-
-    /// Did the digits of the program swallow the job's short cut? The program stays as near to the job as it can.
-    fn vanishes(&mut self, cut: &Cut) -> Done<bool> {
-        let Some(found) = self.next()? else { return Ok(true) };
-        let tolerance = self.limits.tolerance;
-        let [to_end, to_begin] = [found.end(), found.from].map(|place| apart(&place, &cut.end()));
-        // its digits show it, whatever rapids lead to it
-        let shows = to_end + tolerance / 2.0 < to_begin;
-        let joins = found.unknown == 0
-            && (shows || self.joins_alike())
-            && has_feed(cut, &found)
-            && same(&found.from, &cut.from, ALL, tolerance)
-            && same(&found.end(), &cut.end(), ALL, tolerance);
-        let pauses = |passage: &Passage| (passage.stops.len(), passage.waits.len());
-        let joins = joins && pauses(&self.program.passage) == pauses(&self.job);
-        // one that leads elsewhere is another's
-        let joins = joins && lead_alike(cut, &found);
-        let nearer = to_end <= to_begin + 1e-9;
-        let circle = matches!(found.what, What::Arc(_)) && !found.is_short(tolerance);
-        Ok(!joins || !nearer || circle)
-    }
-
-    /// Do both next cuts follow on the last ones, or neither?
-    pub(super) fn joins_alike(&self) -> bool {
-        let (a, b, tolerance) = (&self.program.passage, &self.job, self.limits.tolerance);
-        a.rapids.is_empty() == b.rapids.is_empty() || a.stays(tolerance) && b.stays(tolerance)
-    }
-
-    /// Is a cut of the program too short to count? The digits of both its ends may make a short one twice as long.
-    pub(super) fn is_nothing(&self, found: &Cut) -> bool {
-        found.unknown == 0 && found.is_short(2.0 * self.limits.tolerance)
     }
 }

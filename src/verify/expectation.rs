@@ -1,6 +1,6 @@
 //! What a form fills in where its job is silent, and what it says of its own.
 
-use super::own::{Own, by, printed_by};
+use super::form_values::{Own, by, printed_by};
 use super::tables::{CHORDS, INCREMENTS};
 use super::wire_codes::{self, Coded, Codes};
 use crate::compile::{Op, Program, WorkWords};

@@ -2,9 +2,9 @@
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell, shown};
 use super::intent::{Done, Expected};
+use super::modal;
 use super::pauses;
-use super::state::{Limits, Sides};
-use super::states;
+use super::sides::{Limits, Sides};
 use super::strokes::Strokes;
 use super::tables::LONGER;
 use crate::diag::Code;
@@ -117,7 +117,7 @@ fn peck_state(s: &mut Sides<'_>, pecks: &[Cut], found: &Cut, hole: &Expected, [d
     };
     let meant = || cuts().filter(within).chain(cuts().take(1)).chain(std::iter::once(first));
     let is_meant = |peck: &&Cut| match (peck.feed, found.feed) {
-        (Some(wanted), Some(is)) if peck.mode == found.mode => states::is_feed(wanted, is, hole.is_tap),
+        (Some(wanted), Some(is)) if peck.mode == found.mode => modal::is_feed(wanted, is, hole.is_tap),
         _ => true,
     };
     // the job's own peck in this place, where the program pecks as the job does: holes may have thousands
@@ -127,14 +127,14 @@ fn peck_state(s: &mut Sides<'_>, pecks: &[Cut], found: &Cut, hole: &Expected, [d
     let found_one = own.or_else(|| cuts().filter(within).find(is_meant));
     let wanted = found_one.or_else(|| meant().next()).unwrap_or(first).clone();
     if count > 0 {
-        states::compare(s, &wanted, found, hole.is_tap);
+        modal::compare(s, &wanted, found, hole.is_tap);
         if s.tools {
-            super::ways::moved_with(s, found.line);
+            super::rapids::moved_with(s, found.line);
         }
     }
     let same_mode = wanted.mode != crate::toolpath::FeedMode::InverseTime;
     if same_mode {
-        states::feeds(s, &wanted, found, hole.is_tap);
+        modal::feeds(s, &wanted, found, hole.is_tap);
     }
 }
 

@@ -1,9 +1,9 @@
 //! Ways that lead to no cut: of a tool or a work offset that cuts nothing, and behind the last cut of the program.
 
-use super::compared::{Compared, compare as compare_way};
+use super::clearance::{Compared, compare as compare_way};
 use super::cut::{ALL, Rapid, same};
 use super::passage::{Frame, Passage};
-use super::way::Way;
+use super::rapid_path::RapidPath;
 
 /// How many such ways of the job the program does not make. `at_end`: the last way of both leads to no cut, either. `tools`: the
 /// machine loads tools.
@@ -33,7 +33,7 @@ fn ways(passage: &Passage, leaves: usize, at_end: bool) -> impl Iterator<Item = 
 
 /// Does the program go where the job goes, no lower, and end there?
 fn is_made(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
-    let (mut own, mut other) = (Way::default(), Way::default());
+    let (mut own, mut other) = (RapidPath::default(), RapidPath::default());
     own.set(None, job, tolerance);
     other.set(None, program, tolerance);
     let ends = job.last().zip(program.last()).is_some_and(|(a, b)| same(&a.to, &b.to, ALL & !a.unknown, tolerance));

@@ -2,8 +2,8 @@
 
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
+use super::form_values::by;
 use super::intent::{Done, Intent, unproven};
-use super::own::by;
 use super::passage::Frame;
 use super::subprograms::Subprograms;
 use super::tables::Unmodelled;

@@ -4,8 +4,8 @@ use super::cut::{
     ACROSS, ALL, Cut, DEPTH, What, apart, is_straight, lies_between, number, over, same, shown, turn_as_far,
 };
 use super::intent::{Done, Expected};
-use super::state::Sides;
-use super::states;
+use super::modal;
+use super::sides::Sides;
 use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
@@ -24,7 +24,7 @@ pub(super) fn line(s: &mut Sides<'_>, cut: &Cut, first: &Cut, hole: Option<&Expe
         if same(&to, &end, ALL, tolerance) || !lies_between(&cut.from, &to, &end, tolerance) {
             break;
         }
-        states::feeds(s, &in_parts(cut, &found), &found, is_tap);
+        modal::feeds(s, &in_parts(cut, &found), &found, is_tap);
         s.program.take();
         let next = s.next()?.filter(|next| {
             let is_line = match &next.what {
@@ -38,9 +38,9 @@ pub(super) fn line(s: &mut Sides<'_>, cut: &Cut, first: &Cut, hole: Option<&Expe
         let Some(next) = next else { return ends(s, cut, &found, hole) };
         found = next;
         parts += 1;
-        states::compare(s, cut, &found, is_tap);
+        modal::compare(s, cut, &found, is_tap);
     }
-    states::feeds(s, &in_parts(cut, &found), &found, is_tap);
+    modal::feeds(s, &in_parts(cut, &found), &found, is_tap);
     s.report.allowed.parts += u64::from(parts > 1);
     ends(s, cut, &found, hole)?;
     s.program.take();

@@ -3,8 +3,8 @@
 use super::cut::{ACROSS, ALL, DEPTH, Rapid, number, same, same_dwell};
 use super::intent::Expected;
 use super::passage::{Mark, Passage};
-use super::state::Sides;
-use super::ways;
+use super::rapids;
+use super::sides::Sides;
 use crate::diag::Code;
 use crate::toolpath::StopKind;
 
@@ -39,7 +39,7 @@ fn stops(s: &mut Sides<'_>) {
         };
         let made = others.remove(from + at);
         from += at;
-        let away = ways::away(s.machine);
+        let away = rapids::away(s.machine);
         if s.job.at_home(stop, away) && !s.program.passage.at_home(&made, away) {
             told(s, stop, Code::PV019, made.line, "print the stop behind the way home", || {
                 "the job stops with the tool at home, the program before".to_owned()

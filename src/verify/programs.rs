@@ -2,12 +2,12 @@
 
 use std::io::{Read, Seek};
 
-use super::compared::{Compared, compare, leaves_low};
+use super::clearance::{Compared, compare, leaves_low};
 use super::cut::{ALL, Cut, Spin, State, What, number, place, same, same_dwell, shown};
 use super::expectation::Expectation;
 use super::passage::{Mark, TOO_LONG};
 use super::program::{Doubt, Program};
-use super::way::Way;
+use super::rapid_path::RapidPath;
 use crate::nc::{Cooling, RunError, RunSettings, axes_of};
 use crate::toolpath::{StopKind, Units};
 
@@ -50,7 +50,7 @@ pub fn compare_motions(
         program.want(units);
         program
     });
-    let mut ways = [Way::default(), Way::default()];
+    let mut ways = [RapidPath::default(), RapidPath::default()];
     let mut motions = Motions::default();
     loop {
         let x = a.run_to_cut().map_err(|error| NoMotion(0, error))?.cloned();

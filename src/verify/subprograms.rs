@@ -1,7 +1,7 @@
 //! Subprograms of the job: held where they are defined, and done again at each call.
 
 use super::intent::{Done, unproven};
-use super::kept::Kept;
+use super::owned_event::Kept;
 use super::tables::Unmodelled;
 use crate::toolpath::{Event, Place};
 

@@ -3,9 +3,9 @@
 use super::begin::unsaid;
 use super::cut::{Cut, DEPTH, RADIUS, Rapid, number, place, same, shown};
 use super::intent::{Done, Threaded};
+use super::modal;
 use super::passage::Passage;
-use super::state::Sides;
-use super::states;
+use super::sides::Sides;
 use super::tables::{LONGER, PITCH};
 use crate::diag::Code;
 
@@ -60,11 +60,11 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
             // in from beside the thread
             s.job.rapids.push(from);
             super::pauses::compare(s);
-            super::ways::compare(s, found.line);
+            super::rapids::compare(s, found.line);
         } else {
             between(s, thread, from, found.line)?;
         }
-        states::compare(s, &cut_of(cut, &found), &found, false);
+        modal::compare(s, &cut_of(cut, &found), &found, false);
         if !has_lead {
             s.found(Code::PV006, found.line, "print F[frate] with the thread", || {
                 format!("the thread's lead is {}, the job's {}", number(lead), number(thread.lead))

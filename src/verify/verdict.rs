@@ -6,10 +6,12 @@ use super::finding::Finding;
 use crate::toolpath;
 
 macro_rules! allowed {
-    ($($name:ident $one:literal $how:literal $about:literal;)*) => {
+    ($($name:ident $one:literal $how:literal $file:literal $about:literal;)*) => {
         /// What a program does otherwise than its job, and as well: how often.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-        pub struct Equivalences { $(#[doc = $about] pub $name: u64),* }
+        pub struct Equivalences {
+            $(#[doc = concat!($about, " Decided in `src/verify/", $file, "`.")] pub $name: u64),*
+        }
 
         impl Equivalences {
             /// All equivalences, in the order of the docs: how often, of what (as `hole`), and how (as `with other
@@ -29,24 +31,25 @@ macro_rules! allowed {
     };
 }
 
+// name, one of them, how it is otherwise, the one file that decides and counts it, what is allowed
 allowed! {
-    pecks   "hole" "with other pecks" "Holes whose pecks or retracts differ, and drilled holes made in pecks.";
-    ways    "way" "in another order of axes or higher" "Ways that move the axes in another order, or higher.";
-    tails   "tail" "that ends elsewhere" "Programs that go elsewhere after their last cut, and nowhere lower.";
-    idle    "way" "to no cut otherwise" "Ways of a tool or in a work offset that cuts nothing: elsewhere, and nowhere lower.";
-    arcs    "arc" "made of parts" "Arcs made of parts.";
-    parts   "straight cut" "made of parts" "Straight cuts made of parts.";
-    short   "cut" "shorter than the tolerance left out or put in" "Cuts shorter than the tolerance that only one side has; of the program, than twice the tolerance.";
-    outs    "hole" "left at feed farther up" "Taps and reamed holes that are left at feed up to the return plane.";
-    entries "cut" "left and entered again" "Cuts that were left and entered again where they go on.";
-    slow    "rapid" "at feed that turn compensation on or off" "Feeds where the job has a rapid that turns compensation on or off.";
-    dwells  "dwell" "of the form" "Dwells that the job does not have: outside cuts and holes, or in a cut after a spindle that stood was started.";
-    stops   "stop" "of the form" "Stops outside cuts and holes that the job does not have.";
-    pauses  "pause" "elsewhere on the way" "Stops and dwells of the job that the program makes elsewhere on the way; stops nowhere lower.";
-    feeds   "feed" "of the form" "Cuts at a feed that the form types, or makes of the job's: 0.2 to 2 times it.";
-    speeds  "speed" "of the form" "Cuts at a speed that the form types, or makes of the job's, as `S[min(speed,800)]`: 0.2 to 2 times it; never taps.";
-    threads "thread" "with other passes" "Threads whose passes differ: no coarser than the job's, to the same depth.";
-    custom  "hole" "of a custom cycle" "Holes of custom cycles: the form's own moves along the axis of the hole, to the job's depth.";
+    pecks   "hole" "with other pecks" "holes.rs" "Holes whose pecks or retracts differ, and drilled holes made in pecks.";
+    ways    "way" "in another order of axes or higher" "rapids.rs" "Ways that move the axes in another order, or higher.";
+    tails   "tail" "that ends elsewhere" "rapids.rs" "Programs that go elsewhere after their last cut, and nowhere lower.";
+    idle    "way" "to no cut otherwise" "rapids.rs" "Ways of a tool or in a work offset that cuts nothing: elsewhere, and nowhere lower.";
+    arcs    "arc" "made of parts" "arcs.rs" "Arcs made of parts.";
+    parts   "straight cut" "made of parts" "lines.rs" "Straight cuts made of parts.";
+    short   "cut" "shorter than the tolerance left out or put in" "align.rs" "Cuts shorter than the tolerance that only one side has; of the program, than twice the tolerance.";
+    outs    "hole" "left at feed farther up" "lines.rs" "Taps and reamed holes that are left at feed up to the return plane.";
+    entries "cut" "left and entered again" "align.rs" "Cuts that were left and entered again where they go on.";
+    slow    "rapid" "at feed that turn compensation on or off" "comparer.rs" "Feeds where the job has a rapid that turns compensation on or off.";
+    dwells  "dwell" "of the form" "pauses.rs" "Dwells that the job does not have: outside cuts and holes, or in a cut after a spindle that stood was started.";
+    stops   "stop" "of the form" "pauses.rs" "Stops outside cuts and holes that the job does not have.";
+    pauses  "pause" "elsewhere on the way" "pauses.rs" "Stops and dwells of the job that the program makes elsewhere on the way; stops nowhere lower.";
+    feeds   "feed" "of the form" "modal.rs" "Cuts at a feed that the form types, or makes of the job's: 0.2 to 2 times it.";
+    speeds  "speed" "of the form" "modal.rs" "Cuts at a speed that the form types, or makes of the job's, as `S[min(speed,800)]`: 0.2 to 2 times it; never taps.";
+    threads "thread" "with other passes" "threads.rs" "Threads whose passes differ: no coarser than the job's, to the same depth.";
+    custom  "hole" "of a custom cycle" "comparer.rs" "Holes of custom cycles: the form's own moves along the axis of the hole, to the job's depth.";
 }
 
 /// The outcome.

@@ -2,7 +2,7 @@
 //! its places.
 
 use super::cut::{ALL, same};
-use super::state::Sides;
+use super::sides::Sides;
 use super::wire_codes::{self, Coded};
 use crate::diag::Code;
 

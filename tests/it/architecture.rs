@@ -30,6 +30,30 @@ fn files(path: &Path, found: &mut Vec<std::path::PathBuf>) {
     }
 }
 
+/// Each row of `allowed!` names the one file that decides it.
+#[test]
+fn an_allowance_is_decided_in_one_file() {
+    let table = fs::read_to_string(root().join("src/verify/verdict.rs")).unwrap();
+    let (_, rows) = table.split_once("\nallowed! {\n").unwrap();
+    let rows = rows.split_once("\n}").unwrap().0.lines();
+    let named: BTreeSet<(String, String)> = rows
+        .map(|row| (row.trim().split(' ').next().unwrap().to_owned(), row.split('"').nth(5).unwrap().to_owned()))
+        .collect();
+    let mut sources = Vec::new();
+    files(&root().join("src/verify"), &mut sources);
+    let mut counted = BTreeSet::new();
+    for path in sources {
+        let text = fs::read_to_string(&path).unwrap();
+        let places = text.split("allowed.").skip(1).filter_map(|rest| rest.split_once(" += "));
+        let file = path.file_name().unwrap().to_string_lossy();
+        counted.extend(
+            places.filter(|(name, _)| !name.contains(' ')).map(|(name, _)| (name.to_owned(), file.to_string())),
+        );
+    }
+    assert!(named.len() > 10, "{named:?}");
+    assert_eq!(named, counted);
+}
+
 #[test]
 fn imports_are_those_of_the_table() {
     let table = table();

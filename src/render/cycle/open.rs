@@ -5,7 +5,7 @@ use crate::cycle::Steps;
 use crate::diag::Code;
 use crate::lang::SequenceId;
 use crate::render::fault::{Done, fault};
-use crate::render::kept::Kept;
+use crate::render::form_sets::Kept;
 use crate::render::numbers::{as_number, quantised};
 use crate::render::printer::Printer;
 use crate::render::said::Said;

@@ -3,9 +3,9 @@
 use super::measure::measure;
 use super::reach::{begins_somewhere, reach};
 use crate::lang::SequenceId;
-use crate::render::before::{check_prints, feed_block};
 use crate::render::body::{Mode, run};
 use crate::render::fault::Done;
+use crate::render::prelude::{check_prints, feed_block};
 use crate::render::printer::Printer;
 use crate::render::said::{LastMove, Said};
 use crate::render::settle::{settle_here, stands_at_cut};

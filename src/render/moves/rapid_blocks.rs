@@ -2,9 +2,9 @@
 
 use super::measure::measure;
 use crate::lang::SequenceId;
-use crate::render::before::{check_prints, motion_block};
 use crate::render::body::{Mode, run};
 use crate::render::fault::Done;
+use crate::render::prelude::{check_prints, motion_block};
 use crate::render::printer::Printer;
 use crate::render::said::{LastMove, Said};
 use crate::render::shape::Shape;

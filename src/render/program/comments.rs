@@ -2,9 +2,9 @@
 
 use crate::diag::Code;
 use crate::lang::SequenceId;
+use crate::render::ascii::plain;
+use crate::render::comment_marks::in_comment;
 use crate::render::fault::Done;
-use crate::render::marks::in_comment;
-use crate::render::plain::plain;
 use crate::render::printer::Printer;
 use crate::render::said::Said;
 use crate::render::shape::Shape;

@@ -2,8 +2,8 @@
 
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId};
-use crate::render::before::way_before;
 use crate::render::fault::{Done, fault};
+use crate::render::prelude::way_before;
 use crate::render::printer::Printer;
 use crate::render::prints::prints_axis_words;
 use crate::render::said::{LastMove, Said};

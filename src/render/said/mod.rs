@@ -2,22 +2,22 @@
 //! where the tool stands. Everything that may have changed the machine behind our back makes it unknown here.
 
 mod angles;
-mod beside;
 mod codes;
 mod conditions;
 mod due;
+mod form_values;
 mod lacks;
 mod line;
-mod own;
+mod more_coolants;
+mod position;
 mod registers;
-mod stand;
 mod state;
 mod text;
 
 pub use angles::Angles;
-pub use beside::Beside;
 pub use conditions::{CONDITIONS, Conditions};
+pub use form_values::Own;
 pub use line::Line;
-pub use own::Own;
+pub use more_coolants::Beside;
 pub use state::{LastMove, Said, Spins};
 pub use text::{TextWord, words_of};

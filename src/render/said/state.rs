@@ -1,16 +1,16 @@
 //! What is known of the control, and how it becomes known and unknown.
 
-use super::beside::Beside;
 use super::conditions::Conditions;
+use super::form_values::Own;
 use super::line::Shift;
-use super::own::Own;
+use super::more_coolants::Beside;
+use super::position::Stand;
 use super::registers::Registers;
-use super::stand::Stand;
 use crate::compile::{Letter, LetterKind};
 use crate::control::{Code, Group, Meaning};
 use crate::lang::{Machine, VarId};
 use crate::number::quantise;
-use crate::render::kept::Kept;
+use crate::render::form_sets::Kept;
 use crate::render::shape::Shape;
 use crate::render::texts::Names;
 use crate::render::want::Want;

@@ -9,12 +9,12 @@ use std::io::{Read, Seek};
 pub(super) use doubt::Doubt;
 
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, place};
-use super::due::Due;
 use super::expectation::{Expectation, taps_by_m29};
 use super::finding::Finding;
 use super::passage::{Frame, Passage};
-use super::recent::Recent;
+use super::recent_lines::Recent;
 use super::scale::Scale;
+use super::unset::Due;
 use super::wire_codes::Codes;
 use crate::control::Control;
 use crate::diag::{Code, Diag};

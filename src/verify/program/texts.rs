@@ -1,7 +1,7 @@
 //! Texts of the program's lines, for findings.
 
 use super::Program;
-use crate::verify::recent::Recent;
+use crate::verify::recent_lines::Recent;
 
 impl Program<'_> {
     /// The text of the line that is being run.

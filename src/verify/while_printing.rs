@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use super::comparer::Comparer;
 use super::expectation::Expectation;
-use super::kept::Kept;
+use super::owned_event::Kept;
 use super::report::Counts;
 use super::verdict::Verdict;
 use crate::diag::Diag;

@@ -1,15 +1,15 @@
 //! What the two sides of a comparison are made of, and how a difference is told.
 
 use super::cut::{Cut, Place, Rapid, Shared};
+use super::form_values::Own;
 use super::intent::{Expected, Threaded};
-use super::own::Own;
 use super::passage::{Frame, Mark, Passage};
 use super::program::{Doubt, Program};
+use super::rapid_path::RapidPath;
 use super::report::{Difference, Report};
 use super::strokes::Strokes;
-use super::unknown::{is_unknown, unknown_code};
+use super::unproven_codes::{is_unknown, unknown_code};
 use super::verdict::Unproven;
-use super::way::Way;
 use crate::diag::{Code, Diag};
 use crate::lang::Machine;
 use crate::nc::RunError;
@@ -64,7 +64,7 @@ pub(super) struct Sides<'a> {
     pub hole: Holes,
     pub limits: Limits,
     /// Kept from comparison to comparison, so that none allocates.
-    pub ways: [Way; 2],
+    pub ways: [RapidPath; 2],
     /// What was in force at the program's last cut.
     pub before: Shared,
     /// States of job and program that were found to agree.

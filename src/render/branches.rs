@@ -1,7 +1,7 @@
 //! Which way through a sequence is taken now: its conditions are asked before any of it prints.
 
 use super::ahead;
-use super::kept::Kept;
+use super::form_sets::Kept;
 use super::no_value::{division_by_zero, no_order};
 use super::said::Said;
 use super::shape::Shape;

@@ -1,7 +1,7 @@
 //! Ways compared: the program's from one cut to the next with the job's.
 
 use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, same};
-use super::way::{Way, across};
+use super::rapid_path::{RapidPath, across};
 
 /// How a program's way compares with the job's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub(super) fn are_the_same(job: &[Rapid], program: &[Rapid], tolerance: f64) -> 
 
 /// Compares the program's way with the job's, rapid by rapid and, where that tells them apart, with the parts of straight rapids
 /// joined. Both ways are then joined.
-pub(super) fn compare(job: &mut Way, program: &mut Way, known_start: bool, tolerance: f64) -> Compared {
+pub(super) fn compare(job: &mut RapidPath, program: &mut RapidPath, known_start: bool, tolerance: f64) -> Compared {
     let by_rapids = compare_as_they_are(job, program, known_start, tolerance);
     if !matches!(by_rapids, Compared::Same | Compared::Turning | Compared::AsGood { step_by_step: true }) {
         job.join(tolerance);
@@ -46,7 +46,7 @@ pub(super) fn compare(job: &mut Way, program: &mut Way, known_start: bool, toler
 ///
 /// Where both begin is known, the heights of their moves across are compared end by end. Where the job's beginning is
 /// unknown (after a tool change), the program comes to the job's first place from anywhere, but not lower than that.
-fn compare_as_they_are(job: &Way, program: &Way, known_start: bool, tolerance: f64) -> Compared {
+fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, tolerance: f64) -> Compared {
     let Some(first) = job.corners.first().filter(|_| !known_start) else {
         return compare_corners(
             &job.corners,
@@ -210,7 +210,7 @@ fn unwound(place: &Place, like: &Place) -> Place {
 
 /// Out of a hole whose cycle says how the spindle stands and where it moves: are the job's corners there, in their order
 /// and with it?
-pub(super) fn leaves_hole(job: &Way, program: &Way, tolerance: f64) -> Option<Compared> {
+pub(super) fn leaves_hole(job: &RapidPath, program: &RapidPath, tolerance: f64) -> Option<Compared> {
     let corners = &program.corners;
     let mut from = 0;
     for corner in job.corners.iter().skip(1).filter(|corner| corner.spin.is_some()) {
@@ -233,7 +233,7 @@ pub(super) fn leaves_hole(job: &Way, program: &Way, tolerance: f64) -> Option<Co
 }
 
 /// Does the program come into a hole as the job does, with the job's moves aside, from the place over the hole on?
-pub(super) fn enters_hole(job: &Way, program: &Way, over: &Place, tolerance: f64) -> bool {
+pub(super) fn enters_hole(job: &RapidPath, program: &RapidPath, over: &Place, tolerance: f64) -> bool {
     let Some(first) = job.corners.iter().position(|corner| same(&corner.to, over, ACROSS, tolerance)) else {
         return false;
     };
@@ -248,7 +248,7 @@ pub(super) fn enters_hole(job: &Way, program: &Way, over: &Place, tolerance: f64
 }
 
 /// The program's way after a last cut: nowhere across below where the job crosses, and down only to where the job goes.
-pub(super) fn leaves_low(job: &Way, program: &Way, tolerance: f64) -> Option<(Place, f64)> {
+pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -> Option<(Place, f64)> {
     let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();
     let highest = heights(&job.corners).into_iter().fold(f64::NEG_INFINITY, f64::max);
     let crossing = across(&job.corners, tolerance).map(|(a, b)| a.to[DEPTH].min(b.to[DEPTH])).fold(highest, f64::min);
@@ -279,17 +279,17 @@ mod tests {
     use super::super::cut::place;
     use super::*;
 
-    fn way_within(points: &[[f64; 3]], tolerance: f64) -> Way {
+    fn way_within(points: &[[f64; 3]], tolerance: f64) -> RapidPath {
         let rapids: Vec<Rapid> = points
             .iter()
             .map(|&[x, y, z]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, spin: None })
             .collect();
-        let mut way = Way::default();
+        let mut way = RapidPath::default();
         way.set(None, &rapids, tolerance);
         way
     }
 
-    fn way(points: &[[f64; 3]]) -> Way {
+    fn way(points: &[[f64; 3]]) -> RapidPath {
         way_within(points, 1e-4)
     }
 
@@ -355,7 +355,7 @@ mod tests {
     fn a_hole_is_left_whatever_its_turns_are() {
         let p = |z: f64, a: f64, spin: Option<Spin>| Rapid { to: place(&[1.0, 2.0, z, a, 0.0, 0.0]), unknown: 0, spin };
         let turns = Some(Spin::Turns(crate::nc::Rotation::Cw));
-        let (mut job, mut program) = (Way::default(), Way::default());
+        let (mut job, mut program) = (RapidPath::default(), RapidPath::default());
         job.set(Some(p(-1.0, -390.0, None)), &[p(-0.2, -390.0, turns), p(1.4, -390.0, None)], 1e-4);
         program.set(Some(p(-1.0, -30.0, turns)), &[p(1.4, -30.0, turns)], 1e-4);
         assert_eq!(leaves_hole(&job, &program, 1e-4), None);
@@ -384,7 +384,7 @@ mod tests {
             p(-0.0321, 3.5904, 0.0, 5.0, 0b100),
             p(-0.0321, 3.5904, 1.5723, 5.0, 0),
         ];
-        let mut ways = [Way::default(), Way::default()];
+        let mut ways = [RapidPath::default(), RapidPath::default()];
         ways[0].set(Some(job[0]), &job[1..], 1e-4);
         ways[1].set(Some(program[0]), &program[1..], 1e-4);
         let [own, made] = &mut ways;

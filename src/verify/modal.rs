@@ -1,7 +1,7 @@
 //! What is in force at a cut: tool, registers, work offset, spindle, coolant, compensation, feed.
 
 use super::cut::{Cut, State, number};
-use super::state::Sides;
+use super::sides::Sides;
 use super::tables::{PITCH, ROUNDED};
 use crate::diag::Code;
 use crate::nc::{Cooling, Rotation};

@@ -3,9 +3,9 @@
 
 use super::cut::{ALL, Cut, What, same, turn_as_far};
 use super::intent::Done;
+use super::modal::has_feed;
 use super::passage::Passage;
-use super::state::Sides;
-use super::states::has_feed;
+use super::sides::Sides;
 
 /// So many tolerances long is a cut at least that no digits swallow, on either side.
 const LONG: f64 = 4.0;

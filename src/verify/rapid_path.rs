@@ -7,13 +7,13 @@ const LEG: f64 = 4.0;
 
 /// A way as corners: the start, if it is known, and the ends of its rapids.
 #[derive(Debug, Default)]
-pub(super) struct Way {
+pub(super) struct RapidPath {
     pub corners: Vec<Rapid>,
     /// The first corner is the start.
     pub begun: bool,
 }
 
-impl Way {
+impl RapidPath {
     /// Makes the way from a start over these rapids, without those of no length.
     pub fn set(&mut self, start: Option<Rapid>, rapids: &[Rapid], tolerance: f64) {
         self.corners.clear();
@@ -51,7 +51,7 @@ impl Way {
     }
 
     /// Do both ways have the same corners, known or not?
-    pub fn is(&self, other: &Way, tolerance: f64) -> bool {
+    pub fn is(&self, other: &RapidPath, tolerance: f64) -> bool {
         self.corners.len() == other.corners.len()
             && self
                 .corners
@@ -70,7 +70,12 @@ impl Way {
     /// Another way along this one, which may stop on it and go straight on over its corners: how often it goes round a corner of
     /// a slanted rapid, at the greater of the two heights, where it may; or the first corners that differ, this way's and the
     /// other's. A radius that is not a number is not known.
-    pub fn is_followed(&self, other: &Way, may_round: bool, tolerance: f64) -> Result<u64, Box<[Option<Rapid>; 2]>> {
+    pub fn is_followed(
+        &self,
+        other: &RapidPath,
+        may_round: bool,
+        tolerance: f64,
+    ) -> Result<u64, Box<[Option<Rapid>; 2]>> {
         let near = |a: f64, b: f64| (a - b).abs() <= tolerance;
         let is = |a: &Rapid, b: &Rapid| same(&a.to, &b.to, ALL, tolerance);
         let between = |a: &Rapid, b: &Rapid, c: &Rapid| lies_between(&a.to, &b.to, &c.to, tolerance);
@@ -122,12 +127,12 @@ mod tests {
     use super::super::cut::place;
     use super::*;
 
-    fn way(points: &[[f64; 3]]) -> Way {
+    fn way(points: &[[f64; 3]]) -> RapidPath {
         let rapids: Vec<Rapid> = points
             .iter()
             .map(|&[x, y, z]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, spin: None })
             .collect();
-        let mut way = Way::default();
+        let mut way = RapidPath::default();
         way.set(None, &rapids, 1e-4);
         way
     }

@@ -1,0 +1,133 @@
+//! Which cuts of the job and of the program belong together: each side may have cuts that the other does not have, if they are
+//! too short for the digits of the program, or made again after the tool was taken out.
+
+use super::cut::{ACROSS, ALL, Cut, DEPTH, What, apart, lead_alike, lies_between, same};
+use super::intent::Done;
+use super::modal::has_feed;
+use super::passage::Passage;
+use super::sides::Sides;
+use super::{arcs, begin};
+
+/// Is the job's cut left out, because it is shorter than the digits of the program show? Then it is dealt with. Cuts of holes are
+/// never left out.
+pub(super) fn leaves_out(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
+    if !cut.is_short(s.limits.tolerance) || !vanishes(s, cut)? {
+        return Ok(false);
+    }
+    s.report.allowed.short += 1;
+    s.job.goes_on(cut.end());
+    Ok(true)
+}
+
+/// The program's next cut that may be the job's: those before it that the job does not need are dealt with. `None`: the program is
+/// over.
+pub(super) fn partner(s: &mut Sides<'_>, cut: &Cut) -> Done<Option<Cut>> {
+    while let Some(found) = s.next()? {
+        if enters_again(s, cut, &found) {
+            s.report.allowed.entries += 1;
+            s.program.take();
+        } else if is_put_in(s, cut, &found) {
+            s.report.allowed.short += 1;
+            s.program.pass_over();
+        } else {
+            return Ok(Some(found));
+        }
+    }
+    Ok(None)
+}
+
+/// The program's next cut behind the job's last one: cuts too short to count are dealt with.
+pub(super) fn after_the_last(s: &mut Sides<'_>) -> Done<Option<Cut>> {
+    while let Some(found) = s.next()? {
+        if is_nothing(s, &found) {
+            s.report.allowed.short += 1;
+        } else if !begin::is_the_jobs_rapid(s, &found) {
+            return Ok(Some(found));
+        }
+        s.program.pass_over();
+    }
+    Ok(None)
+}
+
+/// Is a cut of the program too short to count, and not the job's cut or its beginning?
+fn is_put_in(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
+    !found.by_cycle
+        && is_nothing(s, found)
+        && !cut.is_short(s.limits.tolerance)
+        && !is_itself(s, cut, found)
+        && !is_part(s, cut, found)
+}
+
+/// Did the digits of the program swallow the job's short cut? The program stays as near to the job as it can.
+fn vanishes(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
+    let Some(found) = s.next()? else { return Ok(true) };
+    let tolerance = s.limits.tolerance;
+    let [to_end, to_begin] = [found.end(), found.from].map(|place| apart(&place, &cut.end()));
+    // its digits show it, whatever rapids lead to it
+    let shows = to_end + tolerance / 2.0 < to_begin;
+    let joins = found.unknown == 0
+        && (shows || joins_alike(s))
+        && has_feed(cut, &found)
+        && same(&found.from, &cut.from, ALL, tolerance)
+        && same(&found.end(), &cut.end(), ALL, tolerance);
+    let pauses = |passage: &Passage| (passage.stops.len(), passage.waits.len());
+    let joins = joins && pauses(&s.program.passage) == pauses(&s.job);
+    // one that leads elsewhere is another's
+    let joins = joins && lead_alike(cut, &found);
+    let nearer = to_end <= to_begin + 1e-9;
+    let circle = matches!(found.what, What::Arc(_)) && !found.is_short(tolerance);
+    Ok(!joins || !nearer || circle)
+}
+
+/// Do both next cuts follow on the last ones, or neither?
+fn joins_alike(s: &Sides<'_>) -> bool {
+    let (a, b, tolerance) = (&s.program.passage, &s.job, s.limits.tolerance);
+    a.rapids.is_empty() == b.rapids.is_empty() || a.stays(tolerance) && b.stays(tolerance)
+}
+
+/// Is a cut of the program too short to count? The digits of both its ends may make a short one twice as long.
+fn is_nothing(s: &Sides<'_>, found: &Cut) -> bool {
+    found.unknown == 0 && found.is_short(2.0 * s.limits.tolerance)
+}
+
+/// Is a short cut of the program the job's, which is a little longer?
+fn is_itself(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
+    let tolerance = s.limits.tolerance;
+    // a full circle ends where it begins, too
+    same(&cut.from, &found.from, ALL, tolerance)
+        && same(&cut.end(), &found.end(), ALL, tolerance)
+        && cut.is_short(4.0 * tolerance)
+        && lead_alike(cut, found)
+}
+
+/// Is a short cut of the program the beginning of the job's cut? One that ends where the job's begins is none of it.
+fn is_part(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
+    let tolerance = s.limits.tolerance;
+    let goes_along = match (cut.what, found.what) {
+        (What::Line { .. }, _) => lies_between(&cut.from, &found.end(), &cut.end(), tolerance),
+        (What::Arc(turn), What::Arc(made)) => (made.plane, made.direction) == (turn.plane, turn.direction),
+        (What::Arc(turn), What::Line { to }) => arcs::is_chord(cut, &turn, &to, tolerance),
+    };
+    goes_along && same(&cut.from, &found.from, ALL, tolerance) && !same(&cut.from, &found.end(), ALL, tolerance)
+}
+
+/// Does the program go straight down again to where the cut goes on, after the tool was taken out, as to unwind an
+/// axis?
+fn enters_again(s: &mut Sides<'_>, cut: &Cut, found: &Cut) -> bool {
+    let What::Line { to } = found.what else { return false };
+    let tolerance = s.limits.tolerance;
+    let way = &s.program.passage;
+    if way.rapids.is_empty() || way.changed() || s.job.changed() {
+        return false;
+    }
+    let here = s.job.start.is_some_and(|start| same(&start.to, &cut.from, ALL, tolerance))
+        || way.rapids.iter().any(|rapid| rapid.unknown & 1 << DEPTH != 0);
+    let height_known = found.unknown & 1 << DEPTH == 0;
+    if !here || found.unknown & ACROSS != 0 || !same(&cut.from, &to, ALL, tolerance) {
+        return false;
+    }
+    let [_, program] = &mut s.ways;
+    program.set(way.start, &way.rapids, tolerance);
+    let above = !height_known || found.from[DEPTH] > to[DEPTH] + tolerance;
+    same(&found.from, &to, ACROSS, tolerance) && above && program.stays_above(to[DEPTH])
+}

@@ -15,13 +15,18 @@ const WINDOW: usize = 64;
 /// longer than it must be.
 const RUN: usize = 32;
 
-/// Finds the parts. Where the programs do not meet again within a few lines, the last part is all that is left, without the
+/// Programs of fewer lines are searched as a whole: where blocks repeat, lines that are the same again may not be those of the
+/// shortest answer.
+const SMALL: usize = 20_000;
+
+/// Finds the parts. Where the programs are small, or do not meet again within a few lines, the last part is all that is left, without the
 /// lines that are the same at the end.
 pub(super) fn gaps(old: &Program, new: &Program) -> Vec<Gap> {
     let same = |a: usize, b: usize| old.line(a) == new.line(b);
     let most = old.len().min(new.len());
     let tail = (0..most).take_while(|back| same(old.len() - 1 - back, new.len() - 1 - back)).count();
     let (a_end, b_end) = (old.len() - tail, new.len() - tail);
+    let is_small = old.len().max(new.len()) < SMALL;
     let (mut a, mut b, mut gaps) = (0, 0, Vec::new());
     loop {
         while a < a_end && b < b_end && same(a, b) {
@@ -30,7 +35,8 @@ pub(super) fn gaps(old: &Program, new: &Program) -> Vec<Gap> {
         if (a, b) == (a_end, b_end) {
             return gaps;
         }
-        let Some((x, y)) = meet([a..a_end, b..b_end], same) else {
+        let next = if is_small { None } else { meet([a..a_end, b..b_end], same) };
+        let Some((x, y)) = next else {
             gaps.push([a..a_end, b..b_end]);
             return gaps;
         };

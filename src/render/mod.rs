@@ -7,6 +7,7 @@ mod body;
 mod branches;
 mod comment_marks;
 mod coolant;
+mod cx;
 mod cycle;
 mod defaults;
 mod fault;
@@ -42,6 +43,7 @@ use crate::compile::Program;
 use crate::diag::Diag;
 use crate::lang::VarId;
 use crate::toolpath::{Event, Flow, Order, Place, Section, Sink, Stop, flow};
+use cx::Cx;
 use cycle::open::Drilling;
 use fault::Done;
 use moves::{arc, compensation, line, rapid, rotary, threads};
@@ -139,10 +141,10 @@ impl<'p> Renderer<'p> {
     /// Which function serves an event. An open cycle ends before everything that is neither one of its holes nor a word
     /// about what follows.
     fn take(&mut self, event: Event<'_>) -> Done {
-        let Renderer { shape, want, said, out, drill, sections, subs, parts, .. } = self;
         let goes_on = matches!(event, Event::Hole(_) | Event::Feed(_) | Event::Tilt(_) | Event::SubStart(_));
+        let Renderer { shape, want, said, out, drill, sections, subs, parts, .. } = self;
         if drill.open.is_some() && !goes_on {
-            cycle::close_cycle(shape, want, said, out, drill)?;
+            cycle::close_cycle(&mut Cx { shape, want, said, out }, drill)?;
         }
         want.cutting = matches!(
             event,
@@ -151,16 +153,23 @@ impl<'p> Renderer<'p> {
         if want.cutting || matches!(event, Event::Hole(_)) {
             stopped_spindle::warn_of_standing(shape, want, out);
         }
+        // the units and the tool make another form of it
+        let event = match event {
+            Event::Start(start) => return start::start(start, shape, want, said, out, subs),
+            Event::ToolChange(change) => return tools::tool_change(change, shape, want, said, out, subs, sections),
+            event => event,
+        };
+        let cx = &mut Cx { shape, want, said, out };
         match event {
-            Event::Rapid(to) => rapid::rapid(&to, shape, want, said, out),
-            Event::Line { to, feed } => line::line(&to, feed, shape, want, said, out),
-            Event::Arc { arc, feed } => arc::arc(arc, feed, shape, want, said, out, parts),
-            Event::Infeed { infeed, feed } => compensation::infeed(infeed, feed, shape, want, said, out),
-            Event::Outfeed { to, feed, rapid } => compensation::outfeed(&to, feed, rapid, shape, want, said, out),
-            Event::Thread(thread) => threads::cut_thread(thread, shape, want, said, out),
+            Event::Rapid(to) => rapid::rapid(&to, cx),
+            Event::Line { to, feed } => line::line(&to, feed, cx),
+            Event::Arc { arc, feed } => arc::arc(arc, feed, cx, parts),
+            Event::Infeed { infeed, feed } => compensation::infeed(infeed, feed, cx),
+            Event::Outfeed { to, feed, rapid } => compensation::outfeed(&to, feed, rapid, cx),
+            Event::Thread(thread) => threads::cut_thread(thread, cx),
             Event::Tilt(axis) => rotary::tilt(axis),
-            Event::CycleBegin(spec) => cycle::cycle_begin(spec, shape, want, said, out, drill),
-            Event::Hole(hole) => cycle::hole::hole(&hole, shape, want, said, out, drill),
+            Event::CycleBegin(spec) => cycle::cycle_begin(spec, cx, drill),
+            Event::Hole(hole) => cycle::hole::hole(&hole, cx, drill),
             Event::CycleEnd => Ok(()),
             Event::Feed(feed) => {
                 want.set_feed(feed, shape);
@@ -170,20 +179,19 @@ impl<'p> Renderer<'p> {
             Event::Spindle(spindle) => want.set_spindle(&spindle, shape),
             Event::Coolant(coolant) => want.set_coolant(coolant, shape),
             Event::Set(name, value) => variables::set_named(name, value, shape, want, out),
-            Event::Start(start) => start::start(start, shape, want, said, out, subs),
-            Event::ToolChange(change) => tools::tool_change(change, shape, want, said, out, subs, sections),
-            Event::Begin(section) => sections::begin_section(section, shape, want, said, out, sections),
-            Event::End(section) => sections::end_section(section, shape, want, said, out, sections),
-            Event::Edm(action) => sections::edm(action, shape, want, said, out),
-            Event::Dwell(seconds) => stops::dwell(seconds, shape, want, said, out),
-            Event::Stop(kind) => stops::stop(kind, shape, want, said, out),
-            Event::Home => home::home(shape, want, said, out),
-            Event::Comment(text) => comments::comment_block(text, shape, want, said, out),
-            Event::Text(text) => text::verbatim(text, shape, want, said, out),
-            Event::SubStart(number) => subprograms::sub_start(number, shape, want, said, out, subs),
-            Event::SubEnd => subprograms::sub_end(shape, want, said, out, subs, sections),
-            Event::SubCall(call) => calls::sub_call(call, shape, want, said, out, subs),
-            Event::Finish => finish::finish(shape, want, said, out, subs, sections),
+            Event::Start(_) | Event::ToolChange(_) => Ok(()),
+            Event::Begin(section) => sections::begin_section(section, cx, sections),
+            Event::End(section) => sections::end_section(section, cx, sections),
+            Event::Edm(action) => sections::edm(action, cx),
+            Event::Dwell(seconds) => stops::dwell(seconds, cx),
+            Event::Stop(kind) => stops::stop(kind, cx),
+            Event::Home => home::home(cx),
+            Event::Comment(text) => comments::comment_block(text, cx),
+            Event::Text(text) => text::verbatim(text, cx),
+            Event::SubStart(number) => subprograms::sub_start(number, cx, subs),
+            Event::SubEnd => subprograms::sub_end(cx, subs, sections),
+            Event::SubCall(call) => calls::sub_call(call, cx, subs),
+            Event::Finish => finish::finish(cx, subs, sections),
         }
     }
 }

@@ -1,11 +1,10 @@
 //! What is printed before a sequence of moves that does not print it: the plane, the motion, the feed.
 
+use super::cx::Writer;
 use super::fault::{Done, fault_at};
-use super::printer::Printer;
 use super::prints::{moves_without_motion, prints_angle, prints_axis, prints_code, prints_motion, words_of};
 use super::said::Said;
 use super::shape::Shape;
-use super::want::Want;
 use super::words::{code_word, feed_word};
 use crate::compile::Routine;
 use crate::control::Code;
@@ -15,96 +14,73 @@ use crate::sema;
 use crate::toolpath::Axes;
 
 /// The plane's code as a block of its own, before what prints none and needs it.
-pub fn plane_block(
-    plane: Code,
-    routine: &Routine,
-    shape: &Shape,
-    want: &Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
-    if said.is_in_plane(plane) || prints_code(routine, |code| shape.is_plane(code), shape) {
+pub fn plane_block(plane: Code, routine: &Routine, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
+    if writer.said.is_in_plane(plane) || prints_code(routine, |code| shape.is_plane(code), shape) {
         return Ok(());
     }
-    enter_plane(plane, shape, want, said, out)
+    enter_plane(plane, writer)
 }
 
 /// The plane's code as a block of its own, where the control is in another; only mills have planes.
-pub fn enter_plane(plane: Code, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    if !said.is_in_plane(plane) && shape.program.settings.machine == Machine::Mill {
-        code_word(&sema::Code::plain(plane), shape, want, said, out)?;
-        out.end_block();
+pub fn enter_plane(plane: Code, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
+    if !writer.said.is_in_plane(plane) && shape.program.settings.machine == Machine::Mill {
+        code_word(&sema::Code::plain(plane), writer)?;
+        writer.out.end_block();
     }
     Ok(())
 }
 
 /// The motion code, before a sequence of moves that prints none where the control is in another motion: a cut would
 /// be a rapid. Whether it was printed.
-fn motion_before(
-    code: &sema::Code,
-    routine: &Routine,
-    shape: &Shape,
-    want: &Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done<bool> {
-    let lacks = !said.motion_in_force(code) && shape.program.speaks_g && !prints_motion(routine, shape);
+fn motion_before(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) -> Done<bool> {
+    let shape = writer.shape;
+    let lacks = !writer.said.motion_in_force(code) && shape.program.speaks_g && !prints_motion(routine, shape);
     if lacks {
-        code_word(code, shape, want, said, out)?;
+        code_word(code, writer)?;
     }
     Ok(lacks)
 }
 
 /// The motion code as a block of its own, before a sequence of rapids that prints none.
-pub fn motion_block(
-    code: &sema::Code,
-    routine: &Routine,
-    shape: &Shape,
-    want: &Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
-    motion_before(code, routine, shape, want, said, out)?;
-    out.end_block();
+pub fn motion_block(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) -> Done {
+    motion_before(code, routine, writer)?;
+    writer.out.end_block();
     Ok(())
 }
 
 /// The motion before a sequence that goes to a place and says none: a cut's is a cut, every other way a rapid.
-pub fn way_before(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn way_before(routine: &Routine, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let program = shape.program;
-    let code = if want.cutting { &program.settings.feed } else { &program.settings.rapid };
-    let known = said.is_in_motion(code);
+    let code = if writer.want.cutting { &program.settings.feed } else { &program.settings.rapid };
+    let known = writer.said.is_in_motion(code);
     if known || !program.speaks_g || !moves_without_motion(routine, shape) {
         return Ok(());
     }
-    code_word(code, shape, want, said, out)?;
-    if want.cutting && !want.inverse_time() {
-        feed_word(shape, want, said, out)?;
+    code_word(code, writer)?;
+    if writer.want.cutting && !writer.want.inverse_time() {
+        feed_word(writer)?;
     }
-    out.end_block();
+    writer.out.end_block();
     Ok(())
 }
 
 /// Motion code and feed as a block of their own, before a sequence that lacks one of them; arcs say their code.
-pub fn feed_block(
-    code: &sema::Code,
-    routine: &Routine,
-    shape: &Shape,
-    want: &Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
-    let begun = code.code == shape.program.settings.feed.code && motion_before(code, routine, shape, want, said, out)?;
+pub fn feed_block(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
+    let begun = code.code == shape.program.settings.feed.code && motion_before(code, routine, writer)?;
     let says_feed = routine.vars.has(VarId::Frate);
-    if !says_feed && want.inverse_time() {
+    if !says_feed && writer.want.inverse_time() {
         let message = "in inverse time each move says its feed, and the sequence does not print [frate]";
         return fault_at(diag::Code::PR017, message, "add `F[frate]` to the sequence", Some(routine.span));
     }
     // a Grbl refuses G1 before any feed
-    if !says_feed || begun && !want.inverse_time() {
-        feed_word(shape, want, said, out)?;
+    if !says_feed || begun && !writer.want.inverse_time() {
+        feed_word(writer)?;
     }
-    out.end_block();
+    writer.out.end_block();
     Ok(())
 }
 

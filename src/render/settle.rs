@@ -1,6 +1,7 @@
 //! What the control lacks is printed: conditions that no sequence prints, each as a block of its own.
 
 use super::body::run_all;
+use super::cx::{Cx, Writer};
 use super::fault::{Done, fault, fault_at};
 use super::more_coolants::{begin_beside, end_beside};
 use super::printer::Printer;
@@ -18,79 +19,83 @@ use crate::sema;
 
 /// What stands between events and the next move.
 #[cold]
-pub fn settle(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    knows_after_stop(shape, want, said)?;
-    print_lacking(shape, want, said, out)
+pub fn settle(cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    knows_after_stop(shape, cx.want, cx.said)?;
+    print_lacking(cx)
 }
 
 /// What stands before something that is done where the tool is. `cuts`: an Upon that moves the tool would leave out
 /// a part of the cut.
 #[cold]
-pub fn settle_here(cuts: bool, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn settle_here(cuts: bool, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     for var in [VarId::H, VarId::V, VarId::D] {
-        want.put(var, None);
+        cx.want.put(var, None);
     }
-    let here = said.stand.position;
-    set_targets(&here, shape, want, said)?;
+    let here = cx.said.stand.position;
+    set_targets(&here, shape, cx.want, cx.said)?;
     if cuts {
-        knows_after_stop(shape, want, said)?;
+        knows_after_stop(shape, cx.want, cx.said)?;
     }
-    print_lacking(shape, want, said, out)?;
-    if cuts { stands_at_cut(said) } else { Ok(()) }
+    print_lacking(cx)?;
+    if cuts { stands_at_cut(cx.said) } else { Ok(()) }
 }
 
 /// Changes that wait are printed.
-pub fn print_lacking(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    (want.changed, said.differs) = (false, false);
-    print_conditions(shape, want, said, out)?;
-    check_reading(shape, want, said)
+pub fn print_lacking(cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    (cx.want.changed, cx.said.differs) = (false, false);
+    print_conditions(cx)?;
+    check_reading(shape, cx.want, cx.said)
 }
 
 /// Changes that nothing printed yet, each as a block of its own.
-pub fn print_conditions(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    upons(said.lacks(want, shape), shape, want, said, out)?;
-    own_change(SequenceId::WorkChange, &[VarId::Work], shape, want, said, out)?;
-    if let Some(work) = want.get(VarId::Work)
-        && said.conditions.get(VarId::Work) != Some(work)
+pub fn print_conditions(cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    upons(cx.said.lacks(cx.want, shape), cx)?;
+    own_change(SequenceId::WorkChange, &[VarId::Work], cx)?;
+    if let Some(work) = cx.want.get(VarId::Work)
+        && cx.said.conditions.get(VarId::Work) != Some(work)
     {
-        work_block(work, shape, want, said, out)?;
+        work_block(work, &mut cx.writer())?;
     }
-    if let Some(max) = want.get(VarId::Maxrpm)
-        && said.conditions.get(VarId::Maxrpm) != Some(max)
+    if let Some(max) = cx.want.get(VarId::Maxrpm)
+        && cx.said.conditions.get(VarId::Maxrpm) != Some(max)
     {
         let message = format!("the spindle is limited to {max} from here, and nothing prints it");
         let help = "the form prints [maxrpm] at a tool change: give the limit there, for the whole time of the tool";
         return fault(Code::PR038, message, help);
     }
-    check_own_limit(shape, want, said)?;
-    spindle_change(shape, want, said, out)?;
-    own_change(SequenceId::CoolantChange, &[VarId::Cool], shape, want, said, out)?;
-    end_beside(want.coolant, shape, want, said, out)?;
-    if let Some(ends) = want.ends_coolant.take().filter(|&ends| said.coolant_ended != Some(ends)) {
-        value_code(b'M', ends, shape, want, said, out)?;
-        out.end_block();
+    check_own_limit(shape, cx.want, cx.said)?;
+    spindle_change(cx)?;
+    own_change(SequenceId::CoolantChange, &[VarId::Cool], cx)?;
+    end_beside(cx.want.coolant, &mut cx.writer())?;
+    if let Some(ends) = cx.want.ends_coolant.take().filter(|&ends| cx.said.coolant_ended != Some(ends)) {
+        value_code(b'M', ends, &mut cx.writer())?;
+        cx.out.end_block();
     }
-    if let Some(cool) = said.due(VarId::Cool, want)
-        && said.conditions.get(VarId::Cool) != Some(cool)
+    if let Some(cool) = cx.said.due(VarId::Cool, cx.want)
+        && cx.said.conditions.get(VarId::Cool) != Some(cool)
     {
-        takes_back(VarId::Cool, cool, shape, said, out);
-        value_code(b'M', cool, shape, want, said, out)?;
-        out.end_block();
-        said.conditions.put(VarId::Cool, Some(cool));
+        takes_back(VarId::Cool, cool, shape, cx.said, cx.out);
+        value_code(b'M', cool, &mut cx.writer())?;
+        cx.out.end_block();
+        cx.said.conditions.put(VarId::Cool, Some(cool));
     }
-    begin_beside(shape, want, said, out)?;
+    begin_beside(&mut cx.writer())?;
     // a code of the coolant may have stopped the spindle
-    spindle_change(shape, want, said, out)?;
-    own_change(SequenceId::FeedModeChange, &[VarId::Feedtype], shape, want, said, out)?;
-    if let Some(feed_type) = want.get(VarId::Feedtype)
-        && said.conditions.get(VarId::Feedtype) != Some(feed_type)
+    spindle_change(cx)?;
+    own_change(SequenceId::FeedModeChange, &[VarId::Feedtype], cx)?;
+    if let Some(feed_type) = cx.want.get(VarId::Feedtype)
+        && cx.said.conditions.get(VarId::Feedtype) != Some(feed_type)
     {
-        value_code(b'G', feed_type, shape, want, said, out)?;
-        out.end_block();
-        said.conditions.put(VarId::Feedtype, Some(feed_type));
+        value_code(b'G', feed_type, &mut cx.writer())?;
+        cx.out.end_block();
+        cx.said.conditions.put(VarId::Feedtype, Some(feed_type));
     }
-    said.conditions_are_settled(want);
-    want.ends_what_is_on(shape);
+    cx.said.conditions_are_settled(cx.want);
+    cx.want.ends_what_is_on(shape);
     Ok(())
 }
 
@@ -105,21 +110,15 @@ fn takes_back(var: VarId, due: f64, shape: &Shape, said: &mut Said, out: &mut Pr
 }
 
 /// The form's own sequence for a change that no other sequence served; what it leaves unsaid is generated behind it.
-fn own_change(
-    id: SequenceId,
-    vars: &[VarId],
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
+fn own_change(id: SequenceId, vars: &[VarId], cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     match shape.program.routine(id) {
-        Some(routine) if said.lacks(want, shape).meets(VarSet::of(vars)) => {
-            run_all(shape.way(routine, want, said), shape, want, said, out)?;
+        Some(routine) if cx.said.lacks(cx.want, shape).meets(VarSet::of(vars)) => {
+            run_all(shape.way(routine, cx.want, cx.said), &mut cx.writer())?;
             if !shape.program.settings.control().is_run() {
                 // in another language the form's own sequence has printed the change in its own way
                 for &var in vars {
-                    said.conditions.put(var, said.due(var, want));
+                    cx.said.conditions.put(var, cx.said.due(var, cx.want));
                 }
             }
             Ok(())
@@ -129,46 +128,49 @@ fn own_change(
 }
 
 /// Speed and direction by the form's own sequence, else as a block.
-fn spindle_change(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+fn spindle_change(cx: &mut Cx<'_>) -> Done {
     let vars = [VarId::Speed, VarId::Direct, VarId::Speedtype];
-    own_change(SequenceId::SpindleChange, &vars, shape, want, said, out)?;
-    print_spindle(shape, want, said, out)
+    own_change(SequenceId::SpindleChange, &vars, cx)?;
+    print_spindle(&mut cx.writer())
 }
 
 /// Speed and direction of the spindle that nothing printed yet, unless the form's own sequences say when it turns.
-fn print_spindle(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+fn print_spindle(writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let settings = &shape.program.settings;
     let [cw, ccw, off] = settings.spindle;
     if shape.program.switches_spindle {
         return Ok(());
     }
-    let speed = said.due(VarId::Speed, want);
-    let direct = want.get(VarId::Direct);
+    let speed = writer.said.due(VarId::Speed, writer.want);
+    let direct = writer.want.get(VarId::Direct);
     let turns = direct.is_some_and(|code| code == cw || code == ccw);
-    let speed_type = want.get(VarId::Speedtype);
-    let other_mode = said.conditions.get(VarId::Speedtype) != speed_type;
+    let speed_type = writer.want.get(VarId::Speedtype);
+    let other_mode = writer.said.conditions.get(VarId::Speedtype) != speed_type;
     if direct != Some(off)
         && (turns || speed.is_some())
-        && (said.conditions.get(VarId::Direct) != direct || said.conditions.get(VarId::Speed) != speed || other_mode)
+        && (writer.said.conditions.get(VarId::Direct) != direct
+            || writer.said.conditions.get(VarId::Speed) != speed
+            || other_mode)
     {
         if let Some(mode) = speed_type.filter(|_| other_mode) {
-            value_code(b'G', mode, shape, want, said, out)?;
-            said.conditions.put(VarId::Speedtype, Some(mode));
+            value_code(b'G', mode, writer)?;
+            writer.said.conditions.put(VarId::Speedtype, Some(mode));
         }
         if let Some(speed) = speed {
-            takes_back(VarId::Speed, speed, shape, said, out);
-            speed_word(speed, shape, want, said, out)?;
-            said.conditions.put(VarId::Speed, Some(speed));
+            takes_back(VarId::Speed, speed, shape, writer.said, writer.out);
+            speed_word(speed, writer)?;
+            writer.said.conditions.put(VarId::Speed, Some(speed));
         }
         if let Some(direct) = direct {
-            takes_back(VarId::Direct, direct, shape, said, out);
-            value_code(b'M', direct, shape, want, said, out)?;
+            takes_back(VarId::Direct, direct, shape, writer.said, writer.out);
+            value_code(b'M', direct, writer)?;
         }
-        out.end_block();
-    } else if direct == Some(off) && said.conditions.get(VarId::Direct) != Some(off) {
-        takes_back(VarId::Direct, off, shape, said, out);
-        value_code(b'M', off, shape, want, said, out)?;
-        out.end_block();
+        writer.out.end_block();
+    } else if direct == Some(off) && writer.said.conditions.get(VarId::Direct) != Some(off) {
+        takes_back(VarId::Direct, off, shape, writer.said, writer.out);
+        value_code(b'M', off, writer)?;
+        writer.out.end_block();
     }
     Ok(())
 }
@@ -187,11 +189,12 @@ fn check_own_limit(shape: &Shape, want: &Want, said: &Said) -> Done {
 }
 
 /// The work offset, where something that does not print it is about to print a position.
-pub fn work_before(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    match want.get(VarId::Work) {
-        Some(work) if said.conditions.get(VarId::Work) != Some(work) => {
-            work_block(work, shape, want, said, out)?;
-            upons_are_printed(VarId::Work, work, shape, said);
+pub fn work_before(writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
+    match writer.want.get(VarId::Work) {
+        Some(work) if writer.said.conditions.get(VarId::Work) != Some(work) => {
+            work_block(work, writer)?;
+            upons_are_printed(VarId::Work, work, shape, writer.said);
             Ok(())
         }
         _ => Ok(()),
@@ -199,39 +202,41 @@ pub fn work_before(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printe
 }
 
 /// Prints what the speed counts, where something that does not print it is about to print the speed.
-pub fn speed_mode_before(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    let Some(mode) = want.get(VarId::Speedtype).filter(|mode| said.conditions.get(VarId::Speedtype) != Some(*mode))
+pub fn speed_mode_before(writer: &mut Writer<'_>) -> Done {
+    let Some(mode) =
+        writer.want.get(VarId::Speedtype).filter(|mode| writer.said.conditions.get(VarId::Speedtype) != Some(*mode))
     else {
         return Ok(());
     };
-    value_code(b'G', mode, shape, want, said, out)?;
-    said.conditions.put(VarId::Speedtype, Some(mode));
+    value_code(b'G', mode, writer)?;
+    writer.said.conditions.put(VarId::Speedtype, Some(mode));
     // alone the code would count the speed before it in its own unit
-    if let Some(speed) = want.get(VarId::Speed) {
-        speed_word(speed, shape, want, said, out)?;
-        said.conditions.put(VarId::Speed, Some(speed));
+    if let Some(speed) = writer.want.get(VarId::Speed) {
+        speed_word(speed, writer)?;
+        writer.said.conditions.put(VarId::Speed, Some(speed));
     }
-    out.end_block();
+    writer.out.end_block();
     Ok(())
 }
 
 /// The work offset as the form prints it.
-fn work_block(work: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+fn work_block(work: f64, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let words = &shape.program.work;
-    let now = Now { shape, want, said, letter: b' ', block: None, set: &said.kept };
+    let now = Now { shape, want: writer.want, said: writer.said, letter: b' ', block: None, set: &writer.said.kept };
     match words.way(&now, shape.program.settings.codes()) {
         Some((&WorkWord { code, letter: Some(letter), is_code, .. }, value)) => {
             if let Some(code) = code {
-                code_word(&sema::Code::plain(code), shape, want, said, out)?;
+                code_word(&sema::Code::plain(code), writer)?;
             }
             if is_code {
-                value_code(letter, value, shape, want, said, out)?;
+                value_code(letter, value, writer)?;
             } else {
-                letter_word(letter, value, shape, said, out)?;
-                said.forget_axes(shape);
+                letter_word(letter, value, shape, writer.said, writer.out)?;
+                writer.said.forget_axes(shape);
             }
         }
-        None if words.ways.is_empty() && !is_no_work(work, shape) => value_code(b'G', work, shape, want, said, out)?,
+        None if words.ways.is_empty() && !is_no_work(work, shape) => value_code(b'G', work, writer)?,
         Some(_) => {
             let message = format!("the work offset changes to {work}, which the form prints as text");
             return fault(Code::PR017, message, "add the sequence `WorkChange` with that text");
@@ -241,8 +246,8 @@ fn work_block(work: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut 
             return fault(Code::PR017, message, "print `G[work]` in the tool changes, or add `Upon [work]`");
         }
     }
-    out.end_block();
-    said.conditions.put(VarId::Work, Some(work));
+    writer.out.end_block();
+    writer.said.conditions.put(VarId::Work, Some(work));
     Ok(())
 }
 

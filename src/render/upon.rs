@@ -1,9 +1,9 @@
 //! Upon sequences: printed when a variable changes, before what uses it.
 
 use super::body::run_all;
+use super::cx::Cx;
 use super::fault::{Done, fault_at};
 use super::prelude::way_before;
-use super::printer::Printer;
 use super::prints::prints_axis_words;
 use super::said::Said;
 use super::shape::Shape;
@@ -72,13 +72,14 @@ pub fn upons_are_printed(var: VarId, value: f64, shape: &Shape, said: &mut Said)
 }
 
 /// Runs a sequence after the Upon sequences of the variables that it prints.
-pub fn run_with_upons(routine: &Routine, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    upons(routine.vars, shape, want, said, out)?;
-    run_all(routine, shape, want, said, out)
+pub fn run_with_upons(routine: &Routine, cx: &mut Cx<'_>) -> Done {
+    upons(routine.vars, cx)?;
+    run_all(routine, &mut cx.writer())
 }
 
 /// Prints the Upon sequences that are due before these variables are used. Their bodies trigger none.
-pub fn upons(used: VarSet, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn upons(used: VarSet, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let program = shape.program;
     if !program.upon_vars.meets(used) {
         return Ok(());
@@ -87,23 +88,23 @@ pub fn upons(used: VarSet, shape: &Shape, want: &mut Want, said: &mut Said, out:
         if !used.has(upon.var) {
             continue;
         }
-        let Some(value) = want.get(upon.var) else { continue };
-        let before = said.upon_used[i].replace(value);
+        let Some(value) = cx.want.get(upon.var) else { continue };
+        let before = cx.said.upon_used[i].replace(value);
         if is_due(upon, before, value) {
-            let routine = shape.way(&upon.routine, want, said);
+            let routine = shape.way(&upon.routine, cx.want, cx.said);
             let moves = prints_axis_words(routine, false, shape);
-            if moves && want.compensated {
+            if moves && cx.want.compensated {
                 let message = format!("Upon [{}] moves the tool under cutter compensation", upon.var.name());
                 let help = "end the compensation with an `outfeed` before the change";
                 return fault_at(Code::PR030, message, help, Some(routine.span));
             }
-            let placed = std::mem::take(&mut said.stand.placed);
-            way_before(routine, shape, want, said, out)?;
-            run_all(routine, shape, want, said, out)?;
-            stands_where_it_was_put(shape, want, said);
-            said.stand.placed |= placed;
+            let placed = std::mem::take(&mut cx.said.stand.placed);
+            way_before(routine, &mut cx.writer())?;
+            run_all(routine, &mut cx.writer())?;
+            stands_where_it_was_put(shape, cx.want, cx.said);
+            cx.said.stand.placed |= placed;
             if prints_axis_words(routine, true, shape) {
-                said.stand.moved_by = Some(upon.routine.span);
+                cx.said.stand.moved_by = Some(upon.routine.span);
             }
         }
     }

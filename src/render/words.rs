@@ -1,5 +1,6 @@
 //! The words of generated blocks: axes, increments, codes, the feed.
 
+use super::cx::Writer;
 use super::fault::{Done, fault, fault_at};
 use super::numbers::{ROUNDED, as_number, loses, quantised};
 use super::printer::Printer;
@@ -101,29 +102,32 @@ pub fn increments(target: &Axes, axes: u8, shape: &Shape, said: &mut Said, out: 
 
 /// The motion code, unless it is in force and may be dropped.
 #[inline]
-pub fn motion_word(code: &sema::Code, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    if said.code_drops(code.code, shape) {
+pub fn motion_word(code: &sema::Code, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
+    if writer.said.code_drops(code.code, shape) {
         return Ok(());
     }
-    code_word(code, shape, want, said, out)
+    code_word(code, writer)
 }
 
 /// A code, as typed in its command or by its letter's format.
-pub fn code_word(code: &sema::Code, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn code_word(code: &sema::Code, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let info = &shape.letters[code.letter()];
     match &code.text {
-        Some(text) => out.text(text, false),
-        None => out.letter(info, quantised(info, code.value())?, false)?,
+        Some(text) => writer.out.text(text, false),
+        None => writer.out.letter(info, quantised(info, code.value())?, false)?,
     }
-    said.code_word(info, code.value(), Line::NONE, want, shape);
+    writer.said.code_word(info, code.value(), Line::NONE, writer.want, shape);
     Ok(())
 }
 
 /// The code of a value of the job or of the form's commands, by its letter's format.
-pub fn value_code(letter: u8, value: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn value_code(letter: u8, value: f64, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let info = &shape.letters[letter];
-    out.letter(info, quantised(info, value)?, false)?;
-    said.code_word(info, value, Line::NONE, want, shape);
+    writer.out.letter(info, quantised(info, value)?, false)?;
+    writer.said.code_word(info, value, Line::NONE, writer.want, shape);
     Ok(())
 }
 
@@ -151,32 +155,34 @@ pub fn letter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, out: 
 }
 
 /// The speed of the spindle, always printed.
-pub fn speed_word(speed: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn speed_word(speed: f64, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let letter = shape.program.settings.speed_code;
     let info = &shape.letters[letter];
-    check_feed(info, VarId::Speed, speed, quantised(info, speed)?, want, out)?;
-    letter_word(letter, speed, shape, said, out)
+    check_feed(info, VarId::Speed, speed, quantised(info, speed)?, writer.want, writer.out)?;
+    letter_word(letter, speed, shape, writer.said, writer.out)
 }
 
 /// Prints the feed, when it changed; in inverse time always.
 #[inline]
-pub fn feed_word(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn feed_word(writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let info = &shape.letters[shape.program.settings.feed_code];
-    if let Some(units) = want.feed_units()
-        && said.holds(info, units)
+    if let Some(units) = writer.want.feed_units()
+        && writer.said.holds(info, units)
         && info.modal
-        && !want.inverse_time()
+        && !writer.want.inverse_time()
     {
         return Ok(());
     }
-    let Some(feed) = want.feed() else { return Ok(()) };
+    let Some(feed) = writer.want.feed() else { return Ok(()) };
     let units = quantised(info, feed)?;
-    check_feed(info, VarId::Frate, feed, units, want, out)?;
-    if said.holds(info, units) && info.modal && !want.inverse_time() {
+    check_feed(info, VarId::Frate, feed, units, writer.want, writer.out)?;
+    if writer.said.holds(info, units) && info.modal && !writer.want.inverse_time() {
         return Ok(());
     }
-    out.letter(info, units, false)?;
-    said.word(info, units);
+    writer.out.letter(info, units, false)?;
+    writer.said.word(info, units);
     Ok(())
 }
 
@@ -216,37 +222,31 @@ fn lost_digits(info: &Letter, var: VarId, value: f64, printed: f64, out: &mut Pr
 
 /// A generated block: motion code, axes that changed, feed. Nothing changed, nothing printed.
 #[inline]
-pub fn move_block(
-    target: &Axes,
-    code: &sema::Code,
-    feeds: bool,
-    shape: &Shape,
-    want: &Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done<bool> {
+pub fn move_block(target: &Axes, code: &sema::Code, feeds: bool, writer: &mut Writer<'_>) -> Done<bool> {
+    let shape = writer.shape;
     let mut axes = AxisUnits::default();
-    axis_units(target, &mut axes, shape, said)?;
-    if axes.changed == 0 || (shape.program.settings.incremental && !has_increment(target, shape, said)?) {
+    axis_units(target, &mut axes, shape, writer.said)?;
+    if axes.changed == 0 || (shape.program.settings.incremental && !has_increment(target, shape, writer.said)?) {
         return Ok(false);
     }
-    motion_word(code, shape, want, said, out)?;
-    axis_words(target, &axes, shape, said, out)?;
+    motion_word(code, writer)?;
+    axis_words(target, &axes, shape, writer.said, writer.out)?;
     if feeds {
-        feed_word(shape, want, said, out)?;
+        feed_word(writer)?;
     }
-    out.end_block();
+    writer.out.end_block();
     Ok(true)
 }
 
 /// The generated dwell block.
-pub fn dwell_block(seconds: f64, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn dwell_block(seconds: f64, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let dwell = &shape.program.settings.dwell;
     let (info, time) = (&shape.letters[dwell.letter], if dwell.milliseconds { seconds * 1000.0 } else { seconds });
     let units = quantised(info, time)?;
-    check_feed(info, VarId::Dwell, time, units, want, out)?;
-    code_word(&dwell.code, shape, want, said, out)?;
-    parameter_word(dwell.letter, time, shape, said, out)?;
-    out.end_block();
+    check_feed(info, VarId::Dwell, time, units, writer.want, writer.out)?;
+    code_word(&dwell.code, writer)?;
+    parameter_word(dwell.letter, time, shape, writer.said, writer.out)?;
+    writer.out.end_block();
     Ok(())
 }

@@ -4,20 +4,18 @@ mod formula;
 mod text;
 
 use crate::control;
+use crate::render::cx::Writer;
 use std::ops::Range;
 
 use super::ahead;
 use super::fault::{Done, fault};
 use super::no_value::no_value;
 use super::numbers::quantised;
-use super::printer::Printer;
-use super::said::{Line, Said};
-use super::shape::Shape;
+use super::said::Line;
 use super::texts::{self, Text};
 use super::unnumbered::last_line;
 use super::values::{Now, property_text, rpm_as_limit};
 use super::vars::MOVED;
-use super::want::Want;
 use super::words::check_feed;
 use crate::compile::{Letter, LetterKind, Op, Routine};
 use crate::diag::{Code, Diag};
@@ -80,42 +78,27 @@ const FEEDS: VarSet =
     VarSet::of(&[VarId::Frate, VarId::Plunge, VarId::Pitch, VarId::Vbite, VarId::Dwell, VarId::Speed]);
 
 /// Runs a whole sequence in which every word prints.
-pub fn run_all(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    run(routine, Mode::All, shape, want, said, out)
+pub fn run_all(routine: &Routine, writer: &mut Writer<'_>) -> Done {
+    run(routine, Mode::All, writer)
 }
 
 /// Runs a whole sequence; each line is a block.
-pub fn run(routine: &Routine, mode: Mode, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    run_part(routine, routine.ops.clone(), mode, shape, want, said, out)
+pub fn run(routine: &Routine, mode: Mode, writer: &mut Writer<'_>) -> Done {
+    run_part(routine, routine.ops.clone(), mode, writer)
 }
 
 /// Runs the first operations of a sequence.
-pub fn run_part(
-    routine: &Routine,
-    ops: Range<usize>,
-    mode: Mode,
-    shape: &Shape,
-    want: &Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
-    said.begin_sequence();
-    go_on(routine, ops, mode, shape, want, said, out)
+pub fn run_part(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut Writer<'_>) -> Done {
+    writer.said.begin_sequence();
+    go_on(routine, ops, mode, writer)
 }
 
 /// Runs further operations of the same sequence.
-pub fn go_on(
-    routine: &Routine,
-    ops: Range<usize>,
-    mode: Mode,
-    shape: &Shape,
-    want: &Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
+pub fn go_on(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let begin = ops.start;
     let mut left_out = routine.left_out.as_deref().unwrap_or_default();
-    let mut body = Body { shape, want, said, out, mode, line: begin, at: begin, drops: false, text: Vec::new() };
+    let mut body = Body { writer: writer.lend(), mode, line: begin, at: begin, drops: false, text: Vec::new() };
     let mut i = ops.start;
     loop {
         while let [first, rest @ ..] = left_out
@@ -134,11 +117,11 @@ pub fn go_on(
             Op::Comment { words } if body.comment_is_empty(i, words as usize) => i += words as usize,
             op => {
                 body.at = i;
-                let mark = body.out.mark();
+                let mark = body.writer.out.mark();
                 let span = shape.program.spans[i];
                 body.operation(op, i).map_err(|diag| Box::new(diag.at(span, "printed from here")))?;
                 if let Some(from) = mark {
-                    body.out.trace_word(from, span);
+                    body.writer.out.trace_word(from, span);
                 }
             }
         }
@@ -146,16 +129,18 @@ pub fn go_on(
     }
     body.end_line();
     // looked at before the next move: until then another sequence may put it right
-    if said.take_switched() {
-        said.differs |= said.is_misread(shape, want) || !said.lacks(want, shape).is_empty();
+    if writer.said.take_switched() {
+        writer.said.differs |=
+            writer.said.is_misread(shape, writer.want) || !writer.said.lacks(writer.want, shape).is_empty();
     }
     Ok(())
 }
 
 /// Does what the directives of a sequence set before the lines that a cycle repeats: they count at every hole.
-pub fn run_sets(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn run_sets(routine: &Routine, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let (line, mode) = (routine.ops.start, Mode::Hole);
-    let mut body = Body { shape, want, said, out, mode, line, at: line, drops: false, text: Vec::new() };
+    let mut body = Body { writer: writer.lend(), mode, line, at: line, drops: false, text: Vec::new() };
     for i in routine.steps_in(routine.ops.start..routine.repeat) {
         if let Op::Set { index } = shape.program.ops[i] {
             let at = |diag: Box<Diag>| Box::new(diag.at(shape.program.spans[i], "printed from here"));
@@ -166,11 +151,8 @@ pub fn run_sets(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, 
 }
 
 /// A sequence while it runs.
-struct Body<'r, 'p> {
-    shape: &'r Shape<'p>,
-    want: &'r Want,
-    said: &'r mut Said,
-    out: &'r mut Printer,
+struct Body<'r> {
+    writer: Writer<'r>,
     mode: Mode,
     /// Where the operations of the line begin that is printed.
     line: usize,
@@ -182,21 +164,21 @@ struct Body<'r, 'p> {
     text: Vec<u8>,
 }
 
-impl Body<'_, '_> {
+impl Body<'_> {
     /// Ends a line of the sequence.
     fn end_line(&mut self) {
         self.read_text();
-        self.said.end_block(self.want, self.shape);
-        if self.out.has_words() {
-            let number = self.shape.program.settings.number_last
-                || Some(self.line) != last_line(self.shape, self.want, self.said);
-            self.out.finish(number, Some(self.shape.program.spans[self.line]));
+        self.writer.said.end_block(self.writer.want, self.writer.shape);
+        if self.writer.out.has_words() {
+            let number = self.writer.shape.program.settings.number_last
+                || Some(self.line) != last_line(self.writer.shape, self.writer.want, self.writer.said);
+            self.writer.out.finish(number, Some(self.writer.shape.program.spans[self.line]));
         }
     }
 
     /// The line whose words are printed. A block that is too long is refused at its end, whatever it says.
     fn line(&self) -> Line {
-        if self.out.is_too_long() { Line::NONE } else { Line::at(self.line) }
+        if self.writer.out.is_too_long() { Line::NONE } else { Line::at(self.line) }
     }
 
     /// Prints an operation. What is no word with a letter is kept, so that the whole text of the line can be read.
@@ -205,10 +187,10 @@ impl Body<'_, '_> {
             self.read_text();
             return self.print_operation(op, at);
         }
-        let from = self.out.length();
+        let from = self.writer.out.length();
         self.print_operation(op, at)?;
-        if self.out.length() > from {
-            self.text.extend_from_slice(self.out.block_from(from));
+        if self.writer.out.length() > from {
+            self.text.extend_from_slice(self.writer.out.block_from(from));
         }
         Ok(())
     }
@@ -240,39 +222,41 @@ impl Body<'_, '_> {
                 self.remark(value, glued)?;
             }
             Op::Comment { .. } => {}
-            Op::Quote { index, glued } => self.out.quote(&self.shape.program.texts[index as usize], glued),
+            Op::Quote { index, glued } => {
+                self.writer.out.quote(&self.writer.shape.program.texts[index as usize], glued)
+            }
             Op::TextVar { var, in_comment, glued } => {
-                let behind = in_comment.then(|| texts::typed_behind(at, self.shape));
-                let text = Text { name: &var, width: var.width, text: self.want.texts.get(var.id) };
+                let behind = in_comment.then(|| texts::typed_behind(at, self.writer.shape));
+                let text = Text { name: &var, width: var.width, text: self.writer.want.texts.get(var.id) };
                 if var.id == TextId::Toolname && !in_comment {
-                    self.said.names.tool(&text, self.out)?;
+                    self.writer.said.names.tool(&text, self.writer.out)?;
                 }
-                texts::print(&text, behind, glued, self.shape, self.out);
+                texts::print(&text, behind, glued, self.writer.shape, self.writer.out);
             }
             Op::PropertyText { row, in_comment, glued } => {
-                let behind = in_comment.then(|| texts::typed_behind(at, self.shape));
-                let name = format!("[{}]", self.shape.program.settings.properties[usize::from(row)].name);
-                let text = Text { name: &name, width: 0, text: property_text(row, self.want, self.said) };
-                texts::print(&text, behind, glued, self.shape, self.out);
+                let behind = in_comment.then(|| texts::typed_behind(at, self.writer.shape));
+                let name = format!("[{}]", self.writer.shape.program.settings.properties[usize::from(row)].name);
+                let text = Text { name: &name, width: 0, text: property_text(row, self.writer.want, self.writer.said) };
+                texts::print(&text, behind, glued, self.writer.shape, self.writer.out);
             }
             Op::Value { var, glued } => self.bare_word(var, glued)?,
             Op::Remark { var, glued } => self.remark(self.value_of(var, b' '), glued)?,
             Op::Text { index, glued } => {
-                self.out.text(&self.shape.program.texts[index as usize], glued);
+                self.writer.out.text(&self.writer.shape.program.texts[index as usize], glued);
             }
         }
         Ok(())
     }
 
     fn var_word(&mut self, letter: u8, var: VarId, glued: bool) -> Done {
-        let (shape, settings) = (self.shape, &self.shape.program.settings);
+        let (shape, settings) = (self.writer.shape, &self.writer.shape.program.settings);
         let info = &shape.letters[letter];
         if var == VarId::Tparams
             && let Some((_, digits)) = shape.letters.packed.iter().find(|(l, _)| *l == letter)
         {
             return self.packed_word(info, digits, glued);
         }
-        if self.mode == Mode::ArcMotion && ARC_WORDS.has(var) && self.want.get(var).is_none() {
+        if self.mode == Mode::ArcMotion && ARC_WORDS.has(var) && self.writer.want.get(var).is_none() {
             return Ok(()); // the centre along the axis across the plane
         }
         let Some(value) = self.value_of(var, letter)? else { return Ok(()) };
@@ -282,7 +266,7 @@ impl Body<'_, '_> {
         self.counts_from(letter, var, value);
         let units = quantised(info, value)?;
         if FEEDS.has(var) {
-            check_feed(info, var, value, units, self.want, self.out)?;
+            check_feed(info, var, value, units, self.writer.want, self.writer.out)?;
         }
         if self.drops_word(letter, Some(var), value, units) {
             return Ok(());
@@ -291,25 +275,25 @@ impl Body<'_, '_> {
         if info.kind == LetterKind::Axis {
             let is_position = POSITIONS.has(var);
             if is_position {
-                self.said.stand.placed |= shape.axis_bit(letter);
+                self.writer.said.stand.placed |= shape.axis_bit(letter);
             }
-            if self.said.is_elsewhere(shape) || !is_position {
-                self.said.forget(info);
+            if self.writer.said.is_elsewhere(shape) || !is_position {
+                self.writer.said.forget(info);
             } else {
-                self.said.word(info, units);
+                self.writer.said.word(info, units);
             }
         }
         match var {
-            VarId::D => self.said.set_depth_moved(false),
+            VarId::D => self.writer.said.set_depth_moved(false),
             // another length register alone moves the depth as G43 does
             VarId::Lcomp if !self.line().prints(shape, |_, var| var == Some(VarId::D)) => {
-                self.said.set_depth_moved(true);
+                self.writer.said.set_depth_moved(true);
             }
             _ => {}
         }
         self.condition_word(letter, var, value);
         if var == VarId::Block {
-            self.out.prints_number();
+            self.writer.out.prints_number();
         }
         Ok(())
     }
@@ -317,34 +301,34 @@ impl Body<'_, '_> {
     /// Positions behind the word of another work offset count from there.
     fn counts_from(&mut self, letter: u8, var: VarId, value: f64) {
         if var == VarId::Work
-            && self.shape.program.work.says(self.at)
-            && self.shape.letters[letter].kind != LetterKind::GCode
-            && !self.said.conditions.holds(VarId::Work, value)
+            && self.writer.shape.program.work.says(self.at)
+            && self.writer.shape.letters[letter].kind != LetterKind::GCode
+            && !self.writer.said.conditions.holds(VarId::Work, value)
         {
-            self.said.forget_axes(self.shape);
+            self.writer.said.forget_axes(self.writer.shape);
         }
     }
 
     /// A word with this variable was printed. The work offset is said by some of the words that print it.
     fn condition_word(&mut self, letter: u8, var: VarId, value: f64) {
-        if var != VarId::Work || self.shape.program.work.says(self.at) {
-            self.said.condition_word(letter, var, value, self.line(), self.want, self.shape);
+        if var != VarId::Work || self.writer.shape.program.work.says(self.at) {
+            self.writer.said.condition_word(letter, var, value, self.line(), self.writer.want, self.writer.shape);
         }
     }
 
     /// A word with its value. The control holds it from here; what an axis holds depends on what it counts from.
     fn print(&mut self, letter: u8, value: f64, units: i64, glued: bool) -> Done {
-        let info = &self.shape.letters[letter];
-        self.out.letter(info, units, glued)?;
+        let info = &self.writer.shape.letters[letter];
+        self.writer.out.letter(info, units, glued)?;
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => {
-                self.said.code_word(info, value, self.line(), self.want, self.shape);
+                self.writer.said.code_word(info, value, self.line(), self.writer.want, self.writer.shape);
             }
             LetterKind::Axis => {}
-            LetterKind::Other => self.said.word(info, units),
+            LetterKind::Other => self.writer.said.word(info, units),
         }
-        if Some(info.printed) == self.shape.program.settings.numbers.letter {
-            self.out.prints_number();
+        if Some(info.printed) == self.writer.shape.program.settings.numbers.letter {
+            self.writer.out.prints_number();
         }
         Ok(())
     }
@@ -352,8 +336,8 @@ impl Body<'_, '_> {
     /// May a word be left out, because the control holds it already? Of its variable, where its value is not calculated.
     fn drops_word(&self, letter: u8, var: Option<VarId>, value: f64, units: i64) -> bool {
         let is = |set: VarSet| var.is_some_and(|var| set.has(var));
-        let settings = &self.shape.program.settings;
-        let info = &self.shape.letters[letter];
+        let settings = &self.writer.shape.program.settings;
+        let info = &self.writer.shape.letters[letter];
         match self.mode {
             Mode::All => false,
             Mode::Motion | Mode::ArcMotion => {
@@ -361,24 +345,24 @@ impl Body<'_, '_> {
                 !arc_word
                     && match info.kind {
                         LetterKind::GCode | LetterKind::MCode => control::Code::of(info.printed, value)
-                            .is_some_and(|code| self.said.code_drops(code, self.shape)),
+                            .is_some_and(|code| self.writer.said.code_drops(code, self.writer.shape)),
                         // an increment is no position: it may go when it is none
                         _ if is(INCREMENTS) => units == 0,
-                        _ => info.modal && self.said.holds(info, units),
+                        _ => info.modal && self.writer.said.holds(info, units),
                     }
-                    && !(self.want.inverse_time() && letter == settings.feed_code)
+                    && !(self.writer.want.inverse_time() && letter == settings.feed_code)
             }
             Mode::NextHole { position } => {
                 let is_position = matches!(var, Some(VarId::H | VarId::V));
-                settings.modality && !(position && is_position) && self.said.holds_value(info, units, value)
+                settings.modality && !(position && is_position) && self.writer.said.holds_value(info, units, value)
             }
-            Mode::Hole => self.drops && self.said.holds_value(info, units, value),
+            Mode::Hole => self.drops && self.writer.said.holds_value(info, units, value),
         }
     }
 
     /// A word of packed parameters: as the form has them, or as the job sets them, in as many digits.
     fn packed_word(&mut self, info: &Letter, digits: &str, glued: bool) -> Done {
-        let text = match self.want.get(VarId::Tparams) {
+        let text = match self.writer.want.get(VarId::Tparams) {
             Some(value) => format!("{value:0width$}", width = digits.len()),
             None => digits.to_owned(),
         };
@@ -386,7 +370,7 @@ impl Body<'_, '_> {
             let message = format!("[tparams] is {text}, its word has {} digits", digits.len());
             return fault(Code::PR002, message, "give a whole number of that many digits");
         }
-        let word = self.out.word(glued);
+        let word = self.writer.out.word(glued);
         word.push(info.printed);
         word.extend_from_slice(text.as_bytes());
         Ok(())
@@ -398,19 +382,19 @@ impl Body<'_, '_> {
             return Ok(Some(value));
         }
         match var {
-            VarId::Maxrpm if rpm_as_limit(self.shape, self.want).is_some() => {
-                return Ok(rpm_as_limit(self.shape, self.want));
+            VarId::Maxrpm if rpm_as_limit(self.writer.shape, self.writer.want).is_some() => {
+                return Ok(rpm_as_limit(self.writer.shape, self.writer.want));
             }
-            VarId::Block => return Ok(Some(self.out.number() as f64)),
+            VarId::Block => return Ok(Some(self.writer.out.number() as f64)),
             // a two-axis job has no upper guide
-            VarId::H2 | VarId::V2 if self.shape.linear == 4 => return Ok(None),
+            VarId::H2 | VarId::V2 if self.writer.shape.linear == 4 => return Ok(None),
             // a cycle without dwell drops the word
-            VarId::Dwell if self.want.cycle.is_some() => return Ok(None),
+            VarId::Dwell if self.writer.want.cycle.is_some() => return Ok(None),
             _ => {}
         }
         if ahead::is_reach(var)
-            && let Some(survey) = &self.shape.options.survey
-            && !ahead::sums(self.want.item, survey).in_one_frame()
+            && let Some(survey) = &self.writer.shape.options.survey
+            && !ahead::sums(self.writer.want.item, survey).in_one_frame()
         {
             let message = format!("[{}] in a job of several work offsets", var.name());
             return fault(
@@ -424,24 +408,31 @@ impl Body<'_, '_> {
 
     /// The values of variables for a word of this letter.
     fn now(&self, letter: u8) -> Now<'_, '_> {
-        let block = Some(self.out.number());
-        Now { shape: self.shape, want: self.want, said: self.said, letter, block, set: &self.said.kept }
+        let block = Some(self.writer.out.number());
+        Now {
+            shape: self.writer.shape,
+            want: self.writer.want,
+            said: self.writer.said,
+            letter,
+            block,
+            set: &self.writer.said.kept,
+        }
     }
 
     /// A word as typed; its value goes into the registers.
     fn literal_word(&mut self, index: usize, glued: bool) {
-        let shape = self.shape;
+        let shape = self.writer.shape;
         let literal = &shape.program.literals[index];
         let info = &shape.letters[literal.letter];
         let drop = match self.mode {
             Mode::All | Mode::Hole => false,
-            Mode::Motion | Mode::ArcMotion => literal.code.is_some_and(|code| self.said.code_drops(code, shape)),
+            Mode::Motion | Mode::ArcMotion => literal.code.is_some_and(|code| self.writer.said.code_drops(code, shape)),
             Mode::NextHole { .. } => true,
         };
         if drop {
             return;
         }
-        let word = self.out.word(glued);
+        let word = self.writer.out.word(glued);
         if info.printed == literal.letter && !info.dummy {
             word.extend_from_slice(literal.text.as_bytes());
         } else {
@@ -452,29 +443,29 @@ impl Body<'_, '_> {
         }
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => {
-                self.said.code_word(info, literal.value, self.line(), self.want, shape);
+                self.writer.said.code_word(info, literal.value, self.line(), self.writer.want, shape);
             }
             // a literal position may stand in another frame
             LetterKind::Axis => {
-                self.said.forget(info);
-                self.said.displaced(shape.axis_bit(literal.letter), shape);
+                self.writer.said.forget(info);
+                self.writer.said.displaced(shape.axis_bit(literal.letter), shape);
             }
             LetterKind::Other => match quantise(literal.value, info.format.dec.count) {
-                Some(units) => self.said.word(info, units),
-                None => self.said.forget(info),
+                Some(units) => self.writer.said.word(info, units),
+                None => self.writer.said.forget(info),
             },
         }
         if Some(info.printed) == shape.program.settings.numbers.letter {
-            self.out.prints_number();
+            self.writer.out.prints_number();
         }
-        self.said.speed_word(literal.letter, literal.value, self.line(), self.want, shape);
+        self.writer.said.speed_word(literal.letter, literal.value, self.line(), self.writer.want, shape);
     }
 
     /// In a form of increments a position is read as one, unless the control was told otherwise.
     #[cold]
     fn check_position_word(&self, letter: u8, var: VarId) -> Done {
-        let [increments, _] = self.shape.program.settings.inc_abs;
-        if !self.said.is_in_distance(increments) {
+        let [increments, _] = self.writer.shape.program.settings.inc_abs;
+        if !self.writer.said.is_in_distance(increments) {
             return Ok(());
         }
         let message =

@@ -6,18 +6,18 @@ use crate::render::fault::Done;
 use crate::render::texts;
 use crate::render::values::property_text;
 
-impl Body<'_, '_> {
+impl Body<'_> {
     /// Has the job none of the texts of the comment that begins here?
     pub(super) fn comment_is_empty(&self, at: usize, words: usize) -> bool {
-        texts::are_empty(&self.shape.program.ops[at + 1..][..words], &self.want.texts, &|row| {
-            property_text(row, self.want, self.said).is_empty()
+        texts::are_empty(&self.writer.shape.program.ops[at + 1..][..words], &self.writer.want.texts, &|row| {
+            property_text(row, self.writer.want, self.writer.said).is_empty()
         })
     }
 
     /// Reads the text that was printed since the last word.
     pub(super) fn read_text(&mut self) {
         if !self.text.is_empty() {
-            self.said.text(&self.text, self.line(), self.want, self.shape);
+            self.writer.said.text(&self.text, self.line(), self.writer.want, self.writer.shape);
             self.text.clear();
         }
     }
@@ -26,9 +26,9 @@ impl Body<'_, '_> {
     pub(super) fn bare_word(&mut self, var: VarId, glued: bool) -> Done {
         let Some(value) = self.value_of(var, b' ')? else { return Ok(()) };
         self.counts_from(b' ', var, value);
-        self.out.bare(value, &self.shape.letters.bare, glued)?;
+        self.writer.out.bare(value, &self.writer.shape.letters.bare, glued)?;
         if var == VarId::Block {
-            self.out.prints_number();
+            self.writer.out.prints_number();
         }
         self.condition_word(b' ', var, value);
         Ok(())

@@ -6,85 +6,69 @@ use crate::control::Meaning;
 use crate::cycle::{Step, plan};
 use crate::diag::Code;
 use crate::lang::VarId;
+use crate::render::cx::{Cx, Writer};
 use crate::render::fault::{Done, fault};
 use crate::render::moves::line::line_to;
 use crate::render::moves::rapid_blocks::{rapid_block, split_rapid};
-use crate::render::printer::Printer;
-use crate::render::said::Said;
 use crate::render::settle::settle;
-use crate::render::shape::Shape;
 use crate::render::targets::set_targets;
-use crate::render::want::Want;
 use crate::render::words::{code_word, dwell_block, parameter_word, speed_word, value_code};
 
 /// A hole as single moves.
-pub fn generated_hole(
-    hole: &Planned,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    drill: &mut Drilling,
-) -> Done {
+pub fn generated_hole(hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
     let Some(cycle) = &drill.open else { return Ok(()) };
     let top = hole.heights.return_plane - hole.heights.point;
     plan(&cycle.spec, &hole.planes, top, &shape.defaults, &mut drill.steps)?;
     let steps = std::mem::take(&mut drill.steps);
-    let done = make_steps(&steps.list, hole, shape, want, said, out, drill);
+    let done = make_steps(&steps.list, hole, cx, drill);
     drill.steps = steps;
     done
 }
 
-fn make_steps(
-    steps: &[Step],
-    hole: &Planned,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    drill: &mut Drilling,
-) -> Done {
-    set_targets(&hole.target, shape, want, said)?;
-    if said.is_unsettled(want) {
-        settle(shape, want, said, out)?;
+fn make_steps(steps: &[Step], hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
+    set_targets(&hole.target, shape, cx.want, cx.said)?;
+    if cx.said.is_unsettled(cx.want) {
+        settle(cx)?;
     }
-    hole_variables(hole, shape, want, drill);
-    split_rapid(&hole.target, shape, want, said, out)?;
-    said.forget(&shape.letters[shape.program.settings.feed_code]);
-    let direct = want.get(VarId::Direct);
+    hole_variables(hole, shape, cx.want, drill);
+    split_rapid(&hole.target, cx)?;
+    cx.said.forget(&shape.letters[shape.program.settings.feed_code]);
+    let direct = cx.want.get(VarId::Direct);
     let mut sped_up = false;
     for step in steps {
         let mut to = hole.target;
         match *step {
             Step::Rapid(height) => {
                 to.values[shape.depth] = hole.heights.point + height;
-                set_targets(&to, shape, want, said)?;
-                split_rapid(&to, shape, want, said, out)?;
+                set_targets(&to, shape, cx.want, cx.said)?;
+                split_rapid(&to, cx)?;
             }
             Step::RapidAside(height, x, y) => {
                 to.values[0] += x;
                 to.values[1] += y;
                 to.values[shape.depth] = hole.heights.point + height;
-                set_targets(&to, shape, want, said)?;
-                rapid_block(&to, None, shape, want, said, out)?; // off the wall and up in one: up alone would score it
+                set_targets(&to, shape, cx.want, cx.said)?;
+                rapid_block(&to, None, cx)?; // off the wall and up in one: up alone would score it
             }
             Step::Feed(height, feed) => {
                 to.values[shape.depth] = hole.heights.point + height;
-                want.keep_feed(Some(feed), shape);
-                set_targets(&to, shape, want, said)?;
-                line_to(&to, shape, want, said, out)?;
+                cx.want.keep_feed(Some(feed), shape);
+                set_targets(&to, shape, cx.want, cx.said)?;
+                line_to(&to, cx)?;
             }
-            Step::Dwell(seconds) => dwell_block(seconds, shape, want, said, out)?,
-            Step::SpindleStop => spindle_block(shape.program.settings.spindle[2], None, shape, want, said, out)?,
+            Step::Dwell(seconds) => dwell_block(seconds, &mut cx.writer())?,
+            Step::SpindleStop => spindle_block(shape.program.settings.spindle[2], None, &mut cx.writer())?,
             Step::SpindleStart => {
                 let speed = std::mem::take(&mut sped_up).then_some(1.0);
-                spindle_block(turning(direct, shape)?, speed, shape, want, said, out)?;
+                spindle_block(turning(direct, shape)?, speed, &mut cx.writer())?;
             }
             Step::SpindleReverse(ratio) => {
                 let [cw, ccw, _] = shape.program.settings.spindle;
                 let code = if turning(direct, shape)? == cw { ccw } else { cw };
                 sped_up = ratio != 1.0;
-                spindle_block(code, sped_up.then_some(ratio), shape, want, said, out)?;
+                spindle_block(code, sped_up.then_some(ratio), &mut cx.writer())?;
             }
             Step::Orient(_) if shape.depth == 0 => {
                 let message = "a turned hole has no wall that the tool could leave at an angle of the spindle";
@@ -93,37 +77,30 @@ fn make_steps(
             Step::Orient(angle) => {
                 shape.needs(Meaning::Orient)?;
                 let (code, letter) = &shape.program.settings.orient;
-                code_word(code, shape, want, said, out)?;
-                parameter_word(*letter, angle, shape, said, out)?;
-                out.end_block();
+                code_word(code, &mut cx.writer())?;
+                parameter_word(*letter, angle, shape, cx.said, cx.out)?;
+                cx.out.end_block();
             }
             Step::ProgramStop => {
-                value_code(b'M', shape.program.settings.stop_code[0], shape, want, said, out)?;
-                out.end_block();
+                value_code(b'M', shape.program.settings.stop_code[0], &mut cx.writer())?;
+                cx.out.end_block();
             }
         }
     }
-    let exit = said.stand.position.values[shape.depth];
-    left_hole(&hole.target, Some((exit, true)), shape, said, drill)
+    let exit = cx.said.stand.position.values[shape.depth];
+    left_hole(&hole.target, Some((exit, true)), shape, cx.said, drill)
 }
 
 /// A direction, and where the speed changes with the feed, this many times the spindle's speed.
-fn spindle_block(
-    code: f64,
-    times: Option<f64>,
-    shape: &Shape,
-    want: &Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
+fn spindle_block(code: f64, times: Option<f64>, writer: &mut Writer<'_>) -> Done {
     if let Some(times) = times {
-        let Some(speed) = want.get(VarId::Speed) else {
+        let Some(speed) = writer.want.get(VarId::Speed) else {
             let help = "give the operation a spindle speed, or take `ratio` out";
             return fault(Code::PC009, "a tap that comes out faster must turn faster, and its speed is unknown", help);
         };
-        speed_word(speed * times, shape, want, said, out)?;
+        speed_word(speed * times, writer)?;
     }
-    value_code(b'M', code, shape, want, said, out)?;
-    out.end_block();
+    value_code(b'M', code, writer)?;
+    writer.out.end_block();
     Ok(())
 }

@@ -9,12 +9,12 @@ use crate::compile::Routine;
 use crate::cycle::Plan;
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
+use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault, fault_at};
+use crate::render::moves::prepare::stand_as_left;
 use crate::render::moves::rapid_blocks::split_rapid;
-use crate::render::moves::reach::stand_as_left;
 use crate::render::moves::rotary::turn_to;
 use crate::render::moves::travel::{in_travel, unwound};
-use crate::render::printer::Printer;
 use crate::render::prints::prints_axis;
 use crate::render::said::Said;
 use crate::render::settle::settle;
@@ -33,24 +33,18 @@ fn no_height<T>() -> Done<T> {
 }
 
 /// A hole of the open cycle.
-pub fn hole(
-    hole: &Hole,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    drill: &mut Drilling,
-) -> Done {
+pub fn hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
     if !shape.program.printed.with(shape.program.asked).has(VarId::Lasthole) {
-        return make_hole(hole, shape, want, said, out, drill);
+        return make_hole(hole, cx, drill);
     }
-    let place = out.place;
+    let place = cx.out.place;
     let Some(cycle) = &mut drill.open else { return impossible("a hole outside a cycle") };
     match cycle.held.replace((*hole, place)) {
         Some((before, at)) => {
-            out.place = at;
-            let made = make_hole(&before, shape, want, said, out, drill);
-            out.place = place;
+            cx.out.place = at;
+            let made = make_hole(&before, cx, drill);
+            cx.out.place = place;
             made
         }
         None => Ok(()),
@@ -58,17 +52,11 @@ pub fn hole(
 }
 
 /// Prints a hole.
-pub fn make_hole(
-    hole: &Hole,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    drill: &mut Drilling,
-) -> Done {
+pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
     let program = shape.program;
-    let (scale, rpm) = (shape.scale, want.get(VarId::Speed));
-    let per_rev = want.feed_mode() == FeedMode::PerRev;
+    let (scale, rpm) = (shape.scale, cx.want.get(VarId::Speed));
+    let per_rev = cx.want.feed_mode() == FeedMode::PerRev;
     let point = hole.at.get(shape.depth).map(|d| d * scale);
     let Some(cycle) = &mut drill.open else { return impossible("a hole outside a cycle") };
     let mut planes = Plan::of(&cycle.spec, hole.depth.map(|d| d * scale), &shape.defaults, rpm)?;
@@ -84,12 +72,12 @@ pub fn make_hole(
     let return_plane = first.map_or(clear, |first| first.max(clear));
     let heights = Heights { point, clear, bottom: point + planes.bottom, return_plane };
     let routine = cycle.sequence.and_then(|id| program.routine(id));
-    let mut target = said.stand.target(&hole.at, shape);
+    let mut target = cx.said.stand.target(&hole.at, shape);
     if hole.at.given & ROTARY_BITS != 0 {
-        if said.turns(&unwound(&target, hole.at.given, shape, said), shape) {
-            leave_cycle(shape, want, said, out, drill)?; // before an axis is unwound
+        if cx.said.turns(&unwound(&target, hole.at.given, shape, cx.said), shape) {
+            leave_cycle(cx, drill)?; // before an axis is unwound
         }
-        target = in_travel(&target, hole.at.given, true, shape, want, said, out)?;
+        target = in_travel(&target, hole.at.given, true, cx)?;
     }
     target.set(shape.depth, heights.bottom);
     if !shape.program.settings.limits.is_empty() {
@@ -105,45 +93,45 @@ pub fn make_hole(
     let routine = match routine.filter(|routine| routine.flow.is_some()) {
         Some(routine) => {
             // conditions ask for the hole
-            set_targets(&target, shape, want, said)?;
-            hole_variables(&planned, shape, want, drill);
-            let way = shape.way(routine, want, said);
+            set_targets(&target, shape, cx.want, cx.said)?;
+            hole_variables(&planned, shape, cx.want, drill);
+            let way = shape.way(routine, cx.want, cx.said);
             says_the_hole(way, drill, shape)?;
             Some(way)
         }
         None => routine,
     };
-    let lost = routine.is_some_and(|routine| sequence_loses(routine, &target, shape, said));
-    if said.turns(&target, shape) || lost {
+    let lost = routine.is_some_and(|routine| sequence_loses(routine, &target, shape, cx.said));
+    if cx.said.turns(&target, shape) || lost {
         // no cycle turns the part: the control leaves it, and begins it again there
-        leave_cycle(shape, want, said, out, drill)?;
-        set_targets(&target, shape, want, said)?;
-        if said.is_unsettled(want) {
-            settle(shape, want, said, out)?;
+        leave_cycle(cx, drill)?;
+        set_targets(&target, shape, cx.want, cx.said)?;
+        if cx.said.is_unsettled(cx.want) {
+            settle(cx)?;
         }
-        match program.routine(SequenceId::Index).filter(|_| said.turns(&target, shape)) {
-            Some(_) => turn_to(&target, shape, want, said, out)?,
-            None => split_rapid(&target, shape, want, said, out)?,
+        match program.routine(SequenceId::Index).filter(|_| cx.said.turns(&target, shape)) {
+            Some(_) => turn_to(&target, cx)?,
+            None => split_rapid(&target, cx)?,
         }
     }
-    if said.stand.left_hole.is_some() {
-        stand_as_left(&target, true, shape, want, said, out)?;
+    if cx.said.stand.left_hole.is_some() {
+        stand_as_left(&target, true, cx)?;
     }
-    said.stand.moved_by = None; // every hole is approached by rapids
+    cx.said.stand.moved_by = None; // every hole is approached by rapids
     match routine {
         Some(routine) => {
             for start in 0..starts {
                 planned.heights = heights.of_start(start, starts, &planned.planes)?;
                 planned.target.set(shape.depth, planned.heights.return_plane);
-                sequence_hole(routine, &planned, shape, want, said, out, drill)?;
+                sequence_hole(routine, &planned, cx, drill)?;
             }
             if planned.heights.return_plane < heights.return_plane - SAME {
                 // the last start of a thread comes out lower: nothing may be crossed there
-                leave_cycle(shape, want, said, out, drill)?;
-                split_rapid(&target, shape, want, said, out)?;
+                leave_cycle(cx, drill)?;
+                split_rapid(&target, cx)?;
             }
         }
-        None => generated_hole(&planned, shape, want, said, out, drill)?,
+        None => generated_hole(&planned, cx, drill)?,
     }
     if let Some(cycle) = &mut drill.open {
         cycle.holes += 1;

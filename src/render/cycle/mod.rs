@@ -11,8 +11,8 @@ mod sequence;
 use crate::cycle::check;
 use crate::diag::Code;
 use crate::lang::{Machine, VarId};
+use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault};
-use crate::render::printer::Printer;
 use crate::render::said::Said;
 use crate::render::shape::Shape;
 use crate::render::want::Want;
@@ -23,31 +23,25 @@ use open::{ActiveCycle, Drilling, Setup, is_rigid, leave_cycle, turning};
 use remarks::warn_of;
 
 /// A cycle begins; nothing is printed before its first hole.
-pub fn cycle_begin(
-    spec: &CycleSpec,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    drill: &mut Drilling,
-) -> Done {
+pub fn cycle_begin(spec: &CycleSpec, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
     if shape.program.settings.machine == Machine::Edm {
         return fault(Code::PR008, "a wire EDM machine has no canned cycles", "take the cycle out of the job");
     }
-    if want.compensated {
+    if cx.want.compensated {
         let message = "cutter compensation is on, and no control allows a cycle then";
         return fault(Code::PC041, message, "end the compensation with an `outfeed` before the cycle");
     }
-    if want.inverse_time() {
+    if cx.want.inverse_time() {
         let message = "a canned cycle in an operation whose feeds are inverse time";
         return fault(Code::PR006, message, "give the holes an operation of their own with feeds per minute");
     }
     check(spec)?;
     let spec = scaled(spec, shape);
-    let sequence = choose_sequence(&spec, shape, out)?;
-    warn_of(&spec, sequence, shape, want, out);
-    let turned = turn_for_tap(&spec, shape, want, said)?;
-    want.cycle = Some(spec.kind);
+    let sequence = choose_sequence(&spec, shape, cx.out)?;
+    warn_of(&spec, sequence, shape, cx.want, cx.out);
+    let turned = turn_for_tap(&spec, shape, cx.want, cx.said)?;
+    cx.want.cycle = Some(spec.kind);
     drill.open = Some(ActiveCycle {
         spec,
         sequence,
@@ -61,7 +55,7 @@ pub fn cycle_begin(
         return_plane: None,
         initial_level: 0.0,
         held: None,
-        feed: want.feed(),
+        feed: cx.want.feed(),
         left: None,
         turned,
     });
@@ -104,28 +98,30 @@ fn turn_for_tap(spec: &CycleSpec, shape: &Shape, want: &mut Want, said: &mut Sai
 }
 
 /// Ends the open cycle, if any: the hole that waits, Cancel, and what is known afterwards.
-pub fn close_cycle(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer, drill: &mut Drilling) -> Done {
+pub fn close_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
     let Some(cycle) = &mut drill.open else { return Ok(()) };
     if let Some((hole, place)) = cycle.held.take() {
-        let now = std::mem::replace(&mut out.place, place);
-        want.set(VarId::Lasthole, 1.0);
-        make_hole(&hole, shape, want, said, out, drill)?;
-        want.set(VarId::Lasthole, 0.0);
-        out.place = now;
+        let now = std::mem::replace(&mut cx.out.place, place);
+        cx.want.set(VarId::Lasthole, 1.0);
+        make_hole(&hole, cx, drill)?;
+        cx.want.set(VarId::Lasthole, 0.0);
+        cx.out.place = now;
     }
-    leave_cycle(shape, want, said, out, drill)?;
+    leave_cycle(cx, drill)?;
     let Some(cycle) = drill.open.take() else { return Ok(()) };
-    want.cycle = None;
-    let stands = said.stand.position.get(shape.depth);
+    cx.want.cycle = None;
+    let stands = cx.said.stand.position.get(shape.depth);
     let as_left = |height: f64| cycle.exit_known && stands.is_some_and(|at| (at - height).abs() < 1e-9);
-    said.stand.left_hole = cycle.left.filter(|&height| !as_left(height)).map(|height| (said.stand.position, height));
-    want.keep_feed(cycle.feed, shape);
+    cx.said.stand.left_hole =
+        cycle.left.filter(|&height| !as_left(height)).map(|height| (cx.said.stand.position, height));
+    cx.want.keep_feed(cycle.feed, shape);
     if let Some(direct) = cycle.turned {
-        want.set(VarId::Direct, direct);
-        want.changed = true;
+        cx.want.set(VarId::Direct, direct);
+        cx.want.changed = true;
         // a rigid tap has turned it both ways, and said neither
-        said.conditions.put(VarId::Direct, None);
+        cx.said.conditions.put(VarId::Direct, None);
     }
-    want.put(VarId::Dwell, None);
+    cx.want.put(VarId::Dwell, None);
     Ok(())
 }

@@ -4,10 +4,10 @@ use crate::compile::Sources;
 use crate::cycle::Steps;
 use crate::diag::Code;
 use crate::lang::SequenceId;
+use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault};
 use crate::render::form_sets::Kept;
 use crate::render::numbers::{as_number, quantised};
-use crate::render::printer::Printer;
 use crate::render::said::Said;
 use crate::render::shape::{ROTARY, Shape};
 use crate::render::targets::set_targets;
@@ -84,43 +84,45 @@ pub struct Drilling {
 }
 
 /// The control leaves the cycle: Cancel, and what is known of the axes after the last hole.
-pub fn leave_cycle(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer, drill: &mut Drilling) -> Done {
-    cancel(shape, want, said, out, drill)?;
+pub fn leave_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
+    cancel(cx, drill)?;
     let Some((last, exit_known)) = drill.open.as_ref().and_then(|cycle| Some((cycle.last?, cycle.exit_known))) else {
         return Ok(());
     };
-    said.stand.position = last;
-    set_targets(&last, shape, want, said)?;
+    cx.said.stand.position = last;
+    set_targets(&last, shape, cx.want, cx.said)?;
     // a cycle turns no part: what the control holds of its angles, it holds still
-    let turned = ROTARY.filter(|&axis| !said.differs_from(&last, 1 << axis, shape));
+    let turned = ROTARY.filter(|&axis| !cx.said.differs_from(&last, 1 << axis, shape));
     let turned = turned.fold(0, |axes, axis| axes | 1 << axis);
-    said.forget_letters();
-    said.say_motion_again();
+    cx.said.forget_letters();
+    cx.said.say_motion_again();
     let known = turned | if exit_known { 0b111 } else { 0b111 & !shape.depth_bit() };
     for axis in 0..6 {
         if known & last.given & 1 << axis != 0 {
             let info = &shape.letters[shape.axes[axis]];
             let units = quantised(info, last.values[axis] * shape.scales[axis])?;
-            said.word(info, units);
+            cx.said.word(info, units);
         }
     }
     if !exit_known {
-        said.displaced(shape.depth_bit(), shape); // an increment must know from where
+        cx.said.displaced(shape.depth_bit(), shape); // an increment must know from where
     }
     Ok(())
 }
 
 /// Prints the Cancel sequence if the control is in the cycle.
-pub fn cancel(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer, drill: &mut Drilling) -> Done {
+pub fn cancel(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
     let program = shape.program;
     let Some(cycle) = &mut drill.open else { return Ok(()) };
     let cancels = cycle.sequence.and_then(|id| program.routine(id)).is_some_and(|routine| routine.cancel);
     if std::mem::take(&mut cycle.in_force)
         && cancels
-        && let Some(routine) = shape.routine(SequenceId::Cancel, want, said)
+        && let Some(routine) = shape.routine(SequenceId::Cancel, cx.want, cx.said)
     {
-        run_with_upons(routine, shape, want, said, out)?;
-        said.say_motion_again();
+        run_with_upons(routine, cx)?;
+        cx.said.say_motion_again();
     }
     Ok(())
 }

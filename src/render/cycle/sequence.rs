@@ -7,6 +7,7 @@ use crate::control;
 use crate::diag::Code;
 use crate::lang::{VarId, VarSet};
 use crate::render::body::{Mode, go_on, run, run_part, run_sets};
+use crate::render::cx::{Cx, Writer};
 use crate::render::fault::Done;
 use crate::render::moves::rapid_blocks::{is_below, raise, split_rapid};
 use crate::render::numbers::quantised;
@@ -22,40 +23,33 @@ use crate::render::want::Want;
 use crate::toolpath::Axes;
 
 /// A hole by a sequence of the form.
-pub fn sequence_hole(
-    routine: &Routine,
-    hole: &Planned,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    drill: &mut Drilling,
-) -> Done {
-    set_targets(&hole.target, shape, want, said)?;
-    settle_before_hole(routine, shape, want, said, out, drill)?; // with [d] at the return plane: an Upon must not go down the hole
-    hole_variables(hole, shape, want, drill);
-    want.set(VarId::D, hole.heights.return_plane);
+pub fn sequence_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
+    set_targets(&hole.target, shape, cx.want, cx.said)?;
+    settle_before_hole(routine, cx, drill)?; // with [d] at the return plane: an Upon must not go down the hole
+    hole_variables(hole, shape, cx.want, drill);
+    cx.want.set(VarId::D, hole.heights.return_plane);
     let used = routine.vars.without(VarSet::of(&[VarId::D]));
-    if upon_is_due(used, false, shape, want, said) {
-        leave_cycle(shape, want, said, out, drill)?; // else the control takes its words for those of a hole
-        settle_between_holes(hole, shape, want, said, out, drill)?;
+    if upon_is_due(used, false, shape, cx.want, cx.said) {
+        leave_cycle(cx, drill)?; // else the control takes its words for those of a hole
+        settle_between_holes(hole, cx, drill)?;
     }
-    upons(used, shape, want, said, out)?;
-    upon_bottom(routine, hole, shape, want, said, out, drill)?;
-    plane_block(control::Code::g(17), routine, shape, want, said, out)?; // else the control drills along another axis
-    want.set(VarId::D, hole.heights.bottom);
+    upons(used, cx)?;
+    upon_bottom(routine, hole, cx, drill)?;
+    plane_block(control::Code::g(17), routine, &mut cx.writer())?; // else the control drills along another axis
+    cx.want.set(VarId::D, hole.heights.bottom);
     if matches!(routine.style, CycleStyle::Emulated) {
-        return emulated_hole(routine, hole, shape, want, said, out, drill);
+        return emulated_hole(routine, hole, cx, drill);
     }
-    let starts = starts_cycle(routine, hole.heights, shape, want, said, drill);
+    let starts = starts_cycle(routine, hole.heights, shape, cx.want, cx.said, drill);
     if starts {
-        cancel(shape, want, said, out, drill)?;
-        settle_between_holes(hole, shape, want, said, out, drill)?; // what Cancel switched is put back
-        approach(&hole.target, shape, want, said, out)?;
-        want.set(VarId::D, hole.heights.bottom);
-        warn_of_return(routine, hole.heights, out);
+        cancel(cx, drill)?;
+        settle_between_holes(hole, cx, drill)?; // what Cancel switched is put back
+        approach(&hole.target, cx)?;
+        cx.want.set(VarId::D, hole.heights.bottom);
+        warn_of_return(routine, hole.heights, cx.out);
         if let Some(cycle) = &mut drill.open {
-            cycle.setup = Setup::new(want, said);
+            cycle.setup = Setup::new(cx.want, cx.said);
             cycle.branches = routine.branches;
             cycle.initial_level = hole.target.get(shape.depth).unwrap_or(hole.heights.return_plane);
             cycle.in_force = true;
@@ -63,50 +57,43 @@ pub fn sequence_hole(
     }
     match routine.style {
         CycleStyle::Advanced => {
-            said.forget_letters();
+            cx.said.forget_letters();
             if starts {
-                run_part(routine, routine.ops.start..routine.repeat, Mode::All, shape, want, said, out)?;
+                run_part(routine, routine.ops.start..routine.repeat, Mode::All, &mut cx.writer())?;
                 if !drills_at_once(routine, shape) {
-                    said.forget_letters(); // the first hole needs its lines whole
+                    cx.said.forget_letters(); // the first hole needs its lines whole
                 }
             }
             let rest = routine.repeat..routine.ops.end;
             match starts {
-                true => go_on(routine, rest, Mode::Hole, shape, want, said, out)?,
+                true => go_on(routine, rest, Mode::Hole, &mut cx.writer())?,
                 false => {
-                    run_sets(routine, shape, want, said, out)?;
-                    run_part(routine, rest, Mode::Hole, shape, want, said, out)?;
+                    run_sets(routine, &mut cx.writer())?;
+                    run_part(routine, rest, Mode::Hole, &mut cx.writer())?;
                 }
             }
         }
         CycleStyle::Machine if !starts => {
-            let position = !changes_position(routine, shape, want, said)?;
-            run(routine, Mode::NextHole { position }, shape, want, said, out)?;
+            let position = !changes_position(routine, shape, cx.want, cx.said)?;
+            run(routine, Mode::NextHole { position }, &mut cx.writer())?;
         }
-        _ => run(routine, Mode::All, shape, want, said, out)?,
+        _ => run(routine, Mode::All, &mut cx.writer())?,
     }
     let exit = exit_of_cycle(routine, hole.heights, shape, drill);
-    left_hole(&hole.target, Some(exit), shape, said, drill)
+    left_hole(&hole.target, Some(exit), shape, cx.said, drill)
 }
 
 /// A hole by a sequence that prints its moves, or a cycle that ends in its own body.
-fn emulated_hole(
-    routine: &Routine,
-    hole: &Planned,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    drill: &mut Drilling,
-) -> Done {
-    raise_to(&hole.target, shape, want, said, out, drill)?;
+fn emulated_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
+    raise_to(&hole.target, cx, drill)?;
     if !drill.open.as_ref().is_some_and(|cycle| cycle.in_force) {
-        settle_between_holes(hole, shape, want, said, out, drill)?; // what Cancel switched is put back
+        settle_between_holes(hole, cx, drill)?; // what Cancel switched is put back
     }
-    want.set(VarId::D, hole.heights.bottom);
-    said.forget_letters();
-    way_to_hole(routine, shape, want, said, out)?;
-    run(routine, Mode::Hole, shape, want, said, out)?;
+    cx.want.set(VarId::D, hole.heights.bottom);
+    cx.said.forget_letters();
+    way_to_hole(routine, &mut cx.writer())?;
+    run(routine, Mode::Hole, &mut cx.writer())?;
     if let Some(cycle) = &mut drill.open {
         cycle.in_force = routine.stays;
     }
@@ -116,7 +103,7 @@ fn emulated_hole(
         true => (hole.heights.clear, true),
         false => (hole.heights.return_plane, false),
     };
-    left_hole(&hole.target, cycled.then_some(exit), shape, said, drill)
+    left_hole(&hole.target, cycled.then_some(exit), shape, cx.said, drill)
 }
 
 /// The height to which a cycle of the control comes back, and whether that is certain.
@@ -151,31 +138,25 @@ fn stays_at_clearance(routine: &Routine, heights: Heights, shape: &Shape) -> boo
 }
 
 /// An Upon of the hole's bottom, unless it would take the tool there.
-fn upon_bottom(
-    routine: &Routine,
-    hole: &Planned,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    drill: &mut Drilling,
-) -> Done {
+fn upon_bottom(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
     const BOTTOM: VarSet = VarSet::of(&[VarId::D]);
-    want.set(VarId::D, hole.heights.bottom);
+    cx.want.set(VarId::D, hole.heights.bottom);
     if !routine.vars.has(VarId::D)
-        || !upon_is_due(BOTTOM, false, shape, want, said)
-        || upon_is_due(BOTTOM, true, shape, want, said)
+        || !upon_is_due(BOTTOM, false, shape, cx.want, cx.said)
+        || upon_is_due(BOTTOM, true, shape, cx.want, cx.said)
     {
         return Ok(());
     }
-    leave_cycle(shape, want, said, out, drill)?; // else the control takes its words for those of a hole
-    settle_between_holes(hole, shape, want, said, out, drill)?;
-    want.set(VarId::D, hole.heights.bottom);
-    upons(BOTTOM, shape, want, said, out)
+    leave_cycle(cx, drill)?; // else the control takes its words for those of a hole
+    settle_between_holes(hole, cx, drill)?;
+    cx.want.set(VarId::D, hole.heights.bottom);
+    upons(BOTTOM, cx)
 }
 
 /// The way to a hole of an emulated cycle is a rapid, also where its first block with axis words says no motion.
-fn way_to_hole(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
+fn way_to_hole(routine: &Routine, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let program = shape.program;
     let is_line = |i: &usize| matches!(program.ops[*i], Op::Line { .. });
     let moves = |i: usize| {
@@ -190,7 +171,7 @@ fn way_to_hole(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said, o
     let end = routine.steps_in(first..routine.ops.end).find(is_line).unwrap_or(routine.ops.end);
     let begin = Routine { ops: routine.ops.start..end, ..routine.clone() };
     if !prints_own_motion(&begin, shape) {
-        motion_block(&program.settings.rapid, &begin, shape, want, said, out)?;
+        motion_block(&program.settings.rapid, &begin, writer)?;
     }
     Ok(())
 }
@@ -209,41 +190,29 @@ fn drills_at_once(routine: &Routine, shape: &Shape) -> bool {
 
 /// What stands between holes. While the control is in its cycle nothing may come there: it would be taken for a hole, and
 /// what differs from the job is what the sequence itself switched, as `G95` for a tap. It waits for Cancel.
-fn settle_before_hole(
-    routine: &Routine,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    drill: &Drilling,
-) -> Done {
-    if !said.is_unsettled(want) {
+fn settle_before_hole(routine: &Routine, cx: &mut Cx<'_>, drill: &Drilling) -> Done {
+    let shape = cx.shape;
+    if !cx.said.is_unsettled(cx.want) {
         return Ok(());
     }
     let in_force = drill.open.as_ref().is_some_and(|cycle| cycle.in_force);
     match in_force && (routine.cancel || prints_code(routine, |code| shape.is_cycle(code), shape)) {
         // positions in a form of increments are right if the sequence says G90
         true if shape.program.settings.incremental => Ok(()),
-        true => check_reading(shape, want, said),
-        false => settle(shape, want, said, out),
+        true => check_reading(shape, cx.want, cx.said),
+        false => settle(cx),
     }
 }
 
 /// The control has left its cycle before a hole: what stands between moves, with the hole's own values after it.
-fn settle_between_holes(
-    hole: &Planned,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    drill: &Drilling,
-) -> Done {
-    set_targets(&hole.target, shape, want, said)?;
-    if said.is_unsettled(want) {
-        settle(shape, want, said, out)?;
+fn settle_between_holes(hole: &Planned, cx: &mut Cx<'_>, drill: &Drilling) -> Done {
+    let shape = cx.shape;
+    set_targets(&hole.target, shape, cx.want, cx.said)?;
+    if cx.said.is_unsettled(cx.want) {
+        settle(cx)?;
     }
-    hole_variables(hole, shape, want, drill);
-    want.set(VarId::D, hole.heights.return_plane);
+    hole_variables(hole, shape, cx.want, drill);
+    cx.want.set(VarId::D, hole.heights.return_plane);
     Ok(())
 }
 
@@ -287,33 +256,24 @@ fn changes_position(routine: &Routine, shape: &Shape, want: &Want, said: &Said) 
 }
 
 /// Goes to the return plane before a control's cycle, up first or down last.
-fn approach(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    if !said.differs_from(target, shape.depth_bit(), shape) {
+fn approach(target: &Axes, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    if !cx.said.differs_from(target, shape.depth_bit(), shape) {
         return Ok(());
     }
-    if is_below(target, shape, said) {
-        raise(target, shape, want, said, out)
-    } else {
-        split_rapid(target, shape, want, said, out)
-    }
+    if is_below(target, shape, cx.said) { raise(target, cx) } else { split_rapid(target, cx) }
 }
 
 /// An emulated cycle's first line may go across: the tool must not be below the return plane then.
-fn raise_to(
-    target: &Axes,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    drill: &mut Drilling,
-) -> Done {
-    let below = is_below(target, shape, said) && said.differs_from(target, shape.depth_bit(), shape);
-    let across = (0..2).any(|axis| axis != shape.depth && said.stand.position.get(axis) != target.get(axis));
+fn raise_to(target: &Axes, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
+    let below = is_below(target, shape, cx.said) && cx.said.differs_from(target, shape.depth_bit(), shape);
+    let across = (0..2).any(|axis| axis != shape.depth && cx.said.stand.position.get(axis) != target.get(axis));
     if !below || !across {
         return Ok(());
     }
-    cancel(shape, want, said, out, drill)?; // else the control takes the rapid for a hole
-    raise(target, shape, want, said, out)
+    cancel(cx, drill)?; // else the control takes the rapid for a hole
+    raise(target, cx)
 }
 
 fn warn_of_return(routine: &Routine, heights: Heights, out: &mut Printer) {

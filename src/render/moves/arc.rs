@@ -1,6 +1,7 @@
 //! Arcs: what the form can print of them.
 
 use crate::control;
+use crate::render::cx::Cx;
 use std::f64::consts::PI;
 
 use super::centres::{CENTRE_OF, as_printed_back, centre_letter};
@@ -8,7 +9,7 @@ use super::geometry::Piece;
 use super::line::line_to;
 use super::measure::measured;
 use super::pieces::{chords, ends_meet, pieces};
-use super::reach::{begins_somewhere, cut_goes_to, reach};
+use super::prepare::{begin_cut, cut_goes_to};
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::render::fault::{Done, fault};
@@ -17,7 +18,6 @@ use crate::render::prints::prints_code;
 use crate::render::said::Said;
 use crate::render::shape::Shape;
 use crate::render::targets::{check_limits, set_targets};
-use crate::render::want::Want;
 use crate::sema::ArcCentre;
 use crate::toolpath::{Arc, Axes, Direction, Plane, PlaneArc, Units};
 
@@ -33,51 +33,40 @@ fn plane_axes(plane: Plane) -> ([usize; 2], usize, control::Code) {
 }
 
 /// An arc of the path.
-pub fn arc(
-    arc: &Arc,
-    feed: Option<f64>,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    parts: &mut Vec<f64>,
-) -> Done {
-    let mut target = reach(&arc.to, false, shape, want, said, out)?;
-    want.take_feed(feed, shape)?;
+pub fn arc(arc: &Arc, feed: Option<f64>, cx: &mut Cx<'_>, parts: &mut Vec<f64>) -> Done {
+    let shape = cx.shape;
+    let mut target = begin_cut(&arc.to, Some(feed), cx)?;
     let (axes, across, code) = plane_axes(arc.plane);
-    if want.compensated && arc.plane != Plane::Xy && shape.program.settings.machine == Machine::Mill {
+    if cx.want.compensated && arc.plane != Plane::Xy && shape.program.settings.machine == Machine::Mill {
         let help = "end the compensation with an `outfeed` before";
         return fault(Code::PR030, "an arc in another plane under cutter compensation", help);
     }
-    let Some(from) = in_plane(&said.stand.position, axes) else {
+    let Some(from) = in_plane(&cx.said.stand.position, axes) else {
         let help = "begin with a rapid that gives all coordinates";
         return fault(Code::PR005, "the arc begins at an unknown position", help);
     };
     let Some(to) = in_plane(&target, axes) else {
         return fault(Code::PR005, "the arc ends at an unknown position", "give both coordinates of its plane");
     };
-    if said.stand.fresh_tool.is_some() {
-        begins_somewhere(&target, shape, said)?;
-    }
     let ccw = arc.direction == Direction::Ccw;
     let centre = centre_of(arc, axes, from, to, ccw, shape)?;
     let coarse = check_radii(axes, from, to, centre, shape)?;
-    target.given |= said.stand.position.given;
-    cut_goes_to(&target, shape, want, said, out)?;
-    if said.differs_from(&said.stand.position, 1 << axes[0] | 1 << axes[1], shape)
+    target.given |= cx.said.stand.position.given;
+    cut_goes_to(&target, true, cx)?;
+    if cx.said.differs_from(&cx.said.stand.position, 1 << axes[0] | 1 << axes[1], shape)
         && !shape.program.settings.incremental
     {
         // the control must begin where its centre is counted from
-        let here = said.stand.position;
-        set_targets(&here, shape, want, said)?;
-        line_to(&here, shape, want, said, out)?;
-        set_targets(&target, shape, want, said)?;
+        let here = cx.said.stand.position;
+        set_targets(&here, shape, cx.want, cx.said)?;
+        line_to(&here, cx)?;
+        set_targets(&target, shape, cx.want, cx.said)?;
     }
     let curve = PlaneArc::new(from, to, centre, ccw, arc.turns);
-    let climbs = differs_by(&target, across, said);
+    let climbs = differs_by(&target, across, cx.said);
     if shape.measures {
-        let rise = target.values[across] - said.stand.position.values[across];
-        measured((curve.radius * curve.sweep.abs()).hypot(if climbs { rise } else { 0.0 }), true, want);
+        let rise = target.values[across] - cx.said.stand.position.values[across];
+        measured((curve.radius * curve.sweep.abs()).hypot(if climbs { rise } else { 0.0 }), true, cx.want);
     }
     if !shape.program.settings.limits.is_empty() {
         check_arc(&curve, axes, &target, shape)?;
@@ -88,21 +77,21 @@ pub fn arc(
     let printable = curve.radius >= settings.min_radius * scale
         && curve.radius <= settings.max_radius * scale
         && (settings.helical && shape.linear == 3 || !climbs)
-        && (3..6).all(|axis| !differs_by(&target, axis, said));
-    let shrinks = ends_meet(&target, axes, shape, said) && curve.sweep.abs() < PI;
+        && (3..6).all(|axis| !differs_by(&target, axis, cx.said));
+    let shrinks = ends_meet(&target, axes, shape, cx.said) && curve.sweep.abs() < PI;
     if let Some(differ) = coarse {
         let message = format!("the arc is printed as lines: in the form's digits its radii differ by {differ:.4}");
-        out.note(Code::PR024, message, "give the axes and centre words more decimals");
+        cx.out.note(Code::PR024, message, "give the axes and centre words more decimals");
     }
     match plane {
         Some(plane) if printable && !shrinks && coarse.is_none() => match has_centre_words(axes, ccw, shape) {
-            true => pieces(&Piece { axes, plane, arc: curve, target }, across, shape, want, said, out, parts),
+            true => pieces(&Piece { axes, plane, arc: curve, target }, across, cx, parts),
             false => {
-                note_lines(axes, ccw, shape, out);
-                chords((&curve, axes), &target, shape, want, said, out, parts)
+                note_lines(axes, ccw, shape, cx.out);
+                chords((&curve, axes), &target, cx, parts)
             }
         },
-        _ => chords((&curve, axes), &target, shape, want, said, out, parts),
+        _ => chords((&curve, axes), &target, cx, parts),
     }
 }
 

@@ -1,30 +1,22 @@
 //! Moves that turn cutter compensation on and off.
 
 use super::measure::measure;
-use super::reach::{begins_somewhere, cut_goes_to, reach};
+use super::prepare::{begin_cut, cut_goes_to};
 use crate::control::{self, Meaning};
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::render::body::run_all;
+use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::prelude::{check_prints, enter_plane, feed_block, plane_block};
-use crate::render::printer::Printer;
-use crate::render::said::{LastMove, Said};
-use crate::render::shape::Shape;
+use crate::render::said::LastMove;
 use crate::render::upon::upons;
-use crate::render::want::Want;
 use crate::render::words::{AxisUnits, axis_units, axis_words, feed_word, letter_word, motion_word, value_code};
 use crate::toolpath::{Axes, Infeed, Side};
 
 /// The move that turns cutter compensation on.
-pub fn infeed(
-    infeed: &Infeed,
-    feed: Option<f64>,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
+pub fn infeed(infeed: &Infeed, feed: Option<f64>, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     shape.needs(Meaning::SideLeft)?;
     let [left, right, _] = shape.program.settings.cdc;
     let mirrored = shape.scales[1] < 0.0; // a turret on the other side
@@ -34,28 +26,21 @@ pub fn infeed(
         let message = "one axis is printed with the other sign, and the offset would be on the other side";
         return fault(Code::PR036, message, "exchange the codes: `CDC 42 41 40`");
     }
-    want.set(VarId::Side, code);
+    cx.want.set(VarId::Side, code);
     let switch = Switch { id: SequenceId::InFeed, code, offset: true, feed, rapid: infeed.rapid };
-    compensate(&infeed.to, &switch, shape, want, said, out)?;
-    want.compensated = true;
+    compensate(&infeed.to, &switch, cx)?;
+    cx.want.compensated = true;
     Ok(())
 }
 
 /// The move that turns it off.
-pub fn outfeed(
-    to: &Axes,
-    feed: Option<f64>,
-    rapid: bool,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
+pub fn outfeed(to: &Axes, feed: Option<f64>, rapid: bool, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let off = shape.program.settings.cdc[2];
-    want.set(VarId::Side, off);
+    cx.want.set(VarId::Side, off);
     let switch = Switch { id: SequenceId::OutFeed, code: off, offset: false, feed, rapid };
-    compensate(to, &switch, shape, want, said, out)?;
-    want.compensated = false;
+    compensate(to, &switch, cx)?;
+    cx.want.compensated = false;
     Ok(())
 }
 
@@ -71,68 +56,63 @@ struct Switch {
 }
 
 /// The move of an infeed or an outfeed.
-fn compensate(to: &Axes, switch: &Switch, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+fn compensate(to: &Axes, switch: &Switch, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let program = shape.program;
     let &Switch { id, code, offset, feed, rapid } = switch;
     if rapid && program.routine(id).is_some() {
         let message = format!("a rapid with cutter compensation is printed by {}, which may feed", id.name());
-        out.note(Code::PR022, message, "look at the move");
+        cx.out.note(Code::PR022, message, "look at the move");
     }
     let rapid = rapid && program.routine(id).is_none();
-    let target = reach(to, false, shape, want, said, out)?;
-    if said.stand.fresh_tool.is_some() && !rapid {
-        begins_somewhere(&target, shape, said)?;
-    }
-    if !rapid {
-        want.take_feed(feed, shape)?;
-    }
-    cut_goes_to(&target, shape, want, said, out)?;
+    let target = begin_cut(to, (!rapid).then_some(feed), cx)?;
+    cut_goes_to(&target, true, cx)?;
     if shape.measures {
-        measure(&target, !rapid, want, said);
+        measure(&target, !rapid, cx.want, cx.said);
     }
-    if let Some(routine) = shape.routine(id, want, said) {
+    if let Some(routine) = shape.routine(id, cx.want, cx.said) {
         let tapers = shape.linear == 4 && (2..4).any(|axis| to.get(axis).is_some());
         let blocks = routine.steps().filter(|&i| matches!(program.ops[i], crate::compile::Op::Line { .. })).count();
         if tapers && blocks > 1 {
             let message = format!("{} has {blocks} blocks, a four-axis wire takes one", id.name());
             return fault_at(Code::PR008, message, "write the sequence on one line", Some(routine.span));
         }
-        check_prints(routine, &target, shape, said)?;
+        check_prints(routine, &target, shape, cx.said)?;
         // among increments no register holds a height: it is where the moves so far lead
         if program.settings.machine == Machine::Mill
             && !program.settings.incremental
             && !routine.vars.has(VarId::D)
-            && said.differs_from(&target, shape.depth_bit(), shape)
+            && cx.said.differs_from(&target, shape.depth_bit(), shape)
         {
             let message = format!("nobody knows the height here, and {} does not print it", id.name());
             let help = "put a rapid before it, or the word of [d] into the sequence";
             return fault_at(Code::PR017, message, help, Some(routine.span));
         }
-        plane_block(control::Code::g(17), routine, shape, want, said, out)?;
-        upons(routine.vars, shape, want, said, out)?;
-        feed_block(&program.settings.feed, routine, shape, want, said, out)?;
-        run_all(routine, shape, want, said, out)?;
+        plane_block(control::Code::g(17), routine, &mut cx.writer())?;
+        upons(routine.vars, cx)?;
+        feed_block(&program.settings.feed, routine, &mut cx.writer())?;
+        run_all(routine, &mut cx.writer())?;
     } else {
-        enter_plane(control::Code::g(17), shape, want, said, out)?;
-        motion_word(if rapid { &program.settings.rapid } else { &program.settings.feed }, shape, want, said, out)?;
-        value_code(b'G', code, shape, want, said, out)?;
+        enter_plane(control::Code::g(17), &mut cx.writer())?;
+        motion_word(if rapid { &program.settings.rapid } else { &program.settings.feed }, &mut cx.writer())?;
+        value_code(b'G', code, &mut cx.writer())?;
         let mut axes = AxisUnits::default();
-        axis_units(&target, &mut axes, shape, said)?;
-        axis_words(&target, &axes, shape, said, out)?;
+        axis_units(&target, &mut axes, shape, cx.said)?;
+        axis_words(&target, &axes, shape, cx.said, cx.out)?;
         if offset && program.settings.machine != Machine::Lathe {
-            let Some(register) = want.get(VarId::Dcomp) else {
-                out.clear_block();
+            let Some(register) = cx.want.get(VarId::Dcomp) else {
+                cx.out.clear_block();
                 let help = "give the tool a \"diameter_offset\"";
                 return fault(Code::PR001, "cutter compensation without an offset register", help);
             };
-            letter_word(program.settings.cdc_code, register, shape, said, out)?;
+            letter_word(program.settings.cdc_code, register, shape, cx.said, cx.out)?;
         }
         if !rapid {
-            feed_word(shape, want, said, out)?;
+            feed_word(&mut cx.writer())?;
         }
-        out.end_block();
+        cx.out.end_block();
     }
-    said.stand.position = target;
-    said.last_move = if rapid { LastMove::Rapid } else { LastMove::Line };
+    cx.said.stand.position = target;
+    cx.said.last_move = if rapid { LastMove::Rapid } else { LastMove::Line };
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! Arcs as blocks: in whole, in parts, or as chords.
 
+use crate::render::cx::{Cx, Writer};
 use std::f64::consts::PI;
 
 use super::centres::{
@@ -14,7 +15,6 @@ use crate::lang::{Machine, SequenceId, VarId};
 use crate::render::body::{Mode, run};
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::prelude::{check_prints, feed_block, plane_block};
-use crate::render::printer::Printer;
 use crate::render::prints::{prints_axis, prints_own_motion};
 use crate::render::said::{LastMove, Said};
 use crate::render::shape::Shape;
@@ -33,15 +33,8 @@ fn ends_by_angle(routine: &Routine, axes: [usize; 2]) -> bool {
 }
 
 /// Prints an arc in as many parts as the form needs.
-pub fn pieces(
-    whole: &Piece,
-    across: usize,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    parts: &mut Vec<f64>,
-) -> Done {
+pub fn pieces(whole: &Piece, across: usize, cx: &mut Cx<'_>, parts: &mut Vec<f64>) -> Done {
+    let shape = cx.shape;
     let settings = &shape.program.settings;
     let arc = &whole.arc;
     let turn = 2.0 * PI;
@@ -50,7 +43,7 @@ pub fn pieces(
         arc.quadrant_parts(parts);
     } else {
         let sequence = if arc.sweep > 0.0 { SequenceId::CcwCode } else { SequenceId::CwCode };
-        let routine = shape.routine(sequence, want, said);
+        let routine = shape.routine(sequence, cx.want, cx.said);
         // a sequence that prints the radius and no centre can't say more than half a turn
         let radius_only = match routine {
             Some(routine) => routine.vars.has(VarId::Arcrad) && !routine.vars.meets(CENTRES),
@@ -66,17 +59,17 @@ pub fn pieces(
         };
         // radius words can't say a full circle, and over 180 degrees only when the form has a way
         arc.equal_parts(most, parts);
-        divide_for_radius(whole, across, parts, shape, said)?;
+        divide_for_radius(whole, across, parts, shape, cx.said)?;
     }
     parts.push(1.0);
-    let (from, mut done) = (said.stand.position, 0.0);
-    let whole_feed = want.feed();
+    let (from, mut done) = (cx.said.stand.position, 0.0);
+    let whole_feed = cx.want.feed();
     for &part in parts.iter() {
-        share_of_time(whole_feed, part - done, shape, want);
-        print_piece(&whole.part(&from, done, part, across), shape, want, said, out)?;
+        share_of_time(whole_feed, part - done, shape, cx.want);
+        print_piece(&whole.part(&from, done, part, across), cx)?;
         done = part;
     }
-    share_of_time(whole_feed, 1.0, shape, want);
+    share_of_time(whole_feed, 1.0, shape, cx.want);
     Ok(())
 }
 
@@ -88,56 +81,57 @@ fn share_of_time(whole: Option<f64>, part: f64, shape: &Shape, want: &mut Want) 
 }
 
 /// Prints one arc block or the form's sequence for it.
-fn print_piece(piece: &Piece, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+fn print_piece(piece: &Piece, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let program = shape.program;
     let settings = &program.settings;
-    if ends_meet(&piece.target, piece.axes, shape, said) && piece.arc.sweep.abs() < PI {
-        set_targets(&piece.target, shape, want, said)?;
-        return line_to(&piece.target, shape, want, said, out); // as an arc it would be a full circle
+    if ends_meet(&piece.target, piece.axes, shape, cx.said) && piece.arc.sweep.abs() < PI {
+        set_targets(&piece.target, shape, cx.want, cx.said)?;
+        return line_to(&piece.target, cx); // as an arc it would be a full circle
     }
     // a turret on the other side sees the arc in a mirror
     let ccw = (piece.arc.sweep > 0.0) != piece.axes.iter().any(|&axis| shape.scales[axis] < 0.0);
-    let centre = centre_values(piece, shape, said)?;
-    set_targets(&piece.target, shape, want, said)?;
-    set_arc_variables(piece, &centre, shape, want);
+    let centre = centre_values(piece, shape, cx.said)?;
+    set_targets(&piece.target, shape, cx.want, cx.said)?;
+    set_arc_variables(piece, &centre, shape, cx.want);
     let kind = if ccw { LastMove::Ccw } else { LastMove::Cw };
-    let restate = match said.last_move {
+    let restate = match cx.said.last_move {
         LastMove::Line => !settings.arc_with_line,
         last => last == kind && !settings.arc_with_same,
     };
     let code = if ccw { &settings.ccw } else { &settings.cw };
-    if restate && said.motion_in_force(code) {
-        said.say_motion_again();
+    if restate && cx.said.motion_in_force(code) {
+        cx.said.say_motion_again();
     }
-    if said.last_move == LastMove::Rapid && !settings.force.is_empty() {
-        said.force(shape);
+    if cx.said.last_move == LastMove::Rapid && !settings.force.is_empty() {
+        cx.said.force(shape);
     }
-    let routine = shape.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }, want, said);
+    let routine = shape.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }, cx.want, cx.said);
     check_signs(piece, routine, code, ccw, shape)?;
-    check_centres(shape, said)?;
+    check_centres(shape, cx.said)?;
     if let Some(routine) = routine {
         let [a, b] = piece.axes;
         let polar =
             ends_by_angle(routine, piece.axes) && !(prints_axis(routine, a, shape) && prints_axis(routine, b, shape));
         let by_angle = if polar { 1 << a | 1 << b } else { 0 };
-        check_prints(routine, &Axes { given: piece.target.given & !by_angle, ..piece.target }, shape, said)?;
-        upons(routine.vars, shape, want, said, out)?;
-        plane_block(piece.plane.code, routine, shape, want, said, out)?;
-        check_arc_code(routine, code, shape, said)?;
-        feed_block(code, routine, shape, want, said, out)?;
-        run(routine, Mode::ArcMotion, shape, want, said, out)?;
+        check_prints(routine, &Axes { given: piece.target.given & !by_angle, ..piece.target }, shape, cx.said)?;
+        upons(routine.vars, cx)?;
+        plane_block(piece.plane.code, routine, &mut cx.writer())?;
+        check_arc_code(routine, code, shape, cx.said)?;
+        feed_block(code, routine, &mut cx.writer())?;
+        run(routine, Mode::ArcMotion, &mut cx.writer())?;
         if polar {
             // the control knows where it is, and the letters of these axes say something older
             for axis in piece.axes {
-                said.forget(&shape.letters[shape.axes[axis]]);
+                cx.said.forget(&shape.letters[shape.axes[axis]]);
             }
-            said.say_motion_again(); // G12 is a motion that no group knows
+            cx.said.say_motion_again(); // G12 is a motion that no group knows
         }
     } else {
-        arc_block(piece, (code, ccw), &centre, shape, want, said, out)?;
+        arc_block(piece, (code, ccw), &centre, &mut cx.writer())?;
     }
-    said.stand.position = piece.target;
-    said.last_move = kind;
+    cx.said.stand.position = piece.target;
+    cx.said.last_move = kind;
     Ok(())
 }
 
@@ -159,54 +153,40 @@ fn check_arc_code(routine: &Routine, code: &sema::Code, shape: &Shape, said: &Sa
 }
 
 /// The generated block: plane, motion code, axes, centre, direction, feed.
-fn arc_block(
-    piece: &Piece,
-    (code, ccw): (&sema::Code, bool),
-    centre: &[f64; 2],
-    shape: &Shape,
-    want: &Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
+fn arc_block(piece: &Piece, (code, ccw): (&sema::Code, bool), centre: &[f64; 2], writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
     let settings = &shape.program.settings;
     if shape.program.settings.machine == Machine::Mill {
-        motion_word(piece.plane, shape, want, said, out)?; // a lathe and a wire have but one
+        motion_word(piece.plane, writer)?; // a lathe and a wire have but one
     }
-    if !said.differs_from(&piece.target, 0x3f, shape) {
+    if !writer.said.differs_from(&piece.target, 0x3f, shape) {
         // a whole circle has no axis words: controls want its code said again
-        said.say_motion_again();
+        writer.said.say_motion_again();
     }
-    motion_word(code, shape, want, said, out)?;
+    motion_word(code, writer)?;
     let mut axes = AxisUnits::default();
-    axis_units(&piece.target, &mut axes, shape, said)?;
-    axis_words(&piece.target, &axes, shape, said, out)?;
+    axis_units(&piece.target, &mut axes, shape, writer.said)?;
+    axis_words(&piece.target, &axes, shape, writer.said, writer.out)?;
     if let Some(word) = &settings.second_circle {
-        out.end_block();
-        out.text(word, false);
+        writer.out.end_block();
+        writer.out.text(word, false);
     }
-    centre_words(piece, centre, shape, out)?;
+    centre_words(piece, centre, shape, writer.out)?;
     if let Some([cw, ccw_word]) = &settings.circle_direction {
         let word = if ccw { ccw_word } else { cw };
-        out.text(word, false);
+        writer.out.text(word, false);
     }
-    feed_word(shape, want, said, out)?;
-    out.end_block();
+    feed_word(writer)?;
+    writer.out.end_block();
     Ok(())
 }
 
 /// An arc that the form can't print, as lines within its tolerance.
-pub fn chords(
-    (arc, axes): (&PlaneArc, [usize; 2]),
-    target: &Axes,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    parts: &mut Vec<f64>,
-) -> Done {
-    let mut from = said.stand.position;
-    for axis in said.turned_axes(target, shape) {
-        match said.stand.angle(axis) {
+pub fn chords((arc, axes): (&PlaneArc, [usize; 2]), target: &Axes, cx: &mut Cx<'_>, parts: &mut Vec<f64>) -> Done {
+    let shape = cx.shape;
+    let mut from = cx.said.stand.position;
+    for axis in cx.said.turned_axes(target, shape) {
+        match cx.said.stand.angle(axis) {
             Some(angle) => from.set(axis, angle),
             None => {
                 return fault(Code::PR005, "the arc turns from an unknown angle", "begin with a rapid that says it");
@@ -215,8 +195,8 @@ pub fn chords(
     }
     parts.clear();
     arc.equal_parts(arc.chord_angle(shape.program.settings.tolerance * shape.form_scale), parts);
-    let (whole_feed, share) = (want.feed(), 1.0 / (parts.len() + 1) as f64);
-    share_of_time(whole_feed, share, shape, want);
+    let (whole_feed, share) = (cx.want.feed(), 1.0 / (parts.len() + 1) as f64);
+    share_of_time(whole_feed, share, shape, cx.want);
     for &part in parts.iter() {
         let mut to = *target;
         for axis in 0..6 {
@@ -227,11 +207,11 @@ pub fn chords(
         let point = arc.point(part);
         to.values[axes[0]] = point[0];
         to.values[axes[1]] = point[1];
-        set_targets(&to, shape, want, said)?;
-        line_to(&to, shape, want, said, out)?;
+        set_targets(&to, shape, cx.want, cx.said)?;
+        line_to(&to, cx)?;
     }
-    set_targets(target, shape, want, said)?;
-    line_to(target, shape, want, said, out)?;
-    share_of_time(whole_feed, 1.0, shape, want);
+    set_targets(target, shape, cx.want, cx.said)?;
+    line_to(target, cx)?;
+    share_of_time(whole_feed, 1.0, shape, cx.want);
     Ok(())
 }

@@ -3,43 +3,47 @@
 use super::measure::measure;
 use crate::lang::SequenceId;
 use crate::render::body::{Mode, run};
+use crate::render::cx::Cx;
 use crate::render::fault::Done;
 use crate::render::prelude::{check_prints, motion_block};
-use crate::render::printer::Printer;
 use crate::render::said::{LastMove, Said};
 use crate::render::shape::Shape;
 use crate::render::targets::set_targets;
 use crate::render::upon::upons;
-use crate::render::want::Want;
 use crate::render::words::move_block;
 use crate::sema;
 use crate::toolpath::Axes;
 
 /// A rapid to a target in program units, as one block or, under VRapid, split.
-pub fn rapid_to(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    if shape.program.settings.depth_rapid.is_some() && shape.linear == 3 && changes_depth_and_plane(target, shape, said)
+pub fn rapid_to(target: &Axes, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    if shape.program.settings.depth_rapid.is_some()
+        && shape.linear == 3
+        && changes_depth_and_plane(target, shape, cx.said)
     {
-        return split_rapid(target, shape, want, said, out);
+        return split_rapid(target, cx);
     }
-    rapid_block(target, None, shape, want, said, out)
+    rapid_block(target, None, cx)
 }
 
 /// A rapid that goes up first or down last: between holes, and under VRapid.
-pub fn split_rapid(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn split_rapid(target: &Axes, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let code = shape.program.settings.depth_rapid.clone();
-    if !changes_depth_and_plane(target, shape, said) {
-        let depth_only = target.given & shape.depth_bit() != 0 && said.differs_from(target, shape.depth_bit(), shape);
-        return rapid_block(target, code.filter(|_| depth_only), shape, want, said, out);
+    if !changes_depth_and_plane(target, shape, cx.said) {
+        let depth_only =
+            target.given & shape.depth_bit() != 0 && cx.said.differs_from(target, shape.depth_bit(), shape);
+        return rapid_block(target, code.filter(|_| depth_only), cx);
     }
     // only the axes of each part: the others stay where they are, printed or not
     let depth = shape.depth_bit();
     let part = |axes: u8| Axes { given: target.given & axes, ..*target };
-    if is_below(target, shape, said) {
-        rapid_block(&part(depth), code, shape, want, said, out)?;
-        rapid_block(target, None, shape, want, said, out)
+    if is_below(target, shape, cx.said) {
+        rapid_block(&part(depth), code, cx)?;
+        rapid_block(target, None, cx)
     } else {
-        rapid_block(&part(!depth), None, shape, want, said, out)?;
-        rapid_block(target, code, shape, want, said, out)
+        rapid_block(&part(!depth), None, cx)?;
+        rapid_block(target, code, cx)
     }
 }
 
@@ -53,46 +57,41 @@ fn changes_depth_and_plane(target: &Axes, shape: &Shape, said: &Said) -> bool {
     said.differs_from(target, shape.depth_bit(), shape) && said.differs_from(target, 0x3f & !shape.depth_bit(), shape)
 }
 
-pub fn rapid_block(
-    target: &Axes,
-    code: Option<sema::Code>,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
+pub fn rapid_block(target: &Axes, code: Option<sema::Code>, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let program = shape.program;
     // the depth part under VRapid has its own code, which the sequence can't print
     match program.routine(SequenceId::RapidCode).filter(|_| code.is_none()) {
-        Some(routine) if said.differs_from(target, 0x3f, shape) => {
-            let mut whole = said.stand.position;
+        Some(routine) if cx.said.differs_from(target, 0x3f, shape) => {
+            let mut whole = cx.said.stand.position;
             for axis in (0..6).filter(|axis| target.given & 1 << axis != 0) {
                 whole.set(axis, target.values[axis]);
             }
-            set_targets(&whole, shape, want, said)?;
-            measure(target, false, want, said);
-            let routine = shape.way(routine, want, said);
-            check_prints(routine, target, shape, said)?;
-            upons(routine.vars, shape, want, said, out)?;
-            motion_block(&program.settings.rapid, routine, shape, want, said, out)?;
-            run(routine, Mode::Motion, shape, want, said, out)?;
+            set_targets(&whole, shape, cx.want, cx.said)?;
+            measure(target, false, cx.want, cx.said);
+            let routine = shape.way(routine, cx.want, cx.said);
+            check_prints(routine, target, shape, cx.said)?;
+            upons(routine.vars, cx)?;
+            motion_block(&program.settings.rapid, routine, &mut cx.writer())?;
+            run(routine, Mode::Motion, &mut cx.writer())?;
         }
         Some(_) => {}
         None => {
             match &code {
-                Some(code) => move_block(target, code, false, shape, want, said, out)?,
-                None => move_block(target, &program.settings.rapid, false, shape, want, said, out)?,
+                Some(code) => move_block(target, code, false, &mut cx.writer())?,
+                None => move_block(target, &program.settings.rapid, false, &mut cx.writer())?,
             };
         }
     }
-    said.stand.move_to(target);
-    said.last_move = LastMove::Rapid;
+    cx.said.stand.move_to(target);
+    cx.said.last_move = LastMove::Rapid;
     Ok(())
 }
 
-pub fn raise(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn raise(target: &Axes, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let above = Axes { given: shape.depth_bit(), ..*target };
-    set_targets(&above, shape, want, said)?;
-    split_rapid(&above, shape, want, said, out)?;
-    set_targets(target, shape, want, said)
+    set_targets(&above, shape, cx.want, cx.said)?;
+    split_rapid(&above, cx)?;
+    set_targets(target, shape, cx.want, cx.said)
 }

@@ -6,6 +6,7 @@ use crate::cycle::thread_passes;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::render::body::{Mode, go_on, run_part};
+use crate::render::cx::{Cx, Writer};
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::printer::Printer;
 use crate::render::said::{LastMove, Said};
@@ -40,17 +41,18 @@ impl Cut {
 }
 
 /// A thread of the path. AutoThread goes before CanThread, both before passes made here.
-pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    check_state(shape, want, out)?;
-    let cut = planned(thread, shape, said)?;
-    check_beside(thread, &cut, shape, said)?;
+pub fn cut_thread(thread: &Thread, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    check_state(shape, cx.want, cx.out)?;
+    let cut = planned(thread, shape, cx.said)?;
+    check_beside(thread, &cut, shape, cx.said)?;
     let starts = thread.starts.unwrap_or(1.0);
-    let begin = said.stand.target(&thread.from, shape).values[0];
-    thread_variables(thread, &cut, shape, want);
-    let routine = |id: SequenceId| shape.routine(id, want, said);
+    let begin = cx.said.stand.target(&thread.from, shape).values[0];
+    thread_variables(thread, &cut, shape, cx.want);
+    let routine = |id: SequenceId| shape.routine(id, cx.want, cx.said);
     let cycle = routine(SequenceId::AutoThread).or(routine(SequenceId::CanThread));
     if let Some(routine) = cycle {
-        check_thread_words(thread, &cut, routine, shape, want)?;
+        check_thread_words(thread, &cut, routine, shape, cx.want)?;
     } else if thread.chamfer.is_some_and(|length| length != 0.0) {
         let help = "leave the chamfer out, or give the form an AutoThread that prints [chams]";
         return fault(Code::PR031, "passes made of single moves have no chamfer", help);
@@ -59,34 +61,37 @@ pub fn cut_thread(thread: &Thread, shape: &Shape, want: &mut Want, said: &mut Sa
         // each start begins one pitch further back
         let back = f64::from(start) * thread.pitch * shape.scale;
         let begin = begin + back * if begin >= cut.end { 1.0 } else { -1.0 };
-        want.set(VarId::Taper, cut.taper(begin));
-        let mut at = said.stand.position;
+        cx.want.set(VarId::Taper, cut.taper(begin));
+        let mut at = cx.said.stand.position;
         at.set(0, begin);
-        set_targets(&at, shape, want, said)?;
-        if said.is_unsettled(want) {
-            settle(shape, want, said, out)?;
+        set_targets(&at, shape, cx.want, cx.said)?;
+        if cx.said.is_unsettled(cx.want) {
+            settle(cx)?;
         }
-        rapid_to(&at, shape, want, said, out)?;
-        let here = said.stand.position;
-        match (shape.routine(SequenceId::AutoThread, want, said), shape.routine(SequenceId::CanThread, want, said)) {
+        rapid_to(&at, cx)?;
+        let here = cx.said.stand.position;
+        match (
+            shape.routine(SequenceId::AutoThread, cx.want, cx.said),
+            shape.routine(SequenceId::CanThread, cx.want, cx.said),
+        ) {
             (Some(routine), _) => {
-                pass_variables(&cut, cut.passes[cut.passes.len() - 1], shape, want, said)?;
-                run_with_upons(routine, shape, want, said, out)?;
+                pass_variables(&cut, cut.passes[cut.passes.len() - 1], shape, cx.want, cx.said)?;
+                run_with_upons(routine, cx)?;
             }
-            (None, Some(routine)) => canned_passes(routine, &cut, shape, want, said, out)?,
-            (None, None) => own_passes(&cut, &here, shape, want, said, out)?,
+            (None, Some(routine)) => canned_passes(routine, &cut, cx)?,
+            (None, None) => own_passes(&cut, &here, cx)?,
         }
         if cycle.is_some_and(|routine| routine.cancel)
-            && let Some(cancel) = shape.routine(SequenceId::Cancel, want, said)
+            && let Some(cancel) = shape.routine(SequenceId::Cancel, cx.want, cx.said)
         {
-            run_with_upons(cancel, shape, want, said, out)?; // else the rapid behind it would be a pass
+            run_with_upons(cancel, cx)?; // else the rapid behind it would be a pass
         }
-        said.forget_words();
-        said.stand.position = here;
-        said.last_move = LastMove::None;
+        cx.said.forget_words();
+        cx.said.stand.position = here;
+        cx.said.last_move = LastMove::None;
     }
-    let feed = want.feed();
-    want.keep_feed(feed, shape);
+    let feed = cx.want.feed();
+    cx.want.keep_feed(feed, shape);
     Ok(())
 }
 
@@ -239,77 +244,65 @@ fn pass_variables(cut: &Cut, depth: f64, shape: &Shape, want: &mut Want, said: &
 }
 
 /// CanThread: its first lines once, the others at every pass.
-fn canned_passes(
-    routine: &Routine,
-    cut: &Cut,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
-    upons(routine.vars, shape, want, said, out)?;
+fn canned_passes(routine: &Routine, cut: &Cut, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    upons(routine.vars, cx)?;
     for (i, &depth) in cut.passes.iter().enumerate() {
-        pass_variables(cut, depth, shape, want, said)?;
-        said.forget_letters();
+        pass_variables(cut, depth, shape, cx.want, cx.said)?;
+        cx.said.forget_letters();
         if i == 0 {
-            run_part(routine, routine.ops.start..routine.repeat, Mode::All, shape, want, said, out)?;
+            run_part(routine, routine.ops.start..routine.repeat, Mode::All, &mut cx.writer())?;
         }
         let rest = routine.repeat..routine.ops.end;
         match i {
-            0 => go_on(routine, rest, Mode::Hole, shape, want, said, out)?,
-            _ => run_part(routine, rest, Mode::Hole, shape, want, said, out)?,
+            0 => go_on(routine, rest, Mode::Hole, &mut cx.writer())?,
+            _ => run_part(routine, rest, Mode::Hole, &mut cx.writer())?,
         }
     }
     Ok(())
 }
 
 /// Passes with the code of the `Thread` command.
-fn own_passes(cut: &Cut, here: &Axes, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+fn own_passes(cut: &Cut, here: &Axes, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let program = shape.program;
     let Some(code) = &program.settings.thread else {
         let help = "add AutoThread, CanThread or the line `Thread G33` to the form";
         return fault(Code::PR008, "the form has no way to thread", help);
     };
     for (i, &depth) in cut.passes.iter().enumerate() {
-        let end = pass_variables(cut, depth, shape, want, said)?;
+        let end = pass_variables(cut, depth, shape, cx.want, cx.said)?;
         if program.settings.thread_full {
             let mut start = *here;
             start.set(1, end.values[1] + cut.taper(here.values[0]) * shape.scales[1].signum());
-            rapid_to(&start, shape, want, said, out)?;
+            rapid_to(&start, cx)?;
         }
         if i == 0 || program.settings.thread_full {
-            thread_block(code, (here, &end), cut, shape, want, said, out)?;
+            thread_block(code, (here, &end), cut, &mut cx.writer())?;
         } else {
-            axis_word(1, &end, shape, said, out)?;
-            out.end_block();
+            axis_word(1, &end, shape, cx.said, cx.out)?;
+            cx.out.end_block();
         }
-        said.stand.position = end;
+        cx.said.stand.position = end;
         if program.settings.thread_full {
-            said.say_motion_again();
+            cx.said.say_motion_again();
             let mut clear = end;
             clear.values[1] = here.values[1];
-            rapid_to(&clear, shape, want, said, out)?;
-            rapid_to(here, shape, want, said, out)?;
+            rapid_to(&clear, cx)?;
+            rapid_to(here, cx)?;
         }
     }
     Ok(())
 }
 
 /// Code, radius, length, taper, lead.
-fn thread_block(
-    code: &sema::Code,
-    (here, end): (&Axes, &Axes),
-    cut: &Cut,
-    shape: &Shape,
-    want: &Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
-    code_word(code, shape, want, said, out)?;
-    axis_word(1, end, shape, said, out)?;
-    axis_word(0, end, shape, said, out)?;
-    letter_word(b'I', cut.taper(here.values[0]), shape, said, out)?;
-    letter_word(shape.program.settings.feed_code, cut.lead, shape, said, out)?;
-    out.end_block();
+fn thread_block(code: &sema::Code, (here, end): (&Axes, &Axes), cut: &Cut, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
+    code_word(code, writer)?;
+    axis_word(1, end, shape, writer.said, writer.out)?;
+    axis_word(0, end, shape, writer.said, writer.out)?;
+    letter_word(b'I', cut.taper(here.values[0]), shape, writer.said, writer.out)?;
+    letter_word(shape.program.settings.feed_code, cut.lead, shape, writer.said, writer.out)?;
+    writer.out.end_block();
     Ok(())
 }

@@ -6,12 +6,12 @@ use crate::compile::Routine;
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId, VarSet};
 use crate::render::body::run_all;
+use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault};
+use crate::render::moves::prepare::reach;
 use crate::render::moves::rapid_blocks::rapid_to;
-use crate::render::moves::reach::reach;
 use crate::render::moves::rotary::turn_to;
 use crate::render::prelude::way_before;
-use crate::render::printer::Printer;
 use crate::render::prints::{prints_axis, says_work};
 use crate::render::said::{CONDITIONS, Conditions, Said};
 use crate::render::settle::{knows_after_stop, only_work_waits, print_conditions, settle, work_before};
@@ -34,67 +34,61 @@ fn at<T>(place: Place, done: Done<T>) -> Done<T> {
 }
 
 /// A call: nothing is known before and after it, because the subprogram moves the tool.
-pub fn sub_call(
-    call: &Call,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    subs: &mut Subprograms,
-) -> Done {
+pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
+    let shape = cx.shape;
     let from = subs.open;
     let mut unknown = VarSet::default();
-    for var in CONDITIONS.into_iter().filter(|&var| want.get(var).is_none()) {
+    for var in CONDITIONS.into_iter().filter(|&var| cx.want.get(var).is_none()) {
         unknown.insert(var);
     }
     // a call of the main program needs no look at the end: its subprogram is known here, and so is what that calls
     if let Some(from) = from {
-        let turned_back = turns_back(want, shape);
-        subs.calls.push(Called { from, to: call.sub, place: out.place, unknown, turned_back });
+        let turned_back = turns_back(cx.want, shape);
+        subs.calls.push(Called { from, to: call.sub, place: cx.out.place, unknown, turned_back });
     }
     let Some(base) = shape.program.routine(SequenceId::SubCall) else {
         return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
     };
     let called = subs.index(call.sub);
-    check_call(call, called, want, said, subs)?;
-    if turns_back(want, shape) && called.is_some_and(|called| subs.taps(called)) {
+    check_call(call, called, cx.want, cx.said, subs)?;
+    if turns_back(cx.want, shape) && called.is_some_and(|called| subs.taps(called)) {
         return taps_back(call.sub);
     }
     let (printed, first_block) = names_of_called(call, called, shape, subs)?;
-    let work = want.get(VarId::Work);
+    let work = cx.want.get(VarId::Work);
     if let Some(work) = call.work {
-        want.set_work(work, shape)?;
+        cx.want.set_work(work, shape)?;
     }
-    let routine = shape.way(base, want, said);
-    let place = go_to_call(call, routine, shape, want, said, out)?;
-    want.set(VarId::Sub, printed);
-    want.set(VarId::Times, call.times);
-    want.put(VarId::Subline, first_block);
-    let routine = shape.way(base, want, said);
+    let routine = shape.way(base, cx.want, cx.said);
+    let place = go_to_call(call, routine, cx)?;
+    cx.want.set(VarId::Sub, printed);
+    cx.want.set(VarId::Times, call.times);
+    cx.want.put(VarId::Subline, first_block);
+    let routine = shape.way(base, cx.want, cx.said);
     let leaves = called.is_none_or(|i| subs.defined[i].calls_ahead || !subs.defined[i].left.is_nothing());
     // a sequence that does not print how often is printed as often; so is one whose next run must begin as the first
     let together = routine.vars.has(VarId::Times) && !(leaves && call.times > 1.0);
     let calls = if together { 1 } else { call.times as u32 };
     if !together {
-        want.set(VarId::Times, 1.0);
+        cx.want.set(VarId::Times, 1.0);
     }
-    let begins = if calls > 1 { next_begins(&place, routine, called, shape, want, subs)? } else { place };
+    let begins = if calls > 1 { next_begins(&place, routine, called, shape, cx.want, subs)? } else { place };
     for run in 0..calls {
-        set_targets(if run == 0 { &place } else { &begins }, shape, want, said)?;
-        let routine = shape.way(base, want, said);
+        set_targets(if run == 0 { &place } else { &begins }, shape, cx.want, cx.said)?;
+        let routine = shape.way(base, cx.want, cx.said);
         if run > 0 && leaves {
-            knows_after_stop(shape, want, said)?;
-            print_conditions(shape, want, said, out)?;
+            knows_after_stop(shape, cx.want, cx.said)?;
+            print_conditions(cx)?;
         }
-        upons(routine.vars, shape, want, said, out)?;
-        way_before(routine, shape, want, said, out)?;
-        said.forget_words();
-        run_all(routine, shape, want, said, out)?;
-        after_call(called, want, said, subs);
+        upons(routine.vars, cx)?;
+        way_before(routine, &mut cx.writer())?;
+        cx.said.forget_words();
+        run_all(routine, &mut cx.writer())?;
+        after_call(called, cx.want, cx.said, subs);
     }
     // the call's work offset is the call's alone: what follows is in the operation's again
-    want.put(VarId::Work, work);
-    want.changed = true;
+    cx.want.put(VarId::Work, work);
+    cx.want.changed = true;
     Ok(())
 }
 
@@ -172,34 +166,24 @@ fn taps_back<T>(sub: f64) -> Done<T> {
 
 /// Prints what a call needs before it: changes that its sequence does not print, and the place it is called at. Returns
 /// the place.
-fn go_to_call(
-    call: &Call,
-    routine: &Routine,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done<Axes> {
-    plain_cutting(shape, want, said, out)?;
-    let target = reach(&call.at, true, shape, want, said, out)?;
-    set_targets(&target, shape, want, said)?;
-    if said.is_unsettled(want) && !(says_work(routine, shape) && only_work_waits(shape, want, said)) {
-        settle(shape, want, said, out)?;
+fn go_to_call(call: &Call, routine: &Routine, cx: &mut Cx<'_>) -> Done<Axes> {
+    let shape = cx.shape;
+    plain_cutting(&mut cx.writer())?;
+    let target = reach(&call.at, true, cx)?;
+    set_targets(&target, shape, cx.want, cx.said)?;
+    if cx.said.is_unsettled(cx.want) && !(says_work(routine, shape) && only_work_waits(shape, cx.want, cx.said)) {
+        settle(cx)?;
     }
     let at = Axes { given: call.at.given, ..target };
     // all of it: a part alone would go down before it goes across
     if (0..6).any(|axis| at.get(axis).is_some() && !prints_axis(routine, axis, shape)) {
         if says_work(routine, shape) {
-            upons(VarSet::of(&[VarId::Work]), shape, want, said, out)?;
-            work_before(shape, want, said, out)?;
+            upons(VarSet::of(&[VarId::Work]), cx)?;
+            work_before(&mut cx.writer())?;
         }
-        if said.turns(&at, shape) {
-            turn_to(&at, shape, want, said, out)?
-        } else {
-            rapid_to(&at, shape, want, said, out)?
-        }
+        if cx.said.turns(&at, shape) { turn_to(&at, cx)? } else { rapid_to(&at, cx)? }
     }
-    set_targets(&target, shape, want, said)?;
+    set_targets(&target, shape, cx.want, cx.said)?;
     Ok(target)
 }
 

@@ -4,13 +4,12 @@ use crate::diag::Code;
 use crate::lang::SequenceId;
 use crate::render::ascii::plain;
 use crate::render::comment_marks::in_comment;
+use crate::render::cx::Cx;
 use crate::render::fault::Done;
 use crate::render::printer::Printer;
-use crate::render::said::Said;
 use crate::render::shape::Shape;
 use crate::render::texts::room;
 use crate::render::upon::run_with_upons;
-use crate::render::want::Want;
 
 /// A text in lines of at most so many characters, broken at blanks where it has them.
 fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
@@ -26,21 +25,22 @@ fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
 }
 
 /// A comment, in as many blocks as the control's line asks for: by the form's CommentLine, if it has one.
-pub fn comment_block(text: &str, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn comment_block(text: &str, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let marks: usize = shape.program.settings.comment.iter().map(String::len).sum();
     let room = room(shape).saturating_sub(marks).max(1);
     for (i, line) in wrapped(&plain(text), room).enumerate() {
         if i == 1 {
             let message = "a comment is longer than the control's line, and goes on in the next";
-            out.note(Code::PR026, message.into(), "shorten it, if it is to stand in one block");
+            cx.out.note(Code::PR026, message.into(), "shorten it, if it is to stand in one block");
         }
         match shape.program.routine(SequenceId::CommentLine) {
             Some(routine) => {
-                want.texts.say(line);
-                let routine = shape.way(routine, want, said);
-                run_with_upons(routine, shape, want, said, out)?;
+                cx.want.texts.say(line);
+                let routine = shape.way(routine, cx.want, cx.said);
+                run_with_upons(routine, cx)?;
             }
-            None => comment_line(line, shape, out),
+            None => comment_line(line, shape, cx.out),
         }
     }
     Ok(())

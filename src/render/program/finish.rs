@@ -10,55 +10,47 @@ use crate::compile::{Op, Routine};
 use crate::diag::Code;
 use crate::lang::{Coolant, SequenceId};
 use crate::render::body::{Mode, go_on, run_part};
+use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault};
 use crate::render::more_coolants::end_beside;
-use crate::render::printer::Printer;
-use crate::render::said::Said;
 use crate::render::settle::check_reading_of;
 use crate::render::shape::Shape;
 use crate::render::targets::set_here;
 use crate::render::unnumbered::is_percent;
 use crate::render::upon::{run_with_upons, upons};
-use crate::render::want::Want;
 use crate::toolpath::Section;
 
 /// The end of the job: EndCode.
-pub fn finish(
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    subs: &mut Subprograms,
-    sections: &[Section],
-) -> Done {
+pub fn finish(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) -> Done {
+    let shape = cx.shape;
     check_sections_closed(sections)?;
-    if want.compensated {
+    if cx.want.compensated {
         let message = "cutter compensation is still on at the end of the program";
-        out.note(Code::PR023, message.into(), "end it with an `outfeed`");
+        cx.out.note(Code::PR023, message.into(), "end it with an `outfeed`");
     }
-    if let Some(order) = &want.tool_order
-        && want.tool_changes != order.len()
+    if let Some(order) = &cx.want.tool_order
+        && cx.want.tool_changes != order.len()
     {
-        let message = format!("`tool_order` lists {} tools, the job used {}", order.len(), want.tool_changes);
+        let message = format!("`tool_order` lists {} tools, the job used {}", order.len(), cx.want.tool_changes);
         return fault(Code::PJ012, message, "list the tools in the order of their use, each change once");
     }
-    end_operation(shape, want, said, out)?;
-    begin_main(shape, want, said, out, subs)?;
+    end_operation(cx)?;
+    begin_main(cx, subs)?;
     check_calls(subs)?;
-    set_here(shape, want, said)?;
-    end_beside(Coolant::OFF, shape, want, said, out)?;
-    want.ends_what_is_on(shape);
-    let Some(routine) = shape.routine(SequenceId::EndCode, want, said) else { return Ok(()) };
-    check_reading_of(routine, shape, want, said)?;
+    set_here(shape, cx.want, cx.said)?;
+    end_beside(Coolant::OFF, &mut cx.writer())?;
+    cx.want.ends_what_is_on(shape);
+    let Some(routine) = shape.routine(SequenceId::EndCode, cx.want, cx.said) else { return Ok(()) };
+    check_reading_of(routine, shape, cx.want, cx.said)?;
     if !has_waiting(subs) {
-        return run_with_upons(routine, shape, want, said, out);
+        return run_with_upons(routine, cx);
     }
     // subprograms stand after the main program, before the `%` that ends the tape
     let percent = closing_percent(routine, shape);
-    upons(routine.vars, shape, want, said, out)?;
-    run_part(routine, routine.ops.start..percent, Mode::All, shape, want, said, out)?;
-    append_waiting(out, subs);
-    go_on(routine, percent..routine.ops.end, Mode::All, shape, want, said, out)
+    upons(routine.vars, cx)?;
+    run_part(routine, routine.ops.start..percent, Mode::All, &mut cx.writer())?;
+    append_waiting(cx.out, subs);
+    go_on(routine, percent..routine.ops.end, Mode::All, &mut cx.writer())
 }
 
 /// Where the `%` at the end of EndCode begins; its end, when there is none.

@@ -3,17 +3,15 @@
 use super::stops::settle_between_moves;
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
+use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault};
-use crate::render::printer::Printer;
-use crate::render::said::Said;
-use crate::render::shape::Shape;
 use crate::render::targets::set_here;
 use crate::render::upon::run_with_upons;
-use crate::render::want::Want;
 
 /// Where the machine's own place is, only the form says. Nobody knows where the tool is then.
-pub fn home(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    if want.compensated {
+pub fn home(cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    if cx.want.compensated {
         let help = "end the compensation with an `outfeed` before";
         return fault(Code::PR030, "the tool goes home under cutter compensation", help);
     }
@@ -22,15 +20,15 @@ pub fn home(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) 
         let help = "add the sequence `MoveHome` with the control's words, as `G28 G91 Z0.` and `G90`, to its `End`";
         return fault(Code::PR008, message, help);
     }
-    settle_between_moves(shape, want, said, out)?;
-    set_here(shape, want, said)?;
-    let Some(routine) = shape.routine(SequenceId::MoveHome, want, said) else { return Ok(()) };
-    run_with_upons(routine, shape, want, said, out)?;
-    let known = said.stand.fresh_tool.unwrap_or(0) | said.stand.position.given;
-    said.stand.fresh_tool = Some(known);
-    said.stand.angles.keep(&said.stand.position);
-    said.forget_axes(shape);
-    said.forget_place();
-    want.forget(&[VarId::H, VarId::V, VarId::D]);
+    settle_between_moves(cx)?;
+    set_here(shape, cx.want, cx.said)?;
+    let Some(routine) = shape.routine(SequenceId::MoveHome, cx.want, cx.said) else { return Ok(()) };
+    run_with_upons(routine, cx)?;
+    let known = cx.said.stand.fresh_tool.unwrap_or(0) | cx.said.stand.position.given;
+    cx.said.stand.fresh_tool = Some(known);
+    cx.said.stand.angles.keep(&cx.said.stand.position);
+    cx.said.forget_axes(shape);
+    cx.said.forget_place();
+    cx.want.forget(&[VarId::H, VarId::V, VarId::D]);
     Ok(())
 }

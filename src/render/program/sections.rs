@@ -2,15 +2,14 @@
 
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId};
+use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault};
 use crate::render::prelude::way_before;
-use crate::render::printer::Printer;
 use crate::render::prints::prints_axis_words;
-use crate::render::said::{LastMove, Said};
+use crate::render::said::LastMove;
 use crate::render::shape::Shape;
 use crate::render::targets::set_here;
 use crate::render::upon::run_with_upons;
-use crate::render::want::Want;
 use crate::toolpath::{EdmAction, Section};
 
 /// The sequences before and after each part.
@@ -40,33 +39,21 @@ fn part(section: Section) -> &'static str {
 }
 
 /// A part begins.
-pub fn begin_section(
-    section: Section,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    sections: &mut Vec<Section>,
-) -> Done {
+pub fn begin_section(section: Section, cx: &mut Cx<'_>, sections: &mut Vec<Section>) -> Done {
+    let shape = cx.shape;
     let (begin, _) = sequences(section);
     check_section(begin, shape)?;
     sections.push(section);
-    run_section(begin, shape, want, said, out)
+    run_section(begin, cx)
 }
 
 /// The part that began last ends.
-pub fn end_section(
-    section: Section,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    sections: &mut Vec<Section>,
-) -> Done {
+pub fn end_section(section: Section, cx: &mut Cx<'_>, sections: &mut Vec<Section>) -> Done {
+    let shape = cx.shape;
     let (begin, end) = sequences(section);
     check_section(begin, shape)?;
     match sections.pop() {
-        Some(open) if open == section => run_section(end, shape, want, said, out),
+        Some(open) if open == section => run_section(end, cx),
         Some(open) => fault(
             Code::PJ011,
             format!("a {} ends inside a {}", part(section), part(open)),
@@ -80,19 +67,20 @@ pub fn end_section(
     }
 }
 
-fn run_section(id: SequenceId, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+fn run_section(id: SequenceId, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     match shape.program.routine(id) {
         Some(routine) => {
-            set_here(shape, want, said)?;
-            let routine = shape.way(routine, want, said);
+            set_here(shape, cx.want, cx.said)?;
+            let routine = shape.way(routine, cx.want, cx.said);
             // an arc's code would want a centre; among cuts it stays a cut
-            if matches!(said.last_move, LastMove::Cw | LastMove::Ccw) {
-                want.cutting = true;
-                way_before(routine, shape, want, said, out)?;
+            if matches!(cx.said.last_move, LastMove::Cw | LastMove::Ccw) {
+                cx.want.cutting = true;
+                way_before(routine, &mut cx.writer())?;
             }
-            run_with_upons(routine, shape, want, said, out)?;
+            run_with_upons(routine, cx)?;
             if prints_axis_words(routine, true, shape) {
-                said.stand.moved_by = Some(routine.span);
+                cx.said.stand.moved_by = Some(routine.span);
             }
             Ok(())
         }
@@ -120,7 +108,8 @@ pub fn check_sections_closed(sections: &[Section]) -> Done {
 }
 
 /// What a wire EDM machine does between moves: the form must have a sequence for it.
-pub fn edm(action: EdmAction, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn edm(action: EdmAction, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let machine = shape.program.settings.machine;
     if machine != Machine::Edm {
         let message = format!("a {} has no wire", machine.name());
@@ -137,5 +126,5 @@ pub fn edm(action: EdmAction, shape: &Shape, want: &mut Want, said: &mut Said, o
         let help = format!("add the sequence `{}` with what the machine needs, to its `End`", id.name());
         return fault(Code::PR008, message, help);
     }
-    run_section(id, shape, want, said, out)
+    run_section(id, cx)
 }

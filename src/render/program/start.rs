@@ -7,6 +7,7 @@ use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
 use crate::render::ahead;
 use crate::render::body::{Mode, run_part};
+use crate::render::cx::{Cx, Writer};
 use crate::render::fault::{Done, fault};
 use crate::render::printer::Printer;
 use crate::render::said::Said;
@@ -49,10 +50,10 @@ pub fn start(
     }
     let shape = &*shape;
     if let Some(routine) = shape.routine(SequenceId::StartCode, want, said) {
-        upons(routine.vars, shape, want, said, out)?;
+        upons(routine.vars, &mut Cx { shape, want, said, out })?;
         // with subprograms first only the leading `%` comes now
         let now = if settings.subs_first { start_code_rest(routine, shape) } else { routine.ops.end };
-        run_part(routine, routine.ops.start..now, Mode::All, shape, want, said, out)?;
+        run_part(routine, routine.ops.start..now, Mode::All, &mut Writer { shape, want, said, out })?;
         subs.start_waits = settings.subs_first;
     }
     Ok(())
@@ -95,21 +96,22 @@ fn start_code_rest(routine: &Routine, shape: &Shape) -> usize {
 }
 
 /// The main program begins: what waited of StartCode, and Between.
-pub fn begin_main(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer, subs: &mut Subprograms) -> Done {
+pub fn begin_main(cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
+    let shape = cx.shape;
     if !std::mem::take(&mut subs.start_waits) {
         return Ok(());
     }
     if !subs.defined.is_empty()
-        && let Some(routine) = shape.routine(SequenceId::Between, want, said)
+        && let Some(routine) = shape.routine(SequenceId::Between, cx.want, cx.said)
     {
-        run_with_upons(routine, shape, want, said, out)?;
+        run_with_upons(routine, cx)?;
     }
-    if let Some(routine) = shape.routine(SequenceId::StartCode, want, said) {
-        said.forget_words();
+    if let Some(routine) = shape.routine(SequenceId::StartCode, cx.want, cx.said) {
+        cx.said.forget_words();
         let rest = start_code_rest(routine, shape);
-        run_part(routine, rest..routine.ops.end, Mode::All, shape, want, said, out)?;
+        run_part(routine, rest..routine.ops.end, Mode::All, &mut cx.writer())?;
     }
-    said.forget_place();
-    want.forget(&PLACE);
+    cx.said.forget_place();
+    cx.want.forget(&PLACE);
     Ok(())
 }

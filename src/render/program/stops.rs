@@ -2,65 +2,65 @@
 
 use crate::control::Meaning;
 use crate::lang::{SequenceId, VarId};
+use crate::render::cx::Cx;
 use crate::render::fault::Done;
-use crate::render::printer::Printer;
 use crate::render::prints::prints_code;
-use crate::render::said::Said;
 use crate::render::settle::settle_here;
-use crate::render::shape::Shape;
 use crate::render::targets::set_here;
 use crate::render::upon::{run_with_upons, upon_is_due};
-use crate::render::want::Want;
 use crate::render::words::{dwell_block, value_code};
 use crate::toolpath::StopKind;
 
 /// A dwell in seconds.
-pub fn dwell(seconds: f64, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    settle_between_moves(shape, want, said, out)?;
+pub fn dwell(seconds: f64, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    settle_between_moves(cx)?;
     let Some(routine) = shape.program.routine(SequenceId::DwellBlock) else {
-        return dwell_block(seconds, shape, want, said, out);
+        return dwell_block(seconds, &mut cx.writer());
     };
     let milliseconds = shape.program.settings.dwell.milliseconds;
-    want.set(VarId::Dwell, if milliseconds { seconds * 1000.0 } else { seconds });
-    set_here(shape, want, said)?;
-    let routine = shape.way(routine, want, said);
-    run_with_upons(routine, shape, want, said, out)?;
+    cx.want.set(VarId::Dwell, if milliseconds { seconds * 1000.0 } else { seconds });
+    set_here(shape, cx.want, cx.said)?;
+    let routine = shape.way(routine, cx.want, cx.said);
+    run_with_upons(routine, cx)?;
     let says = routine.vars.has(VarId::Dwell);
-    want.put(VarId::Dwell, None);
+    cx.want.put(VarId::Dwell, None);
     // a way that does not say it has not dwelt
-    if says { Ok(()) } else { dwell_block(seconds, shape, want, said, out) }
+    if says { Ok(()) } else { dwell_block(seconds, &mut cx.writer()) }
 }
 
 /// A program stop or an optional one.
-pub fn stop(kind: StopKind, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    settle_between_moves(shape, want, said, out)?;
+pub fn stop(kind: StopKind, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    settle_between_moves(cx)?;
     let [program, optional] = shape.program.settings.stop_code;
     let code = if kind == StopKind::Program { program } else { optional };
-    want.set(VarId::Stop, code);
+    cx.want.set(VarId::Stop, code);
     let own = shape.program.routine(SequenceId::OptStop).filter(|_| kind == StopKind::Optional);
     match own.or_else(|| shape.program.routine(SequenceId::Stop)) {
         Some(routine) => {
-            set_here(shape, want, said)?;
-            let routine = shape.way(routine, want, said);
-            run_with_upons(routine, shape, want, said, out)?;
+            set_here(shape, cx.want, cx.said)?;
+            let routine = shape.way(routine, cx.want, cx.said);
+            run_with_upons(routine, cx)?;
             if !routine.vars.has(VarId::Stop)
                 && !prints_code(routine, |code| shape.meaning_of(code).is_some_and(Meaning::is_stop), shape)
             {
-                said.stopped(want, shape); // by words of its own
+                cx.said.stopped(cx.want, shape); // by words of its own
             }
         }
         None => {
-            value_code(b'M', code, shape, want, said, out)?;
-            out.end_block();
+            value_code(b'M', code, &mut cx.writer())?;
+            cx.out.end_block();
         }
     }
     Ok(())
 }
 
 /// Changes of spindle and coolant come before a dwell or stop too.
-pub fn settle_between_moves(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn settle_between_moves(cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     // where nobody knows the place, what would move the tool waits for the next rapid
-    let lost =
-        said.stand.position.given & 0b11 != 0b11 && upon_is_due(said.lacks(want, shape), true, shape, want, said);
-    if said.is_unsettled(want) && !lost { settle_here(false, shape, want, said, out) } else { Ok(()) }
+    let lost = cx.said.stand.position.given & 0b11 != 0b11
+        && upon_is_due(cx.said.lacks(cx.want, shape), true, shape, cx.want, cx.said);
+    if cx.said.is_unsettled(cx.want) && !lost { settle_here(false, cx) } else { Ok(()) }
 }

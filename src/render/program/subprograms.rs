@@ -5,6 +5,7 @@ use super::table::{Defined, Left, State, Subprograms};
 use crate::control;
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId};
+use crate::render::cx::{Cx, Writer};
 use crate::render::fault::{Done, fault};
 use crate::render::prelude::enter_plane;
 use crate::render::printer::{Page, Printer};
@@ -17,14 +18,8 @@ use crate::render::want::Want;
 use crate::toolpath::{Section, key};
 
 /// A subprogram begins.
-pub fn sub_start(
-    number: f64,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    subs: &mut Subprograms,
-) -> Done {
+pub fn sub_start(number: f64, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
+    let shape = cx.shape;
     let settings = &shape.program.settings;
     if settings.machine != crate::lang::Machine::Mill {
         return fault(Code::PR008, "subprograms are for mills", "put the moves into the operations");
@@ -39,7 +34,7 @@ pub fn sub_start(
     let Some(routine) = shape.program.routine(SequenceId::SubStart) else {
         return fault(Code::PR008, "the form has no SubStart", "add SubStart, SubEnd and SubCall to the form");
     };
-    let program = want.get(VarId::Program);
+    let program = cx.want.get(VarId::Program);
     if !settings.renumber_subs && program == Some(number) {
         let message = format!("the subprogram {number} has the number of the program itself");
         return fault(Code::PJ010, message, "give one of them another number");
@@ -47,18 +42,18 @@ pub fn sub_start(
     let last = subs.defined.last().map_or(0.0, |sub| sub.printed);
     let next = if program == Some(last + 1.0) { last + 2.0 } else { last + 1.0 };
     let printed = if settings.renumber_subs { next } else { number };
-    let first_block = settings.numbers.letter.map(|_| out.number() as f64);
+    let first_block = settings.numbers.letter.map(|_| cx.out.number() as f64);
     let left = Left::default();
     let index = subs.defined.len();
     subs.by_number.insert(key(number), index);
     subs.defined.push(Defined { printed, first_block, left, calls_ahead: false });
     subs.open = Some(index);
     if !settings.subs_first {
-        aside(out, subs);
+        aside(cx.out, subs);
     }
-    leave_main(shape, want, said, subs);
-    want.set(VarId::Sub, printed);
-    run_with_upons(shape.way(routine, want, said), shape, want, said, out)
+    leave_main(shape, cx.want, cx.said, subs);
+    cx.want.set(VarId::Sub, printed);
+    run_with_upons(shape.way(routine, cx.want, cx.said), cx)
 }
 
 /// Forgets what the main program knows: in a subprogram nothing is known but what it says itself.
@@ -103,41 +98,35 @@ fn back_to_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subp
 }
 
 /// The open subprogram ends.
-pub fn sub_end(
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-    subs: &mut Subprograms,
-    sections: &[Section],
-) -> Done {
+pub fn sub_end(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) -> Done {
+    let shape = cx.shape;
     check_sections_closed(sections)?;
-    if said.is_unsettled(want) {
-        settle_here(false, shape, want, said, out)?;
+    if cx.said.is_unsettled(cx.want) {
+        settle_here(false, cx)?;
     }
-    plain_cutting(shape, want, said, out)?;
-    if subs.main.as_ref().is_some_and(|main| !main.angles.wound_as(&said.stand.angles)) {
+    plain_cutting(&mut cx.writer())?;
+    if subs.main.as_ref().is_some_and(|main| !main.angles.wound_as(&cx.said.stand.angles)) {
         let help = "unwind in the main program: a call would leave the axis turned otherwise than the next expects";
         return fault(Code::PR033, "a rotary axis was unwound inside a subprogram", help);
     }
-    match shape.routine(SequenceId::SubEnd, want, said) {
-        Some(routine) => run_with_upons(routine, shape, want, said, out)?,
+    match shape.routine(SequenceId::SubEnd, cx.want, cx.said) {
+        Some(routine) => run_with_upons(routine, cx)?,
         None => return fault(Code::PR008, "the form has no SubEnd", "add SubEnd to the form"),
     }
     if !shape.program.settings.subs_first {
-        aside(out, subs);
+        aside(cx.out, subs);
     }
-    back_to_main(shape, want, said, subs);
+    back_to_main(shape, cx.want, cx.said, subs);
     Ok(())
 }
 
 /// Subprograms begin and end in the first plane, without cutter compensation.
-pub fn plain_cutting(shape: &Shape, want: &Want, said: &mut Said, out: &mut Printer) -> Done {
-    if want.compensated {
+pub fn plain_cutting(writer: &mut Writer<'_>) -> Done {
+    if writer.want.compensated {
         let help = "end the compensation with an `outfeed` before";
         return fault(Code::PR030, "cutter compensation is on at the border of a subprogram", help);
     }
-    enter_plane(control::Code::g(17), shape, want, said, out)
+    enter_plane(control::Code::g(17), writer)
 }
 
 /// Changes places with the text aside.

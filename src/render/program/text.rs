@@ -4,16 +4,17 @@ use super::stops::settle_between_moves;
 use crate::control::{Code, Group};
 use crate::diag;
 use crate::lang::{VarId, work_code};
+use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault, fault_at};
-use crate::render::printer::Printer;
-use crate::render::said::{Line, Said, TextWord, words_of};
+use crate::render::said::{Line, TextWord, words_of};
 use crate::render::shape::Shape;
 use crate::render::want::Want;
 use crate::terminal::steers;
 
 /// Prints a block as it stands. What its words switch is what the job wants from there on; letters and positions are
 /// unknown after it.
-pub fn verbatim(text: &str, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+pub fn verbatim(text: &str, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     if let Some(c) = text.chars().find(|&c| steers(c) && c != '\t') {
         let message = format!("the text holds U+{:04X}, which steers instead of being printed", u32::from(c));
         return fault(diag::Code::PR035, message, "take it out");
@@ -30,30 +31,30 @@ pub fn verbatim(text: &str, shape: &Shape, want: &mut Want, said: &mut Said, out
         let help = "render with `--units` of the job: text is printed as it stands";
         return fault(diag::Code::PR035, message, help);
     }
-    said.stand.fresh_tool = None;
+    cx.said.stand.fresh_tool = None;
     if text.trim().is_empty() {
         return Ok(()); // an empty block is not printed
     }
-    settle_between_moves(shape, want, said, out)?;
-    said.text(text.as_bytes(), Line::NONE, want, shape);
+    settle_between_moves(cx)?;
+    cx.said.text(text.as_bytes(), Line::NONE, cx.want, shape);
     for TextWord { letter, value } in words {
         if letter == b'S' {
-            want.set(VarId::Speed, value);
+            cx.want.set(VarId::Speed, value);
         } else if let Some(code) = Code::of(letter, value) {
-            if changes_units(code, shape, want) {
+            if changes_units(code, shape, cx.want) {
                 let message = format!("the text changes the units of the program with {code}");
                 let help = "render with `--units`, and take the code out";
                 return fault_at(diag::Code::PR035, message, help, None);
             }
-            is_the_jobs(code, shape, want);
+            is_the_jobs(code, shape, cx.want);
         }
     }
-    said.end_block(want, shape);
-    said.forget_words();
-    said.displaced(0x3f, shape);
-    said.differs |= said.is_misread(shape, want) || !said.lacks(want, shape).is_empty();
-    out.text(text, false);
-    out.end_block();
+    cx.said.end_block(cx.want, shape);
+    cx.said.forget_words();
+    cx.said.displaced(0x3f, shape);
+    cx.said.differs |= cx.said.is_misread(shape, cx.want) || !cx.said.lacks(cx.want, shape).is_empty();
+    cx.out.text(text, false);
+    cx.out.end_block();
     Ok(())
 }
 

@@ -10,6 +10,7 @@ use crate::control::Meaning;
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId, TextId, VarId, VarSet};
 use crate::render::ahead;
+use crate::render::cx::{Cx, Writer};
 use crate::render::cycle::hole::hole_position;
 use crate::render::fault::{Done, fault, fault_at};
 use crate::render::more_coolants::end_beside;
@@ -39,8 +40,8 @@ pub fn tool_change(
     sections: &[Section],
 ) -> Done {
     check_sections_closed(sections)?;
-    end_operation(shape, want, said, out)?;
-    begin_main(shape, want, said, out, subs)?;
+    end_operation(&mut Cx { shape, want, said, out })?;
+    begin_main(&mut Cx { shape, want, said, out }, subs)?;
     let number = change.tool.as_ref().map(|tool| tool.number);
     let changes = number.is_some() && number != want.tool;
     if number.is_none() && want.tool.is_none() && shape.program.settings.machine != Machine::Edm {
@@ -53,47 +54,42 @@ pub fn tool_change(
     match &change.tool {
         Some(tool) if changes => change_tool(tool, change, shape, want, said, out)?,
         tool => {
-            operation_comment(change, None, shape, want, said, out)?;
+            operation_comment(change, None, &mut Cx { shape, want, said, out })?;
             tool.as_ref().map_or(Ok(()), |tool| same_registers(tool, want))?;
         }
     }
     want.in_operation = true;
-    run_here(SequenceId::Operation, shape, want, said, out)
+    run_here(SequenceId::Operation, &mut Cx { shape, want, said, out })
 }
 
 /// The operation's comment, unless the tool change says it, or Operation.
-fn operation_comment(
-    change: &ToolChange,
-    routine: Option<&Routine>,
-    shape: &Shape,
-    want: &mut Want,
-    said: &mut Said,
-    out: &mut Printer,
-) -> Done {
+fn operation_comment(change: &ToolChange, routine: Option<&Routine>, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let says = |routine: &Routine| routine.texts.has(TextId::Optext);
-    let by_form = routine.is_some_and(says) || shape.routine(SequenceId::Operation, want, said).is_some_and(says);
+    let by_form = routine.is_some_and(says) || shape.routine(SequenceId::Operation, cx.want, cx.said).is_some_and(says);
     match change.comment.as_ref().filter(|_| !by_form) {
-        Some(comment) => comment_block(comment, shape, want, said, out),
+        Some(comment) => comment_block(comment, cx),
         None => Ok(()),
     }
 }
 
 /// The operation that is open ends.
-pub fn end_operation(shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
-    if !std::mem::take(&mut want.in_operation) {
+pub fn end_operation(cx: &mut Cx<'_>) -> Done {
+    if !std::mem::take(&mut cx.want.in_operation) {
         return Ok(());
     }
-    run_here(SequenceId::EndOperation, shape, want, said, out)
+    run_here(SequenceId::EndOperation, cx)
 }
 
 /// A sequence that is printed where the tool is, if the form has it.
-fn run_here(id: SequenceId, shape: &Shape, want: &mut Want, said: &mut Said, out: &mut Printer) -> Done {
+fn run_here(id: SequenceId, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
     let Some(routine) = shape.program.routine(id) else { return Ok(()) };
-    set_here(shape, want, said)?;
-    let routine = shape.way(routine, want, said);
-    run_with_upons(routine, shape, want, said, out)?;
+    set_here(shape, cx.want, cx.said)?;
+    let routine = shape.way(routine, cx.want, cx.said);
+    run_with_upons(routine, cx)?;
     if prints_axis_words(routine, true, shape) {
-        said.stand.moved_by = Some(routine.span);
+        cx.said.stand.moved_by = Some(routine.span);
     }
     Ok(())
 }
@@ -174,13 +170,13 @@ fn change_tool(
         return fault(Code::PR030, "the tool changes under cutter compensation", help);
     }
     let id = change_of(want);
-    end_beside(Coolant::OFF, shape, want, said, out)?;
+    end_beside(Coolant::OFF, &mut Writer { shape, want, said, out })?;
     next_tool(tool, shape, want)?;
     want.tool = Some(tool.number);
     said.stand.fresh_tool = Some(said.stand.position.given);
     want.tool_changes += 1;
     let shape = &*shape;
-    operation_comment(change, shape.routine(id, want, said), shape, want, said, out)?;
+    operation_comment(change, shape.routine(id, want, said), &mut Cx { shape, want, said, out })?;
     let routine = shape.routine(id, want, said);
     let first_target = match first {
         First::Rapid(to) => Some((said.stand.target(to, shape), to.given)),
@@ -190,7 +186,9 @@ fn change_tool(
         First::Cut | First::Nothing => None,
     };
     let target = match (first_target, routine) {
-        (Some((target, given)), Some(routine)) => Some(change_turns(routine, &target, given, shape, want, said, out)?),
+        (Some((target, given)), Some(routine)) => {
+            Some(change_turns(routine, &target, given, &mut Cx { shape, want, said, out })?)
+        }
         _ => None,
     };
     // another tool has no last position that a first rapid could keep
@@ -216,16 +214,16 @@ fn change_tool(
         None => {}
     }
     if routine.vars.meets(POSITION) && !says_work(routine, shape) {
-        work_before(shape, want, said, out)?; // the position counts from it
+        work_before(&mut Writer { shape, want, said, out })?; // the position counts from it
     }
     if routine.vars.has(VarId::Speed) && !says_speed_mode(routine, shape) {
-        speed_mode_before(shape, want, said, out)?; // else a surface speed would be revolutions
+        speed_mode_before(&mut Writer { shape, want, said, out })?; // else a surface speed would be revolutions
     }
     check_reading_of(routine, shape, want, said)?;
     said.stand.placed = 0;
     said.stand.moved_by = None;
     upons_of_change(routine, shape, want, said);
-    run_with_upons(routine, shape, want, said, out)?;
+    run_with_upons(routine, &mut Cx { shape, want, said, out })?;
     said.keep_speed_of_change(want, shape);
     if routine.vars.has(VarId::Coolantoff) {
         want.ends_coolant = None;

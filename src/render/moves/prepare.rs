@@ -1,0 +1,110 @@
+//! What comes before each move of the path, in its order.
+
+use super::rapid_blocks::split_rapid;
+use super::travel::in_travel;
+use crate::diag::Code;
+use crate::lang::VarId;
+use crate::render::cx::Cx;
+use crate::render::fault::{Done, fault};
+use crate::render::said::Said;
+use crate::render::settle::{settle_here, stands_at_cut};
+use crate::render::shape::{ROTARY_BITS, Shape};
+use crate::render::targets::set_targets;
+use crate::render::upon::upons;
+use crate::render::vars::MOVE_VARS;
+use crate::toolpath::Axes;
+
+/// Where an item of the path goes, in the travel of the machine; `free`: out of the part. An open cycle ends before it.
+#[inline]
+pub fn reach(to: &Axes, free: bool, cx: &mut Cx<'_>) -> Done<Axes> {
+    let shape = cx.shape;
+    if cx.said.stand.left_hole.is_some() {
+        stand_as_left(&cx.said.stand.target(to, shape), free, cx)?;
+        if to.given & shape.depth_bit() != 0 {
+            cx.said.stand.left_hole = None; // the item says its own height
+        }
+    }
+    let target = cx.said.stand.target(to, shape);
+    if to.given & ROTARY_BITS != 0 { in_travel(&target, to.given, free, cx) } else { Ok(target) }
+}
+
+/// After a cycle that left the tool at another height than the job: a cut begins at the job's, and a rapid across, which
+/// may also be the way to the next cycle, is made there.
+#[cold]
+pub fn stand_as_left(target: &Axes, free: bool, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    let Some((at, height)) = cx.said.stand.left_hole.take() else { return Ok(()) };
+    // only where nothing moved the tool since
+    if at != cx.said.stand.position {
+        return Ok(());
+    }
+    if cx.said.lacks(cx.want, shape).has(VarId::Work) {
+        // in another offset all axes are said again: at the job's height
+        cx.said.stand.position.set(shape.depth, height);
+        return Ok(());
+    }
+    let across = (0..6).any(|axis| axis != shape.depth && target.get(axis) != at.get(axis));
+    let lower = at.get(shape.depth).is_some_and(|left| left < height);
+    if free && !(across && lower) {
+        // the next cut still begins at the job's height
+        let as_high = target.get(shape.depth) == at.get(shape.depth);
+        cx.said.stand.left_hole = as_high.then_some((*target, height));
+        return Ok(());
+    }
+    let mut to = cx.said.stand.position;
+    to.set(shape.depth, height);
+    to.given = shape.depth_bit();
+    set_targets(&to, shape, cx.want, cx.said)?;
+    split_rapid(&to, cx)
+}
+
+/// Where a cut goes and how fast: the first half of what comes before each cut. In this order: the height after a cycle, where the
+/// item goes within the travel, that the tool begins somewhere, the feed. `feed`: the job's; `None`: the move is a rapid.
+#[inline]
+pub fn begin_cut(to: &Axes, feed: Option<Option<f64>>, cx: &mut Cx<'_>) -> Done<Axes> {
+    let target = reach(to, false, cx)?;
+    if let Some(feed) = feed {
+        if cx.said.stand.fresh_tool.is_some() {
+            begins_somewhere(&target, cx.shape, cx.said)?;
+        }
+        cx.want.take_feed(feed, cx.shape)?;
+    }
+    Ok(target)
+}
+
+/// Prints what must come before a cut to a target: the second half. In this order: conditions that wait, that the tool is at the
+/// cut's beginning, the position variables, the Upon sequences of them. `targets`: the cut's own sequence has them.
+#[inline]
+pub fn cut_goes_to(target: &Axes, targets: bool, cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    if cx.said.is_unsettled(cx.want) {
+        settle_here(true, cx)?;
+    } else if cx.said.stand.moved_by.is_some() {
+        stands_at_cut(cx.said)?;
+    }
+    if targets || shape.sets_targets || target.given & ROTARY_BITS != 0 {
+        set_targets(target, shape, cx.want, cx.said)?;
+    }
+    if shape.watches_moves && (targets || cx.said.differs_from(target, 0x3f, shape)) {
+        upons(MOVE_VARS, cx)?;
+    }
+    Ok(())
+}
+
+/// A new tool comes from an unknown position: its first cut must have a beginning.
+#[cold]
+fn begins_somewhere(target: &Axes, shape: &Shape, said: &mut Said) -> Done {
+    // the upper guides of a wire follow the lower ones
+    let axes = if shape.linear == 4 { 2 } else { shape.linear };
+    let needed = target.given | said.stand.fresh_tool.take().unwrap_or(0);
+    let unknown = needed & !said.stand.position.given & ((1 << axes) - 1);
+    if unknown == 0 || shape.program.settings.incremental {
+        return Ok(());
+    }
+    let unsaid = (0..6).filter(|axis| unknown & 1 << axis != 0).map(|axis| char::from(shape.axes[axis]).to_string());
+    let unsaid = unsaid.collect::<Vec<_>>().join(" and ");
+    let message = format!(
+        "the operation begins with a cut, and nothing before it says {unsaid} since the tool change or the way home"
+    );
+    fault(Code::PR012, message, "begin it with a rapid to the beginning of its first cut")
+}

@@ -47,7 +47,7 @@ pub struct Options {
     pub clock: Option<Clock>,
     /// The job's file, as the program says it.
     pub job_file: Option<String>,
-    /// What lies ahead in the job, for forms that say it: see [`Program::asks_ahead`](crate::compile::Program::asks_ahead).
+    /// What lies ahead in the job, for forms that print any of it.
     pub survey: Option<Arc<Survey>>,
     /// Keep a source map.
     pub trace: bool,

@@ -9,7 +9,9 @@ use toml::Spanned;
 use super::arcs::{Arcs, Tolerance};
 use super::code::Code;
 use super::hole::Hole;
+use super::key::{ABSENT, Key};
 use super::meaning::Meaning;
+use super::runs::{Motions, Runs, WorkOffset};
 use super::traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, Turns, WithoutPoint};
 use super::words::Words;
 use super::{Control, Row, Rows};
@@ -185,56 +187,11 @@ struct RowText {
     not_run: Option<String>,
     only: Option<Spanned<String>>,
     stops_spindle: Option<bool>,
-}
-
-/// What stands for the meaning of a code that the control has not, though the one that it is like has it.
-const ABSENT: &str = "absent";
-
-/// Where a key of `[codes]` stands for more than one code.
-enum Key {
-    One(Code),
-    /// `G110-G129`: all codes with whole numbers from the first to the last.
-    Range(Code, Code),
-    /// `G31.*`: all codes of a number.
-    Number(u8, u16),
-    /// `M*`: all others of a letter.
-    Letter(u8),
-}
-
-impl Key {
-    fn parse(text: &str) -> Option<Key> {
-        if let Some((first, last)) = text.split_once('-') {
-            let (first, last): (Code, Code) = (first.parse().ok()?, last.parse().ok()?);
-            let whole = first.tenths.is_multiple_of(10) && last.tenths.is_multiple_of(10);
-            return (whole && first.letter == last.letter && first < last).then_some(Key::Range(first, last));
-        }
-        if let Some(number) = text.strip_suffix(".*") {
-            let code: Code = number.parse().ok()?;
-            return code.tenths.is_multiple_of(10).then_some(Key::Number(code.letter, code.tenths / 10));
-        }
-        match text {
-            "G*" => Some(Key::Letter(b'G')),
-            "M*" => Some(Key::Letter(b'M')),
-            _ => text.parse().ok().map(Key::One),
-        }
-    }
-}
-
-impl Rows {
-    /// Takes out what the control that the file is like has of these codes.
-    fn remove(&mut self, key: Key) {
-        let out = |row: &Row, number: bool| match key {
-            Key::One(code) => !number && row.code == code,
-            Key::Range(first, last) => !number && row.code.letter == first.letter && (first..=last).contains(&row.code),
-            Key::Number(letter, whole) => row.code.letter == letter && row.code.tenths / 10 == whole,
-            Key::Letter(letter) => row.code.letter == letter,
-        };
-        self.one.retain(|row| !out(row, false));
-        self.numbers.retain(|row| !out(row, true));
-        if let Key::Letter(letter) = key {
-            self.others.retain(|row| row.code.letter != letter);
-        }
-    }
+    motions: Option<Spanned<String>>,
+    work: Option<Spanned<String>>,
+    point: Option<Spanned<u8>>,
+    #[serde(default)]
+    by_diameter: bool,
 }
 
 /// Finds the control that a file is like, which is so deep in its chain.
@@ -393,12 +350,15 @@ impl Reader<'_> {
             let (code, text) = (Code { letter: b'G', tenths: 0 }, row.text.clone().unwrap_or_default());
             let only = row.only.as_ref().map_or(Ok(Vec::new()), |only| self.values(only))?;
             let (not_run, stops_spindle) = (row.not_run.clone(), row.stops_spindle.unwrap_or(false));
-            let row = Row { code, meaning, words, makes, pitch, text, not_run, only, stops_spindle };
+            let runs = self.runs(row, meaning, &makes)?;
+            let work = runs.work;
+            let row = Row { code, meaning, words, makes, pitch, text, not_run, only, stops_spindle, runs };
             match parsed {
                 Key::One(code) => rows.put(Row { code, ..row }),
                 Key::Range(first, last) => {
-                    for tenths in (first.tenths..=last.tenths).step_by(10) {
-                        rows.put(Row { code: Code { tenths, ..first }, ..row.clone() });
+                    for (count, tenths) in (0..).zip((first.tenths..=last.tenths).step_by(10)) {
+                        let runs = Runs { work: work.and_then(|first| first.after(count)), ..row.runs.clone() };
+                        rows.put(Row { code: Code { tenths, ..first }, runs, ..row.clone() });
                     }
                 }
                 Key::Number(letter, number) => {
@@ -408,6 +368,47 @@ impl Reader<'_> {
             }
         }
         Ok(())
+    }
+
+    /// What a row says for the simulator alone.
+    fn runs(&self, row: &RowText, meaning: Meaning, makes: &[Hole]) -> Result<Runs, Wrong> {
+        let of_another = |key: &str, at: usize, of: &str| {
+            self.wrong(at, format!("`{key}` is of {of}"), format!("this row means `{}`: take it out", meaning.name()))
+        };
+        let motions = match &row.motions {
+            None => only_motions(makes),
+            Some(text) if meaning != Meaning::Cycle => return Err(of_another("motions", text.span().start, "cycles")),
+            Some(text) => Some(Motions::parse(text.get_ref()).ok_or_else(|| {
+                let near = super::nearest(text.get_ref(), Motions::ALL.iter().map(|motions| motions.name()));
+                self.wrong(text.span().start, format!("`{}` are no motions of a cycle", text.get_ref()), near)
+            })?),
+        };
+        let work = match &row.work {
+            None => None,
+            Some(text) if meaning != Meaning::Work => {
+                return Err(of_another("work", text.span().start, "work offsets"));
+            }
+            Some(text) => Some(WorkOffset::parse(text.get_ref()).ok_or_else(|| {
+                let help =
+                    "write \"G54\" to \"G59.3\", \"G54.1 P1\" to \"G54.1 P99\", or the letter of its word, \"P\"";
+                self.wrong(text.span().start, format!("`{}` is no work offset", text.get_ref()), help)
+            })?),
+        };
+        let point = match &row.point {
+            None => None,
+            Some(at) if !matches!(meaning, Meaning::Reference | Meaning::SetReference) => {
+                return Err(of_another("point", at.span().start, "reference points"));
+            }
+            Some(at) if !(1..=2).contains(at.get_ref()) => {
+                return Err(self.wrong(
+                    at.span().start,
+                    "there are two reference points",
+                    "write 1 as of G28, or 2 as of G30",
+                ));
+            }
+            Some(at) => Some(*at.get_ref()),
+        };
+        Ok(Runs { motions, work, point, by_diameter: row.by_diameter })
     }
 
     /// Words with their values, as `P0 P10000`.
@@ -444,5 +445,18 @@ impl Reader<'_> {
             message: message.into(),
             help: help.into(),
         }
+    }
+}
+
+/// The motions of a cycle that makes this alone; `None`: a file must say them, as of bores.
+fn only_motions(makes: &[Hole]) -> Option<Motions> {
+    match makes {
+        [Hole::Drill] => Some(Motions::Drill),
+        [Hole::Peck] => Some(Motions::Peck),
+        [Hole::Chipbreak] => Some(Motions::Chipbreak),
+        [Hole::Tap] => Some(Motions::Tap),
+        [Hole::LeftTap] => Some(Motions::LeftTap),
+        [Hole::Back] => Some(Motions::Back),
+        _ => None,
     }
 }

@@ -120,6 +120,7 @@ meanings! {
     Thread           "thread"            Some(G::Motion), Target, "cuts in a line that follows the spindle";
     RigidTap         "rigid-tap"         Some(G::Motion), Target, "follows the spindle in, turns it back, and follows it out";
     ThreadCycle      "thread-cycle"      Some(G::Motion), Target, "cuts a thread in passes";
+    ThreadPass       "thread-pass"       Some(G::Motion), Target,"cuts one pass of a thread and comes back";
     Probe            "probe"             Some(G::Motion), Target, "moves until a probe touches";
     Cycle            "cycle"             Some(G::Motion), Target, "makes a hole at each position";
     CycleEnd         "cycle-end"         Some(G::Motion), Free,   "ends a cycle";
@@ -143,6 +144,8 @@ meanings! {
     ToInitial        "to-initial"        Some(G::Return), Free,   "cycles return to the initial level";
     ToR              "to-r"              Some(G::Return), Free,   "cycles return to the R plane";
     LengthOn         "length-on"         Some(G::Length), Free,   "the tool's length counts";
+    LengthMinus      "length-minus"      Some(G::Length), Free,   "the tool's length counts the other way";
+    LengthAdd        "length-add"        Some(G::Length), Free,   "another length is added to the tool's";
     LengthData       "length-data"       Some(G::Length), Data,   "the tool's length is what its axis words say";
     LengthOff        "length-off"        Some(G::Length), Free,   "no length of a tool counts";
     SideLeft         "side-left"         Some(G::Compensation), Free, "the tool is left of its path";
@@ -161,7 +164,10 @@ meanings! {
     Transform        "transform"         None, Data,              "turns, scales, mirrors or tilts the frame, or reads it as polar";
     TransformOff     "transform-off"     None, Free,              "takes a turn, a scale or a mirror image away";
     FrameOff         "frame-off"         None, Free,              "takes a frame away";
+    FrameSuspend     "frame-suspend"     None, Free,              "takes a frame away, to be put back";
+    FrameRestore     "frame-restore"     None, Free,              "puts a frame back";
     Data             "data"              None, Data,              "its words are data, as of an offset table";
+    SetOffsets       "set-offsets"       None, Data,              "sets work offsets, or data of tools, by L and P";
     StopProgram      "stop"              Some(G::Stop), Free,     "stops the program until it is started again";
     StopOptional     "optional-stop"     Some(G::Stop), Free,     "stops the program where the operator wants it";
     End              "end"               Some(G::Stop), Free,     "ends the program";
@@ -186,6 +192,7 @@ meanings! {
     Output           "output"            None, Free,              "sets an output of the machine";
     Override         "override"          None, Free,              "overrides of feed and speed on or off";
     Harmless         "harmless"          None, Free,              "changes nothing that is compared";
+    RigidAhead       "rigid-ahead"       None, Free,              "the taps after it follow the spindle";
     Unsaid           "unsaid"            None, Free,              "is known, and does what no meaning says";
 }
 
@@ -197,15 +204,27 @@ impl Meaning {
             M::Reference | M::Machine => Some(Frame::Block),
             M::Increments => Some(Frame::Increments),
             M::Preset => Some(Frame::Shifts),
-            M::Work | M::Frame | M::FrameOff | M::Data | M::Transform | M::TransformOff => Some(Frame::Moves),
-            M::LengthOn | M::LengthData | M::LengthOff => Some(Frame::MovesDepth),
+            M::Work
+            | M::Frame
+            | M::FrameOff
+            | M::FrameSuspend
+            | M::FrameRestore
+            | M::Data
+            | M::Transform
+            | M::TransformOff => Some(Frame::Moves),
+            M::LengthOn | M::LengthMinus | M::LengthAdd | M::LengthData | M::LengthOff => Some(Frame::MovesDepth),
             _ => None,
         }
     }
 
     /// Does it start a canned cycle?
     pub const fn is_cycle(self) -> bool {
-        matches!(self, Meaning::Cycle | Meaning::ThreadCycle)
+        matches!(self, Meaning::Cycle | Meaning::ThreadCycle | Meaning::ThreadPass)
+    }
+
+    /// Does a tool's length count from here on, by its register?
+    pub const fn turns_length_on(self) -> bool {
+        matches!(self, Meaning::LengthOn | Meaning::LengthMinus | Meaning::LengthAdd)
     }
 
     /// Does it call what is written elsewhere: a macro, a subprogram?

@@ -7,7 +7,9 @@ mod arcs;
 mod code;
 mod file;
 mod hole;
+mod key;
 mod meaning;
+mod runs;
 mod traits;
 mod words;
 
@@ -19,6 +21,7 @@ pub use code::Code;
 pub use file::Wrong;
 pub use hole::Hole;
 pub use meaning::{AxisWords, Frame, GROUPS, Group, Meaning};
+pub use runs::{Motions, Runs, WorkOffset};
 pub use traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, Turns, WithoutPoint};
 pub use words::Words;
 
@@ -54,6 +57,8 @@ pub struct Row {
     pub only: Vec<(u8, f64)>,
     /// The control stops the spindle before it runs the code: coolant through the spindle of a Haas.
     pub stops_spindle: bool,
+    /// What it says for the simulator alone.
+    pub runs: Runs,
 }
 
 /// The rows of a control, found by code.
@@ -279,6 +284,12 @@ impl Control {
     #[doc(hidden)]
     pub fn has(&self, meaning: Meaning) -> bool {
         self.rows().any(|row| row.meaning == meaning && self.is_there(row))
+    }
+
+    /// Its first code of this meaning.
+    #[doc(hidden)]
+    pub fn first(&self, meaning: Meaning) -> Option<&Row> {
+        self.rows().find(|row| row.meaning == meaning && self.is_there(row))
     }
 
     fn is_there(&self, row: &Row) -> bool {

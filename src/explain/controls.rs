@@ -1,7 +1,7 @@
 //! What is known of a control, and what is not: for `explain`, for docs/controls, and as a file to start from.
 
 use crate::control::{
-    Centres, Code, Control, DwellUnit, Kept, Row, Rules, ToolLength, Turns, WithoutPoint, Words, names,
+    Centres, Code, Control, DwellUnit, Kept, Row, Rules, ToolLength, Turns, WithoutPoint, Words, WorkOffset, names,
 };
 
 /// What nothing public says.
@@ -86,6 +86,17 @@ fn about(row: &Row) -> String {
     }
     if !row.text.is_empty() {
         text += &format!(": {}", row.text);
+    }
+    if let Some(motions) = row.runs.motions {
+        let about = motions.about().trim_end_matches('.');
+        text += &format!("; {}{}", about[..1].to_lowercase(), &about[1..]);
+    }
+    match row.runs.work {
+        Some(WorkOffset::Additional(number)) => text += &format!("; that of G54.1 P{number}"),
+        Some(WorkOffset::Usual(usual)) if row.code.tenths != usual => {
+            text += &format!("; that of G{}", f64::from(usual) / 10.0);
+        }
+        _ => {}
     }
     if row.stops_spindle {
         text += "; the spindle stops";

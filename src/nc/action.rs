@@ -1,5 +1,6 @@
 //! What a machine does when it runs a program.
 
+use crate::control::{Code, Meaning, Motions, Row};
 use crate::toolpath::{Direction, FeedMode, Plane, Side, StopKind, Units};
 
 /// X Y Z A B C in program coordinates and the program's units; degrees for the angles.
@@ -81,8 +82,10 @@ pub enum Action {
     CycleOff,
     /// Text of a comment, by its columns in the line.
     Comment(usize, usize),
-    /// A code that moves nothing and that is not simulated, as M10 or G8: its letter, and ten times its number.
-    LeftOut(u8, u16),
+    /// A code that moves nothing and that is not simulated, as M10 or G8, with what it means.
+    LeftOut(Code, Meaning),
+    /// The block has a slash, and is run.
+    BlockDelete,
 }
 
 /// What the spindle does.
@@ -165,11 +168,29 @@ pub enum Heights {
     Unknown,
 }
 
+/// The code of a canned cycle, and how it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cycle {
+    /// As the program has it.
+    pub code: Code,
+    /// What the tool does.
+    pub motions: Motions,
+    /// It dwells at the bottom.
+    pub dwells: bool,
+}
+
+impl Cycle {
+    /// The cycle of a row that is run; `None`: the row is none.
+    pub fn of(row: &Row) -> Option<Cycle> {
+        Some(Cycle { code: row.code, motions: row.runs.motions?, dwells: row.dwells() })
+    }
+}
+
 /// A hole of a control's canned cycle: all its words, resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drilling {
-    /// The cycle's G code times ten.
-    pub code: u16,
+    /// The cycle that makes it.
+    pub cycle: Cycle,
     /// The place over the hole, at the height of the clear level; while the cycle is worked out the height does not
     /// count.
     pub at: Position,

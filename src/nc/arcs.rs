@@ -24,12 +24,11 @@ pub(super) const CENTERS: [u8; 3] = *b"IJK";
 
 impl State {
     /// An arc or helix.
-    pub(super) fn arc(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+    pub(super) fn arc(&mut self, direction: Direction, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let [first, second, across] = axes_of(self.modes.plane);
         let from = self.place.position;
         let to = self.target(block)?;
-        let direction = if code == 20 { Direction::Cw } else { Direction::Ccw };
         let words = [first, second].map(|axis| block.get(CENTERS[axis]));
         let mut center = [from[0], from[1], from[2]];
         match (block.get(b'R'), words) {

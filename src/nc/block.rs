@@ -69,12 +69,6 @@ impl Block {
         self.given & words != 0
     }
 
-    /// The G code of a group, times ten.
-    #[inline]
-    pub fn g(&self, group: Group) -> Option<u16> {
-        self.row(group).map(|row| row.code.tenths)
-    }
-
     /// What the control has of the G code of a group.
     #[inline]
     pub fn row(&self, group: Group) -> Option<&'static Row> {
@@ -214,7 +208,7 @@ impl Block {
                 || self.g_meaning(Group::FeedMode) == Some(Meaning::PerRev)
                 || matches!(
                     self.g_meaning(Group::Motion),
-                    Some(Meaning::Thread | Meaning::RigidTap | Meaning::ThreadCycle)
+                    Some(Meaning::Thread | Meaning::RigidTap | Meaning::ThreadCycle | Meaning::ThreadPass)
                 );
         if self.spindle && !spindle {
             return refuse(Code::PN005, "$ is there, and no code that uses it", "take it out");

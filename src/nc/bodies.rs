@@ -5,7 +5,7 @@ use super::arcs::axes_of;
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
-use crate::control::Rules;
+use crate::control::{Motions, Rules};
 use crate::diag::Code;
 use crate::toolpath::{StopKind, Units};
 
@@ -93,39 +93,40 @@ impl State {
     /// ends there. The answer: the depth at which the next peck ends, where there are actions enough for one call.
     pub(super) fn drill(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
         let emc2 = self.control.rules() == Rules::Emc2;
-        match hole.code {
-            810 => {
+        match hole.cycle.motions {
+            Motions::Drill => {
                 self.feed_over(hole, hole.bottom, out);
+                if hole.cycle.dwells {
+                    out.push(Action::Dwell(hole.dwell));
+                }
                 self.rapid_clear(hole, out);
             }
-            820 => {
+            Motions::Peck | Motions::Chipbreak => return self.pecks(hole, from, out),
+            Motions::Tap | Motions::LeftTap => return self.tap(hole, from, out),
+            Motions::FeedOut => {
                 self.feed_over(hole, hole.bottom, out);
-                out.push(Action::Dwell(hole.dwell));
-                self.rapid_clear(hole, out);
-            }
-            730 | 830 => return self.pecks(hole, from, out),
-            740 | 840 => return self.tap(hole, from, out),
-            850 => {
-                self.feed_over(hole, hole.bottom, out);
-                // the old manual feeds out all the way
-                if emc2 {
+                if hole.cycle.dwells {
+                    out.push(Action::Dwell(hole.dwell));
+                }
+                // LinuxCNC feeds out all the way where it dwells, the old manual always
+                if emc2 || hole.cycle.dwells && self.control.is_linuxcnc() {
                     self.feed_clear(hole, out);
                 } else {
                     self.feed_over(hole, hole.r, out);
                     self.rapid_clear(hole, out);
                 }
             }
-            860 => {
-                let turning = self.turning("G86")?;
+            Motions::StopOut => {
+                let turning = self.turning(hole)?;
                 self.feed_over(hole, hole.bottom, out);
                 out.push(Action::Dwell(hole.dwell));
                 self.turn(Rotation::Stop, out);
                 self.rapid_clear(hole, out);
                 self.turn(turning, out);
             }
-            870 => self.back_bore(hole, out)?,
-            880 => {
-                let turning = self.turning("G88")?;
+            Motions::Back => self.back_bore(hole, out)?,
+            Motions::ByHand => {
+                let turning = self.turning(hole)?;
                 self.feed_over(hole, hole.bottom, out);
                 out.push(Action::Dwell(hole.dwell));
                 self.turn(Rotation::Stop, out);
@@ -142,19 +143,7 @@ impl State {
                 }
                 self.turn(turning, out);
             }
-            890 if self.control.is_linuxcnc() => {
-                self.feed_over(hole, hole.bottom, out);
-                out.push(Action::Dwell(hole.dwell));
-                self.feed_clear(hole, out);
-            }
-            890 => {
-                self.feed_over(hole, hole.bottom, out);
-                out.push(Action::Dwell(hole.dwell));
-                self.feed_over(hole, hole.r, out);
-                self.rapid_clear(hole, out);
-            }
-            760 => self.fine_bore(hole, out),
-            _ => {}
+            Motions::ShiftOut => self.fine_bore(hole, out),
         }
         Ok(None)
     }
@@ -165,7 +154,7 @@ impl State {
             return refuse(Code::PN018, format!("a peck of {}", hole.peck), "Q must be greater than zero");
         }
         check_pecks(hole)?;
-        if self.control.rules() == Rules::Emc2 && hole.code == 830 {
+        if self.control.rules() == Rules::Emc2 && hole.cycle.motions == Motions::Peck {
             return Ok(self.pecks_of_emc2(hole, from, out));
         }
         let back_off = self.back_off();
@@ -181,7 +170,7 @@ impl State {
                 return Ok(Some(depth));
             }
             self.feed_over(hole, depth, out);
-            if hole.code == 830 {
+            if hole.cycle.motions == Motions::Peck {
                 self.rapid_over(hole, hole.r, out);
             }
             self.rapid_over(hole, depth + back_off, out);
@@ -213,19 +202,23 @@ impl State {
     }
 
     /// The direction of the spindle, which must turn.
-    fn turning(&self, cycle: &str) -> Done<Rotation> {
+    fn turning(&self, hole: &Drilling) -> Done<Rotation> {
         if self.drive.spindle == Rotation::Stop {
-            return refuse(Code::PN012, format!("{cycle} with the spindle stopped"), "write M3 or M4 before it");
+            return refuse(
+                Code::PN012,
+                format!("{} with the spindle stopped", hole.cycle.code),
+                "write M3 or M4 before it",
+            );
         }
         Ok(self.drive.spindle)
     }
 
     fn tap(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
-        let (inwards, name) = if hole.code == 840 { (Rotation::Cw, "G84") } else { (Rotation::Ccw, "G74") };
+        let inwards = if hole.cycle.motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw };
         let linuxcnc = self.control.is_linuxcnc();
-        if linuxcnc && self.turning(name)? != inwards {
-            let help = "G84 goes in with M3, G74 with M4";
-            return refuse(Code::PN012, format!("{name} with the spindle turning the other way"), help);
+        if linuxcnc && self.turning(hole)? != inwards {
+            let help = "a right-hand tap goes in with M3, a left-hand one with M4";
+            return refuse(Code::PN012, format!("{} with the spindle turning the other way", hole.cycle.code), help);
         }
         let outwards = inwards.reversed();
         if from.is_none() && !linuxcnc && self.drive.spindle != inwards {
@@ -297,7 +290,7 @@ impl State {
 
     /// Back boring: through the hole with the tool turned aside, and up from below.
     fn back_bore(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
-        let turning = self.turning("G87")?;
+        let turning = self.turning(hole)?;
         if !self.control.is_linuxcnc() {
             // a Fanuc's R is below, and Z above: it stands at the initial level now
             self.turn(Rotation::Stop, out);

@@ -1,7 +1,6 @@
 //! What a control's codes are to the simulator: their groups, the words they use.
 
 use std::borrow::Cow;
-use std::fmt;
 
 pub use crate::control::Group;
 use crate::control::{AxisWords, Code, Control, Meaning, Row, Rules};
@@ -26,7 +25,7 @@ pub fn group(row: &Row, rules: Rules) -> Group {
     use Meaning as M;
     match row.meaning {
         M::Cycle | M::CycleEnd if rules == Rules::Fanuc => Group::Cycle,
-        M::Harmless | M::TransformOff | M::MacroOff => Group::Other,
+        M::Harmless | M::RigidAhead | M::TransformOff | M::MacroOff => Group::Other,
         meaning => meaning.group().unwrap_or(Group::Once),
     }
 }
@@ -43,19 +42,19 @@ pub fn takes_axes(row: &Row, rules: Rules) -> bool {
 /// The row of ten times a G number; `None`: the control has no such code, or it is not run.
 #[inline]
 pub fn g_code(control: &'static Control, code: u16) -> Option<&'static Row> {
-    runs(control.row(Code { letter: b'G', tenths: code })?, b'G', code)
+    control.row(Code { letter: b'G', tenths: code }).filter(|row| is_run(row, b'G'))
 }
 
 /// The row of an M number; `None`: the control has no such code, or it is not run.
 pub fn m_code(control: &'static Control, code: u16) -> Option<&'static Row> {
     let tenths = code.checked_mul(10)?;
-    runs(control.row(Code { letter: b'M', tenths })?, b'M', tenths)
+    control.row(Code { letter: b'M', tenths }).filter(|row| is_run(row, b'M'))
 }
 
-/// The row, if the simulator runs it under this code.
+/// Does the simulator run the row under codes of this letter?
 #[inline]
-fn runs(row: &'static Row, letter: u8, tenths: u16) -> Option<&'static Row> {
-    (row.not_run.is_none() && is_simulated(row.meaning, Code { letter, tenths })).then_some(row)
+fn is_run(row: &Row, letter: u8) -> bool {
+    row.not_run.is_none() && is_run_by(row.meaning, letter) && row.lacks().is_none()
 }
 
 /// Why a code that this control has is not run; `None`: the control has no such code.
@@ -66,42 +65,14 @@ pub fn why_not_run(control: &Control, code: Code) -> Option<Cow<'_, str>> {
     }
     let meaning = row.meaning.name();
     let letter = char::from(code.letter);
-    Some(match is_run_by(row.meaning, code.letter) {
-        false => format!("there is no rule for `{meaning}` by {} {letter} code", article(letter)).into(),
-        true => format!("`{meaning}` is run under its usual numbers only").into(),
+    Some(match row.lacks().filter(|_| is_run_by(row.meaning, code.letter)) {
+        None => format!("there is no rule for `{meaning}` by {} {letter} code", article(letter)).into(),
+        Some(what) => format!("the file of {} does not say {what}", control.name()).into(),
     })
 }
 
 fn article(letter: char) -> &'static str {
     if letter == 'M' { "an" } else { "a" }
-}
-
-/// Is a code of this meaning run? A meaning says what a code switches; how exactly a cycle drills, and which work
-/// offset or reference point is meant, is known by the number, as LinuxCNC, Fanuc and Haas document it.
-#[inline]
-fn is_simulated(meaning: Meaning, code: Code) -> bool {
-    use Meaning as M;
-    let number = code.tenths;
-    is_run_by(meaning, code.letter)
-        && match meaning {
-            M::Rapid => number == 0,
-            M::Line => number == 10,
-            M::ArcCw => number == 20,
-            M::ArcCcw => number == 30,
-            M::Thread => matches!(number, 320 | 330),
-            M::RigidTap => number == 331,
-            M::ThreadCycle => matches!(number, 760 | 920),
-            M::Cycle => matches!(number, 730 | 740 | 760 | 810 | 820 | 830 | 840 | 850 | 860 | 870 | 880 | 890),
-            M::CycleEnd => number == 800,
-            M::Work => matches!(number, 540 | 541 | 550 | 560 | 570 | 580 | 590..=593 | 1540),
-            M::Reference => matches!(number, 280 | 300),
-            M::SetReference => matches!(number, 281 | 301),
-            M::Data => number == 100,
-            M::Probe => matches!(number, 382..=385),
-            M::Frame | M::Preset => matches!(number, 520 | 920 | 500),
-            M::FrameOff => matches!(number, 921..=923),
-            _ => true,
-        }
 }
 
 /// By codes of which letter a meaning is run: it is refused by name in all others.
@@ -128,9 +99,9 @@ const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
         | M::Return
         | M::Output
         | M::Override => letter == b'M',
-        M::Harmless => true,
+        M::Harmless | M::RigidAhead => true,
         // what they do is written elsewhere, or known only at the machine
-        M::Macro | M::MacroOn | M::Transform | M::ToolNumber | M::Unsaid => false,
+        M::Macro | M::MacroOn | M::Data | M::Transform | M::ToolNumber | M::Unsaid => false,
         _ => letter == b'G',
     }
 }
@@ -152,13 +123,16 @@ pub fn m_group(row: &Row) -> u8 {
     }
 }
 
-/// A G code by ten times its number; it shows as `G91.1` for 911.
-#[derive(Clone, Copy, Debug)]
-pub struct Name(pub u16);
+/// The row of a motion code; `None`: no motion is in force.
+pub type Motion = Option<&'static Row>;
 
-impl fmt::Display for Name {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (whole, tenth) = (self.0 / 10, self.0 % 10);
-        if tenth == 0 { write!(f, "G{whole}") } else { write!(f, "G{whole}.{tenth}") }
-    }
+/// Is a motion one of these?
+#[inline]
+pub fn is_one_of(motion: Motion, meanings: &[Meaning]) -> bool {
+    motion.is_some_and(|row| meanings.contains(&row.meaning))
 }
+
+/// Rapids and straight cuts.
+pub const STRAIGHT: [Meaning; 2] = [Meaning::Rapid, Meaning::Line];
+/// Arcs.
+pub const ARCS: [Meaning; 2] = [Meaning::ArcCw, Meaning::ArcCcw];

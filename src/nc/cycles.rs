@@ -1,14 +1,14 @@
 //! Canned cycles of LinuxCNC and EMC2: what their words mean, how they go from hole to hole (nc.md section 2).
 
-use super::action::{Action, Drilling, Heights};
+use super::action::{Action, Cycle, Drilling, Heights};
 use super::arcs::{CENTERS, axes_of};
 use super::block::Block;
-use super::codes::{Name, letters};
+use super::codes::letters;
 use super::fault::{Done, refuse};
 use super::holes::Work;
 use super::out::Out;
 use super::state::State;
-use crate::control::{Meaning, Rules};
+use crate::control::{Meaning, Motions, Row, Rules};
 use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
@@ -19,11 +19,11 @@ fn given(word: Option<f64>) -> Option<f64> {
 
 impl State {
     /// Words of a cycle: those of this block, else kept ones, else an error.
-    pub(super) fn linuxcnc_cycle(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+    pub(super) fn linuxcnc_cycle(&mut self, row: &'static Row, block: &Block, out: &mut Out<'_>) -> Done {
         self.check_cycle(block)?;
-        let same = self.modes.motion == code;
+        let same = self.modes.motion.is_some_and(|motion| motion.code == row.code);
         let [_, _, across] = axes_of(self.modes.plane);
-        let name = Name(code);
+        let name = row.code;
         let mode = (self.modes.absolute, self.modes.plane, self.modes.units);
         let kept = self.holes.series;
         let Some(r) = block.get(b'R').or(kept.r.filter(|_| same)) else {
@@ -61,7 +61,8 @@ impl State {
             out.by_cycle = true;
             self.place.rapid_to(to, out);
         }
-        let hole = self.words(code, same, block, name)?;
+        let Some(cycle) = Cycle::of(row) else { return Ok(()) };
+        let hole = self.words(cycle, same, block)?;
         let heights = match (unknown, self.modes.absolute) {
             (false, _) => Heights::Given,
             (true, false) => Heights::Unknown,
@@ -77,7 +78,7 @@ impl State {
         };
         check_moves(times, &hole)?;
         self.holes.work = Some(Work { hole, times, begun: 0, level: self.place.position[across], depth: None });
-        self.modes.motion = code;
+        self.modes.motion = Some(row);
         self.holes.series.running = true;
         self.make_holes(block, out)
     }
@@ -189,14 +190,15 @@ impl State {
     }
 
     /// P, Q and the shift of a block, or those kept; its first block needs them.
-    fn words(&mut self, code: u16, same: bool, block: &Block, name: Name) -> Done<Drilling> {
+    fn words(&mut self, cycle: Cycle, same: bool, block: &Block) -> Done<Drilling> {
+        let Cycle { code: name, motions, dwells } = cycle;
         let missing = |letter: char| {
             let help = format!("write {letter} in the cycle's first block");
             refuse(Code::PN007, format!("{name} without {letter}"), help)
         };
         let feed = self.drive.feed;
         let mut hole = Drilling {
-            code,
+            cycle,
             at: self.place.position,
             plane: self.modes.plane,
             r: 0.0,
@@ -209,9 +211,9 @@ impl State {
             feed,
             heights: Heights::Given,
         };
-        if matches!(code, 740 | 820 | 840 | 860 | 880 | 890) {
+        if dwells {
             let word = given(block.get(b'P'));
-            if word.is_none() && !same && !matches!(code, 740 | 840) {
+            if word.is_none() && !same && !motions.taps() {
                 return missing('P');
             }
             if word.is_some() && block.g_meaning(super::codes::Group::Once) == Some(Meaning::Dwell) {
@@ -220,7 +222,7 @@ impl State {
             self.holes.series.dwell = word.or(self.holes.series.dwell);
             hole.dwell = self.holes.series.dwell.unwrap_or(0.0);
         }
-        if matches!(code, 730 | 830) {
+        if motions.pecks() {
             let word = given(block.get(b'Q'));
             if word.is_none() && !same {
                 return missing('Q');
@@ -228,7 +230,7 @@ impl State {
             self.holes.series.peck = word.or(self.holes.series.peck);
             hole.peck = self.holes.series.peck.unwrap_or(0.0);
         }
-        if code == 870 {
+        if motions == Motions::Back {
             for (axis, letter) in CENTERS.into_iter().enumerate() {
                 let word = block.get(letter);
                 if word.is_none() && !same {

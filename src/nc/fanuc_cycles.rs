@@ -1,28 +1,30 @@
 //! Canned cycles of Fanuc and Haas mills: words are kept until G80, over all cycle codes.
 
-use super::action::{Drilling, Heights};
+use super::action::{Cycle, Drilling, Heights};
 use super::arcs::{CENTERS, axes_of};
 use super::block::Block;
-use super::codes::{Name, letters};
+use super::codes::letters;
 use super::fault::{Done, refuse};
 use super::holes::{Series, Work};
 use super::out::Out;
 use super::state::State;
-use crate::control;
+use crate::control::{Motions, Row};
 use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
 impl State {
     /// A cycle code: the series begins at the tool's height unless one is running.
-    pub(super) fn enter_fanuc_cycle(&mut self, code: u16) {
+    pub(super) fn enter_fanuc_cycle(&mut self, row: &'static Row) {
         if self.holes.cycle.is_none() {
             self.holes.series = Series::default();
         }
-        self.holes.cycle = Some(code);
+        self.holes.cycle = Some(row);
     }
 
     /// A block while a cycle is in force: a hole where it has X, Y, Z or R.
-    pub(super) fn fanuc_cycle(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+    pub(super) fn fanuc_cycle(&mut self, row: &'static Row, block: &Block, out: &mut Out<'_>) -> Done {
+        let Some(cycle) = Cycle::of(row) else { return Ok(()) };
+        let motions = cycle.motions;
         let [_, _, across] = axes_of(self.modes.plane);
         if !self.holes.series.running {
             self.holes.series.running = true;
@@ -37,35 +39,35 @@ impl State {
         let (Some(r), Some(bottom)) = (series.r, series.depth) else {
             let what = if series.r.is_none() { "R plane" } else { "depth" };
             let help = "write R and Z in the cycle's first block";
-            return refuse(Code::PN007, format!("{} without its {what}", Name(code)), help);
+            return refuse(Code::PN007, format!("{} without its {what}", row.code), help);
         };
-        self.check_fanuc_cycle(code, r, bottom)?;
-        let times = match block.get(b'K').filter(|_| !matches!(code, 760 | 870)).or(block.get(b'L')) {
+        self.check_fanuc_cycle(cycle, r, bottom)?;
+        let times = match block.get(b'K').filter(|_| !motions.shifts()).or(block.get(b'L')) {
             None => 1,
             Some(times) if times.fract() == 0.0 && (0.0..=9999.0).contains(&times) => times as u32,
             Some(times) => return refuse(Code::PN018, format!("{times} is no number of repeats"), "write K1 to K9999"),
         };
-        let clear = match code {
-            870 => series.initial,
+        let clear = match motions {
+            Motions::Back => series.initial,
             _ if self.modes.to_initial => series.initial.max(r),
             _ => r,
         };
-        let (feed, peck) = self.tap_by_pitch(code).unwrap_or((self.drive.feed, series.peck.unwrap_or(0.0)));
+        let (feed, peck) = self.tap_by_pitch(row).unwrap_or((self.drive.feed, series.peck.unwrap_or(0.0)));
         let hole = Drilling {
-            code,
+            cycle,
             at: self.place.position,
             plane: self.modes.plane,
             r,
             bottom,
             clear,
-            dwell: series.dwell.filter(|_| code != 810 && code != 850).unwrap_or(0.0),
+            dwell: series.dwell.filter(|_| cycle.dwells).unwrap_or(0.0),
             peck,
-            shift: self.bore_shift(code),
+            shift: self.bore_shift(motions),
             level: bottom,
             feed,
             heights: match (series.r_unknown || series.depth_unknown, series.initial_unknown) {
                 (true, _) => Heights::Unknown,
-                (_, true) if code == 870 || self.modes.to_initial => Heights::ButClear,
+                (_, true) if motions == Motions::Back || self.modes.to_initial => Heights::ButClear,
                 _ => Heights::Given,
             },
         };
@@ -76,8 +78,7 @@ impl State {
 
     /// The feed of a tap whose pitch has a word of its own, and no pecks: its F counts the turns. Without that word it is a tap
     /// like any other.
-    fn tap_by_pitch(&self, code: u16) -> Option<(f64, f64)> {
-        let row = self.control.row(control::Code { letter: b'G', tenths: code })?;
+    fn tap_by_pitch(&self, row: &Row) -> Option<(f64, f64)> {
         let pitch = self.holes.series.peck.filter(|pitch| row.pitch == Some(b'Q') && *pitch > 0.0)?;
         Some((pitch * self.drive.feed, 0.0))
     }
@@ -106,7 +107,7 @@ impl State {
     }
 
     /// Refuses a cycle that can't run as the control stands, or between these heights.
-    fn check_fanuc_cycle(&self, code: u16, r: f64, bottom: f64) -> Done {
+    fn check_fanuc_cycle(&self, cycle: Cycle, r: f64, bottom: f64) -> Done {
         if self.tool.side.is_some() {
             return refuse(
                 Code::PN013,
@@ -120,17 +121,21 @@ impl State {
         if self.drive.feed == 0.0 {
             return refuse(Code::PN008, "a canned cycle without a feed", "write F with it");
         }
-        if matches!(code, 760 | 870) && self.holes.series.peck.is_some_and(|q| q < 0.0) {
+        if cycle.motions.shifts() && self.holes.series.peck.is_some_and(|q| q < 0.0) {
             let help = "Q is a distance: a parameter of the control says which way";
-            return refuse(Code::PN018, format!("{} with a negative Q", Name(code)), help);
+            return refuse(Code::PN018, format!("{} with a negative Q", cycle.code), help);
         }
-        let upward = code == 870;
+        let upward = cycle.motions == Motions::Back;
         if (r < bottom) != upward && r != bottom {
             let message = format!("the R plane {r} is {} the bottom {bottom}", if upward { "above" } else { "below" });
             return refuse(Code::PN011, message, "look at R, at Z, and at G90 or G91");
         }
         if upward && !self.modes.to_initial {
-            return refuse(Code::PN013, "G87 under G99", "a back bore returns to the initial level: write G98");
+            return refuse(
+                Code::PN013,
+                format!("{} under G99", cycle.code),
+                "a back bore returns to the initial level: write G98",
+            );
         }
         Ok(())
     }
@@ -145,14 +150,14 @@ impl State {
         let height = self.place.position[across];
         self.place.rapid_to(hole.over(height), out);
         let known = self.place.at_machine & 1 << across == 0;
-        if hole.code != 870 && (height != hole.r || !known) {
+        if hole.cycle.motions != Motions::Back && (height != hole.r || !known) {
             self.rapid_over(&hole, hole.r, out);
         }
     }
 
     /// Off the wall: Q along the first axis, or I and J.
-    fn bore_shift(&self, code: u16) -> [f64; 2] {
-        if !matches!(code, 760 | 870) {
+    fn bore_shift(&self, motions: Motions) -> [f64; 2] {
+        if !motions.shifts() {
             return [0.0; 2];
         }
         let [first, second, _] = axes_of(self.modes.plane);

@@ -1,13 +1,14 @@
 //! What a control keeps for canned cycles.
 
 use super::action::Drilling;
+use super::codes::Motion;
 use crate::toolpath::{Plane, Units};
 
 /// The cycle in force and its holes.
 #[derive(Debug, Default)]
 pub struct Holes {
     /// The cycle in force on a Fanuc; elsewhere it is the modal motion.
-    pub cycle: Option<u16>,
+    pub cycle: Motion,
     /// What is kept from one hole to the next.
     pub series: Series,
     /// What the block's cycle still has to make.

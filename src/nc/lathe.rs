@@ -6,6 +6,7 @@ use super::codes::{Group, letters};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
+use crate::control::Meaning;
 use crate::diag::Code;
 use crate::toolpath::Units;
 
@@ -63,7 +64,7 @@ impl State {
     }
 
     /// G32: a cut that follows the spindle. G92: a pass and the way back. G76: all passes.
-    pub(super) fn lathe_thread(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+    pub(super) fn lathe_thread(&mut self, does: Meaning, block: &Block, out: &mut Out<'_>) -> Done {
         if self.drive.spindle == Rotation::Stop {
             return refuse(Code::PN012, "a thread, and the spindle stands", "write M3 or M4 before it");
         }
@@ -76,14 +77,14 @@ impl State {
         let lead = Some(self.drive.feed);
         let (begin, unsaid) = (self.place.position, self.place.at_machine);
         let mut end = self.target(block)?;
-        if code == 320 {
+        if does == Meaning::Thread {
             self.place.feed_to(end, self.drive.feed, lead, out);
             return Ok(());
         }
         let mut taper = block.get(b'R').or(block.get(b'I')).unwrap_or(0.0);
-        if code == 920 {
+        if does == Meaning::ThreadPass {
             // the next passes say what is another
-            let kept = self.threads.pass.filter(|_| block.g(Group::Motion).is_none());
+            let kept = self.threads.pass.filter(|_| block.row(Group::Motion).is_none());
             if let Some([radius, z, before]) = kept {
                 end[0] = if block.has(letters("XU")) { end[0] } else { radius };
                 end[2] = if block.has(letters("ZW")) { end[2] } else { z };
@@ -93,7 +94,7 @@ impl State {
             self.threads.pass = Some([end[0], end[2], taper]);
         }
         let mut ways = vec![end[0]];
-        if code == 760 {
+        if does == Meaning::ThreadCycle {
             ways = self.passes(begin, end, taper, block)?;
         }
         // the block says the radii and the end; where its passes begin and come back to, the blocks before it said

@@ -1,14 +1,15 @@
 //! What is modal between two blocks, as codes and values: what a machinist reads off the control's screen.
 
 use super::action::Rotation;
-use super::state::{NO_MOTION, State, is_cycle};
+use super::state::State;
+use crate::control::{Code, Meaning};
 use crate::toolpath::{FeedMode, Plane, Side, Units};
 
-/// What the control holds between two blocks. Codes are ten times their number.
+/// What the control holds between two blocks. Where a field is a number, it is ten times that of the usual code.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Modal {
     /// G0 to G3, and others of their group; a canned cycle is none of them.
-    pub motion: Option<u16>,
+    pub motion: Option<Code>,
     /// G17 to G19.
     pub plane: u16,
     /// G90 or G91.
@@ -24,7 +25,7 @@ pub struct Modal {
     /// A tool length offset is on.
     pub length: bool,
     /// The canned cycle in force.
-    pub cycle: Option<u16>,
+    pub cycle: Option<Code>,
     /// Register of cutter compensation.
     pub diameter: Option<f64>,
     /// F, in the unit of the feed mode; 0 where none was said.
@@ -38,9 +39,8 @@ pub struct Modal {
 impl State {
     /// What is modal after the block that was run last.
     pub fn modal(&self) -> Modal {
-        let motion = self.modes.motion;
         Modal {
-            motion: Some(motion).filter(|&code| code != NO_MOTION && !is_cycle(code)),
+            motion: self.modes.motion.filter(|row| row.meaning != Meaning::Cycle).map(|row| row.code),
             plane: match self.modes.plane {
                 Plane::Xy => 170,
                 Plane::Xz => 180,
@@ -60,7 +60,7 @@ impl State {
                 Some(Side::Right) => 420,
             },
             length: self.tool.length_on,
-            cycle: self.cycle_in_force(),
+            cycle: self.cycle_in_force().map(|row| row.code),
             diameter: self.tool.diameter_register,
             feed: self.drive.feed,
             speed: self.drive.speed,

@@ -2,11 +2,11 @@
 
 use super::action::Action;
 use super::block::Block;
-use super::codes::{Group, bit, letters};
+use super::codes::{Group, Motion, bit, letters};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
-use crate::control::{DwellUnit, Meaning, Rules};
+use crate::control::{DwellUnit, Meaning, Rules, WorkOffset};
 use crate::diag::Code;
 use crate::lang::additional_work;
 use crate::toolpath::{FeedMode, Units};
@@ -33,7 +33,7 @@ impl State {
     }
 
     /// Everything between feed and motion.
-    pub(super) fn set_up(&mut self, block: &Block, motion: Option<u16>, out: &mut Out<'_>) -> Done {
+    pub(super) fn set_up(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         self.compensated(block.means(Meaning::Output), "an output")?;
         self.compensated(block.means(Meaning::ToolChange), "a tool change")?;
         self.spindle_and_tool(block, out)?;
@@ -127,7 +127,7 @@ impl State {
     }
 
     pub(super) fn work_offset(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
-        let Some(code) = block.g(Group::Work) else {
+        let Some(offset) = block.row(Group::Work).and_then(|row| row.runs.work) else {
             if let Some(letter) = self.control.traits().work_letter
                 && let Some(fixture) = block.get(letter)
             {
@@ -141,15 +141,20 @@ impl State {
             }
             return Ok(());
         };
-        let (number, name) = match (code, block.get(b'P')) {
-            (541 | 1540, Some(p)) if (1.0..=99.0).contains(&p) && p.fract() == 0.0 => {
-                (9 + p as usize, additional_work(p))
+        let additional = |number: f64| (9 + number as usize, additional_work(number));
+        let (number, name) = match offset {
+            WorkOffset::Usual(code) => (offset.usual().unwrap_or(1), f64::from(code) / 10.0),
+            WorkOffset::Additional(number) => additional(f64::from(number)),
+            WorkOffset::Word(letter) => {
+                let most = f64::from(WorkOffset::MOST);
+                let said = block.get(letter).filter(|number| number.fract() == 0.0 && (1.0..=most).contains(number));
+                let Some(number) = said else {
+                    let letter = char::from(letter);
+                    let help = format!("write {letter}1 to {letter}{most} with it");
+                    return refuse(Code::PN007, "an additional work offset without its number", help);
+                };
+                additional(number)
             }
-            (541 | 1540, _) => {
-                return refuse(Code::PN007, "an additional work offset without its number", "write P1 to P99 with it");
-            }
-            (591..=593, _) => (usize::from(code - 591) + 7, f64::from(code) / 10.0),
-            _ => (usize::from(code / 10 - 53), f64::from(code) / 10.0),
         };
         self.place.reframe(|frames| frames.active = number);
         self.work_is(name, out);

@@ -89,13 +89,13 @@ impl State {
         Ok(())
     }
 
-    /// G0 or G1.
+    /// A rapid, or a line at feed.
     #[inline]
-    pub(super) fn straight(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+    pub(super) fn straight(&mut self, rapid: bool, block: &Block, out: &mut Out<'_>) -> Done {
         if block.g_meaning(Group::Once) == Some(Meaning::Machine) {
-            return self.in_machine(code, block, out);
+            return self.in_machine(rapid, block, out);
         }
-        if code == 0 {
+        if rapid {
             let to = self.target(block)?;
             self.place.rapid_to(to, out);
             return Ok(());
@@ -107,7 +107,7 @@ impl State {
     }
 
     /// G53: the words are machine coordinates.
-    fn in_machine(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+    fn in_machine(&mut self, rapid: bool, block: &Block, out: &mut Out<'_>) -> Done {
         if !self.modes.absolute && self.control.rules() != Rules::Grbl {
             return refuse(Code::PN018, "G53 under G91", "write G90 with it: increments have no place to begin");
         }
@@ -130,7 +130,7 @@ impl State {
         }
         self.place.goes_home(named);
         // a Fanuc goes there at rapid, whatever is in force
-        if code == 0 || !self.control.is_linuxcnc() {
+        if rapid || !self.control.is_linuxcnc() {
             self.place.rapid_to(to, out);
         } else {
             let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
@@ -145,7 +145,7 @@ impl State {
         if turning == Rotation::Stop {
             return refuse(Code::PN012, "G33.1 with the spindle stopped", "write M3 or M4 before it");
         }
-        self.synchronised(block, out)?;
+        self.synchronised(true, block, out)?;
         out.push(Action::Spindle(turning.reversed(), self.drive.speed));
         self.place.at_machine = unknown;
         self.place.feed_to(begin, self.drive.feed, block.get(b'K'), out);
@@ -153,14 +153,14 @@ impl State {
         Ok(())
     }
 
-    /// G33: a move that follows the spindle.
-    pub(super) fn synchronised(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+    /// G33: a move that follows the spindle; a tap turns no axis.
+    pub(super) fn synchronised(&mut self, taps: bool, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(lead) = block.get(b'K') else {
             return refuse(Code::PN007, "G33 without K", "write K with the distance of one turn");
         };
         let mut to = self.target(block)?;
-        if block.g(Group::Motion).unwrap_or(self.modes.motion) == 331 {
-            to[3..].copy_from_slice(&self.place.position[3..]); // a tap turns no axis
+        if taps {
+            to[3..].copy_from_slice(&self.place.position[3..]);
         }
         self.place.feed_to(to, self.drive.feed, Some(lead), out);
         Ok(())

@@ -7,30 +7,38 @@ use super::fault::{Done, refuse};
 use super::frames::Shift;
 use super::out::Out;
 use super::state::State;
-use crate::control::Rules;
+use crate::control::{self, Meaning, Rules};
 use crate::diag::Code;
 
 impl State {
     /// Codes that hold for their block: G10, G28, G30, G52, G92.
     pub(super) fn once(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
-        match block.g(Group::Once) {
-            Some(100) => self.set_data(block, out),
-            Some(code @ (280 | 300)) => self.go_home(usize::from(code == 300), block, out),
-            Some(code @ (281 | 301)) => {
-                self.place.homes[usize::from(code == 301)] = self.place.frames.to_machine(&self.place.position);
+        let Some(row) = block.row(Group::Once) else { return Ok(()) };
+        // 0 is that of G28, 1 that of G30
+        let point = usize::from(row.runs.point == Some(2));
+        match row.meaning {
+            Meaning::SetOffsets => self.set_data(row.code, block, out),
+            Meaning::Reference => self.go_home(point, block, out),
+            Meaning::SetReference => {
+                self.place.homes[point] = self.place.frames.to_machine(&self.place.position);
                 Ok(())
             }
-            Some(520 | 920..=923) => self.shift_frame(block, out),
-            Some(500) if block.has_axes() => self.shift_frame(block, out),
+            Meaning::SpeedLimit if !block.has_axes() => Ok(()),
+            Meaning::Frame
+            | Meaning::Preset
+            | Meaning::FrameOff
+            | Meaning::FrameSuspend
+            | Meaning::FrameRestore
+            | Meaning::SpeedLimit => self.shift_frame(row.meaning, block, out),
             _ => Ok(()),
         }
     }
 
-    pub(super) fn set_data(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+    fn set_data(&mut self, code: control::Code, block: &Block, out: &mut Out<'_>) -> Done {
         let l = block.get(b'L').unwrap_or(-1.0);
         if !self.control.is_linuxcnc() && l != 2.0 && l != 20.0 {
             // tool registers; no position depends on them here
-            out.push(Action::LeftOut(b'G', 100));
+            out.push(Action::LeftOut(code, Meaning::SetOffsets));
             return Ok(());
         }
         if self.control.is_linuxcnc() && [1.0, 10.0, 11.0].contains(&l) {
@@ -73,18 +81,18 @@ impl State {
         }
         let changed = [*work, [*rotation; 6]] != before;
         self.place.position = self.place.frames.to_program(&place);
-        out.push(if changed { Action::Frame } else { Action::LeftOut(b'G', 100) });
+        out.push(if changed { Action::Frame } else { Action::LeftOut(code, Meaning::SetOffsets) });
         Ok(())
     }
 
-    pub(super) fn shift_frame(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+    fn shift_frame(&mut self, does: Meaning, block: &Block, out: &mut Out<'_>) -> Done {
         let place = self.place.frames.to_machine(&self.place.position);
         let (before, mut lost) = (self.place.frames.shift, false);
-        match block.g(Group::Once) {
-            Some(921) => (self.place.frames.shift, self.place.frames.shift_kept) = Default::default(),
-            Some(922) => self.place.frames.shift = Shift::default(),
-            Some(923) => self.place.frames.shift = self.place.frames.shift_kept,
-            code => {
+        match does {
+            Meaning::FrameOff => (self.place.frames.shift, self.place.frames.shift_kept) = Default::default(),
+            Meaning::FrameSuspend => self.place.frames.shift = Shift::default(),
+            Meaning::FrameRestore => self.place.frames.shift = self.place.frames.shift_kept,
+            _ => {
                 self.compensated(true, "a moved frame")?;
                 if !block.has_axes() {
                     return refuse(Code::PN006, "the code needs axis words and has none", "write the axes it shifts");
@@ -94,7 +102,7 @@ impl State {
                     let (unknown, at, is_linuxcnc) =
                         (self.is_unknown(axis), self.place.position[axis], self.control.is_linuxcnc());
                     let shift = &mut self.place.frames.shift;
-                    if code == Some(520) {
+                    if does == Meaning::Frame {
                         shift.by[axis] = value;
                         if is_linuxcnc {
                             shift.unknown &= !(1 << axis); // a Fanuc adds it to G92
@@ -110,7 +118,7 @@ impl State {
                 }
             }
         }
-        if matches!(block.g(Group::Once), Some(520 | 920)) {
+        if matches!(does, Meaning::Frame | Meaning::Preset) {
             self.place.frames.shift_kept = self.place.frames.shift;
         }
         self.place.position = self.place.frames.to_program(&place);
@@ -121,7 +129,7 @@ impl State {
     }
 
     /// Goes by way of a place to a reference point.
-    pub(super) fn go_home(&mut self, which: usize, block: &Block, out: &mut Out<'_>) -> Done {
+    fn go_home(&mut self, which: usize, block: &Block, out: &mut Out<'_>) -> Done {
         if self.tool.side.is_some() {
             return refuse(Code::PN013, "G28 or G30 under cutter compensation", "end the compensation with G40 first");
         }

@@ -1,18 +1,15 @@
 //! A line read as a block: words, values, comments, and whether its codes go together.
 
 use super::block::Block;
-use super::codes::{Group, Name, bit, g_code, group, letters, m_code, m_group, takes_axes, why_not_run};
+use super::codes::{Group, bit, g_code, group, letters, m_code, m_group, takes_axes, why_not_run};
 use super::expression::Reader;
 use super::fault::{Done, Fault, refuse};
 use super::flow::Flow;
 use super::parameters::Parameters;
 use super::scan::{Kind, tokens, tokens_from};
 use super::settings::RunSettings;
-use crate::control::{self, Control, Turns};
+use crate::control::{self, Control, Meaning, Turns};
 use crate::diag::Code;
-
-/// G80.
-const CYCLE_END: u16 = 800;
 
 impl Block {
     /// Reads a line.
@@ -210,15 +207,16 @@ impl Block {
         let group = its_group as usize;
         // beside another motion, LinuxCNC takes no notice of G80
         if control.is_linuxcnc() && its_group == Group::Motion {
-            match self.g[group].map(|before| before.code.tenths) {
-                Some(_) if code == CYCLE_END => return Ok(()),
-                Some(CYCLE_END) => self.g[group] = None,
+            match self.g[group].map(|before| before.meaning) {
+                Some(_) if row.meaning == Meaning::CycleEnd => return Ok(()),
+                Some(Meaning::CycleEnd) => self.g[group] = None,
                 _ => {}
             }
         }
         // modal codes that change nothing here may come in numbers
         if let Some(before) = self.g[group].filter(|_| its_group != Group::Other) {
-            let message = format!("{} and {} are of one group", Name(before.code.tenths), Name(code));
+            let message =
+                format!("{} and {} are of one group", before.code, control::Code { letter: b'G', tenths: code });
             return Err(Fault::at(Code::PN004, column, message, "write them in two blocks, or take one out"));
         }
         self.g[group] = Some(row);

@@ -2,14 +2,14 @@
 
 use super::action::{Action, Item};
 use super::block::Block;
-use super::codes::{Group, bit, letters};
+use super::codes::{ARCS, Group, Motion, STRAIGHT, bit, is_one_of, letters};
 use super::fault::{Done, refuse};
 use super::out::{Next, Out};
 use super::settings::Unpointed;
-use super::state::{NO_MOTION, State, is_cycle};
+use super::state::State;
 use crate::control::{Meaning, Row, Rules};
 use crate::diag::Code;
-use crate::toolpath::{FeedMode, Units};
+use crate::toolpath::{Direction, FeedMode, Units};
 
 /// Words that are lengths or angles.
 const LENGTHS: u32 = letters("XYZABCIJKRQ");
@@ -35,14 +35,13 @@ impl State {
         }
         let motion = self.motion_of(block)?;
         let in_force = if self.control.is_linuxcnc() { None } else { self.holes.cycle };
-        let row = in_force.or(motion).and_then(|code| self.motion_row(code));
-        block.check_words(row, self.free_words(block))?;
+        block.check_words(in_force.or(motion), self.free_words(block))?;
         let mut out = Out::new(items, line);
         if let Some((start, end)) = block.comment {
             out.push(Action::Comment(start, end));
         }
         // most blocks only move
-        if block.g(Group::FeedMode).is_some() {
+        if block.row(Group::FeedMode).is_some() {
             self.feed_mode(block, &mut out);
         }
         if let Some(feed) = block.get(b'F')
@@ -55,17 +54,17 @@ impl State {
             self.set_up(block, motion, &mut out)?;
         }
         if block.g_meaning(Group::Once) == Some(Meaning::Machine)
-            && (block.has_axes() || matches!(motion, Some(20 | 30)) || self.control.is_linuxcnc())
-            && (!matches!(motion, Some(0 | 10)) || in_force.is_some() || begins_cycle(block))
+            && (block.has_axes() || is_one_of(motion, &ARCS) || self.control.is_linuxcnc())
+            && (!is_one_of(motion, &STRAIGHT) || in_force.is_some() || begins_cycle(block))
         {
             return refuse(Code::PN006, "G53 without G0 or G1", "write G0 with it, and end a cycle with G80 before");
         }
-        if block.axes_are_taken() || block.g(Group::Once).is_some() {
+        if block.axes_are_taken() || block.row(Group::Once).is_some() {
             self.once(block, &mut out)?;
         }
         if self.control.is_linuxcnc() {
-            if let Some(code) = motion {
-                self.move_by(code, row, block, &mut out)?;
+            if let Some(row) = motion {
+                self.move_by(row, block, &mut out)?;
             }
         } else {
             self.move_by_fanuc(motion, block, &mut out)?;
@@ -96,12 +95,12 @@ impl State {
     fn unpointed(&self, block: &mut Block) -> Done {
         let said = block.g_meaning(Group::Units).map(|meaning| meaning == Meaning::Inch);
         let inch = said.unwrap_or(self.modes.units == Units::Inch);
-        let own = matches!(block.g_meaning(Group::Motion), Some(Meaning::ThreadCycle));
-        if own || block.g(Group::Other).is_some() || block.means(Meaning::Orient) {
+        let own = matches!(block.g_meaning(Group::Motion), Some(Meaning::ThreadCycle | Meaning::ThreadPass));
+        if own || block.row(Group::Other).is_some() || block.means(Meaning::Orient) {
             return Ok(()); // their words are no lengths
         }
-        let cycle =
-            block.g(Group::Cycle).or(self.holes.cycle).is_some_and(|code| !matches!(code, NO_MOTION | 760 | 870));
+        // K is then how often, and no length
+        let cycle = self.cycle_of(block).is_some_and(|row| row.runs.motions.is_none_or(|motions| !motions.shifts()));
         let whole = block.whole & LENGTHS & if cycle { !bit(b'K') } else { !0 };
         for letter in (b'A'..=b'Z').filter(|&letter| whole & bit(letter) != 0) {
             let Some(value) = block.get(letter).filter(|&value| value != 0.0) else { continue };
@@ -124,78 +123,95 @@ impl State {
         Ok(())
     }
 
-    /// The motion code that a block runs, if any.
-    fn motion_of(&self, block: &Block) -> Done<Option<u16>> {
-        let word = block.g(Group::Motion);
+    /// The canned cycle of a Fanuc that a block begins, or that is in force in it.
+    fn cycle_of(&self, block: &Block) -> Motion {
+        match block.row(Group::Cycle) {
+            Some(row) => Some(row).filter(|row| row.meaning != Meaning::CycleEnd),
+            None => self.holes.cycle,
+        }
+    }
+
+    /// The code by which a block moves, if it does; where no other is in force, that of its cycle.
+    fn motion_of(&self, block: &Block) -> Done<Motion> {
+        let word = block.row(Group::Motion);
         let moves = block.has_axes() && !block.axes_are_taken();
         if word.is_none() && !moves {
-            if block.axes_are_taken() {
+            if block.axes_are_taken() || self.control.is_linuxcnc() {
                 return Ok(None);
             }
             // on a Fanuc a cycle runs for an R alone too, and a whole circle for its centre alone
-            let cycle = block.g(Group::Cycle).is_some() || self.holes.cycle.is_some();
-            let circle = !cycle && matches!(self.modes.motion, 20 | 30) && block.has(letters("IJK"));
-            let runs = !self.control.is_linuxcnc() && (circle || cycle && block.has(bit(b'R')));
-            return Ok(runs.then_some(self.modes.motion));
+            let has_cycle = block.row(Group::Cycle).is_some() || self.holes.cycle.is_some();
+            let circle = !has_cycle && is_one_of(self.modes.motion, &ARCS) && block.has(letters("IJK"));
+            let runs = circle || has_cycle && block.has(bit(b'R'));
+            return Ok(self.modes.motion.or(self.cycle_of(block)).filter(|_| runs));
         }
-        if let Some(code) = word.filter(|&code| code != NO_MOTION) {
+        if let Some(row) = word.filter(|row| row.meaning != Meaning::CycleEnd) {
             if block.has_axes() && block.axes_are_taken() && self.control.is_linuxcnc() {
                 let help = "write them in two blocks";
                 return refuse(Code::PN004, "two codes that both use the axis words", help);
             }
-            let needs_axes = is_cycle(code) || matches!(code, 330 | 331) || code == 760 && !self.control.is_lathe();
+            let needs_axes = match row.meaning {
+                Meaning::Cycle => true,
+                Meaning::Thread | Meaning::RigidTap | Meaning::ThreadCycle => !self.control.is_lathe(),
+                _ => false,
+            };
             if needs_axes && !block.has_axes() {
                 return refuse(Code::PN006, "the code needs axis words and has none", "write where, as X and Y");
             }
-            return Ok(Some(code));
+            return Ok(Some(row));
         }
         if !self.control.is_linuxcnc() {
-            let in_cycle = match block.g(Group::Cycle) {
-                Some(code) => code != NO_MOTION,
-                None => self.holes.cycle.is_some(),
+            return match self.modes.motion.or(self.cycle_of(block)) {
+                None => no_motion("no G0 or G1 says how to go there"),
+                motion => Ok(motion),
             };
-            if self.modes.motion == NO_MOTION && !in_cycle {
-                return no_motion("no G0 or G1 says how to go there");
-            }
-            return Ok(Some(self.modes.motion));
         }
         match word {
             Some(_) if moves => no_motion("axis words with G80"),
-            Some(code) => Ok(Some(code)),
-            None if self.modes.motion == NO_MOTION => no_motion("no motion code is in force"),
-            None => Ok(Some(self.modes.motion)),
+            None if self.modes.motion.is_none() => no_motion("no motion code is in force"),
+            None => Ok(self.modes.motion),
+            end => Ok(end),
         }
     }
 
-    fn move_by(&mut self, code: u16, row: Option<&'static Row>, block: &Block, out: &mut Out<'_>) -> Done {
-        let moved = match code {
-            0 | 10 => self.straight(code, block, out),
-            20 | 30 => self.arc(code, block, out),
-            330 => self.synchronised(block, out),
-            331 => self.rigid_tap(block, out),
-            760 => self.thread(block, out),
-            NO_MOTION => Ok(()),
-            _ => return self.linuxcnc_cycle(code, block, out),
+    fn move_by(&mut self, row: &'static Row, block: &Block, out: &mut Out<'_>) -> Done {
+        let moved = match row.meaning {
+            Meaning::Rapid => self.straight(true, block, out),
+            Meaning::Line => self.straight(false, block, out),
+            Meaning::ArcCw => self.arc(Direction::Cw, block, out),
+            Meaning::ArcCcw => self.arc(Direction::Ccw, block, out),
+            Meaning::Thread => self.synchronised(false, block, out),
+            Meaning::RigidTap => self.rigid_tap(block, out),
+            Meaning::ThreadCycle => self.thread(block, out),
+            Meaning::Cycle => return self.linuxcnc_cycle(row, block, out),
+            Meaning::CycleEnd => Ok(()),
+            _ => {
+                return refuse(
+                    Code::PN016,
+                    format!("{} is no motion of {}", row.code, self.control.name()),
+                    "run the program without it",
+                );
+            }
         };
-        debug_assert!(row.is_some());
-        self.leave_cycle(code, out);
+        self.leave_cycle(row, out);
         moved
     }
 
-    fn move_by_fanuc(&mut self, motion: Option<u16>, block: &Block, out: &mut Out<'_>) -> Done {
-        if let Some(code) = block.g(Group::Cycle) {
-            if block.g(Group::Motion).is_some() && code != NO_MOTION {
+    fn move_by_fanuc(&mut self, motion: Motion, block: &Block, out: &mut Out<'_>) -> Done {
+        if let Some(row) = block.row(Group::Cycle) {
+            let begins = row.meaning != Meaning::CycleEnd;
+            if block.row(Group::Motion).is_some() && begins {
                 let help = "write G0 or G1 in a block of its own";
                 return refuse(Code::PN004, "a motion code and a cycle in one block", help);
             }
-            if code == NO_MOTION {
-                self.leave_cycle(self.modes.motion, out);
+            if begins {
+                self.enter_fanuc_cycle(row);
             } else {
-                self.enter_fanuc_cycle(code);
+                self.end_cycle(out);
             }
         }
-        if let Some(code) = block.g(Group::Motion) {
-            self.leave_cycle(code, out);
+        if let Some(row) = block.row(Group::Motion) {
+            self.leave_cycle(row, out);
         }
         if block.axes_are_taken() {
             // G0 G28 X0: the word is of G28, and G0 is for the blocks behind it
@@ -206,25 +222,44 @@ impl State {
                 Ok(())
             };
         }
-        if let (Some(code), true) = (self.holes.cycle, motion.is_some() || block.g(Group::Cycle).is_some()) {
-            return self.fanuc_cycle(code, block, out);
+        if let (Some(row), true) = (self.holes.cycle, motion.is_some() || block.row(Group::Cycle).is_some()) {
+            return self.fanuc_cycle(row, block, out);
         }
-        match motion {
-            Some(760) if self.control.is_lathe() && !block.has_axes() => self.first_block(block),
-            Some(_) if !block.has_axes() && !block.has(letters("IJKR")) => Ok(()),
-            Some(code @ (0 | 10)) => self.straight(code, block, out),
-            Some(code @ (20 | 30)) => self.arc(code, block, out),
-            Some(code @ (320 | 760 | 920)) if self.control.is_lathe() => self.lathe_thread(code, block, out),
-            _ => Ok(()),
+        let Some(row) = motion else { return Ok(()) };
+        let lathe = self.control.is_lathe();
+        if lathe && row.meaning == Meaning::ThreadCycle && !block.has_axes() {
+            return self.first_block(block);
+        }
+        if !block.has_axes() && !block.has(letters("IJKR")) {
+            return Ok(());
+        }
+        match row.meaning {
+            Meaning::Rapid => self.straight(true, block, out),
+            Meaning::Line => self.straight(false, block, out),
+            Meaning::ArcCw => self.arc(Direction::Cw, block, out),
+            Meaning::ArcCcw => self.arc(Direction::Ccw, block, out),
+            Meaning::Thread | Meaning::ThreadCycle | Meaning::ThreadPass if lathe => {
+                self.lathe_thread(row.meaning, block, out)
+            }
+            _ => refuse(
+                Code::PN016,
+                format!("{} is no motion of {}", row.code, self.control.name()),
+                "run the program without it",
+            ),
         }
     }
 
     /// A motion that is no cycle: the series is over.
-    fn leave_cycle(&mut self, code: u16, out: &mut Out<'_>) {
+    fn leave_cycle(&mut self, row: &'static Row, out: &mut Out<'_>) {
+        self.end_cycle(out);
+        self.modes.motion = Some(row).filter(|row| row.meaning != Meaning::CycleEnd);
+    }
+
+    /// The cycle in force is over; the motion in force stays.
+    fn end_cycle(&mut self, out: &mut Out<'_>) {
         if self.cycle_in_force().is_some() {
             out.push(Action::CycleOff);
         }
-        self.modes.motion = code;
         self.holes.cycle = None;
         self.holes.series.end();
     }
@@ -232,7 +267,7 @@ impl State {
 
 /// Does the block begin a canned cycle of a Fanuc?
 fn begins_cycle(block: &Block) -> bool {
-    block.g(Group::Cycle).is_some_and(|code| code != NO_MOTION)
+    block.g_meaning(Group::Cycle).is_some_and(|meaning| meaning != Meaning::CycleEnd)
 }
 
 fn no_motion<T>(message: &str) -> Done<T> {

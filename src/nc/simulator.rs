@@ -402,7 +402,7 @@ impl<'a> Simulator<'a> {
             if self.state.settings.block_delete {
                 return Ok(Some(Jump::On));
             }
-            items.push(Item { line: self.at.line, by_cycle: false, action: Action::LeftOut(b'/', 0) });
+            items.push(Item { line: self.at.line, by_cycle: false, action: Action::BlockDelete });
         }
         self.blocks += 1;
         if let Some(flow) = self.block.flow.take() {

@@ -2,18 +2,15 @@
 
 use super::action::{Position, Rotation};
 use super::block::Block;
-use super::codes::g_code;
+use super::codes::Motion;
 use super::fault::{Done, refuse};
 use super::holes::Holes;
 use super::lathe::Threads;
 use super::place::Place;
 use super::settings::RunSettings;
-use crate::control::{Control, Row, Rules};
+use crate::control::{Control, Meaning, Rules};
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane, Side, Units};
-
-/// No motion: G80 of LinuxCNC.
-pub(super) const NO_MOTION: u16 = 800;
 
 /// A control between two blocks.
 #[derive(Debug)]
@@ -21,8 +18,6 @@ pub struct State {
     pub(super) settings: RunSettings,
     pub(super) control: &'static Control,
     pub(super) modes: Modes,
-    /// The row of the G code that was looked up last as a motion or cycle.
-    motion_row: Option<&'static Row>,
     pub(super) place: Place,
     pub(super) drive: Drive,
     pub(super) tool: Tool,
@@ -36,8 +31,8 @@ pub struct State {
 /// Modal codes.
 #[derive(Debug)]
 pub(super) struct Modes {
-    /// Modal motion code times ten; [`NO_MOTION`] for none.
-    pub motion: u16,
+    /// The modal motion; `None` after G80.
+    pub motion: Motion,
     pub plane: Plane,
     pub units: Units,
     /// G90: axis words are positions.
@@ -100,7 +95,7 @@ impl State {
             settings,
             control,
             modes: Modes {
-                motion: if control.rules() == Rules::Grbl { 0 } else { NO_MOTION },
+                motion: control.first(Meaning::Rapid).filter(|_| control.rules() == Rules::Grbl),
                 plane: if control.is_lathe() { Plane::Xz } else { Plane::Xy },
                 units: settings.units,
                 absolute: true,
@@ -109,7 +104,6 @@ impl State {
                 to_initial: !control.is_linuxcnc(),
                 diameter: control.is_lathe(),
             },
-            motion_row: None,
             place: Place::new(
                 match settings.places_unknown {
                     true if control.is_wire() => 0b1111,
@@ -124,16 +118,6 @@ impl State {
             holes: Holes::default(),
             warnings: Vec::new(),
         }
-    }
-
-    /// The row of a motion or cycle by ten times its G number; `None`: the control has no such code, or it is not run. Most
-    /// blocks move as the one before them, so the last one is kept.
-    #[inline]
-    pub(super) fn motion_row(&mut self, code: u16) -> Option<&'static Row> {
-        if self.motion_row.is_none_or(|row| row.code.tenths != code) {
-            self.motion_row = g_code(self.control, code);
-        }
-        self.motion_row
     }
 
     /// Units before the first G20 or G21.
@@ -185,11 +169,11 @@ impl State {
         self.modes.units
     }
 
-    /// The canned cycle in force, times ten.
-    pub fn cycle_in_force(&self) -> Option<u16> {
+    /// The canned cycle in force.
+    pub fn cycle_in_force(&self) -> Motion {
         match self.control.rules() {
             Rules::Fanuc => self.holes.cycle,
-            _ => Some(self.modes.motion).filter(|&code| is_cycle(code)),
+            _ => self.modes.motion.filter(|row| row.meaning == Meaning::Cycle),
         }
     }
 
@@ -197,9 +181,4 @@ impl State {
     pub fn take_warnings(&mut self) -> Vec<(Code, &'static str)> {
         std::mem::take(&mut self.warnings)
     }
-}
-
-/// Is a code a canned cycle of LinuxCNC?
-pub(super) fn is_cycle(code: u16) -> bool {
-    matches!(code, 730 | 740 | 810..=890)
 }

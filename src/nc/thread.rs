@@ -96,7 +96,6 @@ impl State {
         to[0] = thread.start_x;
         to[2] = target[2];
         self.place.rapid_to(to, out);
-        self.modes.motion = 760;
         Ok(())
     }
 

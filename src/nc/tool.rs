@@ -2,12 +2,12 @@
 
 use super::action::{Action, Cooling, Rotation};
 use super::block::Block;
-use super::codes::Group;
+use super::codes::{ARCS, Group, Motion, is_one_of};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
-use crate::control::{Meaning, ToolLength, Turns};
-use crate::diag::Code;
+use crate::control::{Code, Meaning, ToolLength, Turns};
+use crate::diag;
 use crate::toolpath::Side;
 
 /// How the spindle turns after an M code of this meaning.
@@ -38,7 +38,7 @@ impl State {
         if let Some(speed) = speed {
             if speed < 0.0 {
                 return refuse(
-                    Code::PN018,
+                    diag::Code::PN018,
                     "a negative S",
                     "write the speed without the minus, the direction as M3 or M4",
                 );
@@ -55,7 +55,7 @@ impl State {
         }
         if let Some(tool) = block.get(b'T') {
             if tool < 0.0 || tool.fract() != 0.0 {
-                return refuse(Code::PN018, format!("T{tool} is no tool"), "tools are whole numbers");
+                return refuse(diag::Code::PN018, format!("T{tool} is no tool"), "tools are whole numbers");
             }
             self.tool.number = Some(tool);
             if self.control.is_lathe() {
@@ -66,7 +66,7 @@ impl State {
             self.change_tool(out)?;
         }
         let mut turned = false;
-        for (code, row) in block.m() {
+        for (number, row) in block.m() {
             if row.stops_spindle {
                 self.turn_spindle(Rotation::Stop, out);
             }
@@ -84,7 +84,7 @@ impl State {
                     let angle = block.get(b'R').unwrap_or(0.0);
                     if self.control.is_linuxcnc() && !(0.0..=360.0).contains(&angle) {
                         let message = format!("M19 to an angle of {angle}");
-                        return refuse(Code::PN018, message, "write an angle from 0 to 360");
+                        return refuse(diag::Code::PN018, message, "write an angle from 0 to 360");
                     }
                     self.drive.spindle = Rotation::Stop; // it stands at its angle
                     out.push(Action::Orient(angle));
@@ -93,18 +93,19 @@ impl State {
                 meaning if meaning.is_stop() => {}
                 meaning => match cooling(meaning) {
                     Some(cooling) => out.push(Action::Coolant(cooling)),
-                    None if rotation.is_none() => out.push(Action::LeftOut(b'M', code * 10)),
+                    None if rotation.is_none() => out.push(Action::LeftOut(Code::m(number), row.meaning)),
                     None => {}
                 },
             }
         }
         for group in [Group::Path, Group::Once] {
-            if let Some(code) = block.g(group).filter(|&code| group == Group::Path || code == 90) {
-                out.push(Action::LeftOut(b'G', code));
+            if let Some(row) = block.row(group).filter(|row| group == Group::Path || row.meaning == Meaning::ExactStop)
+            {
+                out.push(Action::LeftOut(row.code, row.meaning));
             }
         }
-        if let Some(code) = block.g(Group::Other) {
-            out.push(Action::LeftOut(b'G', code));
+        if let Some(row) = block.row(Group::Other) {
+            out.push(Action::LeftOut(row.code, row.meaning));
         }
         let limits = block.g_meaning(Group::Once) == Some(Meaning::SpeedLimit);
         if speed.is_some() && !turned && !limits {
@@ -121,7 +122,7 @@ impl State {
     /// M6: the spindle stands afterwards.
     pub(super) fn change_tool(&mut self, out: &mut Out<'_>) -> Done {
         let Some(tool) = self.tool.number else {
-            return refuse(Code::PN007, "M6 without a tool", "write T and the tool's number before it");
+            return refuse(diag::Code::PN007, "M6 without a tool", "write T and the tool's number before it");
         };
         if self.settings.places_unknown {
             self.place.goes_home(0b100);
@@ -132,7 +133,7 @@ impl State {
         Ok(())
     }
 
-    pub(super) fn compensation(&mut self, block: &Block, motion: Option<u16>, out: &mut Out<'_>) -> Done {
+    pub(super) fn compensation(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         if !self.control.is_linuxcnc() {
             self.tool.diameter_register = block.get(b'D').or(self.tool.diameter_register);
         }
@@ -149,21 +150,21 @@ impl State {
             return Ok(());
         }
         if self.tool.side.is_some() && self.control.is_linuxcnc() {
-            return refuse(Code::PN013, "cutter compensation is on already", "end it with G40 first");
+            return refuse(diag::Code::PN013, "cutter compensation is on already", "end it with G40 first");
         }
-        if !self.control.is_linuxcnc() && matches!(motion, Some(20 | 30)) {
-            return refuse(Code::PN013, "cutter compensation begins on an arc", "begin it on a straight move");
+        if !self.control.is_linuxcnc() && is_one_of(motion, &ARCS) {
+            return refuse(diag::Code::PN013, "cutter compensation begins on an arc", "begin it on a straight move");
         }
         let side = if row.meaning == Meaning::SideLeft { Side::Left } else { Side::Right };
         // LinuxCNC takes the tool's own diameter where no register is named
-        let register = match row.code.tenths {
-            411 | 421 => None, // a diameter, and no register
+        let register = match row.runs.by_diameter {
+            true => None,
             _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.loaded),
             _ => self.tool.diameter_register,
         };
         if register.is_none() && !self.control.is_linuxcnc() && self.control.traits().turns == Turns::Tool {
             let help = "write D with the tool's register: G41 D1";
-            return refuse(Code::PN007, "cutter compensation without D", help);
+            return refuse(diag::Code::PN007, "cutter compensation without D", help);
         }
         self.tool.side = Some(side);
         out.push(Action::Compensation(Some((side, register))));
@@ -201,22 +202,26 @@ impl State {
                 out.push(Action::Length(Some(0.0)));
             }
             _ => {
-                let number = row.code.tenths;
                 // without H some controls take the length of the tool in the spindle, whatever T has chosen since
                 let register = block.get(b'H').or(self.tool.loaded);
                 if block.get(b'H').is_none() && self.control.traits().tool_length != ToolLength::Code {
                     let help = "write H with the tool's register: G43 H1";
-                    return refuse(Code::PN007, "a tool length offset without H", help);
+                    return refuse(diag::Code::PN007, "a tool length offset without H", help);
                 }
-                if number == 432 && block.get(b'H').is_none() {
-                    return refuse(Code::PN007, "G43.2 without H", "write H with the tool's number");
+                let adds = row.meaning == Meaning::LengthAdd;
+                if adds && block.get(b'H').is_none() {
+                    return refuse(
+                        diag::Code::PN007,
+                        format!("{} without H", row.code),
+                        "write H with the tool's number",
+                    );
                 }
-                if number != 432 {
+                if !adds {
                     self.place.frames.tool = [0.0; 3]; // what G43.1 set is gone
                 }
                 // no table of tools tells its length: it counts as zero; G44 takes it off instead
                 let register = register.unwrap_or(0.0);
-                out.push(Action::Length(Some(if number == 440 { -register } else { register })));
+                out.push(Action::Length(Some(if row.meaning == Meaning::LengthMinus { -register } else { register })));
             }
         }
         self.place.position = self.place.frames.to_program(&place);

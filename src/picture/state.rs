@@ -94,7 +94,7 @@ impl Registers {
         }
         let code = |code: u16| f64::from(code) / 10.0;
         let rows = [
-            (Register::Motion, modal.motion.map_or(f64::NAN, code)),
+            (Register::Motion, modal.motion.map_or(f64::NAN, |code| code.value())),
             (Register::Plane, code(modal.plane)),
             (Register::Distance, code(modal.distance)),
             (Register::Units, code(modal.units)),
@@ -113,7 +113,7 @@ impl Registers {
                 },
             ),
             (Register::Feed, some(modal.feed)),
-            (Register::Cycle, modal.cycle.map_or(f64::NAN, code)),
+            (Register::Cycle, modal.cycle.map_or(f64::NAN, |code| code.value())),
         ];
         rows.into_iter().for_each(|(register, value)| self.hold(line, register, value, changes));
         if modal.cycle.is_none() {

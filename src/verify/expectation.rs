@@ -42,8 +42,8 @@ pub struct Expectation {
     pub coolant: [f64; 3],
     /// Taps are rigid where the job does not say; `None`: nothing says.
     pub rigid_tap: Option<bool>,
-    /// The form types M29, which makes its taps rigid: without it they are not.
-    pub types_m29: bool,
+    /// The form types the code that makes the taps after it rigid, M29: without it they are not.
+    pub announces_taps: bool,
     /// A lathe's X is a diameter.
     pub by_diameter: bool,
     /// Subprograms stand before the main program.
@@ -74,7 +74,7 @@ impl Default for Expectation {
             axes: [0, 1, 2, 3, 4, 5],
             coolant: [8.0, 9.0, 7.0],
             rigid_tap: None,
-            types_m29: false,
+            announces_taps: false,
             by_diameter: true,
             subs_first: false,
             wire: None,
@@ -139,7 +139,10 @@ impl Expectation {
                 Op::Literal { index, .. } => match &program.literals[index as usize] {
                     word if word.letter == settings.feed_code => self.feeds.types(word.value, by),
                     word if word.letter == settings.speed_code => self.speeds.types(word.value, by),
-                    word => self.types_m29 |= word.letter == b'M' && word.value == 29.0,
+                    word => {
+                        let meaning = word.code.and_then(|code| settings.codes().meaning(code));
+                        self.announces_taps |= meaning == Some(Meaning::RigidAhead);
+                    }
                 },
                 Op::Formula { letter, index, .. } if letter == settings.feed_code => {
                     self.feeds.calculates(&program.formulas[index as usize], &[VarId::Frate, VarId::Plunge], by);
@@ -209,11 +212,9 @@ impl Expectation {
     }
 }
 
-/// Does M29 make a tap rigid, and nothing else does? A Haas and a Fadal tap rigidly by G84 alone.
-pub(super) fn taps_by_m29(control: &Control) -> bool {
-    let m29 = crate::control::Code { letter: b'M', tenths: 290 };
-    let by_itself = control.is_like("haas") || control.is_like("fadal") || control.is_linuxcnc();
-    !by_itself && control.row(m29).is_some_and(|row| row.meaning == Meaning::Harmless && row.text.contains("rigid"))
+/// Does a code before a tap make it rigid, and nothing else does? A Haas and a Fadal tap rigidly by G84 alone.
+pub(super) fn taps_ahead(control: &Control) -> bool {
+    control.has(Meaning::RigidAhead)
 }
 
 /// Does the control load tools? Not where it refuses M6, as a Grbl does.

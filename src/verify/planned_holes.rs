@@ -47,7 +47,7 @@ impl Job {
             .spec
             .rigid
             .or(self.expectation.rigid_tap)
-            .filter(|rigid| reverses && *rigid && self.expectation.types_m29);
+            .filter(|rigid| reverses && *rigid && self.expectation.announces_taps);
         let mut target = self.target(&hole.at);
         target.set(DEPTH, return_plane);
         let plane = steps.list.iter().take_while(|step| matches!(step, Step::Rapid(_))).last();

@@ -187,34 +187,213 @@ fn what_is_wrong_in_the_file_is_said_with_line_and_column() {
     }
 }
 
-/// What a code switches is known by its meaning, under any number; how it moves, by the usual numbers only.
+/// A code does what its meaning says, under any number: the same program with other numbers makes the same motions.
 #[test]
-fn codes_of_other_numbers_switch_as_their_meaning_says_and_never_move_by_guess() {
+fn codes_of_other_numbers_do_what_their_meaning_says() {
     let folder = Folder::new("own_control_numbers");
-    let codes = [("G70", "inch"), ("G71", "mm"), ("G500", "plane-xz"), ("G191", "increments"), ("G190", "absolute")];
-    let moves = [("G6", "rapid"), ("G181", "cycle"), ("G505", "work"), ("G5", "work"), ("G128", "reference")];
-    let row = |(code, meaning): &(&str, &str)| {
-        let makes = if *meaning == "cycle" { ", makes = \"drill\"" } else { "" };
-        format!("\"{code}\" = {{ is = \"{meaning}\"{makes} }}\n")
-    };
-    let rows: Vec<String> = codes.iter().chain(&moves).map(row).collect();
-    folder.write("own.toml", format!("name = \"own\"\ntitle = \"Own\"\nlike = \"haas\"\n\n[codes]\n{}", rows.concat()));
+    let rows = [
+        ("G20", "G670", "is = \"inch\""),
+        ("G21", "G671", "is = \"mm\""),
+        ("G18", "G618", "is = \"plane-xz\""),
+        ("G17", "G617", "is = \"plane-xy\""),
+        ("G90", "G690", "is = \"absolute\""),
+        ("G91", "G691", "is = \"increments\""),
+        ("G0", "G600", "is = \"rapid\""),
+        ("G1", "G601", "is = \"line\""),
+        ("G2", "G602", "is = \"arc-cw\", words = \"IJKR\""),
+        ("G3", "G603", "is = \"arc-ccw\", words = \"IJKR\""),
+        ("G28", "G628", "is = \"reference\", point = 1"),
+        ("G30", "G630", "is = \"reference\", point = 2"),
+        ("G44", "G644", "is = \"length-minus\", words = \"H\""),
+        ("G43", "G643", "is = \"length-on\", words = \"H\""),
+        ("G49", "G649", "is = \"length-off\""),
+        ("G52", "G652", "is = \"frame\""),
+        ("G92", "G692", "is = \"preset\""),
+        ("G10", "G610", "is = \"set-offsets\", words = \"LPR\""),
+        ("G55", "G655", "is = \"work\", work = \"G55\""),
+        ("G154 P7", "G674", "is = \"work\", work = \"G54.1 P7\""),
+        ("G154 P", "G654 P", "is = \"work\", words = \"P\", work = \"P\""),
+        ("G80", "G680", "is = \"cycle-end\""),
+        ("G73", "G773", "is = \"cycle\", words = \"LPQR\", makes = \"chipbreak\""),
+        ("G74", "G774", "is = \"cycle\", words = \"LPQR\", makes = \"left-tap\""),
+        ("G76", "G776", "is = \"cycle\", words = \"IJLPQR\", makes = \"bore\", motions = \"shift-out\""),
+        ("G81", "G781", "is = \"cycle\", words = \"LR\", makes = \"drill\""),
+        ("G82", "G782", "is = \"cycle\", words = \"LPR\", makes = \"drill\""),
+        ("G83", "G783", "is = \"cycle\", words = \"LPQR\", makes = \"peck chipbreak\", motions = \"peck\""),
+        ("G84", "G784", "is = \"cycle\", words = \"LPQR\", makes = \"tap\""),
+        ("G85", "G785", "is = \"cycle\", words = \"LR\", makes = \"bore ream\", motions = \"feed-out\""),
+        ("G86", "G786", "is = \"cycle\", words = \"LPR\", makes = \"bore\", motions = \"stop-out\""),
+        ("G87", "G787", "is = \"cycle\", words = \"IJLPQR\", makes = \"back\""),
+        ("G88", "G788", "is = \"cycle\", words = \"LPR\", makes = \"bore\", motions = \"by-hand\""),
+        ("G89", "G789", "is = \"cycle\", words = \"LPR\", makes = \"bore ream\", motions = \"feed-out\""),
+    ];
+    let usual = "%
+G21 G90 G94
+T1 M6
+G55
+G0 G43 H1 Z50.
+G0 X10. Y0 Z5. S900 M3
+G1 Z-1. F100.
+G91 G1 X5.
+G90
+G18 G2 X20. Z-1. I2.5 K0
+G3 X15. Z-1. R2.5
+G17
+G0 Z5.
+G44 H1
+G43 H1
+G73 X1. Y1. Z-9. R2. Q2. P200 F90.
+G74 X2. Y1. Z-9. R2. F90.
+G76 X3. Y1. Z-9. R2. Q0.3 P200 F90.
+G81 X4. Y1. Z-9. R2. F90.
+G82 X5. Y1. Z-9. R2. P200 F90.
+G83 X6. Y1. Z-9. R2. Q2. F90.
+G84 X7. Y1. Z-9. R2. F90.
+G85 X8. Y1. Z-9. R2. F90.
+G86 X9. Y1. Z-9. R2. P200 F90.
+G88 X9. Y3. Z-9. R2. P200 F90.
+G89 X9. Y2. Z-9. R2. P200 F90.
+G80
+G87 X9. Y4. Z-3. R-9. Q0.3 F90.
+G80
+G154 P7
+G0 X1. Y1.
+G154 P8
+G0 X2. Y1.
+G52 X1.
+G0 X3.
+G10 L2 P1 X1.
+G92 X7.
+G0 X3.
+G20
+G49
+G91 G28 Z0
+G30 X0 Y0
+G90
+M30
+%
+";
+    let other = usual.lines().map(|line| {
+        let longest = |at: &str| {
+            rows.iter().filter(|row| at.starts_with(row.0)).max_by_key(|row| row.0.len()).map(|row| (row.0, row.1))
+        };
+        let (mut text, mut rest) = (String::new(), line);
+        while !rest.is_empty() {
+            // G2 is not the beginning of G20
+            let found = longest(rest).filter(|(own, _)| {
+                !rest[own.len()..].starts_with(|next: char| next.is_ascii_digit()) || own.ends_with('P')
+            });
+            let (new, length) = found.map_or((&rest[..1], 1), |(own, new)| (new, own.len()));
+            text += new;
+            rest = &rest[length..];
+        }
+        text + "\n"
+    });
+    let other: String = other.collect();
+    let absent = rows
+        .iter()
+        .filter(|row| !row.0.contains(' '))
+        .map(|(usual, ..)| format!("\"{usual}\" = {{ is = \"absent\" }}\n"));
+    let own = rows.iter().map(|(_, code, row)| format!("\"{}\" = {{ {row} }}\n", code.trim_end_matches(" P")));
+    let codes: String = absent.chain(own).collect();
+    folder.write("usual.toml", "name = \"usual\"\nlike = \"fanuc\"\n[codes]\n\"G73\" = { is = \"cycle\", words = \"LPQR\", makes = \"chipbreak\" }\n");
     folder.write(
-        "switches.nc",
-        "%\nG71 G190 G94\nG0 X10. Y0 Z0\nG191 G1 X5. F100.\nG500 G2 X10. Z0 I5. K0\nG70\nM30\n%\n",
+        "own.toml",
+        format!("name = \"own\"\nlike = \"usual.toml\"\n[codes]\n{codes}").replace("usual.toml", "fanuc"),
     );
-    folder.write("usual.nc", "%\nG21 G90 G94\nG0 X10. Y0 Z0\nG91 G1 X5. F100.\nG18 G2 X10. Z0 I5. K0\nG20\nM30\n%\n");
-    let [own, usual] = ["switches.nc", "usual.nc"].map(|program| {
-        let run = folder.run(&["simulate", program, "--control", "own.toml"]);
-        assert_eq!(run.status.code(), Some(0), "{}", err(&run));
-        out(&run).replace(program, "PROGRAM")
+    folder.write("usual.nc", usual);
+    folder.write("other.nc", &other);
+    assert!(!other.contains("G81") && other.contains("G781") && other.contains("G654 P8"), "{other}");
+    let [own, usual] = [("other.nc", "own.toml"), ("usual.nc", "usual.toml")].map(|(program, control)| {
+        let run = folder.run(&["simulate", program, "--control", control, "--format", "json"]);
+        assert_eq!(run.status.code(), Some(0), "{other}{}", err(&run));
+        out(&run).replace(program, "PROGRAM").replace(control, "CONTROL").replace("\"own\"", "\"usual\"")
     });
     assert_eq!(own, usual);
-    for (code, _) in moves {
+    assert!(own.len() > 1000, "{own}");
+}
+
+/// A form that prints the codes of such a control is proven as any other.
+#[test]
+fn a_form_of_other_numbers_is_proven() {
+    let folder = Folder::new("own_control_form");
+    let fanuc = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
+    let form = fanuc
+        .replace("Control fanuc", "Control own.toml")
+        .replace("G81 ", "G781 ")
+        .replace("G83 ", "G783 ")
+        .replace("G28 ", "G728 ");
+    folder.write("own.pf", &form);
+    let rows = [
+        "\"G81\" = { is = \"absent\" }",
+        "\"G83\" = { is = \"absent\" }",
+        "\"G28\" = { is = \"absent\" }",
+        "\"G781\" = { is = \"cycle\", words = \"KLR\", makes = \"drill\" }",
+        "\"G783\" = { is = \"cycle\", words = \"KLPQR\", makes = \"peck\" }",
+        "\"G728\" = { is = \"reference\", point = 1 }",
+    ];
+    folder.write("own.toml", format!("name = \"own\"\nlike = \"fanuc\"\n[codes]\n{}\n", rows.join("\n")));
+    let job = root().join("samples/bracket/job.json");
+    let job = job.to_str().unwrap();
+    let run = folder.run(&["render", job, "--form", "own.pf", "-o", "own.nc"]);
+    assert_eq!(run.status.code(), Some(0), "{}", err(&run));
+    assert!(err(&run).starts_with("equivalent: ") && err(&run).contains("20 holes"), "{}", err(&run));
+    let program = folder.read("own.nc");
+    assert!(["G98 G781 X", "G98 G783 X", "G91 G728 Z0"].iter().all(|block| program.contains(block)), "{program}");
+    // without the row that says how it drills, there is no proof, and the reason is that row
+    folder.write(
+        "own.toml",
+        format!(
+            "name = \"own\"\nlike = \"fanuc\"\n[codes]\n{}\n",
+            rows.join("\n").replace("makes = \"peck\"", "makes = \"peck chipbreak\"")
+        ),
+    );
+    let run = folder.run(&["render", job, "--form", "own.pf", "-o", "own.nc"]);
+    assert!(
+        err(&run).contains("G783 is not run: the file of own does not say how it moves: `motions = \"peck\"`"),
+        "{}",
+        err(&run)
+    );
+}
+
+/// What a file does not say of a code is asked for by name, and nothing is guessed from a number.
+#[test]
+fn a_row_that_lacks_something_is_not_run_and_says_what() {
+    let folder = Folder::new("own_control_lacks");
+    let rows = [
+        ("G185", "is = \"cycle\", words = \"R\", makes = \"bore\"", "how it moves: `motions = \"peck\"`"),
+        ("G505", "is = \"work\"", "which work offset: `work = \"G54\"`"),
+        ("G54", "is = \"work\"", "which work offset: `work = \"G54\"`"),
+        ("G128", "is = \"reference\"", "which reference point: `point = 1`"),
+        ("G110-G129", "is = \"work\", work = \"G54.1 P90\"", "which work offset"),
+    ];
+    for (code, row, lacks) in rows {
+        folder.write("own.toml", format!("name = \"own\"\nlike = \"haas\"\n[codes]\n\"{code}\" = {{ {row} }}\n"));
+        let code = code.split('-').next_back().unwrap_or(code);
         folder.write("moves.nc", format!("%\nG21 G90 G94\nG0 X0 Y0 Z5.\n{code} X1. Y1. Z-1. R1. F100.\nM30\n%\n"));
         let run = folder.run(&["simulate", "moves.nc", "--control", "own.toml"]);
         let said = err(&run);
         assert!(run.status.code() == Some(1) && said.contains("PN016") && said.contains(code), "{code}: {said}");
+        assert!(said.contains(lacks) && said.contains("the file of own"), "{code}: {said}");
+    }
+    for (row, at, why) in [
+        (
+            "\"G185\" = { is = \"cycle\", makes = \"bore\", motions = \"feed\" }",
+            "\"feed\"",
+            "`feed` are no motions of a cycle",
+        ),
+        ("\"G54\" = { is = \"work\", work = \"G53\" }", "\"G53\"", "`G53` is no work offset"),
+        ("\"G28\" = { is = \"reference\", point = 3 }", "3 }", "there are two reference points"),
+        ("\"G28\" = { is = \"rapid\", point = 1 }", "1 }", "`point` is of reference points"),
+    ] {
+        folder.write("own.toml", format!("name = \"own\"\nlike = \"haas\"\n[codes]\n{row}\n"));
+        let at = row.find(at).unwrap() + 1;
+        let run = folder.run(&["simulate", "moves.nc", "--control", "own.toml"]);
+        let said = err(&run);
+        assert!(
+            run.status.code() == Some(2) && said.contains(&format!("own.toml:4:{at}:")) && said.contains(why),
+            "{said}"
+        );
     }
 }
 
@@ -225,13 +404,28 @@ fn no_meaning_is_passed_over() {
     use postform::internals::nc::{Action, RunError, RunSettings, Simulator};
     use std::io::Cursor;
 
-    // they change nothing that is compared, and are told as left out
+    // they change nothing that is simulated, and are told as left out; the proof looks at the first two
     use Meaning as M;
-    let nothing =
-        [M::Harmless, M::TransformOff, M::MacroOff, M::Path, M::TapMode, M::ExactStop, M::Output, M::Override];
+    let nothing = [
+        M::RigidAhead,
+        M::SetOffsets,
+        M::Harmless,
+        M::TransformOff,
+        M::MacroOff,
+        M::Path,
+        M::TapMode,
+        M::ExactStop,
+        M::Output,
+        M::Override,
+    ];
     let mut run = Vec::new();
     for &meaning in Meaning::ALL {
-        let makes = if meaning == Meaning::Cycle { ", makes = \"drill\"" } else { "" };
+        let makes = match meaning {
+            Meaning::Cycle => ", makes = \"drill\"",
+            Meaning::Work => ", work = \"G54.1 P3\"",
+            Meaning::Reference | Meaning::SetReference => ", point = 1",
+            _ => "",
+        };
         for code in ["G777", "M777"] {
             let row = format!("\"{code}\" = {{ is = \"{}\"{makes} }}", meaning.name());
             let text = format!("name = \"shop\"\nlike = \"haas\"\n[codes]\n{row}\n");

@@ -14,7 +14,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             .words()
             .find(|word| word.printed_var() == Some(VarId::Lcomp) && view.printed_letter(word) == Some(b'H'));
         if let (Some(word), None) =
-            (register, body.meaning(|meaning| matches!(meaning, Meaning::LengthOn | Meaning::LengthData)))
+            (register, body.meaning(|meaning| meaning.turns_length_on() || meaning == Meaning::LengthData))
         {
             diags.push(
                 Diag::new(Code::PF426, format!("{} prints a length register without G43", body.name()))

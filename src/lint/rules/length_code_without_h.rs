@@ -11,7 +11,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
     let lines = view.bodies.iter().flat_map(|body| body.lines.iter().map(move |line| (body, line)));
     for (body, line) in lines {
-        let Some(word) = line.words.iter().find(|word| view.meaning(word) == Some(Meaning::LengthOn)) else { continue };
+        let Some(word) = line.words.iter().find(|word| view.meaning(word).is_some_and(Meaning::turns_length_on)) else {
+            continue;
+        };
         // `H#518`: a register of a macro
         let by_macro = |word: &Word| matches!(&word.kind, WordKind::Text(text) if text.starts_with("H#"));
         if !line.words.iter().any(|word| view.printed_letter(word) == Some(b'H') || by_macro(word)) {

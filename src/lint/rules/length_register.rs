@@ -10,7 +10,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_mill() || view.traits().tool_length == ToolLength::None || view.is_flat() {
         return; // without registers the zero is that of the tool
     }
-    let on = |word: &Word| matches!(view.meaning(word), Some(Meaning::LengthOn | Meaning::LengthData));
+    let on = |word: &Word| {
+        view.meaning(word).is_some_and(|meaning| meaning.turns_length_on() || meaning == Meaning::LengthData)
+    };
     let is_register = |word: &&Word| view.printed_letter(word) == Some(b'H');
     let first = view.body(SequenceId::FirstToolChange).filter(|body| !body.lines.is_empty());
     // words of a conversational control have the length in their tool call

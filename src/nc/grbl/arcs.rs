@@ -12,12 +12,11 @@ use crate::toolpath::{Direction, Units};
 
 impl State {
     /// An arc or helix. The centre is incremental, and a word across the plane counts for nothing.
-    pub(super) fn grbl_arc(&mut self, code: u16, block: &Block, out: &mut Out<'_>) -> Done {
+    pub(super) fn grbl_arc(&mut self, direction: Direction, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let [first, second, _] = axes_of(self.modes.plane);
         let from = self.place.position;
         let to = self.target(block)?;
-        let direction = if code == 20 { Direction::Cw } else { Direction::Ccw };
         let tolerance = self.control.arc_tolerance(self.modes.units == Units::Inch);
         let words = [first, second].map(|axis| block.get(CENTERS[axis]));
         let mut center = [from[0], from[1], from[2]];

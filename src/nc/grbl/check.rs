@@ -4,9 +4,9 @@ use super::error::refuse;
 use crate::control::Meaning;
 use crate::nc::arcs::axes_of;
 use crate::nc::block::Block;
-use crate::nc::codes::{Group, bit, letters};
+use crate::nc::codes::{ARCS, Group, Motion, STRAIGHT, bit, is_one_of, letters};
 use crate::nc::fault::Done;
-use crate::nc::state::{NO_MOTION, State};
+use crate::nc::state::State;
 use crate::toolpath::{FeedMode, Plane};
 
 /// Highest block number.
@@ -20,15 +20,15 @@ const LINEAR: [u32; 3] = [bit(b'X'), bit(b'Y'), bit(b'Z')];
 ///
 /// # Errors
 /// Grbl's answer to what is wrong first, in its own order.
-pub(super) fn check(block: &Block, state: &State) -> Done<Option<u16>> {
+pub(super) fn check(block: &Block, state: &State) -> Done<Motion> {
     if block.get(b'N').is_some_and(|number| number > MOST_NUMBER) {
         return refuse(27);
     }
-    let word = block.g(Group::Motion);
-    let motion = word.unwrap_or(state.modes.motion);
-    let (has_axes, length) = (block.has_axes(), block.g(Group::Length));
-    let moves = word.is_some_and(|code| code != NO_MOTION) || has_axes && !block.axes_are_taken();
-    let cuts = moves && motion != 0 && motion != NO_MOTION;
+    let word = block.row(Group::Motion);
+    let motion = word.or(state.modes.motion).filter(|row| row.meaning != Meaning::CycleEnd);
+    let (has_axes, length) = (block.has_axes(), block.g_meaning(Group::Length));
+    let moves = word.is_some_and(|row| row.meaning != Meaning::CycleEnd) || has_axes && !block.axes_are_taken();
+    let cuts = moves && motion.is_some_and(|row| row.meaning != Meaning::Rapid);
     let mode = feed_mode(block, state);
     if mode == FeedMode::InverseTime && cuts && !block.has(bit(b'F')) {
         return refuse(22);
@@ -36,49 +36,49 @@ pub(super) fn check(block: &Block, state: &State) -> Done<Option<u16>> {
     if block.g_meaning(Group::Once) == Some(Meaning::Dwell) && !block.has(bit(b'P')) {
         return refuse(28);
     }
-    if length == Some(431) && block.given & letters("XYZ") != bit(b'Z') {
+    if length == Some(Meaning::LengthData) && block.given & letters("XYZ") != bit(b'Z') {
         return refuse(37);
     }
     check_once(block, motion)?;
-    if motion == NO_MOTION {
+    if motion.is_none() {
         return if has_axes && length.is_none() { refuse(31) } else { Ok(None) };
     }
     if cuts {
         check_cut(block, motion, mode, state)?;
     }
-    Ok(Some(motion).filter(|_| moves && has_axes))
+    Ok(motion.filter(|_| moves && has_axes))
 }
 
 /// Codes that hold for their block.
-fn check_once(block: &Block, motion: u16) -> Done {
-    match block.g(Group::Once) {
-        Some(100 | 920) if !block.has_axes() => refuse(26),
-        Some(100) if !block.has(letters("PL")) => refuse(28),
-        Some(100) if block.get(b'P').is_some_and(|p| p.trunc() > OFFSETS) => refuse(29),
-        Some(100) => match block.get(b'L') {
+fn check_once(block: &Block, motion: Motion) -> Done {
+    match block.g_meaning(Group::Once) {
+        Some(Meaning::SetOffsets | Meaning::Preset) if !block.has_axes() => refuse(26),
+        Some(Meaning::SetOffsets) if !block.has(letters("PL")) => refuse(28),
+        Some(Meaning::SetOffsets) if block.get(b'P').is_some_and(|p| p.trunc() > OFFSETS) => refuse(29),
+        Some(Meaning::SetOffsets) => match block.get(b'L') {
             Some(20.0) => Ok(()),
             Some(2.0) if !block.has(bit(b'R')) => Ok(()),
             _ => refuse(20),
         },
-        Some(530) if !matches!(motion, 0 | 10) => refuse(30),
+        Some(Meaning::Machine) if !is_one_of(motion, &STRAIGHT) => refuse(30),
         _ => Ok(()),
     }
 }
 
 /// A cut has a feed, and a curve or probe says where it ends.
-fn check_cut(block: &Block, motion: u16, mode: FeedMode, state: &State) -> Done {
+fn check_cut(block: &Block, motion: Motion, mode: FeedMode, state: &State) -> Done {
     let kept = if mode == FeedMode::PerMinute && state.modes.feed_mode == mode { state.drive.feed } else { 0.0 };
     if block.get(b'F').unwrap_or(kept) == 0.0 {
         return refuse(22);
     }
-    if motion == 10 {
+    if motion.is_some_and(|row| row.meaning == Meaning::Line) {
         return Ok(());
     }
     if !block.has_axes() {
         return refuse(26);
     }
     let [first, second, _] = axes_of(plane(block, state)).map(|axis| LINEAR[axis]);
-    if matches!(motion, 20 | 30) && !block.has(first | second) {
+    if is_one_of(motion, &ARCS) && !block.has(first | second) {
         return refuse(32);
     }
     Ok(())

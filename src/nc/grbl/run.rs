@@ -5,14 +5,11 @@ use super::error::refuse;
 use crate::control::Meaning;
 use crate::nc::action::{Action, Cooling, Rotation};
 use crate::nc::block::Block;
-use crate::nc::codes::Group;
+use crate::nc::codes::{Group, Motion};
 use crate::nc::fault::Done;
 use crate::nc::out::{Next, Out};
 use crate::nc::state::State;
-use crate::toolpath::{FeedMode, Plane, StopKind, Units};
-
-/// G92.1: the frame goes after the move of its block, which still counts in it.
-const FRAME_OFF: u16 = 921;
+use crate::toolpath::{Direction, FeedMode, Plane, StopKind, Units};
 
 impl State {
     /// Runs a block. A refused one does nothing.
@@ -30,24 +27,26 @@ impl State {
             out.push(Action::Comment(start, end));
         }
         self.grbl_feed(block, motion, out)?;
-        let frame_goes = block.g(Group::Once) == Some(FRAME_OFF);
+        let frame_goes = block.g_meaning(Group::Once) == Some(Meaning::FrameOff);
         if !frame_goes {
             self.once(block, out)?;
         }
-        if let Some(code) = block.g(Group::Motion) {
-            self.modes.motion = code;
+        if let Some(row) = block.row(Group::Motion) {
+            self.modes.motion = Some(row).filter(|row| row.meaning != Meaning::CycleEnd);
         }
-        match motion {
-            Some(code @ (0 | 10)) => self.straight(code, block, out)?,
-            Some(code @ (20 | 30)) => self.grbl_arc(code, block, out)?,
-            Some(_) => self.probe(block, out)?,
+        match motion.map(|row| row.meaning) {
+            Some(Meaning::Rapid) => self.straight(true, block, out)?,
+            Some(Meaning::Line) => self.straight(false, block, out)?,
+            Some(Meaning::ArcCw) => self.grbl_arc(Direction::Cw, block, out)?,
+            Some(Meaning::ArcCcw) => self.grbl_arc(Direction::Ccw, block, out)?,
+            Some(Meaning::Probe) => self.probe(block, out)?,
+            Some(_) => return refuse(20),
             None => {}
         }
         if frame_goes {
             self.once(block, out)?;
         }
-        let row = motion.and_then(|code| self.motion_row(code));
-        if block.check_words(row, self.control.traits().everywhere.bits()).is_err() {
+        if block.check_words(motion, self.control.traits().everywhere.bits()).is_err() {
             return refuse(36);
         }
         self.grbl_stops(block, out);
@@ -56,9 +55,9 @@ impl State {
 
     /// Feed, and all that comes before the axis words. F is kept in millimetres, so that it counts in the units of its
     /// block, and as millimetres in the block that comes back from G93.
-    fn grbl_feed(&mut self, block: &Block, motion: Option<u16>, out: &mut Out<'_>) -> Done {
+    fn grbl_feed(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         let before = self.modes.feed_mode;
-        if block.g(Group::FeedMode).is_some() {
+        if block.row(Group::FeedMode).is_some() {
             self.feed_mode(block, out);
         }
         let feed = block.get(b'F').filter(|_| self.modes.feed_mode != FeedMode::InverseTime);
@@ -90,7 +89,7 @@ impl State {
         for (_, row) in block.m() {
             match row.meaning {
                 Meaning::StopProgram => out.push(Action::Stop(StopKind::Program)),
-                Meaning::StopOptional => out.push(Action::LeftOut(b'M', 10)),
+                Meaning::StopOptional => out.push(Action::LeftOut(row.code, row.meaning)),
                 Meaning::End => self.grbl_end(out),
                 _ => {}
             }
@@ -98,7 +97,7 @@ impl State {
     }
 
     fn grbl_end(&mut self, out: &mut Out<'_>) {
-        self.modes.motion = 10;
+        self.modes.motion = self.control.first(Meaning::Line);
         self.modes.absolute = true;
         if self.modes.plane != Plane::Xy {
             self.modes.plane = Plane::Xy;

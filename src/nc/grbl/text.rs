@@ -141,7 +141,7 @@ fn unknown_fraction(number: f64, control: &'static Control) -> u8 {
 fn takes_axes(meaning: Meaning) -> bool {
     use Meaning as M;
     matches!(meaning, M::Rapid | M::Line | M::ArcCw | M::ArcCcw | M::Probe)
-        || matches!(meaning, M::Data | M::Reference | M::Frame | M::LengthData | M::LengthOff)
+        || matches!(meaning, M::SetOffsets | M::Reference | M::Preset | M::LengthData | M::LengthOff)
 }
 
 fn m_word(block: &mut Block, value: f64, groups: &mut u16, control: &'static Control) -> Result<(), u8> {

@@ -1,14 +1,14 @@
 //! A control's cycle as a cycle of a job. The point is the R plane: a program does not say where the part begins.
 
 use super::fault::unsaid;
+use crate::control::Motions;
 use crate::diag::Diag;
 use crate::nc::action::Drilling;
-use crate::nc::codes::Name;
 use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole};
 
 /// Are two holes of one cycle?
 pub(super) fn is_same(a: &Drilling, b: &Drilling) -> bool {
-    let key = |d: &Drilling| (d.code, [d.r, d.clear, d.dwell, d.peck, d.level, d.feed], d.shift);
+    let key = |d: &Drilling| (d.cycle.code, [d.r, d.clear, d.dwell, d.peck, d.level, d.feed], d.shift);
     key(a) == key(b)
 }
 
@@ -17,21 +17,23 @@ pub(super) fn is_same(a: &Drilling, b: &Drilling) -> bool {
 /// # Errors
 /// A cycle that a job can't say.
 pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSpec, Box<Diag>> {
-    let kind = match hole.code {
-        810 => CycleKind::Drill,
-        820 => CycleKind::Face,
-        830 => CycleKind::Deep,
-        730 => CycleKind::Chipbreak,
-        840 => CycleKind::Tap,
-        740 => CycleKind::LTap,
-        850 | 890 => CycleKind::Ream,
-        860 => CycleKind::Bore,
-        760 => {
+    let kind = match hole.cycle.motions {
+        Motions::Drill if hole.cycle.dwells => CycleKind::Face,
+        Motions::Drill => CycleKind::Drill,
+        Motions::Peck => CycleKind::Deep,
+        Motions::Chipbreak => CycleKind::Chipbreak,
+        Motions::Tap => CycleKind::Tap,
+        Motions::LeftTap => CycleKind::LTap,
+        Motions::FeedOut => CycleKind::Ream,
+        Motions::StopOut => CycleKind::Bore,
+        Motions::ShiftOut => {
             let help = "write the bore by hand, with `orient`, `offset` and the side";
-            return unsaid(line, "G76: to which side it leaves the wall is a parameter of the control", help);
+            let code = hole.cycle.code;
+            let message = format!("{code}: to which side it leaves the wall is a parameter of the control");
+            return unsaid(line, message, help);
         }
-        code => {
-            let message = format!("{} has no cycle of a job that does the same", Name(code));
+        Motions::Back | Motions::ByHand => {
+            let message = format!("{} has no cycle of a job that does the same", hole.cycle.code);
             return unsaid(line, message, "program its moves, or write the job by hand");
         }
     };

@@ -4,6 +4,7 @@ use super::cycles::{hole_of, is_same, spec_of};
 use super::fault::{Done, unsaid};
 use super::pattern::Pattern;
 use super::reader::Reader;
+use crate::control::Motions;
 use crate::nc::action::{Action, Drilling, Heights, Position, Rotation};
 use crate::toolpath::{Event, First, Plane};
 
@@ -26,7 +27,12 @@ impl Reader<'_> {
     pub(super) fn settle_way(&mut self, action: &Action) -> Done {
         let leads = matches!(
             action,
-            Action::Rapid { .. } | Action::Hole(_) | Action::CycleOff | Action::Length(_) | Action::LeftOut(..)
+            Action::Rapid { .. }
+                | Action::Hole(_)
+                | Action::CycleOff
+                | Action::Length(_)
+                | Action::LeftOut(..)
+                | Action::BlockDelete
         );
         match &self.cycle {
             Some(pattern) if !leads && !pattern.way.is_empty() => self.end_cycle(),
@@ -48,9 +54,11 @@ impl Reader<'_> {
         }
         self.low_approach(hole)?;
         // a rigid tap turns the spindle its own way
-        match hole.code {
-            840 if !self.wanted.turns() => self.wanted.rotation = Some(Rotation::Cw),
-            740 if self.wanted.rotation != Some(Rotation::Ccw) => self.wanted.rotation = Some(Rotation::Ccw),
+        match hole.cycle.motions {
+            Motions::Tap if !self.wanted.turns() => self.wanted.rotation = Some(Rotation::Cw),
+            Motions::LeftTap if self.wanted.rotation != Some(Rotation::Ccw) => {
+                self.wanted.rotation = Some(Rotation::Ccw)
+            }
             _ => {}
         }
         let goes_on = !self.operation && !self.rigid && self.turning.is_none() && self.said == self.wanted;

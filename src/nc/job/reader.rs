@@ -6,6 +6,7 @@ use super::options::JobOptions;
 use super::pattern::Pattern;
 use super::survey::Survey;
 use super::switches::Switches;
+use crate::control::Meaning;
 use crate::diag::{Code, Diag, Location};
 use crate::lang::Machine;
 use crate::nc::action::{Action, Item, Position, Turn};
@@ -184,7 +185,7 @@ impl<'a> Reader<'a> {
                 self.plane = *plane;
                 Ok(())
             }
-            Action::LeftOut(b'M', 290) => {
+            Action::LeftOut(_, Meaning::RigidAhead) => {
                 self.rigid = true;
                 Ok(())
             }
@@ -196,7 +197,12 @@ impl<'a> Reader<'a> {
                 let text = block.get(*start..*end).unwrap_or_default();
                 self.comment(String::from_utf8_lossy(text).trim())
             }
-            Action::Units(_) | Action::Length(_) | Action::End | Action::LeftOut(..) | Action::SpeedLimit(_) => Ok(()),
+            Action::Units(_)
+            | Action::Length(_)
+            | Action::End
+            | Action::LeftOut(..)
+            | Action::BlockDelete
+            | Action::SpeedLimit(_) => Ok(()),
         }
     }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::fault::{refused, unsaid, warning};
 use super::options::JobOptions;
+use crate::control::{Code, Meaning};
 use crate::diag::Diag;
 use crate::nc::action::Action;
 use crate::nc::simulator::Simulator;
@@ -38,7 +39,7 @@ pub(super) fn survey(
     warnings: &mut Vec<Diag>,
 ) -> Result<Survey, ReadError> {
     let mut survey = Survey { registers: vec![Registers::default()], top: f64::NEG_INFINITY, ..Survey::default() };
-    let mut left_out: BTreeMap<(u8, u16), (u64, u64)> = BTreeMap::new();
+    let mut left_out: BTreeMap<Option<Code>, (u64, u64)> = BTreeMap::new();
     let mut items = Vec::new();
     // the register in force, and whether it was turned on for the tool before
     let (mut length, mut inherited) = (None, false);
@@ -123,11 +124,9 @@ pub(super) fn survey(
                     let line = item.line;
                     one(&mut survey.registers, |r| &mut r.diameter, *register, line, "diameter offsets, D")?;
                 }
-                // M29: the tap that follows is rigid
-                Action::LeftOut(b'M', 290) => {}
-                Action::LeftOut(letter, code) => {
-                    left_out.entry((*letter, *code)).or_insert((item.line, 0)).1 += 1;
-                }
+                Action::LeftOut(_, Meaning::RigidAhead) => {}
+                Action::LeftOut(code, _) => left_out.entry(Some(*code)).or_insert((item.line, 0)).1 += 1,
+                Action::BlockDelete => left_out.entry(None).or_insert((item.line, 0)).1 += 1,
                 _ => {}
             }
         }
@@ -141,11 +140,8 @@ pub(super) fn survey(
             survey.name = name.filter(|name| !name.is_empty());
         }
     }
-    for ((letter, code), (line, count)) in left_out {
-        let name = match letter {
-            b'/' => "block delete".to_owned(),
-            _ => format!("{}{}", char::from(letter), f64::from(code) / 10.0),
-        };
+    for (code, (line, count)) in left_out {
+        let name = code.map_or("block delete".to_owned(), |code| code.to_string());
         let times = if count > 1 { format!(", {count} times") } else { String::new() };
         let message = format!("{name}{times} has no place in a job and is left out");
         warnings.push(warning(line, message, "if the machine needs it, print it by the form"));

@@ -9,14 +9,14 @@ use std::io::{Read, Seek};
 pub(super) use doubt::Doubt;
 
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, place};
-use super::expectation::{Expectation, taps_by_m29};
+use super::expectation::{Expectation, taps_ahead};
 use super::finding::Finding;
 use super::passage::{Frame, Passage};
 use super::recent_lines::Recent;
 use super::scale::Scale;
 use super::unset::Due;
 use super::wire_codes::Codes;
-use crate::control::Control;
+use crate::control::{self, Control, Meaning, Motions};
 use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
@@ -69,7 +69,7 @@ impl<'a> Program<'a> {
             speed: Some(0.0),
             coolant: Some(Cooling::Off),
             work: settings.control.traits().work_letter.is_none().then_some(54.0),
-            rigid: taps_by_m29(settings.control).then_some(false),
+            rigid: taps_ahead(settings.control).then_some(false),
             ..State::default()
         };
         let start = Rapid { to: place(&[0.0; 6]), unknown: 0b111, spin: None };
@@ -292,7 +292,7 @@ impl<'a> Program<'a> {
             }
             Action::Stop(kind) => self.stop(*kind, item),
             // Grbl reads M1 and goes on, as other controls do with their switch off
-            Action::LeftOut(b'M', 10) => self.stop(StopKind::Optional, item),
+            Action::LeftOut(_, Meaning::StopOptional) => self.stop(StopKind::Optional, item),
             Action::Spindle(rotation, speed) => {
                 if !item.by_cycle {
                     self.before_tap = None;
@@ -321,7 +321,7 @@ impl<'a> Program<'a> {
             Action::SpeedLimit(limit) => self.state.limit = Some(*limit),
             Action::Plane(plane) => self.state.plane = *plane,
             Action::Frame if self.simulator.state().frame_unknown() != 0 => {} // reported at the first move in it
-            Action::Frame | Action::LeftOut(b'G', 100) => {
+            Action::Frame | Action::LeftOut(_, Meaning::SetOffsets) => {
                 let message = "the program moves its coordinate frame: the job's places lie elsewhere then";
                 self.hazard(Code::PV021, item.line, message, "take G10, G52 or G92 out");
             }
@@ -336,9 +336,10 @@ impl<'a> Program<'a> {
             }
             Action::Hole(hole) => {
                 self.cycle = true;
-                if let 740 | 840 = hole.code {
+                let motions = hole.cycle.motions;
+                if motions.taps() {
                     self.before_tap.get_or_insert(self.state.rotation);
-                    self.state.taps(if hole.code == 840 { Rotation::Cw } else { Rotation::Ccw });
+                    self.state.taps(if motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw });
                 } else if self.state.into_tap.is_some() {
                     self.state.into_tap = None;
                 }
@@ -362,12 +363,13 @@ impl<'a> Program<'a> {
                 }
             }
             Action::Coolant(cooling) => self.state.coolant = Some(*cooling),
-            Action::LeftOut(letter, tenths) => {
-                if self.wire.iter().any(|(_, codes)| codes.contains(&(*letter, *tenths))) {
-                    let mark = self.passage.mark((*letter, *tenths), item.line, toolpath::Place::default());
+            Action::LeftOut(code, meaning) => {
+                let coded = (code.letter, code.tenths);
+                if self.wire.iter().any(|(_, codes)| codes.contains(&coded)) {
+                    let mark = self.passage.mark(coded, item.line, toolpath::Place::default());
                     self.passage.does.push(mark);
                 }
-                self.left_out(*letter, *tenths);
+                self.left_out(*code, *meaning);
             }
             _ => {}
         }
@@ -471,15 +473,15 @@ impl<'a> Program<'a> {
     }
 
     /// A code that is not simulated may be the form's own for coolant, or make the next tap rigid.
-    fn left_out(&mut self, letter: u8, tenths: u16) {
-        self.passage.codes.push((letter, tenths));
-        if letter != b'M' {
-            return;
-        }
-        if tenths == 290 && self.state.rigid.is_some() {
+    fn left_out(&mut self, code: control::Code, meaning: Meaning) {
+        self.passage.codes.push((code.letter, code.tenths));
+        if meaning == Meaning::RigidAhead && self.state.rigid.is_some() {
             self.state.rigid = Some(true);
         }
-        let [on, off, mist] = self.coolant.map(|code| code * 10.0 == f64::from(tenths));
+        if code.letter != b'M' {
+            return;
+        }
+        let [on, off, mist] = self.coolant.map(|own| own == code.value());
         let cooling = [(on, Cooling::Flood), (off, Cooling::Off), (mist, Cooling::Mist)];
         if let Some((_, cooling)) = cooling.into_iter().find(|(is, _)| *is) {
             self.state.coolant = Some(cooling);

@@ -11,7 +11,7 @@ use super::code::Code;
 use super::hole::Hole;
 use super::key::{ABSENT, Key};
 use super::meaning::Meaning;
-use super::runs::{Motions, Runs, WorkOffset};
+use super::runs::{Motions, Pitch, PitchUnit, Runs, WorkOffset};
 use super::traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, Turns, WithoutPoint};
 use super::words::Words;
 use super::{Control, Row, Rows};
@@ -53,6 +53,8 @@ struct File {
     rules: Option<Rules>,
     machine: Option<Turns>,
     complete: Option<bool>,
+    /// Sentences for its page.
+    unknown: Option<Vec<String>>,
     #[serde(default)]
     numbers: Numbers,
     #[serde(default)]
@@ -182,7 +184,8 @@ struct RowText {
     is: Spanned<String>,
     words: Option<Spanned<String>>,
     makes: Option<Spanned<String>>,
-    pitch: Option<Spanned<String>>,
+    /// `"Q"`, or `{ I = "mm", J = "per-inch" }`.
+    pitch: Option<Spanned<toml::Value>>,
     text: Option<String>,
     not_run: Option<String>,
     only: Option<Spanned<String>>,
@@ -192,6 +195,7 @@ struct RowText {
     point: Option<Spanned<u8>>,
     #[serde(default)]
     by_diameter: bool,
+    speed_out: Option<Spanned<String>>,
 }
 
 /// Finds the control that a file is like, which is so deep in its chain.
@@ -233,6 +237,8 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
     };
     control.chain.insert(0, file.name.get_ref().clone());
     control.title = file.title.clone().unwrap_or(control.title);
+    // what is not known of the one that it is like, its own rows may say
+    control.unknown = file.unknown.clone().unwrap_or_default();
     reader.traits(&file, &mut control.traits)?;
     reader.rows(&file.codes, &mut control.rows)?;
     if !control.is_run() {
@@ -307,6 +313,29 @@ impl Reader<'_> {
         }
     }
 
+    /// The words of a tap's pitch.
+    fn pitch(&self, said: &Spanned<toml::Value>) -> Result<Vec<Pitch>, Wrong> {
+        let wrong = || {
+            let help = "write pitch = \"Q\", or pitch = { I = \"mm\", J = \"per-inch\" }";
+            self.wrong(said.span().start, "no letter of a word, and no letters with what they count", help)
+        };
+        let letter = |text: &str| match text.as_bytes() {
+            [letter @ b'A'..=b'Z'] => Ok(*letter),
+            _ => Err(wrong()),
+        };
+        match said.get_ref() {
+            toml::Value::String(text) => Ok(vec![Pitch { letter: letter(text)?, unit: PitchUnit::Turn }]),
+            toml::Value::Table(units) => {
+                let pitch = |(name, unit): (&String, &toml::Value)| {
+                    let unit = unit.clone().try_into().map_err(|_| wrong())?;
+                    Ok(Pitch { letter: letter(name)?, unit })
+                };
+                units.iter().map(pitch).collect()
+            }
+            _ => Err(wrong()),
+        }
+    }
+
     /// The holes that a cycle makes.
     fn holes(&self, text: &Spanned<String>) -> Result<Vec<Hole>, Wrong> {
         let parse = |word: &str| {
@@ -346,7 +375,7 @@ impl Reader<'_> {
             }
             let words = row.words.as_ref().map_or(Ok(Words::NONE), |words| self.words(words))?;
             let makes = row.makes.as_ref().map_or(Ok(Vec::new()), |makes| self.holes(makes))?;
-            let pitch = row.pitch.as_ref().map(|letter| self.letter(letter)).transpose()?;
+            let pitch = row.pitch.as_ref().map_or(Ok(Vec::new()), |pitch| self.pitch(pitch))?;
             let (code, text) = (Code { letter: b'G', tenths: 0 }, row.text.clone().unwrap_or_default());
             let only = row.only.as_ref().map_or(Ok(Vec::new()), |only| self.values(only))?;
             let (not_run, stops_spindle) = (row.not_run.clone(), row.stops_spindle.unwrap_or(false));
@@ -408,7 +437,8 @@ impl Reader<'_> {
             }
             Some(at) => Some(*at.get_ref()),
         };
-        Ok(Runs { motions, work, point, by_diameter: row.by_diameter })
+        let speed_out = row.speed_out.as_ref().map(|letter| self.letter(letter)).transpose()?;
+        Ok(Runs { motions, work, point, speed_out, by_diameter: row.by_diameter })
     }
 
     /// Words with their values, as `P0 P10000`.

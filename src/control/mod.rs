@@ -21,7 +21,7 @@ pub use code::Code;
 pub use file::Wrong;
 pub use hole::Hole;
 pub use meaning::{AxisWords, Frame, GROUPS, Group, Meaning};
-pub use runs::{Motions, Runs, WorkOffset};
+pub use runs::{Motions, Pitch, PitchUnit, Runs, WorkOffset};
 pub use traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, Turns, WithoutPoint};
 pub use words::Words;
 
@@ -32,6 +32,8 @@ pub struct Control {
     chain: Vec<String>,
     /// Title of the control.
     title: String,
+    /// What nothing public says of it, in sentences.
+    unknown: Vec<String>,
     traits: Traits,
     rows: Rows,
 }
@@ -47,8 +49,8 @@ pub struct Row {
     pub words: Words,
     /// The holes that it makes; none: it is no canned cycle.
     pub makes: Vec<Hole>,
-    /// The letter of the pitch of a tap; its F is then a speed. `None`: the feed says the pitch.
-    pub pitch: Option<u8>,
+    /// The words that say the pitch of a tap; none: the feed says it.
+    pub pitch: Vec<Pitch>,
     /// More about it.
     pub text: String,
     /// Why it can't be run, though its meaning is known.
@@ -130,7 +132,7 @@ macro_rules! shipped {
     };
 }
 
-shipped! { "fanuc" "fanuc-lathe" "fanuc-wire" "haas" "haas-lathe" "fadal" "linuxcnc" "emc2" "grbl" "pathpilot" }
+shipped! { "fanuc" "fanuc-lathe" "fanuc-wire" "haas" "haas-lathe" "fadal" "mazak" "brother" "mitsubishi" "siemens-iso" "linuxcnc" "emc2" "grbl" "pathpilot" }
 
 /// Does a control's name mean a file that describes it?
 pub fn is_file(name: &str) -> bool {
@@ -198,7 +200,13 @@ impl Control {
     }
 
     fn empty() -> Control {
-        Control { chain: Vec::new(), title: String::new(), traits: Traits::default(), rows: Rows::default() }
+        Control {
+            chain: Vec::new(),
+            title: String::new(),
+            unknown: Vec::new(),
+            traits: Traits::default(),
+            rows: Rows::default(),
+        }
     }
 
     /// The lathe of the same maker, where a file describes one: forms of lathes name it as they name the mill.
@@ -249,6 +257,11 @@ impl Control {
     /// Title of the control, for people.
     pub fn title(&self) -> &str {
         &self.title
+    }
+
+    /// What nothing public says of it, in sentences: a program that depends on it is refused.
+    pub fn unknown(&self) -> &[String] {
+        &self.unknown
     }
 
     /// Is it this control, or like it?

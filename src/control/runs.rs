@@ -111,6 +111,27 @@ impl WorkOffset {
     }
 }
 
+/// What the word of a tap's pitch counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PitchUnit {
+    /// The distance of one turn in the program's units; F is then the turns a minute.
+    Turn,
+    /// The distance of one turn in millimetres, in programs in millimetres alone; S turns.
+    Mm,
+    /// Threads an inch, in programs in inches alone; S turns.
+    PerInch,
+}
+
+/// A word that says the pitch of a tap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pitch {
+    /// Its letter.
+    pub letter: u8,
+    /// What it counts.
+    pub unit: PitchUnit,
+}
+
 /// What a row says for the simulator alone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Runs {
@@ -120,6 +141,8 @@ pub struct Runs {
     pub work: Option<WorkOffset>,
     /// Which reference point it means: 1 as G28, 2 as G30.
     pub point: Option<u8>,
+    /// The word of a tap that says how fast the spindle turns on the way out; L is then no number of repeats.
+    pub speed_out: Option<u8>,
     /// D of a compensation is a diameter, and no register.
     pub by_diameter: bool,
 }

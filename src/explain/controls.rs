@@ -120,6 +120,7 @@ pub fn text(control: &Control) -> String {
         text += &format!("  {:<36} {}\n", "what its file does not say is as in", like.join(", "));
     }
     facts(control).iter().for_each(|(name, fact)| text += &format!("  {name:<36} {fact}\n"));
+    control.unknown().iter().for_each(|fact| text += &format!("  {:<36} {fact}\n", "not known"));
     text += "\n";
     for row in control.rows() {
         text += &format!("  {:<8} {:<10} {}\n", row.code.to_string(), letters(row.words), about(row));
@@ -136,6 +137,7 @@ pub fn page(control: &Control) -> String {
     );
     text += "\n| | |\n| --- | --- |\n";
     facts(control).iter().for_each(|(name, fact)| text += &format!("| {name} | {fact} |\n"));
+    control.unknown().iter().for_each(|fact| text += &format!("| not known | {fact} |\n"));
     text += "\n| code | words | means |\n| --- | --- | --- |\n";
     for row in control.rows() {
         text += &format!("| {} | {} | {} |\n", row.code, letters(row.words), about(row).replace('|', "\\|"));

@@ -8,9 +8,9 @@ use super::fault::{Done, refuse};
 use super::holes::{Series, Work};
 use super::out::Out;
 use super::state::State;
-use crate::control::{Motions, Row};
+use crate::control::{Motions, PitchUnit, Row};
 use crate::diag::Code;
-use crate::toolpath::FeedMode;
+use crate::toolpath::{FeedMode, Units};
 
 impl State {
     /// A cycle code: the series begins at the tool's height unless one is running.
@@ -41,8 +41,10 @@ impl State {
             let help = "write R and Z in the cycle's first block";
             return refuse(Code::PN007, format!("{} without its {what}", row.code), help);
         };
-        self.check_fanuc_cycle(cycle, r, bottom)?;
-        let times = match block.get(b'K').filter(|_| !motions.shifts()).or(block.get(b'L')) {
+        let by_pitch = self.tap_by_pitch(row)?;
+        self.check_fanuc_cycle(cycle, r, bottom, by_pitch.is_some())?;
+        let own = |letter: u8| block.get(letter).filter(|_| row.runs.speed_out != Some(letter));
+        let times = match own(b'K').filter(|_| !motions.shifts()).or(own(b'L')) {
             None => 1,
             Some(times) if times.fract() == 0.0 && (0.0..=9999.0).contains(&times) => times as u32,
             Some(times) => return refuse(Code::PN018, format!("{times} is no number of repeats"), "write K1 to K9999"),
@@ -52,7 +54,7 @@ impl State {
             _ if self.modes.to_initial => series.initial.max(r),
             _ => r,
         };
-        let (feed, peck) = self.tap_by_pitch(row).unwrap_or((self.drive.feed, series.peck.unwrap_or(0.0)));
+        let (feed, peck) = by_pitch.unwrap_or((self.drive.feed, series.peck.unwrap_or(0.0)));
         let hole = Drilling {
             cycle,
             at: self.place.position,
@@ -76,11 +78,32 @@ impl State {
         self.make_holes(block, out)
     }
 
-    /// The feed of a tap whose pitch has a word of its own, and no pecks: its F counts the turns. Without that word it is a tap
-    /// like any other.
-    fn tap_by_pitch(&self, row: &Row) -> Option<(f64, f64)> {
-        let pitch = self.holes.series.peck.filter(|pitch| row.pitch == Some(b'Q') && *pitch > 0.0)?;
-        Some((pitch * self.drive.feed, 0.0))
+    /// Feed and peck of a tap whose pitch has a word of its own. `None`: it has none here, and is a tap like any other.
+    fn tap_by_pitch(&self, row: &Row) -> Done<Option<(f64, f64)>> {
+        let kept = |letter: u8| match letter {
+            b'Q' => self.holes.series.peck,
+            _ => CENTERS.iter().position(|own| *own == letter).and_then(|axis| self.holes.series.shift[axis]),
+        };
+        let said = row.pitch.iter().find_map(|pitch| Some((pitch, kept(pitch.letter).filter(|value| *value > 0.0)?)));
+        let Some((pitch, value)) = said else { return Ok(None) };
+        let peck = self.holes.series.peck.filter(|_| pitch.letter != b'Q').unwrap_or(0.0);
+        let units = if pitch.unit == PitchUnit::PerInch { Units::Inch } else { Units::Mm };
+        if pitch.unit != PitchUnit::Turn && units != self.modes.units {
+            let (letter, units) =
+                (char::from(pitch.letter), if units == Units::Inch { "inches" } else { "millimetres" });
+            let message = format!("{} takes {letter} in programs in {units} alone", row.code);
+            return refuse(Code::PN018, message, "write the pitch by the word for these units");
+        }
+        Ok(Some(match pitch.unit {
+            PitchUnit::Turn => (value * self.drive.feed, peck),
+            PitchUnit::Mm => (self.by_turns(value), peck),
+            PitchUnit::PerInch => (self.by_turns(1.0 / value), peck),
+        }))
+    }
+
+    /// The feed of so much a turn, in the unit of the feed mode.
+    fn by_turns(&self, pitch: f64) -> f64 {
+        if self.modes.feed_mode == FeedMode::PerRev { pitch } else { pitch * self.drive.speed }
     }
 
     /// Keeps the words of a block for the holes of the series; `depth` is the letter of the axis across the plane.
@@ -107,7 +130,7 @@ impl State {
     }
 
     /// Refuses a cycle that can't run as the control stands, or between these heights.
-    fn check_fanuc_cycle(&self, cycle: Cycle, r: f64, bottom: f64) -> Done {
+    fn check_fanuc_cycle(&self, cycle: Cycle, r: f64, bottom: f64, has_feed: bool) -> Done {
         if self.tool.side.is_some() {
             return refuse(
                 Code::PN013,
@@ -118,7 +141,7 @@ impl State {
         if self.modes.feed_mode == FeedMode::InverseTime {
             return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before it");
         }
-        if self.drive.feed == 0.0 {
+        if self.drive.feed == 0.0 && !has_feed {
             return refuse(Code::PN008, "a canned cycle without a feed", "write F with it");
         }
         if cycle.motions.shifts() && self.holes.series.peck.is_some_and(|q| q < 0.0) {

@@ -382,6 +382,8 @@ fn a_row_that_lacks_something_is_not_run_and_says_what() {
             "\"feed\"",
             "`feed` are no motions of a cycle",
         ),
+        ("\"G77\" = { is = \"cycle\", makes = \"tap\", pitch = { I = \"inch\" } }", "{ I", "no letter of a word"),
+        ("\"G77\" = { is = \"cycle\", makes = \"tap\", pitch = \"IJ\" }", "\"IJ\"", "no letter of a word"),
         ("\"G54\" = { is = \"work\", work = \"G53\" }", "\"G53\"", "`G53` is no work offset"),
         ("\"G28\" = { is = \"reference\", point = 3 }", "3 }", "there are two reference points"),
         ("\"G28\" = { is = \"rapid\", point = 1 }", "1 }", "`point` is of reference points"),
@@ -522,4 +524,69 @@ fn an_address_with_its_value_is_part_of_its_move() {
     let after = program.lines().skip_while(|line| !line.contains("I=AC(10) J=AC(0)")).nth(1).unwrap_or_default();
     assert!(after.ends_with("G1 X90."), "{program}\n{}", err(&render));
     assert!(err(&render).contains("in the language of Siemens controls"), "{}", err(&render));
+}
+
+/// What a control says of a program, or what it refuses.
+fn simulated(folder: &Folder, control: &str, program: &str) -> Result<String, String> {
+    folder.write("program.nc", program);
+    let run = folder.run(&["simulate", "program.nc", "--control", control, "--format", "json"]);
+    if run.status.success() { Ok(out(&run)) } else { Err(err(&run)) }
+}
+
+/// G77 of a Brother: I is the pitch in a program in millimetres, J the threads an inch in one in inches; L is a speed, and no
+/// number of repeats.
+#[test]
+fn a_brother_taps_by_its_pitch() {
+    let folder = Folder::new("own_control_brother");
+    let mm =
+        "%\nG21 G90 G94\nT1 M6\nG0 G43 H1 Z50.\nG0 X0 Y0 S800 M3\nG98 G77 X1. Y1. Z-9. R2. I1.25 L3000\nG80\nM30\n%\n";
+    let tap = simulated(&folder, "brother", mm).unwrap();
+    // 800 turns of 1.25 mm
+    let fanuc = mm.replace("G77", "G84").replace("I1.25 L3000", "F1000.");
+    assert!(tap.contains("\"feed\":[1,1,-9,0,0,0],\"f\":1000}"), "{tap}");
+    assert_eq!(tap, simulated(&folder, "fanuc", &fanuc).unwrap());
+    // 16 threads an inch at 400 turns: 25 inches a minute
+    let inch = mm.replace("G21", "G20").replace("S800", "S400").replace("I1.25", "J16.");
+    let tap = simulated(&folder, "brother", &inch).unwrap();
+    assert!(tap.contains("\"feed\":[1,1,-9,0,0,0],\"f\":25}"), "{tap}");
+    for (wrong, said) in [
+        (mm.replace("I1.25", "J20."), "G77 takes J in programs in inches alone"),
+        (inch.replace("J16.", "I1.25"), "G77 takes I in programs in millimetres alone"),
+        (mm.replace("I1.25 ", ""), "a canned cycle without a feed"),
+        (mm.replace("L3000", "K2"), "K is there, and no code that uses it"),
+    ] {
+        let refused = simulated(&folder, "brother", &wrong).unwrap_err();
+        assert!(refused.contains(said), "{wrong}{refused}");
+    }
+}
+
+/// Where nothing public says how a control repeats a cycle, what a number without a point counts, or what a word means, a program
+/// that depends on it is refused.
+#[test]
+fn what_nothing_public_says_is_not_run() {
+    let folder = Folder::new("own_control_unsaid");
+    let head = "%\nG21 G90 G94\nT1 M6\nG0 G43 H1 Z50.\nS800 M3\n";
+    let program = |block: &str| format!("{head}{block}\nG80\nM30\n%\n");
+    let drill = program("G98 G83 X1. Y1. Z-9. R2. Q2. F100.");
+    for control in ["mazak", "brother", "mitsubishi", "siemens-iso"] {
+        let [own, fanuc] = [control, "fanuc"].map(|control| simulated(&folder, control, &drill).unwrap());
+        assert_eq!(own.replace(control, "fanuc"), fanuc, "{control}");
+    }
+    for (control, block, said) in [
+        ("mazak", "G98 G83 X1. Y1. Z-9. R2. Q2. F100. K3", "K is there"),
+        ("mazak", "G84.2 X1. Y1. Z-9. R2. F1.25", "G84.2 is not run"),
+        ("mitsubishi", "G81 X1. Y1. Z-9. R2. F100. L2", "L is there"),
+        ("brother", "G81 X1. Y1. Z-9. R2. F100. L2", "L is there"),
+        ("brother", "G100 T2 X1. Y1. G43 Z5. H2", "G100 is not run"),
+        ("siemens-iso", "G290", "G290 is not run"),
+    ] {
+        let refused = simulated(&folder, control, &program(block)).unwrap_err();
+        assert!(refused.contains(said), "{control} {block}: {refused}");
+    }
+    // a dwell of a Brother counts seconds
+    let dwell = |control: &str| simulated(&folder, control, &program("G4 P2")).unwrap();
+    assert!(
+        dwell("brother") != dwell("mazak")
+            && dwell("mazak").replace("mazak", "") == dwell("fanuc").replace("fanuc", "")
+    );
 }

@@ -39,7 +39,7 @@ fn slips_in_forms() {
         (changed("\nEndCode", "\nUpon [coolant]\nM[cool]\nEnd\n\nEndCode"), ["PF202", "it is called `cool`"]),
         (changed("X->4.>4", "X 1.4"), ["PF305", "`X->4.>4` has up to four digits before the point"]),
         (changed("End Cancel", "End; Cancel"), ["PF002", "write `End Cancel`"]),
-        (changed("Control haas", "Control mazak"), ["PF302", "much like `fanuc`"]),
+        (changed("Control haas", "Control hurco"), ["PF302", "much like `fanuc`"]),
         (changed("M6\n", "M6 ; change\n"), ["PF110", "begins with ` #`"]),
         (changed("Z[d] M[cool]\n", "Z[d] M cool\n"), ["PF112", "write `M[cool]`"]),
         (changed("Z[d] M[cool]\n", "Z[d] [frate*0.5]\n"), ["PF112", "write the letter before it"]),

@@ -1,5 +1,6 @@
 //! PF313: a feed letter that prints a speed, a speed letter that prints a feed: `F[speed]`.
 
+use crate::control::PitchUnit;
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, Unit, VarId};
 use crate::lint::view::View;
@@ -50,7 +51,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 fn taps_by_pitch(view: &View, line: &Line) -> bool {
     let words = &line.words;
     let codes = view.settings.codes();
-    let taps = |code| codes.row(code).is_some_and(|row| row.pitch.is_some());
+    let taps = |code| codes.row(code).is_some_and(|row| row.pitch.iter().any(|pitch| pitch.unit == PitchUnit::Turn));
     words.iter().filter_map(Word::code).any(taps) && words.iter().any(|word| word.printed_var() == Some(VarId::Pitch))
 }
 

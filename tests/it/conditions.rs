@@ -521,3 +521,39 @@ fn directives_that_lie_too_deep_cost_no_time() {
         assert!(codes(&form("", &text)).contains(&"PF707"), "{open} {levels}");
     }
 }
+
+/// What a line of the form sets otherwise than the job wants is set again before the next cut, and what it sets
+/// alike is not said twice.
+#[test]
+fn what_a_line_sets_is_said_again_as_the_job_wants_it() {
+    let between = |head: &str, tool: [&str; 2], row: &str, items: &str| {
+        let form = mill(head, &format!("BeginRow\n{row}\nEnd")).replace(tool[0], tool[1]);
+        let path = format!("{items}{{\"begin\":\"row\"}},{{\"line\":[1,0,1]}},{{\"end\":\"row\"}}");
+        let printed = program(&form, &job(&path));
+        let at = printed.iter().position(|line| line.starts_with("G0 ")).unwrap();
+        printed[at + 1..printed.len() - 1].join(" | ")
+    };
+    let same = ["T[tool]", "T[tool]"];
+    let off = "{\"spindle\":{\"direction\":\"off\"}},{\"rapid\":[1,1,1]},";
+    let table = [
+        ("", same, "S300", "", "S300 | S1000 M3 | "),
+        ("", same, "S[300+0]", "", "S300 | S1000 M3 | "),
+        ("", same, "S[speed]", "", "S1000 | "),
+        // the form's own speed is over where a line prints the job's
+        ("", ["S[speed] M", "S700 M"], "S[speed]", "", "S1000 | "),
+        ("", same, "M5", "", "M5 | S1000 M3 | "),
+        ("", same, "M4", "", "M4 | S1000 M3 | "),
+        ("", same, "G55", "", "G55 | G54 | "),
+        ("", ["G[work]", "G54.1 P[work]"], "G54.1 P2", "", "G54.1 P2 | G54.1 P54 | "),
+        ("Control haas", same, "M88", "", "M88 | S1000 M3 | "),
+        ("Control haas", same, "M88", off, "M5 | G0 X1. Y1. | M88 | G1 Y0 F10."),
+        // the letter of the speed counts the dwell: the speed is unknown after it
+        ("Dwell G4 S s", same, "(ROW)", "{\"dwell\":2},", "G4 S2 | (ROW) | S1000 M3 | "),
+        ("Dwell G4 P s", same, "(ROW)", "{\"dwell\":2},", "G4 P2 | (ROW) | "),
+    ];
+    for (head, tool, row, items, printed) in table {
+        let lines = between(head, tool, row, items);
+        let after = lines.strip_prefix(printed).unwrap_or_else(|| panic!("{row} {items}: {lines}"));
+        assert!(!after.contains(['S', 'M']), "{row} {items}: {lines}");
+    }
+}

@@ -120,6 +120,10 @@ fn several_kinds_are_on_at_once() {
     assert_eq!(change("air,through", "\"air\""), ["M12", "M88", "M89", "M9"]);
     assert_eq!(change("through,air", "\"through\""), ["M88", "M12", "M9", "M88", "M89"]);
     assert_eq!(change("through,air", "\"off\""), ["M88", "M12", "M9", "M89", "M9"]);
+    // a kind beside the first is a change of the coolant, for the form's own words too
+    let own = format!("{ends}CoolantChange\n(COOLANT)\nM[cool]\nEnd\n");
+    let beside = list(&[(1, "through", &path("{\"coolant\":[\"through\",\"air\"]}"))]);
+    assert_eq!(program(&own, &beside)[6..9], ["(COOLANT)", "M88", "M12"]);
     // before another tool
     assert_eq!(
         print(&[(1, "on", LINE), (2, "air,through", LINE), (1, "off", LINE)]),

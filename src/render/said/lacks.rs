@@ -49,10 +49,12 @@ impl Said {
         }
     }
 
-    /// A word of this letter was the parameter of a code: was it the speed, which is unknown then?
+    /// A word of this letter was the parameter of a code: if that is the speed's, the speed is unknown, and said again
+    /// before the next move.
     pub fn parameter_of_code(&mut self, letter: u8, shape: &Shape) {
         if letter == shape.program.settings.speed_code {
             self.conditions.put(VarId::Speed, None);
+            self.differs = true;
         }
     }
 

@@ -1,6 +1,6 @@
 //! How a form prints a work offset: by G codes, by words of its own, whose values may be calculated, or after a text.
 
-use crate::control::{Code, Control, Group};
+use crate::control::{Code, Control, Group, WorkOffset};
 use crate::lang::{VarId, additional_work};
 use crate::sema::{Formula, Values};
 
@@ -54,7 +54,7 @@ impl WorkWords {
     /// What a program calls the offset that the form prints so: its code, its number, or the name of an additional one.
     pub fn name(&self, values: &dyn Values, control: &Control) -> Option<f64> {
         let (way, value) = self.way(values, control)?;
-        Some(if way.is_parameter(control) { additional_work(value) } else { value })
+        Some(if way.is_additional(control) { additional_work(value) } else { value })
     }
 }
 
@@ -62,6 +62,12 @@ impl WorkWord {
     /// Is it the parameter of a code that selects additional offsets?
     fn is_parameter(&self, control: &Control) -> bool {
         !self.is_code && self.code.is_some_and(|code| control.group(code) == Some(Group::Work))
+    }
+
+    /// Is it the parameter of a code that selects offsets beside those that have codes of their own?
+    fn is_additional(&self, control: &Control) -> bool {
+        let row = self.code.and_then(|code| control.row(code));
+        self.is_parameter(control) && !matches!(row.and_then(|row| row.runs.work), Some(WorkOffset::Counted(_)))
     }
 
     /// Does the control have such an offset, as far as that is known?

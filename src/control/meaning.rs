@@ -143,6 +143,9 @@ meanings! {
     Work             "work"              Some(G::Work), Free,     "positions count from another work offset";
     ToInitial        "to-initial"        Some(G::Return), Free,   "cycles return to the initial level";
     ToR              "to-r"              Some(G::Return), Free,   "cycles return to the R plane";
+    ToLevel          "to-level"          Some(G::Return), Free,   "cycles return to the level that a code of its own says";
+    ToTop            "to-top"            Some(G::Return), Free,   "cycles return to the upper end of the axis";
+    ReturnLevel      "return-level"      None,            Data,   "says the level to which cycles return";
     LengthOn         "length-on"         Some(G::Length), Free,   "the tool's length counts";
     LengthMinus      "length-minus"      Some(G::Length), Free,   "the tool's length counts the other way";
     LengthAdd        "length-add"        Some(G::Length), Free,   "another length is added to the tool's";

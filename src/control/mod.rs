@@ -132,7 +132,7 @@ macro_rules! shipped {
     };
 }
 
-shipped! { "fanuc" "fanuc-lathe" "fanuc-wire" "haas" "haas-lathe" "fadal" "mazak" "brother" "mitsubishi" "siemens-iso" "linuxcnc" "emc2" "grbl" "pathpilot" }
+shipped! { "fanuc" "fanuc-lathe" "fanuc-wire" "haas" "haas-lathe" "fadal" "mazak" "brother" "mitsubishi" "siemens" "siemens-iso" "heidenhain" "okuma" "linuxcnc" "emc2" "grbl" "pathpilot" }
 
 /// Does a control's name mean a file that describes it?
 pub fn is_file(name: &str) -> bool {
@@ -311,12 +311,24 @@ impl Control {
 
     /// Does it run programs as NIST's interpreter does, from which LinuxCNC, its predecessors and Grbl come?
     pub fn is_linuxcnc(&self) -> bool {
-        !matches!(self.traits.rules, Rules::Fanuc | Rules::None)
+        self.traits.rules.is_nist()
     }
 
     /// Are its programs run? Not where its file has `rules = "none"`.
     pub fn is_run(&self) -> bool {
         self.traits.rules != Rules::None
+    }
+
+    /// Are its programs words of letters with numbers, G codes among them? Forms of another language print what they say: no
+    /// rule of codes looks at them.
+    pub fn prints_codes(&self) -> bool {
+        !matches!(self.traits.rules, Rules::None | Rules::Klartext | Rules::Siemens)
+    }
+
+    /// The work offset before a program says one, by its code; `None`: there is none, or which one is unknown.
+    pub fn first_work(&self) -> Option<f64> {
+        let codes = matches!(self.traits.rules, Rules::Fanuc | Rules::Linuxcnc | Rules::Emc2 | Rules::Grbl);
+        (codes && self.traits.work_letter.is_none()).then_some(54.0)
     }
 
     /// What the control knows of a code: the code's own row, else the row of its whole number, else the row of its

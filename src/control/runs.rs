@@ -67,6 +67,8 @@ pub enum WorkOffset {
     Additional(u16),
     /// An additional one, whose number the word of this letter says.
     Word(u8),
+    /// The one of a number that the word of this letter says; they count from 1, and there are no others.
+    Counted(u8),
 }
 
 /// The codes of the usual work offsets, in their order.
@@ -76,10 +78,13 @@ impl WorkOffset {
     /// Highest additional offset.
     pub const MOST: u16 = 99;
 
-    /// `G54`, `G59.1`, `G54.1 P7`, or the letter of a word: `P`. `None`: it is none of them.
+    /// `G54`, `G59.1`, `G54.1 P7`, or the letter of a word: `P`. or `number H` where they count from 1. `None`: it is none of them.
     pub fn parse(text: &str) -> Option<WorkOffset> {
         if let [letter @ b'A'..=b'Z'] = text.as_bytes() {
             return Some(WorkOffset::Word(*letter));
+        }
+        if let Some([letter @ b'A'..=b'Z']) = text.strip_prefix("number ").map(str::as_bytes) {
+            return Some(WorkOffset::Counted(*letter));
         }
         if let Some(number) = text.strip_prefix("G54.1 P") {
             let number = number.parse().ok().filter(|number| (1..=WorkOffset::MOST).contains(number))?;
@@ -100,7 +105,7 @@ impl WorkOffset {
                 let number = number.checked_add(count).filter(|number| *number <= WorkOffset::MOST)?;
                 Some(WorkOffset::Additional(number))
             }
-            WorkOffset::Word(_) => Some(self),
+            WorkOffset::Word(_) | WorkOffset::Counted(_) => Some(self),
         }
     }
 
@@ -143,7 +148,7 @@ pub struct Runs {
     pub point: Option<u8>,
     /// The word of a tap that says how fast the spindle turns on the way out; L is then no number of repeats.
     pub speed_out: Option<u8>,
-    /// D of a compensation is a diameter, and no register.
+    /// A compensation names no register: D is a diameter, or the tool has its own.
     pub by_diameter: bool,
 }
 
@@ -183,7 +188,7 @@ mod tests {
             [parse("G54").and_then(|first| first.after(9)), parse("G54.1 P99").and_then(|last| last.after(1))],
             [None; 2]
         );
-        assert_eq!(parse("P"), Some(WorkOffset::Word(b'P')));
+        assert_eq!([parse("P"), parse("number H")], [Some(WorkOffset::Word(b'P')), Some(WorkOffset::Counted(b'H'))]);
     }
 
     #[test]

@@ -18,8 +18,21 @@ pub enum Rules {
     Emc2,
     /// Grbl 1.1, as its own parser answers.
     Grbl,
+    /// Siemens 840D and 828D mills in their own language.
+    Siemens,
+    /// Heidenhain TNC in Klartext.
+    Klartext,
+    /// Okuma OSP mills.
+    Osp,
     /// Not at all: its language is not that of G codes, as Klartext. Forms print it, and no program is run or proven.
     None,
+}
+
+impl Rules {
+    /// Are programs run as by NIST's interpreter, from which LinuxCNC, its predecessors and Grbl come?
+    pub fn is_nist(self) -> bool {
+        matches!(self, Rules::Linuxcnc | Rules::Emc2 | Rules::Grbl)
+    }
 }
 
 /// What a length without a point counts.
@@ -63,6 +76,9 @@ pub enum ToolLength {
     /// By the register alone; a code may stand beside it.
     #[serde(rename = "H")]
     Register,
+    /// By calling the tool, or an edge of it: length and radius are the tool's own, and no register is named.
+    #[serde(rename = "tool")]
+    Tool,
     /// The control has no registers of lengths.
     #[serde(rename = "none")]
     None,

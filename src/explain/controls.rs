@@ -20,6 +20,9 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
         Rules::Linuxcnc => "as LinuxCNC runs them",
         Rules::Grbl => "as Grbl runs them",
         Rules::Emc2 => "as EMC2 runs them",
+        Rules::Siemens => "as a Siemens 840D runs them",
+        Rules::Klartext => "as a Heidenhain TNC runs them",
+        Rules::Osp => "as an Okuma OSP runs them",
         Rules::None => "not run: postform does not read their language",
     };
     let line = match (traits.longest_line, traits.stops_at_longer) {
@@ -47,6 +50,7 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
         ToolLength::CodeAndRegister => "by G43 with H",
         ToolLength::Code => "by G43, which is the tool's own without H",
         ToolLength::Register => "by H alone",
+        ToolLength::Tool => "by calling the tool, or an edge of it",
         ToolLength::None => "it has no registers of lengths",
     };
     let others = match traits.complete {

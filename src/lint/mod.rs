@@ -36,7 +36,7 @@ pub struct Found {
 pub fn lint(checked: &Checked, levels: &Levels) -> Found {
     let view = View::new(checked);
     let mut diags = checked.diags.clone();
-    let is_run = view.settings.control().is_run();
+    let is_run = view.settings.control().prints_codes();
     for rule in RULES.iter().filter(|rule| is_run || !rule.of_codes) {
         let from = diags.len();
         (rule.check)(&view, &mut diags);

@@ -67,7 +67,7 @@ impl State {
             return refuse(Code::PN009, message, "write the centre in the letters of the plane, or change the plane");
         }
         let turns = match block.get(b'P') {
-            None => 1.0,
+            None => f64::from(block.turns + 1),
             Some(p) if p.fract() == 0.0 && (1.0..=1e6).contains(&p) && self.control.is_linuxcnc() => p,
             Some(p) => {
                 return refuse(Code::PN018, format!("an arc with P{p}"), "P counts whole turns, of LinuxCNC only");

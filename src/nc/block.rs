@@ -1,5 +1,6 @@
 //! One block: its words with their values, its codes, and whether they go together.
 
+use super::call::{Call, Pattern};
 use super::codes::{AXES, CHECKED, Group, bit};
 use super::fault::{Done, refuse};
 use super::flow::Flow;
@@ -41,6 +42,18 @@ pub struct Block {
     pub percent: bool,
     /// The first comment, without its marks.
     pub comment: Option<(usize, usize)>,
+    /// Axes whose words are positions, whatever is in force, as bits.
+    pub(super) absolute: u8,
+    /// Axes whose words are increments, whatever is in force, as bits.
+    pub(super) incremental: u8,
+    /// The number of the work offset that a word beside the codes selects.
+    pub(super) work: Option<f64>,
+    /// Full turns of its arc before the end.
+    pub(super) turns: u32,
+    /// A cycle that is called where its motion ends.
+    pub(super) call: Option<Call>,
+    /// Holes of a cycle that the block makes.
+    pub(super) pattern: Option<Box<Pattern>>,
     /// Flow of the program: subprograms, loops.
     pub flow: Option<Flow>,
     pub(super) settings: Vec<(Target, f64)>,
@@ -147,6 +160,8 @@ impl Block {
         self.percent = false;
         self.comment = None;
         self.flow = None;
+        (self.absolute, self.incremental, self.turns) = (0, 0, 0);
+        (self.work, self.call, self.pattern) = (None, None, None);
     }
 
     /// Puts a word in.

@@ -35,13 +35,13 @@ impl State {
     }
 
     /// How far a peck's rapid stays above the last depth.
-    fn back_off(&self) -> f64 {
+    pub(super) fn back_off(&self) -> f64 {
         let inch = self.modes.units == Units::Inch;
-        self.settings.back_off.unwrap_or(match (self.control.rules(), inch) {
-            (Rules::Fanuc, true) => 0.02,
-            (Rules::Fanuc, false) => 0.5,
-            (_, true) => 0.010,
-            (_, false) => 0.254,
+        self.settings.back_off.unwrap_or(match (self.control.is_linuxcnc(), inch) {
+            (false, true) => 0.02,
+            (false, false) => 0.5,
+            (true, true) => 0.010,
+            (true, false) => 0.254,
         })
     }
 

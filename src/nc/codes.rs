@@ -24,7 +24,7 @@ pub const AXES: u32 = letters("XYZABCUVW");
 pub fn group(row: &Row, rules: Rules) -> Group {
     use Meaning as M;
     match row.meaning {
-        M::Cycle | M::CycleEnd if rules == Rules::Fanuc => Group::Cycle,
+        M::Cycle | M::CycleEnd if !rules.is_nist() => Group::Cycle,
         M::Harmless | M::RigidAhead | M::TransformOff | M::MacroOff => Group::Other,
         meaning => meaning.group().unwrap_or(Group::Once),
     }
@@ -100,6 +100,8 @@ const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
         | M::Output
         | M::Override => letter == b'M',
         M::Harmless | M::RigidAhead => true,
+        // the reader of their language runs them
+        M::ToLevel | M::ToTop | M::ReturnLevel => false,
         // what they do is written elsewhere, or known only at the machine
         M::Macro | M::MacroOn | M::Data | M::Transform | M::ToolNumber | M::Unsaid => false,
         _ => letter == b'G',

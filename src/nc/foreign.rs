@@ -1,6 +1,12 @@
-//! Languages that are not G code, or that are another control's own: a program in one of them is named and not read.
+//! Languages that are not G code, or that are another control's own: found by the first blocks of a program. Those that a control
+//! of ours reads are read by it; the others are named and refused.
+
+use std::io::{self, Read, Seek};
 
 use memchr::memmem;
+
+use super::settings::RunSettings;
+use crate::control::Control;
 
 /// How much of a program is searched.
 const SEARCHED: usize = 16 << 10;
@@ -16,11 +22,12 @@ enum Mark {
 }
 use Mark::{Block, Line, Word};
 
-/// The languages with their marks, from public programs and manuals of each.
-const LANGUAGES: [(&str, &[Mark]); 5] = [
-    ("Klartext of a Heidenhain control", &[Block("BEGINPGM")]),
+/// The languages, each with the control that reads it and its marks, from public programs and manuals of each.
+const LANGUAGES: [(&str, Option<&str>, &[Mark]); 5] = [
+    ("Klartext of a Heidenhain control", Some("heidenhain"), &[Block("BEGINPGM")]),
     (
         "in the language of Siemens controls",
+        Some("siemens"),
         &[
             Line("%_N_"),
             Line(";$PATH="),
@@ -45,11 +52,13 @@ const LANGUAGES: [(&str, &[Mark]); 5] = [
     ),
     (
         "for an Okuma OSP control",
+        Some("okuma"),
         &[Word(".MIN%"), Word("G15H"), Word("G16H"), Word("G56HA"), Block("CALLO"), Block("NCYL")],
     ),
-    ("HPGL, for a plotter", &[Line("IN;"), Line("PU;"), Line("SP1;")]),
+    ("HPGL, for a plotter", None, &[Line("IN;"), Line("PU;"), Line("SP1;")]),
     (
         "for a 3D printer (Marlin)",
+        None,
         &[
             Line(";FLAVOR:"),
             Line(";GENERATED WITH CURA"),
@@ -62,10 +71,12 @@ const LANGUAGES: [(&str, &[Mark]); 5] = [
     ),
 ];
 
-/// A program in a language that is not read.
+/// The language of a program.
 pub struct Foreign {
     /// What it is, as `Klartext of a Heidenhain control`.
     pub is: &'static str,
+    /// The control that reads it; `None`: none does.
+    pub control: Option<&'static Control>,
     /// The line that shows it, from 1.
     pub line: u64,
     /// Its text.
@@ -88,7 +99,7 @@ pub fn foreign(start: &[u8]) -> Option<Foreign> {
         let begin = blocks.len();
         push_block(line, &mut blocks);
         let block = &blocks[begin..];
-        for (is, marks) in &LANGUAGES {
+        for (is, _, marks) in &LANGUAGES {
             let begins = |mark: &Mark| match mark {
                 Line(begin) => line.get(..begin.len()).is_some_and(|head| head.eq_ignore_ascii_case(begin.as_bytes())),
                 Block(begin) => block.starts_with(begin.as_bytes()),
@@ -101,7 +112,7 @@ pub fn foreign(start: &[u8]) -> Option<Foreign> {
         blocks.push(b'\n');
         ends.push(blocks.len());
     }
-    for (is, marks) in &LANGUAGES {
+    for (is, _, marks) in &LANGUAGES {
         for mark in *marks {
             if let Word(word) = mark
                 && let Some(at) = memmem::find(&blocks, word.as_bytes())
@@ -111,8 +122,26 @@ pub fn foreign(start: &[u8]) -> Option<Foreign> {
         }
     }
     let (line, is) = shown?;
+    let control = LANGUAGES.iter().find(|(own, ..)| *own == is).and_then(|(_, control, _)| Control::named((*control)?));
     let text = start.split(|&byte| byte == b'\n').nth(line).unwrap_or_default().trim_ascii().to_vec();
-    Some(Foreign { is, line: line as u64 + 1, text })
+    Some(Foreign { is, control, line: line as u64 + 1, text })
+}
+
+/// The settings for a program whose control is not named: where its first blocks are in a language that one of our controls reads,
+/// they are that one's.
+///
+/// # Errors
+/// The input fails.
+pub fn settings_for(input: &mut (impl Read + Seek), settings: RunSettings) -> io::Result<RunSettings> {
+    // an input that can't be gone back in is left alone
+    let Some(start) = input.stream_position().ok().filter(|_| settings.assumed) else { return Ok(settings) };
+    let mut head = Vec::new();
+    input.by_ref().take(SEARCHED as u64).read_to_end(&mut head)?;
+    input.seek(io::SeekFrom::Start(start))?;
+    Ok(match foreign(&head).and_then(|found| found.control) {
+        Some(control) => RunSettings { control, assumed: false, ..settings },
+        None => settings,
+    })
 }
 
 /// Appends a line without its block number, blanks and comments, in capital letters.

@@ -1,6 +1,7 @@
 //! What a control keeps for canned cycles.
 
 use super::action::Drilling;
+use super::call::Pattern;
 use super::codes::Motion;
 use crate::toolpath::{Plane, Units};
 
@@ -13,6 +14,8 @@ pub struct Holes {
     pub series: Series,
     /// What the block's cycle still has to make.
     pub work: Option<Work>,
+    /// Holes that the block still has to make, each by a call.
+    pub pattern: Option<Box<Pattern>>,
 }
 
 /// What a control keeps from one hole to the next.

@@ -4,70 +4,15 @@ use super::fault::{Done, Fault, refuse};
 use super::flow::{Flow, Step};
 use super::scan::{Kind, tokens};
 use super::simulator::{RunError, Simulator};
+use super::way::{Ends, Frame, Jump, Spot};
 use crate::control::{self, Meaning};
 use crate::diag::Code;
 
 /// Deepest nesting of subprograms and loops.
 const DEEPEST: usize = 64;
 
-/// A place in the program to go to: byte and lines before it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Spot {
-    pub byte: u64,
-    pub line: u64,
-}
-
-/// What runs inside the main program.
-#[derive(Debug)]
-pub(super) enum Frame {
-    /// A subprogram: where it was called, and how often it still runs.
-    Call { label: String, back: Spot, start: Spot, times: u32, arguments: bool },
-    /// A `while`, with the place of its line.
-    While { label: String, start: Spot },
-    /// A `do`, with the place of its line.
-    Do { label: String, start: Spot },
-    /// A `repeat`, from the line behind it.
-    Repeat { label: String, start: Spot, left: u32 },
-    /// An `if` one of whose branches runs.
-    If { label: String },
-}
-
 fn no_end() -> Box<Fault> {
     Fault::new(Code::PN015, "the subprogram has no end", "end it with M99 before the next O number")
-}
-
-impl Frame {
-    fn label(&self) -> &str {
-        match self {
-            Frame::Call { label, .. }
-            | Frame::While { label, .. }
-            | Frame::Do { label, .. }
-            | Frame::Repeat { label, .. }
-            | Frame::If { label } => label,
-        }
-    }
-}
-
-/// What ends a part that is passed over.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Ends {
-    Sub,
-    While,
-    Do,
-    Repeat,
-    If,
-    Branch,
-    /// The condition of a `do`, which is run.
-    Test,
-}
-
-/// Where to go from a line.
-pub(super) enum Jump {
-    On,
-    End,
-    To(Spot),
-    Find(String, u32),
-    Skip(String, Ends),
 }
 
 impl Simulator<'_> {

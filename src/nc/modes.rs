@@ -127,6 +127,10 @@ impl State {
     }
 
     pub(super) fn work_offset(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+        if let Some(number) = block.work {
+            self.work_is(number, out);
+            return Ok(());
+        }
         let Some(offset) = block.row(Group::Work).and_then(|row| row.runs.work) else {
             if let Some(letter) = self.control.traits().work_letter
                 && let Some(fixture) = block.get(letter)
@@ -145,6 +149,15 @@ impl State {
         let (number, name) = match offset {
             WorkOffset::Usual(code) => (offset.usual().unwrap_or(1), f64::from(code) / 10.0),
             WorkOffset::Additional(number) => additional(f64::from(number)),
+            WorkOffset::Counted(letter) => {
+                let said = block.get(letter).filter(|number| number.fract() == 0.0 && *number >= 1.0);
+                let Some(number) = said else {
+                    let letter = char::from(letter);
+                    return refuse(Code::PN007, "a work offset without its number", format!("write {letter}1 with it"));
+                };
+                self.work_is(number, out);
+                return Ok(());
+            }
             WorkOffset::Word(letter) => {
                 let most = f64::from(WorkOffset::MOST);
                 let said = block.get(letter).filter(|number| number.fract() == 0.0 && (1.0..=most).contains(number));

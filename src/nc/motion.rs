@@ -18,13 +18,20 @@ impl State {
         Some(if self.modes.diameter && axis == 0 { value / 2.0 } else { value })
     }
 
+    /// Is the word of an axis a position? Else it is an increment.
+    #[inline]
+    fn is_absolute(&self, block: &Block, axis: usize) -> bool {
+        let at = 1 << axis;
+        block.absolute & at != 0 || self.modes.absolute && block.incremental & at == 0
+    }
+
     /// Where a block's axis words lead, in program coordinates.
     #[inline]
     pub(super) fn target(&mut self, block: &Block) -> Done<Position> {
         let mut to = self.place.position;
         for (axis, place) in to.iter_mut().enumerate() {
             let Some(value) = self.axis_word(block, axis) else { continue };
-            if self.modes.absolute {
+            if self.is_absolute(block, axis) {
                 *place = value;
                 // without its length offset, a FADAL's Z is the machine's
                 match axis == 2 && self.control.traits().height_is_machine && !self.tool.length_on {

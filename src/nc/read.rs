@@ -150,7 +150,14 @@ impl Block {
     }
 
     #[inline]
-    fn word(&mut self, letter: u8, value: f64, whole: bool, column: usize, control: &'static Control) -> Done {
+    pub(super) fn word(
+        &mut self,
+        letter: u8,
+        value: f64,
+        whole: bool,
+        column: usize,
+        control: &'static Control,
+    ) -> Done {
         self.is_empty &= letter == b'N';
         match letter {
             b'G' => self.g_word(value, column, control),
@@ -195,7 +202,7 @@ impl Block {
     }
 
     #[inline]
-    fn g_word(&mut self, value: f64, column: usize, control: &'static Control) -> Done {
+    pub(super) fn g_word(&mut self, value: f64, column: usize, control: &'static Control) -> Done {
         let code = (value * 10.0 + 0.5) as u16;
         let code = if (value * 10.0 - f64::from(code)).abs() < 1e-3 { code } else { u16::MAX };
         let Some(row) = g_code(control, code) else { return unknown_g(value, code, column, control) };
@@ -223,7 +230,7 @@ impl Block {
         Ok(())
     }
 
-    fn m_word(&mut self, value: f64, column: usize, control: &'static Control) -> Done {
+    pub(super) fn m_word(&mut self, value: f64, column: usize, control: &'static Control) -> Done {
         let code = value.round();
         let refuse = |message: String, help: &'static str| Err(Fault::at(Code::PN003, column, message, help));
         if (value - code).abs() > 1e-4 || !(0.0..=999.0).contains(&code) {

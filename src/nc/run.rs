@@ -49,7 +49,7 @@ impl State {
         {
             self.drive.feed = feed;
         }
-        let set_up = block.has(letters("ESTHD")) || block.has_m();
+        let set_up = block.has(letters("ESTHD")) || block.has_m() || block.work.is_some();
         if set_up || block.has_modes() {
             self.set_up(block, motion, &mut out)?;
         }
@@ -68,6 +68,13 @@ impl State {
             }
         } else {
             self.move_by_fanuc(motion, block, &mut out)?;
+            if let Some(call) = &block.call {
+                self.call_cycle(call, &mut out)?;
+            }
+            if let Some(pattern) = block.pattern.take() {
+                self.holes.pattern = Some(pattern);
+                self.make_pattern(&mut out)?;
+            }
         }
         self.finish(block, &mut out)
     }
@@ -79,13 +86,14 @@ impl State {
     pub fn run_on(&mut self, block: &Block, line: u64, items: &mut Vec<Item>) -> Done<Next> {
         let mut out = Out::new(items, line);
         self.make_holes(block, &mut out)?;
+        self.make_pattern(&mut out)?;
         self.finish(block, &mut out)
     }
 
     /// M codes come when everything else is done.
     #[inline]
     fn finish(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {
-        if self.holes.work.is_some() {
+        if self.holes.work.is_some() || self.holes.pattern.is_some() {
             return Ok(Next::Rest);
         }
         if block.has_m() { self.after(block, out) } else { Ok(Next::On) }

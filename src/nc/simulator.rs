@@ -6,12 +6,15 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use super::action::{Action, Item, Rotation};
 use super::block::Block;
 use super::fault::{Done, Fault, refuse};
-use super::foreign::foreign;
-use super::jumps::{Frame, Jump, Spot};
+use super::foreign::{Foreign, foreign};
+use super::languages::klartext::Klartext;
+use super::languages::osp::Osp;
+use super::languages::siemens::Siemens;
 use super::out::Next;
 use super::parameters::Parameters;
 use super::settings::RunSettings;
 use super::state::State;
+use super::way::{Frame, Jump, Spot};
 use crate::control::Rules;
 use crate::diag::{Code, Diag};
 
@@ -82,7 +85,13 @@ pub struct Simulator<'a> {
     repeated: u64,
     /// The block has more to do.
     unfinished: bool,
-    blocks: u64,
+    pub(super) blocks: u64,
+    /// What a Siemens keeps.
+    pub(super) siemens: Box<Siemens>,
+    /// What a Heidenhain keeps.
+    pub(super) klartext: Box<Klartext>,
+    /// What an Okuma keeps.
+    pub(super) osp: Box<Osp>,
     /// Nothing more can be run: the input is over.
     ended: bool,
     /// The first block was read, or is read now.
@@ -117,6 +126,9 @@ impl<'a> Simulator<'a> {
             repeated: 0,
             unfinished: false,
             blocks: 0,
+            siemens: Box::default(),
+            klartext: Box::default(),
+            osp: Box::default(),
             ended: false,
             begun: false,
             passing: 0,
@@ -227,7 +239,7 @@ impl<'a> Simulator<'a> {
         if !self.begun {
             self.begin()?;
         }
-        if !self.unfinished && !self.read_line()? {
+        if !self.unfinished && !self.read_lines()? {
             return self.at_end().map_err(|fault| self.refused(fault));
         }
         match self.line_step(items) {
@@ -239,6 +251,7 @@ impl<'a> Simulator<'a> {
             Ok(Jump::To(spot)) => self.go(spot).map(|()| true),
             Ok(Jump::Find(label, times)) => self.find(label, times).map(|()| true),
             Ok(Jump::Skip(label, ends)) => self.skip(&label, ends).map(|()| true),
+            Ok(Jump::Search(search)) => self.search(search).map(|()| true),
             Err(fault) => Err(self.refused(fault)),
         }
     }
@@ -274,10 +287,23 @@ impl<'a> Simulator<'a> {
                 Err(error) => return Err(error.into()),
             }
         };
-        let Some(found) = foreign(head) else { return Ok(()) };
+        let control = self.state.settings.control;
+        if !control.is_run() {
+            return Ok(()); // its first block is refused
+        }
+        let reads = |found: &Foreign| found.control.is_some_and(|own| own.rules() == control.rules());
+        let Some(found) = foreign(head).filter(|found| !reads(found)) else { return Ok(()) };
         (self.at.line, self.line, self.ended) = (found.line, found.text, true);
-        let message = format!("the program is {}, which postform does not read", found.is);
-        let help = "let the CAM system write it for one of the controls of `--control`";
+        let (message, help) = match found.control {
+            Some(own) => (
+                format!("the program is {}, and {} reads another", found.is, control.name()),
+                format!("name its control: `--control {0}`, for a job `--job-control {0}`", own.name()),
+            ),
+            None => (
+                format!("the program is {}, which postform does not read", found.is),
+                "let the CAM system write it for one of the controls of `--control`".to_owned(),
+            ),
+        };
         Err(self.refused(Fault::new(Code::PN016, message, help)))
     }
 
@@ -294,6 +320,15 @@ impl<'a> Simulator<'a> {
         // a loop is refused at its beginning, which is behind the line before
         let line = self.at.line.max(u64::from(self.blocks > 0));
         RunError::Refused(Box::new(fault.diag(line, self.text())), line)
+    }
+
+    /// The lines of the next block.
+    #[inline]
+    fn read_lines(&mut self) -> Result<bool, RunError> {
+        match self.state.settings.control.rules() {
+            Rules::Klartext => self.read_klartext_lines(),
+            _ => self.read_line(),
+        }
     }
 
     /// The next line into `self.line`; `false` at the end of the input.
@@ -383,6 +418,9 @@ impl<'a> Simulator<'a> {
         self.parameters.position = *self.state.position();
         match control.rules() {
             Rules::Grbl => super::grbl::read(&mut self.block, &self.line, control)?,
+            Rules::Siemens => return self.read_siemens(items),
+            Rules::Klartext => return self.read_klartext(items),
+            Rules::Osp => return self.read_osp(items),
             _ => self.block.read(&self.line, &mut self.parameters, &self.state.settings)?,
         }
         if self.block.is_empty() && self.block.comment.is_none() {

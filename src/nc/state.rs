@@ -110,7 +110,7 @@ impl State {
                     true => 0b111,
                     false => 0,
                 },
-                control.traits().work_letter.is_none().then_some(54.0),
+                control.first_work(),
             ),
             drive: Drive { feed: 0.0, spindle: Rotation::Stop, speed: 0.0 },
             threads: Threads::default(),
@@ -148,7 +148,7 @@ impl State {
 
     /// A block was refused and is passed over: what it had begun is given up.
     pub(super) fn gives_up_block(&mut self) {
-        self.holes.work = None;
+        (self.holes.work, self.holes.pattern) = (None, None);
         if self.settings.places_unknown {
             self.place.becomes_unknown(0b111);
         }
@@ -171,9 +171,9 @@ impl State {
 
     /// The canned cycle in force.
     pub fn cycle_in_force(&self) -> Motion {
-        match self.control.rules() {
-            Rules::Fanuc => self.holes.cycle,
-            _ => self.modes.motion.filter(|row| row.meaning == Meaning::Cycle),
+        match self.control.is_linuxcnc() {
+            true => self.modes.motion.filter(|row| row.meaning == Meaning::Cycle),
+            false => self.holes.cycle,
         }
     }
 

@@ -162,7 +162,7 @@ impl State {
             _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.loaded),
             _ => self.tool.diameter_register,
         };
-        if register.is_none() && !self.control.is_linuxcnc() && self.control.traits().turns == Turns::Tool {
+        if register.is_none() && !row.runs.by_diameter && !self.control.is_linuxcnc() && self.control.traits().turns == Turns::Tool {
             let help = "write D with the tool's register: G41 D1";
             return refuse(diag::Code::PN007, "cutter compensation without D", help);
         }
@@ -176,7 +176,7 @@ impl State {
             Some(row) => row,
             // a Fanuc changes the offset in force by H alone, a FADAL turns it on
             None => {
-                let by_register = self.control.traits().tool_length == ToolLength::Register;
+                let by_register = matches!(self.control.traits().tool_length, ToolLength::Register | ToolLength::Tool);
                 let counts = self.tool.length_on || by_register;
                 if let Some(register) = block.get(b'H').filter(|_| counts && !self.control.is_linuxcnc()) {
                     // register 0 holds no length

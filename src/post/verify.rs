@@ -9,7 +9,7 @@ use crate::control::Control;
 use crate::diag::{Code, Diag, Findings};
 use crate::error::{Error, ErrorKind};
 use crate::job::{Format, Job};
-use crate::nc::RunSettings;
+use crate::nc::{RunSettings, settings_for};
 use crate::toolpath::{Event, Flow, Place, Sink, Units};
 use crate::verify::{Batch, Comparer, Counts, Expectation, Outcome, Verdict, prove_beside};
 
@@ -165,6 +165,10 @@ struct Plan {
 impl Plan {
     fn new(form: Option<&compile::Program>, options: &Options, proof: &Proof) -> Plan {
         let settings = proof.settings(form, options.units.unwrap_or(Units::Mm));
+        Plan::of(form, options, proof, settings)
+    }
+
+    fn of(form: Option<&compile::Program>, options: &Options, proof: &Proof, settings: RunSettings) -> Plan {
         Plan {
             settings,
             expectation: form.map_or_else(
@@ -184,11 +188,13 @@ impl Plan {
 fn prove(
     form: Option<&compile::Program>,
     mut job: Job<'_>,
-    program: impl Read + Seek,
+    mut program: impl Read + Seek,
     options: &Options,
     proof: &Proof,
 ) -> Result<Proven, Error> {
-    let Plan { settings, mut expectation, of_job, assumed } = Plan::new(form, options, proof);
+    let settings = proof.settings(form, options.units.unwrap_or(Units::Mm));
+    let settings = settings_for(&mut program, settings).map_err(|error| Error::of_io(ErrorKind::Program, error))?;
+    let Plan { settings, mut expectation, of_job, assumed } = Plan::of(form, options, proof, settings);
     // a program that is the job says its own registers, where it has any
     expectation.lengths_due = form.is_some() || job.format() != Format::Nc;
     expectation.units_due &= form.is_some() || options.units.is_none();

@@ -9,6 +9,7 @@ mod comment_marks;
 mod coolant;
 mod cx;
 mod cycle;
+mod dwell;
 mod defaults;
 mod fault;
 mod file_name;

@@ -115,7 +115,7 @@ fn own_change(id: SequenceId, vars: &[VarId], cx: &mut Cx<'_>) -> Done {
     match shape.program.routine(id) {
         Some(routine) if cx.said.lacks(cx.want, shape).meets(VarSet::of(vars)) => {
             run_all(shape.way(routine, cx.want, cx.said), &mut cx.writer())?;
-            if !shape.program.settings.control().is_run() {
+            if !shape.program.settings.control().prints_codes() {
                 // in another language the form's own sequence has printed the change in its own way
                 for &var in vars {
                     cx.said.conditions.put(var, cx.said.due(var, cx.want));

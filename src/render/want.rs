@@ -229,7 +229,7 @@ impl Want {
             true => !is_no_work(code, shape),
             false => words.way(&of_work, settings.codes()).is_some(),
         };
-        if !is_said && settings.machine == Machine::Mill && settings.control().is_run() {
+        if !is_said && settings.machine == Machine::Mill && settings.control().prints_codes() {
             let message = format!("the form has no word for the work offset {work}");
             let last = first + 5.0;
             let help = format!(

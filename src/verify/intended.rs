@@ -194,9 +194,15 @@ impl Job {
             self.state.tool = Some(tool.number);
             let [length, diameter] =
                 self.expectation.registers.map_or([None; 2], |by| by.map(|by| Some(tool.number + by)));
-            let has_lengths = self.control.traits().tool_length != ToolLength::None;
-            self.state.length = tool.length_offset.or(length).filter(|_| self.expectation.tools && has_lengths);
-            self.diameter = tool.diameter_offset.or(diameter).filter(|_| !self.is_lathe());
+            let lengths = self.control.traits().tool_length;
+            let register = match lengths {
+                ToolLength::None => None,
+                ToolLength::Tool => Some(tool.number),
+                _ => tool.length_offset.or(length),
+            };
+            self.state.length = register.filter(|_| self.expectation.tools);
+            let has_registers = !self.is_lathe() && lengths != ToolLength::Tool;
+            self.diameter = tool.diameter_offset.or(diameter).filter(|_| has_registers);
             if self.is_lathe() && self.control.of_lathe().is_lathe() {
                 let [number, register] = turret(tool, length);
                 (self.state.tool, self.state.length) = (number, register);

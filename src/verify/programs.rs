@@ -8,6 +8,8 @@ use super::expectation::Expectation;
 use super::passage::{Mark, TOO_LONG};
 use super::program::{Doubt, Program};
 use super::rapid_path::RapidPath;
+use crate::control::{Control, ToolLength};
+use crate::lang::additional_work;
 use crate::nc::{Cooling, RunError, RunSettings, axes_of};
 use crate::toolpath::{StopKind, Units};
 
@@ -50,6 +52,7 @@ pub fn compare_motions(
         program.want(units);
         program
     });
+    let names = Names::of(a.control(), b.control());
     let mut ways = [RapidPath::default(), RapidPath::default()];
     let mut motions = Motions::default();
     loop {
@@ -97,7 +100,7 @@ pub fn compare_motions(
             },
         };
         motions.ways += u64::from(matches!(way, Compared::AsGood { .. }));
-        let message = differs(cut, found, way, tolerance)
+        let message = differs(cut, found, way, tolerance, names)
             .or_else(|| astray(&a, &b, tolerance))
             .or_else(|| pauses(&a, &b, tolerance))
             .or_else(|| switching(&a, &b))
@@ -123,7 +126,7 @@ fn end(cut: &Cut) -> String {
     shown(&cut.end(), 0b111)
 }
 
-fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64) -> Option<String> {
+fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) -> Option<String> {
     let near = |a: f64, b: f64| (a - b).abs() <= tolerance.max(1e-9 * a.abs());
     if cut.unknown != found.unknown {
         let [new, old] = [found, cut].map(|cut: &Cut| match cut.unknown {
@@ -166,15 +169,48 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64) -> Option<Stri
     {
         return Some(format!("the feed is {}, before {}", number(b), number(a)));
     }
-    state(&cut.state, &found.state)
+    state(&cut.state, &found.state, names)
 }
 
-fn state(before: &State, now: &State) -> Option<String> {
+/// How two programs name registers and work offsets: those of one control by the same numbers.
+#[derive(Clone, Copy)]
+struct Names {
+    /// Work offsets count by their order: G54, `G15 H1` and datum 1 are the first.
+    by_order: bool,
+    /// Both name registers of lengths and diameters. On some controls they are the tool's own.
+    registers: bool,
+}
+
+impl Names {
+    fn of(a: &Control, b: &Control) -> Names {
+        let own = |control: &Control| control.traits().tool_length == ToolLength::Tool;
+        Names { by_order: a.rules() != b.rules(), registers: own(a) == own(b) }
+    }
+
+    fn work(self, work: Option<f64>) -> Option<f64> {
+        let additional = additional_work(0.0);
+        match work {
+            work if !self.by_order => work,
+            // the first one, until a program says another
+            None => Some(1.0),
+            Some(code) if code > additional => Some(code - additional + 6.0),
+            Some(code) if code > 59.0 => Some((code - 59.0) * 10.0 + 6.0),
+            Some(code) if code >= 54.0 => Some(code - 53.0),
+            counted => counted,
+        }
+    }
+
+    fn register(self, register: Option<f64>) -> Option<f64> {
+        register.filter(|_| self.registers)
+    }
+}
+
+fn state(before: &State, now: &State, names: Names) -> Option<String> {
     let pairs = [
         ("the tool", before.tool, now.tool),
-        ("the length register", before.length, now.length),
-        ("the diameter register", before.diameter, now.diameter),
-        ("the work offset", before.work, now.work),
+        ("the length register", names.register(before.length), names.register(now.length)),
+        ("the diameter register", names.register(before.diameter), names.register(now.diameter)),
+        ("the work offset", names.work(before.work), names.work(now.work)),
         ("the spindle speed", before.speed, now.speed),
     ];
     let text = |value: Option<f64>| value.map_or("none".to_owned(), |value| number(value).to_string());

@@ -152,7 +152,7 @@ fn a_wrong_configuration_is_wrong_usage() {
         ("[rules]\nPF9 = \"off\"\n", "no family"),
         ("[rules]\nPF001 = \"off\"\n", "PF001 is an error of the form"),
         ("[rule]\nPF303 = \"off\"\n", "unknown field `rule`"),
-        ("control = \"siemens\"\n", "linuxcnc"),
+        ("control = \"hurco\"\n", "linuxcnc"),
         ("limits = 3\n", "invalid type"),
         ("[rules\n", "line 1"),
     ];

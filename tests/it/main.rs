@@ -25,6 +25,7 @@ mod headers;
 mod increments;
 mod integrations;
 mod kit;
+mod languages;
 mod lint_command;
 mod linuxcnc;
 mod linuxcnc_random;

@@ -140,7 +140,7 @@ rules! {
     PF014 no_program_end (codes)
     PF015 words_after_end (codes)
     PF016 tape_mark (codes)
-    PF017 sub_without_return
+    PF017 sub_without_return (codes)
     PF018 sub_without_number
     // blanks and comments
     PF101 lost_words

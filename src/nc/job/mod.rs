@@ -14,6 +14,7 @@ mod switches;
 
 use std::io::{Read, Seek};
 
+use super::foreign::settings_for;
 use super::settings::RunSettings;
 use super::simulator::Simulator;
 use crate::diag::Diag;
@@ -31,11 +32,13 @@ use survey::survey;
 /// # Errors
 /// The input fails; the control refuses the program; the program does what no job can say.
 pub fn read_program(
-    input: impl Read + Seek,
+    mut input: impl Read + Seek,
     options: &JobOptions,
     warnings: &mut Vec<Diag>,
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
+    let settings = settings_for(&mut input, options.settings).map_err(ReadError::Io)?;
+    let options = &JobOptions { settings, ..*options };
     if options.settings.control.is_lathe() {
         return unsaid(1, "the program is a lathe's", "programs of mills can be read as jobs");
     }

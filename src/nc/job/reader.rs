@@ -6,7 +6,7 @@ use super::options::JobOptions;
 use super::pattern::Pattern;
 use super::survey::Survey;
 use super::switches::Switches;
-use crate::control::Meaning;
+use crate::control::{Meaning, ToolLength, WorkOffset};
 use crate::diag::{Code, Diag, Location};
 use crate::lang::Machine;
 use crate::nc::action::{Action, Item, Position, Turn};
@@ -66,6 +66,17 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
+    /// Are length and radius the tool's own, so that no register is named?
+    fn tool_is_its_own(&self) -> bool {
+        self.options.settings.control.traits().tool_length == ToolLength::Tool
+    }
+
+    /// Do its work offsets have numbers from 1 on, and no codes?
+    fn counts_offsets(&self) -> bool {
+        let row = self.options.settings.control.first(Meaning::Work);
+        matches!(row.and_then(|row| row.runs.work), Some(WorkOffset::Counted(_)))
+    }
+
     pub fn new(
         survey: &'a Survey,
         options: &'a JobOptions,
@@ -164,6 +175,10 @@ impl<'a> Reader<'a> {
                 let message = format!("the work offset G54.1 P{}", code - 1540.0);
                 unsaid(item.line, message, "a job names G54 to G59.3")
             }
+            Action::Work(number) if *number >= 50.0 && self.counts_offsets() => {
+                let message = format!("the work offset {number}");
+                unsaid(item.line, message, "a job counts work offsets from 1 to 49")
+            }
             Action::Work(code) => {
                 self.wanted.work = Some(*code);
                 Ok(())
@@ -173,7 +188,7 @@ impl<'a> Reader<'a> {
                 self.operation = true; // a job's operation has one
                 Ok(())
             }
-            Action::Compensation(Some((_, None))) => {
+            Action::Compensation(Some((_, None))) if !self.tool_is_its_own() => {
                 let message = "compensation by a diameter in the block (G41.1, G42.1)";
                 unsaid(item.line, message, "use a register, D with G41 or G42")
             }

@@ -98,7 +98,7 @@ pub fn go_on(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut Writ
     let shape = writer.shape;
     let begin = ops.start;
     let mut left_out = routine.left_out.as_deref().unwrap_or_default();
-    let mut body = Body { writer: writer.lend(), mode, line: begin, at: begin, drops: false, text: Vec::new() };
+    let mut body = Body { writer: writer.lend(), mode, line: begin, at: begin, drops: false, text: Vec::new(), comment: 0..0 };
     let mut i = ops.start;
     loop {
         while let [first, rest @ ..] = left_out
@@ -116,6 +116,9 @@ pub fn go_on(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut Writ
             }
             Op::Comment { words } if body.comment_is_empty(i, words as usize) => i += words as usize,
             op => {
+                if let Op::Comment { words } = op {
+                    body.comment = i..i + 1 + words as usize;
+                }
                 body.at = i;
                 let mark = body.writer.out.mark();
                 let span = shape.program.spans[i];
@@ -140,7 +143,7 @@ pub fn go_on(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut Writ
 pub fn run_sets(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let (line, mode) = (routine.ops.start, Mode::Hole);
-    let mut body = Body { writer: writer.lend(), mode, line, at: line, drops: false, text: Vec::new() };
+    let mut body = Body { writer: writer.lend(), mode, line, at: line, drops: false, text: Vec::new(), comment: 0..0 };
     for i in routine.steps_in(routine.ops.start..routine.repeat) {
         if let Op::Set { index } = shape.program.ops[i] {
             let at = |diag: Box<Diag>| Box::new(diag.at(shape.program.spans[i], "printed from here"));
@@ -162,6 +165,8 @@ struct Body<'r> {
     drops: bool,
     /// What the line printed since its last word with a letter of its own: text, and values in it.
     text: Vec<u8>,
+    /// The operations of the comment that was printed last.
+    comment: std::ops::Range<usize>,
 }
 
 impl Body<'_> {
@@ -189,7 +194,8 @@ impl Body<'_> {
         }
         let from = self.writer.out.length();
         self.print_operation(op, at)?;
-        if self.writer.out.length() > from {
+        // what a comment says, no control reads
+        if self.writer.out.length() > from && !self.comment.contains(&at) {
             self.text.extend_from_slice(self.writer.out.block_from(from));
         }
         Ok(())

@@ -6,13 +6,14 @@ use crate::control::Meaning;
 use crate::cycle::{Step, plan};
 use crate::diag::Code;
 use crate::lang::VarId;
+use crate::render::dwell::dwell_here;
 use crate::render::cx::{Cx, Writer};
 use crate::render::fault::{Done, fault};
 use crate::render::moves::line::line_to;
 use crate::render::moves::rapid_blocks::{rapid_block, split_rapid};
 use crate::render::settle::settle;
 use crate::render::targets::set_targets;
-use crate::render::words::{code_word, dwell_block, parameter_word, speed_word, value_code};
+use crate::render::words::{code_word, parameter_word, speed_word, value_code};
 
 /// A hole as single moves.
 pub fn generated_hole(hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
@@ -58,7 +59,7 @@ fn make_steps(steps: &[Step], hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drill
                 set_targets(&to, shape, cx.want, cx.said)?;
                 line_to(&to, cx)?;
             }
-            Step::Dwell(seconds) => dwell_block(seconds, &mut cx.writer())?,
+            Step::Dwell(seconds) => dwell_here(seconds, cx)?,
             Step::SpindleStop => spindle_block(shape.program.settings.spindle[2], None, &mut cx.writer())?,
             Step::SpindleStart => {
                 let speed = std::mem::take(&mut sped_up).then_some(1.0);

@@ -3,30 +3,19 @@
 use crate::control::Meaning;
 use crate::lang::{SequenceId, VarId};
 use crate::render::cx::Cx;
+use crate::render::dwell::dwell_here;
 use crate::render::fault::Done;
 use crate::render::prints::prints_code;
 use crate::render::settle::settle_here;
 use crate::render::targets::set_here;
 use crate::render::upon::{run_with_upons, upon_is_due};
-use crate::render::words::{dwell_block, value_code};
+use crate::render::words::value_code;
 use crate::toolpath::StopKind;
 
 /// A dwell in seconds.
 pub fn dwell(seconds: f64, cx: &mut Cx<'_>) -> Done {
-    let shape = cx.shape;
     settle_between_moves(cx)?;
-    let Some(routine) = shape.program.routine(SequenceId::DwellBlock) else {
-        return dwell_block(seconds, &mut cx.writer());
-    };
-    let milliseconds = shape.program.settings.dwell.milliseconds;
-    cx.want.set(VarId::Dwell, if milliseconds { seconds * 1000.0 } else { seconds });
-    set_here(shape, cx.want, cx.said)?;
-    let routine = shape.way(routine, cx.want, cx.said);
-    run_with_upons(routine, cx)?;
-    let says = routine.vars.has(VarId::Dwell);
-    cx.want.put(VarId::Dwell, None);
-    // a way that does not say it has not dwelt
-    if says { Ok(()) } else { dwell_block(seconds, &mut cx.writer()) }
+    dwell_here(seconds, cx)
 }
 
 /// A program stop or an optional one.

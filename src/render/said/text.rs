@@ -81,7 +81,7 @@ impl Said {
     #[cold]
     pub fn text(&mut self, text: &[u8], line: Line, want: &Want, shape: &Shape) {
         let program = shape.program;
-        if !program.settings.control().is_run() {
+        if !program.settings.control().prints_codes() {
             // beside the axes of a line it is a part of their move, as `R0 FMAX` is
             let moves = |token: Token| matches!(token.kind, Kind::Word(letter, _) if shape.axis_bit(letter) != 0);
             if want.cycle.is_none() && (!line.prints_axes(shape) || tokens(text).any(moves)) {

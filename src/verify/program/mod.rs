@@ -68,7 +68,7 @@ impl<'a> Program<'a> {
             rotation: Some(Rotation::Stop),
             speed: Some(0.0),
             coolant: Some(Cooling::Off),
-            work: settings.control.traits().work_letter.is_none().then_some(54.0),
+            work: settings.control.first_work(),
             rigid: taps_ahead(settings.control).then_some(false),
             ..State::default()
         };

@@ -8,7 +8,7 @@ mod text;
 use std::io::{Cursor, IsTerminal, Write};
 
 use postform::internals::diff::{Ignore, Options, Program, Summary, compare};
-use postform::internals::nc::{Kind, RunError, RunSettings, tokens};
+use postform::internals::nc::{Kind, RunError, RunSettings, settings_for, tokens};
 use postform::internals::verify::{Motions, NoMotion, compare_motions};
 use postform::toolpath::Units;
 
@@ -129,7 +129,10 @@ fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Resu
     let (units, settings) = settings(args, old, new);
     let tolerance = if args.tolerance > 0.0 { args.tolerance } else { 1e-6 };
     let inputs = [old, new].map(|side| Cursor::new(side.program.bytes()));
-    let [a, b] = inputs;
+    let failed = |error: std::io::Error| format!("error: can't read the program: {error}");
+    let [mut a, mut b] = inputs;
+    let settings =
+        [settings_for(&mut a, settings[0]).map_err(failed)?, settings_for(&mut b, settings[1]).map_err(failed)?];
     match compare_motions([(a, settings[0]), (b, settings[1])], units, tolerance) {
         Ok(found) => Ok(Outcome::Compared(found)),
         Err(NoMotion(which, RunError::Refused(mut diag, _))) => {
@@ -137,6 +140,6 @@ fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Resu
             say(&reporter.text(&[*diag], &[]));
             Ok(Outcome::Refused)
         }
-        Err(NoMotion(_, RunError::Io(error))) => Err(format!("error: can't read the program: {error}")),
+        Err(NoMotion(_, RunError::Io(error))) => Err(failed(error)),
     }
 }

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use postform::diag::Diag;
-use postform::internals::nc::{RunError, RunSettings, Simulator, Tally};
+use postform::internals::nc::{RunError, RunSettings, Simulator, Tally, settings_for};
 use postform::toolpath::{Direction, Plane, StopKind};
 
 use super::Ending;
@@ -30,7 +30,9 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };
     let unknown = args.start == StartArg::Unknown;
     let settings = RunSettings { places_unknown: unknown, ..control.settings(None, args.units.units()) };
-    let mut simulator = Simulator::new(files::open_program(&args.program)?, settings);
+    let mut program = files::open_program(&args.program)?;
+    let settings = settings_for(&mut program, settings).map_err(|error| io_message("read", &args.program, &error))?;
+    let mut simulator = Simulator::new(program, settings);
     let mut tally = Tally::new(settings.units);
     let mut warnings = Vec::new();
     let mut left_out = 0;

@@ -1,0 +1,137 @@
+//! A block as text, read from left to right.
+
+use crate::diag::Code;
+use crate::nc::digits::{signed, unsigned};
+use crate::nc::fault::{Done, Fault};
+
+/// A block that is being read. Blanks between its parts do not count.
+pub struct Cursor<'a> {
+    text: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Cursor<'a> {
+    /// The text from this byte on.
+    pub fn new(text: &'a [u8], at: usize) -> Cursor<'a> {
+        let mut cursor = Cursor { text, at };
+        cursor.skip_blanks();
+        cursor
+    }
+
+    fn skip_blanks(&mut self) {
+        while self.text.get(self.at).is_some_and(u8::is_ascii_whitespace) {
+            self.at += 1;
+        }
+    }
+
+    /// The same block, from another byte on.
+    pub fn from(&self, at: usize) -> Cursor<'a> {
+        Cursor::new(self.text, at)
+    }
+
+    fn goes_to(&mut self, at: usize) {
+        self.at = at;
+        self.skip_blanks();
+    }
+
+    /// The byte at which it stands.
+    pub fn at(&self) -> usize {
+        self.at
+    }
+
+    /// What is left of the block.
+    pub fn rest(&self) -> &'a [u8] {
+        self.text.get(self.at..).unwrap_or_default()
+    }
+
+    /// The next byte, not taken.
+    pub fn peek(&self) -> Option<u8> {
+        self.text.get(self.at).copied()
+    }
+
+    /// Is the block over?
+    pub fn is_over(&self) -> bool {
+        self.at >= self.text.len()
+    }
+
+    /// Takes these bytes if they are next.
+    pub fn takes(&mut self, bytes: &[u8]) -> bool {
+        let is_next = self.rest().starts_with(bytes);
+        if is_next {
+            self.goes_to(self.at + bytes.len());
+        }
+        is_next
+    }
+
+    /// Takes a whole word, in capital or small letters, if it is next.
+    pub fn takes_word(&mut self, word: &str) -> bool {
+        let before = self.at;
+        if self.name().is_some_and(|name| name.eq_ignore_ascii_case(word.as_bytes())) {
+            return true;
+        }
+        self.at = before;
+        false
+    }
+
+    /// A name: letters, digits, `_` and `$`, and no digit first.
+    pub fn name(&mut self) -> Option<&'a [u8]> {
+        let is_of_name = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$');
+        let length = self.rest().iter().take_while(|byte| is_of_name(byte)).count();
+        self.take(length).filter(|name| !name[0].is_ascii_digit())
+    }
+
+    /// The letters that are next.
+    pub fn letters(&mut self) -> Option<&'a [u8]> {
+        let length = self.rest().iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+        self.take(length)
+    }
+
+    fn take(&mut self, length: usize) -> Option<&'a [u8]> {
+        let taken = self.rest().get(..length).filter(|taken| !taken.is_empty())?;
+        self.goes_to(self.at + length);
+        Some(taken)
+    }
+
+    /// A number without a sign.
+    pub fn unsigned(&mut self) -> Option<f64> {
+        let (number, end) = unsigned(self.text, self.at)?;
+        self.goes_to(end);
+        Some(number.value)
+    }
+
+    /// A number with or without a sign.
+    pub fn signed(&mut self) -> Option<f64> {
+        let (number, end) = signed(self.text, self.at)?;
+        self.goes_to(end);
+        Some(number.value)
+    }
+
+    /// A text in quotes, without them.
+    pub fn quoted(&mut self) -> Option<&'a [u8]> {
+        let rest = self.rest().strip_prefix(b"\"")?;
+        let length = rest.iter().position(|byte| *byte == b'"')?;
+        self.goes_to(self.at + length + 2);
+        Some(&rest[..length])
+    }
+
+    /// Takes these bytes.
+    ///
+    /// # Errors
+    /// Others are next.
+    pub fn needs(&mut self, bytes: &[u8]) -> Done {
+        if self.takes(bytes) {
+            return Ok(());
+        }
+        let message = format!("`{}` is missing", String::from_utf8_lossy(bytes));
+        Err(Fault::at(Code::PN001, self.at, message, "look for a misprint"))
+    }
+
+    /// A fault about what is next.
+    pub fn unreadable(&self) -> Box<Fault> {
+        let rest = String::from_utf8_lossy(self.rest());
+        let word: String = rest.trim_end().chars().take_while(|c| !c.is_whitespace()).take(40).collect();
+        let message =
+            if word.is_empty() { "the block ends too early".to_owned() } else { format!("`{word}` can't be read") };
+        Fault::at(Code::PN001, self.at, message, "take it out, or put it into a comment")
+    }
+}

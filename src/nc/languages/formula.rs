@@ -1,0 +1,206 @@
+//! Formulas of the languages: numbers, parameters, functions, brackets.
+
+use super::cursor::Cursor;
+use crate::diag::Code;
+use crate::nc::fault::{Done, Fault};
+
+/// Deepest nesting of brackets.
+const DEEPEST: u32 = 64;
+
+/// What a name stands for. `None`: it stands for nothing.
+pub type Values<'v> = dyn Fn(&str) -> Option<f64> + 'v;
+
+/// Two operands' operators by strength; those of one strength are worked off from the left.
+const OPERATORS: [&[(&str, Operator)]; 5] = [
+    &[("AND", Operator::And), ("OR", Operator::Or), ("XOR", Operator::Xor)],
+    &[
+        ("==", Operator::Equal),
+        ("<>", Operator::Other),
+        (">=", Operator::GreaterOrEqual),
+        ("<=", Operator::LessOrEqual),
+        (">", Operator::Greater),
+        ("<", Operator::Less),
+        ("EQ", Operator::Equal),
+        ("NE", Operator::Other),
+        ("GE", Operator::GreaterOrEqual),
+        ("LE", Operator::LessOrEqual),
+        ("GT", Operator::Greater),
+        ("LT", Operator::Less),
+    ],
+    &[("+", Operator::Add), ("-", Operator::Subtract)],
+    &[("*", Operator::Multiply), ("/", Operator::Divide), ("DIV", Operator::WholeDivide), ("MOD", Operator::Modulo)],
+    &[("^", Operator::Power)],
+];
+
+#[derive(Clone, Copy)]
+enum Operator {
+    And,
+    Or,
+    Xor,
+    Equal,
+    Other,
+    GreaterOrEqual,
+    LessOrEqual,
+    Greater,
+    Less,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    WholeDivide,
+    Modulo,
+    Power,
+}
+
+impl Operator {
+    fn apply(self, a: f64, b: f64) -> f64 {
+        let truth = |is: bool| f64::from(u8::from(is));
+        match self {
+            Operator::And => truth(a != 0.0 && b != 0.0),
+            Operator::Or => truth(a != 0.0 || b != 0.0),
+            Operator::Xor => truth((a != 0.0) != (b != 0.0)),
+            Operator::Equal => truth(a == b),
+            Operator::Other => truth(a != b),
+            Operator::GreaterOrEqual => truth(a >= b),
+            Operator::LessOrEqual => truth(a <= b),
+            Operator::Greater => truth(a > b),
+            Operator::Less => truth(a < b),
+            Operator::Add => a + b,
+            Operator::Subtract => a - b,
+            Operator::Multiply => a * b,
+            Operator::Divide => a / b,
+            Operator::WholeDivide => (a / b).trunc(),
+            Operator::Modulo => a % b,
+            Operator::Power => a.powf(b),
+        }
+    }
+}
+
+/// A function of one argument by its name.
+type Function = (&'static str, fn(f64) -> f64);
+
+/// Functions; angles are degrees.
+const FUNCTIONS: [Function; 16] = [
+    ("SIN", |x| x.to_radians().sin()),
+    ("COS", |x| x.to_radians().cos()),
+    ("TAN", |x| x.to_radians().tan()),
+    ("ASIN", |x| x.asin().to_degrees()),
+    ("ACOS", |x| x.acos().to_degrees()),
+    ("ATAN", |x| x.atan().to_degrees()),
+    ("SQRT", f64::sqrt),
+    ("POT", |x| x * x),
+    ("SQ", |x| x * x),
+    ("ABS", f64::abs),
+    ("TRUNC", f64::trunc),
+    ("INT", f64::trunc),
+    ("FRAC", f64::fract),
+    ("ROUND", f64::round),
+    ("LN", f64::ln),
+    ("EXP", f64::exp),
+];
+
+/// Reads a formula and calculates it.
+///
+/// # Errors
+/// It can't be read, one of its names stands for no known number, or its result is none.
+pub fn formula(cursor: &mut Cursor<'_>, values: &Values<'_>) -> Done<f64> {
+    let begin = cursor.at();
+    let value = binary(cursor, values, 0, 0)?;
+    if value.is_finite() {
+        return Ok(value);
+    }
+    let message = format!("the result is {value}, and no number");
+    Err(Fault::at(Code::PN014, begin, message, "look for a division by zero, or a root of a negative number"))
+}
+
+fn binary(cursor: &mut Cursor<'_>, values: &Values<'_>, strength: usize, depth: u32) -> Done<f64> {
+    let Some(operators) = OPERATORS.get(strength) else { return unary(cursor, values, depth) };
+    let mut value = binary(cursor, values, strength + 1, depth)?;
+    'more: loop {
+        for (text, operator) in *operators {
+            let is_word = text.as_bytes()[0].is_ascii_alphabetic();
+            if if is_word { cursor.takes_word(text) } else { cursor.takes(text.as_bytes()) } {
+                value = operator.apply(value, binary(cursor, values, strength + 1, depth)?);
+                continue 'more;
+            }
+        }
+        return Ok(value);
+    }
+}
+
+fn unary(cursor: &mut Cursor<'_>, values: &Values<'_>, depth: u32) -> Done<f64> {
+    if depth > DEEPEST {
+        let message = format!("brackets and signs more than {DEEPEST} deep");
+        return Err(Fault::at(Code::PN014, cursor.at(), message, "calculate it in several blocks"));
+    }
+    if cursor.takes(b"-") {
+        return Ok(-unary(cursor, values, depth + 1)?);
+    }
+    if cursor.takes(b"+") {
+        return unary(cursor, values, depth + 1);
+    }
+    for (open, close) in [(b"(", b")"), (b"[", b"]")] {
+        if cursor.takes(open) {
+            let value = binary(cursor, values, 0, depth + 1)?;
+            cursor.needs(close)?;
+            return Ok(value);
+        }
+    }
+    if let Some(value) = cursor.unsigned() {
+        return Ok(value);
+    }
+    let begin = cursor.at();
+    let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
+    let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+    match name.as_str() {
+        "NOT" => return Ok(f64::from(u8::from(unary(cursor, values, depth + 1)? == 0.0))),
+        "PI" => return Ok(std::f64::consts::PI),
+        "TRUE" => return Ok(1.0),
+        "FALSE" => return Ok(0.0),
+        "ATAN2" => {
+            cursor.needs(b"(")?;
+            let y = binary(cursor, values, 0, depth + 1)?;
+            cursor.needs(b",")?;
+            let x = binary(cursor, values, 0, depth + 1)?;
+            cursor.needs(b")")?;
+            return Ok(y.atan2(x).to_degrees());
+        }
+        _ => {}
+    }
+    if let Some((_, function)) = FUNCTIONS.iter().find(|(function, _)| *function == name) {
+        return Ok(function(unary(cursor, values, depth + 1)?));
+    }
+    if let Some(value) = values(&name) {
+        return Ok(value);
+    }
+    let help = "give it a number in the program before: what the machine holds in it is unknown here";
+    Err(Fault::at(Code::PN016, begin, format!("the value of `{name}` is unknown"), help))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formulas_are_calculated() {
+        let values = |name: &str| (name == "R1").then_some(4.0);
+        for (text, result) in [
+            ("1+2*3", 7.0),
+            ("(1+2)*3", 9.0),
+            ("-R1^2", 16.0),
+            ("10-4-3", 3.0),
+            ("SQRT(R1)+ABS(-2)", 4.0),
+            ("COS 60", 0.5),
+            ("ATAN2(1,0)", 90.0),
+            ("7 DIV 2 + 7 MOD 2", 4.0),
+            ("R1 > 3 AND NOT (R1 == 5)", 1.0),
+            ("[R1 LT 3]", 0.0),
+        ] {
+            let value = formula(&mut Cursor::new(text.as_bytes(), 0), &values).unwrap();
+            assert!((value - result).abs() < 1e-12, "{text} = {value}");
+        }
+        for text in ["1/0", "R2", "1+", "(1", "SQRT(-1)", &"(".repeat(500), &"-".repeat(500)] {
+            assert!(formula(&mut Cursor::new(text.as_bytes(), 0), &values).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,452 @@
+//! Blocks that move and switch: `L X+10 R0 F500 M3`, `CC`, `C`, `CR`, `CP`, `LP`, `RND`, `CHF`, `CYCL CALL`.
+
+use super::super::cursor::Cursor;
+use super::super::formula::{Values, formula};
+use super::corner::Corner;
+use super::{Klartext, is_parameter};
+use crate::control::Meaning;
+use crate::diag::Code;
+use crate::nc::block::Block;
+use crate::nc::codes::{group, takes_axes};
+use crate::nc::fault::{Done, Fault, refuse};
+use crate::nc::state::State;
+
+/// Reads a block.
+pub struct Words<'s> {
+    pub own: &'s mut Klartext,
+    pub state: &'s State,
+    pub block: &'s mut Block,
+}
+
+/// What kind of path a block names.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Path {
+    Line,
+    /// `LP`: a line to a polar position.
+    Polar,
+    /// `C`: an arc about the centre.
+    Arc,
+    /// `CR`: an arc by its radius.
+    Radius,
+    /// `CP`: an arc about the centre to a polar position.
+    PolarArc,
+}
+
+impl Words<'_> {
+    pub(super) fn code(&mut self, meaning: Meaning) -> Done {
+        let control = self.state.settings.control;
+        let Some(row) = control.first(meaning) else {
+            return refuse(Code::PN016, format!("`{}` is not run", meaning.name()), "run the program without it");
+        };
+        let rules = control.rules();
+        self.block.put_g(row, group(row, rules), takes_axes(row, rules));
+        Ok(())
+    }
+
+    /// A number, or a parameter with its sign: `+10`, `-Q5`.
+    pub(super) fn number(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
+        if let Some(value) = cursor.signed() {
+            return Ok(value);
+        }
+        let sign = if cursor.takes(b"-") {
+            -1.0
+        } else {
+            cursor.takes(b"+");
+            1.0
+        };
+        let begin = cursor.at();
+        let name = cursor.name().map(|name| String::from_utf8_lossy(name).to_ascii_uppercase());
+        let Some(name) = name.filter(|name| is_parameter(name)) else { return Err(cursor.from(begin).unreadable()) };
+        match self.own.value(&name) {
+            Some(value) => Ok(sign * value),
+            None => {
+                let help = "give it a number in the program before: what the machine holds in it is unknown here";
+                Err(Fault::at(Code::PN016, begin, format!("the value of `{name}` is unknown"), help))
+            }
+        }
+    }
+
+    /// An operand of a function: a number, or a parameter with its sign.
+    pub fn operand(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
+        self.number(cursor)
+    }
+
+    /// A formula of parameters.
+    pub fn value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
+        let values: &Values<'_> = &|name| self.own.value(name);
+        formula(cursor, values)
+    }
+
+    /// `X+10`, `IY-5`: the axis, its value, and whether it is an increment.
+    pub(super) fn axis(&self, cursor: &mut Cursor<'_>) -> Done<Option<(usize, f64, bool)>> {
+        let rest = cursor.rest();
+        let by = rest.first().is_some_and(|byte| byte.eq_ignore_ascii_case(&b'I'));
+        let Some(letter) = rest.get(usize::from(by)).map(u8::to_ascii_uppercase) else { return Ok(None) };
+        let Some(axis) = self.state.control.axes().iter().position(|axis| *axis == letter) else { return Ok(None) };
+        let begin = cursor.at();
+        *cursor = cursor.from(begin + 1 + usize::from(by));
+        Ok(Some((axis, self.number(cursor)?, by)))
+    }
+
+    /// The words of a path.
+    pub fn path(&mut self, path: Path, cursor: &mut Cursor<'_>) -> Done {
+        let at = self.state.place.position;
+        let letters = *self.state.control.axes();
+        let mut rapid = false;
+        let (mut turns_left, mut radius, mut polar) = (None, None, [None; 2]);
+        let (mut moves, mut calls) = (false, false);
+        while !cursor.is_over() {
+            let begin = cursor.at();
+            let rest = cursor.rest().to_ascii_uppercase();
+            let is_polar = matches!(path, Path::Polar | Path::PolarArc);
+            if rest.starts_with(b"DR") {
+                *cursor = cursor.from(begin + 2);
+                turns_left = Some(match cursor.peek() {
+                    Some(b'+') => true,
+                    Some(b'-') => false,
+                    _ => return Err(cursor.unreadable()),
+                });
+                *cursor = cursor.from(cursor.at() + 1);
+            } else if is_polar
+                && (rest.starts_with(b"PR")
+                    || rest.starts_with(b"PA")
+                    || rest.starts_with(b"IPR")
+                    || rest.starts_with(b"IPA"))
+            {
+                let by = rest[0] == b'I';
+                let is_angle = rest[1 + usize::from(by)] == b'A';
+                *cursor = cursor.from(begin + 2 + usize::from(by));
+                polar[usize::from(is_angle)] = Some((self.number(cursor)?, by));
+            } else if let Some((axis, value, by)) = self.axis(cursor)? {
+                moves = true;
+                let control = self.state.settings.control;
+                self.block.word(letters[axis], value, false, begin, control)?;
+                let marked = if by { &mut self.block.incremental } else { &mut self.block.absolute };
+                *marked |= 1 << axis;
+            } else if rest.starts_with(b"RND") {
+                return Err(cursor.unreadable());
+            } else if rest.starts_with(b"R0") {
+                *cursor = cursor.from(begin + 2);
+                if self.state.tool.side.is_some() {
+                    self.code(Meaning::SideOff)?;
+                }
+            } else if path == Path::Radius
+                && rest.first() == Some(&b'R')
+                && !rest.starts_with(b"RL")
+                && !rest.starts_with(b"RR")
+            {
+                *cursor = cursor.from(begin + 1);
+                radius = Some(self.number(cursor)?);
+            } else if rest.starts_with(b"RL") || rest.starts_with(b"RR") {
+                *cursor = cursor.from(begin + 2);
+                let (side, meaning) = match rest[1] {
+                    b'L' => (crate::toolpath::Side::Left, Meaning::SideLeft),
+                    _ => (crate::toolpath::Side::Right, Meaning::SideRight),
+                };
+                if self.state.tool.side != Some(side) {
+                    self.code(meaning)?;
+                }
+            } else if rest.first() == Some(&b'F') {
+                *cursor = cursor.from(begin + 1);
+                rapid |= self.feed(cursor)?;
+            } else if rest.first() == Some(&b'M') {
+                calls |= self.switch(cursor)?;
+            } else {
+                return Err(cursor.unreadable());
+            }
+        }
+        if is_astray(path, polar) {
+            return refuse(Code::PN007, "a polar position without its words", "write PR and PA, or PA for an arc");
+        }
+        let goes = moves || matches!(path, Path::Polar | Path::PolarArc | Path::Arc);
+        if goes {
+            match path {
+                Path::Line => self.code(if rapid { Meaning::Rapid } else { Meaning::Line })?,
+                Path::Polar => {
+                    let to = self.polar(at, polar, true)?;
+                    self.code(if rapid { Meaning::Rapid } else { Meaning::Line })?;
+                    self.goes_to(to);
+                }
+                Path::Arc | Path::PolarArc | Path::Radius => {
+                    if rapid {
+                        return refuse(Code::PN006, "an arc at FMAX", "write its feed");
+                    }
+                    let Some(left) = turns_left else {
+                        return refuse(Code::PN007, "an arc without DR", "write DR+ or DR-");
+                    };
+                    self.code(if left { Meaning::ArcCcw } else { Meaning::ArcCw })?;
+                    self.arc(path, at, radius, polar, left)?;
+                }
+            }
+            if !rapid {
+                let Some(feed) = self.own.feed else {
+                    return refuse(Code::PN008, "a feed move without a feed", "write F with it, or FMAX");
+                };
+                self.block.put(b'F', feed);
+            }
+            if path == Path::Line {
+                self.corner_ahead(at)?;
+            } else if self.own.ahead.is_some() {
+                return refuse(Code::PN016, "a rounding or chamfer beside an arc is not run", "program it as moves");
+            }
+        }
+        // the last call ends those after every block
+        if calls || goes && self.own.calls_always {
+            self.call()?;
+        }
+        Ok(())
+    }
+
+    fn goes_to(&mut self, to: [f64; 2]) {
+        self.block.put(b'X', to[0]);
+        self.block.put(b'Y', to[1]);
+        self.block.absolute |= 0b11;
+        self.block.incremental &= !0b11;
+    }
+
+    fn center(&self) -> Done<[f64; 2]> {
+        match self.own.center {
+            Some(center) => Ok(center),
+            None => refuse(Code::PN009, "no CC says where the centre is", "write CC X.. Y.. before it"),
+        }
+    }
+
+    /// A polar position about the centre. Its angle counts from +X.
+    fn polar(&mut self, at: [f64; 6], words: [Option<(f64, bool)>; 2], keeps: bool) -> Done<[f64; 2]> {
+        let center = self.center()?;
+        let now = [at[0] - center[0], at[1] - center[1]];
+        let (held, heading) = (now[0].hypot(now[1]), now[1].atan2(now[0]).to_degrees());
+        let radius = match words[0] {
+            Some((by, true)) => held + by,
+            Some((radius, false)) => radius,
+            None if keeps => self.own.radius.unwrap_or(held),
+            None => held,
+        };
+        if keeps {
+            self.own.radius = Some(radius);
+        }
+        let angle = match words[1] {
+            Some((by, true)) => heading + by,
+            Some((angle, false)) => angle,
+            None => heading,
+        };
+        let (sin, cos) = angle.to_radians().sin_cos();
+        Ok([center[0] + radius * cos, center[1] + radius * sin])
+    }
+
+    /// The words of an arc, from where the tool is.
+    fn arc(
+        &mut self,
+        path: Path,
+        at: [f64; 6],
+        radius: Option<f64>,
+        polar: [Option<(f64, bool)>; 2],
+        left: bool,
+    ) -> Done {
+        if path == Path::Radius {
+            let Some(radius) = radius.filter(|radius| *radius != 0.0) else {
+                return refuse(Code::PN009, "CR without its radius", "write R with it");
+            };
+            self.block.put(b'R', radius);
+            return Ok(());
+        }
+        let center = self.center()?;
+        if path == Path::PolarArc {
+            let mut to = self.polar(at, [None, polar[1]], false)?;
+            if let Some((by, true)) = polar[1] {
+                if (by > 0.0) != left {
+                    let message = format!("IPA {by} and DR turn different ways");
+                    return refuse(Code::PN009, message, "give both the same sign");
+                }
+                let turns = by.abs() / 360.0;
+                if turns > 1e6 {
+                    return refuse(Code::PN018, format!("IPA {by} is over a million turns"), "write a smaller angle");
+                }
+                if by % 360.0 == 0.0 {
+                    to = [at[0], at[1]];
+                }
+                self.block.turns = (turns.ceil() as u32).saturating_sub(1);
+            }
+            self.goes_to(to);
+        }
+        self.block.put(b'I', center[0] - at[0]);
+        self.block.put(b'J', center[1] - at[1]);
+        Ok(())
+    }
+
+    /// `F500`, `FMAX`, `F AUTO`; `true`: a rapid.
+    pub(super) fn feed(&mut self, cursor: &mut Cursor<'_>) -> Done<bool> {
+        if cursor.takes_word("MAX") {
+            return Ok(true);
+        }
+        if cursor.takes_word("AUTO") {
+            self.own.feed = self.own.tool_feed;
+            return Ok(false);
+        }
+        if cursor.peek().is_some_and(|byte| matches!(byte.to_ascii_uppercase(), b'U' | b'Z' | b'N')) {
+            let message = "feeds a tooth or a turn are not run";
+            return Err(Fault::at(Code::PN016, cursor.at(), message, "write the feed a minute"));
+        }
+        let value = self.number(cursor)?;
+        // inches count tenths
+        self.own.feed = Some(if self.own.inch { value / 10.0 } else { value });
+        Ok(false)
+    }
+
+    /// `M3`; `true`: the cycle is called.
+    fn switch(&mut self, cursor: &mut Cursor<'_>) -> Done<bool> {
+        let begin = cursor.at();
+        *cursor = cursor.from(begin + 1);
+        let Some(code) = cursor.unsigned() else { return Err(cursor.unreadable()) };
+        match code as u16 {
+            99 => {
+                self.own.calls_always = false;
+                return Ok(true);
+            }
+            89 => {
+                self.own.calls_always = true;
+                return Ok(true);
+            }
+            91 | 92 => self.code(Meaning::Machine)?,
+            _ => self.block.m_word(code, begin, self.state.settings.control)?,
+        }
+        Ok(false)
+    }
+
+    fn call(&mut self) -> Done {
+        let Some(call) = &self.own.cycle else {
+            return refuse(Code::PN006, "no cycle is defined that could be called", "write CYCL DEF before it");
+        };
+        self.block.call = Some(call.clone());
+        self.block.is_empty = false;
+        Ok(())
+    }
+
+    /// `CYCL CALL`, with M codes.
+    pub fn cycle_call(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        if cursor.takes_word("POS") {
+            self.path(Path::Line, cursor)?;
+            return self.call();
+        }
+        if cursor.takes_word("PAT") {
+            return refuse(
+                Code::PN016,
+                "patterns of PATTERN DEF are not run",
+                "call the cycle at each position by M99",
+            );
+        }
+        while !cursor.is_over() {
+            if cursor.peek().is_none_or(|byte| !byte.eq_ignore_ascii_case(&b'M')) {
+                return Err(cursor.unreadable());
+            }
+            self.switch(cursor)?;
+        }
+        self.own.calls_always = false;
+        self.call()
+    }
+
+    /// A rounding or chamfer comes next: the line ends where it begins.
+    fn corner_ahead(&mut self, at: [f64; 6]) -> Done {
+        let Some([rounding, next]) = self.own.ahead.take() else { return Ok(()) };
+        let target = |words: &Self, from: [f64; 2]| -> Done<[f64; 2]> {
+            let mut to = from;
+            let mut cursor = Cursor::new(&next, 0);
+            super::flow::skip_number(&mut cursor);
+            if !cursor.takes_word("L") {
+                return refuse(Code::PN016, "a rounding or chamfer beside an arc is not run", "program it as moves");
+            }
+            while let Some((axis, value, by)) = words.axis(&mut cursor)? {
+                match axis {
+                    0 | 1 => to[axis] = if by { from[axis] + value } else { value },
+                    _ => {
+                        return refuse(
+                            Code::PN016,
+                            "a rounding or chamfer out of its plane is not run",
+                            "program it as moves",
+                        );
+                    }
+                }
+            }
+            Ok(to)
+        };
+        if [b'Z', b'A', b'B', b'C'].iter().any(|letter| self.block.get(*letter).is_some()) {
+            return refuse(Code::PN016, "a rounding or chamfer out of its plane is not run", "program it as moves");
+        }
+        let mut corner = [at[0], at[1]];
+        for (axis, letter) in [(0, b'X'), (1, b'Y')] {
+            if let Some(value) = self.block.get(letter) {
+                corner[axis] = if self.block.incremental & 1 << axis != 0 { at[axis] + value } else { value };
+            }
+        }
+        let to = target(self, corner)?;
+        let mut cursor = Cursor::new(&rounding, 0);
+        super::flow::skip_number(&mut cursor);
+        let rounds = cursor.takes(b"RND");
+        if !rounds {
+            cursor.takes(b"CHF");
+        }
+        cursor.takes(b"R");
+        let size = self.number(&mut cursor)?;
+        let corner = Corner::new([at[0], at[1]], corner, to, size, rounds)?;
+        self.goes_to(corner.start);
+        self.own.corner = Some(corner);
+        Ok(())
+    }
+
+    /// `RND R3 F200` and `CHF 2`, which the line before prepared.
+    pub fn rounding(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        let Some(corner) = self.own.corner.take() else {
+            return refuse(Code::PN009, "a rounding or chamfer without a line before it", "write it between two lines");
+        };
+        cursor.takes(b"R");
+        self.number(cursor)?;
+        let mut feed = self.own.feed;
+        if cursor.takes(b"F") {
+            // it holds here alone
+            let held = feed;
+            self.feed(cursor)?;
+            feed = self.own.feed;
+            self.own.feed = held;
+        }
+        if !cursor.is_over() {
+            return Err(cursor.unreadable());
+        }
+        let Some(feed) = feed else { return refuse(Code::PN008, "a feed move without a feed", "write F with it") };
+        let at = self.state.place.position;
+        match corner.arc {
+            Some((center, left)) => {
+                self.code(if left { Meaning::ArcCcw } else { Meaning::ArcCw })?;
+                self.block.put(b'I', center[0] - at[0]);
+                self.block.put(b'J', center[1] - at[1]);
+            }
+            None => self.code(Meaning::Line)?,
+        }
+        self.goes_to(corner.end);
+        self.block.put(b'F', feed);
+        Ok(())
+    }
+
+    /// `CC X+10 Y+20`; alone it is where the tool is.
+    pub fn circle_center(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        let at = self.state.place.position;
+        let mut center = if cursor.is_over() { [at[0], at[1]] } else { self.own.center.unwrap_or([at[0], at[1]]) };
+        while !cursor.is_over() {
+            match self.axis(cursor)? {
+                Some((axis @ (0 | 1), value, by)) => center[axis] = if by { at[axis] + value } else { value },
+                _ => return Err(cursor.unreadable()),
+            }
+        }
+        self.own.center = Some(center);
+        self.own.radius = None;
+        Ok(())
+    }
+}
+
+/// Does a polar path lack its words?
+fn is_astray(path: Path, words: [Option<(f64, bool)>; 2]) -> bool {
+    match path {
+        Path::Polar => words == [None; 2],
+        Path::PolarArc => words[1].is_none(),
+        _ => false,
+    }
+}

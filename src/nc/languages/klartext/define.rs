@@ -1,0 +1,195 @@
+//! Blocks that define: `TOOL CALL`, `CYCL DEF`, `TRANS DATUM`.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::super::cursor::Cursor;
+use super::block::{Path, Words};
+use super::cycles::Cycle;
+use crate::control::Meaning;
+use crate::diag::Code;
+use crate::nc::fault::{Done, Fault, refuse};
+
+impl Words<'_> {
+    /// `TOOL CALL 5 Z S2000 F300 DL+0.1`; without a tool it sets the speed.
+    pub fn tool_call(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        let tool = match cursor.peek() {
+            Some(b'"') => {
+                let Some(name) = cursor.quoted() else { return Err(cursor.unreadable()) };
+                Some(self.tool(name))
+            }
+            Some(byte) if byte.is_ascii_digit() => cursor.unsigned(),
+            Some(b'Q' | b'q') => Some(self.number(cursor)?),
+            _ => None,
+        };
+        if let Some(tool) = tool {
+            self.block.put(b'T', tool);
+            self.block.put(b'H', tool);
+            self.block.m_word(6.0, 0, self.state.settings.control)?;
+        }
+        while !cursor.is_over() {
+            let begin = cursor.at();
+            let rest = cursor.rest().to_ascii_uppercase();
+            let skip = |count: usize, cursor: &mut Cursor<'_>| *cursor = cursor.from(begin + count);
+            match (rest.first(), rest.get(1)) {
+                (Some(b'Z'), None | Some(b' ')) => skip(1, cursor),
+                (Some(b'X' | b'Y'), None | Some(b' ')) => {
+                    let message = "a tool along X or Y is not run";
+                    return Err(Fault::at(Code::PN016, begin, message, "write TOOL CALL with Z"));
+                }
+                (Some(b'D'), Some(b'L' | b'R')) => {
+                    let skipped = if rest.starts_with(b"DR2") { 3 } else { 2 };
+                    skip(skipped, cursor);
+                    self.number(cursor)?;
+                }
+                (Some(b'S'), _) => {
+                    skip(1, cursor);
+                    let speed = self.number(cursor)?;
+                    self.block.put(b'S', speed);
+                }
+                (Some(b'F'), _) => {
+                    skip(1, cursor);
+                    let held = self.own.feed;
+                    if self.feed(cursor)? {
+                        return Err(cursor.unreadable());
+                    }
+                    self.own.tool_feed = self.own.feed;
+                    self.own.feed = held.or(self.own.tool_feed);
+                }
+                _ => return Err(cursor.unreadable()),
+            }
+        }
+        Ok(())
+    }
+
+    fn tool(&mut self, name: &[u8]) -> f64 {
+        if let Some(number) = std::str::from_utf8(name).ok().and_then(|name| name.parse::<u32>().ok()) {
+            return f64::from(number);
+        }
+        let at = self.own.tools.iter().position(|known| known == name).unwrap_or_else(|| {
+            self.own.tools.push(name.to_vec());
+            self.own.tools.len() - 1
+        });
+        (at + 1) as f64
+    }
+
+    /// `CYCL DEF 200 DRILLING ~ Q200=2 ..`, `CYCL DEF 7.1 X+10`, `CYCL DEF 247 .. Q339=2`.
+    pub fn cycle_definition(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        let begin = cursor.at();
+        let Some(number) = cursor.unsigned() else { return Err(cursor.unreadable()) };
+        let (cycle, part) = (number.trunc() as u16, (number.fract() * 10.0).round() as u16);
+        let unknown = |what: &str| {
+            let message = format!("CYCL DEF {number} is not run{what}");
+            Err(Fault::at(Code::PN016, begin, message, "run the program without it, or write what it does as moves"))
+        };
+        if Cycle::is_known(cycle) {
+            let cycle = Cycle { number: cycle, words: self.parameters(cursor)? };
+            cycle.check()?;
+            self.own.cycle = Some(Arc::new(cycle));
+            self.own.calls_always = false;
+            return Ok(());
+        }
+        match (cycle, part) {
+            (247, _) => {
+                let words = self.parameters(cursor)?;
+                let datum = words.get(&339).copied().unwrap_or(0.0);
+                if datum.fract() != 0.0 || !(1.0..=999.0).contains(&datum) {
+                    let message = format!("datum {datum} is not run");
+                    return Err(Fault::at(Code::PN016, begin, message, "take datum 1 to 999"));
+                }
+                self.block.work = Some(datum);
+            }
+            (7 | 9 | 10 | 11 | 32, 0) => {}
+            (7, _) if cursor.peek() == Some(b'#') => return unknown(": a row of a datum table"),
+            (7, _) => self.datum(cursor)?,
+            (9, _) => {
+                let text = cursor.rest();
+                let last = text.split(|byte| !byte.is_ascii_digit() && *byte != b'.').rfind(|part| !part.is_empty());
+                let seconds =
+                    last.and_then(|part| std::str::from_utf8(part).ok()).and_then(|part| part.parse::<f64>().ok());
+                let Some(seconds) = seconds else { return Err(cursor.unreadable()) };
+                self.dwell(seconds)?;
+            }
+            // what turns and scales nothing
+            (10 | 11, _) => {
+                let text = cursor.rest();
+                let neutral = if cycle == 10 { 0.0 } else { 1.0 };
+                let at = text.iter().position(|byte| byte.is_ascii_digit() || matches!(byte, b'+' | b'-'));
+                let value = at.and_then(|at| cursor.from(cursor.at() + at).signed());
+                if value != Some(neutral) {
+                    return unknown(": it turns or scales the frame");
+                }
+            }
+            (32, _) => {}
+            _ => return unknown(""),
+        }
+        Ok(())
+    }
+
+    /// A dwell of so many seconds.
+    pub fn dwell(&mut self, seconds: f64) -> Done {
+        self.code(Meaning::Dwell)?;
+        self.block.put(b'P', seconds);
+        Ok(())
+    }
+
+    /// `Q200=2 Q201=-20`: the text before them is the name of the cycle.
+    fn parameters(&mut self, cursor: &mut Cursor<'_>) -> Done<BTreeMap<u16, f64>> {
+        let mut words = BTreeMap::new();
+        while !cursor.is_over() {
+            let begin = cursor.at();
+            let Some(name) = cursor.name() else {
+                // the text of a name
+                *cursor = cursor.from(begin + 1);
+                continue;
+            };
+            let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+            let number = name.strip_prefix('Q').and_then(|number| number.parse::<u16>().ok());
+            let Some(number) = number.filter(|_| cursor.takes(b"=")) else { continue };
+            let value = if cursor.takes_word("MAX") {
+                f64::INFINITY
+            } else if cursor.takes_word("AUTO") {
+                self.own
+                    .tool_feed
+                    .map_or_else(|| refuse(Code::PN008, "AUTO, and TOOL CALL gave no feed", "write the feed"), Ok)?
+            } else {
+                self.number(cursor)?
+            };
+            words.insert(number, value);
+            self.own.values.insert(name, value);
+        }
+        Ok(words)
+    }
+
+    /// `CYCL DEF 7.1 X+10`, `TRANS DATUM AXIS X+10 Y+5`.
+    pub fn datum(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        self.code(Meaning::Frame)?;
+        let shift = *self.state.shift();
+        while !cursor.is_over() {
+            let Some((axis, value, by)) = self.axis(cursor)? else { return Err(cursor.unreadable()) };
+            let letter = self.state.control.axes()[axis];
+            self.block.put(letter, if by { shift[axis] + value } else { value });
+        }
+        if self.block.has_axes() { Ok(()) } else { Err(cursor.unreadable()) }
+    }
+
+    /// `TRANS DATUM RESET`.
+    pub fn datum_reset(&mut self) -> Done {
+        self.code(Meaning::Frame)?;
+        for letter in self.state.control.axes() {
+            self.block.put(*letter, 0.0);
+        }
+        Ok(())
+    }
+
+    /// M codes that stand without a path: `M5`, `STOP M9`.
+    pub fn switches(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        self.path(Path::Line, cursor)
+    }
+
+    /// The units of `BEGIN PGM NAME MM`.
+    pub fn units(&mut self, inch: bool) -> Done {
+        self.own.inch = inch;
+        self.code(if inch { Meaning::Inch } else { Meaning::Mm })
+    }
+}

@@ -1,0 +1,437 @@
+//! Blocks and the way through them: labels, parts that are repeated, conditions.
+
+use std::collections::HashMap;
+
+use super::super::cursor::Cursor;
+use super::block::{Path, Words};
+use super::is_parameter;
+use crate::diag::Code;
+use crate::nc::action::{Action, Item};
+use crate::nc::fault::{Done, Fault, refuse};
+use crate::nc::simulator::{RunError, Simulator};
+use crate::nc::way::{Frame, Jump, Search, Spot};
+
+/// Passes over a block's number.
+pub fn skip_number(cursor: &mut Cursor<'_>) {
+    if cursor.takes(b"/") {
+        skip_number(cursor);
+    } else if cursor.peek().is_some_and(|byte| byte.is_ascii_digit()) {
+        cursor.unsigned();
+    }
+}
+
+/// Without its comment; a decimal comma is a point.
+fn plain(line: &[u8]) -> Vec<u8> {
+    let mut quoted = false;
+    let mut plain = Vec::with_capacity(line.len());
+    for byte in line.trim_ascii_end() {
+        match byte {
+            b'"' => quoted = !quoted,
+            b';' if !quoted => break,
+            _ => {}
+        }
+        plain.push(if *byte == b',' && !quoted { b'.' } else { *byte });
+    }
+    plain
+}
+
+/// The label that a line sets: `LBL 5`, `LBL "POCKET"`.
+fn label(line: &[u8]) -> Option<String> {
+    let line = plain(line);
+    let mut cursor = Cursor::new(&line, 0);
+    skip_number(&mut cursor);
+    if cursor.takes_word("LBL") { name(&mut cursor) } else { None }
+}
+
+/// A label's number or name.
+fn name(cursor: &mut Cursor<'_>) -> Option<String> {
+    match cursor.quoted() {
+        Some(name) => Some(String::from_utf8_lossy(name).into_owned()),
+        None => cursor.unsigned().map(|number| format!("{number}")),
+    }
+}
+
+impl Simulator<'_> {
+    /// Reads the lines of a block: those that end with `~` go on. Looks whether a rounding follows.
+    pub(in crate::nc) fn read_klartext_lines(&mut self) -> Result<bool, RunError> {
+        self.klartext.begin = self.at;
+        if !self.read_line()? {
+            return Ok(false);
+        }
+        if self.line.trim_ascii_end().ends_with(b"~") {
+            let mut whole = Vec::new();
+            loop {
+                let text = self.line.trim_ascii_end();
+                let goes_on = text.ends_with(b"~");
+                whole.extend_from_slice(&plain(text.strip_suffix(b"~").unwrap_or(text)));
+                whole.push(b' ');
+                if whole.len() > 1 << 16 {
+                    let help = "look for a `~` that should not be there";
+                    return Err(self.refused(Fault::new(Code::PN001, "a block of over 65536 bytes", help)));
+                }
+                if !goes_on {
+                    break;
+                }
+                if !self.read_line()? {
+                    let help = "write the lines that follow it";
+                    return Err(self.refused(Fault::new(Code::PN010, "the program ends after `~`", help)));
+                }
+            }
+            self.line = whole;
+        }
+        self.klartext.ahead = None;
+        if self.corner_follows()? {
+            self.read_corner()?;
+        }
+        Ok(true)
+    }
+
+    /// Is the next block a rounding or a chamfer?
+    fn corner_follows(&mut self) -> Result<bool, RunError> {
+        // most of the time the next line is at hand
+        let found = is_corner(self.input.buffer());
+        if let Some(found) = found {
+            return Ok(found);
+        }
+        let (back, text) = (self.at, std::mem::take(&mut self.line));
+        let more = self.read_line()?;
+        let found = more && is_corner(&self.line).unwrap_or(false);
+        self.line = text;
+        self.rewind(back)?;
+        Ok(found)
+    }
+
+    /// The rounding that follows, and the block after it.
+    fn read_corner(&mut self) -> Result<(), RunError> {
+        let (back, text) = (self.at, self.line.clone());
+        let mut ahead = [Vec::new(), Vec::new()];
+        for block in &mut ahead {
+            loop {
+                if !self.read_line()? {
+                    break;
+                }
+                *block = plain(&self.line);
+                let is_text = block.trim_ascii().is_empty() || block.contains(&b'*');
+                if !is_text {
+                    break;
+                }
+            }
+        }
+        self.klartext.ahead = Some(ahead);
+        self.line = text;
+        self.rewind(back)
+    }
+
+    /// Back to where it was, which is no jump of the program.
+    fn rewind(&mut self, back: Spot) -> Result<(), RunError> {
+        let offset = i128::from(back.byte) - i128::from(self.at.byte);
+        self.input.seek_relative(i64::try_from(offset).unwrap_or(0))?;
+        self.at = back;
+        Ok(())
+    }
+
+    /// Reads the line into the block; a jump where there is nothing for the control to do.
+    pub(in crate::nc) fn read_klartext(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
+        self.block.clear();
+        let text = plain(&self.line);
+        if let Some(at) = self.line.iter().position(|byte| *byte == b';') {
+            self.block.comment = Some((at + 1, self.line.trim_ascii_end().len().max(at + 1)));
+        }
+        let mut cursor = Cursor::new(&text, 0);
+        let deleted = cursor.peek() == Some(b'/');
+        skip_number(&mut cursor);
+        if cursor.takes(b"/") || deleted {
+            if self.state.settings.block_delete {
+                return Ok(Some(Jump::On));
+            }
+            items.push(Item { line: self.at.line, by_cycle: false, action: Action::BlockDelete });
+        }
+        if cursor.is_over() {
+            return Ok(self.block.comment.is_none().then_some(Jump::On));
+        }
+        if cursor.takes(b"*") {
+            // the heading of a part
+            let start = cursor.at();
+            self.block.comment =
+                Some((start.min(self.line.len()), self.line.trim_ascii_end().len().max(start.min(self.line.len()))));
+            return Ok(None);
+        }
+        self.blocks += 1;
+        self.klartext_block(&mut cursor)
+    }
+
+    fn klartext_block(&mut self, cursor: &mut Cursor<'_>) -> Done<Option<Jump>> {
+        let begin = cursor.at();
+        let Some(word) = cursor.letters() else { return Err(cursor.unreadable()) };
+        let word = String::from_utf8_lossy(word).to_ascii_uppercase();
+        let mut words = Words { own: &mut self.klartext, state: &self.state, block: &mut self.block };
+        match word.as_str() {
+            "BEGIN" => {
+                if words.own.begun {
+                    let help = "give each program a file of its own";
+                    return refuse(Code::PN010, "a second program begins before the first one ends", help);
+                }
+                words.own.begun = true;
+                let unit = cursor.rest().trim_ascii_end().to_ascii_uppercase();
+                if !unit.ends_with(b" MM") && !unit.ends_with(b" INCH") {
+                    return refuse(Code::PN007, "BEGIN PGM without MM or INCH", "write the units at its end");
+                }
+                words.units(unit.ends_with(b" INCH"))?;
+            }
+            "END" => {
+                items_end(&mut self.block, self.state.settings.control)?;
+            }
+            "BLK" => return Ok(Some(Jump::On)),
+            "L" => words.path(Path::Line, cursor)?,
+            "LP" => words.path(Path::Polar, cursor)?,
+            "C" => words.path(Path::Arc, cursor)?,
+            "CR" => words.path(Path::Radius, cursor)?,
+            "CP" => words.path(Path::PolarArc, cursor)?,
+            "CC" => {
+                words.circle_center(cursor)?;
+                return Ok(Some(Jump::On));
+            }
+            "RND" | "CHF" => words.rounding(cursor)?,
+            "M" => {
+                *cursor = cursor.from(begin);
+                words.switches(cursor)?;
+            }
+            "STOP" => {
+                words.block.m_word(0.0, begin, words.state.settings.control)?;
+                words.switches(cursor)?;
+            }
+            "TOOL" if cursor.takes_word("CALL") => words.tool_call(cursor)?,
+            "TOOL" if cursor.takes_word("DEF") => return Ok(Some(Jump::On)),
+            "CYCL" if cursor.takes_word("CALL") => words.cycle_call(cursor)?,
+            "CYCL" if cursor.takes_word("DEF") => words.cycle_definition(cursor)?,
+            "TRANS" if cursor.takes_word("DATUM") => {
+                if cursor.takes_word("RESET") {
+                    words.datum_reset()?;
+                } else if cursor.takes_word("AXIS") {
+                    words.datum(cursor)?;
+                } else {
+                    return Err(cursor.unreadable());
+                }
+            }
+            "PLANE" => {
+                if !turns_nothing(cursor) {
+                    let help = "program the part without a tilted plane";
+                    return refuse(Code::PN016, "a tilted plane is not simulated", help);
+                }
+                return Ok(Some(Jump::On));
+            }
+            "FUNCTION" if cursor.takes_word("DWELL") => {
+                cursor.takes(b"TIME");
+                let seconds = words.value(cursor)?;
+                words.dwell(seconds)?;
+            }
+            "LBL" => {
+                let label = name(cursor);
+                if label.as_deref() == Some("0") && matches!(self.frames.last(), Some(Frame::Call { .. })) {
+                    return self.return_from("LBL 0").map(Some);
+                }
+                return Ok(Some(Jump::On));
+            }
+            "CALL" if cursor.takes_word("LBL") => return self.call_label(cursor).map(Some),
+            "FN" => return self.function(cursor).map(Some),
+            "Q" | "QL" | "QR" => {
+                *cursor = cursor.from(begin);
+                let name = parameter(cursor)?;
+                cursor.needs(b"=")?;
+                let value = words.value(cursor)?;
+                if !cursor.is_over() {
+                    return Err(cursor.unreadable());
+                }
+                words.own.values.insert(name, value);
+                return Ok(Some(Jump::On));
+            }
+            _ => {
+                let message = format!("`{word}` is not known");
+                return Err(Fault::at(
+                    Code::PN016,
+                    begin,
+                    message,
+                    "run the program without it, or write what it does as moves",
+                ));
+            }
+        }
+        self.block.is_empty = false;
+        Ok(None)
+    }
+
+    /// `CALL LBL 1`, and `CALL LBL 1 REP 3`, which runs the part before it so often again.
+    fn call_label(&mut self, cursor: &mut Cursor<'_>) -> Done<Jump> {
+        let Some(label) = name(cursor) else { return Err(cursor.unreadable()) };
+        if !cursor.takes_word("REP") && !cursor.takes(b"REP") {
+            if !cursor.is_over() {
+                return Err(cursor.unreadable());
+            }
+            return Ok(Jump::Search(Search::Call(label, Vec::new(), 1)));
+        }
+        let words = Words { own: &mut self.klartext, state: &self.state, block: &mut self.block };
+        let times = words.value(cursor)?;
+        if times.fract() != 0.0 || !(0.0..=65_534.0).contains(&times) {
+            return refuse(Code::PN018, format!("REP {times} is no number of repeats"), "write 1 to 65534");
+        }
+        let line = self.at.line;
+        match self.klartext.repeats.last_mut() {
+            Some((own, 0)) if *own == line => {
+                self.klartext.repeats.pop();
+                return Ok(Jump::On);
+            }
+            Some((own, left)) if *own == line => *left -= 1,
+            _ if times == 0.0 => return Ok(Jump::On),
+            _ => self.klartext.repeats.push((line, times as u32 - 1)),
+        }
+        Ok(Jump::Search(Search::Label(label, None)))
+    }
+
+    /// `FN 1: Q2 = +Q1 + +5`, `FN 9: IF +Q1 EQU +Q2 GOTO LBL 5`.
+    fn function(&mut self, cursor: &mut Cursor<'_>) -> Done<Jump> {
+        let begin = cursor.at();
+        let Some(number) = cursor.unsigned() else { return Err(cursor.unreadable()) };
+        cursor.needs(b":")?;
+        let number = number as u16;
+        if (9..=12).contains(&number) {
+            return self.condition(number, cursor);
+        }
+        if !matches!(number, 0..=8 | 13) {
+            let message = format!("FN {number} is not run");
+            return Err(Fault::at(Code::PN016, begin, message, "run the program without it"));
+        }
+        let name = parameter(cursor)?;
+        cursor.needs(b"=")?;
+        let words = Words { own: &mut self.klartext, state: &self.state, block: &mut self.block };
+        let operand = |cursor: &mut Cursor<'_>| words.operand(cursor);
+        let both = |cursor: &mut Cursor<'_>, between: &str| -> Done<(f64, f64)> {
+            let first = operand(cursor)?;
+            let is_word = between.as_bytes()[0].is_ascii_alphabetic();
+            if !if is_word { cursor.takes_word(between) } else { cursor.takes(between.as_bytes()) } {
+                return Err(cursor.unreadable());
+            }
+            Ok((first, operand(cursor)?))
+        };
+        let of = |cursor: &mut Cursor<'_>, function: &str, apply: fn(f64) -> f64| -> Done<f64> {
+            if !cursor.takes_word(function) {
+                return Err(cursor.unreadable());
+            }
+            operand(cursor).map(apply)
+        };
+        let value = match number {
+            0 => operand(cursor)?,
+            1 => both(cursor, "+").map(|(a, b)| a + b)?,
+            2 => both(cursor, "-").map(|(a, b)| a - b)?,
+            3 => both(cursor, "*").map(|(a, b)| a * b)?,
+            4 => both(cursor, "DIV").map(|(a, b)| a / b)?,
+            5 => of(cursor, "SQRT", f64::sqrt)?,
+            6 => of(cursor, "SIN", |x| x.to_radians().sin())?,
+            7 => of(cursor, "COS", |x| x.to_radians().cos())?,
+            8 => both(cursor, "LEN").map(|(a, b)| a.hypot(b))?,
+            _ => both(cursor, "ANG").map(|(a, b)| a.atan2(b).to_degrees())?,
+        };
+        if !value.is_finite() {
+            return refuse(Code::PN014, format!("the result is {value}, and no number"), "look for a division by zero");
+        }
+        if !cursor.is_over() {
+            return Err(cursor.unreadable());
+        }
+        self.klartext.values.insert(name, value);
+        Ok(Jump::On)
+    }
+
+    fn condition(&mut self, number: u16, cursor: &mut Cursor<'_>) -> Done<Jump> {
+        let words = Words { own: &mut self.klartext, state: &self.state, block: &mut self.block };
+        if !cursor.takes_word("IF") {
+            return Err(cursor.unreadable());
+        }
+        let first = words.operand(cursor)?;
+        let named = ["EQU", "NE", "GT", "LT"][usize::from(number - 9)];
+        if !cursor.takes_word(named) {
+            return Err(cursor.unreadable());
+        }
+        let second = words.operand(cursor)?;
+        if !cursor.takes_word("GOTO") || !cursor.takes_word("LBL") {
+            return Err(cursor.unreadable());
+        }
+        let Some(label) = name(cursor) else { return Err(cursor.unreadable()) };
+        let is_so = match number {
+            9 => first == second,
+            10 => first != second,
+            11 => first > second,
+            _ => first < second,
+        };
+        Ok(if is_so { Jump::Search(Search::Label(label, None)) } else { Jump::On })
+    }
+
+    /// Goes where a search leads.
+    pub(in crate::nc) fn search_klartext(&mut self, search: Search) -> Result<(), RunError> {
+        if self.klartext.labels.is_none() {
+            let (back, farthest, text) = (self.at, self.farthest, self.line.clone());
+            self.go(Spot { byte: 0, line: 0 })?;
+            let mut labels = HashMap::new();
+            while self.read_line()? {
+                if let Some(label) = label(&self.line).filter(|label| label != "0") {
+                    labels.entry(label).or_insert(self.at);
+                }
+            }
+            self.klartext.labels = Some(labels);
+            self.go(back)?;
+            (self.farthest, self.line) = (farthest, text);
+        }
+        let (label, calls) = match search {
+            Search::Call(label, ..) => (label, true),
+            Search::Label(label, _) => (label, false),
+            Search::Part(_) => return Ok(()),
+        };
+        let Some(start) = self.klartext.labels.as_ref().and_then(|labels| labels.get(&label)).copied() else {
+            let fault = Fault::new(Code::PN015, format!("there is no LBL {label}"), "look for a misprint");
+            return Err(self.refused(fault));
+        };
+        if calls {
+            let frame = Frame::Call { label, back: self.at, start, times: 1, arguments: false };
+            if let Err(fault) = self.push(frame) {
+                return Err(self.refused(fault));
+            }
+        }
+        self.go(start)
+    }
+}
+
+/// The name of a parameter.
+fn parameter(cursor: &mut Cursor<'_>) -> Done<String> {
+    let begin = cursor.at();
+    let name = cursor.name().map(|name| String::from_utf8_lossy(name).to_ascii_uppercase());
+    match name {
+        Some(name) if is_parameter(&name) => Ok(name),
+        _ => Err(cursor.from(begin).unreadable()),
+    }
+}
+
+/// `PLANE RESET`, and `PLANE SPATIAL` with three zeros.
+fn turns_nothing(cursor: &mut Cursor<'_>) -> bool {
+    if cursor.takes_word("RESET") {
+        return true;
+    }
+    if !cursor.takes_word("SPATIAL") {
+        return false;
+    }
+    [&b"SPA"[..], b"SPB", b"SPC"].iter().all(|word| cursor.takes(word) && cursor.signed() == Some(0.0))
+}
+
+/// Is the first line here a rounding or chamfer? `None`: it is not here as a whole.
+fn is_corner(text: &[u8]) -> Option<bool> {
+    let line = match text.iter().position(|byte| *byte == b'\n') {
+        Some(end) => &text[..end],
+        None if text.len() >= 64 => text,
+        None => return None,
+    };
+    let mut cursor = Cursor::new(line, 0);
+    skip_number(&mut cursor);
+    let rest = cursor.rest();
+    Some(rest.get(..3).is_some_and(|word| word.eq_ignore_ascii_case(b"RND") || word.eq_ignore_ascii_case(b"CHF")))
+}
+
+/// `END PGM` ends the program as M30 does.
+fn items_end(block: &mut crate::nc::block::Block, control: &'static crate::control::Control) -> Done {
+    block.m_word(30.0, 0, control)
+}

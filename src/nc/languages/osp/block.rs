@@ -1,0 +1,262 @@
+//! A block of words: `G81 X10 Y=VC1*2 Z-10 R2 F100 M53`.
+
+use std::sync::Arc;
+
+use super::super::cursor::Cursor;
+use super::super::formula::{Values, formula};
+use super::Osp;
+use super::cycles::{Back, Cycle};
+use crate::control::{Code as Name, Meaning};
+use crate::diag::Code;
+use crate::nc::block::Block;
+use crate::nc::codes::{Group, bit, group, letters, takes_axes};
+use crate::nc::fault::{Done, Fault, refuse};
+use crate::nc::state::State;
+
+/// Reads a block.
+pub struct Words<'s> {
+    pub own: &'s mut Osp,
+    pub state: &'s State,
+    pub block: &'s mut Block,
+    /// A cycle that the block begins, and what else it says of cycles.
+    pub said: Said,
+}
+
+/// What a block says beside its words.
+#[derive(Default)]
+pub struct Said {
+    /// The code of a cycle.
+    pub cycle: Option<Name>,
+    /// G80, or a motion.
+    pub ends: bool,
+    /// NCYL: no hole is made.
+    pub no_hole: bool,
+    /// NOEX: no axis moves.
+    pub no_move: bool,
+    /// FA.
+    pub feed_out: Option<f64>,
+    /// G15, an offset from here on, or G16, for this block.
+    pub offset: Option<Meaning>,
+    /// G71: the level to which cycles return.
+    pub level: bool,
+}
+
+impl Words<'_> {
+    /// Reads the words of a block.
+    ///
+    /// # Errors
+    /// A word that is not known.
+    pub fn read(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        while !cursor.is_over() {
+            self.word(cursor)?;
+        }
+        self.settle()
+    }
+
+    /// A formula.
+    pub fn value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
+        let values: &Values<'_> = &|name| self.own.value(name);
+        formula(cursor, values)
+    }
+
+    fn word(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        let column = cursor.at();
+        let Some(letters) = cursor.letters() else { return Err(cursor.unreadable()) };
+        let name = String::from_utf8_lossy(letters).to_ascii_uppercase();
+        let control = self.state.settings.control;
+        let [letter] = name.as_bytes() else {
+            match name.as_str() {
+                "NCYL" => self.said.no_hole = true,
+                "NOEX" => self.said.no_move = true,
+                "HA" => self.block.word(b'H', self.state.tool.loaded.unwrap_or(0.0), false, column, control)?,
+                "FA" => {
+                    cursor.takes(b"=");
+                    self.said.feed_out = Some(self.value(cursor)?);
+                }
+                _ => {
+                    let message = format!("`{name}` is not known");
+                    return Err(Fault::at(
+                        Code::PN016,
+                        column,
+                        message,
+                        "run the program without it, or write its moves",
+                    ));
+                }
+            }
+            self.block.is_empty = false;
+            return Ok(());
+        };
+        let value = match cursor.takes(b"=") {
+            true => self.value(cursor)?,
+            false => cursor.signed().ok_or_else(|| cursor.unreadable())?,
+        };
+        match letter {
+            b'G' => self.g_word(value, column),
+            b'M' => self.m_word(value, column),
+            _ => self.block.word(*letter, value, false, column, control),
+        }
+    }
+
+    fn g_word(&mut self, value: f64, column: usize) -> Done {
+        let control = self.state.settings.control;
+        let row = Name::of(b'G', value).and_then(|code| control.row(code)).filter(|row| row.not_run.is_none());
+        let meaning = row.map(|row| row.meaning);
+        match meaning {
+            Some(Meaning::Work | Meaning::Machine) => {
+                self.block.is_empty = false;
+                self.said.offset = meaning;
+                Ok(())
+            }
+            Some(Meaning::ReturnLevel) => {
+                self.block.is_empty = false;
+                self.said.level = true;
+                Ok(())
+            }
+            Some(Meaning::Cycle) => {
+                self.block.is_empty = false;
+                if self.said.cycle.replace(row.map_or(Name::default(), |row| row.code)).is_some() {
+                    let message = "two cycles in one block";
+                    return Err(Fault::at(Code::PN004, column, message, "write them in two blocks"));
+                }
+                Ok(())
+            }
+            meaning => {
+                let ends = matches!(
+                    meaning,
+                    Some(Meaning::CycleEnd | Meaning::Rapid | Meaning::Line | Meaning::ArcCw | Meaning::ArcCcw)
+                );
+                self.said.ends |= ends;
+                self.block.g_word(value, column, control)
+            }
+        }
+    }
+
+    fn m_word(&mut self, value: f64, column: usize) -> Done {
+        let control = self.state.settings.control;
+        match Name::of(b'M', value).and_then(|code| control.meaning(code)) {
+            Some(Meaning::ToTop) => self.own.back = Some(Back::Top),
+            Some(Meaning::ToR) => self.own.back = Some(Back::R),
+            Some(Meaning::ToLevel) => {
+                let Some(level) = self.own.level else {
+                    let message = "a return to the level of G71, and none was said";
+                    return Err(Fault::at(Code::PN007, column, message, "write G71 Z and its height before it"));
+                };
+                self.own.back = Some(Back::Level(level));
+            }
+            _ => return self.block.m_word(value, column, control),
+        }
+        self.block.is_empty = false;
+        Ok(())
+    }
+
+    /// What the words of a block are to those of the simulator.
+    fn settle(&mut self) -> Done {
+        if let Some(meaning) = self.said.offset {
+            self.offset(meaning)?;
+        }
+        if self.said.level {
+            let Some(level) = self.block.get(b'Z') else {
+                return refuse(Code::PN007, "a level of cycles without its Z", "write G71 Z50");
+            };
+            self.own.level = Some(level);
+            self.block.given &= !bit(b'Z');
+            // a return to it goes to the new one
+            if let Some(Back::Level(_)) = self.own.back {
+                self.own.back = Some(Back::Level(level));
+            }
+        }
+        if self.block.g_meaning(Group::Once) == Some(Meaning::Dwell) {
+            let Some(seconds) = self.block.get(b'F').or(self.block.get(b'P')) else {
+                return refuse(Code::PN007, "G4 without its time", "write G4 F2 for two seconds");
+            };
+            self.block.given &= !bit(b'F'); // it stays as it was
+            self.block.put(b'P', seconds);
+        }
+        self.cycle()
+    }
+
+    /// G15 H1, an offset from here on; G16 H0, positions of the machine in this block.
+    fn offset(&mut self, meaning: Meaning) -> Done {
+        let said = self.block.get(b'H').filter(|number| number.fract() == 0.0 && (0.0..=105.0).contains(number));
+        let Some(number) = said else {
+            return refuse(Code::PN007, "a work offset without its number", "write H1 with it");
+        };
+        self.block.given &= !bit(b'H');
+        match (meaning, number == 0.0) {
+            (Meaning::Work, false) => self.block.work = Some(number),
+            (Meaning::Machine, true) => {
+                let control = self.state.settings.control;
+                let Some(row) = control.first(Meaning::Machine) else { return Ok(()) };
+                self.block.put_g(row, group(row, control.rules()), takes_axes(row, control.rules()));
+            }
+            _ => {
+                let message = format!("this code with H{number} is not simulated");
+                return refuse(Code::PN016, message, "write G15 with an offset from H1 on");
+            }
+        }
+        Ok(())
+    }
+
+    /// The cycle in force, and the hole that the block makes.
+    fn cycle(&mut self) -> Done {
+        if self.said.ends {
+            if self.said.cycle.is_some() {
+                return refuse(Code::PN004, "a motion code and a cycle in one block", "write them in two blocks");
+            }
+            self.own.cycle = None;
+            if self.block.g_meaning(Group::Cycle) == Some(Meaning::CycleEnd) {
+                self.own.back = None;
+            }
+            return Ok(());
+        }
+        let begins = self.said.cycle.is_some();
+        if let Some(code) = self.said.cycle {
+            let Some(motions) = self.state.settings.control.row(code).and_then(|row| row.runs.motions) else {
+                return refuse(Code::PN016, format!("{code} is not run"), "program its moves");
+            };
+            let back = self.own.back;
+            let (depth, r, step) = (None, None, None);
+            self.own.cycle = Some(Cycle { code, motions, depth, r, step, parts: [None; 2], feed_out: None, back });
+        }
+        let Some(mut cycle) = self.own.cycle else {
+            return Ok(());
+        };
+        let block = &mut *self.block;
+        if !self.state.modes.absolute || block.g_meaning(Group::Distance) == Some(Meaning::Increments) {
+            let help = "write G90 and positions: how R and Z count under G91 is unknown";
+            return refuse(Code::PN016, format!("{} under G91 is not run", cycle.code), help);
+        }
+        if let Some(dwell) = block.get(b'P').filter(|dwell| *dwell != 0.0) {
+            let message = format!("P{dwell} of {}: posts differ whether it counts seconds or thousandths", cycle.code);
+            return refuse(Code::PN016, message, "write P0, and the dwell by hand");
+        }
+        if block.has(letters("EK")) {
+            return refuse(Code::PN016, format!("E and K of {} are not run", cycle.code), "leave them out");
+        }
+        cycle.depth = block.get(b'Z').or(cycle.depth);
+        cycle.r = block.get(b'R').or(cycle.r);
+        cycle.step = block.get(b'Q').or(cycle.step);
+        cycle.parts[0] = block.get(b'I').or(cycle.parts[0]);
+        cycle.parts[1] = block.get(b'J').or(cycle.parts[1]);
+        cycle.feed_out = self.said.feed_out.or(cycle.feed_out);
+        cycle.back = self.own.back;
+        self.own.cycle = Some(cycle);
+        let makes = begins || block.has(letters("XYZR"));
+        block.given &= !letters("ZRQIJP");
+        if self.said.no_move {
+            block.given &= !letters("XY");
+            return Ok(());
+        }
+        if block.has(letters("XY")) {
+            // to the hole
+            let control = self.state.settings.control;
+            if let Some(row) = control.first(Meaning::Rapid) {
+                block.put_g(row, group(row, control.rules()), takes_axes(row, control.rules()));
+            }
+        }
+        if makes && !self.said.no_hole {
+            block.call = Some(Arc::new(cycle));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,183 @@
+//! Drilling cycles: G73 to G89, G274 and G284. Their heights are absolute; M52, M53 and M54 say where they return to.
+
+use super::super::strokes::depths;
+use crate::control::{Code as Name, Motions};
+use crate::diag::Code;
+use crate::nc::action::{Cycle as Drill, Drilling, Heights, Rotation};
+use crate::nc::call::{Canned, Plan, Stand, Step};
+use crate::nc::fault::{Done, refuse};
+
+/// Where a cycle returns to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Back {
+    /// M52: to the upper limit of the axis, which only the machine knows.
+    Top,
+    /// M53: to the level of `G71 Z`.
+    Level(f64),
+    /// M54: to R.
+    R,
+}
+
+/// A cycle with the words that are in force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cycle {
+    /// Its code.
+    pub code: Name,
+    /// How it moves.
+    pub motions: Motions,
+    /// The bottom, Z.
+    pub depth: Option<f64>,
+    pub r: Option<f64>,
+    /// Q: a peck, or the shift of a bore.
+    pub step: Option<f64>,
+    /// I and J: chip breaks and retracts of G83, the shift of G76.
+    pub parts: [Option<f64>; 2],
+    /// FA: the feed out.
+    pub feed_out: Option<f64>,
+    /// Where it returns to.
+    pub back: Option<Back>,
+}
+
+impl Cycle {
+    /// Works the hole out.
+    ///
+    /// # Errors
+    /// What the cycle lacks, or what no text says for certain.
+    fn hole(&self, stand: &Stand) -> Done<Canned> {
+        let name = self.code;
+        let lacks = |what: &str, help: &'static str| refuse(Code::PN007, format!("{name} without {what}"), help);
+        let Some(r) = self.r else { return lacks("R", "write R and Z in the cycle's first block") };
+        let Some(bottom) = self.depth else { return lacks("its depth", "write R and Z in the cycle's first block") };
+        if bottom > r {
+            return refuse(Code::PN011, format!("R {r} is below the bottom {bottom}"), "look at R and Z");
+        }
+        let back = match self.back {
+            None => {
+                let help = "write M53 with G71 Z, or M54: where it goes back to without them is unknown";
+                return lacks("M52, M53 or M54", help);
+            }
+            Some(Back::Level(level)) if level < r => {
+                let message = format!("the level {level} of G71 is below R {r}");
+                return refuse(Code::PN011, message, "write a higher G71 Z");
+            }
+            Some(Back::Level(level)) => level,
+            Some(Back::R | Back::Top) => r,
+        };
+        let top = self.back == Some(Back::Top);
+        let leaves = if top { Step::Top } else { Step::Rapid(back) };
+        let (feed, turning, speed) = (stand.feed, stand.turning, stand.speed);
+        let turns = || match turning {
+            Rotation::Stop => {
+                refuse(Code::PN012, format!("{name} with the spindle stopped"), "write M3 or M4 before it")
+            }
+            turning => Ok(turning),
+        };
+        let back_off = stand.back_off;
+        let mut steps = vec![Step::Rapid(r)];
+        let (mut peck, mut shift) = (0.0, [0.0; 2]);
+        match self.motions {
+            Motions::Drill => steps.push(Step::Feed(bottom, feed)),
+            Motions::Chipbreak | Motions::Peck => {
+                let breaks = self.motions == Motions::Chipbreak;
+                let (each, full) = match (self.step, self.parts) {
+                    (Some(each), [None, None]) => (each, if breaks { f64::INFINITY } else { 0.0 }),
+                    (None, [Some(each), Some(full)]) if !breaks => (each, full),
+                    _ => return lacks("Q", "write Q, or I and J with G83"),
+                };
+                peck = each;
+                let all = depths(r, bottom, each, |stroke, _| stroke)?;
+                let last = all.len() - 1;
+                let mut since = r;
+                for (at, depth) in all.into_iter().enumerate() {
+                    steps.push(Step::Feed(depth, feed));
+                    if at == last {
+                        break;
+                    }
+                    if since - depth + 1e-9 >= full {
+                        steps.push(Step::Rapid(r));
+                        since = depth;
+                    }
+                    steps.push(Step::Rapid((depth + back_off).min(r)));
+                }
+            }
+            Motions::Tap | Motions::LeftTap => {
+                let inwards = if self.motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw };
+                if self.step.is_some() {
+                    return refuse(
+                        Code::PN016,
+                        format!("{name} with Q is not run"),
+                        "leave Q out: pecks of taps are unknown",
+                    );
+                }
+                if turning != inwards {
+                    steps.push(Step::Turn(inwards, speed));
+                }
+                let out = [Step::Turn(inwards.reversed(), speed), Step::Feed(r, feed), Step::Turn(inwards, speed)];
+                steps.push(Step::Feed(bottom, feed));
+                steps.extend(out);
+            }
+            Motions::FeedOut => {
+                steps.extend([Step::Feed(bottom, feed), Step::Feed(r, self.feed_out.unwrap_or(feed))]);
+            }
+            Motions::StopOut => {
+                let turning = turns()?;
+                steps.extend([
+                    Step::Feed(bottom, feed),
+                    Step::Turn(Rotation::Stop, speed),
+                    leaves,
+                    Step::Turn(turning, speed),
+                ]);
+            }
+            Motions::ShiftOut => {
+                let turning = turns()?;
+                shift = match (self.step, self.parts) {
+                    (_, [i, j]) if i.is_some() || j.is_some() => [i.unwrap_or(0.0), j.unwrap_or(0.0)],
+                    (Some(by), _) => [by * stand.bore_shift, 0.0],
+                    _ => return lacks("its shift", "write Q, or I and J"),
+                };
+                let up = if top { r } else { back };
+                steps.extend([
+                    Step::Feed(bottom, feed),
+                    Step::Orient(0.0),
+                    Step::Aside([shift[0], shift[1], 0.0]),
+                    Step::Aside([0.0, 0.0, up - bottom]),
+                    Step::Rapid(up),
+                ]);
+                steps.extend(top.then_some(Step::Top));
+                steps.push(Step::Turn(turning, speed));
+            }
+            Motions::Back | Motions::ByHand => {
+                return refuse(Code::PN016, format!("{name} is not run"), "program its moves");
+            }
+        }
+        let came = steps.iter().rev().find_map(|step| match step {
+            Step::Rapid(height) | Step::Feed(height, _) => Some(*height),
+            Step::Top => Some(f64::NAN),
+            _ => None,
+        });
+        if came.is_some_and(|height| !height.is_nan() && (height != back || top)) {
+            steps.push(leaves);
+        }
+        let hole = Drilling {
+            cycle: Drill { code: name, motions: self.motions, dwells: false },
+            at: stand.at,
+            plane: stand.plane,
+            r,
+            bottom,
+            clear: back,
+            dwell: 0.0,
+            peck,
+            shift,
+            level: bottom,
+            feed,
+            heights: if top { Heights::ButClear } else { Heights::Given },
+        };
+        Ok(Canned { hole, steps })
+    }
+}
+
+impl Plan for Cycle {
+    fn plan(&self, stand: &Stand) -> Done<Option<Canned>> {
+        self.hole(stand).map(Some)
+    }
+}

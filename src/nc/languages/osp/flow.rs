@@ -1,0 +1,251 @@
+//! Blocks and the way through them: labels, jumps, subprograms, variables.
+
+use std::collections::HashMap;
+
+use super::super::cursor::Cursor;
+use super::block::{Said, Words};
+use crate::diag::Code;
+use crate::nc::action::{Action, Item};
+use crate::nc::fault::{Done, Fault, refuse};
+use crate::nc::simulator::{RunError, Simulator};
+use crate::nc::way::{Frame, Jump, Search, Spot};
+
+/// Where the first comment of a line stands; its closing mark may be missing at the end.
+fn comment(line: &[u8]) -> Option<(usize, usize)> {
+    let open = line.iter().position(|byte| *byte == b'(')?;
+    let close = line[open..].iter().position(|byte| *byte == b')').map(|at| open + at);
+    Some((open + 1, close.unwrap_or(line.trim_ascii_end().len())))
+}
+
+/// The line with blanks for its comments.
+fn plain(line: &[u8]) -> Vec<u8> {
+    let mut inside = false;
+    let blank = |byte: &u8| {
+        inside |= *byte == b'(';
+        let shown = if inside { b' ' } else { *byte };
+        inside &= *byte != b')';
+        shown
+    };
+    let mut plain: Vec<u8> = line.iter().map(blank).collect();
+    plain.truncate(plain.trim_ascii_end().len());
+    plain
+}
+
+/// The name of a program that begins: `O100` alone in its block.
+fn program(line: &[u8]) -> Option<String> {
+    let line = plain(line);
+    let line = line.trim_ascii();
+    let is_name =
+        line.len() > 1 && line[0].eq_ignore_ascii_case(&b'O') && line[1..].iter().all(u8::is_ascii_alphanumeric);
+    is_name.then(|| String::from_utf8_lossy(line).to_ascii_uppercase())
+}
+
+/// The name of a block, `N10`, `NLOOP`, which a blank ends.
+fn block_name(cursor: &mut Cursor<'_>) -> Option<String> {
+    let rest = cursor.rest();
+    if !rest.first()?.eq_ignore_ascii_case(&b'N') {
+        return None;
+    }
+    let length = rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count();
+    let name = String::from_utf8_lossy(&rest[..length]).to_ascii_uppercase();
+    let numbered = rest[1..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+    // `N10G0`, and words as NCYL
+    let (name, length) = match numbered {
+        0 if matches!(name.as_str(), "NCYL" | "NOEX") => return None,
+        0 => (name, length),
+        _ => (name[..=numbered].to_owned(), numbered + 1),
+    };
+    *cursor = cursor.from(cursor.at() + length);
+    // leading zeros do not count
+    let number = name[1..].parse::<u32>().ok();
+    Some(number.map_or(name, |number| format!("N{number}")))
+}
+
+impl Simulator<'_> {
+    /// Reads the line into the block; a jump where there is nothing for the control to do.
+    pub(in crate::nc) fn read_osp(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
+        self.block.clear();
+        self.osp.at_depth(self.frames.len());
+        if self.line.trim_ascii_start().starts_with(b"$") || self.line.trim_ascii() == b"%" {
+            return Ok(Some(Jump::On)); // the head of a transfer
+        }
+        self.block.comment = comment(&self.line);
+        let text = plain(&self.line);
+        if program(&text).is_some() {
+            return match self.frames.last() {
+                Some(Frame::Call { .. }) => refuse(Code::PN015, "the subprogram has no end", "end it with RTS"),
+                _ => Ok(Some(Jump::On)),
+            };
+        }
+        let mut cursor = Cursor::new(&text, 0);
+        let mut deleted = cursor.takes(b"/");
+        block_name(&mut cursor);
+        deleted |= cursor.takes(b"/");
+        if deleted {
+            if self.state.settings.block_delete {
+                return Ok(Some(Jump::On));
+            }
+            items.push(Item { line: self.at.line, by_cycle: false, action: Action::BlockDelete });
+        }
+        if cursor.is_over() {
+            return Ok(self.block.comment.is_none().then_some(Jump::On));
+        }
+        self.blocks += 1;
+        if let Some(jump) = self.osp_way(&mut cursor)? {
+            return Ok(Some(jump));
+        }
+        let mut words = Words { own: &mut self.osp, state: &self.state, block: &mut self.block, said: Said::default() };
+        words.read(&mut cursor)?;
+        let block = &self.block;
+        let nothing =
+            block.given == 0 && !block.has_g && !block.has_m() && block.call.is_none() && block.work.is_none();
+        Ok((nothing && block.comment.is_none()).then_some(Jump::On))
+    }
+
+    /// Statements that lead through the program, or set a variable. `None`: the block is none of them.
+    fn osp_way(&mut self, cursor: &mut Cursor<'_>) -> Done<Option<Jump>> {
+        let begin = cursor.at();
+        let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
+        let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+        let words = Words { own: &mut self.osp, state: &self.state, block: &mut self.block, said: Said::default() };
+        let jump = match name.as_str() {
+            "IF" => {
+                let is_so = words.value(cursor)? != 0.0;
+                cursor.takes_word("GOTO");
+                let Some(label) = block_name(cursor) else { return Err(cursor.unreadable()) };
+                if is_so { Jump::Search(Search::Label(label, None)) } else { Jump::On }
+            }
+            "GOTO" => {
+                let Some(label) = block_name(cursor) else { return Err(cursor.unreadable()) };
+                Jump::Search(Search::Label(label, None))
+            }
+            "RTS" => {
+                if !matches!(self.frames.last(), Some(Frame::Call { .. })) {
+                    return refuse(Code::PN015, "RTS in a main program", "end it with M2 or M30");
+                }
+                return self.return_from("RTS").map(Some);
+            }
+            "CALL" => {
+                let Some(program) = cursor.name() else { return Err(cursor.unreadable()) };
+                let program = String::from_utf8_lossy(program).to_ascii_uppercase();
+                let (mut arguments, mut times) = (HashMap::new(), 1.0);
+                while !cursor.is_over() {
+                    let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
+                    let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+                    if let Some(count) = name.strip_prefix('Q').and_then(|count| count.parse::<f64>().ok()) {
+                        times = count;
+                        continue;
+                    }
+                    cursor.needs(b"=")?;
+                    arguments.insert(name, words.value(cursor)?);
+                }
+                if times.fract() != 0.0 || !(0.0..=9999.0).contains(&times) {
+                    return refuse(Code::PN018, format!("Q{times} is no number of calls"), "write Q1 to Q9999");
+                }
+                words.own.arguments = arguments;
+                Jump::Search(Search::Call(program, Vec::new(), times as u32))
+            }
+            // `VC1=..`, `LOOP=..`; words of one letter are axes and others
+            name if name.len() > 1 && cursor.peek() == Some(b'=') && name != "FA" && !is_word(name) => {
+                let common = name.strip_prefix("VC").is_some_and(|number| number.parse::<u16>().is_ok());
+                if name.starts_with('V') && !common {
+                    let message = format!("`{name}` is a variable of the machine");
+                    return Err(Fault::at(
+                        Code::PN016,
+                        begin,
+                        message,
+                        "positions after it are unknown: run the program without it",
+                    ));
+                }
+                cursor.takes(b"=");
+                let value = words.value(cursor)?;
+                let kept = if common { Some(&mut words.own.common) } else { words.own.local.last_mut() };
+                if let Some(kept) = kept {
+                    kept.insert(name.to_owned(), value);
+                }
+                Jump::On
+            }
+            name if name.starts_with('V') && cursor.peek() == Some(b'[') => {
+                let message = format!("`{name}` is a variable of the machine");
+                return Err(Fault::at(
+                    Code::PN016,
+                    begin,
+                    message,
+                    "positions after it are unknown: run the program without it",
+                ));
+            }
+            _ => {
+                *cursor = cursor.from(begin);
+                return Ok(None);
+            }
+        };
+        if cursor.is_over() { Ok(Some(jump)) } else { Err(cursor.unreadable()) }
+    }
+
+    /// Goes where a search leads.
+    pub(in crate::nc) fn search_osp(&mut self, search: Search) -> Result<(), RunError> {
+        if self.osp.labels.is_none() {
+            let (back, farthest, text) = (self.at, self.farthest, self.line.clone());
+            self.go(Spot { byte: 0, line: 0 })?;
+            let (mut labels, mut inside) = (HashMap::new(), String::new());
+            let mut before = self.at;
+            while self.read_line()? {
+                if let Some(name) = program(&self.line) {
+                    labels.entry((name.clone(), String::new())).or_insert(self.at);
+                    inside = name;
+                } else {
+                    let text = plain(&self.line);
+                    let mut cursor = Cursor::new(&text, 0);
+                    cursor.takes(b"/");
+                    if let Some(name) = block_name(&mut cursor) {
+                        labels.entry((inside.clone(), name)).or_insert(before);
+                    }
+                }
+                before = self.at;
+            }
+            self.osp.labels = Some(labels);
+            self.go(back)?;
+            (self.farthest, self.line) = (farthest, text);
+        }
+        let labels = self.osp.labels.as_ref();
+        let found = |program: &str, label: &str| {
+            labels.and_then(|labels| labels.get(&(program.to_owned(), label.to_owned()))).copied()
+        };
+        let here = self.frames.iter().rev().find_map(|frame| match frame {
+            Frame::Call { label, .. } => Some(label.clone()),
+            _ => None,
+        });
+        let (spot, missing) = match &search {
+            Search::Label(label, _) => {
+                // a main program may have a name or none
+                let spot = match &here {
+                    Some(program) => found(program, label),
+                    None => labels.and_then(|labels| {
+                        let own = labels.iter().filter(|((_, name), _)| name == label).map(|(_, spot)| *spot);
+                        own.min_by_key(|spot| spot.line)
+                    }),
+                };
+                (spot, format!("there is no block {label}"))
+            }
+            Search::Call(_, _, 0) | Search::Part(_) => return Ok(()),
+            Search::Call(program, ..) => (found(program, ""), format!("there is no subprogram {program} in this file")),
+        };
+        let Some(start) = spot else {
+            let code = if matches!(search, Search::Label(..)) { Code::PN015 } else { Code::PN016 };
+            return Err(self.refused(Fault::new(code, missing, "look for a misprint, or add it to the file")));
+        };
+        if let Search::Call(label, _, times) = search {
+            let frame = Frame::Call { label, back: self.at, start, times, arguments: false };
+            if let Err(fault) = self.push(frame) {
+                return Err(self.refused(fault));
+            }
+        }
+        self.go(start)
+    }
+}
+
+/// Is it a letter with its number, as `X1` of `X1=5`?
+fn is_word(name: &str) -> bool {
+    let bytes = name.as_bytes();
+    matches!(bytes[0], b'G' | b'M' | b'N' | b'O') && bytes[1..].iter().all(u8::is_ascii_digit)
+}

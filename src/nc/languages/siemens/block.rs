@@ -1,0 +1,367 @@
+//! A block of words: `G1 X10 Y=R1+5 Z=IC(-2) CR=5 F200`.
+
+use std::sync::Arc;
+
+use super::super::cursor::Cursor;
+use super::super::formula::{Values, formula};
+use super::cycles::Cycle;
+use super::ways::Siemens;
+use crate::control::Meaning;
+use crate::diag::Code;
+use crate::nc::block::Block;
+use crate::nc::call::{Call, Pattern};
+use crate::nc::codes::{Group, bit, group, takes_axes};
+use crate::nc::fault::{Done, Fault, refuse};
+use crate::nc::state::State;
+use crate::toolpath::Units;
+
+/// Words of path control and look-ahead, which change nothing that is compared.
+const HARMLESS: [&str; 24] = [
+    "SOFT",
+    "BRISK",
+    "DRIVE",
+    "FFWON",
+    "FFWOF",
+    "COMPOF",
+    "COMPON",
+    "COMPCURV",
+    "COMPCAD",
+    "CFTCP",
+    "CFC",
+    "CFIN",
+    "STOPRE",
+    "NORM",
+    "KONT",
+    "DYNNORM",
+    "DYNPOS",
+    "DYNROUGH",
+    "DYNSEMIFIN",
+    "DYNFINISH",
+    "UPATH",
+    "SPATH",
+    "RTLION",
+    "RTLIOF",
+];
+
+/// Reads the words of a block that moves and switches.
+pub struct Words<'s> {
+    pub own: &'s mut Siemens,
+    pub state: &'s State,
+    /// Positions of words of one axis: absolute by `AC`, incremental by `IC`.
+    pub block: &'s mut Block,
+}
+
+impl Words<'_> {
+    /// Reads the rest of a block.
+    ///
+    /// # Errors
+    /// A word that is not known.
+    pub fn read(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        while !cursor.is_over() {
+            if cursor.takes(b",") {
+                return Err(cursor.unreadable());
+            }
+            self.word(cursor)?;
+        }
+        self.settle()
+    }
+
+    fn word(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        let column = cursor.at();
+        let Some(letters) = cursor.letters() else { return Err(cursor.unreadable()) };
+        let control = self.state.settings.control;
+        if let [letter] = letters {
+            let letter = letter.to_ascii_uppercase();
+            if letter == b'T' && cursor.takes(b"=") {
+                let tool = self.tool(cursor)?;
+                return self.block.word(b'T', tool, false, column, control);
+            }
+            if cursor.takes(b"=") {
+                return self.assigned(letter, cursor, column);
+            }
+            let Some(value) = cursor.signed() else { return Err(cursor.unreadable()) };
+            if cursor.takes(b"=") {
+                // `M1=3`, `S1=1000`: of the first spindle
+                return match letter {
+                    b'M' | b'S' | b'T' if value == 1.0 => self.assigned(letter, cursor, column),
+                    b'M' | b'S' | b'T' => {
+                        let message = format!("spindle {value} is not simulated");
+                        Err(Fault::at(Code::PN016, column, message, "write the words of the first spindle"))
+                    }
+                    _ => {
+                        let message = format!("`{}{value}` is not known", char::from(letter));
+                        Err(Fault::at(Code::PN016, column, message, "run the program without it"))
+                    }
+                };
+            }
+            return self.put(letter, value, column);
+        }
+        let name = String::from_utf8_lossy(letters).to_ascii_uppercase();
+        match name.as_str() {
+            "SUPA" => {
+                let Some(row) = control.first(Meaning::Machine) else { return Err(cursor.unreadable()) };
+                self.block.put_g(row, group(row, control.rules()), takes_axes(row, control.rules()));
+                Ok(())
+            }
+            "CR" if cursor.takes(b"=") => {
+                let radius = self.value(cursor)?;
+                self.block.word(b'R', radius, false, column, control)
+            }
+            "TURN" if cursor.takes(b"=") => {
+                let turns = self.value(cursor)?;
+                if turns.fract() != 0.0 || !(0.0..=999.0).contains(&turns) {
+                    return refuse(Code::PN018, format!("TURN={turns} is no number of turns"), "write 0 to 999");
+                }
+                self.block.turns = turns as u32;
+                Ok(())
+            }
+            _ if is_harmless(&name) => {
+                self.block.is_empty = false;
+                Ok(())
+            }
+            _ => {
+                let message = format!("`{name}` is not known");
+                Err(Fault::at(
+                    Code::PN016,
+                    column,
+                    message,
+                    "run the program without it, or write what it does as moves",
+                ))
+            }
+        }
+    }
+
+    /// A number, or what stands in `T="DRILL"`.
+    fn tool(&mut self, cursor: &mut Cursor<'_>) -> Done<f64> {
+        if cursor.peek() != Some(b'"') {
+            return self.value(cursor);
+        }
+        let Some(name) = cursor.quoted() else { return Err(cursor.unreadable()) };
+        Ok(self.own.tool(name))
+    }
+
+    /// `X=R1*2`, `X=AC(10)`, `X=IC(-5)`.
+    fn assigned(&mut self, letter: u8, cursor: &mut Cursor<'_>, column: usize) -> Done {
+        let axis = self.state.control.axes().iter().position(|axis| *axis == letter);
+        let center = b"IJK".iter().position(|own| *own == letter);
+        for (mark, absolute) in [("AC", true), ("IC", false)] {
+            if !cursor.takes_word(mark) {
+                continue;
+            }
+            cursor.needs(b"(")?;
+            let value = self.value(cursor)?;
+            cursor.needs(b")")?;
+            return match (axis, center) {
+                (Some(axis), _) => {
+                    let marked = if absolute { &mut self.block.absolute } else { &mut self.block.incremental };
+                    *marked |= 1 << axis;
+                    self.put(letter, value, column)
+                }
+                (_, Some(axis)) => {
+                    let from = if absolute { self.state.place.position[axis] } else { 0.0 };
+                    self.put(letter, value - from, column)
+                }
+                _ => {
+                    let message = format!("{} takes no {mark}", char::from(letter));
+                    Err(Fault::at(Code::PN001, column, message, "write its number alone"))
+                }
+            };
+        }
+        if axis.is_some_and(|axis| axis > 2)
+            && (cursor.takes_word("DC") || cursor.takes_word("ACP") || cursor.takes_word("ACN"))
+        {
+            let message = "which way a rotary axis turns is not simulated";
+            return Err(Fault::at(Code::PN016, column, message, "write its angle alone"));
+        }
+        let value = self.value(cursor)?;
+        self.put(letter, value, column)
+    }
+
+    fn put(&mut self, letter: u8, value: f64, column: usize) -> Done {
+        let control = self.state.settings.control;
+        match letter {
+            b'G' => self.block.g_word(value, column, control),
+            b'M' => self.block.m_word(value, column, control),
+            b'R' | b'L' | b'P' | b'E' | b'O' | b'Q' | b'H' | b'U' | b'V' | b'W' => {
+                let message = format!("the word {} is not known here", char::from(letter));
+                Err(Fault::at(Code::PN016, column, message, "run the program without it"))
+            }
+            _ => self.block.word(letter, value, false, column, control),
+        }
+    }
+
+    /// What the words of a block are to those of the simulator.
+    fn settle(&mut self) -> Done {
+        let block = &mut *self.block;
+        if let Some(edge) = block.get(b'D') {
+            // an edge has the length and the radius of the tool in the spindle
+            let own = block.get(b'T').filter(|_| block.means(Meaning::ToolChange)).or(self.state.tool.loaded);
+            let register = if edge == 0.0 { 0.0 } else { own.unwrap_or(0.0) + (edge - 1.0) / 100.0 };
+            block.put(b'D', register);
+            block.put(b'H', register);
+        }
+        if block.g_meaning(Group::Once) == Some(Meaning::Dwell) {
+            let seconds = match (block.get(b'F'), block.get(b'S')) {
+                (Some(seconds), None) => seconds,
+                (None, Some(turns)) if self.state.drive.speed > 0.0 => turns * 60.0 / self.state.drive.speed,
+                _ => return refuse(Code::PN007, "G4 without its time", "write G4 F2 for two seconds, or S for turns"),
+            };
+            block.given &= !(bit(b'F') | bit(b'S')); // they stay as they were
+            block.put(b'P', seconds);
+        }
+        if let Some(units) = block.g_meaning(Group::Units) {
+            self.own
+                .units(units == Meaning::Inch, block.row(Group::Units).is_some_and(|row| row.code.tenths >= 7000))?;
+        }
+        if block.g_meaning(Group::Once) == Some(Meaning::Reference) {
+            // the numbers of its axes mean nothing
+            for (axis, letter) in self.state.control.axes().iter().enumerate() {
+                if block.get(*letter).is_some() {
+                    block.put(*letter, 0.0);
+                    block.incremental |= 1 << axis;
+                }
+            }
+        }
+        if let Some(call) = &self.own.modal {
+            let moves = block.has_axes() && !block.axes_are_taken()
+                || block.row(Group::Motion).is_some()
+                || block.has(bit(b'F') | bit(b'S')) && !block.has_modes() && !block.has_m();
+            if moves {
+                block.call = Some(call.clone());
+            }
+        }
+        Ok(())
+    }
+
+    /// A formula.
+    pub fn value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
+        let values: &Values<'_> = &|name| self.own.value(name);
+        formula(cursor, values)
+    }
+
+    /// The arguments of a call; `None` where one is left out.
+    pub fn arguments(&self, cursor: &mut Cursor<'_>) -> Done<Vec<Option<f64>>> {
+        let mut arguments = Vec::new();
+        if !cursor.takes(b"(") {
+            return Ok(arguments);
+        }
+        loop {
+            if cursor.takes(b")") {
+                return Ok(arguments);
+            }
+            if cursor.takes(b",") {
+                arguments.push(None);
+                continue;
+            }
+            arguments.push(Some(self.value(cursor)?));
+            if !cursor.takes(b",") {
+                cursor.needs(b")")?;
+                return Ok(arguments);
+            }
+        }
+    }
+
+    /// A cycle with its arguments; `None`: the name is none of a drilling cycle that is run.
+    pub fn cycle(&self, name: &str, cursor: &mut Cursor<'_>) -> Done<Option<Call>> {
+        let number = name.strip_prefix("CYCLE").and_then(|number| number.parse::<u16>().ok());
+        let Some((number, most)) = number.and_then(|number| Some((number, Cycle::most_arguments(number)?))) else {
+            return Ok(None);
+        };
+        let begin = cursor.at();
+        let mut arguments = self.arguments(cursor)?;
+        while arguments.last() == Some(&None) {
+            arguments.pop();
+        }
+        if let Some(value) = arguments.get(most..).and_then(|more| more.iter().flatten().find(|value| **value != 0.0)) {
+            let message = format!("{name} has {most} arguments that are run, and {value} is one more");
+            return Err(Fault::at(Code::PN016, begin, message, "leave it out"));
+        }
+        Ok(Some(Arc::new(Cycle { number, arguments })))
+    }
+
+    /// `HOLES1(..)`, a row, and `HOLES2(..)`, a circle.
+    pub fn pattern(&mut self, circle: bool, cursor: &mut Cursor<'_>) -> Done {
+        let arguments = self.arguments(cursor)?;
+        let name = if circle { "HOLES2" } else { "HOLES1" };
+        let Some(call) = self.own.modal.clone() else {
+            return refuse(Code::PN006, format!("{name} without a cycle"), "write MCALL and the cycle before it");
+        };
+        let value = |at: usize| arguments.get(at).copied().flatten().unwrap_or(0.0);
+        let count = value(5);
+        if count.fract() != 0.0 || !(0.0..=10_000.0).contains(&count) {
+            return refuse(Code::PN018, format!("{name} with {count} holes"), "write a whole number from 0 to 10000");
+        }
+        let holes = 0..count as u32;
+        let mut at: std::collections::VecDeque<[f64; 2]> = if circle {
+            let step = if value(4) == 0.0 { 360.0 / count } else { value(4) };
+            let place = |hole: u32| {
+                let (sin, cos) = (value(3) + step * f64::from(hole)).to_radians().sin_cos();
+                [value(0) + value(2) * cos, value(1) + value(2) * sin]
+            };
+            holes.map(place).collect()
+        } else {
+            let (sin, cos) = value(2).to_radians().sin_cos();
+            let place = |hole: u32| {
+                let along = value(3) + value(4) * f64::from(hole);
+                [value(0) + along * cos, value(1) + along * sin]
+            };
+            holes.map(place).collect()
+        };
+        // a row begins with the end that is nearer
+        let [x, y, _] = crate::nc::arcs::axes_of(self.state.modes.plane).map(|axis| self.state.place.position[axis]);
+        let far = |place: Option<&[f64; 2]>| place.map_or(0.0, |place| (place[0] - x).hypot(place[1] - y));
+        if !circle && far(at.back()) < far(at.front()) {
+            at.make_contiguous().reverse();
+        }
+        self.block.is_empty = false;
+        self.block.pattern = Some(Box::new(Pattern { call, at }));
+        Ok(())
+    }
+
+    /// `TRANS` and `ATRANS`: the frame is put elsewhere, or moved on.
+    pub fn translate(&mut self, adds: bool, cursor: &mut Cursor<'_>) -> Done {
+        let Some(row) = self.state.control.first(Meaning::Frame) else {
+            return refuse(Code::PN016, "a moved frame is not run", "run the program without it");
+        };
+        self.block.put_g(row, Group::Once, true);
+        let mut by = if adds { *self.state.shift() } else { [0.0; 6] };
+        while !cursor.is_over() {
+            let begin = cursor.at();
+            let axis = cursor.letters().filter(|letters| letters.len() == 1);
+            let axis = axis.and_then(|letters| {
+                self.state.control.axes().iter().position(|axis| axis.eq_ignore_ascii_case(&letters[0]))
+            });
+            let Some(axis) = axis else {
+                return Err(Fault::at(Code::PN001, begin, "a frame is moved along its axes", "write TRANS X10 Y20"));
+            };
+            let value = if cursor.takes(b"=") {
+                self.value(cursor)?
+            } else {
+                cursor.signed().ok_or_else(|| cursor.unreadable())?
+            };
+            by[axis] = if adds { by[axis] + value } else { value };
+        }
+        for (letter, value) in self.state.control.axes().iter().zip(by) {
+            self.block.put(*letter, value);
+        }
+        Ok(())
+    }
+}
+
+impl Siemens {
+    /// Notes the units of a block. By G70 and G71 feeds keep theirs, which are those of the machine.
+    fn units(&mut self, inch: bool, with_feed: bool) -> Done {
+        let units = if inch { Units::Inch } else { Units::Mm };
+        let before = self.units.replace(units);
+        if !with_feed && before.is_some_and(|before| before != units) {
+            let message = "after G70 and G71 in one program the unit of feeds is that of the machine";
+            return refuse(Code::PN016, message, "write G700 or G710, which change feeds too");
+        }
+        Ok(())
+    }
+}
+
+/// Is the word one that changes nothing that is compared?
+pub fn is_harmless(name: &str) -> bool {
+    HARMLESS.contains(&name)
+}

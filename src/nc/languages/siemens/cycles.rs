@@ -1,0 +1,383 @@
+//! Drilling cycles of 840D and 828D: CYCLE81 to CYCLE89 and CYCLE840, by the Programming Guide Cycles, section 2.1.
+
+use super::super::strokes::{depths, dwell};
+use crate::control::{Code as Name, Motions};
+use crate::diag::Code;
+use crate::nc::action::{Cycle as Drill, Drilling, Heights, Rotation};
+use crate::nc::call::{Canned, Plan, Stand, Step};
+use crate::nc::fault::{Done, refuse};
+use crate::toolpath::Units;
+
+/// Coarse pitches of metric threads by their nominal diameter, ISO 261.
+const COARSE: [(f64, f64); 21] = [
+    (3.0, 0.5),
+    (4.0, 0.7),
+    (5.0, 0.8),
+    (6.0, 1.0),
+    (8.0, 1.25),
+    (10.0, 1.5),
+    (12.0, 1.75),
+    (14.0, 2.0),
+    (16.0, 2.0),
+    (18.0, 2.5),
+    (20.0, 2.5),
+    (22.0, 2.5),
+    (24.0, 3.0),
+    (27.0, 3.0),
+    (30.0, 3.5),
+    (33.0, 3.5),
+    (36.0, 4.0),
+    (39.0, 4.0),
+    (42.0, 4.5),
+    (45.0, 4.5),
+    (48.0, 5.0),
+];
+
+/// A call of a drilling cycle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cycle {
+    /// 81 to 89, or 840.
+    pub number: u16,
+    /// Its arguments in order; `None`: left out.
+    pub arguments: Vec<Option<f64>>,
+}
+
+/// The levels that all cycles share.
+struct Levels {
+    /// RTP: where the tool comes back to.
+    back: f64,
+    /// RFP: where the part begins.
+    reference: f64,
+    /// RFP + SDIS: where the feed begins.
+    r: f64,
+    bottom: f64,
+}
+
+impl Cycle {
+    /// Is there a cycle of this number, and how many arguments has it?
+    pub fn most_arguments(number: u16) -> Option<usize> {
+        Some(match number {
+            81 | 82 | 87 => 6,
+            83 => 17,
+            84 => 18,
+            840 => 11,
+            85 => 8,
+            86 => 11,
+            88 => 7,
+            89 => 6,
+            _ => return None,
+        })
+    }
+
+    fn get(&self, at: usize) -> f64 {
+        self.arguments.get(at).copied().flatten().unwrap_or(0.0)
+    }
+
+    fn said(&self, at: usize) -> Option<f64> {
+        self.arguments.get(at).copied().flatten()
+    }
+
+    fn levels(&self) -> Done<Levels> {
+        let name = format!("CYCLE{}", self.number);
+        let (Some(back), Some(reference)) = (self.said(0), self.said(1)) else {
+            let help = "write RTP and RFP, its first two arguments";
+            return refuse(Code::PN007, format!("{name} without its retract or reference plane"), help);
+        };
+        let bottom = match (self.said(3), self.said(4)) {
+            (Some(depth), None) => depth,
+            (None, Some(below)) => reference - below.abs(),
+            (Some(depth), Some(below)) if below == 0.0 || (depth - (reference - below.abs())).abs() < 1e-9 => depth,
+            (Some(depth), Some(below)) => {
+                let message = format!(
+                    "{name} says two depths: DP {depth}, and DPR {below}, which is {}",
+                    reference - below.abs()
+                );
+                return refuse(Code::PN016, message, "write one of them: controls differ in which one they take");
+            }
+            (None, None) => {
+                return refuse(Code::PN007, format!("{name} without its depth"), "write DP, its fourth argument");
+            }
+        };
+        let clearance = self.get(2).abs();
+        if bottom > reference || back < reference {
+            let message = format!("{name} goes from {reference} to {bottom} and back to {back}");
+            return refuse(Code::PN011, message, "write a depth below RFP, and a retract plane above it");
+        }
+        Ok(Levels { back, reference, r: reference + clearance, bottom })
+    }
+
+    /// Works out the hole, with the feed and the spindle that are in force.
+    ///
+    /// # Errors
+    /// What the cycle refuses, or what no text says for certain.
+    fn hole(&self, stand: &Stand) -> Done<Canned> {
+        let levels = self.levels()?;
+        let (feed, speed, turning) = (stand.feed, stand.speed, stand.turning);
+        let seconds = |value: f64| if value < 0.0 { -value * 60.0 / speed } else { value };
+        let Levels { back, r, bottom, .. } = levels;
+        let mut steps = vec![Step::Rapid(r)];
+        let (mut motions, mut peck, mut hole_feed) = (Motions::Drill, 0.0, feed);
+        let mut bottom_dwell = seconds(self.get(5));
+        let turns = |at: usize| match self.get(at) as i32 {
+            3 => Some(Rotation::Cw),
+            4 => Some(Rotation::Ccw),
+            _ => None,
+        };
+        let starts = |rotation: Option<Rotation>| {
+            rotation.filter(|rotation| *rotation != turning).map(|rotation| Step::Turn(rotation, speed))
+        };
+        match self.number {
+            81 | 82 => {
+                steps.push(Step::Feed(bottom, feed));
+                steps.extend(dwell(bottom_dwell));
+            }
+            83 => {
+                let breaks = self.get(11) == 0.0;
+                motions = if breaks { Motions::Chipbreak } else { Motions::Peck };
+                peck = self.pecks(&levels, breaks, stand, seconds, &mut steps)?;
+            }
+            84 | 840 => {
+                bottom_dwell = 0.0;
+                let tap = self.tap(&levels, stand, seconds, &mut steps)?;
+                (motions, hole_feed) = tap;
+            }
+            85 => {
+                motions = Motions::FeedOut;
+                let (into, out) = (self.get(6), self.get(7));
+                if into <= 0.0 || out <= 0.0 {
+                    return refuse(
+                        Code::PN007,
+                        "CYCLE85 without its feeds",
+                        "write FFR and RFF, its last two arguments",
+                    );
+                }
+                hole_feed = into;
+                steps.push(Step::Feed(bottom, into));
+                steps.extend(dwell(bottom_dwell));
+                steps.push(Step::Feed(r, out));
+            }
+            86 => {
+                motions = Motions::ShiftOut;
+                steps.splice(0..0, starts(turns(6)));
+                steps.push(Step::Feed(bottom, feed));
+                steps.extend(dwell(bottom_dwell));
+                steps.extend([Step::Orient(self.get(10)), Step::Aside([self.get(7), self.get(8), self.get(9)])]);
+                let mut lifted = [0.0; 3];
+                lifted[2] = r - (bottom + self.get(9));
+                steps.extend([Step::Aside(lifted), Step::Rapid(r)]);
+            }
+            87 | 88 => {
+                motions = Motions::ByHand;
+                let by = if self.number == 87 { 5 } else { 6 };
+                steps.splice(0..0, starts(turns(by)));
+                steps.push(Step::Feed(bottom, feed));
+                if self.number == 88 {
+                    steps.extend(dwell(bottom_dwell));
+                } else {
+                    bottom_dwell = 0.0;
+                }
+                steps.extend([Step::Turn(Rotation::Stop, speed), Step::Stop]);
+            }
+            _ => {
+                motions = Motions::FeedOut;
+                steps.push(Step::Feed(bottom, feed));
+                steps.extend(dwell(bottom_dwell));
+                steps.push(Step::Feed(r, feed));
+            }
+        }
+        if !matches!(steps.last(), Some(Step::Rapid(height) | Step::Feed(height, _)) if *height == back) {
+            steps.push(Step::Rapid(back));
+        }
+        steps.extend(self.after_tap(stand));
+        let hole = Drilling {
+            cycle: Drill { code: Name { letter: b'c', tenths: self.number * 10 }, motions, dwells: bottom_dwell > 0.0 },
+            at: stand.at,
+            plane: stand.plane,
+            r,
+            bottom,
+            clear: back,
+            dwell: bottom_dwell,
+            peck,
+            shift: if self.number == 86 { [self.get(7), self.get(8)] } else { [0.0; 2] },
+            level: bottom,
+            feed: hole_feed,
+            heights: Heights::Given,
+        };
+        Ok(Canned { hole, steps })
+    }
+
+    /// CYCLE83: strokes that may become shorter, with a chip broken or brought out after each. The answer: the first stroke.
+    fn pecks(
+        &self,
+        levels: &Levels,
+        breaks: bool,
+        stand: &Stand,
+        seconds: impl Fn(f64) -> f64,
+        steps: &mut Vec<Step>,
+    ) -> Done<f64> {
+        let Levels { reference, r, bottom, .. } = *levels;
+        let mm = if stand.units == Units::Inch { 1.0 / 25.4 } else { 1.0 };
+        let first = match (self.said(5), self.said(6).filter(|by| *by != 0.0)) {
+            (Some(depth), None) => reference - depth,
+            (None, Some(by)) => by.abs(),
+            (Some(depth), Some(by)) if (reference - depth - by.abs()).abs() < 1e-9 => by.abs(),
+            (Some(_), Some(_)) => {
+                return refuse(Code::PN016, "CYCLE83 says two first depths", "write FDEP or FDPR, not both");
+            }
+            (None, None) => return refuse(Code::PN007, "CYCLE83 without its first depth", "write FDEP or FDPR"),
+        };
+        let (less, least) = (self.get(7), self.get(13).abs());
+        let next = |stroke: f64, left: f64| {
+            let shorter = match less {
+                0.0 => stroke,
+                factor if factor < 0.0 => stroke * -factor,
+                amount => {
+                    let shorter = (stroke - amount).max(amount);
+                    // the last two are equal
+                    if shorter < left && left < 2.0 * shorter { left / 2.0 } else { shorter }
+                }
+            };
+            shorter.max(least)
+        };
+        let factor = Some(self.get(10)).filter(|factor| *factor > 0.0).unwrap_or(1.0);
+        let feed = stand.feed;
+        let wait = dwell(seconds(self.get(8)));
+        let at_bottom = match self.get(15) {
+            0.0 => wait,
+            own => dwell(seconds(own)),
+        };
+        let all = depths(reference, bottom, first, next)?;
+        let last = all.len() - 1;
+        for (count, depth) in all.into_iter().enumerate() {
+            steps.push(Step::Feed(depth, if count == 0 { feed * factor } else { feed }));
+            if count == last {
+                steps.extend(at_bottom);
+                break;
+            }
+            steps.extend(wait);
+            if breaks {
+                let by = Some(self.get(14)).filter(|by| *by > 0.0).unwrap_or(mm);
+                steps.push(Step::Feed(depth + by, feed));
+                continue;
+            }
+            steps.push(Step::Rapid(r));
+            steps.extend(dwell(seconds(self.get(9))));
+            let drilled = (reference - depth) / mm;
+            let usual = if drilled <= 30.0 { 0.6 } else { (drilled / 50.0).min(7.0) } * mm;
+            let above = Some(self.get(16)).filter(|above| *above > 0.0).unwrap_or(usual);
+            steps.push(Step::Rapid((depth + above).min(r)));
+        }
+        Ok(first)
+    }
+
+    /// The pitch of a tap in the program's units; negative: a left-hand thread.
+    fn pitch(&self, size: usize, pitch: usize, table: usize, stand: &Stand) -> Done<f64> {
+        let mm = if stand.units == Units::Inch { 1.0 / 25.4 } else { 1.0 };
+        let by_size = match self.get(size) {
+            0.0 => None,
+            size => match COARSE.iter().find(|(diameter, _)| *diameter == size.abs()) {
+                Some((_, pitch)) => Some(pitch * size.signum() * mm),
+                None => return refuse(Code::PN018, format!("MPIT {size} is no thread from M3 to M48"), "write PIT"),
+            },
+        };
+        let by_unit = match self.get(table) {
+            0.0 => 1.0,
+            1.0 => mm,
+            other => {
+                return refuse(
+                    Code::PN016,
+                    format!("PTAB {other} is not run"),
+                    "write the pitch in the program's units",
+                );
+            }
+        };
+        let said = Some(self.get(pitch) * by_unit).filter(|pitch| *pitch != 0.0);
+        match (by_size, said) {
+            (Some(a), Some(b)) if (a - b).abs() > 1e-9 => {
+                refuse(Code::PN018, "MPIT and PIT contradict each other", "write one of them")
+            }
+            (Some(pitch), _) | (None, Some(pitch)) => Ok(pitch),
+            (None, None) => refuse(Code::PN007, "a tap without its pitch", "write PIT, or MPIT for a metric thread"),
+        }
+    }
+
+    /// CYCLE84 and CYCLE840: in, back, and out. The answer: its motions, and its feed.
+    fn tap(
+        &self,
+        levels: &Levels,
+        stand: &Stand,
+        seconds: impl Fn(f64) -> f64,
+        steps: &mut Vec<Step>,
+    ) -> Done<(Motions, f64)> {
+        let Levels { r, bottom, .. } = *levels;
+        let per_turn = stand.per_turn;
+        let feed_at = |pitch: f64, speed: f64| if per_turn { pitch.abs() } else { pitch.abs() * speed };
+        let rigid = self.number == 84;
+        if !rigid {
+            let inwards = stand.turning;
+            if inwards == Rotation::Stop {
+                return refuse(Code::PN012, "CYCLE840 with the spindle stopped", "write M3 or M4 before it");
+            }
+            let outwards = match self.get(6) as i32 {
+                3 => Rotation::Cw,
+                4 => Rotation::Ccw,
+                _ => inwards.reversed(),
+            };
+            let speed = stand.speed;
+            let feed = if self.get(8) == 0.0 { feed_at(self.pitch(9, 10, 11, stand)?, speed) } else { stand.feed };
+            steps.push(Step::Feed(bottom, feed));
+            steps.extend(dwell(seconds(self.get(5))));
+            steps.extend([Step::Turn(outwards, speed), Step::Feed(r, feed)]);
+            return Ok((if inwards == Rotation::Cw { Motions::Tap } else { Motions::LeftTap }, feed));
+        }
+        let pitch = self.pitch(7, 8, 13, stand)?;
+        let speed = self.get(10);
+        if speed <= 0.0 {
+            return refuse(Code::PN007, "CYCLE84 without its speed", "write SST, its eleventh argument");
+        }
+        let out_speed = Some(self.get(11)).filter(|speed| *speed > 0.0).unwrap_or(speed);
+        let (inwards, motions) =
+            if pitch > 0.0 { (Rotation::Cw, Motions::Tap) } else { (Rotation::Ccw, Motions::LeftTap) };
+        let (feed, out_feed) = (feed_at(pitch, speed), feed_at(pitch, out_speed));
+        let [into, outwards] = [Step::Turn(inwards, speed), Step::Turn(inwards.reversed(), out_speed)];
+        let mm = if stand.units == Units::Inch { 1.0 / 25.4 } else { 1.0 };
+        let all = match self.get(15) as i32 {
+            0 => vec![bottom],
+            1 | 2 if self.get(16) > 0.0 => depths(r, bottom, self.get(16), |stroke, _| stroke)?,
+            1 | 2 => {
+                return refuse(Code::PN007, "CYCLE84 by pecks without their depth", "write DAM, its 17th argument");
+            }
+            other => return refuse(Code::PN016, format!("CYCLE84 with VARI {other} is not run"), "write 0, 1 or 2"),
+        };
+        let last = all.len() - 1;
+        for (count, depth) in all.into_iter().enumerate() {
+            steps.extend([into, Step::Feed(depth, feed)]);
+            if count < last {
+                let by = Some(self.get(17)).filter(|by| *by > 0.0).unwrap_or(mm);
+                let up = if self.get(15) as i32 == 1 { (depth + by).min(r) } else { r };
+                steps.extend([outwards, Step::Feed(up, out_feed)]);
+            }
+        }
+        steps.extend(dwell(seconds(self.get(5))));
+        steps.extend([outwards, Step::Feed(r, out_feed)]);
+        Ok((motions, feed))
+    }
+
+    /// SDAC: how the spindle turns after a tap; a stop, where it says none.
+    fn after_tap(&self, stand: &Stand) -> Option<Step> {
+        let rotation = match (self.number, self.get(if self.number == 84 { 6 } else { 7 }) as i32) {
+            (84 | 840, 3) => Rotation::Cw,
+            (84 | 840, 4) => Rotation::Ccw,
+            (84, _) | (840, 5) => Rotation::Stop,
+            (840, _) => stand.turning,
+            _ => return None,
+        };
+        Some(Step::Turn(rotation, stand.speed))
+    }
+}
+
+impl Plan for Cycle {
+    fn plan(&self, stand: &Stand) -> Done<Option<Canned>> {
+        self.hole(stand).map(Some)
+    }
+}

@@ -1,0 +1,357 @@
+//! Blocks that lead through a program: labels, conditions, loops, subprograms.
+
+use super::super::cursor::Cursor;
+use super::block::Words;
+use super::head::{Head, head, section, without_comment};
+use super::ways::Siemens;
+use crate::diag::Code;
+use crate::nc::action::{Action, Item};
+use crate::nc::fault::{Done, Fault, refuse};
+use crate::nc::simulator::Simulator;
+use crate::nc::way::{Jump, Search};
+
+impl Simulator<'_> {
+    /// Reads the line into the block; a jump where there is nothing for the control to do.
+    pub(in crate::nc) fn read_siemens(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
+        self.block.clear();
+        self.siemens.at_depth(self.frames.len());
+        if section(&self.line).is_some() {
+            return self.section_begins();
+        }
+        let (_, comment) = without_comment(&self.line);
+        self.block.comment = comment;
+        let mut line = std::mem::take(&mut self.line);
+        let result = self.siemens_line(without_comment(&line).0, items);
+        std::mem::swap(&mut self.line, &mut line);
+        let jump = result?;
+        if jump.is_none() && self.block.is_empty && self.block.comment.is_none() {
+            return Ok(Some(Jump::On));
+        }
+        self.blocks += 1;
+        Ok(jump)
+    }
+
+    /// A section begins: what ran before it ends here, unless it is the first, or called.
+    fn section_begins(&mut self) -> Done<Option<Jump>> {
+        let is_proc = !self.line.trim_ascii_start().starts_with(b"%");
+        if let (true, Some(arguments)) = (is_proc, self.siemens.arguments.take()) {
+            return self.bind(&arguments).map(|()| Some(Jump::On));
+        }
+        if self.blocks == 0 {
+            return Ok(Some(Jump::On));
+        }
+        if self.frames.is_empty() {
+            let help = "a program ends with M30, M2 or M17";
+            return refuse(Code::PN010, "the program runs into the next one: its end is missing", help);
+        }
+        self.return_from("a subprogram").map(Some)
+    }
+
+    /// `PROC NAME(REAL A, REAL B)`: the arguments of the call get their names.
+    fn bind(&mut self, arguments: &[Option<f64>]) -> Done {
+        let line = self.line.clone();
+        let mut cursor = Cursor::new(without_comment(&line).0, head(&line).start);
+        cursor.name();
+        cursor.name();
+        let mut arguments = arguments.iter();
+        if cursor.takes(b"(") {
+            while !cursor.takes(b")") {
+                let (Some(kind), Some(name)) = (cursor.name(), cursor.name()) else { return Err(cursor.unreadable()) };
+                if !["REAL", "INT", "BOOL"].iter().any(|known| kind.eq_ignore_ascii_case(known.as_bytes())) {
+                    let message = format!("an argument of type {} is not run", String::from_utf8_lossy(kind));
+                    return refuse(Code::PN016, message, "give the subprogram numbers");
+                }
+                let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+                let value = arguments.next().copied().flatten().unwrap_or(0.0);
+                if let Some(own) = self.siemens.variables.last_mut() {
+                    own.insert(name, value);
+                }
+                cursor.takes(b",");
+                if cursor.is_over() {
+                    return Err(cursor.unreadable());
+                }
+            }
+        }
+        match arguments.next() {
+            None => Ok(()),
+            Some(_) => refuse(Code::PN018, "a call with more arguments than its PROC takes", "leave the others out"),
+        }
+    }
+
+    fn siemens_line(&mut self, line: &[u8], items: &mut Vec<Item>) -> Done<Option<Jump>> {
+        let mut cursor = Cursor::new(line, 0);
+        if cursor.takes(b"/") {
+            if cursor.peek().is_some_and(|byte| byte.is_ascii_digit()) {
+                cursor.unsigned();
+            }
+            if self.state.settings.block_delete {
+                return Ok(Some(Jump::On));
+            }
+            items.push(Item { line: self.at.line, by_cycle: false, action: Action::BlockDelete });
+        }
+        let head = head(line);
+        let mut cursor = Cursor::new(line, head.start);
+        if cursor.is_over() {
+            return Ok(None);
+        }
+        if head.word.is_empty() {
+            return Err(cursor.unreadable());
+        }
+        self.block.is_empty = false;
+        if let Some(jump) = self.siemens_way(&head, &mut cursor)? {
+            return Ok(Some(jump));
+        }
+        if cursor.is_over() {
+            return Ok(None);
+        }
+        let begin = cursor.at();
+        let mut words = Words { own: &mut self.siemens, state: &self.state, block: &mut self.block };
+        // `MCALL CYCLE81(..)` and `CYCLE81(..)`
+        let modal = cursor.takes_word("MCALL");
+        if modal && cursor.is_over() {
+            words.own.modal = None;
+            return Ok(None);
+        }
+        let at = cursor.at();
+        let name = cursor.name().map(|name| String::from_utf8_lossy(name).to_ascii_uppercase()).unwrap_or_default();
+        match name.as_str() {
+            _ if name.starts_with("CYCLE") => match words.cycle(&name, &mut cursor)? {
+                Some(call) if modal => words.own.modal = Some(call),
+                Some(call) => words.block.call = Some(call),
+                // smoothing
+                None if name == "CYCLE832" => _ = words.arguments(&mut cursor)?,
+                None => {
+                    let message = format!("{name} is not run");
+                    return Err(Fault::at(Code::PN016, at, message, "run the program without it, or write its moves"));
+                }
+            },
+            "HOLES1" | "HOLES2" if !modal => words.pattern(name == "HOLES2", &mut cursor)?,
+            "TRANS" | "ATRANS" if !modal => words.translate(name == "ATRANS", &mut cursor)?,
+            _ if modal => {
+                let message = format!("`MCALL {name}` is not run");
+                return Err(Fault::at(Code::PN016, at, message, "MCALL takes CYCLE81 to CYCLE89 and CYCLE840"));
+            }
+            _ => {
+                cursor = Cursor::new(line, begin);
+                return words.read(&mut cursor).map(|()| None);
+            }
+        }
+        if cursor.is_over() { Ok(None) } else { Err(cursor.unreadable()) }
+    }
+
+    /// Statements that lead through the program, or set what is known of it. `None`: the line is none of them.
+    fn siemens_way(&mut self, head: &Head, cursor: &mut Cursor<'_>) -> Done<Option<Jump>> {
+        let begin = cursor.at();
+        let words = Words { own: &mut self.siemens, state: &self.state, block: &mut self.block };
+        cursor.name();
+        let jump = match head.word.as_str() {
+            "IF" => {
+                let is_so = words.value(cursor)? != 0.0;
+                match cursor.is_over() {
+                    true => self.opens(is_so),
+                    false if is_so => return goes_to(cursor).map(Some),
+                    false => Jump::On,
+                }
+            }
+            "GOTO" | "GOTOF" | "GOTOB" => {
+                *cursor = cursor.from(begin);
+                return goes_to(cursor).map(Some);
+            }
+            "ELSE" | "ENDIF" | "ENDWHILE" | "ENDFOR" | "ENDLOOP" | "UNTIL" => {
+                if head.word == "ENDIF" || head.word == "UNTIL" && words.value(cursor)? != 0.0 {
+                    return Ok(Some(Jump::On));
+                }
+                let Some(to) = words.own.ends.get(&self.at.line).copied() else {
+                    let help = "go to the line that opens it";
+                    return refuse(Code::PN015, format!("{} belongs to nothing that was begun", head.word), help);
+                };
+                if head.word == "ENDFOR" {
+                    words.own.next_round = Some(to.line + 1);
+                }
+                Jump::To(to)
+            }
+            "WHILE" => {
+                let is_so = words.value(cursor)? != 0.0;
+                self.opens(is_so)
+            }
+            "LOOP" => self.opens(true),
+            "REPEAT" if cursor.is_over() => self.opens(true),
+            "REPEAT" => return self.repeats(cursor).map(Some),
+            "FOR" => {
+                let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
+                let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+                cursor.needs(b"=")?;
+                let first = words.value(cursor)?;
+                if !cursor.takes_word("TO") {
+                    return Err(cursor.unreadable());
+                }
+                let last = words.value(cursor)?;
+                let goes_on = words.own.next_round.take() == Some(self.at.line);
+                let value = if goes_on { words.own.value(&name).unwrap_or(first) + 1.0 } else { first };
+                if !words.own.set(&name, value) {
+                    return refuse(Code::PN014, format!("`{name}` is not defined"), "define it: DEF INT before it");
+                }
+                self.opens(value <= last)
+            }
+            "RET" => return self.return_from("RET").map(Some),
+            "DEF" => {
+                let Some(kind) = cursor.name() else { return Err(cursor.unreadable()) };
+                if !["REAL", "INT", "BOOL"].iter().any(|known| kind.eq_ignore_ascii_case(known.as_bytes())) {
+                    let message = format!("variables of type {} are not run", String::from_utf8_lossy(kind));
+                    return Err(Fault::at(Code::PN016, begin, message, "use REAL, INT or BOOL"));
+                }
+                loop {
+                    let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
+                    let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+                    let value = if cursor.takes(b"=") { words.value(cursor)? } else { 0.0 };
+                    if let Some(own) = words.own.variables.last_mut() {
+                        own.insert(name, value);
+                    }
+                    if !cursor.takes(b",") {
+                        break;
+                    }
+                }
+                Jump::On
+            }
+            "MSG" => {
+                cursor.needs(b"(")?;
+                let start = cursor.at() + 1;
+                if let Some(text) = cursor.quoted() {
+                    words.block.comment = Some((start, start + text.len()));
+                }
+                cursor.needs(b")")?;
+                return if cursor.is_over() { Ok(None) } else { Err(cursor.unreadable()) };
+            }
+            "WORKPIECE" | "GROUP_BEGIN" | "GROUP_END" => Jump::On,
+            // `R1=5`, `NAME=5`
+            name if cursor.peek() == Some(b'=')
+                && !cursor.rest().starts_with(b"==")
+                && is_variable(name, words.own) =>
+            {
+                cursor.takes(b"=");
+                let value = words.value(cursor)?;
+                words.own.set(name, value);
+                // several may stand in one block
+                while let Some(name) = cursor.name() {
+                    let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+                    cursor.needs(b"=")?;
+                    let value = words.value(cursor)?;
+                    if !words.own.set(&name, value) {
+                        return refuse(
+                            Code::PN016,
+                            format!("`{name}` beside a parameter is not known"),
+                            "write it in a block of its own",
+                        );
+                    }
+                }
+                Jump::On
+            }
+            name if is_call(name, cursor, line_name(name)) => {
+                let name = name.to_owned();
+                let arguments = words.arguments(cursor)?;
+                let times =
+                    if cursor.takes_word("P") && cursor.takes(b"=") { words.value(cursor)? } else { calls(cursor) };
+                if !cursor.is_over() {
+                    return Err(cursor.unreadable());
+                }
+                if times.fract() != 0.0 || !(0.0..=9999.0).contains(&times) {
+                    return refuse(Code::PN018, format!("P={times} is no number of calls"), "write P1 to P9999");
+                }
+                Jump::Search(Search::Call(name, arguments, times as u32))
+            }
+            _ => {
+                *cursor = cursor.from(begin);
+                return Ok(None);
+            }
+        };
+        if matches!(jump, Jump::On | Jump::To(_)) && !cursor.is_over() {
+            return if head.word == "IF" || head.word == "WORKPIECE" || head.word.starts_with("GROUP") {
+                Ok(Some(jump))
+            } else {
+                Err(cursor.unreadable())
+            };
+        }
+        Ok(Some(jump))
+    }
+
+    /// A line opens a part, which is entered or passed over.
+    fn opens(&self, enters: bool) -> Jump {
+        match self.siemens.parts.get(&self.at.line) {
+            Some(_) if enters => Jump::On,
+            Some(part) => Jump::To(part.middle.unwrap_or(part.end)),
+            None => Jump::Search(Search::Part(enters)),
+        }
+    }
+
+    /// `REPEAT LABEL P=3`: what stands between the label and this line runs so often again.
+    fn repeats(&mut self, cursor: &mut Cursor<'_>) -> Done<Jump> {
+        let Some(label) = cursor.name() else { return Err(cursor.unreadable()) };
+        let label = String::from_utf8_lossy(label).to_ascii_uppercase();
+        let words = Words { own: &mut self.siemens, state: &self.state, block: &mut self.block };
+        let mut times = 1.0;
+        if !cursor.is_over() {
+            if !cursor.takes_word("P") || !cursor.takes(b"=") {
+                let help = "write REPEAT LABEL P=3 behind the part that is repeated";
+                return refuse(Code::PN016, "REPEAT of a part with its end elsewhere is not run", help);
+            }
+            times = words.value(cursor)?;
+        }
+        if times.fract() != 0.0 || !(0.0..=1e6).contains(&times) {
+            return refuse(Code::PN018, format!("P={times} is no number of repeats"), "write a whole number");
+        }
+        let line = self.at.line;
+        match self.siemens.repeats.last_mut() {
+            Some((own, 0)) if *own == line => {
+                self.siemens.repeats.pop();
+                return Ok(Jump::On);
+            }
+            Some((own, left)) if *own == line => *left -= 1,
+            _ if times == 0.0 => return Ok(Jump::On),
+            _ => self.siemens.repeats.push((line, times as u32 - 1)),
+        }
+        Ok(Jump::Search(Search::Label(label, Some(false))))
+    }
+}
+
+/// `GOTOF LABEL`.
+fn goes_to(cursor: &mut Cursor<'_>) -> Done<Jump> {
+    let Some(word) = cursor.name() else { return Err(cursor.unreadable()) };
+    let forwards = match String::from_utf8_lossy(word).to_ascii_uppercase().as_str() {
+        "GOTOF" => Some(true),
+        "GOTOB" => Some(false),
+        "GOTO" => None,
+        _ => return Err(cursor.unreadable()),
+    };
+    let Some(label) = cursor.name() else { return Err(cursor.unreadable()) };
+    if !cursor.is_over() {
+        return Err(cursor.unreadable());
+    }
+    let label = String::from_utf8_lossy(label).to_ascii_uppercase();
+    let number = label.strip_prefix('N').and_then(|number| number.parse::<u32>().ok());
+    Ok(Jump::Search(Search::Label(number.map_or(label, |number| format!("N{number}")), forwards)))
+}
+
+fn is_variable(name: &str, own: &Siemens) -> bool {
+    own.value(name).is_some() || name.strip_prefix('R').is_some_and(|number| number.parse::<u32>().is_ok())
+}
+
+/// Is the name no address of words: at least two letters first, as `POCKET`, or L with its number?
+fn line_name(name: &str) -> bool {
+    let is_numbered =
+        name.strip_prefix('L').is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()));
+    let letters = name.bytes().take(2).filter(|byte| byte.is_ascii_alphabetic() || *byte == b'_').count();
+    is_numbered || letters == 2
+}
+
+/// Does the name call a subprogram? It stands alone, or with its arguments.
+fn is_call(name: &str, cursor: &Cursor<'_>, is_name: bool) -> bool {
+    let own = ["CYCLE", "HOLES", "TRANS", "ATRANS", "MCALL", "SUPA"];
+    let rest = cursor.rest();
+    let alone = rest.is_empty() || rest[0] == b'(' || rest[0].eq_ignore_ascii_case(&b'P');
+    is_name && alone && !own.iter().any(|known| name.starts_with(known)) && !super::block::is_harmless(name)
+}
+
+/// `P3` behind a call: how often.
+fn calls(cursor: &mut Cursor<'_>) -> f64 {
+    if cursor.takes(b"P") || cursor.takes(b"p") { cursor.unsigned().unwrap_or(-1.0) } else { 1.0 }
+}

@@ -1,0 +1,71 @@
+//! Where a program goes: places in its text, what it is inside of, and what it looks for.
+
+/// A place in the program to go to: byte and lines before it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Spot {
+    pub byte: u64,
+    pub line: u64,
+}
+
+/// What runs inside the main program.
+#[derive(Debug)]
+pub(super) enum Frame {
+    /// A subprogram: where it was called, and how often it still runs.
+    Call { label: String, back: Spot, start: Spot, times: u32, arguments: bool },
+    /// A `while`, with the place of its line.
+    While { label: String, start: Spot },
+    /// A `do`, with the place of its line.
+    Do { label: String, start: Spot },
+    /// A `repeat`, from the line behind it.
+    Repeat { label: String, start: Spot, left: u32 },
+    /// An `if` one of whose branches runs.
+    If { label: String },
+}
+
+impl Frame {
+    /// The label by which it was begun.
+    pub fn label(&self) -> &str {
+        match self {
+            Frame::Call { label, .. }
+            | Frame::While { label, .. }
+            | Frame::Do { label, .. }
+            | Frame::Repeat { label, .. }
+            | Frame::If { label } => label,
+        }
+    }
+}
+
+/// What ends a part that is passed over.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Ends {
+    Sub,
+    While,
+    Do,
+    Repeat,
+    If,
+    Branch,
+    /// The condition of a `do`, which is run.
+    Test,
+}
+
+/// Where to go from a line.
+pub(super) enum Jump {
+    On,
+    End,
+    To(Spot),
+    Find(String, u32),
+    Skip(String, Ends),
+    /// To what must be looked for first.
+    Search(Search),
+}
+
+/// What the way through a program of another language needs to look for.
+#[derive(Debug)]
+pub(super) enum Search {
+    /// A label: forwards, backwards, or either.
+    Label(String, Option<bool>),
+    /// The end of what this line opens; `true`: it is entered.
+    Part(bool),
+    /// A subprogram with its arguments, so many times.
+    Call(String, Vec<Option<f64>>, u32),
+}

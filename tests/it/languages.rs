@@ -1,0 +1,299 @@
+//! Programs in the languages of Siemens, Heidenhain and Okuma: what each call does, from the makers' texts and public programs
+//! (tests/data/languages, each case with its source), and the way through a program.
+
+use std::fs;
+use std::io::Cursor;
+
+use crate::support::{control, root};
+use postform::internals::nc::{Action, RunError, RunSettings, Simulator};
+use serde_json::Value;
+
+/// What a program does, and the message of its refusal.
+fn actions(program: &str, name: &str) -> (Vec<Action>, Option<String>) {
+    let mut simulator = Simulator::new(Cursor::new(program.as_bytes()), RunSettings::new(control(name)));
+    let (mut all, mut items) = (Vec::new(), Vec::new());
+    loop {
+        items.clear();
+        let step = simulator.step(&mut items);
+        all.extend(items.iter().map(|item| item.action.clone()));
+        match step {
+            Ok(true) => {}
+            Ok(false) => return (all, None),
+            Err(RunError::Refused(diag, _)) => return (all, Some(diag.message)),
+            Err(RunError::Io(error)) => panic!("{error}"),
+        }
+    }
+}
+
+/// Is the value of an expectation, where it says one, that of the machine?
+fn near(said: &Value, is: f64) -> bool {
+    said.as_f64().is_none_or(|said| (said - is).abs() < 1e-6)
+}
+
+fn is_place(said: &Value, at: &[f64; 6]) -> bool {
+    said["to"].as_array().is_none_or(|to| to.iter().zip(at).all(|(said, is)| near(said, *is)))
+        && said["above"].as_f64().is_none_or(|above| at[2] > above - 1e-9)
+        && said["at_most"].as_f64().is_none_or(|most| at[2] <= most + 1e-9)
+}
+
+/// Does an action do what a row expects? Feeds a turn are told a minute there.
+fn is_expected(said: &Value, action: &Action, per_turn: f64) -> bool {
+    match (said["kind"].as_str().unwrap(), action) {
+        ("rapid" | "retract", Action::Rapid { to, machine, .. }) => *machine & 0b100 == 0 && is_place(said, to),
+        ("rapid_machine", Action::Rapid { machine, .. }) => *machine & 0b100 != 0,
+        ("feed" | "retract", Action::Feed { to, feed, .. }) => is_place(said, to) && near(&said["f"], feed * per_turn),
+        ("arc", Action::Arc(turn)) => {
+            let centre = &said["centre"];
+            let ccw = turn.direction == postform::toolpath::Direction::Ccw;
+            is_place(said, &turn.to)
+                && near(&said["f"], turn.feed)
+                && (0..2).all(|axis| near(&centre[axis], turn.center[axis]))
+                && (said["dir"] == "ccw") == ccw
+        }
+        ("dwell", Action::Dwell(seconds)) => near(&said["s"], *seconds),
+        ("tool", Action::Tool(tool)) => near(&said["t"], *tool),
+        ("work", Action::Work(work)) => near(&said["n"], *work),
+        ("length", Action::Length(register)) => near(&said["h"], register.unwrap_or(0.0)),
+        ("stop", Action::Stop(_)) | ("orient", Action::Orient(_)) => true,
+        ("spindle", Action::Spindle(rotation, speed)) => {
+            let dir = if rotation.name() == "stop" { "off" } else { rotation.name() };
+            said["dir"] == dir && near(&said["s"], *speed)
+        }
+        _ => false,
+    }
+}
+
+/// Actions that a case lists or not.
+fn counts(action: &Action, listed: &[Value]) -> bool {
+    let lists = |kind: &str| listed.iter().any(|said| said["kind"] == kind);
+    match action {
+        Action::Rapid { .. } | Action::Feed { .. } | Action::Arc(_) | Action::Dwell(_) | Action::Stop(_) => true,
+        Action::Orient(_) => lists("orient"),
+        _ => false,
+    }
+}
+
+fn wrong(case: &Value, name: &str) -> Option<String> {
+    let program = case["program"].as_str().unwrap();
+    let (mut found, refused) = actions(program, name);
+    let expected = case["expect"].as_array().unwrap();
+    if refused.is_some() && case["refuse_ok"] == true {
+        return None;
+    }
+    if expected.iter().any(|said| said["kind"] == "refuse") {
+        return refused.is_none().then(|| "not refused".to_owned());
+    }
+    if let Some(message) = refused {
+        return Some(format!("refused: {message}"));
+    }
+    let per_turn = if program.contains("G95") { 400.0 } else { 1.0 };
+    // a shift is a rapid in the plane
+    let rows: Vec<&Value> =
+        expected.iter().filter(|said| !said["kind"].as_str().unwrap().starts_with("shift")).collect();
+    let shifts = rows.len() < expected.len();
+    // a case that shows one block begins with it
+    let first = rows.first().map(|row| row["kind"].clone());
+    if first == Some("length".into()) {
+        let begin = found.iter().rposition(|action| matches!(action, Action::Length(_)));
+        found.drain(..begin.unwrap_or(0));
+    }
+    let mut left = found.iter().peekable();
+    let mut turning = "off";
+    for row in rows {
+        let is_row = |action: &Action| is_expected(row, action, per_turn);
+        // the spindle may turn as a tap needs it
+        if row["synchronous"] == true && row["dir"] == turning {
+            continue;
+        }
+        while let Some(action) = left.peek()
+            && !is_row(action)
+            && (!counts(action, expected) || shifts)
+        {
+            left.next();
+        }
+        match left.next() {
+            Some(action) if is_row(action) => {}
+            other => return Some(format!("{other:?} instead of {row}")),
+        }
+        if row["kind"] == "spindle" {
+            turning = row["dir"].as_str().unwrap();
+        }
+    }
+    let more = left.find(|action| counts(action, expected) && !shifts);
+    more.map(|action| format!("{action:?} is one more"))
+}
+
+#[test]
+fn every_call_does_what_its_makers_text_says() {
+    let mut problems = Vec::new();
+    for (name, least) in [("siemens", 11), ("heidenhain", 13), ("okuma", 10)] {
+        let path = root().join(format!("tests/data/languages/{name}.json"));
+        let cases: Vec<Value> = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+        assert!(cases.len() >= least);
+        for case in &cases {
+            if let Some(problem) = wrong(case, name) {
+                problems.push(format!("{}: {problem}", case["name"]));
+            }
+        }
+    }
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+/// The ends of all moves, as `X Y Z`, and where the program was refused.
+fn ends(program: &str, name: &str) -> String {
+    let (found, refused) = actions(program, name);
+    let shown = |to: &[f64; 6]| {
+        to[..3].iter().map(|value| format!("{}", (value * 1e4).round() / 1e4)).collect::<Vec<_>>().join(" ")
+    };
+    let mut ends: Vec<String> = found
+        .iter()
+        .filter_map(|action| match action {
+            Action::Rapid { to, .. } => Some(shown(to)),
+            Action::Feed { to, .. } => Some(shown(to)),
+            Action::Arc(turn) => Some(format!("{} about {} {}", shown(&turn.to), turn.center[0], turn.center[1])),
+            _ => None,
+        })
+        .collect();
+    ends.extend(refused.map(|message| format!("! {message}")));
+    ends.join("\n")
+}
+
+#[track_caller]
+fn goes(name: &str, program: &str, expected: &[&str]) {
+    assert_eq!(ends(program, name), expected.join("\n"), "{program}");
+}
+
+#[test]
+fn a_siemens_jumps_loops_and_calls() {
+    let head = "G17 G90 G54 G71 G94\nG0 X0 Y0 Z0\n";
+    let table: [(&str, &[&str]); 9] = [
+        ("R1=0\nAGAIN:\nG0 X=R1\nR1=R1+1\nIF R1<3 GOTOB AGAIN\nM30", &["0 0 0", "1 0 0", "2 0 0"]),
+        ("GOTOF DONE\nG0 X1\nDONE: G0 Y1\nM30", &["0 1 0"]),
+        ("DEF REAL A=2\nIF A==2\nG0 X1\nELSE\nG0 X2\nENDIF\nM30", &["1 0 0"]),
+        ("FOR R5=1 TO 3\nG0 Y=R5*2\nENDFOR\nM30", &["0 2 0", "0 4 0", "0 6 0"]),
+        ("R1=2\nWHILE R1>0\nG0 X=IC(1)\nR1=R1-1\nENDWHILE\nM30", &["1 0 0", "2 0 0"]),
+        ("PART: G0 X=IC(1)\nG0 Y=IC(1)\nREPEAT PART P=1\nM30", &["1 0 0", "1 1 0", "2 1 0", "2 2 0"]),
+        ("HOLE(5, -2)\nM30\n%_N_HOLE_SPF\nPROC HOLE(REAL X1, REAL Z1)\nG0 X=X1 Z=Z1\nM17", &["5 0 -2"]),
+        ("L10 P2\nM30\n%_N_L10_SPF\nG0 X=IC(3)\nM17", &["3 0 0", "6 0 0"]),
+        ("TRANS X10\nG0 X0\nATRANS X5\nG0 X0\nTRANS\nG0 X0\nM30", &["0 0 0", "0 0 0", "0 0 0"]),
+    ];
+    for (program, expected) in table {
+        let all: Vec<&str> = ["0 0 0"].iter().chain(expected).copied().collect();
+        goes("siemens", &format!("{head}{program}\n"), &all);
+    }
+}
+
+#[test]
+fn a_heidenhain_repeats_calls_and_rounds() {
+    let head = "0 BEGIN PGM T MM\n1 TOOL CALL 1 Z S1000\n2 L X+0 Y+0 Z+0 R0 FMAX M3\n";
+    let table: [(&str, &[&str]); 8] = [
+        ("LBL 1\nL IX+5 FMAX\nCALL LBL 1 REP 2\nM30", &["5 0 0", "10 0 0", "15 0 0"]),
+        ("CALL LBL \"S\"\nM30\nLBL \"S\"\nL Y+1,5 FMAX\nLBL 0", &["0 1.5 0"]),
+        ("Q1 = 2 * (3 + 1)\nLBL 3\nFN 2: Q1 = +Q1 - +3\nFN 11: IF +Q1 GT +0 GOTO LBL 3\nL X+Q1 FMAX\nM2", &["-1 0 0"]),
+        ("L X+20 F500\nRND R3\nL Y+20\nM2", &["17 0 0", "20 3 0 about 17 3", "20 20 0"]),
+        ("L X+20 F500\nCHF 2\nL Y+20\nM2", &["18 0 0", "20 2 0", "20 20 0"]),
+        ("CC X+10 Y+0\nCP IPA+360 IZ-2 DR+ F100\nM2", &["0 0 -2 about 10 0"]),
+        ("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\nL X+0 FMAX\nM2", &["0 0 0"]),
+        ("PLANE SPATIAL SPA+0 SPB+0 SPC+0 STAY\nL X+1 FMAX\nM2", &["1 0 0"]),
+    ];
+    for (program, expected) in table {
+        let all: Vec<&str> = ["0 0 0"].iter().chain(expected).copied().collect();
+        goes("heidenhain", &format!("{head}{program}\n"), &all);
+    }
+}
+
+#[test]
+fn an_okuma_jumps_and_calls() {
+    let head = "G15 H1\nT1 M6\nS1000 M3\nG56 H1\nG0 G90 G17 X0 Y0 Z0\n";
+    let table: [(&str, &[&str]); 5] = [
+        ("CALL O100 PA=7 PB=3\nM2\nO100\nG0 X=PA Y=PB\nRTS", &["7 3 0"]),
+        ("VC1=0\nN10 VC1=VC1+1\nG0 X=VC1*10\nIF [VC1 LT 3] N10\nM2", &["10 0 0", "20 0 0", "30 0 0"]),
+        ("GOTO N20\nG0 X1\nN20 G0 Y1\nM2", &["0 1 0"]),
+        ("NCYL G81 X5 Z-3 R1 F100 M54\nX6\nG80\nM2", &["5 0 0", "6 0 0", "6 0 1", "6 0 -3", "6 0 1"]),
+        (
+            "G83 Z-9 R0 I2 J4 F100 M54\nM2",
+            &[
+                "0 0 0", "0 0 -2", "0 0 -1.5", "0 0 -4", "0 0 0", "0 0 -3.5", "0 0 -6", "0 0 -5.5", "0 0 -8", "0 0 0",
+                "0 0 -7.5", "0 0 -9", "0 0 0",
+            ],
+        ),
+    ];
+    for (program, expected) in table {
+        let all: Vec<&str> = ["0 0 0"].iter().chain(expected).copied().collect();
+        goes("okuma", &format!("{head}{program}\n"), &all);
+    }
+}
+
+/// What is not known ends the run with its name, and never passes without a word.
+#[test]
+fn what_is_not_read_is_refused_by_name() {
+    let table = [
+        ("siemens", "G17 G54\nROT RPL=45\nM30", "ROT"),
+        ("siemens", "CYCLE800()\nM30", "CYCLE800"),
+        ("siemens", "G0 X=$AA_IM[X]\nM30", "$AA_IM"),
+        ("siemens", "POCKET3(50,0,2)\nM30", "POCKET3"),
+        ("siemens", "G500 G0 X0\nM30", "G500"),
+        ("siemens", "G71 G54\nG0 X1\nG70\nM30", "unit of feeds"),
+        ("siemens", "GOTOF NOWHERE\nM30", "NOWHERE"),
+        ("siemens", "WHILE 1\nG0 X1\nM30", "ENDWHILE"),
+        ("heidenhain", "0 BEGIN PGM T MM\nPLANE SPATIAL SPA+10 SPB+0 SPC+0\nEND PGM T MM", "tilted"),
+        ("heidenhain", "0 BEGIN PGM T MM\nL X+Q5 FMAX\nEND PGM T MM", "Q5"),
+        ("heidenhain", "0 BEGIN PGM T MM\nCYCL DEF 251 POCKET ~\n Q215=0\nEND PGM T MM", "251"),
+        ("heidenhain", "0 BEGIN PGM T MM\nM128\nEND PGM T MM", "M128"),
+        ("heidenhain", "0 BEGIN PGM T MM\nAPPR LT X+0 Y+0 LEN5 RL\nEND PGM T MM", "APPR"),
+        ("heidenhain", "0 BEGIN PGM T MM\nFPOL X+0 Y+0\nEND PGM T MM", "FPOL"),
+        ("okuma", "G15 H1\nG62 X1\nM2", "G62"),
+        ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nG81 Z-5 R2 F100\nM2", "M52, M53 or M54"),
+        ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nG82 Z-5 R2 P500 F100 M54\nM2", "P500"),
+        ("okuma", "VZOFX[1]=5\nM2", "VZOFX"),
+        ("okuma", "LAP\nM2", "LAP"),
+    ];
+    for (name, program, word) in table {
+        let (_, refused) = actions(program, name);
+        assert!(refused.as_ref().is_some_and(|message| message.contains(word)), "{program}: {refused:?}");
+    }
+}
+
+/// Empty, cut off, not UTF-8, hostile: an error, and no panic.
+#[test]
+fn bad_programs_are_refused() {
+    let deep = format!("R1={}1\nM30", "(".repeat(100_000));
+    for (name, program) in [
+        ("siemens", "G0 X"),
+        ("siemens", "G0 X=("),
+        ("siemens", deep.as_str()),
+        ("siemens", "AGAIN:\nGOTOB AGAIN"),
+        ("siemens", "MCALL CYCLE83(50,0,2,-1e9,,,1e-9,0,0,0,1,1)\nG54 G0 X0 Y0 Z0 F1\nM30"),
+        ("heidenhain", "0 BEGIN PGM T MM\nCYCL DEF 200 ~"),
+        ("heidenhain", "0 BEGIN PGM T MM\nL X+"),
+        ("heidenhain", "0 BEGIN PGM T MM\nLBL 1\nCALL LBL 1"),
+        ("heidenhain", "0 BEGIN PGM T MM\nL X+0 Y+0 F5\nRND R1"),
+        ("okuma", "G15 H1\nCALL O1"),
+        ("okuma", "G15 H1\nN1 GOTO N1"),
+        ("okuma", "G15 H1\nVC1=[[["),
+        ("okuma", "\u{0}\u{fffd}(("),
+    ] {
+        let (_, refused) = actions(program, name);
+        assert!(refused.is_some(), "{}", &program[..program.len().min(60)]);
+    }
+}
+
+/// A program whose control is not named is run by the one that its language shows.
+#[test]
+fn the_language_of_a_program_is_found() {
+    for (program, name) in [
+        ("%_N_A_MPF\nM30", "siemens"),
+        ("N10 MCALL CYCLE81(50,0,2,-10)\nM30", "siemens"),
+        ("0  BEGIN PGM T MM\n", "heidenhain"),
+        ("$A.MIN%\nG15 H1\nM2", "okuma"),
+        ("%\nO1\nG0 X1.\nM30", "fanuc"),
+    ] {
+        let settings = RunSettings { assumed: true, ..RunSettings::new(control("fanuc")) };
+        let mut input = Cursor::new(program.as_bytes());
+        let found = postform::internals::nc::settings_for(&mut input, settings).unwrap();
+        assert_eq!(found.control.name(), name, "{program}");
+        // another control is told, and reads nothing
+        let (_, refused) = actions(program, "grbl");
+        assert_eq!(refused.is_some_and(|message| message.contains("reads another")), name != "fanuc", "{program}");
+    }
+}

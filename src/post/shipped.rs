@@ -18,5 +18,11 @@ pub const GRBL: &str = include_str!("../../postforms/grbl.pf");
 pub const FANUC_LATHE: &str = include_str!("../../postforms/fanuc-lathe.pf");
 /// Haas lathe.
 pub const HAAS_LATHE: &str = include_str!("../../postforms/haas-lathe.pf");
+/// Siemens 840D mill.
+pub const SIEMENS: &str = include_str!("../../postforms/siemens.pf");
+/// Heidenhain TNC mill.
+pub const HEIDENHAIN: &str = include_str!("../../postforms/heidenhain.pf");
+/// Okuma OSP mill.
+pub const OKUMA: &str = include_str!("../../postforms/okuma.pf");
 /// Wire EDM machine.
 pub const WIRE_EDM: &str = include_str!("../../postforms/wire-edm.pf");

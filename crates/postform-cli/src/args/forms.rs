@@ -155,6 +155,12 @@ pub enum NewControl {
     FanucLathe,
     /// Haas ST, lathe
     HaasLathe,
+    /// Siemens 840D and 828D, mill
+    Siemens,
+    /// Heidenhain TNC in Klartext, mill
+    Heidenhain,
+    /// Okuma OSP, mill
+    Okuma,
     /// Wire EDM with four axes
     #[value(aliases = ["edm", "fanuc-wire"])]
     WireEdm,

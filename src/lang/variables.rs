@@ -117,7 +117,7 @@ variables! {
     Invtime       "invtime"        "Feeds and speeds"   Number  Computed  "M"    "inverse time of the move, 1/min"
     Maxrpm        "maxrpm"         "Feeds and speeds"   Speed   Asked     "ML"   "highest spindle speed at constant surface speed"
     Pitch         "pitch"          "Threads"            Length  Computed  "ML"   "thread pitch"
-    Rplane        "rplane"         "Cycles"             Length  Computed  "ML"   "return plane: where the tool is before and after a hole"
+    Rplane        "rplane"         "Cycles"             Length  Computed  "ML"   "return plane, and not the R plane, which is [vclear]: where the tool is before and after a hole"
     Vclear        "vclear"         "Cycles"             Length  Computed  "ML"   "clearance plane (R plane): where the feed begins"
     Depth         "depth"          "Cycles"             Length  Computed  "MLE"  "depth of the hole below its point, positive; in a thread its height"
     Inidep        "inidep"         "Cycles"             Length  Computed  "ML"   "depth after the first peck"

@@ -162,7 +162,11 @@ impl State {
             _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.loaded),
             _ => self.tool.diameter_register,
         };
-        if register.is_none() && !row.runs.by_diameter && !self.control.is_linuxcnc() && self.control.traits().turns == Turns::Tool {
+        if register.is_none()
+            && !row.runs.by_diameter
+            && !self.control.is_linuxcnc()
+            && self.control.traits().turns == Turns::Tool
+        {
             let help = "write D with the tool's register: G41 D1";
             return refuse(diag::Code::PN007, "cutter compensation without D", help);
         }

@@ -202,7 +202,7 @@ impl Intent for Sides<'_> {
         let Some(found) = begin::meet(self, cut, hole)? else { return Ok(()) };
         // drilled in pecks
         let tolerance = self.limits.tolerance;
-        if let Some(hole) = hole.filter(|hole| hole.may_peck && found.end()[DEPTH] > hole.bottom + tolerance) {
+        if let Some(hole) = hole.filter(|hole| hole.drilled_in_one && found.end()[DEPTH] > hole.bottom + tolerance) {
             self.peck(cut, hole);
             return Ok(());
         }
@@ -259,7 +259,7 @@ impl Intent for Sides<'_> {
 
     fn hole_ends(&mut self, hole: &Expected) -> Done {
         if !self.hole.pecks.is_empty() {
-            holes::pecks(self, hole)?;
+            holes::compare_pecks(self, hole)?;
         }
         self.report.counts.holes += 1;
         self.report.allowed.custom += u64::from(hole.custom);

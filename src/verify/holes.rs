@@ -10,7 +10,7 @@ use super::tables::LONGER;
 use crate::diag::Code;
 
 /// The program's cuts in this hole, of which the first was met already.
-pub(super) fn pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
+pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     let Limits { tolerance, increment, .. } = s.limits;
     let pecks = std::mem::take(&mut s.hole.pecks);
     let (wanted_strokes, mut strokes) = (s.hole.strokes, Strokes::over(hole.plane));

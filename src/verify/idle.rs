@@ -1,9 +1,9 @@
 //! Ways that lead to no cut: of a tool or a work offset that cuts nothing, and behind the last cut of the program.
 
-use super::clearance::{Compared, compare as compare_way};
 use super::cut::{ALL, Rapid, same};
 use super::passage::{Frame, Passage};
 use super::rapid_path::RapidPath;
+use super::ways::{Compared, compare as compare_way};
 
 /// How many such ways of the job the program does not make. `at_end`: the last way of both leads to no cut, either. `tools`: the
 /// machine loads tools.

@@ -62,7 +62,7 @@ pub(super) struct Expected {
     /// The tool comes out of the hole between pecks; how a tap does that is the control's own setting.
     pub comes_out: bool,
     /// The job drills it in one, and it may be made in pecks.
-    pub may_peck: bool,
+    pub drilled_in_one: bool,
     /// A tap: feed and speed are its pitch.
     pub is_tap: bool,
     /// The hole may be left at feed farther up than the job does.

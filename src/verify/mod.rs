@@ -7,7 +7,7 @@ mod align;
 mod arcs;
 mod begin;
 mod calls;
-mod clearance;
+
 mod comparer;
 mod cut;
 mod expectation;
@@ -40,6 +40,7 @@ mod threads;
 mod unproven_codes;
 mod unset;
 mod verdict;
+mod ways;
 mod while_printing;
 mod wire;
 mod wire_codes;

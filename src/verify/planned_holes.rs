@@ -59,7 +59,7 @@ impl Job {
             dwell: planes.dwell,
             pecks,
             comes_out,
-            may_peck: kind == CycleKind::Drill,
+            drilled_in_one: kind == CycleKind::Drill,
             is_tap: kind.is_tap(),
             feeds_out: kind.is_tap() || kind == CycleKind::Ream,
             custom,

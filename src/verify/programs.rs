@@ -2,12 +2,12 @@
 
 use std::io::{Read, Seek};
 
-use super::clearance::{Compared, compare, leaves_low};
 use super::cut::{ALL, Cut, Spin, State, What, number, place, same, same_dwell, shown};
 use super::expectation::Expectation;
 use super::passage::{Mark, TOO_LONG};
 use super::program::{Doubt, Program};
 use super::rapid_path::RapidPath;
+use super::ways::{Compared, compare, leaves_low};
 use crate::control::{Control, ToolLength};
 use crate::lang::additional_work;
 use crate::nc::{Cooling, RunError, RunSettings, axes_of};

@@ -1,10 +1,10 @@
 //! The ways between cuts: a program may go higher than the job, never lower or elsewhere.
 
-use super::clearance::{Compared, are_the_same, compare as compare_way, enters_hole, leaves_hole, leaves_low};
 use super::cut::{ALL, DEPTH, RADIUS, Rapid, number, same, shown};
 use super::idle;
 use super::passage::{Frame, Leg};
 use super::sides::Sides;
+use super::ways::{Compared, are_the_same, compare as compare_way, enters_hole, leaves_hole, leaves_low};
 use crate::diag::Code;
 use crate::lang::Machine;
 

@@ -31,7 +31,7 @@ macro_rules! allowed {
     };
 }
 
-// name, one of them, how it is otherwise, the one file that decides and counts it, what is allowed
+// name, one of them, how it is otherwise, the one file that counts it, what is allowed
 allowed! {
     pecks   "hole" "with other pecks" "holes.rs" "Holes whose pecks or retracts differ, and drilled holes made in pecks.";
     ways    "way" "in another order of axes or higher" "rapids.rs" "Ways that move the axes in another order, or higher.";

@@ -98,7 +98,8 @@ pub fn go_on(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut Writ
     let shape = writer.shape;
     let begin = ops.start;
     let mut left_out = routine.left_out.as_deref().unwrap_or_default();
-    let mut body = Body { writer: writer.lend(), mode, line: begin, at: begin, drops: false, text: Vec::new(), comment: 0..0 };
+    let mut body =
+        Body { writer: writer.lend(), mode, line: begin, at: begin, drops: false, text: Vec::new(), comment: 0..0 };
     let mut i = ops.start;
     loop {
         while let [first, rest @ ..] = left_out

@@ -58,6 +58,7 @@ pub fn hole_variables(hole: &Planned, shape: &Shape, want: &mut Want, drill: &Dr
     let spec = &cycle.spec;
     let settings = &shape.program.settings;
     let [r_level, initial_level] = settings.return_plane;
+    // [retplane]: G98 where the job returns above the clearance, else G99
     let higher = hole.heights.return_plane > hole.heights.clear + SAME;
     want.set(VarId::Retplane, if higher { initial_level } else { r_level });
     want.set(VarId::D, hole.heights.bottom);

@@ -106,7 +106,7 @@ fn emulated_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut
     left_hole(&hole.target, cycled.then_some(exit), shape, cx.said, drill)
 }
 
-/// The height to which a cycle of the control comes back, and whether that is certain.
+/// The height to which a cycle of the control comes back, and whether that is certain. `planned.rs` chooses G98 or G99.
 fn exit_of_cycle(routine: &Routine, heights: Heights, shape: &Shape, drill: &Drilling) -> (f64, bool) {
     let initial = drill.open.as_ref().map_or(heights.return_plane, |cycle| cycle.initial_level);
     // with [retplane] the code says whether it returns: G98 where the job goes higher, else G99

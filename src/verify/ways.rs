@@ -18,8 +18,8 @@ pub(super) enum Compared {
     Turning,
 }
 
-/// So many tolerances long is a rapid across at most that the digits of both its ends make of one that goes up.
-const ROUNDED: f64 = 2.0;
+/// A rapid across of at most so many tolerances may be a rapid straight up, with its ends rounded.
+const ROUNDED_ACROSS: f64 = 2.0;
 
 /// Are the program's rapids the job's, one by one and with its spindle?
 pub(super) fn are_the_same(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
@@ -191,7 +191,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     }
     // other corners: nowhere across below what the job crosses at, and not at all where the job stays
     let stays = across(job, tolerance).next().is_none();
-    for (a, b) in across(program, ROUNDED * tolerance).filter(|(a, b)| !is_over(a, b, job, tolerance)) {
+    for (a, b) in across(program, ROUNDED_ACROSS * tolerance).filter(|(a, b)| !is_over(a, b, job, tolerance)) {
         let low = height(a).min(height(b));
         if low < highest - tolerance || (stays && known_start && low.is_finite()) {
             let to = b.to;
@@ -252,8 +252,8 @@ pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -
     let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();
     let highest = heights(&job.corners).into_iter().fold(f64::NEG_INFINITY, f64::max);
     let crossing = across(&job.corners, tolerance).map(|(a, b)| a.to[DEPTH].min(b.to[DEPTH])).fold(highest, f64::min);
-    let low =
-        across(&program.corners, ROUNDED * tolerance).find(|(a, b)| height(a).min(height(b)) < crossing - tolerance);
+    let low = across(&program.corners, ROUNDED_ACROSS * tolerance)
+        .find(|(a, b)| height(a).min(height(b)) < crossing - tolerance);
     if let Some((_, b)) = low {
         return Some((b.to, crossing));
     }

@@ -8,6 +8,7 @@ use postform::toolpath::{Place, Units};
 use postform::{Error, Job, NoFiles, Options, Post, Proven, Source, Verdict};
 
 use crate::job::{Kind, Takes};
+use crate::judge::languages::{as_fanuc, is_one};
 use crate::judge::{Act, MAIN, lathe, run, wire};
 use crate::random::Random;
 
@@ -83,6 +84,10 @@ impl Form {
         match self.kinds.first() {
             Some(Kind::Lathe) => lathe::run(program, self.by_diameter, inch),
             Some(Kind::Wire) => wire::run(program, inch),
+            _ if is_one(&self.control) => {
+                let text = as_fanuc(program, &self.control)?;
+                run(&text, "fanuc", inch)
+            }
             _ => run(program, &self.control, inch),
         }
     }

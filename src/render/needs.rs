@@ -29,7 +29,7 @@ impl Shape<'_> {
     pub fn needs(&self, meaning: Meaning) -> Done {
         let control = self.program.settings.control();
         let needed = NEEDED.iter().find(|(needed, ..)| *needed == meaning);
-        match needed.filter(|_| control.prints_codes() && !control.has(meaning)) {
+        match needed.filter(|_| control.is_run() && !control.has(meaning)) {
             None => Ok(()),
             Some((_, what, help)) => fault(Code::PR008, format!("{} has no code for {what}", control.title()), *help),
         }

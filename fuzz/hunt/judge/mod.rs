@@ -2,6 +2,7 @@
 //! postform reads, plans or compares.
 
 pub mod done;
+pub mod languages;
 pub mod lathe;
 mod machine;
 mod modes;

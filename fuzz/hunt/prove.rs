@@ -66,7 +66,11 @@ impl Form {
             control: control.trim().into(),
             kinds,
             inch: inch.map(|(_, inch)| inch),
-            takes: Takes { customs: ["Custom1", "Custom2", "Custom3"].map(says), home: says("MoveHome") },
+            takes: Takes {
+                customs: ["Custom1", "Custom2", "Custom3"].map(says),
+                home: says("MoveHome"),
+                codes: !is_one(control.trim()),
+            },
             within: if text.contains("X->5.>2") { 0.011 } else { 0.0035 },
             renames: says("Rename A B"),
             by_diameter: !says("ByDiameter? N"),

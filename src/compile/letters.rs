@@ -68,11 +68,18 @@ const BUILT_IN: &[(&[u8], &str, &str)] = &[
 /// Every other letter, and values without one.
 const ANY: (&str, &str) = ("->6~>4", "->6~>4");
 
+/// Values after a text, in a language whose cycles take their words so: levels and pitches that are added and multiplied.
+const FINE: &str = "->6~>6";
+
 impl LetterTable {
     /// The table of a form, with built-in formats for inches or millimetres.
     pub fn new(form: &Form, metric: bool) -> LetterTable {
         let settings = &form.settings;
-        let bare = LetterFormat::built_in(if metric { ANY.1 } else { ANY.0 });
+        let bare = LetterFormat::built_in(match settings.control().prints_codes() {
+            false => FINE,
+            true if metric => ANY.1,
+            true => ANY.0,
+        });
         let mut rows = [Letter {
             format: bare,
             has_format: false,

@@ -297,3 +297,16 @@ fn the_language_of_a_program_is_found() {
         assert_eq!(refused.is_some_and(|message| message.contains("reads another")), name != "fanuc", "{program}");
     }
 }
+
+/// After the way home the height is unknown. A rapid of the form's own that prints it had that of the hole's bottom.
+#[test]
+fn a_rapid_of_the_forms_own_has_no_height_of_a_hole() {
+    let form = fs::read_to_string(root().join("postforms/heidenhain.pf")).unwrap();
+    let post = postform::Post::compile(postform::Source::from_text("form", &form), &postform::NoFiles).unwrap();
+    let job = r#"{"postform": 1, "units": "mm", "tools": [{"number": 1}], "operations": [{"tool": 1, "spindle": {"speed": 900, "direction": "cw"},
+        "path": [{"rapid": [3, -1, 10]}, {"home": true}, {"cycle": {"kind": "bore", "depth": 9, "feed": 6, "points": [[-1, -2, 0]]}}]}]}"#;
+    let mut options = postform::Options::default();
+    options.proof = None;
+    let error = post.render(postform::Job::json(job), &options).unwrap_err().to_string();
+    assert!(error.contains("[d] has no value here"), "{error}");
+}

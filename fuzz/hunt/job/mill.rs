@@ -15,7 +15,7 @@ const SECTIONS: &[&str] = &["leadin", "leadout", "plunge", "retract", "sidestep"
 pub fn fill(job: &mut Value, kind: Kind, inch: bool, takes: Takes, random: &mut Random) {
     let tools: Vec<Value> = (1..=4).map(|number| tool(number, inch, random)).collect();
     let mut pen = Pen::new(inch, random);
-    (pen.customs, pen.home) = (takes.customs, takes.home);
+    (pen.customs, pen.home, pen.codes) = (takes.customs, takes.home, takes.codes);
     let mut angle = 0.0;
     let subs = if kind == Kind::Subprograms { subprograms(&mut pen) } else { Vec::new() };
     let wanted = 6 + pen.random.below(29);
@@ -284,8 +284,11 @@ fn change(pen: &mut Pen<'_>) {
             pen.put(item);
         }
         11 => {
-            let item = json!({ "text": pen.random.pick(&["(AS IT STANDS)", "M1", "M8", "G4 P0"]) });
-            pen.put(item);
+            let text = pen.random.pick(&["(AS IT STANDS)", "M1", "M8", "G4 P0"]);
+            // of those without codes the control reads M alone
+            if pen.codes || text.starts_with('M') {
+                pen.put(json!({ "text": text }));
+            }
         }
         _ => {
             let high = pen.length(1.0, 2.0);

@@ -61,6 +61,8 @@ pub struct Takes {
     pub customs: [bool; 3],
     /// Jobs that send the tool home.
     pub home: bool,
+    /// Text with the comments and codes of a Fanuc.
+    pub codes: bool,
 }
 
 /// A job as a document: an object whose last key is its operations. A program is made of a milling job.

@@ -24,6 +24,8 @@ pub struct Pen<'r> {
     pub customs: [bool; 3],
     /// The form knows the way home.
     pub home: bool,
+    /// Text with the comments and codes of a Fanuc.
+    pub codes: bool,
 }
 
 impl<'r> Pen<'r> {
@@ -41,6 +43,7 @@ impl<'r> Pen<'r> {
             per_turn: false,
             customs: [false; 3],
             home: false,
+            codes: true,
         }
     }
 

@@ -359,7 +359,8 @@ impl Writer {
             "200" => {
                 cycle.feed = Some(feed(206)?);
                 let dwell = need(211)?;
-                if need(202)? < -need(201)? - 1e-9 {
+                // a plunge of the whole depth is a drill's
+                if (need(202)? + need(201)?).abs() > 1e-9 {
                     (cycle.code, cycle.peck) = (83, Some(need(202)?));
                 } else if dwell > 0.0 {
                     (cycle.code, cycle.dwell) = (82, Some(dwell));

@@ -10,6 +10,7 @@ use crate::render::said::{LastMove, Said};
 use crate::render::shape::Shape;
 use crate::render::targets::set_targets;
 use crate::render::upon::upons;
+use crate::render::vars::NOW;
 use crate::render::words::move_block;
 use crate::sema;
 use crate::toolpath::Axes;
@@ -68,6 +69,10 @@ pub fn rapid_block(target: &Axes, code: Option<sema::Code>, cx: &mut Cx<'_>) -> 
                 whole.set(axis, target.values[axis]);
             }
             set_targets(&whole, shape, cx.want, cx.said)?;
+            // where an axis is unknown, its variable may still have the height of a hole
+            for axis in (0..shape.linear.min(3)).filter(|axis| whole.given & 1 << axis == 0) {
+                cx.want.put(NOW[axis], None);
+            }
             measure(target, false, cx.want, cx.said);
             let routine = shape.way(routine, cx.want, cx.said);
             check_prints(routine, target, shape, cx.said)?;

@@ -245,6 +245,7 @@ fn what_is_not_read_is_refused_by_name() {
         ("okuma", "G15 H1\nG62 X1\nM2", "G62"),
         ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nG81 Z-5 R2 F100\nM2", "M52, M53 or M54"),
         ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nG82 Z-5 R2 P500 F100 M54\nM2", "P500"),
+        ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nG81 Z-5 R2 F100 M54\nG0 X5\nM2", "whether it ends the cycle"),
         ("okuma", "VZOFX[1]=5\nM2", "VZOFX"),
         ("okuma", "LAP\nM2", "LAP"),
     ];

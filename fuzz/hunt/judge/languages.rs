@@ -109,7 +109,8 @@ impl Writer {
             if let Some(axis) = "XYZ".find(letter) {
                 self.at[axis] = Some(value).filter(|_| !machine);
             }
-            text.push(format!("{letter}{value:?}"));
+            // no exponent
+            text.push(format!("{letter}{value:.9}"));
         }
         if !text.is_empty() {
             self.say(text.join(" "));
@@ -151,6 +152,7 @@ impl Writer {
         let line = line.split(';').next().unwrap_or_default().trim();
         if let Some(name) = line.strip_prefix("%_N_L") {
             self.say(format!("O{}", name.strip_suffix("_SPF").ok_or("a section")?));
+            self.tool = f64::NAN; // that of the call
             return Ok(());
         }
         let block = numbered(line, "N");
@@ -198,6 +200,7 @@ impl Writer {
         self.block(&list);
         match length {
             Some(0.0) => self.say("G49"),
+            Some(_) if self.tool.is_nan() => {}
             Some(_) => self.say(format!("G43 H{:?}", self.tool)),
             None => {}
         }
@@ -407,7 +410,7 @@ impl Writer {
         for word in &mut list {
             *word = match *word {
                 ('G', 56.0) => ('G', 43.0),
-                ('F', seconds) if dwells => ('P', (seconds * 1000.0).round()),
+                ('F' | 'P', seconds) if dwells => ('P', (seconds * 1000.0).round()),
                 other => other,
             };
         }

@@ -203,8 +203,14 @@ impl Words<'_> {
             if self.said.cycle.is_some() {
                 return refuse(Code::PN004, "a motion code and a cycle in one block", "write them in two blocks");
             }
+            let cancels = self.block.g_meaning(Group::Cycle) == Some(Meaning::CycleEnd);
+            if let Some(cycle) = self.own.cycle.filter(|_| !cancels) {
+                let message =
+                    format!("a motion code while {} is in force: whether it ends the cycle is unknown", cycle.code);
+                return refuse(Code::PN016, message, "write G80 in a block before it");
+            }
             self.own.cycle = None;
-            if self.block.g_meaning(Group::Cycle) == Some(Meaning::CycleEnd) {
+            if cancels {
                 self.own.back = None;
             }
             return Ok(());

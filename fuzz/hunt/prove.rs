@@ -70,6 +70,7 @@ impl Form {
                 customs: ["Custom1", "Custom2", "Custom3"].map(says),
                 home: says("MoveHome"),
                 codes: !is_one(control.trim()),
+                works: text.contains("\nMoreWork "),
             },
             within: if text.contains("X->5.>2") { 0.011 } else { 0.0035 },
             renames: says("Rename A B"),

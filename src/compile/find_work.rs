@@ -49,10 +49,24 @@ pub(super) fn find_work(program: &Program) -> WorkWords {
             words.ways.push(word);
         }
     }
+    if words.by_code() {
+        words.more = more_words(program);
+    }
     let control = program.settings.codes();
     let shares = |way: &WorkWord| way.code.is_none_or(|code| control.group(code) == Some(Group::Work));
     words.shares_its_codes = words.ways.iter().all(shares);
     words
+}
+
+/// The lines of `MoreWork`.
+fn more_words(program: &Program) -> Vec<(f64, WorkWord, f64)> {
+    let first = program.settings.work;
+    let more = program.settings.more_work.iter().map(|more| {
+        let is_code = more.code.is_none() && program.letters[0][more.letter].printed == b'G';
+        let word = WorkWord { code: more.code, letter: Some(more.letter), is_code, calculated: None };
+        (first + f64::from(more.first) - 1.0, word, more.number)
+    });
+    more.collect()
 }
 
 const BY_CODE: u8 = 0;

@@ -24,6 +24,8 @@ pub struct WorkWords {
     pub ways: Vec<WorkWord>,
     /// The operations that say it, in their order.
     pub(super) says: Vec<usize>,
+    /// What `G[work]` prints for further fixtures: the first value of `[work]`, its words, and the number of their last one.
+    pub(super) more: Vec<(f64, WorkWord, f64)>,
     /// G54 to G59 select offsets beside words of the form's own. Not where such a word has another code: G56 of an Okuma, which
     /// has G15, is a length.
     pub shares_its_codes: bool,
@@ -42,6 +44,9 @@ impl WorkWords {
 
     /// How an offset is said: the first way for which the control has such an offset, and the value of its word.
     pub fn way(&self, values: &dyn Values, control: &Control) -> Option<(&WorkWord, f64)> {
+        if let Some((word, value)) = values.number(VarId::Work).and_then(|work| self.more(work)) {
+            return word.has(value, control).then_some((word, value));
+        }
         self.ways.iter().find_map(|way| {
             let value = match &way.calculated {
                 Some(formula) => formula.number(values).ok(),
@@ -49,6 +54,12 @@ impl WorkWords {
             };
             value.filter(|value| way.has(*value, control)).map(|value| (way, value))
         })
+    }
+
+    /// The words of `MoreWork` for this value of `[work]`, and the number of the last one.
+    pub fn more(&self, work: f64) -> Option<(&WorkWord, f64)> {
+        let (first, word, number) = self.more.iter().rfind(|(first, ..)| *first <= work && work.fract() == 0.0)?;
+        Some((word, number + (work - first)))
     }
 
     /// What a program calls the offset that the form prints so: its code, its number, or the name of an additional one.

@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use serde::Deserialize;
 use toml::Spanned;
 
-use super::arcs::{Arcs, Tolerance};
+use super::arcs::Arcs;
 use super::code::Code;
+use super::file_text::{File, Height, Longer, RowText, SecondTool, WithoutAxes};
 use super::hole::Hole;
 use super::key::{ABSENT, Key};
 use super::meaning::Meaning;
 use super::runs::{Motions, Pitch, PitchUnit, Runs, WorkOffset};
-use super::traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, Turns, WithoutPoint};
+use super::traits::{Rules, Traits};
 use super::words::Words;
 use super::{Control, Row, Rows};
 
@@ -42,161 +42,6 @@ impl fmt::Display for Wrong {
 }
 
 impl std::error::Error for Wrong {}
-
-/// A file as it is written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    name: Spanned<String>,
-    title: Option<String>,
-    like: Option<Spanned<String>>,
-    rules: Option<Rules>,
-    machine: Option<Turns>,
-    complete: Option<bool>,
-    /// Sentences for its page.
-    unknown: Option<Vec<String>>,
-    #[serde(default)]
-    numbers: Numbers,
-    #[serde(default)]
-    text: Text,
-    #[serde(default)]
-    blocks: Blocks,
-    #[serde(default)]
-    words: WordsOf,
-    #[serde(default)]
-    start: Start,
-    #[serde(default)]
-    dwell: Dwell,
-    #[serde(default)]
-    stops: Stops,
-    #[serde(default)]
-    arcs: ArcsText,
-    #[serde(default)]
-    tool: Tool,
-    #[serde(default)]
-    coolant: CoolantText,
-    #[serde(default)]
-    codes: BTreeMap<Spanned<String>, RowText>,
-}
-
-/// `[text]`: what the control reads besides words.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Text {
-    line: Option<usize>,
-    comments_count: Option<bool>,
-    longer: Option<Longer>,
-    open_comments: Option<bool>,
-    small_letters: Option<bool>,
-}
-
-/// `[blocks]`: what a block may hold.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Blocks {
-    one_m: Option<bool>,
-}
-
-/// `[numbers]`.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Numbers {
-    length_without_point: Option<WithoutPoint>,
-}
-
-/// `[start]`: what one program finds of the one before it.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Start {
-    modes: Option<Kept>,
-}
-
-/// `[dwell]`: its words.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Dwell {
-    #[serde(rename = "P")]
-    p: Option<DwellUnit>,
-}
-
-/// `[stops]`: what M0 and M1 leave running.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Stops {
-    spindle: Option<Kept>,
-}
-
-/// `[arcs]`.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ArcsText {
-    centres: Option<Centres>,
-    /// In millimetres, and in inches where other lengths count there.
-    mm: Option<Spanned<Tolerance>>,
-    inch: Option<Spanned<Tolerance>>,
-}
-
-/// What becomes of a block that is longer.
-#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Longer {
-    Stops,
-    Cut,
-}
-
-/// `[words]`: the letters of all words, and words that need no code.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct WordsOf {
-    letters: Option<Spanned<String>>,
-    everywhere: Option<Spanned<String>>,
-    work: Option<Spanned<String>>,
-    most_work: Option<u16>,
-}
-
-/// `[coolant]`: what of it the machine has.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CoolantText {
-    mist: Option<bool>,
-}
-
-/// `[tool]`: its length.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Tool {
-    length: Option<ToolLength>,
-    without_length: Option<Height>,
-}
-
-/// What a height is while no length of a tool counts.
-#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Height {
-    Work,
-    Machine,
-}
-
-/// A row of `[codes]`.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RowText {
-    is: Spanned<String>,
-    words: Option<Spanned<String>>,
-    makes: Option<Spanned<String>>,
-    /// `"Q"`, or `{ I = "mm", J = "per-inch" }`.
-    pitch: Option<Spanned<toml::Value>>,
-    text: Option<String>,
-    not_run: Option<String>,
-    only: Option<Spanned<String>>,
-    stops_spindle: Option<bool>,
-    motions: Option<Spanned<String>>,
-    work: Option<Spanned<String>>,
-    point: Option<Spanned<u8>>,
-    #[serde(default)]
-    by_diameter: bool,
-    speed_out: Option<Spanned<String>>,
-}
 
 /// Finds the control that a file is like, which is so deep in its chain.
 type Find = dyn Fn(&str, usize) -> Option<Result<Control, Wrong>>;
@@ -277,6 +122,8 @@ impl Reader<'_> {
         take(&mut traits.modes_at_start, file.start.modes);
         take(&mut traits.spindle_at_stop, file.stops.spindle);
         take(&mut traits.tool_length, file.tool.length);
+        take(&mut traits.all_go_home, file.reference.without_axes.map(|WithoutAxes::All| true));
+        take(&mut traits.next_beside_change, file.tool.second.map(|SecondTool::Next| true));
         take(&mut traits.height_is_machine, file.tool.without_length.map(|height| height == Height::Machine));
         if let Some(words) = &file.words.everywhere {
             traits.everywhere = self.words(words)?;
@@ -380,13 +227,15 @@ impl Reader<'_> {
             let only = row.only.as_ref().map_or(Ok(Vec::new()), |only| self.values(only))?;
             let (not_run, stops_spindle) = (row.not_run.clone(), row.stops_spindle.unwrap_or(false));
             let runs = self.runs(row, meaning, &makes)?;
-            let work = runs.work;
+            let (work, tool) = (runs.work, runs.tool);
             let row = Row { code, meaning, words, makes, pitch, text, not_run, only, stops_spindle, runs };
             match parsed {
                 Key::One(code) => rows.put(Row { code, ..row }),
                 Key::Range(first, last) => {
                     for (count, tenths) in (0..).zip((first.tenths..=last.tenths).step_by(10)) {
-                        let runs = Runs { work: work.and_then(|first| first.after(count)), ..row.runs.clone() };
+                        let work = work.and_then(|first| first.after(count));
+                        let tool = tool.and_then(|first| first.checked_add(count));
+                        let runs = Runs { work, tool, ..row.runs.clone() };
                         rows.put(Row { code: Code { tenths, ..first }, runs, ..row.clone() });
                     }
                 }
@@ -437,8 +286,14 @@ impl Reader<'_> {
             }
             Some(at) => Some(*at.get_ref()),
         };
+        let tool = match &row.tool {
+            Some(at) if meaning != Meaning::ToolNumber => {
+                return Err(of_another("tool", at.span().start, "codes that bring a tool in"));
+            }
+            tool => tool.as_ref().map(|at| *at.get_ref()),
+        };
         let speed_out = row.speed_out.as_ref().map(|letter| self.letter(letter)).transpose()?;
-        Ok(Runs { motions, work, point, speed_out, by_diameter: row.by_diameter })
+        Ok(Runs { motions, work, point, speed_out, tool, by_diameter: row.by_diameter })
     }
 
     /// Words with their values, as `P0 P10000`.

@@ -186,7 +186,7 @@ meanings! {
     Through          "through"           Some(G::Coolant), Free,  "coolant through the spindle on";
     CoolantOff       "coolant-off"       Some(G::Coolant), Free,  "coolant off";
     ToolChange       "tool-change"       None, Free,              "changes the tool";
-    ToolNumber       "tool-number"       None, Free,              "says which tool is in";
+    ToolNumber       "tool-number"       None, Free,              "another tool is in the spindle";
     Macro            "macro"             None, Data,              "calls a macro";
     MacroOn          "macro-on"          None, Data,              "calls a macro at each position";
     MacroOff         "macro-off"         None, Free,              "ends calls of a macro";
@@ -250,6 +250,11 @@ impl Meaning {
     pub const fn starts_spindle(self) -> bool {
         use Meaning as M;
         matches!(self, M::SpindleCw | M::SpindleCcw | M::SpindleCwCoolant | M::SpindleCcwCoolant)
+    }
+
+    /// Is another tool in the spindle after it?
+    pub const fn changes_tool(self) -> bool {
+        matches!(self, Meaning::ToolChange | Meaning::ToolNumber)
     }
 
     /// Does it stop the program, or may it?

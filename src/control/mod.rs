@@ -6,6 +6,7 @@
 mod arcs;
 mod code;
 mod file;
+mod file_text;
 mod hole;
 mod key;
 mod meaning;
@@ -132,7 +133,7 @@ macro_rules! shipped {
     };
 }
 
-shipped! { "fanuc" "fanuc-lathe" "fanuc-wire" "haas" "haas-lathe" "fadal" "mazak" "brother" "mitsubishi" "siemens" "siemens-iso" "heidenhain" "okuma" "linuxcnc" "emc2" "grbl" "pathpilot" }
+shipped! { "fanuc" "fanuc-lathe" "fanuc-wire" "haas" "haas-lathe" "fadal" "mazak" "brother" "centroid" "mitsubishi" "siemens" "siemens-iso" "heidenhain" "okuma" "linuxcnc" "emc2" "grbl" "grblhal" "fluidnc" "pathpilot" "mach3" }
 
 /// Does a control's name mean a file that describes it?
 pub fn is_file(name: &str) -> bool {

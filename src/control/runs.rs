@@ -148,6 +148,8 @@ pub struct Runs {
     pub point: Option<u8>,
     /// The word of a tap that says how fast the spindle turns on the way out; L is then no number of repeats.
     pub speed_out: Option<u8>,
+    /// The tool that the code brings in: drills of a bank.
+    pub tool: Option<u16>,
     /// A compensation names no register: D is a diameter, or the tool has its own.
     pub by_diameter: bool,
 }
@@ -167,6 +169,7 @@ impl super::Row {
             M::Work if runs.work.is_none() => {
                 Some("which work offset: `work = \"G54\"`, `\"G54.1 P1\"`, or the letter of its word, `\"P\"`")
             }
+            M::ToolNumber if runs.tool.is_none() => Some("which tool: `tool = 5`"),
             M::Reference | M::SetReference if runs.point.is_none() => Some("which reference point: `point = 1`"),
             _ => None,
         }

@@ -172,6 +172,10 @@ pub struct Traits {
     pub arcs: Arcs,
     /// What its spindle turns.
     pub turns: Turns,
+    /// G28 and G30 without axis words send all axes home.
+    pub all_go_home: bool,
+    /// A second T in the block of a tool change names the next tool: `T3 T7 M6`.
+    pub next_beside_change: bool,
     /// All its codes are known: it refuses others.
     pub complete: bool,
 }

@@ -1,7 +1,6 @@
 //! What each word of a form is, for its colour.
 
 use super::{At, Document, What};
-use crate::lang::{TextVar, VarId};
 use crate::span::Span;
 use crate::syntax::{Head, Line, Piece, PieceKind, Tail};
 
@@ -61,11 +60,14 @@ impl Document {
         });
         let lines = self.checked.trees.get(file as usize).map(|tree| tree.lines()).unwrap_or_default();
         tokens.extend(lines.into_iter().filter_map(tail));
+        tokens.sort_by_key(|token| token.span.start);
+        let mut around = Vec::new();
         for item in self.items(file) {
             let Head::Sequence(node) = item else { continue };
             let pieces = node.body.iter().flat_map(|body| &body.words).flat_map(|word| &word.pieces);
-            pieces.for_each(|piece| notes(piece, &mut tokens));
+            pieces.for_each(|piece| notes(piece, &tokens, &mut around));
         }
+        tokens.extend(around);
         tokens.retain(|token| token.span.start < token.span.end);
         tokens.sort_by_key(|token| token.span.start);
         tokens
@@ -80,21 +82,18 @@ fn tail(line: &Line) -> Option<Token> {
     }
 }
 
-/// The text of a comment of the program, around its variables.
-fn notes(piece: &Piece, tokens: &mut Vec<Token>) {
-    let PieceKind::Note { parts, .. } = &piece.kind else { return };
-    let mut at = piece.span.start;
-    let is_variable = |part: &&Piece| match &part.kind {
-        PieceKind::Variable { name, .. } => VarId::parse(&name.text).is_some(),
-        PieceKind::TextVariable { name, .. } => TextVar::parse(&name.text).is_some(),
-        _ => false,
-    };
-    let variables = parts.iter().filter(is_variable);
-    for part in variables {
-        tokens.push(Token { span: Span { start: at, end: part.span.start, ..piece.span }, kind: Kind::Note });
-        at = part.span.end;
+/// The text of a comment of the program, around the words in it: `tokens` has those of the file, in their order.
+fn notes(piece: &Piece, tokens: &[Token], notes: &mut Vec<Token>) {
+    if !matches!(piece.kind, PieceKind::Note { .. }) {
+        return;
     }
-    tokens.push(Token { span: Span { start: at, ..piece.span }, kind: Kind::Note });
+    let (mut at, end) = (piece.span.start, piece.span.end);
+    let first = tokens.partition_point(|token| token.span.start < at);
+    for inner in tokens[first..].iter().take_while(|token| token.span.start < end) {
+        notes.push(Token { span: Span { start: at, end: inner.span.start, ..piece.span }, kind: Kind::Note });
+        at = inner.span.end;
+    }
+    notes.push(Token { span: Span { start: at, ..piece.span }, kind: Kind::Note });
 }
 
 #[cfg(test)]
@@ -130,6 +129,14 @@ mod tests {
                 ("lost", Kind::Lost),
             ]
         );
+    }
+
+    /// A value that is calculated in a comment is a word of its own.
+    #[test]
+    fn a_comment_is_around_its_calculated_values() {
+        let (document, _) = marked("Drill\n(P[work-59] X[h])\nEnd\n");
+        let told: Vec<_> = document.tokens(0).iter().map(|token| document.slice(token.span)).collect();
+        assert_eq!(told, ["Drill", "(P[", "work", "-59] X", "[h]", ")", "End"]);
     }
 
     #[test]

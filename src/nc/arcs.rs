@@ -49,6 +49,15 @@ impl State {
             }
             (None, words) => {
                 for (axis, word) in [first, second].into_iter().zip(words) {
+                    if !self.modes.centers_known {
+                        let message =
+                            format!("the file of {} does not say from where I and J count", self.control.name());
+                        return refuse(
+                            Code::PN016,
+                            message,
+                            "write G91.1 before the first arc, or G90.1 where they are positions",
+                        );
+                    }
                     if self.modes.centers_absolute {
                         let Some(value) = word else {
                             let help = "under G90.1 both coordinates of the centre are written";

@@ -46,6 +46,8 @@ pub struct Block {
     pub(super) absolute: u8,
     /// Axes whose words are increments, whatever is in force, as bits.
     pub(super) incremental: u8,
+    /// The tool that comes after the one that the block changes to.
+    pub(super) next_tool: Option<f64>,
     /// The number of the work offset that a word beside the codes selects.
     pub(super) work: Option<f64>,
     /// Full turns of its arc before the end.
@@ -126,6 +128,11 @@ impl Block {
         self.m().any(|(_, row)| row.meaning == meaning)
     }
 
+    /// Is another tool in the spindle after it?
+    pub fn changes_tool(&self) -> bool {
+        self.m().any(|(_, row)| row.meaning.changes_tool())
+    }
+
     /// Has the block words or polar coordinates of axes?
     #[inline]
     pub fn has_axes(&self) -> bool {
@@ -161,7 +168,7 @@ impl Block {
         self.comment = None;
         self.flow = None;
         (self.absolute, self.incremental, self.turns) = (0, 0, 0);
-        (self.work, self.call, self.pattern) = (None, None, None);
+        (self.work, self.call, self.pattern, self.next_tool) = (None, None, None, None);
     }
 
     /// Puts a word in.

@@ -95,6 +95,7 @@ const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
         | M::Through
         | M::CoolantOff
         | M::ToolChange
+        | M::ToolNumber
         | M::Call
         | M::Return
         | M::Output
@@ -103,7 +104,7 @@ const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
         // the reader of their language runs them
         M::ToLevel | M::ToTop | M::ReturnLevel => false,
         // what they do is written elsewhere, or known only at the machine
-        M::Macro | M::MacroOn | M::Data | M::Transform | M::ToolNumber | M::Unsaid => false,
+        M::Macro | M::MacroOn | M::Data | M::Transform | M::Unsaid => false,
         _ => letter == b'G',
     }
 }

@@ -35,7 +35,7 @@ impl State {
     /// Everything between feed and motion.
     pub(super) fn set_up(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         self.compensated(block.means(Meaning::Output), "an output")?;
-        self.compensated(block.means(Meaning::ToolChange), "a tool change")?;
+        self.compensated(block.changes_tool(), "a tool change")?;
         self.spindle_and_tool(block, out)?;
         if block.g_meaning(Group::Once) == Some(Meaning::Dwell) {
             let x_is_no_time = block.has(bit(b'X')) && block.has(bit(b'P'));
@@ -45,6 +45,14 @@ impl State {
             }
             let time = block.get(b'X').or(block.get(b'U'));
             let seconds = match (block.get(b'P'), time) {
+                (Some(_), _) if self.control.traits().dwell == DwellUnit::Unknown => {
+                    let message = format!("the file of {} does not say what P of a dwell counts", self.control.name());
+                    return refuse(
+                        Code::PN016,
+                        message,
+                        "say it in a control file of your own: `[dwell]` and `P = \"s\"` or `\"ms\"`",
+                    );
+                }
                 (Some(p), _) => self.seconds(p, block),
                 (None, Some(x)) if !self.control.is_linuxcnc() => x,
                 _ => return refuse(Code::PN007, "G4 without its time", "write G4 P1. for a second"),
@@ -82,6 +90,7 @@ impl State {
         }
         if let Some(meaning) = block.g_meaning(Group::ArcDistance) {
             self.modes.centers_absolute = meaning == Meaning::CentresAbsolute;
+            self.modes.centers_known = true;
         }
         if let Some(meaning) = block.g_meaning(Group::Return) {
             if self.tool.side.is_some() && self.control.is_linuxcnc() {

@@ -2,7 +2,7 @@
 
 use super::action::{Action, Position, Rotation};
 use super::block::Block;
-use super::codes::{Group, bit};
+use super::codes::{Group, bit, letters};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
@@ -106,6 +106,10 @@ impl State {
             let to = self.target(block)?;
             self.place.rapid_to(to, out);
             return Ok(());
+        }
+        if self.control.is_lathe() && block.has(letters("AC")) && block.has(letters("XZUW")) {
+            let message = "A or C in a straight cut of a lathe, which is an angle, a chamfer or an axis";
+            return refuse(Code::PN016, message, "write the points of the corner; an axis turns in a block of its own");
         }
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let to = self.target(block)?;

@@ -135,7 +135,7 @@ impl State {
         }
         let is_named = |axis: usize| self.axis_word(block, axis).or(self.increment(block, axis)).is_some();
         let named: u8 = (0..6).filter(|&axis| is_named(axis)).map(|axis| 1 << axis).sum();
-        if named == 0 && !self.control.is_linuxcnc() {
+        if named == 0 && !self.control.is_linuxcnc() && !self.control.traits().all_go_home {
             return refuse(Code::PN006, "G28 or G30 without axes", "write the axes that go home, as G91 G28 Z0");
         }
         let axes = if named == 0 { 0x3f } else { named };

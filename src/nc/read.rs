@@ -176,6 +176,10 @@ impl Block {
             b'A'..=b'Z' => {
                 let at = bit(letter);
                 if self.given & at != 0 {
+                    if letter == b'T' && control.traits().next_beside_change && self.next_tool.is_none() {
+                        self.next_tool = Some(value);
+                        return Ok(());
+                    }
                     return twice(letter, column);
                 }
                 let own = match control.traits().turns {

@@ -86,6 +86,8 @@ pub struct Simulator<'a> {
     /// The block has more to do.
     unfinished: bool,
     pub(super) blocks: u64,
+    /// One of them had words.
+    words: bool,
     /// What a Siemens keeps.
     pub(super) siemens: Box<Siemens>,
     /// What a Heidenhain keeps.
@@ -126,6 +128,7 @@ impl<'a> Simulator<'a> {
             repeated: 0,
             unfinished: false,
             blocks: 0,
+            words: false,
             siemens: Box::default(),
             klartext: Box::default(),
             osp: Box::default(),
@@ -425,7 +428,8 @@ impl<'a> Simulator<'a> {
         }
         if self.block.is_empty() && self.block.comment.is_none() {
             if self.block.percent {
-                let ends = self.percent || self.blocks > 0;
+                // what stands before the first `%` is no program, if it is comments alone
+                let ends = self.percent || self.words;
                 self.percent = true;
                 if ends && control.rules() == Rules::Fanuc {
                     self.ended = true;
@@ -443,6 +447,7 @@ impl<'a> Simulator<'a> {
             items.push(Item { line: self.at.line, by_cycle: false, action: Action::BlockDelete });
         }
         self.blocks += 1;
+        self.words |= !self.block.is_empty();
         if let Some(flow) = self.block.flow.take() {
             return self.follow(flow).map(Some);
         }

@@ -8,7 +8,7 @@ use super::holes::Holes;
 use super::lathe::Threads;
 use super::place::Place;
 use super::settings::RunSettings;
-use crate::control::{Control, Meaning, Rules};
+use crate::control::{Centres, Control, Meaning, Rules};
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane, Side, Units};
 
@@ -39,6 +39,8 @@ pub(super) struct Modes {
     pub absolute: bool,
     /// G90.1: I, J and K are positions.
     pub centers_absolute: bool,
+    /// It is known from where I, J and K count: by the control's file, or by the program.
+    pub centers_known: bool,
     pub feed_mode: FeedMode,
     /// G98: cycles return to the initial level.
     pub to_initial: bool,
@@ -100,6 +102,9 @@ impl State {
                 units: settings.units,
                 absolute: true,
                 centers_absolute: settings.centers_absolute,
+                centers_known: settings.centers_absolute
+                    || control.traits().centres != Centres::Unknown
+                    || control.first(Meaning::CentresIncremental).is_none(),
                 feed_mode: FeedMode::PerMinute,
                 to_initial: !control.is_linuxcnc(),
                 diameter: control.is_lathe(),

@@ -62,8 +62,15 @@ impl State {
                 self.turn_turret(tool, out);
             }
         }
+        if let Some(tool) = block.m().find_map(|(_, row)| row.runs.tool) {
+            self.tool.number = Some(f64::from(tool));
+            self.change_tool(out)?;
+        }
         if block.means(Meaning::ToolChange) {
             self.change_tool(out)?;
+        }
+        if let Some(next) = block.next_tool {
+            self.preselect(next, block)?;
         }
         let mut turned = false;
         for (number, row) in block.m() {
@@ -89,7 +96,7 @@ impl State {
                     self.drive.spindle = Rotation::Stop; // it stands at its angle
                     out.push(Action::Orient(angle));
                 }
-                Meaning::ToolChange | Meaning::Call | Meaning::Return | Meaning::End => {}
+                Meaning::ToolChange | Meaning::ToolNumber | Meaning::Call | Meaning::Return | Meaning::End => {}
                 meaning if meaning.is_stop() => {}
                 meaning => match cooling(meaning) {
                     Some(cooling) => out.push(Action::Coolant(cooling)),
@@ -117,6 +124,19 @@ impl State {
     pub(super) fn turn_spindle(&mut self, rotation: Rotation, out: &mut Out<'_>) {
         self.drive.spindle = rotation;
         out.push(Action::Spindle(self.drive.spindle, self.drive.speed));
+    }
+
+    /// The second T of a block: the tool that comes after the one that the block brings in.
+    fn preselect(&mut self, tool: f64, block: &Block) -> Done {
+        if !block.changes_tool() {
+            let help = "a second T names the next tool beside M6: write M6, or keep one of them";
+            return refuse(diag::Code::PN002, "T stands twice in a block without a tool change", help);
+        }
+        if tool < 0.0 || tool.fract() != 0.0 {
+            return refuse(diag::Code::PN018, format!("T{tool} is no tool"), "tools are whole numbers");
+        }
+        self.tool.number = Some(tool);
+        Ok(())
     }
 
     /// M6: the spindle stands afterwards.

@@ -1,28 +1,47 @@
 //! The forms that ship, as text.
 
-/// Fanuc mill.
-pub const FANUC: &str = include_str!("../../postforms/fanuc.pf");
-/// Haas mill.
-pub const HAAS: &str = include_str!("../../postforms/haas.pf");
-/// Haas mill with a rotary axis.
-pub const HAAS_4AXIS: &str = include_str!("../../postforms/haas-4axis.pf");
-/// Fadal mill.
-pub const FADAL: &str = include_str!("../../postforms/fadal.pf");
-/// Fadal mill with subprograms.
-pub const FADAL_SUBS: &str = include_str!("../../postforms/fadal-subs.pf");
-/// LinuxCNC mill.
-pub const LINUXCNC: &str = include_str!("../../postforms/linuxcnc.pf");
-/// Grbl router.
-pub const GRBL: &str = include_str!("../../postforms/grbl.pf");
-/// Fanuc lathe.
-pub const FANUC_LATHE: &str = include_str!("../../postforms/fanuc-lathe.pf");
-/// Haas lathe.
-pub const HAAS_LATHE: &str = include_str!("../../postforms/haas-lathe.pf");
-/// Siemens 840D mill.
-pub const SIEMENS: &str = include_str!("../../postforms/siemens.pf");
-/// Heidenhain TNC mill.
-pub const HEIDENHAIN: &str = include_str!("../../postforms/heidenhain.pf");
-/// Okuma OSP mill.
-pub const OKUMA: &str = include_str!("../../postforms/okuma.pf");
-/// Wire EDM machine.
-pub const WIRE_EDM: &str = include_str!("../../postforms/wire-edm.pf");
+/// A form of `postforms/`.
+pub struct Shipped {
+    /// The name of its file, without the ending.
+    pub name: &'static str,
+    /// The machine that it is for.
+    pub about: &'static str,
+    /// Other names by which it is asked for.
+    pub also: &'static [&'static str],
+    /// Its text.
+    pub text: &'static str,
+}
+
+macro_rules! shipped {
+    ($($name:literal $about:literal $($also:literal)*;)*) => {
+        /// All of them, in the order of the reference.
+        pub const FORMS: &[Shipped] = &[$(Shipped {
+            name: $name,
+            about: $about,
+            also: &[$($also),*],
+            text: include_str!(concat!("../../postforms/", $name, ".pf")),
+        }),*];
+    };
+}
+
+shipped! {
+    "fanuc" "Fanuc 0i-M, vertical mill";
+    "haas" "Haas VF";
+    "haas-4axis" "Haas VF with a rotary table";
+    "fadal" "Fadal, format 1";
+    "fadal-subs" "Fadal, with subprograms";
+    "linuxcnc" "LinuxCNC, mill";
+    "pathpilot" "Tormach PathPilot, mill";
+    "mach3" "Mach3, mill";
+    "centroid" "Centroid CNC12, mill";
+    "mazak" "Mazak Matrix and Smooth, EIA programs";
+    "brother" "Brother Speedio";
+    "grbl" "Grbl 1.1";
+    "grblhal" "grblHAL, with cycles and tool changes";
+    "fanuc-lathe" "Fanuc 0i-T, lathe" "lathe";
+    "haas-lathe" "Haas ST, lathe";
+    "siemens" "Siemens 840D and 828D, mill";
+    "heidenhain" "Heidenhain TNC in Klartext, mill";
+    "okuma" "Okuma OSP, mill";
+    "wire-edm" "Wire EDM with four axes" "edm" "fanuc-wire";
+}

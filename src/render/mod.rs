@@ -39,6 +39,8 @@ mod values;
 mod vars;
 mod want;
 mod words;
+mod work;
+mod work_words;
 
 use crate::compile::Program;
 use crate::diag::Diag;

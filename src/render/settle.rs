@@ -8,14 +8,13 @@ use super::printer::Printer;
 use super::said::Said;
 use super::shape::Shape;
 use super::targets::set_targets;
-use super::upon::{upons, upons_are_printed};
-use super::values::Now;
-use super::want::{Want, is_no_work};
-use super::words::{code_word, letter_word, speed_word, value_code};
-use crate::compile::{LetterKind, Op, Routine, WorkWord};
+use super::upon::upons;
+use super::want::Want;
+use super::words::{speed_word, value_code};
+use super::work::work_block;
+use crate::compile::{LetterKind, Op, Routine};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
-use crate::sema;
 
 /// What stands between events and the next move.
 #[cold]
@@ -188,19 +187,6 @@ fn check_own_limit(shape: &Shape, want: &Want, said: &Said) -> Done {
     fault(Code::PR038, message, "give the operation's spindle its `max`")
 }
 
-/// The work offset, where something that does not print it is about to print a position.
-pub fn work_before(writer: &mut Writer<'_>) -> Done {
-    let shape = writer.shape;
-    match writer.want.get(VarId::Work) {
-        Some(work) if writer.said.conditions.get(VarId::Work) != Some(work) => {
-            work_block(work, writer)?;
-            upons_are_printed(VarId::Work, work, shape, writer.said);
-            Ok(())
-        }
-        _ => Ok(()),
-    }
-}
-
 /// Prints what the speed counts, where something that does not print it is about to print the speed.
 pub fn speed_mode_before(writer: &mut Writer<'_>) -> Done {
     let Some(mode) =
@@ -216,38 +202,6 @@ pub fn speed_mode_before(writer: &mut Writer<'_>) -> Done {
         writer.said.conditions.put(VarId::Speed, Some(speed));
     }
     writer.out.end_block();
-    Ok(())
-}
-
-/// The work offset as the form prints it.
-fn work_block(work: f64, writer: &mut Writer<'_>) -> Done {
-    let shape = writer.shape;
-    let words = &shape.program.work;
-    let now = Now { shape, want: writer.want, said: writer.said, letter: b' ', block: None, set: &writer.said.kept };
-    match words.way(&now, shape.program.settings.codes()) {
-        Some((&WorkWord { code, letter: Some(letter), is_code, .. }, value)) => {
-            if let Some(code) = code {
-                code_word(&sema::Code::plain(code), writer)?;
-            }
-            if is_code {
-                value_code(letter, value, writer)?;
-            } else {
-                letter_word(letter, value, shape, writer.said, writer.out)?;
-                writer.said.forget_axes(shape);
-            }
-        }
-        None if words.ways.is_empty() && !is_no_work(work, shape) => value_code(b'G', work, writer)?,
-        Some(_) => {
-            let message = format!("the work offset changes to {work}, which the form prints as text");
-            return fault(Code::PR017, message, "add the sequence `WorkChange` with that text");
-        }
-        None => {
-            let message = format!("the work offset changes to {work}, and the form nowhere prints [work]");
-            return fault(Code::PR017, message, "print `G[work]` in the tool changes, or add `Upon [work]`");
-        }
-    }
-    writer.out.end_block();
-    writer.said.conditions.put(VarId::Work, Some(work));
     Ok(())
 }
 

@@ -231,10 +231,7 @@ impl Want {
         };
         if !is_said && settings.machine == Machine::Mill && settings.control().prints_codes() {
             let message = format!("the form has no word for the work offset {work}");
-            let last = first + 5.0;
-            let help = format!(
-                "give a fixture number from 1 to 6, or a code as 59.1; or print more of them beside `G[work]`: `@if [work] > {last}`, `G54.1 P[work-{last}]`"
-            );
+            let help = "give a fixture number from 1 to 6, or a code as 59.1; or name the words of more at the top of the form: `MoreWork 7 G54.1 P1`";
             return fault(Code::PR037, message, help);
         }
         self.set_condition(VarId::Work, code);

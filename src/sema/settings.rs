@@ -63,6 +63,19 @@ pub struct CoolantKind {
     pub off: Option<f64>,
 }
 
+/// `MoreWork 7 G54.1 P1`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MoreWork {
+    /// The first fixture, counted from 1.
+    pub first: u16,
+    /// The code before its word, `G54.1`.
+    pub code: Option<control::Code>,
+    /// The letter of its word.
+    pub letter: u8,
+    /// The number of that word for the first fixture.
+    pub number: f64,
+}
+
 /// What ends a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LineEnd {

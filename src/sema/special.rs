@@ -3,7 +3,7 @@
 use super::args::{Arguments, Read, bad, number, whole};
 use super::code::Code;
 use super::settings::{
-    ArcCentre, CoolantKind, DwellWord, LineEnd, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit,
+    ArcCentre, CoolantKind, DwellWord, LineEnd, MoreWork, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit,
 };
 use super::store::Setting;
 use crate::lang::{Coolant, Origin, VarId};
@@ -65,6 +65,29 @@ impl Setting for SequenceNumbers {
         let start = args.all.get(1).map_or(Ok(10), |a| whole(a, 0, 99_999_999))?;
         let step = args.all.get(2).map_or(Ok(10), |a| whole(a, 1, 99_999_999))?;
         *self = SequenceNumbers { letter, start, step };
+        Ok(())
+    }
+}
+
+/// `7 G54.1 P1`, `5 G505`.
+impl Setting for Vec<MoreWork> {
+    fn set(&mut self, args: &Arguments) -> Read<()> {
+        let first = whole(&args.all[0], 2, 999)? as u16;
+        if self.last().is_some_and(|last| last.first >= first) {
+            return bad(args.all.first(), "the fixtures of MoreWork count up from line to line");
+        }
+        let (code, word) = match &args.all[1..] {
+            [word] => (None, word),
+            words => (Some(args.code(&words[0], 'G')?.code), &words[1]),
+        };
+        let (letter, digits) = word.text.split_at(1.min(word.text.len()));
+        let letter = letter.bytes().next().filter(u8::is_ascii_alphabetic);
+        let number =
+            digits.parse::<f64>().ok().filter(|_| digits.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'));
+        let (Some(letter), Some(number)) = (letter, number) else {
+            return bad(Some(word), format!("`{}` is no word, as `G505` or `P1`", word.text));
+        };
+        self.push(MoreWork { first, code, letter: letter.to_ascii_uppercase(), number });
         Ok(())
     }
 }

@@ -111,7 +111,9 @@ fn a_header_keeps_nobody_from_streaming() {
         assert!(post.reads_ahead(&options).unwrap(), "{name}");
         assert_eq!(post.reads_once_with().as_deref(), Some("header=no"), "{name}");
         options.properties.push(("header".into(), "off".into()));
-        assert!(!post.reads_ahead(&options).unwrap() && !post.may_read_twice(&options).unwrap(), "{name}");
+        assert!(!post.reads_ahead(&options).unwrap(), "{name}");
+        // the next tool, which some jobs say in their head, is no header
+        assert_eq!(post.may_read_twice(&options).unwrap(), form.contains("T[nexttool]"), "{name}");
         options.one_pass = true;
         options.proof = None;
         let mut on = options.clone();

@@ -380,7 +380,7 @@ fn new_forms_are_clean_laid_out_and_print() {
         let job = match control {
             "lathe" | "fanuc-lathe" | "haas-lathe" => &jobs[1],
             "edm" | "wire-edm" => &jobs[2],
-            "grbl" => &jobs[3],
+            "grbl" | "grblhal" => &jobs[3],
             _ => &jobs[0],
         };
         let output = folder.run(&["render", job.to_str().unwrap(), "--form", &name]);

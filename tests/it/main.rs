@@ -9,6 +9,7 @@ mod cl_points;
 mod codes_agree;
 mod commands;
 mod conditions;
+mod controls_run;
 mod coolant;
 mod cycles;
 mod diff;

@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::support::folder::{Folder, err, out};
-use crate::support::root;
+use crate::support::{mill, root};
 
 /// A Haas with coolant through the spindle, and two codes of its builder.
 const VF2: &str = r#"name = "vf2"
@@ -426,6 +426,7 @@ fn no_meaning_is_passed_over() {
             Meaning::Cycle => ", makes = \"drill\"",
             Meaning::Work => ", work = \"G54.1 P3\"",
             Meaning::Reference | Meaning::SetReference => ", point = 1",
+            Meaning::ToolNumber => ", tool = 3",
             _ => "",
         };
         for code in ["G777", "M777"] {
@@ -557,6 +558,64 @@ fn a_brother_taps_by_its_pitch() {
     ] {
         let refused = simulated(&folder, "brother", &wrong).unwrap_err();
         assert!(refused.contains(said), "{wrong}{refused}");
+    }
+}
+
+/// The drills of a bank have codes, and no T: a form that prints them is proven, and one that brings in another drill is not.
+#[test]
+fn a_code_brings_in_a_tool_of_a_bank() {
+    let folder = Folder::new("own_control_bank");
+    let bank = "name = \"router\"\nlike = \"fanuc\"\n[codes]\n\"M201-M209\" = { is = \"tool-number\", tool = 101 }\n";
+    folder.write("router.toml", bank);
+    let change = "T[tool] M6\nS[speed] M[direct]\nG0 G[work] X[h] Y[v] Z[d]";
+    let own = "@if [tool] > 100\nM[100+tool]\n@else\nT[tool] M6\n@end\nS[speed] M[direct]\nG0 G[work] X[h] Y[v]\nG43 H[lcomp] Z[d]";
+    let head = "Machine Mill\nUnits mm\nControl router.toml\nDwell G4 P ms\nX->4.>3\nY->4.>3\nZ->4.>3\nH >3\nM >3";
+    let form =
+        mill(head, "").replace(change, own).replace("%0", "G21 G90 G94 G17").replace("M30", "G91 G28 Z0\nG90\nM30");
+    folder.write("router.pf", &form);
+    let operation = |tool: u16| {
+        format!(
+            "{{\"tool\":{tool},\"spindle\":{{\"speed\":900,\"direction\":\"cw\"}},\"feed\":100,\"path\":[{{\"rapid\":[{tool},0,5]}},{{\"line\":[{tool},0,-1]}},{{\"rapid\":[{tool},0,5]}}]}}"
+        )
+    };
+    let operations = [2, 103, 104].map(operation).join(",");
+    let tools = [2, 103, 104].map(|tool| format!("{{\"number\":{tool}}}")).join(",");
+    folder.write("job.json", &format!("{{\"units\":\"mm\",\"tools\":[{tools}],\"operations\":[{operations}]}}"));
+    let run = folder.run(&["render", "job.json", "--form", "router.pf", "-o", "out.nc"]);
+    assert!(run.status.success(), "{}", err(&run));
+    let program = folder.read("out.nc");
+    assert!(program.contains("\nM203\n") && program.contains("\nM204\n") && program.contains("\nT2 M6\n"), "{program}");
+    assert!(err(&run).contains("identical"), "{}", err(&run));
+    folder.write("wrong.nc", &program.replace("M204", "M205"));
+    let run = folder.run(&["verify", "job.json", "--form", "router.pf", "--nc", "wrong.nc"]);
+    assert!(!run.status.success() && out(&run).contains("PV012") || err(&run).contains("PV012"), "{}", err(&run));
+    // such a code names its tool
+    folder.write("router.toml", &bank.replace(", tool = 101", ""));
+    let run = folder.run(&["simulate", "out.nc", "--control", "router.toml"]);
+    assert!(err(&run).contains("the file of router does not say which tool"), "{}", err(&run));
+    folder.write("router.toml", &bank.replace("tool-number", "harmless"));
+    let run = folder.run(&["simulate", "out.nc", "--control", "router.toml"]);
+    assert!(err(&run).contains("`tool` is of codes that bring a tool in"), "{}", err(&run));
+}
+
+/// `T3 T7 M6` of a Mazak changes to tool 3 and gets tool 7 ready; other controls take one T in a block.
+#[test]
+fn a_second_t_names_the_next_tool() {
+    let folder = Folder::new("own_control_twice");
+    let program = "%\nG21 G90 G94\nT3 T7 M6\nG0 X1. Y1.\nM6\nX2.\nM30\n%\n";
+    let mazak = simulated(&folder, "mazak", program).unwrap();
+    let apart = simulated(&folder, "mazak", &program.replace("T3 T7 M6", "T3 M6\nT7")).unwrap();
+    let tools = |run: &str| run.matches("\"tool\":").count();
+    assert!(mazak.contains("\"tool\":3") && mazak.contains("\"tool\":7"), "{mazak}");
+    assert_eq!(tools(&mazak), tools(&apart));
+    for (control, program, said) in [
+        ("fanuc", program.to_owned(), "T stands twice in the block"),
+        ("mazak", program.replace("T7 M6", "T7"), "T stands twice in a block without a tool change"),
+        ("mazak", program.replace("T7 M6", "T7 T8 M6"), "T stands twice in the block"),
+        ("mazak", program.replace("T7 M6", "T7.5 M6"), "T7.5 is no tool"),
+    ] {
+        let refused = simulated(&folder, control, &program).unwrap_err();
+        assert!(refused.contains(said), "{program}{refused}");
     }
 }
 

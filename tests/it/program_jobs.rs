@@ -115,7 +115,7 @@ fn what_no_job_can_say_is_refused() {
         ("G43 H2 Z2.\nG1 Z-.1 F5.", "two length registers of one tool"),
         ("G98 G87 X1. Z-.3 R-.8 Q.1 F5.\nG80", "a back bore"),
         ("G99 G76 X1. Z-.3 R.1 Q.02 F5.\nG80", "a fine bore, whose side only the control knows"),
-        ("G54.1 P8\nG1 Z-.1 F5.", "an additional work offset"),
+        ("G54.1 P44\nG1 Z-.1 F5.", "a work offset above 49"),
         ("M19\nG1 Z-.1 F5.", "an orientation"),
         ("G1 Z-.1 F5.\nG21 X10.", "other units"),
         ("G28 G91 Z0\nG90 G1 X1. F5.", "a cut from the reference point"),

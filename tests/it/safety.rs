@@ -8,6 +8,7 @@ use postform::internals::compile::compile;
 use postform::internals::json::read_lines;
 use postform::internals::render::{Options, Renderer};
 use postform::toolpath::{Axes, Event, Hole, Place, Sink, Summary, Units};
+use postform::{NoFiles, Post, Source};
 
 const DRILL: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
 const RETURNS: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -1016,6 +1017,31 @@ fn positions_count_from_the_offset_that_was_said() {
         // a macro may have left another offset
         let again = lines[place..].iter().any(|line| line == "G55");
         assert_eq!(again, line.starts_with("G65"), "{lines:?}");
+    }
+}
+
+/// `MoreWork` names the words of the fixtures for which `G[work]` has no code; the tool changes and blocks of their own print them.
+#[test]
+fn more_work_names_further_offsets() {
+    let path = "{\"line\":[1,0,0]},{\"work\":9},{\"rapid\":[1,0,1]},{\"work\":2},{\"rapid\":[2,0,1]}";
+    let (more, last) = (mill("MoreWork 7 G54.1 P1", ""), mill("MoreWork 7 G54.1 P1\nMoreWork 9 G154 P1", ""));
+    let printed = ["G0 G54 X0 Y0 Z1.", "G1 X1. Z0 F10.", "G54.1 P3", "G0 X1. Y0 Z1.", "G55", "X2. Y0 Z1.", "M30"];
+    assert_eq!(program(&more, &job(path))[3..], printed);
+    assert_eq!(program(&last, &job(path))[5], "G154 P1");
+    let first = job("{\"line\":[1,0,0]}").replace("\"work\":54", "\"work\":8");
+    assert_eq!(program(&more, &first)[3], "G0 G54.1 P2 X0 Y0 Z1.");
+    // G505 of a Siemens is the fifth
+    let siemens = mill("Control siemens\nMoreWork 5 G505", "");
+    assert_eq!(program(&siemens, &job(path))[5], "G509");
+    // without it, or where the control has no such code, the job is refused
+    for commands in ["", "Control fanuc\nMoreWork 7 G400"] {
+        let lines = program(&mill(commands, ""), &first);
+        assert!(lines[0].starts_with("PR037"), "{commands}: {lines:?}");
+    }
+    for line in ["1 G54", "7 54.1", "x G54", "7 G54.1 P", "7 G54.1 P1.x"] {
+        let form = Source::from_text("form.pf", &mill(&format!("MoreWork {line}"), ""));
+        let error = Post::compile(form, &NoFiles).err().unwrap_or_else(|| panic!("{line} is taken"));
+        assert!(error.findings().diags.iter().any(|diag| diag.code.name() == "PF302"), "{line}: {error}");
     }
 }
 

@@ -3,37 +3,17 @@
 use std::io::{self, Write as _};
 
 use postform::internals::explain::controls;
-use postform::internals::post::shipped;
 
-use super::args::{NewArgs, NewControl};
+use super::args::NewArgs;
 use super::files::{io_message, name};
 use super::say::message;
 use super::{Ending, output};
-
-/// The form to start from: one that ships, lint-clean and rendered in tests.
-fn form(control: NewControl) -> &'static str {
-    match control {
-        NewControl::Fanuc => shipped::FANUC,
-        NewControl::Haas => shipped::HAAS,
-        NewControl::Haas4Axis => shipped::HAAS_4AXIS,
-        NewControl::Fadal => shipped::FADAL,
-        NewControl::FadalSubs => shipped::FADAL_SUBS,
-        NewControl::Linuxcnc => shipped::LINUXCNC,
-        NewControl::Grbl => shipped::GRBL,
-        NewControl::Siemens => shipped::SIEMENS,
-        NewControl::Heidenhain => shipped::HEIDENHAIN,
-        NewControl::Okuma => shipped::OKUMA,
-        NewControl::FanucLathe => shipped::FANUC_LATHE,
-        NewControl::HaasLathe => shipped::HAAS_LATHE,
-        NewControl::WireEdm => shipped::WIRE_EDM,
-    }
-}
 
 /// Writes the form; a file that is there is somebody's work and stays.
 pub fn run(args: &NewArgs) -> Result<Ending, String> {
     let text = match (args.control_file, args.control) {
         (Some(control), _) => controls::file(control),
-        (None, Some(control)) => form(control).to_owned(),
+        (None, Some(post)) => post.0.text.to_owned(),
         (None, None) => return Err("error: say which form by --control, or which control by --control-file".into()),
     };
     if args.output.as_os_str() == "-" {

@@ -15,7 +15,7 @@ const SECTIONS: &[&str] = &["leadin", "leadout", "plunge", "retract", "sidestep"
 pub fn fill(job: &mut Value, kind: Kind, inch: bool, takes: Takes, random: &mut Random) {
     let tools: Vec<Value> = (1..=4).map(|number| tool(number, inch, random)).collect();
     let mut pen = Pen::new(inch, random);
-    (pen.customs, pen.home, pen.codes) = (takes.customs, takes.home, takes.codes);
+    (pen.customs, pen.home, pen.codes, pen.works) = (takes.customs, takes.home, takes.codes, takes.works);
     let mut angle = 0.0;
     let subs = if kind == Kind::Subprograms { subprograms(&mut pen) } else { Vec::new() };
     let wanted = 6 + pen.random.below(29);
@@ -83,7 +83,8 @@ fn operation(pen: &mut Pen<'_>, tool: &mut usize) -> Map<String, Value> {
         put("tool", json!(*tool));
     }
     if pen.random.below(3) > 0 {
-        put("work", json!(pen.random.pick(&[54, 54, 55, 56, 1, 2])));
+        let more: &[i32] = if pen.works { &[54, 55, 1, 2, 7, 9] } else { &[54, 54, 55, 56, 1, 2] };
+        put("work", json!(pen.random.pick(more)));
     }
     if !same || pen.random.once_in(3) {
         let speed = 200 + 50 * pen.random.below(60);
@@ -305,7 +306,8 @@ fn another_work(pen: &mut Pen<'_>) {
     if pen.random.below(4) > 0 {
         pen.rapid([x, y, high]);
     }
-    let item = json!({ "work": pen.random.pick(&[54, 55, 56, 57, 1, 2, 3]) });
+    let more: &[i32] = if pen.works { &[54, 56, 57, 1, 3, 7, 8] } else { &[54, 55, 56, 57, 1, 2, 3] };
+    let item = json!({ "work": pen.random.pick(more) });
     pen.put(item);
     let [x, y] = pen.across();
     pen.put(json!({ "rapid": [x, y, high] }));

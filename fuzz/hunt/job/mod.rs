@@ -63,6 +63,8 @@ pub struct Takes {
     pub home: bool,
     /// Text with the comments and codes of a Fanuc.
     pub codes: bool,
+    /// More than six work offsets.
+    pub works: bool,
 }
 
 /// A job as a document: an object whose last key is its operations. A program is made of a milling job.

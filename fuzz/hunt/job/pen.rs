@@ -26,6 +26,8 @@ pub struct Pen<'r> {
     pub home: bool,
     /// Text with the comments and codes of a Fanuc.
     pub codes: bool,
+    /// The form has more than six work offsets.
+    pub works: bool,
 }
 
 impl<'r> Pen<'r> {
@@ -44,6 +46,7 @@ impl<'r> Pen<'r> {
             customs: [false; 3],
             home: false,
             codes: true,
+            works: false,
         }
     }
 

@@ -56,6 +56,11 @@ pub fn as_fanuc(program: &str, control: &str) -> Result<String, (usize, String)>
     Ok(writer.text)
 }
 
+/// The words of a Fanuc's work offset of this number, from 1.
+fn offset_words(number: f64) -> Vec<(char, f64)> {
+    if number > 6.0 { vec![('G', 54.1), ('P', number - 6.0)] } else { vec![('G', 53.0 + number)] }
+}
+
 /// A number, or one over another.
 fn number(text: &str) -> Option<f64> {
     match text.trim().split_once('/') {
@@ -176,13 +181,19 @@ impl Writer {
         let tool = list.iter().find(|word| word.0 == 'T').map(|word| word.1);
         self.tool = tool.unwrap_or(self.tool);
         let compensates = list.iter().any(|word| *word == ('G', 41.0) || *word == ('G', 42.0));
-        let mut length = None;
+        let (mut length, mut extra) = (None, None);
         list.retain(|word| {
             length = if word.0 == 'D' { Some(word.1) } else { length };
             word.0 != 'D'
         });
         for word in &mut list {
             *word = match *word {
+                // the fifth offset
+                ('G', fifth @ 505.0..=506.0) => ('G', fifth - 447.0),
+                ('G', more @ 507.0..=599.0) => {
+                    extra = Some(more - 506.0);
+                    ('G', 54.1)
+                }
                 ('G', 700.0) => ('G', 20.0),
                 ('G', 710.0) => ('G', 21.0),
                 ('M', 17.0) => ('M', 99.0),
@@ -192,6 +203,9 @@ impl Writer {
         }
         if machine {
             list.insert(0, ('G', 53.0));
+        }
+        if let Some(number) = extra {
+            list.push(('P', number));
         }
         if compensates {
             list.push(('D', self.tool));
@@ -248,7 +262,7 @@ impl Writer {
             ["TOOL", "CALL", rest @ ..] => self.tool_call(rest),
             ["CYCL", "DEF", "247", .., datum] => {
                 let datum: f64 = datum.strip_prefix("Q339=").and_then(|n| n.parse().ok()).ok_or("a datum")?;
-                self.block(&[('G', 53.0 + datum)]);
+                self.block(&offset_words(datum));
                 Ok(())
             }
             ["CYCL", "DEF", "9.1", .., seconds] => {
@@ -417,7 +431,7 @@ impl Writer {
         if has(&list, ('G', 15.0)) {
             let offset = value(&list, 'H').ok_or("G15 without H")?;
             list.retain(|word| *word != ('G', 15.0) && word.0 != 'H');
-            list.insert(0, ('G', 53.0 + offset));
+            list.splice(0..0, offset_words(offset));
         }
         if has(&list, ('G', 16.0)) {
             list.retain(|word| *word != ('G', 16.0) && word.0 != 'H');

@@ -153,6 +153,8 @@ struct Cycle {
     p: f64,
     jog: [f64; 2],
     initial: f64,
+    /// Of a Brother's tap: I in millimetres, J threads an inch.
+    pitch: Option<f64>,
 }
 
 struct Machine {
@@ -169,6 +171,8 @@ struct Machine {
     plane: f64,
     to_r: bool,
     next_tool: f64,
+    /// The second T of the block.
+    tool_after: Option<f64>,
     cycle: Option<Cycle>,
     /// Where the frame of G92 or G52 begins.
     shift: [f64; 3],
@@ -203,6 +207,7 @@ impl Machine {
             plane: 17.0,
             to_r: false,
             next_tool: 0.0,
+            tool_after: None,
             cycle: None,
             shift: [0.0; 3],
             acts: Vec::new(),
@@ -248,6 +253,8 @@ impl Machine {
                     49.0 => self.length(None),
                     52.0 | 92.0 => frame = Some(number == 92.0),
                     53.0 => machine_place = true,
+                    54.1 | 154.0 => self.work(59.0 + block.get(b'P').ok_or("an offset without P")?),
+                    59.1 | 59.2 | 59.3 => self.work((number * 10.0).round() - 531.0),
                     54.0..60.0 => self.work(number),
                     80.0 => {
                         self.cycle = None;
@@ -337,8 +344,11 @@ impl Machine {
         if let Some(speed) = block.get(b'S') {
             self.state.speed = speed;
         }
-        if let Some(tool) = block.get(b'T') {
-            self.next_tool = tool;
+        let mut tools = block.0.iter().filter(|word| word.0 == b'T').map(|word| word.1);
+        (self.next_tool, self.tool_after) = (tools.next().unwrap_or(self.next_tool), tools.next());
+        // E7 of a Centroid
+        if let Some(work) = block.get(b'E').filter(|_| self.control == "centroid") {
+            self.work(work + 53.0);
         }
         if self.family == Family::Fadal {
             if let Some(work) = block.get(b'E') {
@@ -362,6 +372,7 @@ impl Machine {
                 3.0..=5.0 => self.state.direction = code,
                 6.0 => {
                     self.state.tool = self.next_tool;
+                    self.next_tool = self.tool_after.unwrap_or(self.next_tool);
                     let at = self.at;
                     self.act(line, What::Tool, at);
                     // where a tool is changed is the machine's own matter
@@ -429,11 +440,18 @@ impl Machine {
         machine_place: bool,
         line: usize,
     ) -> Result<(), String> {
+        // G77 and G78 of a Brother are taps by their pitch
+        let motion = motion.map(|code| match code {
+            77.0 if self.control == "brother" => 84.0,
+            78.0 if self.control == "brother" => 74.0,
+            code => code,
+        });
         if let Some(code) = motion {
             let is_new = self.cycle.as_ref().is_none_or(|cycle| cycle.code != code);
             if is_cycle(code) && is_new {
                 let initial = self.cycle.as_ref().map_or(self.at[2], |cycle| cycle.initial);
-                self.cycle = Some(Cycle { code, r: None, z: None, q: f64::NAN, p: 0.0, jog: [0.0; 2], initial });
+                self.cycle =
+                    Some(Cycle { code, r: None, z: None, q: f64::NAN, p: 0.0, jog: [0.0; 2], initial, pitch: None });
             } else if !is_cycle(code) {
                 self.cycle = None;
                 self.motion_before = code;

@@ -16,7 +16,7 @@ impl Family {
     pub fn of(control: &str) -> Family {
         match control {
             "fadal" => Family::Fadal,
-            "linuxcnc" | "emc2" | "grbl" => Family::Linuxcnc,
+            "linuxcnc" | "emc2" | "grbl" | "grblhal" | "pathpilot" | "mach3" => Family::Linuxcnc,
             _ => Family::Fanuc,
         }
     }
@@ -25,6 +25,7 @@ impl Family {
     pub fn dwell(self, control: &str, number: f64) -> f64 {
         match self {
             Family::Linuxcnc => number,
+            _ if matches!(control, "brother" | "centroid") => number,
             // Haas counts seconds where there is a point, and so much has none
             _ if control == "haas" && number < 50.0 => number,
             _ => number / 1000.0,
@@ -39,5 +40,5 @@ pub fn is_harmless(code: f64) -> bool {
 
 /// Is it a canned cycle of a mill?
 pub fn is_cycle(code: f64) -> bool {
-    [73.0, 74.0, 76.0, 81.0, 82.0, 83.0, 84.0, 85.0, 86.0, 87.0, 88.0, 89.0].contains(&code)
+    [73.0, 74.0, 76.0, 77.0, 78.0, 81.0, 82.0, 83.0, 84.0, 85.0, 86.0, 87.0, 88.0, 89.0].contains(&code)
 }

@@ -66,6 +66,9 @@ macro_rules! command_rows {
                 "[work] of fixture 1; later fixtures count up from it";
             WorkDefault "WorkDefault" (Codes('G', 1, 1)) once (of("54")) Ours {work_default: f64}
                 "[work] when a job names none";
+            MoreWork "MoreWork" (Words(2, 3, "the fixture from which on it holds, and the words of that fixture, as `7 G54.1 P1`"))
+                many (of("")) Ours {more_work: Vec<MoreWork>} if (Printed(V::Work)) eg "7 G54.1 P1"
+                "words that `G[work]` prints from this fixture on; the last number counts up";
             IncAbs "Inc/Abs" (Codes('G', 2, 2)) once (of("91 90")) Ours {inc_abs: [f64; 2]}
                 "values of [incmode]";
             InchMm "Inch/MM" (Codes('G', 2, 2)) once (of("20 21")) Ours {inch_mm: [f64; 2]} if (Printed(V::Unitmode))

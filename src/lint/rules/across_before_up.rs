@@ -37,7 +37,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 /// builder, or all axes home.
 fn is_said(view: &View, block: &Block) -> bool {
     let leaves = |word: &Word| {
-        calls(view.settings.codes(), word) || view.meaning(word) == Some(Meaning::ToolChange) || says_tool(word)
+        calls(view.settings.codes(), word) || view.meaning(word).is_some_and(Meaning::changes_tool) || says_tool(word)
     };
     !(block.line.words.iter().any(leaves) || block.reference && block.axis_words.is_empty())
 }

@@ -35,7 +35,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             view.printed_letter(word) == Some(b'T') && view.is_mill() && !control.refuses(control::Code::m(6));
         // a macro that changes it, as `G65 P9020 T[tool]`, or a code of the builder, as `G100 T[tool]`
         let by_macro = body.lines[body.line_of(word)].words.iter().any(|word| calls(view.settings.codes(), word));
-        if selects && !by_macro && body.meaning(|meaning| meaning == Meaning::ToolChange).is_none() {
+        if selects && !by_macro && body.meaning(Meaning::changes_tool).is_none() {
             diags.push(
                 Diag::new(Code::PF429, format!("{} selects a tool and does not change it", body.name()))
                     .at(word.span, "no M6")

@@ -31,7 +31,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 fn stopped_again<'a>(view: &View<'a>, body: &Body<'a>) -> Option<&'a Word> {
     let keeps = view.traits().spindle_at_stop == Kept::Yes;
     let stops = |word: &&Word| {
-        let own = |meaning| matches!(meaning, Meaning::SpindleOff | Meaning::ToolChange);
+        let own = |meaning: Meaning| meaning == Meaning::SpindleOff || meaning.changes_tool();
         view.meaning(word).is_some_and(|meaning| own(meaning) || !keeps && meaning.is_stop())
     };
     let start = body.lines.iter().rposition(|line| line.words.iter().any(|word| starts_spindle(view, word)))?;
@@ -49,7 +49,7 @@ pub(super) fn changes<'a>(view: &View<'a>) -> Vec<(Body<'a>, usize)> {
     let bodies = view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]);
     bodies
         .filter_map(|body| {
-            let change = line(&body, &|word| view.meaning(word) == Some(Meaning::ToolChange));
+            let change = line(&body, &|word| view.meaning(word).is_some_and(Meaning::changes_tool));
             Some((body, change.or_else(|| line(&body, &|word| says_tool(word)))?))
         })
         .collect()

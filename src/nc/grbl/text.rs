@@ -31,11 +31,10 @@ pub(in crate::nc) fn read(block: &mut Block, line: &[u8], control: &'static Cont
 }
 
 fn words(block: &mut Block, line: &mut [u8], control: &'static Control) -> Done {
+    let whole = line.trim_ascii_end().len();
     let (kept, comment) = clear(line)?;
     block.comment = comment;
-    if control.traits().longest_line.is_some_and(|longest| kept >= longest) {
-        return Err(error(11, None));
-    }
+    check_length(whole, kept, control)?;
     if line.trim_ascii_start().first() == Some(&b'$') {
         return Err(error(0, None));
     }
@@ -57,6 +56,23 @@ fn words(block: &mut Block, line: &mut [u8], control: &'static Control) -> Done 
             Kind::Blank | Kind::LineEnd => {}
             _ => return Err(fault(1)),
         }
+    }
+    Ok(())
+}
+
+/// A line that is too long: `whole` with comments, `kept` without blanks, slashes and comments, which do not count on all controls.
+fn check_length(whole: usize, kept: usize, control: &'static Control) -> Done {
+    let Some(longest) = control.traits().longest_line else { return Ok(()) };
+    if control.traits().bare_line {
+        return if kept >= longest { Err(error(11, None)) } else { Ok(()) };
+    }
+    if whole >= longest {
+        let message = format!("over {} characters, comments and blanks included", longest - 1);
+        return Err(Fault::new(
+            crate::diag::Code::PN001,
+            message,
+            "break it into several blocks, or shorten its comment",
+        ));
     }
     Ok(())
 }

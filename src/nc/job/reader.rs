@@ -8,7 +8,7 @@ use super::survey::Survey;
 use super::switches::Switches;
 use crate::control::{Meaning, ToolLength, WorkOffset};
 use crate::diag::{Code, Diag, Location};
-use crate::lang::Machine;
+use crate::lang::{Machine, additional_work};
 use crate::nc::action::{Action, Item, Position, Turn};
 use crate::toolpath::{About, Arc, Axes, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Start, StopKind};
 
@@ -171,9 +171,14 @@ impl<'a> Reader<'a> {
                 self.coolant(*cooling);
                 Ok(())
             }
-            Action::Work(code) if *code > 1540.0 => {
-                let message = format!("the work offset G54.1 P{}", code - 1540.0);
-                unsaid(item.line, message, "a job names G54 to G59.3")
+            // G54.1 P1 is the seventh
+            Action::Work(code) if additional_work(0.0) + 43.0 >= *code && *code > additional_work(0.0) => {
+                self.wanted.work = Some(*code - additional_work(0.0) + 6.0);
+                Ok(())
+            }
+            Action::Work(code) if *code > additional_work(0.0) => {
+                let message = format!("the work offset G54.1 P{}", code - additional_work(0.0));
+                unsaid(item.line, message, "a job counts work offsets from 1 to 49: G54.1 P1 is the seventh")
             }
             Action::Work(number) if *number >= 50.0 && self.counts_offsets() => {
                 let message = format!("the work offset {number}");

@@ -17,6 +17,7 @@ use super::unnumbered::last_line;
 use super::values::{Now, property_text, rpm_as_limit};
 use super::vars::MOVED;
 use super::words::check_feed;
+use super::work_words::more_work_words;
 use crate::compile::{Letter, LetterKind, Op, Routine};
 use crate::diag::{Code, Diag};
 use crate::lang::{TextId, VarId, VarSet};
@@ -271,6 +272,10 @@ impl Body<'_> {
             self.check_position_word(letter, var)?;
         }
         self.counts_from(letter, var, value);
+        if var == VarId::Work && info.kind == LetterKind::GCode && more_work_words(value, &mut self.writer)? {
+            self.condition_word(letter, var, value);
+            return Ok(());
+        }
         let units = quantised(info, value)?;
         if FEEDS.has(var) {
             check_feed(info, var, value, units, self.writer.want, self.writer.out)?;

@@ -7,11 +7,12 @@ use crate::diag::Code;
 use crate::lang::{VarId, VarSet};
 use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault};
-use crate::render::settle::{print_lacking, work_before};
+use crate::render::settle::print_lacking;
 use crate::render::shape::ROTARY_BITS;
 use crate::render::targets::set_targets;
 use crate::render::upon::{index_replaces_work_upon, upon_is_due, upons};
 use crate::render::vars::MOVE_VARS;
+use crate::render::work::work_before;
 use crate::toolpath::Axes;
 
 /// A rapid of the path.

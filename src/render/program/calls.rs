@@ -14,11 +14,12 @@ use crate::render::moves::rotary::turn_to;
 use crate::render::prelude::way_before;
 use crate::render::prints::{prints_axis, says_work};
 use crate::render::said::{CONDITIONS, Conditions, Said};
-use crate::render::settle::{knows_after_stop, only_work_waits, print_conditions, settle, work_before};
+use crate::render::settle::{knows_after_stop, only_work_waits, print_conditions, settle};
 use crate::render::shape::Shape;
 use crate::render::targets::set_targets;
 use crate::render::upon::upons;
 use crate::render::want::Want;
+use crate::render::work::work_before;
 use crate::toolpath::{Axes, Call, FeedMode, Place};
 
 fn undefined<T>(number: f64) -> Done<T> {

@@ -18,12 +18,13 @@ use crate::render::moves::rotary::change_turns;
 use crate::render::printer::Printer;
 use crate::render::prints::{prints_axis_words, says_speed_mode, says_work};
 use crate::render::said::{LastMove, Said};
-use crate::render::settle::{check_reading_of, speed_mode_before, work_before};
+use crate::render::settle::{check_reading_of, speed_mode_before};
 use crate::render::shape::Shape;
 use crate::render::targets::{set_here, set_targets};
 use crate::render::turret::turret_word;
 use crate::render::upon::{run_with_upons, upons_of_change};
 use crate::render::want::Want;
+use crate::render::work::work_before;
 use crate::toolpath::{Axes, Coolant, FeedMode, First, Section, Tool, ToolChange};
 
 /// The position variables of a tool change.

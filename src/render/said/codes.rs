@@ -66,7 +66,7 @@ impl Said {
         let own_stop = code.letter == b'M' && shape.program.settings.stop_code.contains(&code.value());
         if own_stop || meaning.is_some_and(Meaning::is_stop) {
             self.stopped(want, shape);
-        } else if meaning.is_some_and(|meaning| meaning.is_call() || meaning == Meaning::ToolChange) {
+        } else if meaning.is_some_and(|meaning| meaning.is_call() || meaning.changes_tool()) {
             self.forget_axes(shape); // a changer, and what is called, go where they like
             self.forget_motion();
         }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use postform::internals::control::Control;
 
-use super::ControlParser;
+use super::{ControlParser, NewPost};
 
 use postform::internals::sema::Limits;
 
@@ -123,45 +123,11 @@ pub enum PropertiesFormat {
 pub struct NewArgs {
     /// For which control or machine
     #[arg(long, value_name = "NAME", ignore_case = true, required_unless_present = "control_file")]
-    pub control: Option<NewControl>,
+    pub control: Option<NewPost>,
     /// A file that describes a control like this one, instead of a form
     #[arg(long, value_name = "NAME", value_parser = ControlParser, conflicts_with = "control")]
     pub control_file: Option<&'static Control>,
     /// Where the form goes, or - for standard output; a file that is there stays
     #[arg(short, long, value_name = "FORM", default_value = "-")]
     pub output: PathBuf,
-}
-
-/// What `postform new` has forms for: the forms in postforms, by the names of their files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum NewControl {
-    /// Fanuc 0i-M, vertical mill
-    Fanuc,
-    /// Haas VF
-    Haas,
-    /// Haas VF with a rotary table
-    #[value(name = "haas-4axis")]
-    Haas4Axis,
-    /// Fadal, format 1
-    Fadal,
-    /// Fadal, with subprograms
-    FadalSubs,
-    /// LinuxCNC, mill
-    Linuxcnc,
-    /// Grbl
-    Grbl,
-    /// Fanuc 0i-T, lathe
-    #[value(alias = "lathe")]
-    FanucLathe,
-    /// Haas ST, lathe
-    HaasLathe,
-    /// Siemens 840D and 828D, mill
-    Siemens,
-    /// Heidenhain TNC in Klartext, mill
-    Heidenhain,
-    /// Okuma OSP, mill
-    Okuma,
-    /// Wire EDM with four axes
-    #[value(aliases = ["edm", "fanuc-wire"])]
-    WireEdm,
 }

@@ -5,6 +5,7 @@ mod editor;
 mod forms;
 mod jobs;
 mod pictures;
+mod posts;
 mod programs;
 
 use clap::{Args, Parser, Subcommand};
@@ -12,11 +13,10 @@ use clap::{Args, Parser, Subcommand};
 use super::colour::Colour;
 pub use controls::{ControlArgs, ControlParser, NoPoint};
 pub use editor::LspArgs;
-pub use forms::{
-    ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, NewControl, PropertiesArgs, PropertiesFormat,
-};
+pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, PropertiesArgs, PropertiesFormat};
 pub use jobs::{CheckArgs, From, ReadArgs, RenderArgs, RenderOptions, UnitsArg};
 pub use pictures::{PlotArgs, WatchArgs};
+pub use posts::NewPost;
 pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, StartArg, VerifyArgs, VerifyFormat};
 
 /// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.

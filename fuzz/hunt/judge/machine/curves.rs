@@ -1,6 +1,6 @@
 //! Arcs and canned cycles of the machine.
 
-use super::{Block, Machine, What};
+use super::{Block, INCH, Machine, What};
 use crate::judge::Place;
 
 impl Machine {
@@ -67,7 +67,12 @@ impl Machine {
         if let Some(p) = block.get(b'P') {
             cycle.p = p;
         }
-        for (axis, letter) in b"IJ".iter().enumerate() {
+        let by_pitch = self.control == "brother" && matches!(cycle.code, 84.0 | 74.0);
+        if by_pitch {
+            let threads = block.get(b'J').map(|threads| INCH / threads);
+            cycle.pitch = block.get(b'I').or(threads).or(cycle.pitch);
+        }
+        for (axis, letter) in b"IJ".iter().enumerate().filter(|_| !by_pitch) {
             if let Some(number) = block.get(*letter) {
                 cycle.jog[axis] = number * scale;
             }
@@ -78,6 +83,11 @@ impl Machine {
         let seconds = self.family.dwell(&self.control, cycle.p);
         let code = cycle.code;
         let p = if matches!(code, 82.0 | 86.0 | 88.0 | 89.0 | 84.0 | 74.0 | 76.0 | 87.0) { seconds } else { 0.0 };
+        let feed = self.state.feed;
+        if let Some(pitch) = cycle.pitch {
+            let turns = if feed.1 == 95.0 { 1.0 } else { self.state.speed };
+            self.state.feed.0 = pitch * turns;
+        }
         let what = What::Hole { code, r, z, out, q: cycle.q, p, jog: cycle.jog };
         if self.state.feed.0.is_nan() {
             return Err("no feed".into());
@@ -94,6 +104,7 @@ impl Machine {
         let mut end = over;
         end[2] = out;
         self.act(line, what, end);
+        self.state.feed = feed;
         // a tap starts a spindle that stands
         match code {
             84.0 if self.state.direction == 5.0 => self.state.direction = 3.0,

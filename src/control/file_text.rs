@@ -1,0 +1,193 @@
+//! The text of a control file, as serde reads it: its tables and rows.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::arcs::Tolerance;
+use super::traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Turns, WithoutPoint};
+
+/// A file as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct File {
+    pub(super) name: Spanned<String>,
+    pub(super) title: Option<String>,
+    pub(super) like: Option<Spanned<String>>,
+    pub(super) rules: Option<Rules>,
+    pub(super) machine: Option<Turns>,
+    pub(super) complete: Option<bool>,
+    /// Sentences for its page.
+    pub(super) unknown: Option<Vec<String>>,
+    #[serde(default)]
+    pub(super) numbers: Numbers,
+    #[serde(default)]
+    pub(super) text: Text,
+    #[serde(default)]
+    pub(super) blocks: Blocks,
+    #[serde(default)]
+    pub(super) words: WordsOf,
+    #[serde(default)]
+    pub(super) start: Start,
+    #[serde(default)]
+    pub(super) dwell: Dwell,
+    #[serde(default)]
+    pub(super) stops: Stops,
+    #[serde(default)]
+    pub(super) arcs: ArcsText,
+    #[serde(default)]
+    pub(super) tool: Tool,
+    #[serde(default)]
+    pub(super) reference: Reference,
+    #[serde(default)]
+    pub(super) coolant: CoolantText,
+    #[serde(default)]
+    pub(super) codes: BTreeMap<Spanned<String>, RowText>,
+}
+
+/// `[text]`: what the control reads besides words.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Text {
+    pub(super) line: Option<usize>,
+    pub(super) comments_count: Option<bool>,
+    pub(super) longer: Option<Longer>,
+    pub(super) open_comments: Option<bool>,
+    pub(super) small_letters: Option<bool>,
+}
+
+/// `[blocks]`: what a block may hold.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Blocks {
+    pub(super) one_m: Option<bool>,
+}
+
+/// `[numbers]`.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Numbers {
+    pub(super) length_without_point: Option<WithoutPoint>,
+}
+
+/// `[start]`: what one program finds of the one before it.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Start {
+    pub(super) modes: Option<Kept>,
+}
+
+/// `[dwell]`: its words.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Dwell {
+    #[serde(rename = "P")]
+    pub(super) p: Option<DwellUnit>,
+}
+
+/// `[stops]`: what M0 and M1 leave running.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Stops {
+    pub(super) spindle: Option<Kept>,
+}
+
+/// `[arcs]`.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ArcsText {
+    pub(super) centres: Option<Centres>,
+    /// In millimetres, and in inches where other lengths count there.
+    pub(super) mm: Option<Spanned<Tolerance>>,
+    pub(super) inch: Option<Spanned<Tolerance>>,
+}
+
+/// What becomes of a block that is longer.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Longer {
+    Stops,
+    Cut,
+}
+
+/// `[words]`: the letters of all words, and words that need no code.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WordsOf {
+    pub(super) letters: Option<Spanned<String>>,
+    pub(super) everywhere: Option<Spanned<String>>,
+    pub(super) work: Option<Spanned<String>>,
+    pub(super) most_work: Option<u16>,
+}
+
+/// `[reference]`: the way to a reference point.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Reference {
+    /// Which axes go where the block names none.
+    pub(super) without_axes: Option<WithoutAxes>,
+}
+
+/// Which axes go to a reference point where the block names none.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum WithoutAxes {
+    /// All.
+    All,
+}
+
+/// `[coolant]`: what of it the machine has.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CoolantText {
+    pub(super) mist: Option<bool>,
+}
+
+/// `[tool]`: its length.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Tool {
+    pub(super) length: Option<ToolLength>,
+    pub(super) without_length: Option<Height>,
+    /// What a second T in the block of a tool change is.
+    pub(super) second: Option<SecondTool>,
+}
+
+/// What a second T in the block of a tool change names.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum SecondTool {
+    /// The tool that comes after.
+    Next,
+}
+
+/// What a height is while no length of a tool counts.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Height {
+    Work,
+    Machine,
+}
+
+/// A row of `[codes]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RowText {
+    pub(super) is: Spanned<String>,
+    pub(super) words: Option<Spanned<String>>,
+    pub(super) makes: Option<Spanned<String>>,
+    /// `"Q"`, or `{ I = "mm", J = "per-inch" }`.
+    pub(super) pitch: Option<Spanned<toml::Value>>,
+    pub(super) text: Option<String>,
+    pub(super) not_run: Option<String>,
+    pub(super) only: Option<Spanned<String>>,
+    pub(super) stops_spindle: Option<bool>,
+    pub(super) motions: Option<Spanned<String>>,
+    pub(super) work: Option<Spanned<String>>,
+    pub(super) point: Option<Spanned<u8>>,
+    pub(super) tool: Option<Spanned<u16>>,
+    #[serde(default)]
+    pub(super) by_diameter: bool,
+    pub(super) speed_out: Option<Spanned<String>>,
+}

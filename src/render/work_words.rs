@@ -1,0 +1,33 @@
+//! The words of a work offset: a code with its word, a word alone, or a code; and what `MoreWork` gives for further fixtures.
+
+use super::cx::Writer;
+use super::fault::Done;
+use super::words::{code_word, letter_word, value_code};
+use crate::compile::WorkWord;
+use crate::control::Code;
+use crate::sema;
+
+/// The words that `G[work]` prints for a fixture of `MoreWork`. False: the form has none for it.
+pub fn more_work_words(work: f64, writer: &mut Writer<'_>) -> Done<bool> {
+    match writer.shape.program.work.more(work) {
+        Some((&WorkWord { code, letter: Some(letter), is_code, .. }, value)) => {
+            work_words(code, letter, is_code, value, writer)?;
+            Ok(true)
+        }
+        _ => Ok(false),
+    }
+}
+
+/// A code and its word, a word alone, or a code.
+pub fn work_words(code: Option<Code>, letter: u8, is_code: bool, value: f64, writer: &mut Writer<'_>) -> Done {
+    let shape = writer.shape;
+    if let Some(code) = code {
+        code_word(&sema::Code::plain(code), writer)?;
+    }
+    if is_code {
+        return value_code(letter, value, writer);
+    }
+    letter_word(letter, value, shape, writer.said, writer.out)?;
+    writer.said.forget_axes(shape);
+    Ok(())
+}

@@ -137,6 +137,7 @@ pub mod internals {
         pub use crate::picture::{Kind, Picture, Register, Sheet, View, draw, svg, svg_over};
     }
     pub mod post {
+        pub use crate::post::reading::taken;
         pub use crate::post::{Part, sample_job, sample_program, shipped};
     }
     pub mod render {

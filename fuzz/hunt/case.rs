@@ -10,7 +10,7 @@ use crate::cl::for_cl;
 use crate::forms::changed;
 use crate::job::{Kind, document, job};
 use crate::judge::rs274::interpreted;
-use crate::judge::{Act, Want, Wanted, against, done, planned, run, wants};
+use crate::judge::{Act, Want, Wanted, against, beam, done, planned, run, wants};
 use crate::mutate::mutant;
 use crate::prove::{Form, Proof, Said};
 use crate::random::Random;
@@ -235,7 +235,12 @@ impl Case {
                 });
                 against::difference(&wants, &acts, within)
             }
-            Ok(acts) => against::difference(&wants, &acts, within),
+            Ok(acts) => {
+                let is_laser = self.form.text.contains("\nMachine Laser\n");
+                let switched = Some(&acts).filter(|_| self.kind == Kind::Beam);
+                let switched = switched.and_then(|acts| beam::switched_wrongly(acts, is_laser));
+                switched.or_else(|| against::difference(&wants, &acts, within))
+            }
         };
         Some(against.map_or(Ok(()), Err))
     }
@@ -300,6 +305,7 @@ impl Case {
                 done::wants(&acts.ok()?)
             }
             Kind::Statements => planned::wants(&self.text()).ok(),
+            Kind::Beam => wants(&self.said()).map(beam::across),
             _ => wants(&self.said()),
         }
     }

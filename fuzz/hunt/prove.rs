@@ -9,7 +9,7 @@ use postform::{Error, Job, NoFiles, Options, Post, Proven, Source, Verdict};
 
 use crate::job::{Kind, Takes};
 use crate::judge::languages::{as_fanuc, is_one};
-use crate::judge::{Act, MAIN, lathe, run, wire};
+use crate::judge::{Act, MAIN, beam, lathe, run, wire};
 use crate::random::Random;
 
 /// A form that prints.
@@ -54,6 +54,7 @@ impl Form {
         let kinds = match (says("Machine Lathe"), says("Machine EDM")) {
             (true, _) => vec![Kind::Lathe],
             (_, true) => vec![Kind::Wire],
+            _ if says("Machine Torch") || says("Machine Laser") => vec![Kind::Beam],
             _ => {
                 let more = [(Kind::Rotary, text.contains("A[rotangle]")), (Kind::Subprograms, says("SubCall"))];
                 let more = more.into_iter().filter(|(_, can)| *can).map(|(kind, _)| kind);
@@ -89,6 +90,7 @@ impl Form {
         match self.kinds.first() {
             Some(Kind::Lathe) => lathe::run(program, self.by_diameter, inch),
             Some(Kind::Wire) => wire::run(program, inch),
+            Some(Kind::Beam) => Ok(beam::flat(run(program, &self.control, inch)?)),
             _ if is_one(&self.control) => {
                 let text = as_fanuc(program, &self.control)?;
                 run(&text, "fanuc", inch)

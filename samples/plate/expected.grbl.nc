@@ -55,8 +55,8 @@ G2 X3. Y-.25 I-.25 J0
 G1 X-.5
 G0 Z1.
 M9
-M5
 G0 G53 Z0
+M5
 (change to tool 2, diameter .375, and set its length)
 M0
 G54
@@ -93,8 +93,8 @@ Z.1
 G1 Z-.15 F6.
 G0 Z.5
 M9
-M5
 G0 G53 Z0
+M5
 (change to tool 3, diameter .201, and set its length)
 M0
 G54
@@ -160,8 +160,8 @@ Z.1
 G1 Z-.35 F9.6
 G0 Z.5
 M9
-M5
 G0 G53 Z0
+M5
 (change to tool 4, diameter .25, and set its length)
 M0
 G54
@@ -198,8 +198,8 @@ Z.2
 M3
 G0 Z.5
 M9
-M5
 G0 G53 Z0
+M5
 (change to tool 5, diameter .3745, and set its length)
 M0
 G54
@@ -236,6 +236,6 @@ G4 P.5
 M1
 (CHECK THE DOWEL HOLES)
 M9
-M5
 G0 G53 Z0
+M5
 M2

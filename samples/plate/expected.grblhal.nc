@@ -56,8 +56,8 @@ G2 X3. Y-.25 I-.25 J0
 G1 X-.5
 G0 Z1.
 M9
-M5
 G0 G53 Z0
+M5
 (tool 2, diameter .375)
 T2 M6
 G54
@@ -75,8 +75,8 @@ G98 G81 X1.5 Y.3 Z-.15 R.1 F6.
 Y2.2
 G80
 M9
-M5
 G0 G53 Z0
+M5
 (tool 3, diameter .201)
 T3 M6
 G54
@@ -137,8 +137,8 @@ G98 G81 X1.5 Y.3 Z-.35 R.1 F9.6
 Y2.2
 G80
 M9
-M5
 G0 G53 Z0
+M5
 (tool 4, diameter .25)
 T4 M6
 G54
@@ -175,8 +175,8 @@ Z.2
 M3
 G0 Z.5
 M9
-M5
 G0 G53 Z0
+M5
 (tool 5, diameter .3745)
 T5 M6
 G54
@@ -201,6 +201,6 @@ G4 P.5
 M1
 (CHECK THE DOWEL HOLES)
 M9
-M5
 G0 G53 Z0
+M5
 M2

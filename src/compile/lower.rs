@@ -63,7 +63,7 @@ pub fn compile(form: &Form) -> Program {
         program.upons.push(Upon { var: upon.var, every: upon.every, routine });
     }
     program.speaks_g = speaks_g(&program);
-    program.switches_spindle = switches_spindle(&program);
+    program.switches_spindle = program.settings.beam.is_some() || switches_spindle(&program);
     program.work = find_work(&program);
     program
 }

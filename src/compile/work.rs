@@ -65,7 +65,20 @@ impl WorkWords {
     /// What a program calls the offset that the form prints so: its code, its number, or the name of an additional one.
     pub fn name(&self, values: &dyn Values, control: &Control) -> Option<f64> {
         let (way, value) = self.way(values, control)?;
-        Some(if way.is_additional(control) { additional_work(value) } else { value })
+        Some(match way.is_code {
+            true => code_of_work(value, control).unwrap_or(value),
+            false if way.is_additional(control) => additional_work(value),
+            false => value,
+        })
+    }
+}
+
+/// What a program calls the offset that this G code selects: a control may have several codes for one.
+fn code_of_work(value: f64, control: &Control) -> Option<f64> {
+    match control.row(Code::of(b'G', value)?)?.runs.work? {
+        WorkOffset::Usual(tenths) => Some(f64::from(tenths) / 10.0),
+        WorkOffset::Additional(number) => Some(additional_work(f64::from(number))),
+        WorkOffset::Word(_) | WorkOffset::Counted(_) => None,
     }
 }
 
@@ -85,7 +98,13 @@ impl WorkWord {
     fn has(&self, value: f64, control: &Control) -> bool {
         match self.is_code {
             true => Code::of(b'G', value).is_some_and(|code| control.group(code) == Some(Group::Work)),
-            false => !self.is_parameter(control) || value >= 1.0 && value.fract() == 0.0,
+            false if self.is_parameter(control) => value >= 1.0 && value.fract() == 0.0,
+            // E19 of a control that has E1 to E18
+            false => {
+                let traits = control.traits();
+                let most = traits.most_work.filter(|_| self.code.is_none() && self.letter == traits.work_letter);
+                most.is_none_or(|most| value <= f64::from(most))
+            }
         }
     }
 }

@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use super::arcs::Arcs;
 use super::code::Code;
-use super::file_text::{File, Height, Longer, RowText, SecondTool, WithoutAxes};
+use super::file_text::{File, Height, InRapids, Longer, RowText, SecondTool, WithoutAxes};
 use super::hole::Hole;
 use super::key::{ABSENT, Key};
 use super::meaning::Meaning;
@@ -122,6 +122,7 @@ impl Reader<'_> {
         take(&mut traits.modes_at_start, file.start.modes);
         take(&mut traits.spindle_at_stop, file.stops.spindle);
         take(&mut traits.tool_length, file.tool.length);
+        take(&mut traits.beam_off_in_rapids, file.laser.rapids.map(|InRapids::Off| true));
         take(&mut traits.all_go_home, file.reference.without_axes.map(|WithoutAxes::All| true));
         take(&mut traits.next_beside_change, file.tool.second.map(|SecondTool::Next| true));
         take(&mut traits.height_is_machine, file.tool.without_length.map(|height| height == Height::Machine));

@@ -41,6 +41,8 @@ pub(super) struct File {
     #[serde(default)]
     pub(super) reference: Reference,
     #[serde(default)]
+    pub(super) laser: LaserText,
+    #[serde(default)]
     pub(super) coolant: CoolantText,
     #[serde(default)]
     pub(super) codes: BTreeMap<Spanned<String>, RowText>,
@@ -119,6 +121,22 @@ pub(super) struct WordsOf {
     pub(super) everywhere: Option<Spanned<String>>,
     pub(super) work: Option<Spanned<String>>,
     pub(super) most_work: Option<u16>,
+}
+
+/// `[laser]`: of machines that have one.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LaserText {
+    /// What it is in rapids.
+    pub(super) rapids: Option<InRapids>,
+}
+
+/// What a laser is in rapids.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum InRapids {
+    /// Off, whatever M3 and S said.
+    Off,
 }
 
 /// `[reference]`: the way to a reference point.

@@ -172,6 +172,8 @@ pub struct Traits {
     pub arcs: Arcs,
     /// What its spindle turns.
     pub turns: Turns,
+    /// A laser is off in rapids, whatever M3 and S said.
+    pub beam_off_in_rapids: bool,
     /// G28 and G30 without axis words send all axes home.
     pub all_go_home: bool,
     /// A second T in the block of a tool change names the next tool: `T3 T7 M6`.

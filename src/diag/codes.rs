@@ -304,6 +304,8 @@ codes! {
     PR055 Warning "a cut with the spindle off"
     PR056 Warning "a word of the form that the job takes back"
     PR057 Error "two tools that are one to the control"
+    PR058 Error "a path that a torch or a laser can't cut"
+    PR059 Note "an axis that the form ignores"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"
@@ -357,6 +359,9 @@ codes! {
     PV023 Error "other pecks"
     PV024 Error "other coolant"
     PV025 Error "the wire is not threaded or cut as the job says"
+    PV026 Error "a cut with the torch or laser off"
+    PV027 Error "a rapid with the torch or laser on"
+    PV028 Error "a rapid at the height of the cuts"
     // PX: postform itself
     PX001 Error "an event that can't be"
 }

@@ -11,6 +11,7 @@ const POSTS: &[(&str, &str)] = &[
     ("postforms/fadal-subs.pf", include_str!("../../postforms/fadal-subs.pf")),
     ("postforms/fanuc-lathe.pf", include_str!("../../postforms/fanuc-lathe.pf")),
     ("postforms/haas-lathe.pf", include_str!("../../postforms/haas-lathe.pf")),
+    ("postforms/plasma.pf", include_str!("../../postforms/plasma.pf")),
     ("postforms/wire-edm.pf", include_str!("../../postforms/wire-edm.pf")),
 ];
 

@@ -464,7 +464,7 @@ mod tests {
         assert_eq!(labels("End Cancel", "End |"), ["Cancel"]);
         assert!(labels("G49 G80 G90\nEnd", "G49 G80 G90\nEnd |").is_empty(), "StartCode is no cycle");
         assert!(has(&labels("End Cancel", "|"), "End Cancel"));
-        assert_eq!(labels("Machine Mill", "Machine |"), ["Mill", "Lathe", "EDM"]);
+        assert_eq!(labels("Machine Mill", "Machine |"), ["Mill", "Lathe", "EDM", "Torch", "Laser"]);
         assert_eq!(labels("RigidTap? Y", "RigidTap? |"), ["Y", "N"]);
         assert!(has(&labels("Control haas", "Control ha|"), "haas"));
         assert!(labels("# Haas VF", "# Haas G|").is_empty(), "a comment");

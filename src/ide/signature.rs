@@ -88,7 +88,10 @@ mod tests {
         assert_eq!(told("Spindle |"), is("Spindle clockwise counter-clockwise off", "clockwise"));
         assert_eq!(told("Dwell G4 |"), is("Dwell code letter unit", "letter"));
         assert_eq!(told("ArcPlane G17 G|"), is("ArcPlane code1 code2 code3", "code2"));
-        assert_eq!(told("Machine |"), is("Machine one of Mill, Lathe, EDM", "one of Mill, Lathe, EDM"));
+        assert_eq!(
+            told("Machine |"),
+            is("Machine one of Mill, Lathe, EDM, Torch, Laser", "one of Mill, Lathe, EDM, Torch, Laser")
+        );
         assert_eq!((told("Dwel|"), told("# Dwell |"), told("X->3.>4 |")), (None, None, None));
     }
 }

@@ -22,9 +22,35 @@ impl Machine {
         }
     }
 
-    /// Reads a name in any case.
+    /// Reads a name in any case; a torch or a laser is a mill with another tool.
     pub fn parse(name: &str) -> Option<Machine> {
-        [Machine::Mill, Machine::Lathe, Machine::Edm].into_iter().find(|m| m.name().eq_ignore_ascii_case(name))
+        let own =
+            [Machine::Mill, Machine::Lathe, Machine::Edm].into_iter().find(|m| m.name().eq_ignore_ascii_case(name));
+        own.or(Beam::parse(name).map(|_| Machine::Mill))
+    }
+}
+
+/// What a machine cuts with that is switched on and off, and does not go up and down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beam {
+    /// A torch: plasma, flame.
+    Torch,
+    /// A laser.
+    Laser,
+}
+
+impl Beam {
+    /// As messages and forms write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Beam::Torch => "torch",
+            Beam::Laser => "laser",
+        }
+    }
+
+    /// Reads a name in any case.
+    pub fn parse(name: &str) -> Option<Beam> {
+        [Beam::Torch, Beam::Laser].into_iter().find(|beam| beam.name().eq_ignore_ascii_case(name))
     }
 }
 

@@ -16,7 +16,7 @@ pub(crate) use commands::command_rows;
 pub use commands::{Args, COMMANDS, Command, CommandId, Used};
 pub use coolant::Coolant;
 pub use directives::{DIRECTIVES, DirectiveRow, Each, directive_meant};
-pub use machine::{Machine, Machines, UnitChoice};
+pub use machine::{Beam, Machine, Machines, UnitChoice};
 pub use sequences::{SEQUENCES, SequenceId, SequenceName};
 pub use suggest::{LONGEST_NAME, did_you_mean};
 pub use texts::{TEXT_COUNT, TEXTS, TextId, TextSet, TextVar, WIDEST};

@@ -76,6 +76,8 @@ sequences! {
     EndZLevel         "EndZLevel"         plain "MLE" ""    Doc "after the moves of one Z level" "`end` zlevel" "sections"
     BeginRow          "BeginRow"          plain "M"   ""    Doc "before each pass of a pocket or surface cut" "`begin` row" "begin-row"
     EndRow            "EndRow"            plain "M"   ""    Doc "after each pass of a pocket or surface cut" "`end` row" "end-row"
+    BeginCut          "BeginCut"          plain "M"   ""    Ours "before what a torch or a laser cuts: on, pierce" "the first cut after a rapid" "plasma"
+    EndCut            "EndCut"            plain "M"   ""    Ours "after what a torch or a laser cuts: off" "the rapid after a cut" "plasma"
     Index             "Index"             plain "M"   ""    Doc "instead of a rapid to another rotary view" "`rapid` to another rotary angle" "index"
     Unwind            "Unwind"            plain "M"   ""    Doc "when a rotary axis would leave its travel" "a rotary angle beyond `Limits`" "unwind"
     SubStart          "SubStart"          plain "M"   ""    Doc "the beginning of a subprogram" "`subprograms`" "sub-start"

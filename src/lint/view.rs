@@ -168,6 +168,9 @@ impl<'a> View<'a> {
 
     /// Has the machine no depth: do its own rapids and lines leave it out, and does nothing else say it? A torch, a beam.
     pub fn is_flat(&self) -> bool {
+        if self.settings.beam.is_some() {
+            return true;
+        }
         let own = [SequenceId::RapidCode, SequenceId::LineCode];
         let all = own.iter().all(|&id| self.body(id).is_some_and(|body| !body.lines.is_empty()));
         let says = |word: &Word| word.letter().is_some_and(|letter| self.axis(letter) == Some(2));

@@ -105,9 +105,12 @@ impl State {
         Ok(())
     }
 
-    /// P in seconds: without a point milliseconds, but for a control that counts seconds.
+    /// P in seconds: without a point milliseconds, but for a control that counts seconds. A point says seconds on controls of
+    /// Fanuc's kind alone.
     pub(super) fn seconds(&self, p: f64, block: &Block) -> f64 {
-        let seconds = self.control.traits().dwell == DwellUnit::S || block.whole & bit(b'P') == 0;
+        let dwell = self.control.traits().dwell;
+        let by_point = !self.control.rules().is_nist();
+        let seconds = dwell == DwellUnit::S || by_point && block.whole & bit(b'P') == 0;
         if seconds { p } else { p / 1000.0 }
     }
 

@@ -117,6 +117,28 @@ impl State {
         Ok(())
     }
 
+    /// G38: towards a position; where it touches on the way, only the machine knows.
+    pub(super) fn probe_of_linuxcnc(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
+        if self.tool.side.is_some() {
+            return refuse(Code::PN013, "a probe under cutter compensation", "end the compensation with G40 first");
+        }
+        let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
+        let (from, to) = (self.place.position, self.target(block)?);
+        let moved: u8 =
+            (0..3).filter(|&axis| from[axis] != to[axis] || self.is_unknown(axis)).map(|axis| 1 << axis).sum();
+        if moved & self.named(block) == 0 {
+            return refuse(Code::PN006, "a probe that goes nowhere", "write where it goes, as Z-20");
+        }
+        self.place.feed_home(to, moved & self.named(block), feed, out);
+        self.place.becomes_unknown(moved & self.named(block));
+        Ok(())
+    }
+
+    /// The linear axes that a block names, as bits.
+    fn named(&self, block: &Block) -> u8 {
+        (0..3).filter(|&axis| self.axis_word(block, axis).is_some()).map(|axis| 1 << axis).sum()
+    }
+
     /// G53: the words are machine coordinates.
     fn in_machine(&mut self, rapid: bool, block: &Block, out: &mut Out<'_>) -> Done {
         if !self.modes.absolute && self.control.rules() != Rules::Grbl {

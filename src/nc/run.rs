@@ -192,6 +192,7 @@ impl State {
             Meaning::RigidTap => self.rigid_tap(block, out),
             Meaning::ThreadCycle => self.thread(block, out),
             Meaning::Cycle => return self.linuxcnc_cycle(row, block, out),
+            Meaning::Probe => self.probe_of_linuxcnc(block, out),
             Meaning::CycleEnd => Ok(()),
             _ => {
                 return refuse(

@@ -164,6 +164,11 @@ impl State {
         self.place.frames.shift.unknown
     }
 
+    /// How far G92 or G52 moves the frame, in the units in force.
+    pub fn frame_shift(&self) -> &Position {
+        &self.place.frames.shift.by
+    }
+
     /// A place of the program in machine coordinates, in the units in force.
     pub fn in_machine_coordinates(&self, at: &Position) -> Position {
         self.place.frames.to_machine(at)

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::Post;
 use super::options::Options;
+use super::reading::taken;
 use crate::compile::Asks;
 use crate::error::Error;
 use crate::job::Job;
@@ -77,7 +78,7 @@ impl Post {
     ) -> (Result<(), Error>, Survey) {
         let terms = survey_terms(&self.0.program, options.sink_as_printed, only_order);
         let mut surveyor = Surveyor::new(terms);
-        let read = job.again().read(&mut surveyor);
+        let read = taken(Some(&self.0.program.settings), &mut surveyor, |sink| job.again().read(sink));
         (read, surveyor.finish())
     }
 }

@@ -6,6 +6,7 @@ mod growth;
 mod options;
 mod origin;
 mod program;
+pub mod reading;
 mod render;
 mod sample;
 pub mod shipped;

@@ -2,6 +2,7 @@
 
 use super::Post;
 use super::options::Options;
+use super::reading::taken;
 use crate::error::Error;
 use crate::job::Job;
 use crate::render::{Renderer, TraceLine};
@@ -22,7 +23,7 @@ impl Post {
         let found = vec![None; lines.len()];
         let mut finder = Finder { renderer, lines, missing: lines.len(), found };
         // an event that can't be printed ends it: what is known until then is what was asked for
-        let _ = job.read(&mut finder);
+        let _ = taken(Some(&self.0.program.settings), &mut finder, |sink| job.read(sink));
         finder.look();
         Ok(finder.found)
     }

@@ -38,6 +38,8 @@ shipped! {
     "brother" "Brother Speedio";
     "grbl" "Grbl 1.1";
     "grblhal" "grblHAL, with cycles and tool changes";
+    "plasma" "Plasma table with LinuxCNC";
+    "laser" "Laser with Grbl 1.1";
     "fanuc-lathe" "Fanuc 0i-T, lathe" "lathe";
     "haas-lathe" "Haas ST, lathe";
     "siemens" "Siemens 840D and 828D, mill";

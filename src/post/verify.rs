@@ -4,6 +4,7 @@ use std::io::{Cursor, Read, Seek};
 
 use super::Post;
 use super::options::{Options, Proof};
+use super::reading::taken;
 use crate::compile;
 use crate::control::Control;
 use crate::diag::{Code, Diag, Findings};
@@ -200,7 +201,7 @@ fn prove(
     expectation.units_due &= form.is_some() || options.units.is_none();
     let comparer = Comparer::new(program, settings, expectation, proof.tolerance);
     let mut comparer = Started { comparer, of_job };
-    let read = job.read(&mut comparer);
+    let read = taken(form.map(|form| &form.settings), &mut comparer, |sink| job.read(sink));
     let mut comparer = comparer.comparer;
     let (counts, warnings, decided) = (comparer.counts(), comparer.warnings(), comparer.is_decided());
     let verdict = comparer.verdict().map_err(|error| Error::of_io(ErrorKind::Program, error))?;

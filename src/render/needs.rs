@@ -6,7 +6,7 @@ use crate::control::Meaning;
 use crate::diag::Code;
 
 /// Codes that a control may lack: what a job needs them for, and what to do without.
-const NEEDED: [(Meaning, &str, &str); 4] = [
+const NEEDED: [(Meaning, &str, &str); 5] = [
     (
         Meaning::SideLeft,
         "cutter compensation",
@@ -18,6 +18,7 @@ const NEEDED: [(Meaning, &str, &str); 4] = [
         "leave `orient` and `offset` out: the tool comes out along the wall",
     ),
     (Meaning::PerRev, "a feed per revolution", "say the feed per minute: the feed per revolution times the speed"),
+    (Meaning::InverseTime, "an inverse time feed", "say the feed per minute"),
     (Meaning::SurfaceSpeed, "a constant surface speed", "say the speed in revolutions per minute"),
 ];
 

@@ -93,7 +93,8 @@ pub fn prints_axis_words(routine: &Routine, typed: bool, shape: &Shape) -> bool 
             Op::Formula { letter, .. } => letter,
             _ => return false,
         };
-        shape.letters[letter].kind == LetterKind::Axis
+        // a word of an ignored axis takes the tool nowhere
+        shape.letters[letter].kind == LetterKind::Axis && !shape.is_ignored(letter)
     })
 }
 

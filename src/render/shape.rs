@@ -50,6 +50,9 @@ pub(super) struct Shape<'p> {
     pub ways: Ways,
 }
 
+/// Of the depth axis that a form ignores.
+const NO_LETTER: u8 = 0;
+
 impl<'p> Shape<'p> {
     /// The shape of a form, before the job has said its units.
     pub fn new(program: &'p Program, options: Options) -> Self {
@@ -61,7 +64,10 @@ impl<'p> Shape<'p> {
             program,
             options,
             letters: &program.letters[0],
-            axes: if edm { [h, v, h2, v2, b'A', b'B'] } else { [h, v, d, b'A', b'B', b'C'] },
+            axes: match edm {
+                true => [h, v, h2, v2, b'A', b'B'],
+                false => [h, v, if settings.is_flat { NO_LETTER } else { d }, b'A', b'B', b'C'],
+            },
             scales: [1.0, diameter, 1.0, 1.0, 1.0, 1.0],
             linear: if edm { 4 } else { 3 },
             depth: if settings.machine == Machine::Lathe { 0 } else { 2 },
@@ -137,6 +143,12 @@ impl<'p> Shape<'p> {
     /// The rotary axes of this machine.
     pub fn rotary(&self) -> std::ops::Range<usize> {
         if self.linear == ROTARY.start { ROTARY } else { 0..0 }
+    }
+
+    /// Is it the letter of an axis that the form ignores?
+    pub fn is_ignored(&self, letter: u8) -> bool {
+        let settings = &self.program.settings;
+        settings.is_flat && letter == settings.axes[2]
     }
 
     /// The axis of a letter, in a set of axes.

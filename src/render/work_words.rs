@@ -27,7 +27,14 @@ pub fn work_words(code: Option<Code>, letter: u8, is_code: bool, value: f64, wri
     if is_code {
         return value_code(letter, value, writer);
     }
-    letter_word(letter, value, shape, writer.said, writer.out)?;
+    // the number of an offset has no point, whatever else its letter prints
+    let info = &shape.letters[letter];
+    if code.is_some() && value.fract() == 0.0 {
+        writer.out.text(&format!("{}{value}", char::from(info.printed)), false);
+        writer.said.forget(info);
+    } else {
+        letter_word(letter, value, shape, writer.said, writer.out)?;
+    }
     writer.said.forget_axes(shape);
     Ok(())
 }

@@ -43,10 +43,8 @@ pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
     let begins_with = |n: &str| n.get(..name.len()).is_some_and(|head| head.eq_ignore_ascii_case(name));
     let begins = || names().find(|n| name.len() > 2 && begins_with(n));
     // for posts of other kinds, which may come
-    let kept = ["PlaneOn", "PlaneOff", "BeginCut", "EndCut"].iter().find(|kept| kept.eq_ignore_ascii_case(name));
-    if let Some(kept) = kept {
-        let what = if kept.starts_with("Plane") { "tilted planes" } else { "torches and lasers" };
-        return diag.help(format!("{kept} is kept for {what}, which postform does not print yet: take it out"));
+    if let Some(kept) = ["PlaneOn", "PlaneOff"].iter().find(|kept| kept.eq_ignore_ascii_case(name)) {
+        return diag.help(format!("{kept} is kept for tilted planes, which postform does not print yet: take it out"));
     }
     diag.help = did_you_mean(name, names())
         .or_else(|| begins().map(|n| format!("did you mean `{n}`?")))

@@ -6,7 +6,7 @@ use super::file_name::{Extension, ProgramName};
 use super::property::Property;
 use super::store::Setting;
 use crate::control::{self, Control};
-use crate::lang::{COMMANDS, CommandId, Coolant, Machine, UnitChoice, VarId, command_rows};
+use crate::lang::{Beam, COMMANDS, CommandId, Coolant, Machine, UnitChoice, VarId, command_rows};
 use crate::span::Span;
 use crate::syntax::Spanned;
 
@@ -134,6 +134,10 @@ macro_rules! settings {
             $($(#[doc = $meaning] pub $field: $type,)?)*
             /// What the form is for.
             pub machine: Machine,
+            /// What it cuts with, where that is switched on and off.
+            pub beam: Option<Beam>,
+            /// The depth axis is neither printed nor compared.
+            pub is_flat: bool,
             /// Units of the form's own lengths.
             pub units: UnitChoice,
             /// Motion word of generated clockwise arcs.
@@ -168,6 +172,8 @@ macro_rules! settings {
                 Settings {
                     $($($field: <$type>::default(),)?)*
                     machine: Machine::default(),
+                    beam: None,
+                    is_flat: false,
                     units: UnitChoice::default(),
                     cw: Code::default(),
                     ccw: Code::default(),

@@ -6,7 +6,7 @@ use super::settings::{
     ArcCentre, CoolantKind, DwellWord, LineEnd, MoreWork, Prompt, Replacement, SequenceNumbers, Settings, TravelLimit,
 };
 use super::store::Setting;
-use crate::lang::{Coolant, Origin, VarId};
+use crate::lang::{Beam, Coolant, Origin, VarId};
 
 /// `G4 P s`.
 impl Setting for DwellWord {
@@ -177,6 +177,27 @@ impl Settings {
     /// `Machine` and `Units` are read ahead of all others, whose defaults depend on them.
     pub(super) fn known_word(&mut self, args: &Arguments) -> Read<()> {
         args.choice().map(|_| ())
+    }
+
+    /// The machine itself was read before; this is its tool.
+    pub(super) fn machine_word(&mut self, args: &Arguments) -> Read<()> {
+        self.beam = Beam::parse(args.choice()?);
+        Ok(())
+    }
+
+    pub(super) fn ignored_axis(&mut self, args: &Arguments) -> Read<()> {
+        if !args.letters()?[0].eq_ignore_ascii_case(&self.axes[2]) {
+            let message = format!("the axis that may be ignored is the depth axis, {}", char::from(self.axes[2]));
+            return bad(args.all.first(), message);
+        }
+        if self.beam.is_none() {
+            return bad(
+                args.all.first(),
+                "Ignore is for torches and lasers: say `Machine Torch` or `Machine Laser` above it",
+            );
+        }
+        self.is_flat = true;
+        Ok(())
     }
 
     pub(super) fn clockwise(&mut self, args: &Arguments) -> Read<()> {

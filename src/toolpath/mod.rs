@@ -1,6 +1,7 @@
 //! Toolpath events: what readers produce and the renderer consumes, one at a time.
 
 mod axes;
+mod cuts;
 mod cycle;
 mod dwell;
 mod event;
@@ -21,6 +22,7 @@ mod tool;
 pub(crate) mod json;
 
 pub use axes::{Axes, Units};
+pub(crate) use cuts::Cuts;
 pub(crate) use cycle::MOST_PECKS;
 pub use cycle::{CycleSpec, Hole, Orient, Peck};
 pub(crate) use dwell::LastDwell;

@@ -88,4 +88,6 @@ pub enum Section {
     ZLevel,
     /// A pass of a pocket or of a surface.
     Row,
+    /// All that a torch or a laser cuts without a rapid; no job has it.
+    Cut,
 }

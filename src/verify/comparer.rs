@@ -44,6 +44,7 @@ impl<'a> Comparer<'a> {
     ) -> Comparer<'a> {
         let program = Program::new(program, settings, &expectation);
         let tools = expectation.tools;
+        let switches = expectation.beam.is_some();
         let own = [expectation.feeds.clone(), expectation.speeds.clone()];
         let job = Job::new(expectation, settings.control);
         let frame = Frame { tool: None, work: job.state.work };
@@ -62,6 +63,7 @@ impl<'a> Comparer<'a> {
                 threaded: None,
                 slips: 0,
                 tools,
+                switches,
                 machine: Machine::Mill,
                 own,
                 report: Report::default(),

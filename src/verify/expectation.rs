@@ -6,7 +6,7 @@ use super::wire_codes::{self, Coded, Codes};
 use crate::compile::{Op, Program, WorkWords};
 use crate::control::{Control, Meaning};
 use crate::cycle::Defaults;
-use crate::lang::{Machine, SEQUENCES, UnitChoice, VarId, work_code};
+use crate::lang::{Beam, Machine, SEQUENCES, UnitChoice, VarId, work_code};
 use crate::nc::Cooling;
 use crate::render::cycle_defaults;
 use crate::sema::{PropertyValue, Settings};
@@ -48,6 +48,10 @@ pub struct Expectation {
     pub by_diameter: bool,
     /// Subprograms stand before the main program.
     pub subs_first: bool,
+    /// What the machine cuts with, where that is switched on and off.
+    pub beam: Option<Beam>,
+    /// The form ignores the depth axis.
+    pub is_flat: bool,
     /// The codes by which the form threads and cuts a wire, if there is a form.
     pub(super) wire: Option<Codes>,
     /// Feeds that the form says itself.
@@ -77,6 +81,8 @@ impl Default for Expectation {
             announces_taps: false,
             by_diameter: true,
             subs_first: false,
+            beam: None,
+            is_flat: false,
             wire: None,
             feeds: Own::default(),
             speeds: Own::default(),
@@ -101,13 +107,15 @@ impl Expectation {
             first_work: settings.work,
             work: Some(settings.work_default),
             registers: Some([settings.lcomp, settings.dcomp]),
-            tools: settings.machine != Machine::Edm && loads_tools(settings.control()),
+            tools: settings.machine != Machine::Edm && settings.beam.is_none() && loads_tools(settings.control()),
             units_due: settings.units == UnitChoice::Both,
             axes: rotary_axes(&settings.rename),
             coolant: settings.coolant,
             rigid_tap: settings.rigid_tap.then_some(true),
             by_diameter: settings.by_diameter,
             subs_first: settings.subs_first,
+            beam: settings.beam,
+            is_flat: settings.is_flat,
             ..Expectation::default()
         }
     }

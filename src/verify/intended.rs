@@ -285,6 +285,10 @@ impl Job {
     }
 
     fn spindle(&mut self, spindle: &Spindle) {
+        // what M3, M4, M5 and S are for a torch or a laser is the form's own
+        if self.expectation.beam.is_some() {
+            return;
+        }
         self.counts_speed(spindle.css.unwrap_or(self.css));
         self.state.limit = spindle.max.or(self.state.limit);
         if let Some(turn) = spindle.turn {

@@ -90,7 +90,7 @@ fn is_elsewhere<T>(s: &Sides<'_>, wanted: &Mark<T>, made: &Mark<T>) -> bool {
 
 /// A machine without tool changes stops for each next tool: behind the job's stops with the one before.
 fn operators_change(s: &mut Sides<'_>, others: &mut Vec<Mark<StopKind>>) {
-    if !s.job.new_tool || s.tools {
+    if !s.job.new_tool || s.tools || s.switches {
         return;
     }
     let count = |stops: &[Mark<StopKind>]| stops.iter().filter(|stop| stop.what == StopKind::Program).count();

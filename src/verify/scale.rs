@@ -18,6 +18,8 @@ pub(super) struct Scale {
     pub axes: [u8; 6],
     /// There is no Y.
     pub lathe: bool,
+    /// The depth axis counts for nothing.
+    pub flat: bool,
     /// The third and fourth axis are U and V; bits of those that nobody said.
     pub wire: Option<u8>,
 }
@@ -44,7 +46,7 @@ impl Scale {
     #[inline]
     pub fn place(&self, to: &Position) -> Place {
         let factor = self.factor();
-        if factor == 1.0 && self.axes == AS_WRITTEN && self.wire.is_none() {
+        if factor == 1.0 && self.axes == AS_WRITTEN && self.wire.is_none() && !self.flat {
             return place(to);
         }
         if let Some(unsaid) = self.wire {
@@ -54,6 +56,9 @@ impl Scale {
         }
         let mut at = self.axes.map(|axis| to[usize::from(axis)]);
         at[..3].iter_mut().for_each(|value| *value *= factor);
+        if self.flat {
+            at[2] = 0.0;
+        }
         place(&at)
     }
 
@@ -69,7 +74,13 @@ impl Scale {
         at
     }
 
+    /// The axes whose positions are unknown, as bits: that along a depth that counts for nothing always is.
+    pub fn unknown(self, bits: u8) -> u8 {
+        self.axes(bits) | u8::from(self.flat) << 2
+    }
+
     pub fn axes(self, bits: u8) -> u8 {
+        let bits = if self.flat { bits & !0b100 } else { bits };
         if bits == 0 {
             return 0;
         }

@@ -77,6 +77,8 @@ pub(super) struct Sides<'a> {
     pub slips: u32,
     /// The machine loads tools.
     pub tools: bool,
+    /// A torch or a laser: what it cuts with is no tool that someone changes.
+    pub switches: bool,
     /// What it is.
     pub machine: Machine,
     /// Feeds and speeds that the form says itself.

@@ -360,8 +360,8 @@ fn called_files_are_named_by_their_paths() {
 #[test]
 fn new_forms_are_clean_laid_out_and_print() {
     let folder = Folder::new("new");
-    let jobs =
-        ["bracket", "lathe-part", "wire", "plate"].map(|name| root().join("samples").join(name).join("job.json"));
+    let jobs = ["bracket", "lathe-part", "wire", "plate", "plasma"]
+        .map(|name| root().join("samples").join(name).join("job.json"));
     let shipped = std::fs::read_dir(root().join("postforms")).unwrap();
     let mut shipped: Vec<String> =
         shipped.map(|entry| entry.unwrap().path().file_stem().unwrap().to_str().unwrap().to_owned()).collect();
@@ -381,6 +381,7 @@ fn new_forms_are_clean_laid_out_and_print() {
             "lathe" | "fanuc-lathe" | "haas-lathe" => &jobs[1],
             "edm" | "wire-edm" => &jobs[2],
             "grbl" | "grblhal" => &jobs[3],
+            "plasma" | "laser" => &jobs[4],
             _ => &jobs[0],
         };
         let output = folder.run(&["render", job.to_str().unwrap(), "--form", &name]);

@@ -62,6 +62,7 @@ mod slips;
 mod streams;
 mod support;
 mod texts;
+mod torch;
 mod trace;
 mod transcripts;
 mod unknown_positions;

@@ -69,7 +69,11 @@ fn every_post_that_ships_is_clean_and_prints_its_part() {
         if checked.form.settings.machine == postform::internals::lang::Machine::Mill {
             // a control without compensation prints the part by the path of the tool's centre
             let control = checked.form.settings.control();
-            let part = if control.has(Meaning::SideLeft) { "bracket" } else { "plate" };
+            let part = match checked.form.settings.beam {
+                Some(_) => "plasma",
+                None if control.has(Meaning::SideLeft) => "bracket",
+                None => "plate",
+            };
             let expected = root().join(format!("samples/{part}/expected.{name}.nc"));
             assert!(expected.exists(), "the {part} is not printed by {name}");
         }

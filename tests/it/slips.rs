@@ -47,7 +47,7 @@ fn slips_in_forms() {
         (changed("Z[d] M[cool]\n", "Z[d] M[cool]\n#500=1\n"), ["PF101", "`` `#500=1` ``"]),
         (changed("\nM30\n", "\nM30\nEND PGM part MM\n"), ["PF405", "stands in backquotes"]),
         (changed("Z[d] M[cool]\n", "Z[d] M[cool]\n@ if [tool] = 1\nM8\n@end\n"), ["PF707", "did you mean `@if`?"]),
-        (changed("\nEndCode", "\nEndCut\nM5\nEnd\n\nEndCode"), ["PF201", "kept for torches and lasers"]),
+        (changed("\nEndCode", "\nEndCut\nM5\nEnd\n\nEndCode"), ["PF010", "say `Machine Torch` or `Machine Laser`"]),
     ];
     let folder = folder("slips-forms");
     for (text, wanted) in table {

@@ -74,7 +74,7 @@ fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     let changed = program.replacen("\nZ0\n", "\nG53 Z0\n", 1);
     assert_ne!(changed, program);
     let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{changed}") };
-    assert_eq!(unproven.why, "a cut goes to a position of the machine");
+    assert_eq!(unproven.why, "a move at feed goes to a position that only the machine knows");
     // as a job and as another program, too
     let settings = RunSettings::new(control("linuxcnc"));
     let same = |old: &str, new: &str| {
@@ -88,7 +88,7 @@ fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     let mut renderer = Renderer::new(&haas, Options { program: Some(1), ..Options::default() });
     let options = JobOptions { settings, units: None, tool: None, start: None };
     let read = read_program(Cursor::new(changed.as_str()), &options, &mut Vec::new(), &mut renderer);
-    assert!(matches!(read, Err(ReadError::Job(diag)) if diag.message.contains("a position of the machine")));
+    assert!(matches!(read, Err(ReadError::Job(diag)) if diag.message.contains("only the machine knows")));
 }
 
 /// The program of a job that a program is, or the code of its refusal.

@@ -1,5 +1,6 @@
 //! Random jobs: right ones, as a CAM system could write them, with everything that a job can say.
 
+mod beam;
 mod cycles;
 pub mod document;
 mod lathe;
@@ -33,11 +34,13 @@ pub enum Kind {
     Program,
     /// A FreeCAD document; a list of commands for each operation.
     Document,
+    /// A torch or a laser.
+    Beam,
 }
 
 impl Kind {
     /// All, with the names that the command line takes.
-    pub const ALL: [(&'static str, Kind); 8] = [
+    pub const ALL: [(&'static str, Kind); 9] = [
         ("mill", Kind::Mill),
         ("rotary", Kind::Rotary),
         ("subprograms", Kind::Subprograms),
@@ -46,6 +49,7 @@ impl Kind {
         ("cl", Kind::Statements),
         ("nc", Kind::Program),
         ("freecad", Kind::Document),
+        ("beam", Kind::Beam),
     ];
 
     /// Its name.
@@ -87,6 +91,7 @@ pub fn job(kind: Kind, takes: Takes, random: &mut Random) -> Value {
         Kind::Rotary | Kind::Subprograms => mill::fill(&mut job, kind, inch, takes, random),
         Kind::Lathe => lathe::fill(&mut job, inch, random),
         Kind::Wire => wire::fill(&mut job, inch, random),
+        Kind::Beam => beam::fill(&mut job, inch, takes.works, random),
         _ => mill::fill(&mut job, Kind::Mill, inch, takes, random),
     }
     job

@@ -235,6 +235,7 @@ impl Machine {
         let mut reference = false;
         let mut dwell = false;
         let mut rigid = false;
+        let mut probes = false;
         let mut frame = None;
         let mut motion = None;
         for &(letter, number) in list {
@@ -247,6 +248,12 @@ impl Machine {
                     20.0 => self.units(INCH),
                     21.0 => self.units(1.0),
                     28.0 | 30.0 => reference = true,
+                    // down to the sheet, wherever that is
+                    38.2 if self.family == Family::Linuxcnc => {
+                        self.at[2] = f64::NAN;
+                        probes = true;
+                    }
+                    92.1 if self.family == Family::Linuxcnc => self.shift = [0.0; 3],
                     40.0 => self.state.side = (40.0, 0.0),
                     41.0 | 42.0 => self.state.side = (number, block.get(b'D').unwrap_or(self.state.side.1)),
                     43.0 => self.length(Some(block.get(b'H').unwrap_or(self.state.tool))),
@@ -291,6 +298,10 @@ impl Machine {
             self.frame(&block, is_here);
         } else if reference {
             self.reference(&block, line);
+        } else if probes {
+            if block.get(b'X').is_some() || block.get(b'Y').is_some() {
+                return Err("a probe that goes across".into());
+            }
         } else if rigid {
             self.rigid_tap(&block, line)?;
         } else {

@@ -1,6 +1,7 @@
 //! A judge of its own: a small machine that runs programs, and the cuts that a job asks for. Nothing here knows how
 //! postform reads, plans or compares.
 
+pub mod beam;
 pub mod done;
 pub mod languages;
 pub mod lathe;

@@ -13,7 +13,7 @@ macro_rules! command_rows {
             // the form and its machine
             Name "Name" (Text) once (of("")) Ours {name: String}
                 "the post's name";
-            Machine "Machine" (Choice(&["Mill", "Lathe", "EDM"])) once (of("Mill")) Ours {=> known_word}
+            Machine "Machine" (Choice(&["Mill", "Lathe", "EDM", "Torch", "Laser"])) once (of("Mill")) Ours {=> machine_word}
                 "what the form is for; decides which sequences and variables it may use";
             Units "Units" (Choice(&["inch", "mm", "both"])) once (of("inch")) Ours {=> known_word}
                 "units of the form's own lengths; a job in other units needs a printed [unitmode]";
@@ -89,6 +89,8 @@ macro_rules! command_rows {
                 "letter of the upper guide's second axis";
             DCode2 "DCode2" (Letters(1, 1)) once (of("W")) Ours {= axes2[2]}
                 "letter of the second depth axis";
+            Ignore "Ignore" (Letters(1, 1)) once (of("")) Ours {=> ignored_axis} eg "Z"
+                "an axis that the form of a torch or a laser does not print: its positions are neither printed nor compared";
             ByDiameter "ByDiameter?" (Switch) once (of("N").lathe("Y")) Ours {by_diameter: bool}
                 "X as a diameter";
             RevSigns "RevSigns" (Letters(1, 15)) many (of("")) Ours {rev_signs: Vec<u8>} if (Letter) eg "Z"

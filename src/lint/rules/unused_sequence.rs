@@ -9,12 +9,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let has = |id: SequenceId| view.form.sequences.contains_key(&id);
     let cancels = view.form.sequences.values().any(|sequence| sequence.cancel.is_some());
     let turns = view.settings.limits.iter().any(|limit| b"ABC".contains(&limit.letter));
+    let no_beam = view.settings.beam.is_none();
     let table = [
         (S::Cancel, !cancels, "no cycle ends with `End Cancel`", "end the cycles of the control with `End Cancel`"),
         (S::Between, !view.settings.subs_first, "subprograms come last under `Subs1st? N`", "take `Subs1st? N` out"),
         (S::SubStart, !has(S::SubCall), "the form has no SubCall", "add the sequence `SubCall`"),
         (S::SubEnd, !has(S::SubCall), "the form has no SubCall", "add the sequence `SubCall`"),
         (S::CanThread, has(S::AutoThread), "AutoThread serves all threads", "keep one of the two"),
+        (S::BeginCut, no_beam, "a mill's tool is not switched on and off", "say `Machine Torch` or `Machine Laser`"),
+        (S::EndCut, no_beam, "a mill's tool is not switched on and off", "say `Machine Torch` or `Machine Laser`"),
         (S::Unwind, !turns, "no rotary axis has an end", "say where it is, as `Limits A -360 360`"),
     ];
     for (id, unused, why, help) in table {

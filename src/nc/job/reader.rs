@@ -148,8 +148,8 @@ impl<'a> Reader<'a> {
                 unsaid(item.line, "a thread that follows the spindle", "a mill's job has no such move")
             }
             Action::Feed { home: 1.., .. } => {
-                let help = "write G0 with G53, or the position without G53";
-                unsaid(item.line, "a cut goes to a position of the machine", help)
+                let help = "write G0 with G53; what a probe touches is known at the machine alone";
+                unsaid(item.line, "a move at feed goes to a position that only the machine knows", help)
             }
             Action::Feed { to, feed, .. } => self.feed(to, *feed, behind.unknown),
             Action::Arc(turn) => self.arc(turn, behind.unknown),

@@ -16,7 +16,7 @@ use crate::render::more_coolants::end_beside;
 use crate::render::settle::check_reading_of;
 use crate::render::shape::Shape;
 use crate::render::targets::set_here;
-use crate::render::unnumbered::is_percent;
+use crate::render::unnumbered::is_closing;
 use crate::render::upon::{run_with_upons, upons};
 use crate::toolpath::Section;
 
@@ -45,16 +45,16 @@ pub fn finish(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) -> 
     if !has_waiting(subs) {
         return run_with_upons(routine, cx);
     }
-    // subprograms stand after the main program, before the `%` that ends the tape
-    let percent = closing_percent(routine, shape);
+    // subprograms stand after the main program, before the `%` or `END PGM` that ends the text
+    let percent = closing_line(routine, shape);
     upons(routine.vars, cx)?;
     run_part(routine, routine.ops.start..percent, Mode::All, &mut cx.writer())?;
     append_waiting(cx.out, subs);
     go_on(routine, percent..routine.ops.end, Mode::All, &mut cx.writer())
 }
 
-/// Where the `%` at the end of EndCode begins; its end, when there is none.
-fn closing_percent(routine: &Routine, shape: &Shape) -> usize {
+/// Where the line that ends the text begins, at the end of EndCode; its end, when there is none.
+fn closing_line(routine: &Routine, shape: &Shape) -> usize {
     let mut lines = routine.steps().rev().filter(|&i| matches!(shape.program.ops[i], Op::Line { .. }));
-    lines.next().filter(|&line| is_percent(line, shape)).unwrap_or(routine.ops.end)
+    lines.next().filter(|&line| is_closing(line, shape)).unwrap_or(routine.ops.end)
 }

@@ -23,6 +23,7 @@ fn sequences(section: Section) -> (SequenceId, SequenceId) {
         Section::SideStep => (S::BeginSideStep, S::EndSideStep),
         Section::ZLevel => (S::BeginZLevel, S::EndZLevel),
         Section::Row => (S::BeginRow, S::EndRow),
+        Section::Cut => (S::BeginCut, S::EndCut),
     }
 }
 
@@ -35,6 +36,7 @@ fn part(section: Section) -> &'static str {
         Section::SideStep => "side step",
         Section::ZLevel => "Z level",
         Section::Row => "row",
+        Section::Cut => "cut",
     }
 }
 

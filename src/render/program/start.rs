@@ -48,6 +48,15 @@ pub fn start(
         out.text(text, false);
         out.end_block();
     }
+    if settings.is_flat {
+        let axis = char::from(settings.axes[2]);
+        let message = format!("{axis} is ignored: positions along it are neither printed nor compared");
+        out.note(
+            Code::PR059,
+            message,
+            "look at the heights that the form types; without `Ignore` the job's are printed",
+        );
+    }
     let shape = &*shape;
     if let Some(routine) = shape.routine(SequenceId::StartCode, want, said) {
         upons(routine.vars, &mut Cx { shape, want, said, out })?;

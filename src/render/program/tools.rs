@@ -143,8 +143,10 @@ fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut
         set_named(name, value, shape, want, out)?;
     }
     let mode = change.feed_mode.unwrap_or(FeedMode::PerMinute);
-    if mode == FeedMode::PerRev {
-        shape.needs(Meaning::PerRev)?;
+    match mode {
+        FeedMode::PerMinute => {}
+        FeedMode::PerRev => shape.needs(Meaning::PerRev)?,
+        FeedMode::InverseTime => shape.needs(Meaning::InverseTime)?,
     }
     want.set_feed_mode(mode, shape);
     want.keep_feed(None, shape);

@@ -9,7 +9,7 @@ pub enum Doubt {
     TooLong,
     /// This line leads on by an increment from a position that is unknown.
     Astray(u64),
-    /// The cut of this line goes to a position of the machine.
+    /// The move of this line at feed ends at a position that only the machine knows.
     Home(u64),
 }
 
@@ -23,9 +23,11 @@ impl Doubt {
                 "write the position under G90, or go there by G53",
                 line,
             ),
-            Doubt::Home(line) => {
-                ("a cut goes to a position of the machine", "write G0 with G53, or the position without G53", line)
-            }
+            Doubt::Home(line) => (
+                "a move at feed goes to a position that only the machine knows",
+                "write G0 with G53; what a probe touches is known at the machine alone",
+                line,
+            ),
         }
     }
 }

@@ -1,11 +1,14 @@
 //! The program's side: its cuts, each with what lies before it.
 
+mod beam;
 mod doubt;
 mod hazards;
+mod motions;
 mod texts;
 
 use std::io::{Read, Seek};
 
+use beam::Switched;
 pub(super) use doubt::Doubt;
 
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, place};
@@ -18,7 +21,7 @@ use super::unset::Due;
 use super::wire_codes::Codes;
 use crate::control::{self, Control, Meaning, Motions};
 use crate::diag::{Code, Diag};
-use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator};
+use crate::nc::{Action, Cooling, Item, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
 
 /// A program that is run as far as it was asked for.
@@ -40,6 +43,8 @@ pub(super) struct Program<'a> {
     before_tap: Option<Option<Rotation>>,
     due: Due,
     scale: Scale,
+    /// What is known of its torch or laser.
+    beam: Option<Switched>,
     /// Codes of the form that thread and cut a wire.
     pub wire: Codes,
     /// Codes of the coolant that are the form's own: on, off, mist.
@@ -89,7 +94,15 @@ impl<'a> Program<'a> {
             cycle: false,
             before_tap: None,
             due: Due::new(expectation, settings.control),
-            scale: Scale { units: settings.units, wanted: settings.units, axes: expectation.axes, lathe: false, wire },
+            scale: Scale {
+                units: settings.units,
+                wanted: settings.units,
+                axes: expectation.axes,
+                lathe: false,
+                flat: expectation.is_flat,
+                wire,
+            },
+            beam: expectation.beam.map(|beam| Switched::new(beam, settings.control)),
             wire: expectation.wire.clone().unwrap_or_default(),
             coolant: expectation.coolant,
             passage: Passage::new(Some(start), Frame { tool: None, work: state.work }),
@@ -220,7 +233,7 @@ impl<'a> Program<'a> {
             self.at = cut.end();
             (self.cut, self.doubt) = (None, None);
             // a cut may say a height that was unknown
-            self.unknown = self.scale.axes(self.simulator.state().at_machine());
+            self.unknown = self.scale.unknown(self.simulator.state().at_machine());
             self.passage.begin(Rapid { to: self.at, unknown: self.unknown, spin: Some(self.spin) });
             self.cuts = true;
         }
@@ -272,15 +285,20 @@ impl<'a> Program<'a> {
                     (Some(lead), FeedMode::PerRev, _) => *lead,
                     _ => *feed,
                 };
+                let own = to;
                 let to = self.scale.place(to);
                 let home = self.scale.axes(*home);
-                if to == self.at && self.unknown == 0 && home == 0 {
+                if to == self.at && (self.unknown == 0 || self.scale.flat && self.unknown == 0b100) && home == 0 {
                     return; // a move of no length cuts nothing
+                }
+                if home == 0 {
+                    self.beam_cuts(own, item.line);
                 }
                 self.cuts_now(What::Line { to }, home, feed, *lead, item);
             }
             Action::Arc(turn) => {
                 let mut turn = *turn;
+                self.beam_cuts(&turn.to, item.line);
                 turn.to = self.scale.end_of_arc(&turn.to);
                 let factor = self.scale.factor();
                 turn.center.iter_mut().for_each(|value| *value *= factor);
@@ -320,6 +338,7 @@ impl<'a> Program<'a> {
             }
             Action::SpeedLimit(limit) => self.state.limit = Some(*limit),
             Action::Plane(plane) => self.state.plane = *plane,
+            Action::Frame if self.scale.flat && !self.frame_goes_across() => {}
             Action::Frame if self.simulator.state().frame_unknown() != 0 => {} // reported at the first move in it
             Action::Frame | Action::LeftOut(_, Meaning::SetOffsets) => {
                 let message = "the program moves its coordinate frame: the job's places lie elsewhere then";
@@ -377,68 +396,6 @@ impl<'a> Program<'a> {
             self.passage.started |= turned == Some(Rotation::Stop);
             self.passage.turns.extend(self.state.rotation);
         }
-    }
-
-    fn rapid(&mut self, to: &Position, [machine, astray]: [u8; 2], line: u64) {
-        let to = self.scale.place(to);
-        let unknown = self.scale.axes(machine);
-        if unknown == 0 && self.unknown == 0 && to == self.at {
-            return; // nothing moves
-        }
-        self.check_frame(unknown, line);
-        // a mill's height says how the tool comes; of a lathe both axes do
-        let heights = if self.scale.lathe { 0b101 } else { 0b100 };
-        let watched = if self.scale.wire.is_some() { 0b11 } else { heights };
-        if self.scale.axes(astray) & watched != 0 {
-            self.passage.astray.push((line, to));
-            self.doubt.get_or_insert(Doubt::Astray(line));
-        }
-        if unknown & heights != heights {
-            if (to[2] != self.at[2] || self.unknown & 0b100 != 0) && self.length_is_due() {
-                self.without_length(line, "the tool goes down, and its length offset is not on");
-            }
-            self.units_are_due(line, "the program moves before it says its units");
-            let length = self.state.length;
-            if let Some(leg) = self.passage.leg()
-                && leg.lengths.last() != Some(&length)
-            {
-                leg.lengths.push(length);
-            }
-        }
-        (self.at, self.unknown) = (to, unknown);
-        self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
-    }
-
-    fn cuts_now(&mut self, what: What, home: u8, feed: f64, lead: Option<f64>, item: &Item) {
-        self.check_frame(0, item.line);
-        if self.length_is_due() {
-            self.without_length(item.line, "the tool cuts, and its length offset is not on");
-        }
-        self.units_are_due(item.line, "the program cuts before it says its units");
-        if home != 0 {
-            self.doubt.get_or_insert(Doubt::Home(item.line));
-        }
-        let mut state = self.state.clone();
-        if let (true, Some(speed)) = (state.css, state.speed) {
-            state.speed = Some(speed * self.scale.surface());
-        }
-        if lead.is_some() && state.rigid == Some(false) {
-            state.rigid = Some(true);
-        }
-        let factor = if self.mode == FeedMode::InverseTime { 1.0 } else { self.scale.factor() };
-        self.cut = Some(Cut {
-            from: self.at,
-            unknown: self.unknown,
-            home,
-            what,
-            feed: Some(feed * factor),
-            mode: self.mode,
-            lead: lead.map(|lead| lead * self.scale.factor()),
-            state,
-            by: [0; 2],
-            by_cycle: item.by_cycle,
-            line: item.line,
-        });
     }
 
     fn stop(&mut self, kind: StopKind, item: &Item) {

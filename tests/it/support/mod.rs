@@ -13,6 +13,7 @@ use postform::internals::cl::read_cl;
 use postform::internals::compile::compile;
 use postform::internals::control::Control;
 use postform::internals::json::{read_document, read_lines};
+use postform::internals::post::taken;
 use postform::internals::render::{Options, Renderer, TraceLine, survey_terms};
 use postform::internals::sema::{Checked, Limits, analyse, one_post};
 use postform::internals::source::Source;
@@ -102,7 +103,7 @@ pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) 
         return Err(Box::new(error.clone()));
     }
     let program = compile(&checked.form).identified(&checked.files);
-    let read = |sink: &mut dyn Sink| match kind {
+    let from = |sink: &mut dyn Sink| match kind {
         Kind::Lines => read_lines(job, sink),
         Kind::Document => read_document(job, sink),
         Kind::Cl => read_cl(
@@ -112,6 +113,7 @@ pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) 
             sink,
         ),
     };
+    let read = |sink: &mut dyn Sink| taken(Some(&program.settings), sink, from);
     let mut survey = None;
     let asks = program.asks_ahead(&options.properties);
     if asks.all || asks.tools {

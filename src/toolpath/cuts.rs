@@ -1,0 +1,195 @@
+//! Jobs for a torch or a laser: where a cut begins and ends, and positions along a depth axis that the form ignores.
+
+use super::axes::Axes;
+use super::event::Event;
+use super::moves::{Arc, Infeed, Plane, Section};
+use super::operation::{First, ToolChange};
+use super::place::Place;
+use super::sink::{Flow, Sink, Stop};
+use crate::diag::{Code, Diag};
+
+/// The depth axis, as a bit.
+const DEPTH: u8 = 0b100;
+/// Heights that differ by less are one, in the job's units.
+const SAME_HEIGHT: f64 = 1e-6;
+
+/// A sink that tells another where cuts begin and end: from the first move at feed to the next rapid. They are parts of the path,
+/// [`Section::Cut`], with the lead-in and lead-out inside.
+pub struct Cuts<'s> {
+    sink: &'s mut dyn Sink,
+    /// The form ignores the depth axis.
+    is_flat: bool,
+    /// A cut has begun.
+    is_on: bool,
+    /// Other parts that began or ended since the last move: whether one began, which, and where.
+    parts: Vec<(bool, Section, Place)>,
+    /// Where the tool is.
+    at: Axes,
+    /// The height of the cuts.
+    height: Option<f64>,
+}
+
+impl<'s> Cuts<'s> {
+    /// For this sink; `is_flat`: the form ignores the depth axis.
+    pub fn new(sink: &'s mut dyn Sink, is_flat: bool) -> Cuts<'s> {
+        Cuts { sink, is_flat, is_on: false, parts: Vec::new(), at: Axes::default(), height: None }
+    }
+
+    /// The parts that wait; `begins`: the cut begins before them, else it ends after those that end.
+    fn switch(&mut self, begins: bool, place: Place) -> Result<(), Stop> {
+        let parts = std::mem::take(&mut self.parts);
+        let ended = parts.iter().position(|(begins, ..)| *begins).unwrap_or(parts.len());
+        let (before, after) = if begins { parts.split_at(0) } else { parts.split_at(ended) };
+        self.tell(before)?;
+        if begins != std::mem::replace(&mut self.is_on, begins) {
+            let cut = if begins { Event::Begin(Section::Cut) } else { Event::End(Section::Cut) };
+            self.sink.push(cut, place)?;
+        }
+        self.tell(after)
+    }
+
+    fn tell(&mut self, parts: &[(bool, Section, Place)]) -> Result<(), Stop> {
+        for &(begins, section, at) in parts {
+            self.sink.push(if begins { Event::Begin(section) } else { Event::End(section) }, at)?;
+        }
+        Ok(())
+    }
+
+    /// Positions without the depth axis, where the form ignores it.
+    fn flat(&self, to: Axes) -> Axes {
+        if self.is_flat { Axes { given: to.given & !DEPTH, ..to } } else { to }
+    }
+
+    /// The tool goes there; does it move along an axis that counts?
+    fn goes(&mut self, to: &Axes) -> bool {
+        let counted = self.flat(*to);
+        let moves = (0..6).any(|axis| counted.get(axis).is_some_and(|value| self.at.get(axis) != Some(value)));
+        for axis in 0..6 {
+            if let Some(value) = to.get(axis) {
+                self.at.set(axis, value);
+            }
+        }
+        moves
+    }
+
+    /// A rapid ends the cut, also one along an ignored axis alone, which is no move.
+    fn rapid(&mut self, to: Axes, place: Place) -> Result<(), Stop> {
+        self.switch(false, place)?;
+        let moves = self.goes(&to);
+        if moves || !self.is_flat { self.sink.push(Event::Rapid(self.flat(to)), place) } else { Ok(()) }
+    }
+
+    /// A move at feed to there; false: along an ignored axis alone, which is no move.
+    fn cuts(&mut self, to: &Axes, place: Place) -> Result<bool, Stop> {
+        if !self.goes(to) && self.is_flat {
+            return Ok(false);
+        }
+        if self.is_flat {
+            self.same_height()?;
+        }
+        self.switch(true, place)?;
+        Ok(true)
+    }
+
+    fn same_height(&mut self) -> Result<(), Stop> {
+        let Some(depth) = self.at.get(2) else { return Ok(()) };
+        let height = *self.height.get_or_insert(depth);
+        if (height - depth).abs() <= SAME_HEIGHT {
+            return Ok(());
+        }
+        let message = format!("the job cuts at Z{depth} and at Z{height}, and the form ignores Z");
+        wrong(message, "cut at one height, or take `Ignore Z` out of the form and print Z")
+    }
+
+    fn arc(&mut self, arc: &Arc, feed: Option<f64>, place: Place) -> Result<(), Stop> {
+        if self.is_flat && arc.plane != Plane::Xy {
+            return wrong(
+                "an arc outside XY, and the form ignores Z".into(),
+                "cut in XY, or take `Ignore Z` out of the form and print Z",
+            );
+        }
+        // a full circle ends where it begins
+        self.goes(&arc.to);
+        if self.is_flat {
+            self.same_height()?;
+        }
+        self.switch(true, place)?;
+        let arc = Arc { to: self.flat(arc.to), ..*arc };
+        self.sink.push(Event::Arc { arc: &arc, feed }, place)
+    }
+
+    fn tool_change(&mut self, change: &ToolChange, place: Place) -> Result<(), Stop> {
+        self.switch(false, place)?;
+        let first = match &change.first {
+            First::Hole(..) => return no_holes(),
+            First::Rapid(to) => First::Rapid(self.flat(*to)),
+            other => other.clone(),
+        };
+        self.sink.push(Event::ToolChange(&ToolChange { first, ..change.clone() }), place)
+    }
+
+    fn take(&mut self, event: Event<'_>, place: Place) -> Result<(), Stop> {
+        match event {
+            Event::Begin(section) => {
+                self.parts.push((true, section, place));
+                Ok(())
+            }
+            Event::End(section) => {
+                self.parts.push((false, section, place));
+                Ok(())
+            }
+            Event::Rapid(to) => self.rapid(to, place),
+            Event::Line { to, feed } if self.cuts(&to, place)? => {
+                self.sink.push(Event::Line { to: self.flat(to), feed }, place)
+            }
+            // its feed counts from here on
+            Event::Line { feed: Some(feed), .. } => self.sink.push(Event::Feed(feed), place),
+            Event::Line { .. } => Ok(()),
+            Event::Arc { arc, feed } => self.arc(arc, feed, place),
+            Event::Infeed { infeed, feed } => {
+                if infeed.rapid {
+                    self.switch(false, place)?;
+                    self.goes(&infeed.to);
+                } else {
+                    self.cuts(&infeed.to, place)?;
+                }
+                let infeed = Infeed { to: self.flat(infeed.to), ..*infeed };
+                self.sink.push(Event::Infeed { infeed: &infeed, feed }, place)
+            }
+            Event::Outfeed { to, feed, rapid } => {
+                if rapid {
+                    self.switch(false, place)?;
+                    self.goes(&to);
+                } else {
+                    self.cuts(&to, place)?;
+                }
+                self.sink.push(Event::Outfeed { to: self.flat(to), feed, rapid }, place)
+            }
+            Event::ToolChange(change) => self.tool_change(change, place),
+            Event::CycleBegin(_) | Event::Hole(_) => no_holes(),
+            Event::Work(_) | Event::Home | Event::Stop(_) | Event::SubCall(_) | Event::SubStart(_) | Event::SubEnd => {
+                self.switch(false, place)?;
+                self.sink.push(event, place)
+            }
+            Event::Finish => {
+                self.switch(false, place)?;
+                self.sink.push(event, place)
+            }
+            other => self.sink.push(other, place),
+        }
+    }
+}
+
+fn wrong<T>(message: String, help: &str) -> Result<T, Stop> {
+    Err(Diag::new(Code::PR058, message).help(help).into())
+}
+
+fn no_holes<T>() -> Result<T, Stop> {
+    wrong("a torch or a laser makes no holes by cycles".into(), "cut the hole as a circle, or take the cycle out")
+}
+
+impl Sink for Cuts<'_> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+        super::sink::flow(self.take(event, place))
+    }
+}

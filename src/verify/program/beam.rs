@@ -1,0 +1,74 @@
+//! A torch or a laser is on while it cuts and off while it goes elsewhere, and does not go there at the height of the cuts.
+
+use super::Program;
+use crate::control::Control;
+use crate::diag::Code;
+use crate::lang::Beam;
+use crate::nc::{Position, Rotation};
+
+/// What is known of the torch or laser of a program.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Switched {
+    beam: Beam,
+    /// The control turns a laser off in rapids, as Grbl does in its laser mode.
+    is_off_in_rapids: bool,
+    /// The height of the last cut, where the program says it.
+    cut: Option<f64>,
+    /// A rapid has gone higher than that cut since, or home.
+    is_up: bool,
+    /// A rapid goes across higher than the cut before it.
+    lifts: bool,
+    /// The line of the first rapid that goes across at the height of the cut before it.
+    low: Option<u64>,
+}
+
+impl Switched {
+    pub(super) fn new(beam: Beam, control: &Control) -> Switched {
+        let is_off_in_rapids = beam == Beam::Laser && control.traits().beam_off_in_rapids;
+        Switched { beam, is_off_in_rapids, cut: None, is_up: false, lifts: false, low: None }
+    }
+}
+
+impl Program<'_> {
+    /// Is the torch or the laser on? A laser of no power is off.
+    fn is_on(&self, beam: Beam) -> bool {
+        self.state.rotation != Some(Rotation::Stop) && (beam == Beam::Torch || self.state.speed != Some(0.0))
+    }
+
+    /// A cut to there, in the program's own numbers.
+    pub(super) fn beam_cuts(&mut self, to: &Position, line: u64) {
+        let Some(switched) = &mut self.beam else { return };
+        let height_is_known = self.simulator.state().at_machine() & 0b100 == 0;
+        (switched.cut, switched.is_up) = (height_is_known.then_some(to[2]), false);
+        let beam = switched.beam;
+        if !self.is_on(beam) {
+            let message = format!("the {} is off in this cut", beam.name());
+            let help = "switch it on in BeginCut: `M3`, and for a laser the power by S";
+            self.hazard(Code::PV026, line, &message, help);
+        }
+    }
+
+    /// A rapid to there, in the program's own numbers; `across`: along X or Y; `machine`: the axes that go home.
+    pub(super) fn beam_goes(&mut self, to: &Position, across: bool, machine: u8, line: u64) {
+        let Some(switched) = &mut self.beam else { return };
+        switched.is_up |= machine & 0b100 != 0 || switched.cut.is_some_and(|cut| to[2] > cut);
+        if !across {
+            return;
+        }
+        match switched.cut {
+            Some(_) if switched.is_up => switched.lifts = true,
+            Some(_) => _ = switched.low.get_or_insert(line),
+            None => {}
+        }
+        let (beam, is_off) = (switched.beam, switched.is_off_in_rapids);
+        // a form that lifts the tool somewhere lifts it everywhere
+        if let Some(low) = switched.low.take_if(|_| switched.lifts) {
+            let message = format!("the {} goes across at the height of its cuts, and is lifted elsewhere", beam.name());
+            self.hazard(Code::PV028, low, &message, "lift it in EndCut, before the rapid");
+        }
+        if !is_off && self.is_on(beam) {
+            let message = format!("the {} is on in a rapid", beam.name());
+            self.hazard(Code::PV027, line, &message, "switch it off in EndCut: `M5`, or for a laser `S0`");
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Rapids and cuts of the program, with what must hold before them.
+
+use super::{Doubt, Program};
+use crate::nc::{Item, Position};
+use crate::toolpath::FeedMode;
+use crate::verify::cut::{Cut, Rapid, What};
+
+impl Program<'_> {
+    pub(super) fn rapid(&mut self, to: &Position, [machine, astray]: [u8; 2], line: u64) {
+        let own = to;
+        let to = self.scale.place(to);
+        let unknown = self.scale.unknown(machine);
+        self.beam_goes(own, to[..2] != self.at[..2], machine, line);
+        let is_known = |unknown: u8| unknown == 0 || self.scale.flat && unknown == 0b100;
+        if is_known(unknown) && is_known(self.unknown) && to == self.at {
+            return; // nothing moves
+        }
+        self.check_frame(unknown, line);
+        // a mill's height says how the tool comes; of a lathe both axes do
+        let heights = if self.scale.lathe { 0b101 } else { 0b100 };
+        let watched = if self.scale.wire.is_some() { 0b11 } else { heights };
+        if self.scale.axes(astray) & watched != 0 {
+            self.passage.astray.push((line, to));
+            self.doubt.get_or_insert(Doubt::Astray(line));
+        }
+        if unknown & heights != heights {
+            if (to[2] != self.at[2] || self.unknown & 0b100 != 0) && self.length_is_due() {
+                self.without_length(line, "the tool goes down, and its length offset is not on");
+            }
+            self.units_are_due(line, "the program moves before it says its units");
+            let length = self.state.length;
+            if let Some(leg) = self.passage.leg()
+                && leg.lengths.last() != Some(&length)
+            {
+                leg.lengths.push(length);
+            }
+        }
+        (self.at, self.unknown) = (to, unknown);
+        self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
+    }
+
+    pub(super) fn cuts_now(&mut self, what: What, home: u8, feed: f64, lead: Option<f64>, item: &Item) {
+        self.check_frame(0, item.line);
+        if self.length_is_due() {
+            self.without_length(item.line, "the tool cuts, and its length offset is not on");
+        }
+        self.units_are_due(item.line, "the program cuts before it says its units");
+        if home != 0 {
+            self.doubt.get_or_insert(Doubt::Home(item.line));
+        }
+        let mut state = self.state.clone();
+        if let (true, Some(speed)) = (state.css, state.speed) {
+            state.speed = Some(speed * self.scale.surface());
+        }
+        if lead.is_some() && state.rigid == Some(false) {
+            state.rigid = Some(true);
+        }
+        let factor = if self.mode == FeedMode::InverseTime { 1.0 } else { self.scale.factor() };
+        self.cut = Some(Cut {
+            from: self.at,
+            unknown: self.unknown,
+            home,
+            what,
+            feed: Some(feed * factor),
+            mode: self.mode,
+            lead: lead.map(|lead| lead * self.scale.factor()),
+            state,
+            by: [0; 2],
+            by_cycle: item.by_cycle,
+            line: item.line,
+        });
+    }
+}

@@ -1,0 +1,153 @@
+//! Torches and lasers: where cuts begin and end, heights that count for nothing, and what is found in a program.
+
+use crate::support::folder::{Folder, err, out};
+use crate::support::root;
+
+/// A job of two squares, with heights.
+const JOB: &str = r#"{"name":"P","units":"mm","tools":[{"number":1},{"number":2}],"operations":[{"tool":1,"feed":900,"path":[
+{"rapid":[0,0,10]},{"begin":"leadin"},{"line":[5,0,1]},{"end":"leadin"},{"line":[5,5]},{"rapid":[5,5,10]},
+{"rapid":[20,0,10]},{"line":[25,0,1]},{"comment":"NEXT"},{"line":[25,5]},{"rapid":[25,5,10]},
+{"rapid":[40,0,10]},{"line":[45,0,1]},{"line":[45,5]},{"rapid":[45,5,10]}]}]}"#;
+
+fn posts(name: &str) -> String {
+    root().join("postforms").join(format!("{name}.pf")).to_string_lossy().into_owned()
+}
+
+/// The program of a job, or what was said.
+fn printed(folder: &Folder, job: &str, form: &str, more: &[&str]) -> Result<String, String> {
+    folder.write("job.json", job);
+    let run = folder.run(&[&["render", "job.json", "--form", form, "--set", "header=off"], more].concat());
+    if run.status.success() { Ok(out(&run)) } else { Err(err(&run)) }
+}
+
+/// The verdict of a program, with its findings.
+fn verified(folder: &Folder, program: &str, form: &str) -> String {
+    folder.write("program.nc", program);
+    let run = folder.run(&["verify", "job.json", "--form", form, "--nc", "program.nc"]);
+    format!("{}{}", out(&run), err(&run))
+}
+
+/// The torch goes on before the lead-in and off after the last move at feed; no block has a height of the job.
+#[test]
+fn a_cut_lies_between_two_rapids() {
+    let folder = Folder::new("torch_cut");
+    let form = posts("plasma");
+    let program = printed(&folder, JOB, &form, &["--set", "qtplasmac=yes"]).unwrap();
+    let lines: Vec<&str> = program.lines().skip(4).collect();
+    let cuts = [
+        "G0 G54 X0 Y0",
+        "M3 S1",
+        "G1 X5. F900.",
+        "Y5.",
+        "M5",
+        "G0 X20. Y0",
+        "M3 S1",
+        "G1 X25.",
+        "(NEXT)",
+        "Y5.",
+        "M5",
+        "G0 X40. Y0",
+        "M3 S1",
+        "G1 X45.",
+        "Y5.",
+        "M5",
+        "M5",
+        "M2",
+        "%",
+    ];
+    assert_eq!(lines, cuts);
+    assert!(verified(&folder, &program, &form).contains("identical"));
+    // the form's own heights: down to the sheet, pierce, cut
+    let program = printed(&folder, JOB, &form, &["--set", "pierce=0.8", "--set", "cutheight=2"]).unwrap();
+    let begins =
+        "G38.2 Z-50. F500.\nG92 Z0\nG0 Z3.8\nM3 S1\nG4 P.8\nG1 Z2. F2000.\nX5. Y0 F900.\nY5.\nM5\nG0 Z20.\nG92.1\n";
+    assert!(program.contains(begins), "{program}");
+}
+
+/// What a torch does otherwise than it should is found by name.
+#[test]
+fn a_torch_is_on_in_cuts_alone() {
+    let folder = Folder::new("torch_wrong");
+    let form = posts("plasma");
+    let right = printed(&folder, JOB, &form, &[]).unwrap();
+    assert!(verified(&folder, &right, &form).contains("equivalent"), "{right}");
+    let second = |what: &str, by: &str| {
+        let at = right.match_indices(what).nth(1).map(|(at, _)| at).unwrap();
+        format!("{}{by}{}", &right[..at], &right[at + what.len()..])
+    };
+    let cases = [
+        (second("M3 S1\n", ""), "PV026", "the torch is off in this cut"),
+        (second("M5\nG0 Z20.", "G0 Z20."), "PV027", "the torch is on in a rapid"),
+        (second("G0 Z20.\n", "G0\n"), "PV028", "the torch goes across at the height of its cuts"),
+        (second("G92 Z0", "G92 X1. Z0"), "PV", "different"),
+        (second("G38.2 Z-50.", "G38.2 X1. Z-50."), "not proven", "only the machine knows"),
+        (right.replacen("X25.", "X26.", 1), "PV001", "different"),
+        (right.replacen("F900.", "F950.", 1), "PV006", "different"),
+        (right.replacen("M2\n", "", 1).replace('%', ""), "PV", "different"),
+    ];
+    for (program, code, said) in cases {
+        let verdict = verified(&folder, &program, &form);
+        assert!(verdict.contains(code) && verdict.contains(said), "{program}\n{verdict}");
+    }
+    // another height of the cut is nobody's: the form ignores Z
+    assert!(verified(&folder, &right.replace("G1 Z1.5", "G1 Z1.2"), &form).contains("equivalent"));
+}
+
+/// A laser of no power is off; Grbl's laser is off in rapids, another control's is not.
+#[test]
+fn a_laser_has_a_power() {
+    let folder = Folder::new("laser");
+    let form = posts("laser");
+    let program = printed(&folder, JOB, &form, &[]).unwrap();
+    assert!(program.contains("G0 G54 X0 Y0\nM4 S500\nG1 X5. F900.\n") && !program.contains('Z'), "{program}");
+    let own = JOB.replace("\"feed\":900", "\"feed\":900,\"spindle\":{\"speed\":320,\"direction\":\"cw\"}");
+    assert!(printed(&folder, &own, &form, &[]).unwrap().contains("M4 S320\n"));
+    printed(&folder, JOB, &form, &[]).unwrap();
+    let dark = verified(&folder, &program.replacen("M4 S500", "M4 S0", 1), &form);
+    assert!(dark.contains("PV026") && dark.contains("the laser is off in this cut"), "{dark}");
+    let stays_on = program.replace("M5\nG0", "G0");
+    assert!(verified(&folder, &stays_on, &form).contains("identical"), "{stays_on}");
+    folder.write("other.pf", std::fs::read_to_string(&form).unwrap().replace("Control grbl", "Control linuxcnc"));
+    assert!(verified(&folder, &stays_on, "other.pf").contains("the laser is on in a rapid"));
+}
+
+/// What such a machine can't do is an error with its place.
+#[test]
+fn what_no_torch_cuts_is_refused() {
+    let folder = Folder::new("torch_refused");
+    let form = posts("plasma");
+    let two = JOB.replace("{\"line\":[25,5]}", "{\"line\":[25,5,-2]}");
+    let cases = [
+        (two, "the job cuts at Z-2 and at Z1"),
+        (
+            JOB.replace("{\"line\":[25,5]}", "{\"cycle\":{\"kind\":\"drill\",\"depth\":2,\"points\":[[1,1,0]]}}"),
+            "no holes by cycles",
+        ),
+        (
+            JOB.replace(
+                "{\"line\":[25,5]}",
+                "{\"arc\":{\"to\":[25,0,1],\"center\":[26,0,1],\"plane\":\"xz\",\"direction\":\"cw\"}}",
+            ),
+            "an arc outside XY",
+        ),
+    ];
+    for (job, said) in cases {
+        let refused = printed(&folder, &job, &form, &[]).unwrap_err();
+        assert!(
+            refused.contains("PR058") && refused.contains(said) && refused.contains("operations[0].path"),
+            "{refused}"
+        );
+    }
+    // a mill's form has the axis
+    let text = std::fs::read_to_string(&form).unwrap();
+    for (wrong, said) in [
+        (text.replace("Ignore Z", "Ignore X"), "the axis that may be ignored is the depth axis, Z"),
+        (text.replace("Machine Torch", "Machine Mill"), "Ignore is for torches and lasers"),
+        (text.replace("Machine Torch", "Machine Mill").replace("Ignore Z", "# none"), "BeginCut is never printed"),
+    ] {
+        folder.write("wrong.pf", &wrong);
+        let lint = folder.run(&["lint", "wrong.pf"]);
+        let lint = format!("{}{}", out(&lint), err(&lint));
+        assert!(lint.contains(said), "{said}: {lint}");
+    }
+}

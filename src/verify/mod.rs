@@ -13,6 +13,7 @@ mod cut;
 mod expectation;
 mod fast_path;
 mod finding;
+mod folded;
 mod form_values;
 mod holes;
 mod idle;

@@ -34,6 +34,8 @@ pub(super) struct Mark<T> {
     leg: usize,
     /// The spindle was started from standing before it, since the cut.
     pub started: bool,
+    /// A torch or a laser is off there: it is in no cut.
+    is_off: bool,
     /// The program's line; 0 of a job.
     pub line: u64,
     /// The job's item.
@@ -55,6 +57,8 @@ pub(super) struct Passage {
     pub turns: Vec<Rotation>,
     /// The spindle was started from standing.
     pub started: bool,
+    /// A torch or a laser is off now.
+    pub is_off: bool,
     /// Codes of the program that are not simulated: letter, and ten times the number.
     pub codes: Vec<(u8, u16)>,
     /// Codes that thread and cut a wire.
@@ -89,6 +93,7 @@ impl Passage {
             waits: Vec::new(),
             turns: Vec::new(),
             started: false,
+            is_off: false,
             codes: Vec::new(),
             does: Vec::new(),
             new_tool: false,
@@ -113,7 +118,7 @@ impl Passage {
         self.stops.clear();
         self.waits.clear();
         self.turns.clear();
-        self.started = false;
+        (self.started, self.is_off) = (false, false);
         self.codes.clear();
         self.does.clear();
         self.astray.clear();
@@ -234,7 +239,8 @@ impl Passage {
 
     /// Notes that something is done here.
     pub fn mark<T>(&self, what: T, line: u64, place: toolpath::Place) -> Mark<T> {
-        Mark { what, at: self.rapids.len(), leg: self.legs.len() - 1, started: self.started, line, place }
+        let (at, leg) = (self.rapids.len(), self.legs.len() - 1);
+        Mark { what, at, leg, started: self.started, is_off: self.is_off, line, place }
     }
 
     /// Where the tool is at a mark; `None` before the first place that is known.
@@ -256,7 +262,7 @@ impl Passage {
 
     /// Does the tool still stand where the cut ended?
     pub fn in_cut<T>(&self, mark: &Mark<T>, tolerance: f64) -> bool {
-        let Some(start) = self.start.filter(|_| mark.leg == 0) else { return false };
+        let Some(start) = self.start.filter(|_| mark.leg == 0 && !mark.is_off) else { return false };
         let stays = |rapid: &Rapid| {
             rapid.unknown == start.unknown && same(&rapid.to, &start.to, ALL & !start.unknown, tolerance)
         };

@@ -4,6 +4,7 @@ use std::io::{Read, Seek};
 
 use super::cut::{ALL, Cut, Spin, State, What, number, place, same, same_dwell, shown};
 use super::expectation::Expectation;
+use super::folded::{begin_alike, hole, rounded_alike};
 use super::passage::{Mark, TOO_LONG};
 use super::program::{Doubt, Program};
 use super::rapid_path::RapidPath;
@@ -31,6 +32,12 @@ pub struct Motions {
     pub ways: u64,
     /// Cuts before which other codes stand, of those that are not simulated.
     pub codes: u64,
+    /// Holes with other pecks, of programs for different controls.
+    pub pecks: u64,
+    /// Feeds that differ by their last digits, of programs for different controls.
+    pub feeds: u64,
+    /// Cuts that were compared.
+    pub cuts: u64,
 }
 
 /// Why motions can't be compared: a program (0 old, 1 new) that can't be read or that its control refuses.
@@ -100,17 +107,43 @@ pub fn compare_motions(
             },
         };
         motions.ways += u64::from(matches!(way, Compared::AsGood { .. }));
-        let message = differs(cut, found, way, tolerance, names)
+        motions.cuts += 1;
+        let folds = names.by_order && begin_alike(cut, found, tolerance);
+        let mut alike = found.clone();
+        if folds {
+            alike.what = cut.what;
+        }
+        if names.by_order && rounded_alike(cut.feed, found.feed) {
+            motions.feeds += u64::from(found.feed != cut.feed);
+            alike.feed = cut.feed;
+        }
+        if names.by_order && rounded_alike(cut.state.speed, found.state.speed) && cut.state.speed != found.state.speed {
+            alike.state = State { speed: cut.state.speed, ..(*found.state).clone() }.into();
+        }
+        let message = differs(cut, &alike, way, tolerance, names)
             .or_else(|| astray(&a, &b, tolerance))
             .or_else(|| pauses(&a, &b, tolerance))
-            .or_else(|| switching(&a, &b))
+            .or_else(|| switching(&a, &b, names))
             .or_else(|| standing(&a, &b));
         if let Some(message) = message {
             let difference = Some(MotionDifference { message, blocks: blocks(&a, &b) });
             return Ok(Motions { difference, ..motions });
         }
-        a.take();
-        b.take();
+        if !folds {
+            a.take();
+            b.take();
+            continue;
+        }
+        let before = hole(&mut a, cut, tolerance).map_err(|error| NoMotion(0, error))?;
+        let now = hole(&mut b, found, tolerance).map_err(|error| NoMotion(1, error))?;
+        let [old, new] = [&before, &now].map(|depths| depths.iter().copied().fold(f64::INFINITY, f64::min));
+        if (old - new).abs() > tolerance {
+            let message = format!("a hole goes down to Z{}, before to Z{}", number(new), number(old));
+            let blocks = [(lines[0], String::new()), (lines[1], String::new())];
+            return Ok(Motions { difference: Some(MotionDifference { message, blocks }), ..motions });
+        }
+        let alike = before.len() == now.len() && before.iter().zip(&now).all(|(a, b)| (a - b).abs() <= tolerance);
+        motions.pecks += u64::from(!alike);
     }
 }
 
@@ -184,7 +217,8 @@ struct Names {
 impl Names {
     fn of(a: &Control, b: &Control) -> Names {
         let own = |control: &Control| control.traits().tool_length == ToolLength::Tool;
-        Names { by_order: a.rules() != b.rules(), registers: own(a) == own(b) }
+        let by_order = a.rules() != b.rules();
+        Names { by_order, registers: !by_order && own(a) == own(b) || !own(a) && !own(b) }
     }
 
     fn work(self, work: Option<f64>) -> Option<f64> {
@@ -257,11 +291,15 @@ fn pauses(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
 }
 
 /// What the spindle does on the ways.
-fn switching(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
+fn switching(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
     let turns = |program: &Program<'_>| -> Vec<String> {
         program.passage.turns.iter().map(|turn| turn.name().to_owned()).collect()
     };
     let (before, now) = (turns(old), turns(new));
+    // how it turns at the cut is compared there: a cycle of one control stops it where another's goes on
+    if names.by_order && before.last() == now.last() {
+        return None;
+    }
     (before != now).then(|| format!("the spindle on the way here: {}, before {}", listed(&now), listed(&before)))
 }
 

@@ -229,7 +229,8 @@ fn an_okuma_jumps_and_calls() {
 fn what_is_not_read_is_refused_by_name() {
     let table = [
         ("siemens", "G17 G54\nROT RPL=45\nM30", "ROT"),
-        ("siemens", "CYCLE800()\nM30", "CYCLE800"),
+        ("siemens", "CYCLE800(1,0,0,27)\nM30", "CYCLE800"),
+        ("heidenhain", "0 BEGIN PGM T MM\nL M140 MB50\nEND PGM T MM", "M140 is run with MB MAX alone"),
         ("siemens", "G0 X=$AA_IM[X]\nM30", "$AA_IM"),
         ("siemens", "POCKET3(50,0,2)\nM30", "POCKET3"),
         ("siemens", "G500 G0 X0\nM30", "G500"),
@@ -310,4 +311,49 @@ fn a_rapid_of_the_forms_own_has_no_height_of_a_hole() {
     options.proof = None;
     let error = post.render(postform::Job::json(job), &options).unwrap_err().to_string();
     assert!(error.contains("[d] has no value here"), "{error}");
+}
+
+/// `M140 MB MAX` goes up to the end of the travel, and an empty CYCLE800 turns nothing.
+#[test]
+fn resets_and_ways_home_are_run() {
+    let (all, refused) =
+        actions("0 BEGIN PGM T MM\n1 TOOL CALL 1 Z S1000\nL X+1 FMAX\nL M140 MB MAX\nM30\n", "heidenhain");
+    assert_eq!(refused, None);
+    let home = |action: &Action| matches!(action, Action::Rapid { machine, .. } if machine & 0b100 != 0);
+    assert_eq!(all.iter().filter(|action| home(action)).count(), 1, "{all:?}");
+    for block in ["CYCLE800", "CYCLE800()"] {
+        assert_eq!(actions(&format!("G17 G54\n{block}\nG0 X1\nM30"), "siemens").1, None, "{block}");
+    }
+}
+
+/// One part for two controls: holes by other pecks and rounded feeds are the same part; another depth, position or feed is none.
+#[test]
+fn one_part_for_two_controls_is_compared_by_its_holes() {
+    use postform::internals::verify::compare_motions;
+    use postform::toolpath::Units;
+
+    let siemens = "G17 G710 G54 G90 G94\nT1\nM6\nG0 D1 X0 Y0 S295 M3\nZ60\nF637\nMCALL CYCLE83(60,52,0,30,,,5,,,,1,0,1,5,1)\nX10 Y0\nX20\nMCALL\n\
+                   MCALL CYCLE81(60,52,0,40)\nX30\nMCALL\nG0 SUPA D0 Z0\nM30\n";
+    let klartext = "0 BEGIN PGM T MM\n1 TOOL CALL 1 Z S295\nCYCL DEF 247 Q339=1\nL X+0 Y+0 R0 FMAX M3\nL Z+60 R0 FMAX\n\
+                    CYCL DEF 203 Q200=0 Q201=-22 Q206=636.62 Q202=4 Q210=0 Q203=52 Q204=8 Q212=0 Q213=9 Q205=4 Q211=0 Q208=MAX Q256=1\n\
+                    L X+10 Y+0 FMAX M99\nL X+20 FMAX M99\nCYCL DEF 200 Q200=0 Q201=-12 Q206=636.62 Q202=12 Q210=0 Q203=52 Q204=8 Q211=0\n\
+                    L X+30 FMAX M99\nL Z+0 R0 FMAX M91\nM30\nEND PGM T MM\n";
+    let compared = |klartext: &str| {
+        let sides = [(siemens, "siemens"), (klartext, "heidenhain")];
+        let sides = sides.map(|(text, name)| (Cursor::new(text.to_owned()), RunSettings::new(control(name))));
+        compare_motions(sides, Units::Mm, 1e-6).unwrap_or_else(|error| panic!("{error:?}"))
+    };
+    let same = compared(klartext);
+    assert_eq!(same.difference, None);
+    assert_eq!((same.cuts, same.pecks, same.feeds), (3, 2, 3));
+    for (what, by, said) in [
+        ("Q201=-22", "Q201=-21", "a hole goes down to Z31, before to Z30"),
+        ("L X+20", "L X+21", "X21"),
+        ("Q206=636.62 Q202=12", "Q206=600 Q202=12", "the feed is 600, before 637"),
+        ("S295", "S300", "the spindle speed is 300, before 295"),
+        ("Q339=1", "Q339=2", "the work offset"),
+    ] {
+        let other = compared(&klartext.replace(what, by)).difference.map(|difference| difference.message);
+        assert!(other.as_ref().is_some_and(|message| message.contains(said)), "{what}: {other:?}");
+    }
 }

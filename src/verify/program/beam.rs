@@ -30,6 +30,11 @@ impl Switched {
 }
 
 impl Program<'_> {
+    /// Is the torch or the laser on? `None`: there is none.
+    pub(super) fn beam_is_on(&self) -> Option<bool> {
+        self.beam.map(|switched| self.is_on(switched.beam))
+    }
+
     /// Is the torch or the laser on? A laser of no power is off.
     fn is_on(&self, beam: Beam) -> bool {
         self.state.rotation != Some(Rotation::Stop) && (beam == Beam::Torch || self.state.speed != Some(0.0))

@@ -392,6 +392,9 @@ impl<'a> Program<'a> {
             }
             _ => {}
         }
+        if let Some(is_on) = self.beam_is_on() {
+            self.passage.is_off = !is_on;
+        }
         if self.state.rotation != turned {
             self.passage.started |= turned == Some(Rotation::Stop);
             self.passage.turns.extend(self.state.rotation);

@@ -29,8 +29,12 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
     let Some([old, new]) = sides(args, &reporter)? else { return Ok(Ending::Findings) };
     let text = if args.motion {
         match motions(args, &old, &new, &reporter)? {
-            Outcome::Refused => return Ok(Ending::Findings),
+            Outcome::Refused => {
+                say(&format!("not proven: {} and {} can't be compared to their ends\n", old.name, new.name));
+                return Ok(Ending::Findings);
+            }
             Outcome::Compared(found) => {
+                say(&text::verdict(&old, &new, &found));
                 let text = match args.format {
                     DiffFormat::Text => text::motion(&old, &new, &found),
                     _ => json::motion(&old, &new, &found),

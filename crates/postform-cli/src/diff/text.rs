@@ -249,6 +249,25 @@ fn left_out(found: &Motions) -> String {
     if list.is_empty() { String::new() } else { format!("the same cuts; not compared: {}\n", list.join(", ")) }
 }
 
+/// How the comparison of motions came out, in a line.
+pub fn verdict(old: &Side, new: &Side, found: &Motions) -> String {
+    if found.difference.is_some() {
+        return format!("different: {} does something else than {}\n", new.name, old.name);
+    }
+    let cuts = count(found.cuts as usize, "cut");
+    let counted = [
+        (found.pecks, "hole", "with other pecks"),
+        (found.feeds, "feed", "rounded"),
+        (found.ways, "way", "otherwise and nowhere lower"),
+    ];
+    let counted = counted.iter().filter(|(n, ..)| *n > 0);
+    let list: Vec<String> = counted.map(|(n, what, how)| format!("{} {how}", count(*n as usize, what))).collect();
+    match list.is_empty() {
+        true => format!("identical: {} makes the motions of {} ({cuts})\n", new.name, old.name),
+        false => format!("equivalent: {} cuts what {} cuts ({cuts}): {}\n", new.name, old.name, list.join(", ")),
+    }
+}
+
 /// The first difference of motions, or what was left out.
 pub fn motion(old: &Side, new: &Side, found: &Motions) -> String {
     let Some(difference) = &found.difference else { return left_out(found) };

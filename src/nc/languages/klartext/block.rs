@@ -149,6 +149,10 @@ impl Words<'_> {
             } else if rest.first() == Some(&b'F') {
                 *cursor = cursor.from(begin + 1);
                 rapid |= self.feed(cursor)?;
+            } else if rest.starts_with(b"M140") {
+                *cursor = cursor.from(begin + 4);
+                self.back_along_tool(cursor)?;
+                (rapid, moves) = (true, true);
             } else if rest.first() == Some(&b'M') {
                 calls |= self.switch(cursor)?;
             } else {
@@ -311,6 +315,19 @@ impl Words<'_> {
             _ => self.block.m_word(code, begin, self.state.settings.control)?,
         }
         Ok(false)
+    }
+
+    /// `M140 MB MAX`: up to the end of the travel. `MB50`, so far along the tool, is not run.
+    fn back_along_tool(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        let begin = cursor.at();
+        if !cursor.takes_word("MB") || !cursor.takes_word("MAX") {
+            let help = "write M140 MB MAX, or the height with L";
+            return Err(Fault::at(Code::PN016, begin, "M140 is run with MB MAX alone", help));
+        }
+        self.code(Meaning::Machine)?;
+        self.block.word(b'Z', 0.0, false, begin, self.state.settings.control)?;
+        self.block.absolute |= 0b100;
+        Ok(())
     }
 
     fn call(&mut self) -> Done {

@@ -118,6 +118,10 @@ impl Simulator<'_> {
             _ if name.starts_with("CYCLE") => match words.cycle(&name, &mut cursor)? {
                 Some(call) if modal => words.own.modal = Some(call),
                 Some(call) => words.block.call = Some(call),
+                // alone it ends a tilted plane, which no block of a program that is run begins
+                None if name == "CYCLE800" && [&b""[..], b"()"].contains(&cursor.rest().trim_ascii()) => {
+                    return Ok(None);
+                }
                 // smoothing
                 None if name == "CYCLE832" => _ = words.arguments(&mut cursor)?,
                 None => {

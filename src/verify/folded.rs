@@ -1,0 +1,57 @@
+//! Holes of two programs of different controls: their strokes may be others, and the holes the same.
+
+use super::cut::{Cut, DEPTH, What, same};
+use super::program::Program;
+use crate::nc::RunError;
+
+/// X and Y, as bits.
+const ACROSS: u8 = 0b11;
+
+/// Most strokes of a hole.
+const MOST: usize = 100_000;
+
+/// A cut straight down or up.
+fn is_stroke(cut: &Cut, tolerance: f64) -> bool {
+    matches!(cut.what, What::Line { .. }) && cut.unknown == 0 && same(&cut.from, &cut.end(), ACROSS, tolerance)
+}
+
+/// Do both programs begin a hole at one position: down from one height?
+pub(super) fn begin_alike(a: &Cut, b: &Cut, tolerance: f64) -> bool {
+    let down = |cut: &Cut| is_stroke(cut, tolerance) && cut.end()[DEPTH] < cut.from[DEPTH] - tolerance;
+    down(a) && down(b) && same(&a.from, &b.from, ACROSS | 1 << DEPTH, tolerance)
+}
+
+/// Are two feeds or speeds one that was rounded: by a thousandth at most, or one of them to a whole number?
+pub(super) fn rounded_alike(a: Option<f64>, b: Option<f64>) -> bool {
+    const LAST_DIGITS: f64 = 0.001;
+    const WHOLE: f64 = 0.005;
+    let (Some(a), Some(b)) = (a, b) else { return false };
+    let apart = (a - b).abs();
+    let to_whole = |whole: f64, other: f64| whole.fract() == 0.0 && other.round() == whole;
+    apart <= LAST_DIGITS * a.abs() || apart <= WHOLE * a.abs() && (to_whole(a, b) || to_whole(b, a))
+}
+
+/// Takes the strokes of the hole in which a program is: the depths of those that go down.
+///
+/// # Errors
+/// The program can't be run on.
+pub(super) fn hole(program: &mut Program<'_>, first: &Cut, tolerance: f64) -> Result<Vec<f64>, RunError> {
+    let mut depths = vec![first.end()[DEPTH]];
+    program.take();
+    loop {
+        let Some(next) = program.run_to_cut()?.cloned() else { return Ok(depths) };
+        let over = |at| same(at, &first.from, ACROSS, tolerance);
+        let stays = program.passage.rapids.iter().all(|rapid| rapid.unknown == 0 && over(&rapid.to));
+        let is_same = (next.feed == first.feed || rounded_alike(next.feed, first.feed))
+            && next.mode == first.mode
+            && depths.len() < MOST;
+        let here = is_stroke(&next, tolerance) && over(&next.from) && stays && is_same;
+        if !here || !program.passage.stops.is_empty() || program.passage.changed() {
+            return Ok(depths);
+        }
+        if next.end()[DEPTH] < next.from[DEPTH] {
+            depths.push(next.end()[DEPTH]);
+        }
+        program.take();
+    }
+}

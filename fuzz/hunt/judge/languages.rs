@@ -126,18 +126,18 @@ impl Writer {
     fn hole(&mut self) -> Done {
         let Some(cycle) = self.cycle.clone() else { return Err("no cycle".into()) };
         let back = self.at[2] == Some(cycle.back);
-        let mut text = format!("G{} G{} Z{:?} R{:?}", if back { 98 } else { 99 }, cycle.code, cycle.bottom, cycle.r);
+        let mut text = format!("G{} G{} Z{} R{}", if back { 98 } else { 99 }, cycle.code, cycle.bottom, cycle.r);
         if let (Some(x), Some(y)) = (self.at[0], self.at[1]) {
-            text += &format!(" X{x:?} Y{y:?}");
+            text += &format!(" X{x} Y{y}");
         }
         if let Some(peck) = cycle.peck {
-            text += &format!(" Q{peck:?}");
+            text += &format!(" Q{peck}");
         }
         if let Some(dwell) = cycle.dwell {
             text += &format!(" P{}", (dwell * 1000.0).round());
         }
         if let Some(feed) = cycle.feed {
-            text += &format!(" F{feed:?}");
+            text += &format!(" F{feed}");
         }
         self.say(text);
         self.say("G80");
@@ -215,7 +215,7 @@ impl Writer {
         match length {
             Some(0.0) => self.say("G49"),
             Some(_) if self.tool.is_nan() => {}
-            Some(_) => self.say(format!("G43 H{:?}", self.tool)),
+            Some(_) => self.say(format!("G43 H{}", self.tool)),
             None => {}
         }
         if moves && self.cycle.is_some() { self.hole() } else { Ok(()) }

@@ -78,6 +78,8 @@ pub enum Action {
     Frame,
     /// A hole of a canned cycle; its moves follow.
     Hole(Box<Drilling>),
+    /// A thread in passes; its moves follow.
+    Passes(Box<Passes>),
     /// The cycle is no longer in force.
     CycleOff,
     /// Text of a comment, by its columns in the line.
@@ -86,6 +88,29 @@ pub enum Action {
     LeftOut(Code, Meaning),
     /// The block has a slash, and is run.
     BlockDelete,
+}
+
+/// A thread in passes, as G76 of a lathe. Positions are a radius and Z, in the units in force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Passes {
+    /// The crest where the thread begins.
+    pub from: [f64; 2],
+    /// The crest where it ends.
+    pub to: [f64; 2],
+    /// The distance of one turn, as the feed mode counts it.
+    pub lead: f64,
+    /// Its height, on the radius; negative for an inner thread.
+    pub depth: f64,
+    /// The first cut, on the radius.
+    pub first: f64,
+    /// The least cut, on the radius.
+    pub least: f64,
+    /// What is left for the last cut, on the radius.
+    pub allowance: f64,
+    /// Passes at the full depth after those that the cuts make.
+    pub last: u32,
+    /// The radius at the start less that at the end.
+    pub taper: f64,
 }
 
 /// What the spindle does.

@@ -1,6 +1,6 @@
 //! Lathes of Fanuc's kind: the turret, and threads by G32, G92 and G76 (system A).
 
-use super::action::{Action, Rotation};
+use super::action::{Action, Passes, Rotation};
 use super::block::Block;
 use super::codes::{Group, letters};
 use super::fault::{Done, refuse};
@@ -95,7 +95,9 @@ impl State {
         }
         let mut ways = vec![end[0]];
         if does == Meaning::ThreadCycle {
-            ways = self.passes(begin, end, taper, block)?;
+            let (passes, list) = self.passes(begin, end, taper, block)?;
+            out.push(Action::Passes(Box::new(passes)));
+            ways = list;
         }
         // the block says the radii and the end; where its passes begin and come back to, the blocks before it said
         let at_end = self.place.at_machine;
@@ -118,8 +120,8 @@ impl State {
         Ok(())
     }
 
-    /// The radii of the ends of all passes of G76: the n-th goes to the first cut times the square root of n.
-    fn passes(&self, begin: [f64; 6], end: [f64; 6], taper: f64, block: &Block) -> Done<Vec<f64>> {
+    /// The thread of G76, and the radii of the ends of all passes: the n-th goes to the first cut times the square root of n.
+    fn passes(&self, begin: [f64; 6], end: [f64; 6], taper: f64, block: &Block) -> Done<(Passes, Vec<f64>)> {
         let Some(first) = self.threads.first else {
             return refuse(Code::PN007, "G76 without its first block", "write G76 P010060 Q.. R.. before it");
         };
@@ -147,6 +149,17 @@ impl State {
         }
         let again = if first.allowance > 0.0 { first.last.max(1) } else { first.last.saturating_sub(1) };
         list.extend(std::iter::repeat_n(end[0], again.min(MOST) as usize));
-        Ok(list)
+        let thread = Passes {
+            from: [crest + taper, begin[2]],
+            to: [crest, end[2]],
+            lead: self.drive.feed,
+            depth: -inward * depth,
+            first: cut,
+            least: first.least,
+            allowance: first.allowance,
+            last: again,
+            taper,
+        };
+        Ok((thread, list))
     }
 }

@@ -65,6 +65,7 @@ mod texts;
 mod torch;
 mod trace;
 mod transcripts;
+mod turning_jobs;
 mod unknown_positions;
 mod verdicts;
 mod verify;

@@ -11,19 +11,22 @@ mod reader;
 mod shift;
 mod survey;
 mod switches;
+mod turning;
 
 use std::io::{Read, Seek};
 
+use super::action::Item;
 use super::foreign::settings_for;
 use super::settings::RunSettings;
 use super::simulator::Simulator;
 use crate::diag::Diag;
 use crate::toolpath::{ReadError, Sink};
 use behind::Behind;
-use fault::{refused, unsaid};
+use fault::{Done, refused, unsaid};
 pub use options::JobOptions;
 use reader::Reader;
 use survey::survey;
+use turning::Turner;
 
 /// Reads a program as a job. It is run twice: once to see that the control takes it, and what its tools need.
 ///
@@ -39,11 +42,8 @@ pub fn read_program(
 ) -> Result<(), ReadError> {
     let settings = settings_for(&mut input, options.settings).map_err(ReadError::Io)?;
     let options = &JobOptions { settings, ..*options };
-    if options.settings.control.is_lathe() {
-        return unsaid(1, "the program is a lathe's", "programs of mills can be read as jobs");
-    }
     if options.settings.control.is_wire() {
-        return unsaid(1, "the program is a wire EDM machine's", "programs of mills can be read as jobs");
+        return unsaid(1, "the program is a wire EDM machine's", "programs of mills and lathes can be read as jobs");
     }
     let mut said = Vec::new();
     let read = read_twice(input, options, &mut said, sink);
@@ -80,17 +80,28 @@ fn read_twice(
     let mut simulator = Simulator::new(input, settings);
     let survey = survey(&mut simulator, options, warnings)?;
     let mut simulator = simulator.again().map_err(ReadError::Io)?;
+    if options.settings.control.is_lathe() {
+        let mut turner = Turner::new(&survey, options, warnings, sink, simulator.state().modes.feed_mode)?;
+        run(&mut simulator, |item, text, _| turner.take(item, text))?;
+        return Ok(turner.finish()?);
+    }
     let mut reader = Reader::new(&survey, options, warnings, sink);
+    run(&mut simulator, |item, text, behind| reader.take(item, text, behind))?;
+    Ok(reader.finish()?)
+}
+
+/// Gives each action of the program, the text of its block, and how the machine stands after that block.
+fn run(simulator: &mut Simulator<'_>, mut take: impl FnMut(&Item, &[u8], Behind) -> Done) -> Result<(), ReadError> {
     let mut items = Vec::new();
     loop {
         items.clear();
         let more = simulator.step(&mut items).map_err(refused)?;
         let behind = Behind::of(simulator.state());
         for item in &items {
-            reader.take(item, simulator.text(), behind)?;
+            take(item, simulator.text(), behind)?;
         }
         if !more {
-            return Ok(reader.finish()?);
+            return Ok(());
         }
     }
 }

@@ -221,6 +221,7 @@ impl<'a> Reader<'a> {
             | Action::Length(_)
             | Action::End
             | Action::LeftOut(..)
+            | Action::Passes(_) // threads of lathes
             | Action::BlockDelete
             | Action::SpeedLimit(_) => Ok(()),
         }

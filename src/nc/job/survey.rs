@@ -83,7 +83,7 @@ pub(super) fn survey(
                 with_length |= length.is_some();
             }
             let mut reach = |survey: &mut Survey, to: &[f64; 6], machine: u8| {
-                moved = true;
+                moved |= machine & 0b111 != 0b111;
                 for axis in 3..6 {
                     if to[axis] != last[axis] {
                         survey.rotary |= 1 << axis;

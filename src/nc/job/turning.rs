@@ -1,0 +1,421 @@
+//! Programs of lathes as jobs: actions become events. Positions are Z, and X as a radius.
+
+use super::fault::{Done, unsaid, warning};
+use super::options::JobOptions;
+use super::survey::Survey;
+use super::switches::Switches;
+use crate::diag::{Code, Diag, Location};
+use crate::lang::Machine;
+use crate::nc::action::{Action, Item, Passes, Position, Turn};
+use crate::toolpath::{
+    About, Arc, Axes, Coolant, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Spindle, Start, Stop, Thread,
+    Tool, ToolChange,
+};
+
+/// X and Z of the machine, as bits.
+const AXES: u8 = 0b101;
+/// Stations of a turret's T word: two digits of offset follow.
+const STATION: f64 = 100.0;
+
+/// Actions to events.
+pub(super) struct Turner<'a> {
+    survey: &'a Survey,
+    options: &'a JobOptions,
+    warnings: &'a mut Vec<Diag>,
+    sink: &'a mut dyn Sink,
+    place: Place,
+    started: bool,
+    /// The station in front, and the T word of the operation.
+    station: Option<f64>,
+    tool: Option<f64>,
+    /// An operation begins with the next move.
+    operation: bool,
+    wanted: Switches,
+    said: Switches,
+    /// The highest speed of the spindle, as wanted and as told.
+    limit: [Option<f64>; 2],
+    mode: FeedMode,
+    /// Where the tool is, on the axes whose position the program has said.
+    at: Axes,
+    /// The tool's offset is off: T with 00 after the station.
+    without: bool,
+    /// The tool went to the reference point, and nothing has moved since.
+    home: bool,
+    /// Side of compensation, as wanted and as the last move left it.
+    side: [Option<Side>; 2],
+    /// A thread's passes follow.
+    in_thread: bool,
+    comments: Vec<String>,
+}
+
+impl<'a> Turner<'a> {
+    pub fn new(
+        survey: &'a Survey,
+        options: &'a JobOptions,
+        warnings: &'a mut Vec<Diag>,
+        sink: &'a mut dyn Sink,
+        mode: FeedMode,
+    ) -> Result<Turner<'a>, Stop> {
+        if survey.rotary != 0 {
+            let help = "take the moves of C, A and B out: the job of a lathe has Z and X";
+            return unsaid(1, "the program turns a rotary axis", help);
+        }
+        Ok(Turner {
+            survey,
+            options,
+            warnings,
+            sink,
+            place: Place::default(),
+            started: false,
+            station: None,
+            tool: None,
+            operation: true,
+            wanted: Switches::default(),
+            said: Switches::default(),
+            limit: [None; 2],
+            mode,
+            at: Axes::default(),
+            without: false,
+            home: false,
+            side: [None; 2],
+            in_thread: false,
+            comments: Vec::new(),
+        })
+    }
+
+    /// Takes an action of a block, whose text is `block`.
+    pub fn take(&mut self, item: &Item, block: &[u8]) -> Done {
+        self.place.line = item.line;
+        self.place.column = 1;
+        let line = item.line;
+        if item.by_cycle && self.in_thread {
+            return Ok(()); // the thread is told as one
+        }
+        self.in_thread = false;
+        match &item.action {
+            Action::Rapid { astray, .. } if astray & AXES != 0 => {
+                let help = "write the position by X and Z, or go there by G53";
+                unsaid(line, "an increment leads on from a position that only the machine knows", help)
+            }
+            Action::Rapid { to, machine, .. } => self.rapid(to, *machine),
+            Action::Feed { lead: Some(_), .. } => {
+                unsaid(line, "a pass of a thread by itself", "write the thread by G76, in two blocks")
+            }
+            Action::Feed { home: 1.., .. } => {
+                unsaid(line, "a cut goes to a position of the machine", "write G0 with G53")
+            }
+            Action::Feed { to, feed, .. } => {
+                self.cut_begins()?;
+                let to = axes(to, AXES);
+                if self.goes(to) { self.straight(to, Some(*feed)) } else { Ok(()) }
+            }
+            Action::Arc(turn) => self.arc(turn),
+            Action::Passes(passes) => self.thread(passes),
+            Action::Hole(_) => unsaid(line, "a canned cycle of a lathe", "write its moves"),
+            Action::Dwell(seconds) => self.between(Event::Dwell(*seconds)),
+            Action::Stop(kind) => self.between(Event::Stop(*kind)),
+            Action::Tool(station) => {
+                self.station = Some(*station);
+                Ok(())
+            }
+            Action::Length(Some(register)) => self.tool_change(*register),
+            Action::Length(None) => {
+                (self.without, self.at) = (true, Axes::default());
+                Ok(())
+            }
+            Action::Spindle(rotation, speed) => {
+                (self.wanted.rotation, self.wanted.speed) = (Some(*rotation), Some(*speed));
+                Ok(())
+            }
+            Action::SurfaceSpeed(speed) => {
+                self.wanted.css = Some(speed.is_some());
+                Ok(())
+            }
+            Action::SpeedLimit(limit) => {
+                self.limit[0] = Some(*limit);
+                Ok(())
+            }
+            Action::Coolant(cooling) => {
+                if !self.wanted.cool(*cooling) {
+                    let message = "flood and mist at once: a job has one of them, the later";
+                    self.warnings.push(warning(line, message, "print the other by the form"));
+                }
+                Ok(())
+            }
+            Action::Work(code) => {
+                self.wanted.work = Some(*code);
+                Ok(())
+            }
+            Action::FeedMode(mode) => {
+                self.operation |= *mode != self.mode;
+                self.mode = *mode;
+                Ok(())
+            }
+            Action::Compensation(side) => {
+                self.side[0] = side.map(|(side, _)| side);
+                Ok(())
+            }
+            Action::Plane(plane) if *plane != Plane::Xz => unsaid(line, "another plane than ZX", "write G18"),
+            Action::Frame => unsaid(line, "a frame that moves", "take G50 with X or Z, G52 and G92 out"),
+            Action::Orient(_) => unsaid(line, "a stop of the spindle at an angle", "a job of a lathe has none"),
+            Action::Comment(start, end) => {
+                let text = String::from_utf8_lossy(block.get(*start..*end).unwrap_or_default());
+                self.comment(text.trim())
+            }
+            Action::Plane(_)
+            | Action::Units(_)
+            | Action::CycleOff
+            | Action::End
+            | Action::LeftOut(..)
+            | Action::BlockDelete => Ok(()),
+        }
+    }
+
+    /// The program is over.
+    pub fn finish(&mut self) -> Done {
+        self.start()?;
+        self.push(Event::Finish)
+    }
+
+    fn push(&mut self, event: Event<'_>) -> Done {
+        self.sink.push(event, self.place)
+    }
+
+    fn start(&mut self) -> Done {
+        if std::mem::replace(&mut self.started, true) {
+            return Ok(());
+        }
+        let Some(units) = self.survey.units else {
+            let mut diag = Diag::new(Code::PL005, "the program does not say its units: it has no G20 or G21")
+                .help("say them with `--assume-units inch` or `mm`");
+            diag.place = Some(Location::at(1, 1));
+            return Err(diag.into());
+        };
+        self.push(Event::Start(&Start {
+            program: self.survey.program,
+            name: self.survey.name.clone(),
+            about: About::default(),
+            units,
+            machine: Machine::Lathe,
+            set: Vec::new(),
+            tool_order: None,
+        }))
+    }
+
+    /// Another station or offset: an operation with another tool begins with the next move.
+    fn tool_change(&mut self, register: f64) -> Done {
+        let Some(station) = self.station else { return Ok(()) };
+        let word = station * STATION + register;
+        // a turret turns where it stands, and positions count from the tool that it turns to
+        (self.without, self.at) = (false, Axes::default());
+        if self.tool == Some(word) {
+            return Ok(());
+        }
+        if self.side != [None; 2] {
+            return unsaid(self.place.line, "the tool changes under compensation", "end it with G40 and a move before");
+        }
+        (self.tool, self.operation, self.home) = (Some(word), true, false);
+        self.said = Switches::default();
+        Ok(())
+    }
+
+    fn spindle(&self) -> Spindle {
+        Spindle { max: self.limit[0], ..self.wanted.spindle() }
+    }
+
+    /// What comes before a move: the operation that it begins, the way home, and what was switched.
+    fn move_begins(&mut self, first: First) -> Done {
+        self.start()?;
+        if std::mem::take(&mut self.operation) {
+            self.begin_operation(first)?;
+        } else if std::mem::take(&mut self.home) {
+            self.place.item += 1;
+            self.push(Event::Home)?;
+        }
+        self.switch()?;
+        self.place.item += 1;
+        Ok(())
+    }
+
+    fn begin_operation(&mut self, first: First) -> Done {
+        let Some(number) = self.tool.or(self.options.tool) else {
+            let help = "say which with `--assume-tool NUMBER`: a T word with its offset, as 101";
+            return unsaid(self.place.line, "the program moves before it loads a tool", help);
+        };
+        self.place.operation += 1;
+        self.place.item = 0;
+        // the same tool again after another feed mode: home is then a way of its own
+        let goes_home = std::mem::take(&mut self.home);
+        let change = ToolChange {
+            name: None,
+            tool: Some(Tool { number, ..Tool::default() }),
+            spindle: Some(self.spindle()),
+            coolant: Some(self.wanted.coolant.unwrap_or(Coolant::OFF)),
+            work: self.wanted.work,
+            feed: None,
+            plunge: None,
+            feed_mode: Some(self.mode),
+            comment: None,
+            set: Vec::new(),
+            first: if goes_home { First::Nothing } else { first },
+        };
+        (self.said, self.limit[1]) = (self.wanted, self.limit[0]);
+        self.push(Event::ToolChange(&change))?;
+        for text in std::mem::take(&mut self.comments) {
+            self.push(Event::Comment(&text))?;
+        }
+        if goes_home { self.push(Event::Home) } else { Ok(()) }
+    }
+
+    fn switch(&mut self) -> Done {
+        let (said, wanted) = (self.said, self.wanted);
+        self.said = wanted;
+        let [limit, told] = self.limit;
+        self.limit[1] = limit;
+        if (said.rotation, said.speed, said.css, told) != (wanted.rotation, wanted.speed, wanted.css, limit) {
+            self.push(Event::Spindle(self.spindle()))?;
+        }
+        if let Some(coolant) = wanted.coolant.filter(|_| said.coolant != wanted.coolant) {
+            self.push(Event::Coolant(coolant))?;
+        }
+        match wanted.work.filter(|_| said.work != wanted.work) {
+            Some(work) => self.push(Event::Work(work)),
+            None => Ok(()),
+        }
+    }
+
+    fn rapid(&mut self, to: &Position, machine: u8) -> Done {
+        let unknown = machine & AXES;
+        if unknown == AXES {
+            if self.side != [None; 2] {
+                let help = "end compensation with G40 and a move before";
+                return unsaid(self.place.line, "the tool goes home under compensation", help);
+            }
+            (self.at, self.home) = (Axes::default(), true);
+            return Ok(());
+        }
+        if self.without {
+            let message = "a rapid without the tool's offset (T with 00 after the station) is a way home in the job";
+            self.warnings.push(warning(self.place.line, message, "look at the position to which the form goes"));
+            self.home = true;
+            return Ok(());
+        }
+        let to = axes(to, AXES & !unknown);
+        if !self.goes(to) {
+            return Ok(());
+        }
+        self.move_begins(First::Rapid(to))?;
+        self.straight(to, None)
+    }
+
+    /// Takes the end of a straight move. `false`: it moves nothing.
+    fn goes(&mut self, to: Axes) -> bool {
+        let [wanted, on] = self.side;
+        let stays = to == self.at && wanted == on && !self.home;
+        self.at = to;
+        !stays
+    }
+
+    /// A straight move, a rapid without a feed; the first after G41, G42 or G40 turns compensation on or off.
+    fn straight(&mut self, to: Axes, feed: Option<f64>) -> Done {
+        let rapid = feed.is_none();
+        let [wanted, on] = self.side;
+        self.side[1] = wanted;
+        match (on, wanted, feed) {
+            (None, Some(side), _) => self.push(Event::Infeed { infeed: &Infeed { to, side, rapid }, feed }),
+            (Some(_), None, _) => self.push(Event::Outfeed { to, feed, rapid }),
+            (Some(on), Some(side), _) if on != side => {
+                let help = "end it with G40 and a move before";
+                unsaid(self.place.line, "compensation changes its side", help)
+            }
+            (.., Some(_)) => self.push(Event::Line { to, feed }),
+            (.., None) => self.push(Event::Rapid(to)),
+        }
+    }
+
+    /// A cut begins where the program has said that the tool is.
+    fn cut_begins(&mut self) -> Done {
+        if self.at.given != 0b11 || self.home {
+            let help = "write a rapid with X and Z before it";
+            return unsaid(self.place.line, "a cut begins at a position that only the machine knows", help);
+        }
+        self.move_begins(First::Cut)
+    }
+
+    fn arc(&mut self, turn: &Turn) -> Done {
+        self.cut_begins()?;
+        if self.side[0] != self.side[1] {
+            let help = "turn it on and off by straight moves";
+            return unsaid(self.place.line, "compensation is switched on an arc", help);
+        }
+        self.at = axes(&turn.to, AXES);
+        let [x, _, z] = turn.center;
+        let arc = Arc {
+            to: self.at,
+            center: Some(Axes::new(&[z, x])),
+            radius: None,
+            direction: turn.direction,
+            plane: Plane::Xy,
+            turns: turn.turns,
+        };
+        self.push(Event::Arc { arc: &arc, feed: Some(turn.feed) })
+    }
+
+    fn thread(&mut self, passes: &Passes) -> Done {
+        if self.at.given != 0b11 || self.home {
+            let help = "write a rapid with X and Z before it";
+            return unsaid(self.place.line, "a thread begins at a position that only the machine knows", help);
+        }
+        self.move_begins(First::Nothing)?;
+        self.in_thread = true;
+        if passes.allowance > 0.0 || passes.last > 0 {
+            let message = "a job has no last passes of a thread (R and the first digits of P in G76's first block)";
+            self.warnings.push(warning(self.place.line, message, "print them by the form"));
+        }
+        let [from, to] = [passes.from, passes.to].map(|[radius, z]| Axes::new(&[z, radius]));
+        let taper = Some(passes.taper).filter(|taper| *taper != 0.0);
+        let thread = Thread {
+            from,
+            to,
+            pitch: passes.lead,
+            depth: passes.depth,
+            first_depth: Some(passes.first),
+            min_depth: Some(passes.least).filter(|least| *least > 0.0),
+            taper,
+            angle: None,
+            passes: None,
+            chamfer: None,
+            starts: None,
+        };
+        self.push(Event::Thread(&thread))
+    }
+
+    /// What is done where the tool stands.
+    fn between(&mut self, event: Event<'_>) -> Done {
+        self.move_begins(First::Nothing)?;
+        self.push(event)
+    }
+
+    fn comment(&mut self, text: &str) -> Done {
+        if text.is_empty() {
+            return Ok(());
+        }
+        if self.operation {
+            self.comments.push(text.to_owned());
+            return Ok(());
+        }
+        self.push(Event::Comment(text))
+    }
+}
+
+/// A position of the machine as a job has it: Z, and X as a radius. `given`: bits of X and Z that are.
+fn axes(to: &Position, given: u8) -> Axes {
+    let mut axes = Axes::default();
+    if given & 0b100 != 0 {
+        axes.set(0, to[2]);
+    }
+    if given & 0b001 != 0 {
+        axes.set(1, to[0]);
+    }
+    axes
+}

@@ -289,7 +289,7 @@ impl Reader<'_> {
         };
         let tool = match &row.tool {
             Some(at) if meaning != Meaning::ToolNumber => {
-                return Err(of_another("tool", at.span().start, "codes that bring a tool in"));
+                return Err(of_another("tool", at.span().start, "codes that mean `tool-number`"));
             }
             tool => tool.as_ref().map(|at| *at.get_ref()),
         };

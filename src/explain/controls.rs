@@ -218,6 +218,8 @@ like = \"{name}\"
 # \"G201\" = {{ is = \"harmless\", words = \"P\" }}
 # a code that calls a program of the builder: positions are said again behind it
 # \"G301\" = {{ is = \"macro\", words = \"PQ\" }}
+# the spindles of a drill bank: M201 is tool 101, and each code after it the next tool
+# \"M201-M206\" = {{ is = \"tool-number\", tool = 101 }}
 # `G310-G319` stands for all of them, `G31.*` for all with a decimal, `M*` for all others; `absent` takes a code of {name} away
 
 # What `is` may say:

@@ -369,7 +369,9 @@ pub fn settable(name: &str, settings: &Settings) -> Done<VarId> {
             "take it out; val1 to val10 are free",
         ),
         None => {
-            let help = did_you_mean(name, jobs()).unwrap_or_else(|| "val1 to val10 are free".into());
+            let help = did_you_mean(name, jobs()).unwrap_or_else(|| {
+                format!("declare it in the form, as `Property {name} number 0 ..`, or give one of val1 to val10")
+            });
             fault(Code::PR016, format!("`{name}` is no variable"), help)
         }
     }

@@ -47,6 +47,8 @@ pub(super) struct Mark<T> {
 pub(super) struct Passage {
     /// Where the passage begins; `None`: only the machine knows.
     pub start: Option<Rapid>,
+    /// It begins where a cut ended, and not where the program begins.
+    after_cut: bool,
     pub rapids: Vec<Rapid>,
     /// The way in pieces, one a frame; at least one.
     legs: Vec<Leg>,
@@ -87,6 +89,7 @@ impl Passage {
     pub fn new(start: Option<Rapid>, frame: Frame) -> Passage {
         Passage {
             start,
+            after_cut: false,
             rapids: Vec::new(),
             legs: vec![Leg { frame, ..Leg::default() }],
             stops: Vec::new(),
@@ -105,7 +108,7 @@ impl Passage {
 
     /// A cut ended: the next passage begins there.
     pub fn begin(&mut self, start: Rapid) {
-        self.start = Some(start);
+        (self.start, self.after_cut) = (Some(start), true);
         self.rapids.clear();
         if self.legs.len() > 1 {
             self.legs.swap_remove(0);
@@ -262,7 +265,7 @@ impl Passage {
 
     /// Does the tool still stand where the cut ended?
     pub fn in_cut<T>(&self, mark: &Mark<T>, tolerance: f64) -> bool {
-        let Some(start) = self.start.filter(|_| mark.leg == 0 && !mark.is_off) else { return false };
+        let Some(start) = self.start.filter(|_| self.after_cut && mark.leg == 0 && !mark.is_off) else { return false };
         let stays = |rapid: &Rapid| {
             rapid.unknown == start.unknown && same(&rapid.to, &start.to, ALL & !start.unknown, tolerance)
         };

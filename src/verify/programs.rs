@@ -118,7 +118,7 @@ pub fn compare_motions(
             alike.feed = cut.feed;
         }
         if names.by_order && rounded_alike(cut.state.speed, found.state.speed) && cut.state.speed != found.state.speed {
-            alike.state = State { speed: cut.state.speed, ..(*found.state).clone() }.into();
+            alike.state = State { speed: cut.state.speed, ..*found.state }.into();
         }
         let message = differs(cut, &alike, way, tolerance, names)
             .or_else(|| astray(&a, &b, tolerance))

@@ -829,6 +829,27 @@ fn a_stop_of_the_job_is_not_the_first_tool_change() {
     assert!(matches!(verified(&form, &changed, &job), Verdict::Different(_)), "{changed}");
 }
 
+/// A stop or a dwell before the first cut is the form's own, also before the first tool and after a way home.
+#[test]
+fn stops_before_the_first_cut_are_the_forms() {
+    let fanuc = post("fanuc.pf");
+    let cut = one(r#"{"rapid":[0,0,5]},{"line":[0,0,-1]},{"line":[9,0,-1]},{"rapid":[9,0,5]}"#);
+    let line = "G[unitmode] G17 G40 G49 G80 G90\n";
+    for own in ["M1\n", "G4 P2000\nM0\n", "G91 G28 Z0\nG90\nM0\n"] {
+        let form = fanuc.replacen(line, &format!("{line}{own}"), 1);
+        assert_ne!(form, fanuc);
+        is_right(own, of_form(&form, &cut));
+    }
+    // after the cut, in it
+    let (program, _) = of_form(&fanuc, &cut);
+    let (form, job) = (check(&fanuc), document(&cut));
+    for own in ["M1", "G4 P2000"] {
+        let changed = program.replacen("X9.\n", &format!("X9.\n{own}\n"), 1);
+        assert_ne!(changed, program);
+        assert!(matches!(verified(&form, &changed, &job), Verdict::Different(_)), "{changed}");
+    }
+}
+
 /// An author who goes up behind G49, as the manual does, is told what to write.
 #[test]
 fn up_without_the_length_is_explained() {

@@ -1,6 +1,6 @@
 //! Rotary axes: the part turns before the tool goes down, and no angle is lost.
 
-use crate::support::{job, mill, path_lines, program};
+use crate::support::{job, mill, path_lines, plain_post, program};
 
 const DRILL: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
 const INDEX: &str = "Index\nG0 Z9.\nA[rotangle]\nX[h] Y[v]\nZ[d]\nEnd";
@@ -100,4 +100,24 @@ fn an_angle_is_known_behind_a_cycle() {
     let path = format!("{{\"rapid\":[0,0,1,90]}},{},{{\"rapid\":[3,0,2]}}", holes("[1,1,0],[2,1,0]"));
     let lines = path_lines("", &format!("{DRILL}\n{INDEX}"), &path);
     assert_eq!(lines.last().unwrap(), "G0 X3. Y0 Z2.", "{lines:?}");
+}
+
+/// Another work offset may turn the part at the same angle: the Haas post says the angle while the tool is up.
+#[test]
+fn another_work_offset_turns_the_part_before_the_tool_goes_down() {
+    let operation = |work: u8| {
+        format!(
+            r#"{{"tool":1,"work":{work},"spindle":{{"speed":1000,"direction":"cw"}},"feed":100,"path":[{{"rapid":[0,0,50,90]}},{{"rapid":[0,0,2,90]}},{{"line":[9,0,2,90]}},{{"rapid":[9,0,50,90]}}]}}"#
+        )
+    };
+    let text = format!(
+        r#"{{"postform":1,"program":1,"units":"mm","tools":[{{"number":1}}],"operations":[{},{}]}}"#,
+        operation(54),
+        operation(55)
+    );
+    let lines = program(&plain_post("haas-4axis.pf"), &text);
+    let at = lines.iter().position(|line| line.contains("G55 A90.")).unwrap_or_else(|| panic!("{lines:#?}"));
+    let plain = |line: &str| line.split_once(' ').map_or(line.to_owned(), |(_, rest)| rest.to_owned());
+    let around: Vec<String> = lines[at - 1..at + 3].iter().map(|line| plain(line)).collect();
+    assert_eq!(around, ["G0 G53 Z0", "G55 A90.", "X0 Y0", "Z50."]);
 }

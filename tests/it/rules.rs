@@ -359,6 +359,8 @@ fn right_forms_are_left_alone() {
         ("", "Spindle M3 M4 M5\nRapid G00\n\nBeginRow\nM8\nEnd".into()),
         ("grbl", "ToolChange\nM9\nM5\nG0 G53 Z0\nT[tool]\nM0\nG[work]\nS[speed] M[direct]\nM[cool]\nG0 X[h] Y[v]\nZ[d]\nEnd".into()),
         ("", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd".into()),
+        // each branch starts the spindle after its own tool change
+        ("", "1stToolChange\n@if [tool] > 100\nG65 P[tool]\nS[speed] M[direct]\n@else\nT[tool] M6\nS[speed] M[direct]\n@end\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d] M[cool]\nEnd".into()),
     ];
     for (kind, text) in table {
         let fence = Fence { kind: kind.to_owned(), text };
@@ -398,6 +400,14 @@ fn mistakes_are_found_in_other_words_too() {
         (
             "PF425",
             "1stToolChange\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 Z[d]\nH[lcomp] M[cool]\nEnd",
+        ),
+        (
+            "PF427",
+            "1stToolChange\n@if [speed] > 0\nS[speed] M[direct]\n@end\nT[tool] M6\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd",
+        ),
+        (
+            "PF427",
+            "1stToolChange\nT[tool] M6\nS[speed] M[direct]\n@if [work] > 54\nM5\n@end\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd",
         ),
         ("PF427", "1stToolChange\nS[speed] M13\nT[tool] M06\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd"),
         ("PF429", "1stToolChange\nT1 M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd"),

@@ -5,18 +5,22 @@ use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
 use crate::lint::blocks::says_tool;
 use crate::lint::view::{Body, View};
-use crate::sema::Word;
+use crate::sema::{Step, Word};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (body, change) in changes(view) {
-        let mut lines = body.lines[..change].iter().flat_map(|line| &line.words);
-        if let Some(word) = lines.find(|word| starts_spindle(view, word)) {
+        let lines = 0..body.lines.len();
+        let whole = [Step::Lines(lines)];
+        let walk = Walk { view, body: &body, change };
+        let mut so_far = Spindle::default();
+        walk.steps(body.steps.unwrap_or(&whole), &mut so_far);
+        if let Some(word) = so_far.too_early {
             diags.push(
                 Diag::new(Code::PF427, format!("{} starts the spindle before it changes the tool", body.name()))
                     .at(word.span, "the old tool turns")
                     .help("print the spindle after the tool change"),
             );
-        } else if let Some(word) = stopped_again(view, &body) {
+        } else if let Some(word) = so_far.stopped {
             diags.push(
                 Diag::new(Code::PF427, format!("{} stops the spindle again after it is on", body.name()))
                     .at(word.span, "the tool stands still in the first cut")
@@ -26,16 +30,79 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// A tool change or a stop of the program after the spindle was started, which nothing starts again. Some controls leave
-/// it turning at a stop.
-fn stopped_again<'a>(view: &View<'a>, body: &Body<'a>) -> Option<&'a Word> {
+/// The spindle on a way through a tool change; where branches meet again, what holds after one of them.
+#[derive(Clone, Copy, Default)]
+struct Spindle<'a> {
+    /// The word that starts it.
+    on: Option<&'a Word>,
+    /// The word that stops it after that.
+    stopped: Option<&'a Word>,
+    /// The tool has changed.
+    changed: bool,
+    /// The word that starts it before the tool changes.
+    too_early: Option<&'a Word>,
+}
+
+/// A tool change, line after line.
+struct Walk<'v, 'a> {
+    view: &'v View<'a>,
+    body: &'v Body<'a>,
+    /// The first line in which the tool changes.
+    change: usize,
+}
+
+impl<'a> Walk<'_, 'a> {
+    fn steps(&self, steps: &[Step], so_far: &mut Spindle<'a>) {
+        for step in steps {
+            match step {
+                Step::Lines(lines) => lines.clone().for_each(|line| self.line(line, so_far)),
+                Step::If(arms) => {
+                    let before = *so_far;
+                    let after = |steps: &[Step]| {
+                        let mut way = before;
+                        self.steps(steps, &mut way);
+                        way
+                    };
+                    let otherwise = arms.iter().all(|arm| arm.condition.is_some()).then_some(before);
+                    let ways = arms.iter().map(|arm| after(&arm.steps)).chain(otherwise);
+                    *so_far = ways.reduce(either).unwrap_or(before);
+                }
+                Step::For(_, inner, _) => self.steps(inner, so_far),
+                Step::Set(..) => {}
+            }
+        }
+    }
+
+    fn line(&self, number: usize, so_far: &mut Spindle<'a>) {
+        let Some(line) = self.body.lines.get(number) else { return };
+        let find = |is: &dyn Fn(&Word) -> bool| line.words.iter().find(|word| is(word));
+        let changes = find(&|word| self.view.meaning(word).is_some_and(Meaning::changes_tool)).is_some();
+        if (changes || number == self.change) && !std::mem::replace(&mut so_far.changed, true) {
+            so_far.too_early = so_far.too_early.or(so_far.on);
+        }
+        if let Some(word) = find(&|word| starts_spindle(self.view, word)) {
+            (so_far.on, so_far.stopped) = (Some(word), None);
+        } else if so_far.on.is_some() {
+            so_far.stopped = so_far.stopped.or(find(&|word| stops(self.view, word)));
+        }
+    }
+}
+
+/// What holds after one of two branches.
+fn either<'a>(a: Spindle<'a>, b: Spindle<'a>) -> Spindle<'a> {
+    Spindle {
+        on: a.on.or(b.on),
+        stopped: a.stopped.or(b.stopped),
+        changed: a.changed && b.changed,
+        too_early: a.too_early.or(b.too_early),
+    }
+}
+
+/// A stop of the spindle, or of the program: some controls leave it turning at that.
+fn stops(view: &View, word: &Word) -> bool {
     let keeps = view.traits().spindle_at_stop == Kept::Yes;
-    let stops = |word: &&Word| {
-        let own = |meaning: Meaning| meaning == Meaning::SpindleOff || meaning.changes_tool();
-        view.meaning(word).is_some_and(|meaning| own(meaning) || !keeps && meaning.is_stop())
-    };
-    let start = body.lines.iter().rposition(|line| line.words.iter().any(|word| starts_spindle(view, word)))?;
-    body.lines[start + 1..].iter().flat_map(|line| &line.words).find(stops)
+    let own = |meaning: Meaning| meaning == Meaning::SpindleOff || meaning.changes_tool();
+    view.meaning(word).is_some_and(|meaning| own(meaning) || !keeps && meaning.is_stop())
 }
 
 /// Does a word start the spindle?

@@ -29,7 +29,11 @@ pub fn rapid(to: &Axes, cx: &mut Cx<'_>) -> Done {
         }
         if turns && upon_is_due(cx.said.lacks(cx.want, shape), true, shape, cx.want, cx.said) {
             let message = "an Upon sequence would move the tool here before the part turns";
-            return fault(Code::PR017, message, "put a rapid that keeps the angle before it");
+            return fault(
+                Code::PR017,
+                message,
+                "print the work offset by `WorkChange`, with the angle: `G[work] A[rotangle]`; or put a rapid that keeps the angle before it",
+            );
         }
         print_lacking(cx)?;
         cx.said.differs |= cx.said.sub.is_some_and(|sub| sub.stops); // a cut behind it must know its spindle

@@ -50,7 +50,9 @@ pub fn start(
     }
     if settings.is_flat {
         let axis = char::from(settings.axes[2]);
-        let message = format!("{axis} is ignored: positions along it are neither printed nor compared");
+        let message = format!(
+            "{axis} is ignored: positions along it are neither printed nor compared, nor is a cut along it alone"
+        );
         out.note(
             Code::PR059,
             message,

@@ -81,6 +81,18 @@ fn ways_home_and_the_turret() {
     assert!(warnings.iter().any(|warning| warning == home), "{warnings:?}");
 }
 
+/// Home along X and then along Z is home; along X alone before a stop it is so with a warning.
+#[test]
+fn ways_home_along_one_axis_after_the_other() {
+    let (lines, warnings) =
+        printed(&format!("{HEAD}G1 Z-1. F.2\nG28 U0\nG28 W0\nT0202\nG0 X30. Z5.\nG28 U0\nM1\nG28 W0\nM30\n%\n"))
+            .unwrap();
+    let text = lines.join("\n");
+    assert!(text.contains("G1 Z-1. F.2\nM9\nG0 G53 X0\nG53 Z0\nT0202\n"), "{text}");
+    assert!(text.contains("G0 Z5. X30.\nG0 G53 X0\nG53 Z0\nM1\n"), "{text}");
+    assert!(warnings.iter().any(|warning| warning.contains("along X or Z alone before a stop")), "{warnings:?}");
+}
+
 /// What the job of a lathe does not have, by name.
 #[test]
 fn what_no_job_of_a_lathe_has_is_refused() {
@@ -89,6 +101,10 @@ fn what_no_job_of_a_lathe_has_is_refused() {
         ("G32 Z-20. F1.5", "PN036 a pass of a thread by itself"),
         ("G28 U0 W0\nG1 X40. F.2", "PN036 a cut begins at a position that only the machine knows"),
         ("G28 U0 W0\nG0 X40.\nG1 X39. F.2", "PN036 a cut begins at a position that only the machine knows"),
+        ("G1 X40. F.2\nG28 U0\nG0 Z-50.", "PN036 the tool goes home along X or Z alone, and on from there"),
+        ("G1 X40. F.2\nG53 G0 X0\nM1\nG0 X50.", "PN036 the tool goes home along X or Z alone, and on from there"),
+        ("G1 X40. Y5. F.2", "PN036 a move along Y"),
+        ("G0 X40. Y5.", "PN036 a move along Y"),
         ("T0100\nG1 X40. F.2", "PN036 a cut begins at a position that only the machine knows"),
         ("G28 U0 W0\nG0 U2.", "PN036 an increment leads on from a position that only the machine knows"),
         ("G50 X10. Z10.", "PN036 a frame that moves"),

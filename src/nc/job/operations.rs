@@ -88,20 +88,7 @@ impl Reader<'_> {
 
     /// Says what was switched since the last move.
     pub(super) fn switch(&mut self) -> Done {
-        if self.said == self.wanted {
-            return Ok(());
-        }
-        let (said, wanted) = (self.said, self.wanted);
-        self.said = wanted;
-        if (said.rotation, said.speed, said.css) != (wanted.rotation, wanted.speed, wanted.css) {
-            self.push(Event::Spindle(wanted.spindle()))?;
-        }
-        if let Some(coolant) = wanted.coolant.filter(|_| said.coolant != wanted.coolant) {
-            self.push(Event::Coolant(coolant))?;
-        }
-        match wanted.work.filter(|_| said.work != wanted.work) {
-            Some(work) => self.push(Event::Work(work)),
-            None => Ok(()),
-        }
+        let said = std::mem::replace(&mut self.said, self.wanted);
+        said.changes(self.wanted).try_for_each(|event| self.push(event))
     }
 }

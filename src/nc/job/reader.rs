@@ -7,10 +7,10 @@ use super::pattern::Pattern;
 use super::survey::Survey;
 use super::switches::Switches;
 use crate::control::{Meaning, ToolLength, WorkOffset};
-use crate::diag::{Code, Diag, Location};
+use crate::diag::Diag;
 use crate::lang::{Machine, additional_work};
 use crate::nc::action::{Action, Item, Position, Turn};
-use crate::toolpath::{About, Arc, Axes, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Start, StopKind};
+use crate::toolpath::{Arc, Axes, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, StopKind};
 
 /// What stands before the first move of an operation.
 pub(super) enum Waiting {
@@ -21,7 +21,7 @@ pub(super) enum Waiting {
 }
 
 /// Most that stands there: comments beyond are left out.
-const MOST_WAITING: usize = 1000;
+pub(super) const MOST_WAITING: usize = 1000;
 
 /// Actions to events.
 pub(super) struct Reader<'a> {
@@ -259,22 +259,7 @@ impl<'a> Reader<'a> {
         if std::mem::replace(&mut self.started, true) {
             return Ok(());
         }
-        let Some(units) = self.survey.units else {
-            let mut diag = Diag::new(Code::PL005, "the program does not say its units: it has no G20 or G21")
-                .help("say them with `--assume-units inch` or `mm`");
-            diag.place = Some(Location::at(1, 1));
-            return Err(diag.into());
-        };
-        let start = Start {
-            program: self.survey.program,
-            name: self.survey.name.clone(),
-            about: About::default(),
-            units,
-            machine: Machine::Mill,
-            set: Vec::new(),
-            tool_order: None,
-        };
-        self.push(Event::Start(&start))
+        self.push(Event::Start(&self.survey.start(Machine::Mill)?))
     }
 
     /// A target with the axes that a job knows.

@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use super::fault::{refused, unsaid, warning};
 use super::options::JobOptions;
 use crate::control::{Code, Meaning};
-use crate::diag::Diag;
+use crate::diag::{self, Diag, Location};
+use crate::lang::Machine;
 use crate::nc::action::Action;
 use crate::nc::simulator::Simulator;
-use crate::toolpath::{ReadError, Units};
+use crate::toolpath::{About, ReadError, Start, Units};
 
 /// Registers of a tool between two tool changes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,6 +31,29 @@ pub(super) struct Survey {
     pub rotary: u8,
     /// The highest Z that the program says in work coordinates, in its units at the beginning.
     pub top: f64,
+}
+
+impl Survey {
+    /// What the job says first.
+    ///
+    /// # Errors
+    /// Nothing says the units.
+    pub fn start(&self, machine: Machine) -> Result<Start, Box<Diag>> {
+        let Some(units) = self.units else {
+            let message = "the program does not say its units: it has no G20 or G21";
+            let help = "say them with `--assume-units inch` or `mm`";
+            return Err(Box::new(Diag::new(diag::Code::PL005, message).help(help).place(Location::at(1, 1))));
+        };
+        Ok(Start {
+            program: self.program,
+            name: self.name.clone(),
+            about: About::default(),
+            units,
+            machine,
+            set: Vec::new(),
+            tool_order: None,
+        })
+    }
 }
 
 /// Runs the program once.

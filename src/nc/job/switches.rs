@@ -1,7 +1,7 @@
 //! What is switched on a machine: spindle, coolant, work offset. A job says it with the move after.
 
 use crate::nc::action::{Cooling, Rotation};
-use crate::toolpath::{Coolant, Spindle, SpindleTurn};
+use crate::toolpath::{Coolant, Event, Spindle, SpindleTurn};
 
 /// What is switched on a machine, for comparison: what was said, and what is wanted now.
 #[derive(Clone, Copy, PartialEq, Default)]
@@ -9,6 +9,8 @@ pub(super) struct Switches {
     pub rotation: Option<Rotation>,
     pub speed: Option<f64>,
     pub css: Option<bool>,
+    /// Highest speed of a lathe's spindle.
+    pub limit: Option<f64>,
     pub coolant: Option<Coolant>,
     pub work: Option<f64>,
 }
@@ -37,8 +39,17 @@ impl Switches {
                 Some(Rotation::Stop) | None => SpindleTurn::Off,
             }),
             css: self.css,
-            max: None,
+            max: self.limit,
         }
+    }
+
+    /// What is to be said where this was said and that is wanted.
+    pub fn changes(self, wanted: Switches) -> impl Iterator<Item = Event<'static>> {
+        let of_spindle = |at: &Switches| (at.rotation, at.speed, at.css, at.limit);
+        let spindle = (of_spindle(&self) != of_spindle(&wanted)).then(|| Event::Spindle(wanted.spindle()));
+        let coolant = wanted.coolant.filter(|_| self.coolant != wanted.coolant).map(Event::Coolant);
+        let work = wanted.work.filter(|_| self.work != wanted.work).map(Event::Work);
+        [spindle, coolant, work].into_iter().flatten()
     }
 
     /// Does the spindle turn?

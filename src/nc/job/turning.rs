@@ -2,14 +2,14 @@
 
 use super::fault::{Done, unsaid, warning};
 use super::options::JobOptions;
+use super::reader::MOST_WAITING;
 use super::survey::Survey;
 use super::switches::Switches;
-use crate::diag::{Code, Diag, Location};
+use crate::diag::Diag;
 use crate::lang::Machine;
 use crate::nc::action::{Action, Item, Passes, Position, Turn};
 use crate::toolpath::{
-    About, Arc, Axes, Coolant, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Spindle, Start, Stop, Thread,
-    Tool, ToolChange,
+    Arc, Axes, Coolant, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Stop, Thread, Tool, ToolChange,
 };
 
 /// X and Z of the machine, as bits.
@@ -32,8 +32,6 @@ pub(super) struct Turner<'a> {
     operation: bool,
     wanted: Switches,
     said: Switches,
-    /// The highest speed of the spindle, as wanted and as told.
-    limit: [Option<f64>; 2],
     mode: FeedMode,
     /// Where the tool is, on the axes whose position the program has said.
     at: Axes,
@@ -41,6 +39,8 @@ pub(super) struct Turner<'a> {
     without: bool,
     /// The tool went to the reference point, and nothing has moved since.
     home: bool,
+    /// It went home along X or Z alone: a job has no such way.
+    half_home: bool,
     /// Side of compensation, as wanted and as the last move left it.
     side: [Option<Side>; 2],
     /// A thread's passes follow.
@@ -72,11 +72,11 @@ impl<'a> Turner<'a> {
             operation: true,
             wanted: Switches::default(),
             said: Switches::default(),
-            limit: [None; 2],
             mode,
             at: Axes::default(),
             without: false,
             home: false,
+            half_home: false,
             side: [None; 2],
             in_thread: false,
             comments: Vec::new(),
@@ -93,6 +93,9 @@ impl<'a> Turner<'a> {
         }
         self.in_thread = false;
         match &item.action {
+            Action::Rapid { to, .. } | Action::Feed { to, .. } | Action::Arc(Turn { to, .. }) if to[1] != 0.0 => {
+                unsaid(line, "a move along Y", "take it out: the job of a lathe has Z and X")
+            }
             Action::Rapid { astray, .. } if astray & AXES != 0 => {
                 let help = "write the position by X and Z, or go there by G53";
                 unsaid(line, "an increment leads on from a position that only the machine knows", help)
@@ -132,7 +135,7 @@ impl<'a> Turner<'a> {
                 Ok(())
             }
             Action::SpeedLimit(limit) => {
-                self.limit[0] = Some(*limit);
+                self.wanted.limit = Some(*limit);
                 Ok(())
             }
             Action::Coolant(cooling) => {
@@ -185,21 +188,7 @@ impl<'a> Turner<'a> {
         if std::mem::replace(&mut self.started, true) {
             return Ok(());
         }
-        let Some(units) = self.survey.units else {
-            let mut diag = Diag::new(Code::PL005, "the program does not say its units: it has no G20 or G21")
-                .help("say them with `--assume-units inch` or `mm`");
-            diag.place = Some(Location::at(1, 1));
-            return Err(diag.into());
-        };
-        self.push(Event::Start(&Start {
-            program: self.survey.program,
-            name: self.survey.name.clone(),
-            about: About::default(),
-            units,
-            machine: Machine::Lathe,
-            set: Vec::new(),
-            tool_order: None,
-        }))
+        self.push(Event::Start(&self.survey.start(Machine::Lathe)?))
     }
 
     /// Another station or offset: an operation with another tool begins with the next move.
@@ -214,17 +203,18 @@ impl<'a> Turner<'a> {
         if self.side != [None; 2] {
             return unsaid(self.place.line, "the tool changes under compensation", "end it with G40 and a move before");
         }
-        (self.tool, self.operation, self.home) = (Some(word), true, false);
+        (self.tool, self.operation) = (Some(word), true);
+        (self.home, self.half_home) = (false, false);
         self.said = Switches::default();
         Ok(())
     }
 
-    fn spindle(&self) -> Spindle {
-        Spindle { max: self.limit[0], ..self.wanted.spindle() }
-    }
-
     /// What comes before a move: the operation that it begins, the way home, and what was switched.
     fn move_begins(&mut self, first: First) -> Done {
+        if self.half_home {
+            let help = "send it home along both axes (G28 U0 W0), or write where it goes by X and Z";
+            return unsaid(self.place.line, "the tool goes home along X or Z alone, and on from there", help);
+        }
         self.start()?;
         if std::mem::take(&mut self.operation) {
             self.begin_operation(first)?;
@@ -249,7 +239,7 @@ impl<'a> Turner<'a> {
         let change = ToolChange {
             name: None,
             tool: Some(Tool { number, ..Tool::default() }),
-            spindle: Some(self.spindle()),
+            spindle: Some(self.wanted.spindle()),
             coolant: Some(self.wanted.coolant.unwrap_or(Coolant::OFF)),
             work: self.wanted.work,
             feed: None,
@@ -259,7 +249,7 @@ impl<'a> Turner<'a> {
             set: Vec::new(),
             first: if goes_home { First::Nothing } else { first },
         };
-        (self.said, self.limit[1]) = (self.wanted, self.limit[0]);
+        self.said = self.wanted;
         self.push(Event::ToolChange(&change))?;
         for text in std::mem::take(&mut self.comments) {
             self.push(Event::Comment(&text))?;
@@ -268,20 +258,8 @@ impl<'a> Turner<'a> {
     }
 
     fn switch(&mut self) -> Done {
-        let (said, wanted) = (self.said, self.wanted);
-        self.said = wanted;
-        let [limit, told] = self.limit;
-        self.limit[1] = limit;
-        if (said.rotation, said.speed, said.css, told) != (wanted.rotation, wanted.speed, wanted.css, limit) {
-            self.push(Event::Spindle(self.spindle()))?;
-        }
-        if let Some(coolant) = wanted.coolant.filter(|_| said.coolant != wanted.coolant) {
-            self.push(Event::Coolant(coolant))?;
-        }
-        match wanted.work.filter(|_| said.work != wanted.work) {
-            Some(work) => self.push(Event::Work(work)),
-            None => Ok(()),
-        }
+        let said = std::mem::replace(&mut self.said, self.wanted);
+        said.changes(self.wanted).try_for_each(|event| self.push(event))
     }
 
     fn rapid(&mut self, to: &Position, machine: u8) -> Done {
@@ -291,16 +269,21 @@ impl<'a> Turner<'a> {
                 let help = "end compensation with G40 and a move before";
                 return unsaid(self.place.line, "the tool goes home under compensation", help);
             }
-            (self.at, self.home) = (Axes::default(), true);
+            self.at = Axes::default();
+            (self.home, self.half_home) = (true, false);
             return Ok(());
         }
         if self.without {
             let message = "a rapid without the tool's offset (T with 00 after the station) is a way home in the job";
             self.warnings.push(warning(self.place.line, message, "look at the position to which the form goes"));
-            self.home = true;
+            (self.home, self.half_home) = (true, false);
             return Ok(());
         }
         let to = axes(to, AXES & !unknown);
+        if self.at.given & !to.given != 0 {
+            (self.at, self.half_home) = (to, true);
+            return Ok(());
+        }
         if !self.goes(to) {
             return Ok(());
         }
@@ -392,7 +375,15 @@ impl<'a> Turner<'a> {
 
     /// What is done where the tool stands.
     fn between(&mut self, event: Event<'_>) -> Done {
+        let half_home = std::mem::take(&mut self.half_home);
+        if half_home {
+            let message =
+                "a way home along X or Z alone before a stop or a dwell is the form's whole way home in the job";
+            self.warnings.push(warning(self.place.line, message, "look at the position to which the form goes"));
+            self.home = true;
+        }
         self.move_begins(First::Nothing)?;
+        self.half_home = half_home;
         self.push(event)
     }
 
@@ -401,7 +392,9 @@ impl<'a> Turner<'a> {
             return Ok(());
         }
         if self.operation {
-            self.comments.push(text.to_owned());
+            if self.comments.len() < MOST_WAITING {
+                self.comments.push(text.to_owned());
+            }
             return Ok(());
         }
         self.push(Event::Comment(text))

@@ -80,14 +80,15 @@ impl Setting for Vec<MoreWork> {
             [word] => (None, word),
             words => (Some(args.code(&words[0], 'G')?.code), &words[1]),
         };
-        let (letter, digits) = word.text.split_at(1.min(word.text.len()));
-        let letter = letter.bytes().next().filter(u8::is_ascii_alphabetic);
+        let mut rest = word.text.chars();
+        let letter = rest.next().filter(char::is_ascii_alphabetic);
+        let digits = rest.as_str();
         let number =
             digits.parse::<f64>().ok().filter(|_| digits.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'));
         let (Some(letter), Some(number)) = (letter, number) else {
             return bad(Some(word), format!("`{}` is no word, as `G505` or `P1`", word.text));
         };
-        self.push(MoreWork { first, code, letter: letter.to_ascii_uppercase(), number });
+        self.push(MoreWork { first, code, letter: letter.to_ascii_uppercase() as u8, number });
         Ok(())
     }
 }

@@ -33,6 +33,16 @@ fn generated_pages_are_current() {
     }
 }
 
+/// The lines of the example that `explain` gives of a command.
+fn example(command: &str) -> String {
+    let text = explain(command).unwrap();
+    let example = text.split("Example, ").nth(1).unwrap_or_else(|| panic!("{command} has no example"));
+    let lines = example.lines().skip(1).take_while(|line| line.starts_with("  "));
+    let lines: String = lines.map(|line| format!("{}\n", line.trim())).collect();
+    assert!(!lines.is_empty(), "{example}");
+    lines
+}
+
 #[test]
 fn everything_is_explained() {
     let all = list();
@@ -46,19 +56,12 @@ fn everything_is_explained() {
         let text = explain(&row.name.to_uppercase()).unwrap();
         assert!(text.contains(row.meaning) && text.contains("standing"), "{}", row.name);
         // the example is one: a form with it has no error of its own
-        let example = text.split("Example, ").nth(1).unwrap_or_else(|| panic!("{} has no example", row.name));
-        let lines: String = example
-            .lines()
-            .skip(1)
-            .take_while(|line| line.starts_with("  "))
-            .map(|line| format!("{}\n", line.trim()))
-            .collect();
-        assert!(!lines.is_empty(), "{example}");
+        let lines = example(row.name);
         let machine = if row.meaning.contains("torch") { "Machine Torch\n" } else { "" };
         let form = support::check(&format!("{machine}{lines}{}", support::mill("", "")));
         let errors: Vec<_> = form.diags.iter().filter(|diag| diag.is_error()).map(|diag| diag.code.name()).collect();
         let elsewhere = ["PF005", "PF009", "PF019", "PF603", "PF604"]; // a file that is not there, another machine
-        assert!(errors.iter().all(|code| elsewhere.contains(code)), "{}: {errors:?}\n{example}", row.name);
+        assert!(errors.iter().all(|code| elsewhere.contains(code)), "{}: {errors:?}\n{lines}", row.name);
     }
     for row in VARIABLES {
         let text = explain(&format!("[{}]", row.name)).unwrap();
@@ -81,6 +84,32 @@ fn everything_is_explained() {
     assert_eq!(explain("X[h]"), explain("[h]"));
     assert!(explain("End Cancel").unwrap().contains("End (of a sequence)"));
     assert!(explain("None").unwrap().contains("prints no block"));
+}
+
+/// Whatever is written for one argument of a command, alone, before it or after its first letter: findings, not a panic.
+#[test]
+fn every_argument_of_a_command_may_be_wrong() {
+    let wrong = ["\u{a1}", "", "\"", "1e999", "-1", "99999999999999999999", ".", "\u{1f529}", "NaN"];
+    let mut tried = 0;
+    for example in COMMANDS.iter().map(|row| example(row.name)) {
+        for line in example.lines() {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            for (at, word) in words.iter().enumerate().skip(1) {
+                let first = word.chars().next().map_or(0, char::len_utf8);
+                let (first, rest) = word.split_at(first);
+                let lines: Vec<String> = wrong
+                    .iter()
+                    .flat_map(|wrong| {
+                        [wrong.to_string(), [wrong, *word].concat(), [wrong, rest].concat(), [first, wrong].concat()]
+                    })
+                    .map(|wrong| [&words[..at], &[&wrong], &words[at + 1..]].concat().join(" "))
+                    .collect();
+                tried += lines.len();
+                support::check(&lines.join("\n"));
+            }
+        }
+    }
+    assert!(tried > 36 * COMMANDS.len(), "{tried}");
 }
 
 /// What a form has without a command is what the reference and `explain` say: said in so many words, it changes nothing.

@@ -1038,7 +1038,7 @@ fn more_work_names_further_offsets() {
         let lines = program(&mill(commands, ""), &first);
         assert!(lines[0].starts_with("PR037"), "{commands}: {lines:?}");
     }
-    for line in ["1 G54", "7 54.1", "x G54", "7 G54.1 P", "7 G54.1 P1.x"] {
+    for line in ["1 G54", "7 ¡1", "7 G54.1 ¡1", "7 54.1", "x G54", "7 G54.1 P", "7 G54.1 P1.x"] {
         let form = Source::from_text("form.pf", mill(&format!("MoreWork {line}"), ""));
         let error = Post::compile(form, &NoFiles).err().unwrap_or_else(|| panic!("{line} is taken"));
         assert!(error.findings().diags.iter().any(|diag| diag.code.name() == "PF302"), "{line}: {error}");

@@ -14,6 +14,7 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     let Limits { tolerance, increment, .. } = s.limits;
     let pecks = std::mem::take(&mut s.hole.pecks);
     let (wanted_strokes, mut strokes) = (s.hole.strokes, Strokes::over(hole.plane));
+    let begins = begins(&pecks);
     // the longest dwell at the bottom before another cut, and the line of the last cut
     let (mut waited, mut line) = (0.0f64, 0);
     // the control made the last cut by a cycle of its own
@@ -62,7 +63,7 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
         if to[DEPTH] < deepest {
             waited = 0.0;
         }
-        peck_state(s, &pecks, &found, hole, [deepest, to[DEPTH]], count);
+        peck_state(s, (&pecks, &begins), &found, hole, [deepest, to[DEPTH]], count);
         s.program.passage.rapids.iter().for_each(|rapid| strokes.comes_to(rapid.to[DEPTH]));
         strokes.comes_to(found.from[DEPTH]);
         strokes.cut(to[DEPTH], increment, tolerance);
@@ -103,29 +104,46 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     Ok(())
 }
 
-/// Spindle, registers and feed of a stroke: those of the job's pecks that cut in the same place.
-fn peck_state(s: &mut Sides<'_>, pecks: &[Cut], found: &Cut, hole: &Expected, [deepest, to]: [f64; 2], count: usize) {
+/// How deep the hole is before each of its pecks: below it a peck cuts new material, and no two pecks the same.
+fn begins(pecks: &[Cut]) -> Vec<f64> {
+    let depths = pecks.iter().scan(f64::INFINITY, |deepest, peck| {
+        let before = *deepest;
+        *deepest = before.min(peck.end()[DEPTH]);
+        Some(before)
+    });
+    depths.collect()
+}
+
+/// Spindle, registers and feed of a stroke: those of a peck of the job that cuts some of the same material.
+fn peck_state(
+    s: &mut Sides<'_>,
+    (pecks, begins): (&[Cut], &[f64]),
+    found: &Cut,
+    hole: &Expected,
+    [deepest, to]: [f64; 2],
+    count: usize,
+) {
     let tolerance = s.limits.tolerance;
     let Some(first) = pecks.first() else { return };
     let up = to > found.from[DEPTH];
-    let cuts = || pecks.iter().filter(|peck| (peck.end()[DEPTH] > peck.from[DEPTH]) == up);
+    let is_way = |peck: &Cut| (peck.end()[DEPTH] > peck.from[DEPTH]) == up;
     // a stroke that cuts nothing new goes with any
-    let top = deepest.max(to);
-    let within = |peck: &&Cut| {
-        let [high, low] = [peck.from[DEPTH].max(peck.end()[DEPTH]), peck.from[DEPTH].min(peck.end()[DEPTH])];
-        to >= deepest || (low < top - tolerance && high > to + tolerance)
+    let within = |peck: &Cut, begin: f64| {
+        to >= deepest || (peck.end()[DEPTH] < deepest - tolerance && begin.min(peck.from[DEPTH]) > to + tolerance)
     };
-    let meant = || cuts().filter(within).chain(cuts().take(1)).chain(std::iter::once(first));
-    let is_meant = |peck: &&Cut| match (peck.feed, found.feed) {
+    let is_meant = |peck: &Cut| match (peck.feed, found.feed) {
         (Some(wanted), Some(is)) if peck.mode == found.mode => modal::is_feed(wanted, is, hole.is_tap),
         _ => true,
     };
-    // the job's own peck in this place, where the program pecks as the job does: holes may have thousands
-    let is_own = |peck: &&Cut| within(peck) || is_same(peck, found, tolerance);
-    let own =
-        pecks.get(count).filter(|peck| (peck.end()[DEPTH] > peck.from[DEPTH]) == up && is_own(peck) && is_meant(peck));
-    let found_one = own.or_else(|| cuts().filter(within).find(is_meant));
-    let wanted = found_one.or_else(|| meant().next()).unwrap_or(first).clone();
+    let all = || pecks.iter().zip(begins).filter(|(peck, _)| is_way(peck));
+    let cutting = || all().filter(|(peck, begin)| within(peck, **begin));
+    // the job's own peck of this number first: holes may have thousands
+    let own = pecks.get(count).zip(begins.get(count)).filter(|(peck, begin)| {
+        is_way(peck) && (is_same(peck, found, tolerance) || within(peck, **begin) && is_meant(peck))
+    });
+    let meant = own.or_else(|| cutting().find(|(peck, _)| is_meant(peck)));
+    let any = || cutting().next().or_else(|| all().next());
+    let wanted = meant.or_else(any).map_or(first, |(peck, _)| peck).clone();
     if count > 0 {
         modal::compare(s, &wanted, found, hole.is_tap);
         if s.tools {

@@ -243,6 +243,11 @@ fn what_is_not_read_is_refused_by_name() {
         ("heidenhain", "0 BEGIN PGM T MM\nM128\nEND PGM T MM", "M128"),
         ("heidenhain", "0 BEGIN PGM T MM\nAPPR LT X+0 Y+0 LEN5 RL\nEND PGM T MM", "APPR"),
         ("heidenhain", "0 BEGIN PGM T MM\nFPOL X+0 Y+0\nEND PGM T MM", "FPOL"),
+        (
+            "heidenhain",
+            "0 BEGIN PGM T MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX M3\nL Z+40 F500\nCYCL DEF 200 DRILLING ~\n Q200=2 ~\n Q201=-5 ~\n Q206=200 ~\n Q202=5 ~\n Q210=0 ~\n Q203=0 ~\n Q204=50 ~\n Q211=0\nCYCL CALL\nL X+9\nEND PGM T MM",
+            "a feed move without a feed",
+        ),
         ("okuma", "G15 H1\nG62 X1\nM2", "G62"),
         ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nG81 Z-5 R2 F100\nM2", "M52, M53 or M54"),
         ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nG82 Z-5 R2 P500 F100 M54\nM2", "P500"),

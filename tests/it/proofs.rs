@@ -425,6 +425,9 @@ fn wrong_programs_are_different() {
     let bore = r#"{"rapid":[0,0,2]},{"cycle":{"kind":"bore","depth":0.5,"clear":0.1,"feed":5,"orient":90,"offset":0.05,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
     let deep = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","emulate":true,"depth":1,"clear":0.1,"feed":5,"step":0.4,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
     let pecks = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","emulate":true,"depth":1,"clear":0.1,"feed":5,"pecks":[{"to":0.4,"feed":5},{"to":0.7,"feed":4},{"to":1,"feed":3}],"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
+    // each peck begins above the one before: in the material of both lies its first way alone
+    let chips = pecks.replace("deep", "chipbreak").replace("\"clear\"", "\"back\":0.05,\"clear\"");
+    let chips = chips.as_str();
     let gap = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"dwell":3},{"rapid":[0,0,2]},{"rapid":[1,1,2]},{"dwell":2},{"rapid":[1,1,1]},{"line":[1,1,-1]},{"rapid":[1,1,2]}"#;
     let stop = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"line":[2,2,-1]},{"rapid":[2,2,2]},{"stop":"program"},{"rapid":[3,3,2]},{"line":[3,3,1.5]},{"rapid":[3,3,2]}"#;
     let optional = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"rapid":[0,0,2]},{"stop":"optional"},{"rapid":[3,3,2]},{"line":[3,3,1.5]},{"rapid":[3,3,2]}"#;
@@ -443,6 +446,8 @@ fn wrong_programs_are_different() {
         ("haas.pf", deep, "G1 Z-.7", "G43 H5\nG1 Z-.7", "PV014"),
         ("haas.pf", pecks, "F4.", "F40.", "PV006"),
         ("haas.pf", pecks, "F3.", "F30.", "PV006"),
+        ("haas.pf", chips, "F5.", "F4.", "PV006"),
+        ("haas.pf", chips, "F4.", "F5.", "PV006"),
         ("haas.pf", gap, "G4 P2.", "G4 P20.", "PV010"),
         ("haas.pf", gap, "G4 P2.\n", "(none)\n", "PV010"),
         ("haas.pf", gap, "G4 P3.\n", "(none)\n", "PV010"),

@@ -11,6 +11,8 @@ use crate::nc::codes::{group, takes_axes};
 use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::state::State;
 
+const FEED_WANTED: &str = "write F with it, or FMAX; after a cycle too: no feed is known there";
+
 /// Reads a block.
 pub struct Words<'s> {
     pub own: &'s mut Klartext,
@@ -184,7 +186,7 @@ impl Words<'_> {
             }
             if !rapid {
                 let Some(feed) = self.own.feed else {
-                    return refuse(Code::PN008, "a feed move without a feed", "write F with it, or FMAX");
+                    return refuse(Code::PN008, "a feed move without a feed", FEED_WANTED);
                 };
                 self.block.put(b'F', feed);
             }
@@ -336,6 +338,8 @@ impl Words<'_> {
         };
         self.block.call = Some(call.clone());
         self.block.is_empty = false;
+        // no text says whether the F of the moves or Q206 of the cycle is in force after it
+        self.own.feed = None;
         Ok(())
     }
 
@@ -428,7 +432,7 @@ impl Words<'_> {
         if !cursor.is_over() {
             return Err(cursor.unreadable());
         }
-        let Some(feed) = feed else { return refuse(Code::PN008, "a feed move without a feed", "write F with it") };
+        let Some(feed) = feed else { return refuse(Code::PN008, "a feed move without a feed", FEED_WANTED) };
         let at = self.state.place.position;
         match corner.arc {
             Some((center, left)) => {

@@ -30,6 +30,8 @@ struct Writer {
     speed: f64,
     /// G95.
     per_turn: bool,
+    /// G0 or G1 is in force.
+    straight: bool,
 }
 
 type Done<T = ()> = Result<T, String>;
@@ -197,6 +199,7 @@ impl Writer {
                 ('G', 700.0) => ('G', 20.0),
                 ('G', 710.0) => ('G', 21.0),
                 ('M', 17.0) => ('M', 99.0),
+                ('M', 98.0 | 99.0) => return Err("M98 and M99".into()),
                 ('F', seconds) if dwells => ('P', (seconds * 1000.0).round()),
                 other => other,
             };
@@ -210,7 +213,12 @@ impl Writer {
         if compensates {
             list.push(('D', self.tool));
         }
-        let moves = list.iter().any(|word| "XYZ".contains(word.0)) && !machine;
+        let motion = list.iter().find(|word| word.0 == 'G' && word.1 <= 3.0).map(|word| word.1 <= 1.0);
+        self.straight = motion.unwrap_or(self.straight);
+        // under MCALL a lone G0 or G1 drills too, and S or F alone while one of them is in force
+        let alone = !list.is_empty() && list.iter().all(|word| "GSF".contains(word.0));
+        let again = alone && self.straight && (motion.is_some() || list.iter().all(|word| word.0 != 'G'));
+        let moves = (again || list.iter().any(|word| "XYZ".contains(word.0))) && !machine;
         self.block(&list);
         match length {
             Some(0.0) => self.say("G49"),

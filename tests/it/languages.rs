@@ -362,3 +362,28 @@ fn one_part_for_two_controls_is_compared_by_its_holes() {
         assert!(other.as_ref().is_some_and(|message| message.contains(said)), "{what}: {other:?}");
     }
 }
+
+/// The program of one machine, printed for another in another language: the same cuts and holes.
+#[test]
+fn a_program_is_printed_for_another_machine() {
+    for from in ["haas", "okuma", "heidenhain"] {
+        for to in ["haas", "okuma", "heidenhain"].into_iter().filter(|to| *to != from) {
+            let program = format!("samples/bracket/expected.{from}.nc");
+            let form = format!("postforms/{to}.pf");
+            let command = ["render", &program, "--job-control", from, "--form", &form, "--program", "7"];
+            let printed = crate::program_commands::postform(&command);
+            let (text, said) = (String::from_utf8(printed.stdout).unwrap(), String::from_utf8(printed.stderr).unwrap());
+            assert_eq!(printed.status.code(), Some(0), "{from} to {to}: {said}");
+            assert!(said.contains("equivalent: the program cuts what samples/bracket"), "{from} to {to}: {said}");
+            assert!(said.contains("20 holes") || said.contains("16 holes"), "{from} to {to}: {said}");
+            // nothing but pecks and the parts of arcs is another
+            let verdict = said.lines().find(|line| line.starts_with("equivalent")).unwrap();
+            let counted = verdict.rsplit(": ").next().unwrap();
+            assert!(
+                counted.split(", ").all(|one| ["4 holes with other pecks", "2 arcs made of parts"].contains(&one)),
+                "{verdict}"
+            );
+            assert!(text.lines().count() > 100, "{from} to {to}");
+        }
+    }
+}

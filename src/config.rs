@@ -20,6 +20,8 @@ pub struct Config {
     pub control: Option<ControlName>,
     /// Limits of forms.
     pub limits: Option<Limits>,
+    /// The machine's file: [`render`](crate::Post::render) does not look at it, the command line does.
+    pub machine: Option<String>,
     /// What editors print with the forms of the folder.
     pub jobs: Vec<String>,
     /// Programs that are not proven are not printed.
@@ -47,6 +49,7 @@ struct Written {
     form: Option<String>,
     control: Option<WrittenControl>,
     limits: Option<String>,
+    machine: Option<String>,
     #[serde(default, rename = "require-proof")]
     require_proof: bool,
     #[serde(default)]
@@ -95,7 +98,7 @@ impl Config {
     pub fn parse(text: &str) -> Result<Config, Error> {
         let written: Written = toml::from_str(text).map_err(|error| {
             let known =
-                "it may say form, control, limits, jobs, require-proof, under [rules] codes as PF303 = \"off\", and under [properties] values as header = false";
+                "it may say form, control, machine, limits, jobs, require-proof, under [rules] codes as PF303 = \"off\", and under [properties] values as header = false";
             Error::usage(format!("{}\n  help: {known}", error.to_string().trim_end()))
         })?;
         let mut levels = Levels::default();
@@ -128,6 +131,7 @@ impl Config {
             form: written.form,
             control,
             limits: limits.transpose()?,
+            machine: written.machine,
             jobs: written.jobs,
             require_proof: written.require_proof,
             levels,

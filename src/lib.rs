@@ -45,10 +45,12 @@ mod ide;
 mod job;
 mod lang;
 mod lint;
+mod machine;
 mod nc;
 mod number;
 mod picture;
 mod post;
+mod preflight;
 mod render;
 mod report;
 mod scene;
@@ -124,6 +126,9 @@ pub mod internals {
     pub mod lint {
         pub use crate::lint::{Changed, Found, Level, Levels, Mended, RULES, lint, mend, parts};
     }
+    pub mod machine {
+        pub use crate::machine::{Beside, Machine, read, summary, template};
+    }
     pub mod nc {
         pub use crate::nc::{
             Action, Cooling, Item, JobOptions, Kind, Position, Rotation, RunError, RunSettings, Simulator, Tally, Turn,
@@ -139,6 +144,9 @@ pub mod internals {
     pub mod post {
         pub use crate::post::reading::taken;
         pub use crate::post::{Part, sample_job, sample_program, shipped};
+    }
+    pub mod preflight {
+        pub use crate::preflight::{Fit, Fitted, JobTool, preflight};
     }
     pub mod render {
         pub use crate::render::{Clock, Cycles, Options, Renderer, TraceLine, survey_terms};

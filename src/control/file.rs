@@ -19,7 +19,7 @@ use super::{Control, Row, Rows};
 /// Longest chain of `like`.
 const LONGEST_CHAIN: usize = 8;
 
-/// What is wrong with a control file.
+/// What is wrong with the file of a control or a machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wrong {
     /// The file's name.
@@ -32,6 +32,17 @@ pub struct Wrong {
     pub message: String,
     /// What to write instead; empty where the message says it.
     pub help: String,
+}
+
+impl Wrong {
+    /// What is wrong at a byte of a file's text.
+    pub(crate) fn at(file: &str, text: &str, at: usize, message: impl Into<String>, help: impl Into<String>) -> Wrong {
+        let before = text.get(..at).unwrap_or(text);
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().map_or(0, |rest| rest.chars().count()) + 1;
+        let (message, help) = (message.into(), help.into());
+        Wrong { file: file.to_owned(), at: (line, column), start: before.len(), message, help }
+    }
 }
 
 impl fmt::Display for Wrong {
@@ -321,16 +332,7 @@ impl Reader<'_> {
     }
 
     fn wrong(&self, at: usize, message: impl Into<String>, help: impl Into<String>) -> Wrong {
-        let before = self.text.get(..at).unwrap_or(self.text);
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().map_or(0, |rest| rest.chars().count()) + 1;
-        Wrong {
-            file: self.name.to_owned(),
-            at: (line, column),
-            start: before.len(),
-            message: message.into(),
-            help: help.into(),
-        }
+        Wrong::at(self.name, self.text, at, message, help)
     }
 }
 

@@ -18,7 +18,7 @@ pub struct CodeRow {
 macro_rules! codes {
     ($($name:ident $severity:ident $title:literal)*) => {
         /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PD` FreeCAD document, `PC` canned cycle, `PR` rendering, `PN` NC program, `PV` verify,
-        /// `PX` postform itself.
+        /// `PM` the machine, `PX` postform itself.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u16)]
         pub enum Code { $(#[doc = $title] $name),* }
@@ -51,6 +51,7 @@ codes! {
     PF018 Warning "a subprogram without its number"
     PF019 Error "a control's file that can't be read"
     PF020 Error "a command inside a sequence"
+    PF021 Error "a machine's file that can't be read"
     // PF1: blanks and comments
     PF101 Warning "words lost after a double blank or a tab"
     PF102 Warning "a missing blank between two words"
@@ -362,6 +363,15 @@ codes! {
     PV026 Error "a cut with the torch or laser off"
     PV027 Error "a rapid with the torch or laser on"
     PV028 Error "a rapid at the height of the cuts"
+    // PM: the machine
+    PM001 Error "an axis beyond its travel"
+    PM002 Error "a rapid through a fixture"
+    PM010 Warning "a feed or speed that the machine does not have"
+    PM011 Warning "a tool that the machine's table does not have"
+    PM012 Warning "more tools than places"
+    PM013 Warning "a coolant that the machine does not have"
+    PM014 Warning "a program that the control does not store"
+    PM015 Warning "an offset or length that the machine's file does not say"
     // PX: postform itself
     PX001 Error "an event that can't be"
 }

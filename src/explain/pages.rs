@@ -12,7 +12,7 @@ macro_rules! pages {
 
 pages! {
     PF001 PF002 PF003 PF004 PF005 PF006 PF007 PF008 PF009 PF010 PF011 PF012 PF013 PF014 PF015 PF016 PF017 PF018 PF019
-    PF020
+    PF020 PF021
     PF101 PF102 PF103 PF104 PF105 PF106 PF107 PF108 PF109 PF110 PF111 PF112 PF201 PF202 PF203 PF204 PF205 PF206
     PF207 PF208 PF209 PF210 PF211 PF301 PF302 PF303 PF304 PF305 PF306 PF307 PF308 PF309 PF310 PF311 PF312 PF313
     PF314 PF315 PF316 PF317 PF318 PF401 PF402 PF403 PF404 PF405 PF406 PF407 PF408 PF409 PF410 PF411 PF412 PF413 PF414
@@ -23,10 +23,11 @@ pages! {
 }
 
 /// Pages with a section for each code, headed by its name.
-const SECTIONS: [&str; 4] = [
+const SECTIONS: [&str; 5] = [
     include_str!("../../docs/cycles.md"),
     include_str!("../../docs/programs.md"),
     include_str!("../../docs/verify.md"),
+    include_str!("../../docs/machine.md"),
     include_str!("../../docs/errors.md"),
 ];
 

@@ -50,7 +50,7 @@ impl State {
         let [_, _, across] = axes_of(hole.plane);
         match hole.heights {
             Heights::Unknown => self.place.strays(1 << across),
-            Heights::ButClear if clear => self.place.goes_home(1 << across),
+            Heights::ButClear if clear => self.place.goes_to_machine(1 << across),
             Heights::Given | Heights::ButClear => self.place.given(across),
         }
     }

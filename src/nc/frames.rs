@@ -16,6 +16,8 @@ pub struct Shift {
 pub struct Frames {
     /// Work offsets by number: 0 shifts all of them, 1 to 9 are G54 to G59.3, 10 and on G54.1 P1 and on.
     work: Vec<Position>,
+    /// Axes of each work offset that the program itself has set to a machine position, as bits.
+    given: Vec<u8>,
     /// Rotation of each work offset about its origin in XY, in degrees.
     rotation: Vec<f64>,
     /// Index of the active work offset.
@@ -28,13 +30,14 @@ pub struct Frames {
     pub tool: [f64; 3],
 }
 
-/// Work offsets that there are: nine, and a Haas's 99 more.
-const OFFSETS: usize = 109;
+/// Work offsets that there are: none that shifts all, nine, a Haas's 99 more, and one for numbers beyond.
+const OFFSETS: usize = 110;
 
 impl Default for Frames {
     fn default() -> Self {
         Frames {
             work: vec![[0.0; 6]; OFFSETS],
+            given: vec![0; OFFSETS],
             rotation: vec![0.0; OFFSETS],
             active: 1,
             shift: Shift::default(),
@@ -45,6 +48,16 @@ impl Default for Frames {
 }
 
 impl Frames {
+    /// Where the offset of a control that counts them is kept; all beyond are one.
+    pub fn counted(number: f64) -> usize {
+        if (1.0..(OFFSETS - 1) as f64).contains(&number) { number as usize } else { OFFSETS - 1 }
+    }
+
+    /// The machine's height of Z0.
+    pub fn zero_height(&self) -> f64 {
+        self.to_machine(&[0.0; 6])[2]
+    }
+
     /// The active rotation.
     pub fn angle(&self) -> f64 {
         self.rotation[self.active]
@@ -80,6 +93,18 @@ impl Frames {
             *value -= shift;
         }
         place
+    }
+
+    /// The program has set an axis of this work offset to a position of the machine.
+    pub fn gives(&mut self, number: usize, axis: usize) {
+        if let Some(axes) = self.given.get_mut(number) {
+            *axes |= 1 << axis;
+        }
+    }
+
+    /// Axes of the active work offset that the program has set, as bits.
+    pub fn given(&self) -> u8 {
+        self.given[self.active]
     }
 
     /// The work offset of a number, if there is one.

@@ -5,6 +5,7 @@
 
 mod action;
 mod arcs;
+mod before;
 mod block;
 mod bodies;
 mod call;

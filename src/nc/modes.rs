@@ -4,6 +4,7 @@ use super::action::Action;
 use super::block::Block;
 use super::codes::{Group, Motion, bit, letters};
 use super::fault::{Done, refuse};
+use super::frames::Frames;
 use super::out::Out;
 use super::state::State;
 use crate::control::{DwellUnit, Meaning, Rules, WorkOffset};
@@ -140,7 +141,7 @@ impl State {
 
     pub(super) fn work_offset(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         if let Some(number) = block.work {
-            self.work_is(number, out);
+            self.counted_work(number, out);
             return Ok(());
         }
         let Some(offset) = block.row(Group::Work).and_then(|row| row.runs.work) else {
@@ -153,7 +154,7 @@ impl State {
                     let message = format!("there is no work offset {letter}{fixture}");
                     return refuse(Code::PN018, message, format!("write {letter}1 to {letter}{most}"));
                 }
-                self.work_is(fixture, out);
+                self.counted_work(fixture, out);
             }
             return Ok(());
         };
@@ -167,7 +168,7 @@ impl State {
                     let letter = char::from(letter);
                     return refuse(Code::PN007, "a work offset without its number", format!("write {letter}1 with it"));
                 };
-                self.work_is(number, out);
+                self.counted_work(number, out);
                 return Ok(());
             }
             WorkOffset::Word(letter) => {
@@ -186,8 +187,14 @@ impl State {
         Ok(())
     }
 
+    /// A work offset of a control that counts them.
+    fn counted_work(&mut self, number: f64, out: &mut Out<'_>) {
+        self.place.reframe(|frames| frames.active = Frames::counted(number));
+        self.work_is(number, out);
+    }
+
     /// A work offset by its code or number.
-    pub(super) fn work_is(&mut self, work: f64, out: &mut Out<'_>) {
+    fn work_is(&mut self, work: f64, out: &mut Out<'_>) {
         if self.place.work_is(work) && self.settings.places_unknown {
             self.place.becomes_unknown(0b111);
         }

@@ -35,7 +35,10 @@ impl State {
                 *place = value;
                 // without its length offset, a FADAL's Z is the machine's
                 match axis == 2 && self.control.traits().height_is_machine && !self.tool.length_on {
-                    true => self.place.goes_home(0b100),
+                    true => {
+                        *place -= self.place.frames.zero_height();
+                        self.place.goes_home(0b100);
+                    }
                     false => self.place.given(axis),
                 }
             } else {

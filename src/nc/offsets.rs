@@ -80,6 +80,10 @@ impl State {
             *rotation = angle;
         }
         let changed = [*work, [*rotation; 6]] != before;
+        if l == 2.0 && (absolute || control.is_linuxcnc()) {
+            let named = words.iter().enumerate().filter(|(_, value)| value.is_some());
+            named.for_each(|(axis, _)| self.place.frames.gives(number, axis));
+        }
         self.place.position = self.place.frames.to_program(&place);
         out.push(if changed { Action::Frame } else { Action::LeftOut(code, Meaning::SetOffsets) });
         Ok(())

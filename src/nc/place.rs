@@ -14,6 +14,8 @@ pub struct Place {
     pub at_machine: u8,
     /// Those of them that increments have moved since: they are at that place no longer, and their position is unknown.
     pub astray: u8,
+    /// Those of them whose place in machine coordinates the program said, as bits.
+    pub placed: u8,
     /// What program coordinates count from.
     pub frames: Frames,
     /// The work offset in force, by its code or number; `None`: nothing said one, and none is usual.
@@ -25,7 +27,15 @@ pub struct Place {
 impl Place {
     /// A place at zero; `at_machine`: axes whose place only the machine knows.
     pub fn new(at_machine: u8, work: Option<f64>) -> Place {
-        Place { position: [0.0; 6], at_machine, astray: 0, frames: Frames::default(), work, homes: [[0.0; 6]; 2] }
+        Place {
+            position: [0.0; 6],
+            at_machine,
+            astray: 0,
+            placed: 0,
+            frames: Frames::default(),
+            work,
+            homes: [[0.0; 6]; 2],
+        }
     }
 
     /// Takes another work offset: how far it lies from the one before, nobody knows until places are said in it. `true`: it is another.
@@ -38,6 +48,7 @@ impl Place {
     pub fn given(&mut self, axis: usize) {
         self.at_machine &= !(1 << axis);
         self.astray &= !(1 << axis);
+        self.placed &= !(1 << axis);
     }
 
     /// An axis moves by an increment.
@@ -45,6 +56,7 @@ impl Place {
     pub fn moves_by(&mut self, axis: usize, by: f64) {
         if by != 0.0 {
             self.astray |= self.at_machine & 1 << axis;
+            self.placed &= !(1 << axis);
         }
     }
 
@@ -52,16 +64,25 @@ impl Place {
     pub fn strays(&mut self, axes: u8) {
         self.at_machine |= axes;
         self.astray |= axes;
+        self.placed &= !axes;
     }
 
-    /// Axes go to a place of the machine.
+    /// Axes go to a place of the machine, which the program says.
     pub fn goes_home(&mut self, axes: u8) {
         self.at_machine |= axes;
         self.astray &= !axes;
+        self.placed |= axes;
+    }
+
+    /// Axes go to a place of the machine that the program does not say: where tools are changed, or where a cycle began.
+    pub fn goes_to_machine(&mut self, axes: u8) {
+        self.goes_home(axes);
+        self.placed &= !axes;
     }
 
     /// Axes stay, and from here on only the machine knows where.
     pub fn becomes_unknown(&mut self, axes: u8) {
+        self.placed &= !axes;
         self.astray &= self.at_machine;
         self.at_machine |= axes;
     }

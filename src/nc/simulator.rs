@@ -138,38 +138,6 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// The program counts in these units until it says others; before the first block.
-    pub fn begin_in(&mut self, units: crate::toolpath::Units) {
-        self.state.begin_in(units);
-    }
-
-    /// So many programs stand before the main one, as subprograms that the control knows; before the first block.
-    pub fn begin_behind(&mut self, programs: usize) {
-        self.passing = if programs == 0 { 0 } else { programs + 1 };
-    }
-
-    /// The program is a lathe's, and its control is the lathe of its maker; before the first block. Whether X is a diameter is
-    /// a parameter of such a machine; LinuxCNC says it by G7.
-    pub fn is_of_lathe(&mut self, by_diameter: bool) {
-        let units = self.state.units();
-        let control = self.state.settings.control.of_lathe();
-        self.state = State::new(RunSettings { control, ..self.state.settings });
-        self.state.begin_in(units);
-        if control.is_lathe() {
-            self.state.modes.diameter = by_diameter;
-        }
-        self.parameters = Parameters::new(control);
-    }
-
-    /// The program is a wire EDM machine's, and its control is that of its maker; before the first block.
-    pub fn is_of_wire(&mut self) {
-        let units = self.state.units();
-        let control = self.state.settings.control.of_wire();
-        self.state = State::new(RunSettings { control, ..self.state.settings });
-        self.state.begin_in(units);
-        self.parameters = Parameters::new(control);
-    }
-
     /// The state of the control.
     pub fn state(&self) -> &State {
         &self.state

@@ -146,6 +146,11 @@ impl State {
         self.place.at_machine
     }
 
+    /// Axes that stand at a place in machine coordinates which the program said, as bits.
+    pub fn at_said_machine(&self) -> u8 {
+        self.place.placed
+    }
+
     /// Is the position of an axis known to the machine alone, in a run that begins so?
     pub(super) fn is_unknown(&self, axis: usize) -> bool {
         self.settings.places_unknown && self.place.at_machine & 1 << axis != 0
@@ -174,6 +179,35 @@ impl State {
         self.place.frames.to_machine(at)
     }
 
+    /// The number of the work offset in force: G54 is 1, the first additional one 10; those of controls that count them are as they
+    /// count them.
+    pub fn work_number(&self) -> usize {
+        self.place.frames.active
+    }
+
+    /// Axes of the work offset in force that the program itself has set to a machine position, as bits.
+    pub fn offset_given(&self) -> u8 {
+        self.place.frames.given()
+    }
+
+    /// Puts the machine's own offsets and reference points in force, in millimetres and degrees; before the first block.
+    pub(super) fn begin_on(&mut self, offsets: &mut dyn Iterator<Item = (usize, Position)>, homes: [Position; 2]) {
+        let factor = if self.modes.units == Units::Inch { 1.0 / 25.4 } else { 1.0 };
+        for (number, at) in offsets {
+            if let Some((work, _)) = self.place.frames.work(number) {
+                *work = scaled(&at, factor);
+            }
+        }
+        self.place.homes = homes.map(|home| scaled(&home, factor));
+        let machine = [0.0; 6];
+        self.place.position = self.place.frames.to_program(&machine);
+    }
+
+    /// A position in machine coordinates as the program says it, in the units in force.
+    pub fn in_program_coordinates(&self, at: &Position) -> Position {
+        self.place.frames.to_program(at)
+    }
+
     /// The units in force.
     pub fn units(&self) -> Units {
         self.modes.units
@@ -191,4 +225,9 @@ impl State {
     pub fn take_warnings(&mut self) -> Vec<(Code, &'static str)> {
         std::mem::take(&mut self.warnings)
     }
+}
+
+/// A position whose lengths count otherwise.
+fn scaled(at: &Position, factor: f64) -> Position {
+    std::array::from_fn(|axis| if axis < 3 { at[axis] * factor } else { at[axis] })
 }

@@ -145,7 +145,7 @@ impl State {
             return refuse(diag::Code::PN007, "M6 without a tool", "write T and the tool's number before it");
         };
         if self.settings.places_unknown {
-            self.place.goes_home(0b100);
+            self.place.goes_to_machine(0b100);
         }
         self.drive.spindle = Rotation::Stop;
         self.tool.loaded = Some(tool);

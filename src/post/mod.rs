@@ -110,6 +110,11 @@ impl Post {
         self.0.program.settings.control
     }
 
+    /// The file of the machine that the form names, from the form's folder.
+    pub fn machine_file(&self) -> Option<&str> {
+        self.0.program.settings.machine_file.as_deref()
+    }
+
     /// Questions of the form before it prints: the answers are [`Options::set`].
     pub fn prompts(&self) -> impl Iterator<Item = Prompt<'_>> {
         let prompts = self.0.program.settings.prompts.iter();

@@ -11,8 +11,9 @@ use crate::diag::{Code, Diag, Findings};
 use crate::error::{Error, ErrorKind};
 use crate::job::{Format, Job};
 use crate::nc::{RunSettings, settings_for};
+use crate::preflight::JobTool;
 use crate::toolpath::{Event, Flow, Place, Sink, Units};
-use crate::verify::{Batch, Comparer, Counts, Expectation, Outcome, Verdict, prove_beside};
+use crate::verify::{Batch, Comparer, Counts, Expectation, Finding, Outcome, Verdict, prove_beside};
 
 /// How a proof came out.
 #[derive(Clone, Debug)]
@@ -55,6 +56,42 @@ impl Post {
     #[doc(hidden)]
     pub fn run_settings(&self, proof: &Proof, units: Units) -> RunSettings {
         proof.settings(Some(&self.0.program), units)
+    }
+
+    /// Is it a lathe's form? Then: does X of its programs count diameters?
+    #[doc(hidden)]
+    pub fn turns(&self) -> Option<bool> {
+        let settings = &self.0.program.settings;
+        (settings.machine == crate::lang::Machine::Lathe).then_some(settings.by_diameter)
+    }
+
+    /// The tools of a job, with their diameters in millimetres.
+    ///
+    /// # Errors
+    /// The job can't be read.
+    #[doc(hidden)]
+    pub fn job_tools(&self, mut job: Job<'_>) -> Result<Vec<JobTool>, Error> {
+        let mut tools = Tools { scale: 1.0, tools: Vec::new() };
+        taken(Some(&self.0.program.settings), &mut tools, |sink| job.read(sink))?;
+        Ok(tools.tools)
+    }
+
+    /// Says which lines of the form and which items of the job made the blocks of findings of the machine.
+    ///
+    /// # Errors
+    /// The job can't be read again, or an option makes no sense.
+    #[doc(hidden)]
+    pub fn locate(&self, findings: &mut [Finding], job: Job<'_>, options: &Options) -> Result<(), Error> {
+        let lines: Vec<u64> = findings.iter().map(|finding| finding.line).collect();
+        if lines.is_empty() {
+            return Ok(());
+        }
+        for (finding, origin) in findings.iter_mut().zip(self.origins(job, options, &lines)?) {
+            if let Some(origin) = origin {
+                finding.locate(origin);
+            }
+        }
+        Ok(())
     }
 
     /// Does the program that [`Post::render_beside`] prints make the motions of its job? `batches` may be the end of a channel on
@@ -113,16 +150,33 @@ impl Post {
             Verdict::NotProven(unproven) => &mut unproven.notes,
             _ => return Ok(proven),
         };
-        let lines: Vec<u64> = findings.iter().map(|finding| finding.line).collect();
-        if lines.is_empty() {
-            return Ok(proven);
-        }
-        for (finding, origin) in findings.iter_mut().zip(self.origins(job, options, &lines)?) {
-            if let Some(origin) = origin {
-                finding.locate(origin);
-            }
-        }
+        self.locate(findings, job, options)?;
         Ok(proven)
+    }
+}
+
+/// Takes the tools of a job.
+struct Tools {
+    /// Millimetres of the job's unit.
+    scale: f64,
+    tools: Vec<JobTool>,
+}
+
+impl Sink for Tools {
+    fn event(&mut self, event: Event<'_>, _: Place) -> Flow {
+        match event {
+            Event::Start(start) => self.scale = if start.units == Units::Inch { 25.4 } else { 1.0 },
+            Event::ToolChange(change) => {
+                if let Some(tool) = &change.tool
+                    && self.tools.iter().all(|known| f64::from(known.number) != tool.number)
+                {
+                    let diameter = tool.diameter.map(|diameter| diameter * self.scale);
+                    self.tools.push(JobTool { number: tool.number as u32, diameter });
+                }
+            }
+            _ => {}
+        }
+        Flow::Continue(())
     }
 }
 

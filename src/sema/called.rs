@@ -2,12 +2,13 @@
 
 use super::check::Analysis;
 use super::limits::MOST_TEXT;
-use crate::control::{self, Control};
+use crate::control::{self, Control, Wrong as WrongFile};
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;
+use crate::machine;
 use crate::source::Source;
 use crate::span::Span;
-use crate::syntax::{self, Head, Statement};
+use crate::syntax::{self, Head, Spanned, Statement};
 
 /// Deepest nesting of `Call`.
 const MOST_CALLS: usize = 8;
@@ -52,6 +53,10 @@ impl Analysis {
                     let statement = statement.clone();
                     self.control_file(&statement, load);
                 }
+                Some(CommandId::MachineFile) => {
+                    let statement = statement.clone();
+                    self.machine_file(&statement, load);
+                }
                 _ => {}
             }
         }
@@ -63,34 +68,59 @@ impl Analysis {
         if !control::is_file(&arg.text) {
             return;
         }
-        let loaded = if is_outside(&arg.text) { Err("is outside the form's folder".into()) } else { load(&arg.text) };
-        let source = match loaded {
-            Ok(source) if source.text.len() <= LARGEST_CONTROL => source,
-            loaded => {
-                let why = loaded.err().unwrap_or_else(|| format!("is larger than {} KB", LARGEST_CONTROL >> 10));
-                let help = "a control's file stands beside the form, as `Control my-vf2.toml`";
-                self.report(
-                    Diag::new(Code::PF019, format!("`{}` {why}", arg.text)).at(arg.span, "named here").help(help),
-                );
-                return;
-            }
-        };
+        let Some(source) = self.beside(arg, Code::PF019, "a control's file", load) else { return };
         match Control::own(&source.name, &source.text) {
             Ok(control) => self.control = Some(control),
-            Err(wrong) => {
-                let number = self.files.len() as u32;
-                let end =
-                    source.text[wrong.start..].find(['\n', ' ', '}']).map_or(source.text.len(), |at| wrong.start + at);
-                let mut diag = Diag::new(Code::PF019, wrong.message).at(Span::new(number, wrong.start, end), "here");
-                diag = diag.at(arg.span, "the control of this form");
-                if !wrong.help.is_empty() {
-                    diag = diag.help(wrong.help);
-                }
-                self.trees.push(syntax::Form::default());
-                self.files.push(source);
-                self.report(diag);
+            Err(wrong) => self.wrong_file(Code::PF019, source, wrong, (arg, "the control of this form")),
+        }
+    }
+
+    /// Reads the file that `MachineFile vf2.toml` names, and those that it names.
+    fn machine_file(&mut self, statement: &Statement, load: &mut dyn FnMut(&str) -> Result<Source, String>) {
+        let [arg] = &statement.args[..] else { return };
+        let Some(source) = self.beside(arg, Code::PF021, "a machine's file", load) else { return };
+        let load = std::cell::RefCell::new(load);
+        let further = |name: &str| match is_outside(name) {
+            true => Err(format!("`{name}` is outside the form's folder")),
+            false => (load.borrow_mut())(name).map(|source| source.text).map_err(|why| format!("`{name}` {why}")),
+        };
+        if let Err(wrong) = machine::read(&source.name, &source.text, &further) {
+            self.wrong_file(Code::PF021, source, wrong, (arg, "the machine of this form"));
+        }
+    }
+
+    /// The text of a file beside the form; what is wrong with it is reported.
+    fn beside(
+        &mut self,
+        arg: &Spanned,
+        code: Code,
+        what: &str,
+        load: &mut dyn FnMut(&str) -> Result<Source, String>,
+    ) -> Option<Source> {
+        let loaded = if is_outside(&arg.text) { Err("is outside the form's folder".into()) } else { load(&arg.text) };
+        match loaded {
+            Ok(source) if source.text.len() <= LARGEST_CONTROL => Some(source),
+            loaded => {
+                let why = loaded.err().unwrap_or_else(|| format!("is larger than {} KB", LARGEST_CONTROL >> 10));
+                let help = format!("{what} stands beside the form, as `my-vf2.toml`");
+                self.report(Diag::new(code, format!("`{}` {why}", arg.text)).at(arg.span, "named here").help(help));
+                None
             }
         }
+    }
+
+    /// Reports what is wrong in a file that the form names.
+    fn wrong_file(&mut self, code: Code, source: Source, wrong: WrongFile, (arg, of): (&Spanned, &str)) {
+        let number = self.files.len() as u32;
+        let rest = source.text.get(wrong.start..).unwrap_or_default();
+        let end = rest.find(['\n', ' ', '}']).map_or(source.text.len(), |at| wrong.start + at);
+        let mut diag = Diag::new(code, wrong.message).at(Span::new(number, wrong.start, end), "here").at(arg.span, of);
+        if !wrong.help.is_empty() {
+            diag = diag.help(wrong.help);
+        }
+        self.trees.push(syntax::Form::default());
+        self.files.push(source);
+        self.report(diag);
     }
 
     fn call(

@@ -34,11 +34,12 @@ impl Axes {
 }
 
 /// Units of lengths.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Units {
     /// Inches.
     Inch,
     /// Millimetres.
+    #[default]
     Mm,
 }
 

@@ -32,6 +32,7 @@ mod linuxcnc;
 mod linuxcnc_random;
 mod lists;
 mod lsp;
+mod machine_fit;
 mod machines;
 mod machines_proven;
 mod machines_say;

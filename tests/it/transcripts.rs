@@ -46,7 +46,7 @@ fn every_problem_of_a_cycle_is_explained() {
 /// So has each problem of a program, and each finding of verify, under the title that the table gives it.
 #[test]
 fn every_problem_of_a_program_is_explained() {
-    for (file, family) in [("docs/programs.md", "PN"), ("docs/verify.md", "PV")] {
+    for (file, family) in [("docs/programs.md", "PN"), ("docs/verify.md", "PV"), ("docs/machine.md", "PM")] {
         let page = fs::read_to_string(root().join(file)).unwrap();
         for row in postform::diag::CODES.iter().filter(|row| row.name.starts_with(family)) {
             let head = format!("\n### {} {}\n", row.name, row.title);

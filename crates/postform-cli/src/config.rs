@@ -21,6 +21,8 @@ pub struct Config {
     pub form: Option<PathBuf>,
     /// Whose rules programs are run by.
     pub control: Option<&'static Control>,
+    /// The machine on which programs run.
+    pub machine: Option<PathBuf>,
     /// Limits of forms.
     pub limits: Option<Limits>,
     /// What editors print with the forms of the folder.
@@ -98,6 +100,7 @@ impl Config {
             path: Some(path.to_path_buf()),
             form: said.form.as_ref().map(near),
             control,
+            machine: said.machine.as_ref().map(near),
             limits: said.limits,
             jobs: said.jobs.iter().map(near).collect(),
             require_proof: said.require_proof,

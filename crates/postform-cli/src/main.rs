@@ -20,6 +20,7 @@ mod identity;
 mod inputs;
 mod lint;
 mod lsp;
+mod machine;
 mod new;
 mod output;
 mod plot;
@@ -110,6 +111,8 @@ fn main() -> ExitCode {
         Command::Verify(args) => verify::run(&args, colour),
         Command::Diff(args) => diff::run(&args, arguments.color),
         Command::Simulate(args) => simulate::run(&args, colour),
+        Command::Fit(args) => machine::fit(&args, colour),
+        Command::Machine(args) => machine::run(&args),
         Command::Plot(args) => plot::run(&args, colour),
         Command::Watch(args) => watch::run(args),
         Command::Fmt(args) => fmt::run(&args),

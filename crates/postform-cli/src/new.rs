@@ -11,10 +11,13 @@ use super::{Ending, output};
 
 /// Writes the form; a file that is there is somebody's work and stays.
 pub fn run(args: &NewArgs) -> Result<Ending, String> {
-    let text = match (args.control_file, args.control) {
-        (Some(control), _) => controls::file(control),
-        (None, Some(post)) => post.0.text.to_owned(),
-        (None, None) => return Err("error: say which form by --control, or which control by --control-file".into()),
+    let text = match (args.machine, args.control_file, args.control) {
+        (Some(control), ..) => postform::internals::machine::template(control),
+        (None, Some(control), _) => controls::file(control),
+        (None, None, Some(post)) => post.0.text.to_owned(),
+        (None, None, None) => {
+            return Err("error: say which form by --control, or which control by --control-file".into());
+        }
     };
     if args.output.as_os_str() == "-" {
         return output::shown(|out| out.write_all(text.as_bytes()));
@@ -28,6 +31,9 @@ pub fn run(args: &NewArgs) -> Result<Ending, String> {
     })?;
     let written = name(&args.output);
     message(&match args.control_file {
+        _ if args.machine.is_some() => {
+            format!("{written} is written: change it, then `postform machine check {written}`")
+        }
         Some(_) => format!("{written} is written: change it, then write `Control {written}` in the form beside it"),
         None => format!("{written} is written: change it, then `postform lint {written}`"),
     });

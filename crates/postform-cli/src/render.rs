@@ -1,6 +1,6 @@
 //! `postform render`.
 
-use std::io;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use postform::diag::Severity;
@@ -18,12 +18,14 @@ use super::config::Config;
 use super::files::{self, io_message};
 use super::forms::FormFile;
 use super::identity::Identity;
+use super::machine;
 use super::output::Target;
 use super::poll;
 use super::prepare::prepare;
 use super::progress::Progress;
 use super::report::{Reporter, place_in, stopped};
 use super::say::{message, say};
+use super::spool::Spool;
 use super::verdict::Sides;
 use super::verify::in_a_file;
 
@@ -48,7 +50,7 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
     files::check_format(&args.job, &args.read)?;
     let config = Config::near(&args.job)?;
-    let form = args.form.clone().or(config.form);
+    let form = args.form.clone().or(config.form.clone());
     let Some(form) = form else {
         let help = "give --form, or name one in a postform.toml in the folder of the job or above: form = \"fanuc.pf\"";
         return Err(format!("error: which form?\n  help: {help}"));
@@ -57,6 +59,10 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         return Ok(Ending::Findings);
     };
     distinct(args)?;
+    let machine = machine::named(&args.machine, Some((&form, &prepared.post)), &config)?;
+    if machine.is_some() && args.stream {
+        return Err("error: with --stream the program is out before it is known whether it fits into the machine\n  help: render without --stream".into());
+    }
     let error = |error: Error| format!("error: {error}");
     if args.stream && prepared.post.reads_ahead(&prepared.options).map_err(error)? {
         let or = prepared.post.reads_once_with().map(|set| format!(", or with --set {set}")).unwrap_or_default();
@@ -82,8 +88,11 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     options.one_pass = args.stream;
     let proof = (!args.no_verify && !args.stream).then(|| args.control.proof(None));
     let mut progress = Progress::new();
+    let kept = |error: &io::Error| io_message("write", Path::new("the program"), error);
+    let mut program = machine.as_ref().map(|_| Spool::new()).transpose().map_err(|error| kept(&error))?;
     let mut take = |part: Part<'_>| {
         progress.lines(part.lines);
+        program.as_mut().map_or(Ok(()), |program| program.write_all(part.text))?;
         output.write(&part)
     };
     let (printed, proven) = match &proof {
@@ -125,6 +134,21 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         }
     } else if args.stream && !args.options.quiet {
         message("not verified: with --stream the program is out before it is known what it does");
+    }
+    if let (Some(machine), Some(program)) = (&machine, program) {
+        let program = program.into_file().map_err(|error| kept(&error))?;
+        let (post, proof) = (&prepared.post, args.control.proof(None));
+        let made = (&mut job, &prepared.options);
+        let (fitted, fitting) = machine::of_post(post, machine, made, &proof, (program, "the program"))?;
+        let stops = fitted.has_errors() && !args.no_verify;
+        if !args.options.quiet || stops {
+            fitting.show(&fitted, (Some(&args.job), post.files()), &reporter);
+            say(&(fitting.sentences(&fitted) + &fitting.sentence(&fitted)));
+        }
+        if stops {
+            message("nothing was printed: --no-verify prints it all the same");
+            return Ok(Ending::Findings);
+        }
     }
     if is_folder(&args.output) {
         let path = args.output.join(file_name);

@@ -1,19 +1,23 @@
 //! `postform verify`.
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::Path;
 
 use postform::diag::Severity;
+use postform::internals::post::Part;
 use postform::internals::verify::Verdict;
+use postform::toolpath::Units;
 use postform::{Error, Job, Proof, Proven};
 
 use super::args::{ControlArgs, UnitsArg, VerifyArgs, VerifyFormat};
 use super::beside::{self, Printed};
 use super::config::Config;
-use super::files::{self, Again};
+use super::files::{self, Again, io_message};
+use super::machine::{self, Fitting};
 use super::prepare::{Prepared, prepare};
 use super::rendered::{denied, rendered};
 use super::report::{Reporter, stopped};
+use super::spool::Spool;
 use super::verdict::Sides;
 use super::{Ending, output};
 
@@ -27,7 +31,7 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let config = Config::near(&args.job)?;
     let form = match args.nc {
         Some(_) => args.form.clone(), // a program is proven without a form, unless one is named
-        None => args.form.clone().or(config.form),
+        None => args.form.clone().or(config.form.clone()),
     };
     let prepared = match &form {
         Some(form) => match prepare(form, &args.options, &args.job, reporter)? {
@@ -36,7 +40,10 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
         },
         None => None,
     };
-    let by_config = config.control.filter(|_| prepared.is_none());
+    let named = form.as_deref().zip(prepared.as_ref().map(|prepared| &prepared.post));
+    let machine = machine::named(&args.machine, named, &config)?;
+    let of_machine = machine.as_ref().and_then(|machine| machine.control);
+    let by_config = of_machine.or(config.control).filter(|_| prepared.is_none());
     let control = ControlArgs { control: args.control.control.or(by_config), ..args.control.clone() };
     let mut proof = control.proof(args.tolerance);
     proof.units = args.options.units.map(UnitsArg::units);
@@ -45,22 +52,46 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let name = args.nc.as_deref().map_or("the program".to_owned(), files::name);
     let files = prepared.as_ref().map_or(&[][..], |prepared| prepared.post.files());
     let sides = Sides { job: &args.job, program: &name, files };
-    let tried = match (&args.nc, &prepared) {
+    let (tried, program) = match (&args.nc, &prepared) {
         (Some(path), prepared) => {
-            let program = Again::open(path)?.into_file()?;
+            let file = Again::open(path)?.into_file()?;
+            let program = file.try_clone().map_err(|error| io_message("read", path, &error))?;
             let proven = match prepared {
-                Some(prepared) => prepared.post.verify_with(job.again(), program, &prepared.options, &proof),
-                None => proof.verify(job.again(), program),
+                Some(prepared) => prepared.post.verify_with(job.again(), file, &prepared.options, &proof),
+                None => proof.verify(job.again(), file),
             };
-            sides.tried(proven, args.options.quiet, reporter)?
+            (sides.tried(proven, args.options.quiet, reporter)?, Some(program))
         }
-        (None, Some(prepared)) => of_form(&mut job, prepared, &proof, &sides, args.options.quiet, reporter)?,
+        (None, Some(prepared)) => {
+            let mut spool = machine.as_ref().map(|_| Spool::new()).transpose().map_err(|error| spooled(&error))?;
+            let mut take = |part: Part<'_>| spool.as_mut().map_or(Ok(()), |spool| spool.write_all(part.text));
+            let tried = of_form(&mut job, prepared, &proof, &sides, (args.options.quiet, &mut take), reporter)?;
+            (tried, spool.map(Spool::into_file).transpose().map_err(|error| spooled(&error))?)
+        }
         (None, None) => return Err("error: give --form, --nc, or both; or name a form in postform.toml".into()),
     };
     let proven = match tried {
         Ok(proven) => proven,
         Err(ending) => return Ok(ending),
     };
+    let mut on_machine = None;
+    if let (Some(machine), Some(program)) = (&machine, program) {
+        let (fitted, fitting) = match &prepared {
+            Some(Prepared { post, options, .. }) => {
+                machine::of_post(post, machine, (&mut job, options), &proof, (program, &name))?
+            }
+            None => {
+                let settings = control.settings(None, args.options.units.map_or(Units::Mm, UnitsArg::units));
+                let fitting = Fitting { machine, settings, turns: None, tools: Vec::new(), program: &name };
+                (fitting.fitted(program)?, fitting)
+            }
+        };
+        if args.format == VerifyFormat::Text {
+            fitting.show(&fitted, (Some(&args.job), files), reporter);
+        }
+        on_machine = Some((fitted, fitting));
+    }
+    let fits = on_machine.as_ref().is_none_or(|(fitted, _)| fitted.findings.is_empty());
     let text = match args.format {
         VerifyFormat::Text => {
             match &proven.verdict {
@@ -68,13 +99,29 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
                 Verdict::NotProven(unproven) => sides.show(&unproven.notes, Severity::Note, reporter),
                 _ => {}
             }
-            sides.sentence(&proven)
+            let of_machine =
+                on_machine.map(|(fitted, fitting)| fitting.sentences(&fitted) + &fitting.sentence(&fitted));
+            sides.sentence(&proven) + &of_machine.unwrap_or_default()
         }
-        VerifyFormat::Json => output::json(&sides.document(&proven)),
+        VerifyFormat::Json => {
+            let mut document = sides.document(&proven);
+            if let Some((fitted, fitting)) = on_machine {
+                document["machine"] = fitting.document(&fitted);
+            }
+            output::json(&document)
+        }
     };
     output::standard_output(|out| out.write_all(text.as_bytes()))?;
-    Ok(if proven.verdict.is_proven() { Ending::Clean } else { Ending::Findings })
+    Ok(if proven.verdict.is_proven() && fits { Ending::Clean } else { Ending::Findings })
 }
+
+/// The program could not be kept.
+fn spooled(error: &io::Error) -> String {
+    io_message("write", Path::new("the program"), error)
+}
+
+/// Takes the parts of a program as they are printed.
+type Take<'a> = &'a mut dyn FnMut(Part<'_>) -> io::Result<()>;
 
 /// The program that a form prints of the job.
 fn of_form(
@@ -82,11 +129,11 @@ fn of_form(
     prepared: &Prepared,
     proof: &Proof,
     sides: &Sides<'_>,
-    quiet: bool,
+    (quiet, take): (bool, Take<'_>),
     reporter: &Reporter,
 ) -> Result<Result<Proven, Ending>, String> {
     let (post, options) = (&prepared.post, &prepared.options);
-    let Printed { rendered, proven } = beside::print(post, job.again(), options, proof, &mut |_| Ok(()))?;
+    let Printed { rendered, proven } = beside::print(post, job.again(), options, proof, take)?;
     match rendered {
         Ok(rendered) if denied(&rendered.notes, sides.job, prepared, reporter) => Ok(Err(Ending::Findings)),
         Ok(_) => {

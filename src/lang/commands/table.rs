@@ -20,6 +20,9 @@ macro_rules! command_rows {
             Control "Control" (Words(1, 1, "a control's name, or a file that describes one, as `haas` or `my-vf2.toml`"))
                 once (of("").told("much like fanuc")) Ours {control: Option<&'static Control>}
                 "the control that the programs are checked for";
+            MachineFile "MachineFile" (Words(1, 1, "the file of a machine, as `vf2.toml`"))
+                once (of("")) Ours {machine_file: Option<String>} eg "vf2.toml"
+                "the machine into which the programs must fit: its file, from the form's folder";
             // codes
             Rapid "Rapid" (Motion(1, 1)) once (of("G0")) Doc {rapid: Code}
                 "motion word of generated rapids";

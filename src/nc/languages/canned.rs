@@ -82,7 +82,7 @@ impl State {
                     let home = self.place.frames.to_program(&self.place.homes[0]);
                     let mut to = self.place.position;
                     to[across] = home[across];
-                    self.place.goes_home(1 << across);
+                    self.place.goes_to_machine(1 << across);
                     self.place.rapid_to(to, out);
                 }
                 Step::Feed(height, feed) if feed > 0.0 => {

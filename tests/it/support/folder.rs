@@ -24,6 +24,10 @@ impl Folder {
         fs::write(path, bytes).unwrap();
     }
 
+    pub fn has(&self, name: &str) -> bool {
+        self.0.join(name).exists()
+    }
+
     pub fn read(&self, name: &str) -> String {
         fs::read_to_string(self.0.join(name)).unwrap()
     }

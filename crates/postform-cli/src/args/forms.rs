@@ -122,11 +122,14 @@ pub enum PropertiesFormat {
 #[derive(Debug, Args)]
 pub struct NewArgs {
     /// For which control or machine
-    #[arg(long, value_name = "NAME", ignore_case = true, required_unless_present = "control_file")]
+    #[arg(long, value_name = "NAME", ignore_case = true, required_unless_present_any = ["control_file", "machine"])]
     pub control: Option<NewPost>,
     /// A file that describes a control like this one, instead of a form
     #[arg(long, value_name = "NAME", value_parser = ControlParser, conflicts_with = "control")]
     pub control_file: Option<&'static Control>,
+    /// The commented file of a machine with this control, instead of a form
+    #[arg(long, value_name = "CONTROL", value_parser = ControlParser, conflicts_with_all = ["control", "control_file"])]
+    pub machine: Option<&'static Control>,
     /// Where the form goes, or - for standard output; a file that is there stays
     #[arg(short, long, value_name = "FORM", default_value = "-")]
     pub output: PathBuf,

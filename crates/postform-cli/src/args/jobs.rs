@@ -14,7 +14,7 @@ use postform::internals::control::Control;
 use postform::internals::nc::Unpointed;
 
 use super::super::clock;
-use super::{ControlArgs, ControlParser, LimitsArg, NoPoint};
+use super::{ControlArgs, ControlParser, LimitsArg, MachineArg, NoPoint};
 
 /// A file by its format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -264,6 +264,9 @@ pub struct RenderArgs {
     /// How the program is run to prove it
     #[command(flatten)]
     pub control: ControlArgs,
+    /// The machine
+    #[command(flatten)]
+    pub machine: MachineArg,
 }
 
 /// `postform check`.

@@ -4,6 +4,7 @@ mod controls;
 mod editor;
 mod forms;
 mod jobs;
+mod machines;
 mod pictures;
 mod posts;
 mod programs;
@@ -15,6 +16,7 @@ pub use controls::{ControlArgs, ControlParser, NoPoint};
 pub use editor::LspArgs;
 pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, PropertiesArgs, PropertiesFormat};
 pub use jobs::{CheckArgs, From, ReadArgs, RenderArgs, RenderOptions, UnitsArg};
+pub use machines::{FitArgs, MachineArg, MachineArgs, MachineCommand};
 pub use pictures::{PlotArgs, WatchArgs};
 pub use posts::NewPost;
 pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, StartArg, VerifyArgs, VerifyFormat};
@@ -46,6 +48,10 @@ pub enum Command {
     Diff(DiffArgs),
     /// Run an NC program and print what the machine does
     Simulate(SimulateArgs),
+    /// Say whether a program fits into a machine, and which offsets and lengths would do
+    Fit(FitArgs),
+    /// Look at the file of a machine
+    Machine(MachineArgs),
     /// Draw the backplot of a job's program, or of a program that is there
     Plot(PlotArgs),
     /// Show form, program and backplot in a browser, again with every change

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::controls::length;
-use super::{ControlArgs, ReadArgs, RenderOptions, UnitsArg};
+use super::{ControlArgs, MachineArg, ReadArgs, RenderOptions, UnitsArg};
 
 /// How a verdict is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -36,6 +36,9 @@ pub struct VerifyArgs {
     /// How the program is run
     #[command(flatten)]
     pub control: ControlArgs,
+    /// The machine
+    #[command(flatten)]
+    pub machine: MachineArg,
     /// How it is rendered
     #[command(flatten)]
     pub options: RenderOptions,
@@ -79,6 +82,9 @@ pub struct SimulateArgs {
     /// How motions are shown
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     pub format: MotionFormat,
+    /// The machine
+    #[command(flatten)]
+    pub machine: MachineArg,
     /// Only count: blocks, moves, holes, extents, distances, time
     #[arg(long)]
     pub dry: bool,

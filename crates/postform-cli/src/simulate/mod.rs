@@ -14,6 +14,7 @@ use postform::toolpath::{Direction, Plane, StopKind};
 use super::Ending;
 use super::args::{ControlArgs, MotionFormat, SimulateArgs, StartArg};
 use super::files::{self, io_message};
+use super::machine::{self, Fitting};
 use super::report::{Reporter, place_in};
 use super::say::{message, say};
 
@@ -27,11 +28,15 @@ const MOST_REFUSED: usize = 20;
 /// Runs a program and prints what the machine does.
 pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     let config = super::config::Config::near(&args.program)?;
-    let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };
+    let machine = machine::named(&args.machine, None, &config)?;
+    let of_machine = machine.as_ref().and_then(|machine| machine.control);
+    let named = args.control.control.or(of_machine).or(config.control);
+    let control = ControlArgs { control: named, ..args.control.clone() };
     let unknown = args.start == StartArg::Unknown;
     let settings = RunSettings { places_unknown: unknown, ..control.settings(None, args.units.units()) };
     let mut program = files::open_program(&args.program)?;
     let settings = settings_for(&mut program, settings).map_err(|error| io_message("read", &args.program, &error))?;
+    let on_machine = program.try_clone().map_err(|error| io_message("read", &args.program, &error))?;
     let mut simulator = Simulator::new(program, settings);
     let mut tally = Tally::new(settings.units);
     let mut warnings = Vec::new();
@@ -94,7 +99,14 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
         message(&format!("and {left_out} more warnings"));
     }
     if refused.is_empty() {
-        return Ok(Ending::Clean);
+        return match &machine {
+            Some(machine) => fits(
+                &Fitting { machine, settings, turns: None, tools: Vec::new(), program: &name },
+                on_machine,
+                &reporter,
+            ),
+            None => Ok(Ending::Clean),
+        };
     }
     refused.iter_mut().for_each(|diag| place_in(&name, diag));
     say(&reporter.text(&refused, &[]));
@@ -102,6 +114,14 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
         message(&format!("{MOST_REFUSED} blocks are refused: the rest is not run"));
     }
     Ok(Ending::Findings)
+}
+
+/// Says whether the program fits into the machine.
+fn fits(fitting: &Fitting<'_>, program: std::fs::File, reporter: &Reporter) -> Result<Ending, String> {
+    let fitted = fitting.fitted(program)?;
+    fitting.show(&fitted, (None, &[]), reporter);
+    say(&(fitting.sentences(&fitted) + &fitting.sentence(&fitted)));
+    Ok(if fitted.findings.is_empty() { Ending::Clean } else { Ending::Findings })
 }
 
 /// `false`: whoever read it has seen enough.

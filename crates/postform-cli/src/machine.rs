@@ -1,0 +1,209 @@
+//! Machines: their files, and programs that must fit into them.
+
+use std::fs;
+use std::io::{Read, Seek, Write as _};
+use std::path::Path;
+
+use postform::diag::{Diag, Location, Severity};
+use postform::internals::machine::{self, Machine};
+use postform::internals::nc::{RunSettings, settings_for};
+use postform::internals::preflight::{Fitted, JobTool, preflight};
+use postform::internals::terminal::{escaped, escaped_lines};
+use postform::toolpath::Units;
+use postform::{Control, Finding, Job, Options, Post, Proof, Source};
+
+use super::args::{ControlArgs, FitArgs, MachineArg, MachineArgs, MachineCommand, VerifyFormat};
+use super::config::Config;
+use super::files::{self, io_message};
+use super::report::{Reporter, count, place_in};
+use super::say::{message, say};
+use super::{Ending, inputs, output};
+
+/// Largest file of a machine or of its tools, in bytes.
+const LARGEST: u64 = 1 << 20;
+
+/// Reads the file of a machine, and the files that it names.
+///
+/// # Errors
+/// A message: a file can't be read, or says something wrong, with line and column.
+pub fn read(path: &Path) -> Result<Machine, String> {
+    let folder = files::folder(path).to_owned();
+    let beside = |name: &str| text(&folder.join(name)).map_err(|why| why.trim_start_matches("error: ").to_owned());
+    let read = machine::read(&files::name(path), &text(path)?, &beside);
+    read.map_err(|wrong| format!("error: {}", escaped_lines(&wrong.to_string())))
+}
+
+fn text(path: &Path) -> Result<String, String> {
+    inputs::note(path);
+    let fail = |error: std::io::Error| io_message("read", path, &error);
+    let meta = fs::metadata(path).map_err(fail)?;
+    if meta.len() > LARGEST {
+        return Err(format!("error: {} is larger than 1 MB: it is no file of a machine", files::name(path)));
+    }
+    let bytes = fs::read(path).map_err(fail)?;
+    String::from_utf8(bytes).map_err(|_| format!("error: {} is not UTF-8", files::name(path)))
+}
+
+/// The machine that is named: by an option, by the form, or in postform.toml.
+///
+/// # Errors
+/// Its file can't be read, or is wrong.
+pub fn named(arg: &MachineArg, form: Option<(&Path, &Post)>, config: &Config) -> Result<Option<Machine>, String> {
+    let of_form = form.and_then(|(form, post)| Some(files::folder(form).join(post.machine_file()?)));
+    let path = arg.machine.clone().or(of_form).or(config.machine.clone());
+    path.as_deref().map(read).transpose()
+}
+
+/// A program and the machine into which it must fit.
+pub struct Fitting<'a> {
+    pub machine: &'a Machine,
+    /// How the program is run.
+    pub settings: RunSettings,
+    /// It is a lathe's by its form, and whether its X counts diameters.
+    pub turns: Option<bool>,
+    /// The job's tools, where a job is known.
+    pub tools: Vec<JobTool>,
+    /// What the program is called.
+    pub program: &'a str,
+}
+
+impl Fitting<'_> {
+    /// Runs the program on the machine.
+    ///
+    /// # Errors
+    /// It can't be read.
+    pub fn fitted(&self, program: impl Read + Seek) -> Result<Fitted, String> {
+        let fitted = preflight(program, self.settings, self.turns, self.machine, &self.tools);
+        fitted.map_err(|error| io_message("read", Path::new(self.program), &error))
+    }
+
+    /// The control by which offsets have their names.
+    pub fn control(&self) -> &'static Control {
+        let control = self.settings.control;
+        if self.turns.is_some() { control.of_lathe() } else { control }
+    }
+
+    /// Shows what was found, with what is not checked.
+    pub fn show(&self, fitted: &Fitted, (job, sources): (Option<&Path>, &[Source]), reporter: &Reporter) {
+        let diags: Vec<Diag> = fitted.findings.iter().map(|finding| self.diag(finding, job)).collect();
+        say(&reporter.text(&diags, sources));
+        for what in &fitted.fit.not_checked {
+            message(&format!("not checked: {}", escaped(what)));
+        }
+    }
+
+    /// A finding with its place in the job, or in the program where no job is known.
+    fn diag(&self, finding: &Finding, job: Option<&Path>) -> Diag {
+        let Some(job) = job else {
+            let text = match finding.block.as_str() {
+                "" => finding.message.clone(),
+                block => format!("{}, in `{block}`", finding.message),
+            };
+            let mut diag = Diag::new(finding.code, text).help(finding.help);
+            if finding.line > 0 {
+                diag = diag.place(Location::line(finding.line));
+            }
+            place_in(self.program, &mut diag);
+            return diag;
+        };
+        let mut diag = finding.diag(self.program);
+        place_in(&files::name(job), &mut diag);
+        diag
+    }
+
+    /// What would do for each offset and length that is not known, a sentence each.
+    pub fn sentences(&self, fitted: &Fitted) -> String {
+        let sentences = fitted.fit.sentences(self.machine, self.control());
+        sentences.iter().map(|sentence| format!("{sentence}\n")).collect()
+    }
+
+    /// How it came out, in a sentence.
+    pub fn sentence(&self, fitted: &Fitted) -> String {
+        let (program, machine) = (self.program, escaped(&self.machine.name));
+        let sentences = fitted.fit.sentences(self.machine, self.control());
+        let errors = fitted.findings.iter().filter(|finding| finding.code.row().severity == Severity::Error).count();
+        match (errors, fitted.findings.len()) {
+            (0, 0) if fitted.refused.is_some() => format!("{program} was not run to its end on {machine}\n"),
+            (0, 0) if sentences.is_empty() => format!("{program} fits into {machine}\n"),
+            (0, 0) => format!("{program} fits into {machine} where the offsets and lengths lie as above\n"),
+            (0, warnings) => format!("{program} fits into {machine}, with {}\n", count(warnings, "warning")),
+            (errors, _) => format!("{program} does not fit into {machine}: {}\n", count(errors, "error")),
+        }
+    }
+
+    /// The same for programs.
+    pub fn document(&self, fitted: &Fitted) -> serde_json::Value {
+        let mut document = fitted.fit.json(self.machine, self.control());
+        let findings: Vec<serde_json::Value> = fitted
+            .findings
+            .iter()
+            .map(|finding| {
+                serde_json::json!({
+                    "code": finding.code.name(), "severity": finding.code.row().severity.name(),
+                    "message": finding.message, "help": finding.help, "line": finding.line, "block": finding.block,
+                    "times": finding.times,
+                })
+            })
+            .collect();
+        document["findings"] = findings.into();
+        document["fits"] = (fitted.findings.is_empty() && fitted.refused.is_none()).into();
+        document
+    }
+}
+
+/// A program that a form printed, on a machine: with the lines of the form and the items of the job, if the job can be read again.
+///
+/// # Errors
+/// The program can't be read.
+pub fn of_post<'a>(
+    post: &Post,
+    machine: &'a Machine,
+    (job, options): (&mut Job<'_>, &Options),
+    proof: &Proof,
+    (program, name): (impl Read + Seek, &'a str),
+) -> Result<(Fitted, Fitting<'a>), String> {
+    let again = !job.is_stream();
+    let reads = again && machine.tools.is_some();
+    let tools = if reads { post.job_tools(job.again()).unwrap_or_default() } else { Vec::new() };
+    let settings = post.run_settings(proof, options.units.unwrap_or(Units::Mm));
+    let fitting = Fitting { machine, settings, turns: post.turns(), tools, program: name };
+    let mut fitted = fitting.fitted(program)?;
+    if again {
+        // without them the findings stand all the same
+        _ = post.locate(&mut fitted.findings, job.again(), options);
+    }
+    Ok((fitted, fitting))
+}
+
+/// `postform fit`.
+pub fn fit(args: &FitArgs, colour: bool) -> Result<Ending, String> {
+    let config = Config::near(&args.program)?;
+    let Some(machine) = named(&args.machine, None, &config)? else {
+        let help = "give --machine, or name one in a postform.toml in the folder of the program or above: machine = \"vf2.toml\"";
+        return Err(format!("error: which machine?\n  help: {help}"));
+    };
+    let control =
+        ControlArgs { control: args.control.control.or(machine.control).or(config.control), ..args.control.clone() };
+    let mut program = files::open_program(&args.program)?;
+    let settings = settings_for(&mut program, control.settings(None, args.units.units()))
+        .map_err(|error| io_message("read", &args.program, &error))?;
+    let name = files::name(&args.program);
+    let fitting = Fitting { machine: &machine, settings, turns: None, tools: Vec::new(), program: &name };
+    let fitted = fitting.fitted(program)?;
+    let text = match args.format {
+        VerifyFormat::Text => {
+            fitting.show(&fitted, (None, &[]), &Reporter::new(colour));
+            fitted.fit.table(&machine, fitting.control()) + &fitting.sentences(&fitted) + &fitting.sentence(&fitted)
+        }
+        VerifyFormat::Json => output::json(&fitting.document(&fitted)),
+    };
+    output::standard_output(|out| out.write_all(text.as_bytes()))?;
+    Ok(if fitted.findings.is_empty() && fitted.refused.is_none() { Ending::Clean } else { Ending::Findings })
+}
+
+/// `postform machine`.
+pub fn run(args: &MachineArgs) -> Result<Ending, String> {
+    let MachineCommand::Check { file } = &args.command;
+    let machine = read(file)?;
+    output::shown(|out| out.write_all(machine::summary(&machine).as_bytes()))
+}

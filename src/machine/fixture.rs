@@ -1,0 +1,136 @@
+//! Boxes that no rapid may enter: clamps, vices.
+
+/// A box in a work offset.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fixture {
+    /// What the shop calls it.
+    pub name: Option<String>,
+    /// The work offset in which it stands, by its number.
+    pub work: usize,
+    /// Its least X, Y, Z, in millimetres.
+    pub least: [f64; 3],
+    /// Its greatest.
+    pub greatest: [f64; 3],
+}
+
+/// A tool on its way: a cylinder over its tip.
+#[derive(Clone, Copy, Debug)]
+pub struct Sweep {
+    /// Where its tip begins.
+    pub from: [f64; 3],
+    /// Where it ends.
+    pub to: [f64; 3],
+    /// Its radius.
+    pub radius: f64,
+    /// How far it reaches up from the tip; endless where that is unknown: the spindle is above it.
+    pub length: f64,
+}
+
+impl Fixture {
+    /// Does a tool enter the box on a straight way? Touching is not entering.
+    pub fn is_entered(&self, sweep: &Sweep) -> bool {
+        let Some([begin, end]) = self.at_its_height(sweep) else { return false };
+        let at = |part: f64| {
+            std::array::from_fn::<f64, 2, _>(|axis| sweep.from[axis] + part * (sweep.to[axis] - sweep.from[axis]))
+        };
+        self.distance(at(begin), at(end)) < sweep.radius.max(TOUCH)
+    }
+
+    /// The part of the way on which the cylinder is as high as the box: from and to, of 1.
+    fn at_its_height(&self, sweep: &Sweep) -> Option<[f64; 2]> {
+        let (mut begin, mut end) = (0.0f64, 1.0f64);
+        let rise = sweep.to[2] - sweep.from[2];
+        // tip below the top, and the upper end above the bottom
+        for (above, sign) in [
+            (self.greatest[2] - TOUCH - sweep.from[2], 1.0),
+            (sweep.from[2] + sweep.length - self.least[2] - TOUCH, -1.0),
+        ] {
+            let slope = sign * rise;
+            // slope * part < above
+            if slope == 0.0 || !above.is_finite() {
+                if above <= 0.0 {
+                    return None;
+                }
+            } else if slope > 0.0 {
+                end = end.min(above / slope);
+            } else {
+                begin = begin.max(above / slope);
+            }
+        }
+        (begin <= end).then_some([begin, end])
+    }
+
+    /// How near a straight way in X and Y comes to the box; 0 inside.
+    fn distance(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
+        let (least, greatest) = (&self.least, &self.greatest);
+        if crosses(from, to, [least[0], least[1]], [greatest[0], greatest[1]]) {
+            return 0.0;
+        }
+        let corners =
+            [[least[0], least[1]], [least[0], greatest[1]], [greatest[0], least[1]], [greatest[0], greatest[1]]];
+        let to_box = |at: [f64; 2]| {
+            let apart = |axis: usize| (least[axis] - at[axis]).max(at[axis] - greatest[axis]).max(0.0);
+            apart(0).hypot(apart(1))
+        };
+        let ends = to_box(from).min(to_box(to));
+        corners.into_iter().map(|corner| to_way(corner, from, to)).fold(ends, f64::min)
+    }
+}
+
+/// What counts as touching, in millimetres.
+const TOUCH: f64 = 1e-6;
+
+/// Is a part of the way inside the box? By the parameters at which it enters and leaves each pair of sides.
+fn crosses(from: [f64; 2], to: [f64; 2], least: [f64; 2], greatest: [f64; 2]) -> bool {
+    let (mut begin, mut end) = (0.0f64, 1.0f64);
+    for axis in 0..2 {
+        let step = to[axis] - from[axis];
+        if step == 0.0 {
+            if from[axis] <= least[axis] + TOUCH || from[axis] >= greatest[axis] - TOUCH {
+                return false;
+            }
+            continue;
+        }
+        let (first, second) = ((least[axis] + TOUCH - from[axis]) / step, (greatest[axis] - TOUCH - from[axis]) / step);
+        begin = begin.max(first.min(second));
+        end = end.min(first.max(second));
+    }
+    begin <= end
+}
+
+/// How far a point is from a way.
+fn to_way(point: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
+    let step = [to[0] - from[0], to[1] - from[1]];
+    let length = step[0] * step[0] + step[1] * step[1];
+    let along = (point[0] - from[0]) * step[0] + (point[1] - from[1]) * step[1];
+    let part = if length == 0.0 { 0.0 } else { (along / length).clamp(0.0, 1.0) };
+    (from[0] + part * step[0] - point[0]).hypot(from[1] + part * step[1] - point[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn enters(from: [f64; 3], to: [f64; 3], radius: f64, length: f64) -> bool {
+        let fixture = Fixture { name: None, work: 1, least: [0.0, 0.0, -10.0], greatest: [20.0, 10.0, 5.0] };
+        fixture.is_entered(&Sweep { from, to, radius, length })
+    }
+
+    #[test]
+    fn a_tool_is_a_cylinder_over_its_tip() {
+        let over = 1e9;
+        assert!(enters([-50.0, 5.0, 0.0], [50.0, 5.0, 0.0], 0.0, over));
+        assert!(!enters([-50.0, 5.0, 5.0], [50.0, 5.0, 5.0], 3.0, over), "on its top");
+        assert!(!enters([-50.0, 15.0, 0.0], [50.0, 15.0, 0.0], 5.0, over), "touches with its side");
+        assert!(enters([-50.0, 14.9, 0.0], [50.0, 14.9, 0.0], 5.0, over));
+        // by a corner: 3, 4, 5
+        assert!(!enters([23.0, 14.0, 0.0], [23.0, 14.0, -5.0], 4.99, over));
+        assert!(enters([23.0, 14.0, 0.0], [23.0, 14.0, -5.0], 5.01, over));
+        // comes down beside it, and over it only where it is high
+        assert!(!enters([10.0, 5.0, 20.0], [50.0, 5.0, -20.0], 1.0, over));
+        assert!(enters([10.0, 5.0, 20.0], [20.0, 5.0, 0.0], 1.0, over));
+        // a short tool far below goes under it
+        assert!(!enters([-50.0, 5.0, -100.0], [50.0, 5.0, -100.0], 1.0, 50.0));
+        assert!(enters([-50.0, 5.0, -100.0], [50.0, 5.0, -100.0], 1.0, over));
+    }
+}

@@ -1,0 +1,84 @@
+//! Work offsets by their names: `G54`, `G59.1`, `G54.1 P3`, `G154 P3`, `G505`, `H2`.
+
+use crate::control::{Code, Control, Meaning, WorkOffset};
+
+/// The names of the usual offsets, in their order.
+const USUAL: [&str; 9] = ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"];
+
+/// How many additional offsets there may be.
+const ADDITIONAL: usize = WorkOffset::MOST as usize;
+
+/// The number of an offset by the name that this control gives it: G54 is 1, the first additional one 10; those of controls that
+/// count their offsets are as they count them. `None`: it has no such offset.
+pub fn number(control: &Control, text: &str) -> Option<usize> {
+    let text = text.split_ascii_whitespace().collect::<Vec<_>>().join(" ").to_ascii_uppercase();
+    (1..=USUAL.len() + ADDITIONAL).find(|number| names(control, *number).contains(&text))
+}
+
+/// The name of an offset, as programs of this control write it.
+pub fn name(control: &Control, number: usize) -> String {
+    names(control, number).swap_remove(0)
+}
+
+/// All names of an offset, the usual one first.
+fn names(control: &Control, number: usize) -> Vec<String> {
+    if let Some(letter) = counted(control) {
+        return vec![format!("{}{number}", char::from(letter))];
+    }
+    if let Some(usual) = number.checked_sub(1).and_then(|at| USUAL.get(at)) {
+        return vec![(*usual).to_owned()];
+    }
+    let additional = number.saturating_sub(USUAL.len());
+    let row = |code: Code| control.row(code).filter(|row| row.meaning == Meaning::Work);
+    let mut names = Vec::new();
+    let own = (0..6000).step_by(10).filter_map(|tenths| row(Code { letter: b'G', tenths }));
+    for row in own {
+        match row.runs.work {
+            Some(WorkOffset::Word(letter)) if row.code.tenths != 541 => {
+                names.push(format!("{} {}{additional}", row.code, char::from(letter)));
+            }
+            Some(WorkOffset::Additional(own)) if usize::from(own) == additional => names.push(row.code.to_string()),
+            _ => {}
+        }
+    }
+    names.push(format!("G54.1 P{additional}"));
+    names
+}
+
+/// The letter of a control that counts its offsets: a FADAL's E, an Okuma's H.
+fn counted(control: &Control) -> Option<u8> {
+    let by_code = || {
+        [150, 2470].into_iter().find_map(|tenths| match control.row(Code { letter: b'G', tenths })?.runs.work? {
+            WorkOffset::Counted(letter) => Some(letter),
+            _ => None,
+        })
+    };
+    control.traits().work_letter.or_else(by_code)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_offset_has_the_name_of_its_control() {
+        let table = [
+            ("fanuc", "G54", 1),
+            ("fanuc", "g54.1  p3", 12),
+            ("haas", "G154 P3", 12),
+            ("haas", "G111", 11),
+            ("linuxcnc", "G59.3", 9),
+            ("siemens", "G505", 5),
+            ("okuma", "H2", 2),
+            ("fadal", "E4", 4),
+        ];
+        for (control, text, expected) in table {
+            let control = Control::named(control).unwrap();
+            assert_eq!(number(control, text), Some(expected), "{text}");
+        }
+        let haas = Control::named("haas").unwrap();
+        assert_eq!(name(haas, 1), "G54");
+        assert_eq!(number(haas, &name(haas, 60)), Some(60));
+        assert_eq!(number(haas, "G99"), None);
+    }
+}

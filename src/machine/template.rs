@@ -1,0 +1,66 @@
+//! The file that `new --machine` writes.
+
+use crate::control::Control;
+
+/// A commented file for a machine of this control.
+pub fn template(control: &Control) -> String {
+    let offset = super::offsets::name(control, 1);
+    let further = super::offsets::name(control, 10);
+    format!(
+        "# A machine. What this file does not say is not checked: `postform machine check FILE` lists it.
+# Take the # from a line and write your machine's own value; the values here are examples.
+name = \"my machine\"
+control = \"{name}\"
+units = \"mm\"                        # of all lengths in this file: mm or inch
+
+# machine coordinates, as the control shows them after it went home
+[axes.X]
+# travel = [-762.0, 0.0]
+# rapid = 25400                      # a minute
+# feed = 16500                       # the fastest feed, a minute
+# acceleration = 2500                # a second squared; for times
+[axes.Y]
+# travel = [-406.0, 0.0]
+[axes.Z]
+# travel = [-508.0, 0.0]
+# [axes.A]
+# travel = \"endless\"                 # or [-120, 30]
+# turns = \"table\"                    # or \"head\"
+# about = [1, 0, 0]
+
+[reference]
+# G28 = [0, 0, 0]
+# G30 = [0, -100, 0]
+
+[spindle]
+# speed = [30, 8100]
+# acceleration = 2.0                 # seconds to the highest speed
+
+[tools]
+# places = 20
+# change = 4.2                       # seconds, from chip to chip
+# file = \"tools.csv\"                 # number,length,diameter,name; or tool.tbl of LinuxCNC, or a list of G10
+# [tools.5]
+# length = 123.4
+# diameter = 10
+# name = \"drill 10\"
+
+# [offsets]                          # where the zero of the part is, in machine coordinates
+# {offset} = [-400.0, -210.0, -350.0]
+# \"{further}\" = [-600.0, -210.0, -350.0]
+
+[coolant]
+# kinds = [\"flood\", \"through\"]       # flood, mist, through, air, high
+
+[memory]
+# bytes = 1000000
+# numbers = [1, 9999]
+
+# [[fixtures]]                       # a box in a work offset that no rapid may enter
+# name = \"the left clamp\"
+# work = \"{offset}\"
+# box = [[-20, -20, -40], [0, 120, 15]]
+",
+        name = control.name()
+    )
+}

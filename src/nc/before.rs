@@ -1,0 +1,60 @@
+//! What is said of a program before its first block, and asked of its last one: whose machine it runs on.
+
+use super::action::Position;
+use super::codes::Group;
+use super::parameters::Parameters;
+use super::settings::RunSettings;
+use super::simulator::Simulator;
+use super::state::State;
+use crate::control::Meaning;
+
+impl Simulator<'_> {
+    /// The program counts in these units until it says others; before the first block.
+    pub fn begin_in(&mut self, units: crate::toolpath::Units) {
+        self.state.begin_in(units);
+    }
+
+    /// The machine has these work offsets, by their numbers, and goes to these positions by G28 and G30: machine coordinates in
+    /// millimetres and degrees; before the first block.
+    pub fn begin_on(&mut self, offsets: &mut dyn Iterator<Item = (usize, Position)>, homes: [Position; 2]) {
+        self.state.begin_on(offsets, homes);
+    }
+
+    /// So many programs stand before the main one, as subprograms that the control knows; before the first block.
+    pub fn begin_behind(&mut self, programs: usize) {
+        self.passing = if programs == 0 { 0 } else { programs + 1 };
+    }
+
+    /// The program is a lathe's, and its control is the lathe of its maker; before the first block. Whether X is a diameter is
+    /// a parameter of such a machine; LinuxCNC says it by G7.
+    pub fn is_of_lathe(&mut self, by_diameter: bool) {
+        let units = self.state.units();
+        let control = self.state.settings.control.of_lathe();
+        self.state = State::new(RunSettings { control, ..self.state.settings });
+        self.state.begin_in(units);
+        if control.is_lathe() {
+            self.state.modes.diameter = by_diameter;
+        }
+        self.parameters = Parameters::new(control);
+    }
+
+    /// The program is a wire EDM machine's, and its control is that of its maker; before the first block.
+    pub fn is_of_wire(&mut self) {
+        let units = self.state.units();
+        let control = self.state.settings.control.of_wire();
+        self.state = State::new(RunSettings { control, ..self.state.settings });
+        self.state.begin_in(units);
+        self.parameters = Parameters::new(control);
+    }
+
+    /// To which reference point the block that was run last goes: 0 is that of G28, 1 that of G30.
+    pub fn reference_point(&self) -> Option<usize> {
+        let row = self.block.row(Group::Once).filter(|row| row.meaning == Meaning::Reference)?;
+        Some(usize::from(row.runs.point == Some(2)))
+    }
+
+    /// Does the block that was run last turn on coolant through the spindle?
+    pub fn cools_through(&self) -> bool {
+        self.block.means(Meaning::Through)
+    }
+}

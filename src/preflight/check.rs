@@ -1,0 +1,443 @@
+//! Does a program fit into its machine? It is run once more, with the machine's own offsets.
+
+use std::collections::BTreeMap;
+use std::io::{self, Read, Seek, SeekFrom};
+
+use super::fit::Fit;
+use super::place::{At, Base, Places};
+use super::travel::Travels;
+use crate::control::Control;
+use crate::diag::{Code, Severity};
+use crate::machine::{Coolant, LETTERS, Machine, Sweep, offsets};
+use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator, Turn};
+use crate::toolpath::{FeedMode, Units};
+use crate::verify::Finding;
+
+/// What was found, and how the program lies in the machine.
+#[derive(Debug)]
+pub struct Fitted {
+    /// What is wrong, in the order of the program.
+    pub findings: Vec<Finding>,
+    /// The extents, and what would do where offsets or lengths are not known.
+    pub fit: Fit,
+    /// A block was refused: nothing is known of what comes after it. The line, and why.
+    pub refused: Option<(u64, String)>,
+}
+
+impl Fitted {
+    /// Must the program not run on this machine?
+    pub fn has_errors(&self) -> bool {
+        self.findings.iter().any(|finding| finding.code.row().severity == Severity::Error)
+    }
+}
+
+/// A tool as the job has it.
+#[derive(Clone, Debug)]
+pub struct JobTool {
+    /// Its number.
+    pub number: u32,
+    /// Its diameter in millimetres.
+    pub diameter: Option<f64>,
+}
+
+/// Runs a program on a machine. `turns`: it is a lathe's by its form, and whether its X counts diameters.
+///
+/// # Errors
+/// The program can't be read.
+pub fn preflight(
+    mut program: impl Read + Seek,
+    settings: RunSettings,
+    turns: Option<bool>,
+    machine: &Machine,
+    job: &[JobTool],
+) -> io::Result<Fitted> {
+    let bytes = program.seek(SeekFrom::End(0))?;
+    program.seek(SeekFrom::Start(0))?;
+    let settings = RunSettings { places_unknown: true, ..settings };
+    let mut run = Simulator::new(program, settings);
+    if let Some(by_diameter) = turns {
+        run.is_of_lathe(by_diameter);
+    }
+    let control = if turns.is_some() { settings.control.of_lathe() } else { settings.control };
+    let known = machine.offsets.iter().flatten().map(|(number, at)| (*number, at.map(|value| value.unwrap_or(0.0))));
+    run.begin_on(&mut known.into_iter(), machine.references.map(Option::unwrap_or_default));
+    let mut check = Check::new(machine, control, job);
+    let mut items = Vec::new();
+    let refused = loop {
+        items.clear();
+        match run.step(&mut items) {
+            Ok(more) => {
+                check.block(&items, &run);
+                if !more {
+                    break None;
+                }
+            }
+            Err(RunError::Refused(diag, line)) => {
+                check.block(&items, &run);
+                break Some((line, diag.message.clone()));
+            }
+            Err(RunError::Io(error)) => return Err(error),
+        }
+    };
+    check.memory(bytes, run.program());
+    Ok(check.finish(refused))
+}
+
+/// What is known while a program runs.
+struct Check<'m> {
+    machine: &'m Machine,
+    control: &'static Control,
+    job: &'m [JobTool],
+    places: Places<'m>,
+    travels: Travels<'m>,
+    tool: Option<u32>,
+    tools: Vec<u32>,
+    mode: FeedMode,
+    speed: f64,
+    surface: bool,
+    /// Findings by what they are about: each is one.
+    found: BTreeMap<(Code, String), Finding>,
+    /// A reference point that the file does not say was gone to.
+    no_reference: [bool; 2],
+    was_compensated: bool,
+    /// Axes at a place of the machine that the program said, after the last block.
+    said: u8,
+}
+
+impl<'m> Check<'m> {
+    fn new(machine: &'m Machine, control: &'static Control, job: &'m [JobTool]) -> Check<'m> {
+        Check {
+            machine,
+            control,
+            job,
+            places: Places::new(machine, control.is_lathe()),
+            travels: Travels::new(machine),
+            tool: None,
+            tools: Vec::new(),
+            mode: FeedMode::PerMinute,
+            speed: 0.0,
+            surface: false,
+            found: BTreeMap::new(),
+            no_reference: [false; 2],
+            was_compensated: false,
+            said: 0,
+        }
+    }
+
+    fn block(&mut self, items: &[Item], run: &Simulator<'_>) {
+        let before = std::mem::replace(&mut self.said, run.state().at_said_machine());
+        let is_move = |item: &Item| matches!(item.action, Action::Rapid { .. } | Action::Feed { .. } | Action::Arc(_));
+        let last = items.iter().rposition(is_move);
+        let reference = run.reference_point().filter(|point| self.machine.references[*point].is_none());
+        for (at, item) in items.iter().enumerate() {
+            // what a block says of the machine's places holds for its last move
+            let is_last = last == Some(at);
+            let said = if is_last { self.said } else { before & self.said };
+            // where a reference point lies that the file does not say is not known
+            let hidden = match reference {
+                Some(point) if is_last => {
+                    self.no_reference[point] = true;
+                    0x3f
+                }
+                _ => 0,
+            };
+            self.item(item, [said, hidden], run);
+        }
+    }
+
+    fn item(&mut self, item: &Item, [said, hidden]: [u8; 2], run: &Simulator<'_>) {
+        let line = (item.line, run.text());
+        match &item.action {
+            Action::Rapid { to, machine, astray } => {
+                let before = self.places.at;
+                self.places.goes(to, [*machine, said, astray | hidden & machine], run);
+                self.travels.moved(&self.places, None, self.tool, line);
+                self.fixtures(&before, line);
+            }
+            Action::Feed { to, feed, lead, machine, .. } => {
+                let before = self.places.program(run);
+                self.places.goes(to, [*machine, said, 0], run);
+                self.travels.moved(&self.places, None, self.tool, line);
+                self.straight_feed(&before, to, *feed, *lead, run, line);
+            }
+            Action::Arc(turn) => {
+                let before = self.places.program(run);
+                self.places.goes(&turn.to, [turn.machine, said, 0], run);
+                let ranges = self.places.extremes(&before, turn, run);
+                self.travels.moved(&self.places, Some(ranges), self.tool, line);
+                self.arc_feed(turn, run, line);
+            }
+            Action::Tool(number) => self.changes_tool(*number, line),
+            Action::Length(register) => self.takes_length(*register, line),
+            Action::Work(_) => self.takes_offset(run, line),
+            Action::Compensation(side) => self.was_compensated |= side.is_some(),
+            Action::Coolant(kind) => self.cools(*kind, run, line),
+            Action::FeedMode(mode) => self.mode = *mode,
+            Action::SurfaceSpeed(on) => self.surface = on.is_some(),
+            Action::SpeedLimit(limit) => self.turns(*limit, "the highest speed", line),
+            Action::Spindle(rotation, speed) => {
+                self.speed = *speed;
+                if *rotation != Rotation::Stop && !self.surface {
+                    self.turns(*speed, "the spindle's speed", line);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn fixtures(&mut self, before: &[At; 6], (line, block): (u64, &[u8])) {
+        for fixture in &self.machine.fixtures {
+            let (Some(from), Some(to)) =
+                (self.in_fixture(before, fixture.work), self.in_fixture(&self.places.at, fixture.work))
+            else {
+                continue;
+            };
+            let entry = self.tool.and_then(|tool| self.machine.tools.as_ref()?.0.get(&tool));
+            let of_job = self.tool.and_then(|tool| self.job.iter().find(|own| own.number == tool)?.diameter);
+            let diameter = entry.and_then(|entry| entry.diameter).or(of_job).unwrap_or(0.0);
+            let length = entry.and_then(|entry| entry.length).unwrap_or(f64::INFINITY);
+            if fixture.is_entered(&Sweep { from, to, radius: diameter / 2.0, length }) {
+                let name = fixture
+                    .name
+                    .clone()
+                    .unwrap_or_else(|| format!("a fixture in {}", offsets::name(self.control, fixture.work)));
+                let tool = self.tool.map_or("the tool".to_owned(), |tool| format!("T{tool}"));
+                let message = format!("{tool} goes through {name} at rapid");
+                let help = "lift the tool over it, or go around it";
+                self.found(Code::PM002, &format!("{name} {line}"), message, help, (line, block));
+            }
+        }
+    }
+
+    /// Where the tip is in a work offset, in millimetres: where both are known, or where it counts from that offset anyway.
+    fn in_fixture(&self, at: &[At; 6], work: usize) -> Option<[f64; 3]> {
+        let mut tip = [0.0; 3];
+        for (axis, value) in tip.iter_mut().enumerate() {
+            let known = self.machine.offset(work).and_then(|offset| offset[axis]);
+            let (base, length) = match at[axis].base {
+                Base::Unknown => return None,
+                Base::Machine => (known?, self.spindle_to_tip(axis)?),
+                Base::Work(needs) if needs.work == work && needs.offset_unknown => {
+                    (0.0, self.added(axis, needs.register))
+                }
+                Base::Work(needs) if needs.offset_unknown => return None,
+                Base::Work(needs) => (known?, self.added(axis, needs.register)),
+            };
+            *value = at[axis].value - base - length;
+        }
+        Some(tip)
+    }
+
+    /// How far the tip is below the gauge line, which machine coordinates count.
+    fn spindle_to_tip(&self, axis: usize) -> Option<f64> {
+        if axis != 2 {
+            return Some(0.0);
+        }
+        self.machine.tools.as_ref()?.0.get(&self.tool?)?.length
+    }
+
+    /// The length that is in a position of an axis.
+    fn added(&self, axis: usize, register: Option<i32>) -> f64 {
+        let table = self.machine.tools.as_ref();
+        let length = |register: i32| {
+            let length = table?.0.get(&register.unsigned_abs())?.length?;
+            Some(if register < 0 { -length } else { length })
+        };
+        register.filter(|_| axis == 2).and_then(length).unwrap_or(0.0)
+    }
+
+    /// Millimetres of the program's unit.
+    fn scale(run: &Simulator<'_>) -> f64 {
+        if run.state().units() == Units::Inch { 25.4 } else { 1.0 }
+    }
+
+    /// The feed along the path in millimetres a minute.
+    fn per_minute(&self, feed: f64, length: f64, scale: f64) -> f64 {
+        match self.mode {
+            FeedMode::PerMinute => feed * scale,
+            FeedMode::PerRev => feed * scale * self.speed,
+            FeedMode::InverseTime => feed * length * scale,
+        }
+    }
+
+    fn straight_feed(
+        &mut self,
+        from: &Position,
+        to: &Position,
+        feed: f64,
+        lead: Option<f64>,
+        run: &Simulator<'_>,
+        line: (u64, &[u8]),
+    ) {
+        if self.machine.axes[..3].iter().flatten().all(|axis| axis.feed.is_none()) || lead.is_some() {
+            return;
+        }
+        let way: [f64; 3] = std::array::from_fn(|axis| to[axis] - from[axis]);
+        let length = way.iter().map(|part| part * part).sum::<f64>().sqrt();
+        if length == 0.0 {
+            return;
+        }
+        let feed = self.per_minute(feed, length, Self::scale(run));
+        for (axis, part) in way.into_iter().enumerate() {
+            self.feeds(axis, feed * part.abs() / length, line);
+        }
+    }
+
+    /// Somewhere on an arc an axis has the whole feed, unless the arc is short: then it has at most that.
+    fn arc_feed(&mut self, turn: &Turn, run: &Simulator<'_>, line: (u64, &[u8])) {
+        if self.mode == FeedMode::InverseTime {
+            return;
+        }
+        let feed = self.per_minute(turn.feed, 0.0, Self::scale(run));
+        let [first, second, _] = crate::nc::axes_of(turn.plane);
+        for axis in [first, second] {
+            self.feeds(axis, feed, line);
+        }
+    }
+
+    fn feeds(&mut self, axis: usize, feed: f64, line: (u64, &[u8])) {
+        let Some(most) = self.machine.axes[axis].as_ref().and_then(|axis| axis.feed) else { return };
+        if feed > most * (1.0 + 1e-9) {
+            let (shown, most, unit) = (self.machine.shown(feed), self.machine.shown(most), self.machine.units.name());
+            let message = format!("{} is to feed {shown} {unit}/min, and its fastest is {most}", LETTERS[axis]);
+            let help = "the control feeds slower, or stops with an alarm: write a feed that it has";
+            self.found(Code::PM010, &format!("feed {axis}"), message, help, line);
+        }
+    }
+
+    fn turns(&mut self, speed: f64, what: &str, line: (u64, &[u8])) {
+        let Some([least, most]) = self.machine.speeds else { return };
+        if speed > 0.0 && !(least..=most).contains(&speed) {
+            let message = format!("{what} is S{speed}, and the machine has {least} to {most}");
+            let help = "the control takes its own limit, or stops with an alarm: write a speed that it has";
+            self.found(Code::PM010, &format!("speed {speed}"), message, help, line);
+        }
+    }
+
+    fn changes_tool(&mut self, number: f64, line: (u64, &[u8])) {
+        let number = number as u32;
+        self.tool = Some(number).filter(|number| *number != 0);
+        if number == 0 || self.tools.contains(&number) {
+            return;
+        }
+        self.tools.push(number);
+        if let Some(table) = &self.machine.tools {
+            let of_job = self.job.iter().find(|tool| tool.number == number).and_then(|tool| tool.diameter);
+            match table.0.get(&number) {
+                None => {
+                    let message = format!("the machine's table has no T{number}");
+                    let help = "add it to the table, with its length and diameter";
+                    self.found(Code::PM011, &format!("T{number}"), message, help, line);
+                }
+                Some(entry) => {
+                    if let (Some(own), Some(job)) = (entry.diameter, of_job)
+                        && (own - job).abs() > 1e-3
+                    {
+                        let (own, job) = (self.machine.shown(own), self.machine.shown(job));
+                        let message =
+                            format!("T{number} has a diameter of {own} in the machine's table, and {job} in the job");
+                        let help = "load the tool of the job, or change the table";
+                        self.found(Code::PM011, &format!("T{number}"), message, help, line);
+                    }
+                }
+            }
+        }
+        if let Some(places) = self.machine.places
+            && self.tools.len() as u32 > places
+        {
+            let message = format!("the program uses more tools than the magazine holds: {places}");
+            self.found(Code::PM012, "", message, "split the program, or load tools by hand", line);
+        }
+    }
+
+    fn takes_length(&mut self, register: Option<f64>, line: (u64, &[u8])) {
+        self.places.register = register.map(|register| register as i32);
+        let (Some(register), Some(table)) =
+            (self.places.register.filter(|register| *register != 0), &self.machine.tools)
+        else {
+            return;
+        };
+        let number = register.unsigned_abs();
+        // of a tool that the table does not have, that was said
+        let is_said = self.tool == Some(number) && !table.0.contains_key(&number);
+        let known = table.0.get(&number).is_some_and(|entry| entry.length.is_some());
+        if !known && !is_said && !self.control.is_lathe() {
+            let message = format!("the machine's table has no length H{number}");
+            let help = "measure the tool, and add its length to the table";
+            self.found(Code::PM015, &format!("H{number}"), message, help, line);
+        }
+    }
+
+    fn takes_offset(&mut self, run: &Simulator<'_>, line: (u64, &[u8])) {
+        let Some(offsets) = &self.machine.offsets else { return };
+        let number = run.state().work_number();
+        if !offsets.contains_key(&number) && run.state().offset_given() == 0 {
+            let name = offsets::name(self.control, number);
+            let message = format!("the machine's file does not say where {name} is");
+            let help = "add it under [offsets], or read what would do from the interval";
+            self.found(Code::PM015, &name, message, help, line);
+        }
+    }
+
+    fn cools(&mut self, kind: Cooling, run: &Simulator<'_>, line: (u64, &[u8])) {
+        let Some(kinds) = &self.machine.coolant else { return };
+        let (kind, name) = match kind {
+            Cooling::Off => return,
+            Cooling::Mist => (Coolant::Mist, "mist"),
+            Cooling::Flood if run.cools_through() => (Coolant::Through, "coolant through the spindle"),
+            Cooling::Flood => (Coolant::Flood, "flood coolant"),
+        };
+        if !kinds.contains(&kind) {
+            let message = format!("the program wants {name}, and the machine has none");
+            self.found(Code::PM013, name, message, "print another kind of coolant", line);
+        }
+    }
+
+    fn memory(&mut self, bytes: u64, program: Option<f64>) {
+        if let Some(most) = self.machine.bytes.filter(|most| bytes > *most) {
+            let message = format!("the program has {bytes} bytes, and the control stores {most}");
+            self.found(Code::PM014, "bytes", message, "send it from outside as it runs, or split it", (0, b""));
+        }
+        if let (Some([least, most]), Some(number)) = (self.machine.numbers, program)
+            && !(f64::from(least)..=f64::from(most)).contains(&number)
+        {
+            let message = format!("the program's number is {number}, and the control takes {least} to {most}");
+            self.found(Code::PM014, "number", message, "give it another number: `--program`", (0, b""));
+        }
+    }
+
+    fn found(&mut self, code: Code, about: &str, message: String, help: &'static str, (line, block): (u64, &[u8])) {
+        let finding = self.found.entry((code, about.to_owned())).or_insert_with(|| Finding {
+            code,
+            message,
+            help,
+            place: None,
+            line,
+            block: String::from_utf8_lossy(block).trim().to_owned(),
+            form: None,
+            times: 0,
+        });
+        finding.times += 1;
+    }
+
+    fn finish(self, refused: Option<(u64, String)>) -> Fitted {
+        let mut fit = Fit::of(self.machine, &self.travels);
+        let mut findings = self.travels.findings(self.control);
+        findings.extend(fit.findings(self.machine, self.control));
+        findings.extend(self.found.into_values());
+        findings.sort_by_key(|finding| finding.line);
+        for (point, name) in ["G28", "G30"].into_iter().enumerate() {
+            if self.no_reference[point] {
+                fit.not_checked.push(format!("where {name} goes: [reference] does not say it"));
+            }
+        }
+        if self.was_compensated {
+            fit.not_checked
+                .push("cutter compensation: the programmed path is checked, not that of the tool's centre".into());
+        }
+        if let Some((line, why)) = &refused {
+            fit.not_checked.push(format!("anything from line {line} on: {why}"));
+        }
+        Fitted { findings, fit, refused }
+    }
+}

@@ -1,0 +1,157 @@
+//! Where the machine stands: program positions with the offsets, lengths and frames that are known.
+
+use crate::machine::Machine;
+use crate::nc::{Position, Simulator, Turn, axes_of, sweep};
+use crate::toolpath::{Direction, Units};
+
+/// On what a machine position depends besides the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Base {
+    /// Nothing is known of it: the axis was not moved yet, or its frame was moved from an unknown position.
+    Unknown,
+    /// On nothing: the program says it in machine coordinates.
+    Machine,
+    /// On a work offset and a tool length.
+    Work(Needs),
+}
+
+/// The offset and the length that a position needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Needs {
+    /// Number of the work offset.
+    pub work: usize,
+    /// The offset is not known: the position counts from it.
+    pub offset_unknown: bool,
+    /// The tool's length register, where its length is on; negative where it is subtracted.
+    pub register: Option<i32>,
+    /// The length is not known: it is missing in the position.
+    pub length_unknown: bool,
+}
+
+/// An axis.
+#[derive(Clone, Copy, Debug)]
+pub struct At {
+    /// In machine coordinates, as far as its base is known: millimetres or degrees.
+    pub value: f64,
+    pub base: Base,
+}
+
+/// The axes of a machine while a program runs.
+#[derive(Clone, Debug)]
+pub struct Places<'m> {
+    machine: &'m Machine,
+    /// Where each axis stands.
+    pub at: [At; 6],
+    /// In machine coordinates with the frames that the simulator knows, those unknown being zero: millimetres.
+    known: Position,
+    /// The length register that is on; negative where it is subtracted.
+    pub register: Option<i32>,
+    /// Lengths of a lathe's tools lie along X and Z.
+    is_lathe: bool,
+}
+
+impl<'m> Places<'m> {
+    pub fn new(machine: &'m Machine, is_lathe: bool) -> Places<'m> {
+        let at = [At { value: 0.0, base: Base::Unknown }; 6];
+        Places { machine, at, known: [0.0; 6], register: None, is_lathe }
+    }
+
+    /// A move to a program position; `in_machine`: axes that stand at a place of the machine, `said`: those of them whose place
+    /// the program says, `astray`: those that increments have moved since.
+    pub fn goes(&mut self, to: &Position, [in_machine, said, astray]: [u8; 3], run: &Simulator<'_>) {
+        let known = run.state().in_machine_coordinates(to);
+        let known: Position = std::array::from_fn(|axis| self.scaled(axis, known[axis], run));
+        for (axis, known) in known.into_iter().enumerate() {
+            let bit = 1 << axis;
+            self.at[axis] = if run.state().frame_unknown() & bit != 0 || astray & bit != 0 {
+                At { base: Base::Unknown, ..self.at[axis] }
+            } else if in_machine & bit == 0 {
+                self.in_work(axis, known, run)
+            } else if said & bit != 0 {
+                At { value: known, base: Base::Machine }
+            } else {
+                self.at[axis]
+            };
+        }
+        self.known = known;
+    }
+
+    /// Least and greatest position of each axis on an arc, which has begun where the tool stood; after [`Places::goes`].
+    pub fn extremes(&self, from: &Position, turn: &Turn, run: &Simulator<'_>) -> [[f64; 2]; 3] {
+        let end: [f64; 3] = std::array::from_fn(|axis| self.at[axis].value);
+        let machine = |at: &Position| {
+            let at = run.state().in_machine_coordinates(at);
+            std::array::from_fn::<f64, 3, _>(|axis| self.scaled(axis, at[axis], run))
+        };
+        let shift: [f64; 3] = {
+            let to = machine(&turn.to);
+            std::array::from_fn(|axis| end[axis] - to[axis])
+        };
+        let start = machine(from);
+        let mut ranges: [[f64; 2]; 3] = std::array::from_fn(|axis| {
+            let start = start[axis] + shift[axis];
+            [start.min(end[axis]), start.max(end[axis])]
+        });
+        let [first, second, _] = axes_of(turn.plane);
+        let radius = (from[first] - turn.center[first]).hypot(from[second] - turn.center[second]);
+        let begin = (from[second] - turn.center[second]).atan2(from[first] - turn.center[first]);
+        let swept = sweep(from, turn);
+        let sign = if turn.direction == Direction::Ccw { 1.0 } else { -1.0 };
+        let mut centre = *from;
+        centre[..3].copy_from_slice(&turn.center);
+        let along = |axis: usize| {
+            let mut at = centre;
+            at[axis] += radius;
+            let (at, centre) = (machine(&at), machine(&centre));
+            std::array::from_fn::<f64, 3, _>(|axis| at[axis] - centre[axis])
+        };
+        let (middle, u, v) = (machine(&centre), along(first), along(second));
+        for axis in 0..3 {
+            let size = u[axis].hypot(v[axis]);
+            if size == 0.0 {
+                continue;
+            }
+            let peak = v[axis].atan2(u[axis]);
+            for (angle, value) in [(peak, size), (peak + std::f64::consts::PI, -size)] {
+                let ahead = (sign * (angle - begin)).rem_euclid(std::f64::consts::TAU);
+                if ahead < swept {
+                    let value = middle[axis] + value + shift[axis];
+                    ranges[axis] = [ranges[axis][0].min(value), ranges[axis][1].max(value)];
+                }
+            }
+        }
+        ranges
+    }
+
+    /// Where the tool stands, in the program's coordinates and units.
+    pub fn program(&self, run: &Simulator<'_>) -> Position {
+        let factor = if run.state().units() == Units::Inch { 1.0 / 25.4 } else { 1.0 };
+        run.state().in_program_coordinates(&std::array::from_fn(|axis| {
+            if axis < 3 { self.known[axis] * factor } else { self.known[axis] }
+        }))
+    }
+
+    fn scaled(&self, axis: usize, value: f64, run: &Simulator<'_>) -> f64 {
+        if axis < 3 && run.state().units() == Units::Inch { value * 25.4 } else { value }
+    }
+
+    fn in_work(&self, axis: usize, value: f64, run: &Simulator<'_>) -> At {
+        let work = run.state().work_number();
+        let of_file = self.machine.offset(work).and_then(|offset| offset[axis]).is_some();
+        let given = run.state().offset_given() & 1 << axis != 0;
+        // what rotary axes have no offset for counts from the machine's zero
+        let offset_unknown = axis < 3 && !of_file && !given;
+        let takes = if self.is_lathe { axis == 0 || axis == 2 } else { axis == 2 };
+        let register = self.register.filter(|register| takes && *register != 0);
+        let length = register.map_or(Some(0.0), |register| self.length(register));
+        let needs = Needs { work, offset_unknown, register, length_unknown: length.is_none() };
+        At { value: value + length.unwrap_or(0.0), base: Base::Work(needs) }
+    }
+
+    /// The length of a register, with its sign; of a mill alone: where a lathe's tool cuts, the machine's file does not say.
+    fn length(&self, register: i32) -> Option<f64> {
+        let table = self.machine.tools.as_ref().filter(|_| !self.is_lathe)?;
+        let length = table.0.get(&register.unsigned_abs())?.length?;
+        Some(if register < 0 { -length } else { length })
+    }
+}

@@ -53,6 +53,7 @@ mod post;
 mod preflight;
 mod render;
 mod report;
+mod restart;
 mod scene;
 mod sema;
 mod source;
@@ -153,6 +154,9 @@ pub mod internals {
     }
     pub mod report {
         pub use crate::report::{github, json, proof, sarif};
+    }
+    pub mod restart {
+        pub use crate::restart::{Asked, Refused, Restarted, Target, restart};
     }
     pub mod scene {
         pub use crate::scene::{

@@ -1,4 +1,4 @@
-//! What is said of a program before its first block, and asked of its last one: whose machine it runs on.
+//! What is said of a program before its first block, and asked of the block that was run last.
 
 use super::action::Position;
 use super::codes::Group;
@@ -6,7 +6,7 @@ use super::parameters::Parameters;
 use super::settings::RunSettings;
 use super::simulator::Simulator;
 use super::state::State;
-use crate::control::Meaning;
+use crate::control::{Control, Meaning};
 
 impl Simulator<'_> {
     /// The program counts in these units until it says others; before the first block.
@@ -56,5 +56,35 @@ impl Simulator<'_> {
     /// Does the block that was run last turn on coolant through the spindle?
     pub fn cools_through(&self) -> bool {
         self.block.means(Meaning::Through)
+    }
+
+    /// How deep the run is in subprograms and loops.
+    pub fn depth(&self) -> usize {
+        self.frames.len()
+    }
+
+    /// Does the block that was run last set parameters?
+    pub fn sets_parameters(&self) -> bool {
+        !self.block.settings.is_empty()
+    }
+
+    /// The motion code that the block that was run last names, or that it names none.
+    pub fn names_motion(&self) -> bool {
+        self.block.row(Group::Motion).is_some()
+    }
+
+    /// Does the block that was run last name a tool?
+    pub fn names_tool(&self) -> bool {
+        self.block.get(b'T').is_some()
+    }
+
+    /// Does it have axis words?
+    pub fn has_axes(&self) -> bool {
+        self.block.has_axes()
+    }
+
+    /// The control that runs the program.
+    pub fn control(&self) -> &'static Control {
+        self.state.settings.control
     }
 }

@@ -32,6 +32,7 @@ mod properties;
 mod render;
 mod rendered;
 mod report;
+mod restart;
 mod say;
 mod shells;
 mod simulate;
@@ -112,6 +113,7 @@ fn main() -> ExitCode {
         Command::Diff(args) => diff::run(&args, arguments.color),
         Command::Simulate(args) => simulate::run(&args, colour),
         Command::Fit(args) => machine::fit(&args, colour),
+        Command::Restart(args) => restart::run(&args),
         Command::Machine(args) => machine::run(&args),
         Command::Plot(args) => plot::run(&args, colour),
         Command::Watch(args) => watch::run(args),

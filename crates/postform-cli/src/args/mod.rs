@@ -8,6 +8,7 @@ mod machines;
 mod pictures;
 mod posts;
 mod programs;
+mod restarts;
 
 use clap::{Args, Parser, Subcommand};
 
@@ -20,6 +21,7 @@ pub use machines::{FitArgs, MachineArg, MachineArgs, MachineCommand};
 pub use pictures::{PlotArgs, WatchArgs};
 pub use posts::NewPost;
 pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, StartArg, VerifyArgs, VerifyFormat};
+pub use restarts::RestartArgs;
 
 /// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.
 #[derive(Debug, Parser)]
@@ -50,6 +52,8 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Say whether a program fits into a machine, and which offsets and lengths would do
     Fit(FitArgs),
+    /// Write a program that begins in the middle of another one, with everything in force that is in force there
+    Restart(RestartArgs),
     /// Look at the file of a machine
     Machine(MachineArgs),
     /// Draw the backplot of a job's program, or of a program that is there

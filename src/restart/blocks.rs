@@ -1,0 +1,204 @@
+//! The blocks of the new program: head, what is put in force, the way in, the rest.
+
+use super::entry::{Entry, Found};
+use super::{Asked, Refused, refuse};
+use crate::control::{Control, Meaning, ToolLength};
+use crate::machine::offsets;
+use crate::nc::Rotation;
+use crate::toolpath::{FeedMode, Plane, Units};
+
+/// The text, how many lines stand before the old program's own, and what the operator must know.
+pub fn program(
+    text: &[u8],
+    control: &Control,
+    found: &Found,
+    asked: &Asked,
+) -> Result<(Vec<u8>, u64, Vec<String>), Refused> {
+    let lines: Vec<&[u8]> = text.split_inclusive(|byte| *byte == b'\n').collect();
+    let crlf = lines.first().is_some_and(|line| line.ends_with(b"\r\n"));
+    let head = (found.head as usize).min(lines.len());
+    let (own, notes) = blocks(control, found, asked)?;
+    let mut new = Vec::with_capacity(text.len());
+    lines[..head].iter().for_each(|line| new.extend_from_slice(line));
+    if !new.is_empty() && !new.ends_with(b"\n") {
+        new.push(b'\n');
+    }
+    for block in &own {
+        new.extend_from_slice(block.as_bytes());
+        new.extend_from_slice(if crlf { b"\r\n" } else { b"\n" });
+    }
+    let rest = (found.entry.line as usize - 1).max(head);
+    lines[rest.min(lines.len())..].iter().for_each(|line| new.extend_from_slice(line));
+    Ok((new, (head + own.len()) as u64, notes))
+}
+
+/// What is put in force, and the way in.
+fn blocks(control: &Control, found: &Found, asked: &Asked) -> Result<(Vec<String>, Vec<String>), Refused> {
+    let Entry { line, standing, switches, height } = &found.entry;
+    let code = |meaning: Meaning| control.first(meaning).map(|row| row.code.to_string());
+    let mut notes = Vec::new();
+    let comment = format!("RESTART AT LINE {line}");
+    let comment = if control.is_lathe() || !is_bare(control) { format!("({comment})") } else { format!("; {comment}") };
+    let mut blocks = vec![comment];
+    // what holds from block to block
+    let units = if standing.units == Units::Inch { Meaning::Inch } else { Meaning::Mm };
+    let plane = match standing.plane {
+        Plane::Xy => Meaning::PlaneXy,
+        Plane::Xz => Meaning::PlaneXz,
+        Plane::Yz => Meaning::PlaneYz,
+    };
+    let feed_mode = match standing.feed_mode {
+        FeedMode::PerMinute => Meaning::PerMinute,
+        FeedMode::PerRev => Meaning::PerRev,
+        FeedMode::InverseTime => Meaning::InverseTime,
+    };
+    let modes = [units, plane, Meaning::SideOff, Meaning::CycleEnd, Meaning::LengthOff, Meaning::Absolute, feed_mode];
+    for group in modes.chunks(4) {
+        let words: Vec<String> = group.iter().filter_map(|meaning| code(*meaning)).collect();
+        if !words.is_empty() {
+            blocks.push(words.join(" "));
+        }
+    }
+    // up, to the machine's zero
+    let up = if control.is_lathe() {
+        code(Meaning::Reference).map(|home| vec![format!("{home} U0 W0")])
+    } else {
+        let rapid = code(Meaning::Rapid);
+        code(Meaning::Machine).zip(rapid).map(|(machine, rapid)| vec![format!("{rapid} {machine} Z0.")])
+    };
+    match (up, asked.clear) {
+        (_, Some(clear)) if !control.is_lathe() => {
+            let rapid = code(Meaning::Rapid).unwrap_or_else(|| "G0".into());
+            blocks.push(format!("{rapid} Z{}", number(clear)));
+        }
+        (Some(up), _) => blocks.extend(up),
+        (None, _) => {
+            return refuse(
+                format!("{} has no code that goes up to the machine's zero", control.name()),
+                "say a height above everything: --clear-z 50",
+            );
+        }
+    }
+    let changes_later = height.is_none();
+    let tool = standing.tool.filter(|_| !changes_later);
+    if let Some(tool) = tool {
+        if control.first(Meaning::ToolChange).is_some() {
+            let change = code(Meaning::ToolChange).unwrap_or_default();
+            blocks.push(format!("T{tool} {change}"));
+        } else {
+            notes.push(format!("put T{tool} into the spindle first: the control has no code that changes tools"));
+        }
+    }
+    // a tool that a block before the entry has named
+    if let Some(next) = standing.named_tool.filter(|next| Some(*next) != standing.tool && *next != 0.0)
+        && !control.is_lathe()
+    {
+        blocks.push(format!("T{next}"));
+    }
+    if switches.work {
+        blocks.push(offsets::name(control, standing.work));
+    }
+    spindle(control, found, &mut blocks);
+    for (is_on, meaning) in
+        [(switches.flood, Meaning::Flood), (switches.mist, Meaning::Mist), (switches.through, Meaning::Through)]
+    {
+        if let Some(word) = code(meaning).filter(|_| is_on) {
+            blocks.push(word);
+        }
+    }
+    if !control.is_lathe() {
+        way_in(control, &found.entry, &mut blocks)?;
+    }
+    if !standing.absolute {
+        blocks.extend(code(Meaning::Increments));
+    }
+    if standing.feed > 0.0 && standing.feed_mode != FeedMode::InverseTime {
+        blocks.push(format!("F{}", number(standing.feed)));
+    }
+    let returns = if standing.to_initial { Meaning::ToInitial } else { Meaning::ToR };
+    blocks.extend(code(returns).filter(|_| !control.is_lathe()));
+    if found.entry.line < found.asked {
+        notes.push(format!(
+            "it begins at line {line}, where the tool is clear, not at line {}: the blocks between are run again",
+            found.asked
+        ));
+    }
+    for (line, code) in &found.codes {
+        notes.push(format!("{code} of line {line} is not run again: say it by hand if it matters"));
+    }
+    Ok((blocks, notes))
+}
+
+/// The spindle as it turns.
+fn spindle(control: &Control, found: &Found, blocks: &mut Vec<String>) {
+    let Entry { standing, switches, .. } = &found.entry;
+    let code = |meaning: Meaning| control.first(meaning).map(|row| row.code.to_string());
+    if let (Some(limit), Some(word)) = (switches.limit, code(Meaning::SpeedLimit)) {
+        blocks.push(format!("{word} S{}", whole(limit)));
+    }
+    let mode = if switches.surface.is_some() { Meaning::SurfaceSpeed } else { Meaning::Revolutions };
+    let mode = code(mode).filter(|_| control.is_lathe() || switches.surface.is_some());
+    let turn = match standing.rotation {
+        Rotation::Cw => code(Meaning::SpindleCw),
+        Rotation::Ccw => code(Meaning::SpindleCcw),
+        Rotation::Stop => code(Meaning::SpindleOff),
+    };
+    let speed = (standing.speed > 0.0).then(|| format!("S{}", whole(standing.speed)));
+    let words: Vec<String> = mode.into_iter().chain(speed).chain(turn).collect();
+    if !words.is_empty() {
+        blocks.push(words.join(" "));
+    }
+}
+
+/// Across, the length, and down to the height of the entry.
+fn way_in(control: &Control, entry: &Entry, blocks: &mut Vec<String>) -> Result<(), Refused> {
+    let Entry { standing, switches, height, .. } = entry;
+    let code = |meaning: Meaning| control.first(meaning).map(|row| row.code.to_string());
+    let rapid = code(Meaning::Rapid).unwrap_or_else(|| "G0".into());
+    let mut across: Vec<String> = (0..2)
+        .filter(|axis| standing.unknown & 1 << axis == 0)
+        .map(|axis| format!("{}{}", ["X", "Y"][axis], number(standing.position[axis])))
+        .collect();
+    let turned = (3..6).filter(|axis| standing.position[*axis] != 0.0);
+    across.extend(turned.map(|axis| format!("{}{}", ["A", "B", "C"][axis - 3], number(standing.position[axis]))));
+    if !across.is_empty() {
+        blocks.push(format!("{rapid} {}", across.join(" ")));
+    }
+    let Some(height) = height else { return Ok(()) };
+    let down = format!("Z{}", number(*height));
+    let Some(register) = switches.length.filter(|register| *register != 0.0) else {
+        blocks.push(format!("{rapid} {down}"));
+        return Ok(());
+    };
+    let meaning = if register < 0.0 { Meaning::LengthMinus } else { Meaning::LengthOn };
+    let register = format!("H{}", register.abs());
+    match (control.traits().tool_length, code(meaning)) {
+        (ToolLength::CodeAndRegister | ToolLength::Code, Some(word)) => {
+            blocks.push(format!("{word} {register} {down}"));
+        }
+        (ToolLength::Register, _) => blocks.push(format!("{register} {down}")),
+        _ => {
+            return refuse(
+                format!("how {} turns the length of a tool on is not known here", control.name()),
+                "begin at the change of a tool: --tool",
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Comments of Grbl's kind begin with a semicolon.
+fn is_bare(control: &Control) -> bool {
+    control.rules() == crate::control::Rules::Grbl
+}
+
+/// A number as programs write it: with its point, and the decimals that it has.
+fn number(value: f64) -> String {
+    let text = format!("{:.6}", value);
+    let text = text.trim_end_matches('0');
+    if text == "-0." { "0.".into() } else { text.to_owned() }
+}
+
+fn whole(value: f64) -> String {
+    if value.fract() == 0.0 { format!("{value}") } else { number(value) }
+}

@@ -1,0 +1,191 @@
+//! The proof: from the entry on the new program does what the old one does.
+
+use std::fmt::Write as _;
+
+use super::entry::{Found, Switches};
+use super::{Refused, refuse};
+use crate::nc::{Action, Item, RunError, RunSettings, Simulator, Standing};
+
+/// How far positions may differ, in the program's units: text has six decimals.
+const SAME: f64 = 2e-6;
+
+/// Runs both programs side by side; how many moves they have in common.
+pub fn same(old: &[u8], new: &[u8], settings: RunSettings, found: &Found, head_lines: u64) -> Result<u64, Refused> {
+    let mut old = Side::new(super::run(old, settings), found.entry.line);
+    let mut new = Side::new(super::run(new, settings), head_lines + 1);
+    // both as far as the entry
+    old.reach("the program")?;
+    new.reach("the new program")?;
+    let mut moves = 0;
+    loop {
+        let (one, other) = (old.next("the program")?, new.next("the new program")?);
+        match (&one, &other) {
+            (None, None) => break,
+            (Some(one), Some(other)) if one.is_as(other) => moves += 1,
+            _ => {
+                let text = |seen: &Option<Seen>| seen.as_ref().map_or("it is over".to_owned(), Seen::text);
+                return refuse(
+                    format!(
+                        "the new program would not do the same: at line {} of the program {}, in the new one {}",
+                        old.line(),
+                        text(&one),
+                        text(&other)
+                    ),
+                    "begin at the change of a tool: --tool",
+                );
+            }
+        }
+    }
+    Ok(moves)
+}
+
+/// A move or a stop, and what is in force at it.
+#[derive(Debug)]
+struct Seen {
+    action: Action,
+    standing: Standing,
+    switches: Switches,
+}
+
+impl Seen {
+    fn is_as(&self, other: &Seen) -> bool {
+        let near = |one: &[f64], two: &[f64]| one.iter().zip(two).all(|(one, two)| (one - two).abs() <= SAME);
+        let same = match (&self.action, &other.action) {
+            (Action::Rapid { to, machine, .. }, Action::Rapid { to: own, machine: of_own, .. }) => {
+                machine == of_own && near_known(to, own, *machine)
+            }
+            (
+                Action::Feed { to, feed, lead, machine, .. },
+                Action::Feed { to: own, feed: of_own, lead: own_lead, machine: own_machine, .. },
+            ) => {
+                near_known(to, own, *machine)
+                    && machine == own_machine
+                    && near(&[*feed], &[*of_own])
+                    && lead == own_lead
+            }
+            (Action::Arc(turn), Action::Arc(own)) => {
+                near(&turn.to, &own.to)
+                    && near(&turn.center, &own.center)
+                    && (turn.plane, turn.direction, turn.turns) == (own.plane, own.direction, own.turns)
+                    && near(&[turn.feed], &[own.feed])
+            }
+            (one, two) => one == two,
+        };
+        let (one, two) = (&self.standing, &other.standing);
+        let stands = (one.tool, one.work, one.units, one.plane, one.feed_mode, one.compensated, one.rotation)
+            == (two.tool, two.work, two.units, two.plane, two.feed_mode, two.compensated, two.rotation)
+            && one.speed == two.speed;
+        // a length does not matter while the height is the machine's
+        let (mut on, own) = (self.switches.clone(), &other.switches);
+        if self.is_at_machine_height() {
+            on.length = own.length;
+        }
+        same && stands && on == *own
+    }
+
+    fn is_at_machine_height(&self) -> bool {
+        match &self.action {
+            Action::Rapid { machine, .. } | Action::Feed { machine, .. } => machine & 0b100 != 0,
+            Action::Arc(turn) => turn.machine & 0b100 != 0,
+            Action::Hole(_) => false,
+            _ => true,
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut text = match &self.action {
+            Action::Rapid { to, .. } => format!("a rapid goes to {}", at(to)),
+            Action::Feed { to, feed, .. } => format!("a cut goes to {} at F{feed}", at(to)),
+            Action::Arc(turn) => format!("an arc goes to {} at F{}", at(&turn.to), turn.feed),
+            other => format!("it does {other:?}"),
+        };
+        let Standing { tool, speed, rotation, .. } = &self.standing;
+        _ = write!(text, " with T{} and the spindle {} S{speed}", tool.unwrap_or(0.0), rotation.name());
+        text
+    }
+}
+
+fn at(to: &[f64; 6]) -> String {
+    format!("X{} Y{} Z{}", to[0], to[1], to[2])
+}
+
+/// Positions that the program knows.
+fn near_known(one: &[f64; 6], two: &[f64; 6], machine: u8) -> bool {
+    (0..6).all(|axis| machine & 1 << axis != 0 || (one[axis] - two[axis]).abs() <= SAME)
+}
+
+/// A program as it is followed.
+struct Side<'a> {
+    run: Simulator<'a>,
+    switches: Switches,
+    begin: u64,
+    waiting: std::collections::VecDeque<Seen>,
+    items: Vec<Item>,
+    over: bool,
+}
+
+impl<'a> Side<'a> {
+    fn new(run: Simulator<'a>, begin: u64) -> Side<'a> {
+        Side {
+            run,
+            switches: Switches::default(),
+            begin,
+            waiting: std::collections::VecDeque::new(),
+            items: Vec::new(),
+            over: false,
+        }
+    }
+
+    fn line(&self) -> u64 {
+        self.run.line()
+    }
+
+    /// Runs the blocks before the entry.
+    fn reach(&mut self, what: &str) -> Result<(), Refused> {
+        while !self.over && self.run.line() + 1 < self.begin {
+            self.step(what)?;
+        }
+        self.waiting.clear();
+        Ok(())
+    }
+
+    fn next(&mut self, what: &str) -> Result<Option<Seen>, Refused> {
+        while self.waiting.is_empty() && !self.over {
+            self.step(what)?;
+        }
+        Ok(self.waiting.pop_front())
+    }
+
+    fn step(&mut self, what: &str) -> Result<(), Refused> {
+        self.items.clear();
+        let more = match self.run.step(&mut self.items) {
+            Ok(more) => more,
+            Err(RunError::Io(error)) => return Err(error.into()),
+            Err(RunError::Refused(diag, line)) => {
+                let help = diag.help.unwrap_or_default();
+                return refuse(format!("line {line} of {what} is refused: {}", diag.message), help);
+            }
+        };
+        self.over = !more;
+        for item in &self.items {
+            self.switches.follow(&item.action, &self.run);
+            let counts = matches!(
+                item.action,
+                Action::Rapid { .. }
+                    | Action::Feed { .. }
+                    | Action::Arc(_)
+                    | Action::Dwell(_)
+                    | Action::Stop(_)
+                    | Action::Tool(_)
+                    | Action::Orient(_)
+                    | Action::Hole(_)
+                    | Action::End
+            );
+            if counts {
+                let standing = self.run.state().standing();
+                self.waiting.push_back(Seen { action: item.action.clone(), standing, switches: self.switches.clone() });
+            }
+        }
+        Ok(())
+    }
+}

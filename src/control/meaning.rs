@@ -257,6 +257,16 @@ impl Meaning {
         matches!(self, Meaning::ToolChange | Meaning::ToolNumber)
     }
 
+    /// Does its code switch coolant?
+    pub fn cools(self) -> bool {
+        self.group() == Some(Group::Coolant) || matches!(self, Meaning::SpindleCwCoolant | Meaning::SpindleCcwCoolant)
+    }
+
+    /// Does its code start the spindle or stop it?
+    pub fn turns_spindle(self) -> bool {
+        self.group() == Some(Group::Spindle) || matches!(self, Meaning::SpindleCwCoolant | Meaning::SpindleCcwCoolant)
+    }
+
     /// Does it stop the program, or may it?
     pub const fn is_stop(self) -> bool {
         matches!(self, Meaning::StopProgram | Meaning::StopOptional | Meaning::Pallet)

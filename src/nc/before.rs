@@ -87,4 +87,17 @@ impl Simulator<'_> {
     pub fn control(&self) -> &'static Control {
         self.state.settings.control
     }
+
+    /// Does the block that was run last say a speed, and neither start nor stop the spindle?
+    pub fn only_says_speed(&self) -> bool {
+        let taps = self.block.row(Group::Motion).is_some_and(|row| row.meaning == Meaning::RigidTap);
+        let switches = self.block.m().any(|(_, row)| row.stops_spindle || row.meaning.turns_spindle());
+        self.block.get(b'S').is_some() && !switches && !taps
+    }
+
+    /// Does the block that was run last set a work offset along X or Y, or turn it?
+    pub fn sets_offset_across(&self) -> bool {
+        let sets = self.block.row(Group::Once).is_some_and(|row| row.meaning == Meaning::SetOffsets);
+        sets && b"XYR".iter().any(|letter| self.block.get(*letter).is_some())
+    }
 }

@@ -56,3 +56,4 @@ pub use standing::Standing;
 pub use tally::Tally;
 pub(crate) use tally::sweep;
 pub use tally::{clock, rapid_rate};
+pub(crate) use tool::{cooling as cooling_of, rotation as rotation_of};

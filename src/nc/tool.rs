@@ -11,7 +11,7 @@ use crate::diag;
 use crate::toolpath::Side;
 
 /// How the spindle turns after an M code of this meaning.
-fn rotation(meaning: Meaning) -> Option<Rotation> {
+pub(crate) fn rotation(meaning: Meaning) -> Option<Rotation> {
     match meaning {
         Meaning::SpindleCw | Meaning::SpindleCwCoolant => Some(Rotation::Cw),
         Meaning::SpindleCcw | Meaning::SpindleCcwCoolant => Some(Rotation::Ccw),
@@ -21,7 +21,7 @@ fn rotation(meaning: Meaning) -> Option<Rotation> {
 }
 
 /// What an M code of this meaning does to the coolant; through the spindle it is on, as a flood is.
-fn cooling(meaning: Meaning) -> Option<Cooling> {
+pub(crate) fn cooling(meaning: Meaning) -> Option<Cooling> {
     match meaning {
         Meaning::Mist => Some(Cooling::Mist),
         Meaning::Flood | Meaning::Through | Meaning::SpindleCwCoolant | Meaning::SpindleCcwCoolant => {

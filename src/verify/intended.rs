@@ -10,8 +10,8 @@ use super::tables::Unmodelled;
 use crate::control::{Control, Group, Meaning, ToolLength};
 use crate::cycle::{Steps, check};
 use crate::diag::Diag;
-use crate::lang::Machine;
-use crate::nc::{Cooling, Kind, Rotation, Turn, tokens};
+use crate::lang::{Beam, Machine};
+use crate::nc::{Cooling, Kind, Rotation, Turn, cooling_of, rotation_of, tokens};
 use crate::toolpath::{
     Arc, Axes, CycleSpec, Direction, EdmAction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start,
     StopKind, Tool, ToolChange, Units,
@@ -255,7 +255,7 @@ impl Job {
             let code = (number.value * 10.0).round();
             if !matches!(letter, b'G' | b'M') || !(0.0..=9999.0).contains(&code) {
                 if letter == b'S' {
-                    self.state.speed = None;
+                    self.state.speed = Some(number.value);
                 }
                 continue;
             }
@@ -265,8 +265,10 @@ impl Job {
                 (Meaning::StopProgram | Meaning::Pallet, _) => to.stop(StopKind::Program),
                 (Meaning::StopOptional, _) => to.stop(StopKind::Optional),
                 (Meaning::Dwell, _) => to.wait(f64::NAN),
-                (_, Some(Group::Spindle)) => self.state.rotation = None,
-                (_, Some(Group::Coolant)) => self.state.coolant = None,
+                (meaning, _) if meaning.turns_spindle() || meaning.cools() => {
+                    self.state.rotation = rotation_of(meaning).or(self.state.rotation);
+                    self.state.coolant = cooling_of(meaning).or(self.state.coolant);
+                }
                 (_, Some(Group::Motion | Group::Distance | Group::Work | Group::Length | Group::Compensation)) => {
                     axes = true;
                 }
@@ -285,8 +287,11 @@ impl Job {
     }
 
     fn spindle(&mut self, spindle: &Spindle) {
-        // what M3, M4, M5 and S are for a torch or a laser is the form's own
-        if self.expectation.beam.is_some() {
+        // what M3, M4 and M5 are for a torch or a laser is the form's own; S is the power of a laser
+        if let Some(beam) = self.expectation.beam {
+            if beam == Beam::Laser {
+                self.state.speed = spindle.speed.or(self.state.speed);
+            }
             return;
         }
         self.counts_speed(spindle.css.unwrap_or(self.css));

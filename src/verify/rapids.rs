@@ -103,13 +103,18 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
         |a: &Frame, b: &Frame| a.work.is_none_or(|work| Some(work) == b.work) && (!tools || a.tool == b.tool);
     let mut wrong = None;
     for (leg, _) in passage.legs().filter(|(leg, _)| !leg.lengths.is_empty()) {
+        let was = is_frame(&before.0, &leg.frame) && before.0.tool.is_some();
         let known: Vec<Option<f64>> = s
             .job
             .legs()
             .filter(|(own, _)| is_frame(&own.frame, &leg.frame))
-            .flat_map(|(own, _)| if own.lengths.is_empty() { vec![None] } else { own.lengths.clone() })
+            .flat_map(|(own, _)| match own.lengths.is_empty() {
+                // with the tool that cut before, the job keeps its length
+                true if was => vec![before.1],
+                true => vec![None],
+                false => own.lengths.clone(),
+            })
             .collect();
-        let was = is_frame(&before.0, &leg.frame) && before.0.tool.is_some();
         if known.is_empty() && !was {
             wrong = Some((Code::PV012, leg.frame, None));
             break;

@@ -76,7 +76,14 @@ fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, 
         .find(|corner| height(corner) < lowest - tolerance);
     let crosses = across(&program.corners[..=arrived], tolerance)
         .find(|(a, b)| height(a).min(height(b)) < first.to[DEPTH] - tolerance);
-    if let Some(corner) = low.or(crosses.map(|(_, b)| b)) {
+    // where it is known where the tool comes down, that is over the first place; both of X and Y unknown, the height was said first
+    let astray = |corner: &&Rapid| {
+        corner.unknown & 0b11 != 0b11
+            && height(corner) <= first.to[DEPTH] + tolerance
+            && !same(&corner.to, &first.to, 0b11 & !first.unknown, tolerance)
+    };
+    let astray = program.corners[..arrived].iter().skip(usize::from(program.begun)).find(astray);
+    if let Some(corner) = low.or(crosses.map(|(_, b)| b)).or(astray) {
         return Compared::Lower(corner.to, first.to[DEPTH]);
     }
     compare_corners(&job.corners, &program.corners[arrived..], true, 0, tolerance)

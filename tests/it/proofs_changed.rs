@@ -258,3 +258,73 @@ fn a_short_line_at_an_arc_lies_on_it() {
         assert_eq!(with(off), "PV001 1", "{off}");
     }
 }
+
+/// A speed alone starts no spindle: after a tap it stands where no code started it before.
+#[test]
+fn a_speed_alone_starts_no_spindle() {
+    let taps = mm(
+        r#"{"tool":1,"work":54,"feed":300,"spindle":{"speed":1000,"direction":"cw"},"path":[{"rapid":[0,0,50]},{"cycle":{"kind":"tap","clear":5,"depth":10,"feed":1000,"points":[[0,0,0]]}},{"rapid":[20,0,20]},{"cycle":{"kind":"tap","clear":6,"depth":10,"feed":1000,"points":[[20,0,0]]}},{"cycle":{"kind":"drill","clear":5,"depth":10,"feed":100,"points":[[40,0,0],[50,0,0]]}},{"rapid":[null,null,50]}]}"#,
+    );
+    for post in ["fanuc.pf", "haas.pf"] {
+        assert!(after(post, &taps, &[]).starts_with("equivalent") || after(post, &taps, &[]) == "identical");
+        let lost = after(post, &taps, &[("S1000 M3", "S1000")]);
+        assert!(lost.contains("PV011"), "{post}: {lost}");
+    }
+}
+
+/// On the way to the first place the tool comes down over it, and nowhere else.
+#[test]
+fn the_tool_comes_down_over_the_first_place() {
+    let low = mm(
+        r#"{"tool":1,"work":54,"spindle":{"speed":900,"direction":"cw"},"feed":90,"path":[{"rapid":[20,20,25]},{"line":[20,20,-1]},{"rapid":[20,20,25]}]},
+        {"tool":2,"work":54,"spindle":{"speed":900,"direction":"cw"},"path":[{"rapid":[60,80,-10]},{"cycle":{"kind":"drill","clear":2,"depth":5,"feed":100,"points":[[60,80,-12]]}},{"rapid":[null,null,50]}]}"#,
+    );
+    assert_eq!(after("haas.pf", &low, &[]), "identical");
+    for to in ["X60. Y-80.", "X60."] {
+        assert_eq!(after("haas.pf", &low, &[("G54 X60. Y80.", &format!("G54 {to}"))]), "PV009 1", "{to}");
+    }
+    let home = one(
+        r#"{"rapid":[0,-80,50]},{"line":[0,-80,-2]},{"rapid":[null,null,50]},{"home":true},{"rapid":[0,80,-10]},{"cycle":{"kind":"drill","clear":2,"depth":5,"feed":100,"points":[[0,80,-12]]}},{"rapid":[null,null,50]}"#,
+    );
+    assert!(
+        ["identical", "equivalent: 1 way in another order of axes or higher"]
+            .contains(&after("fanuc.pf", &home, &[]).as_str())
+    );
+    assert_eq!(after("fanuc.pf", &home, &[("X0 Y80. Z-10.", "X0 Z-10.")]), "PV009 1");
+}
+
+/// What a text of the job switches the program must switch.
+#[test]
+fn what_a_text_of_the_job_switches_counts() {
+    let texts = one(
+        r#"{"rapid":[0,0,50]},{"rapid":[0,0,2]},{"text":"M7"},{"line":[null,null,-3]},{"line":[60,0,-3]},{"rapid":[null,null,20]},{"text":"M4"},{"rapid":[0,30,20]},{"line":[0,30,-3]},{"rapid":[null,null,20]}"#,
+    );
+    assert_eq!(after("fanuc.pf", &texts, &[]), "identical");
+    for (from, to, code) in [("M7\n", "(none)\n", "PV024"), ("M4\n", "(none)\n", "PV011"), ("M4\n", "M5\n", "PV011")] {
+        let changed = after("fanuc.pf", &texts, &[(from, to)]);
+        assert!(changed.contains(code), "{from:?} {to:?}: {changed}");
+    }
+}
+
+/// A tool that cuts nothing is loaded all the same: its length under another tool is none.
+#[test]
+fn a_lost_change_is_seen_at_the_length() {
+    let changes = mm(
+        r#"{"tool":1,"work":54,"feed":300,"spindle":{"speed":2000,"direction":"cw"},"path":[{"rapid":[0,0,50]},{"rapid":[0,0,2]},{"line":[null,null,-3]},{"line":[60,0,-3]},{"rapid":[null,null,5]}]},
+        {"tool":2,"work":54,"feed":200,"spindle":{"speed":1000,"direction":"cw"},"path":[{"rapid":[30,30,6]},{"stop":"program"}]},
+        {"tool":1,"work":54,"feed":200,"spindle":{"speed":1500,"direction":"cw"},"path":[{"rapid":[60,80,10]},{"line":[60,80,-2]},{"rapid":[null,null,50]}]}"#,
+    );
+    assert_eq!(after("haas.pf", &changes, &[]), "identical");
+    for post in ["haas.pf", "fanuc.pf"] {
+        let lost = after(post, &changes, &[("T2 M6", "T2")]);
+        assert!(lost.contains("PV014") || lost.contains("PV012"), "{post}: {lost}");
+    }
+}
+
+/// A control without registers of lengths turns none on.
+#[test]
+fn a_length_where_there_are_none_is_wrong() {
+    let cut = one(r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"line":[9,0,-1]},{"rapid":[9,0,25]}"#);
+    let changed = after("grblhal.pf", &cut, &[("X9.", "G43 H3\nX9.")]);
+    assert!(changed.contains("PV014"), "{changed}");
+}

@@ -151,3 +151,55 @@ fn what_no_torch_cuts_is_refused() {
         assert!(lint.contains(said), "{said}: {lint}");
     }
 }
+
+/// A flat job: no heights, one operation.
+fn flat(path: &str) -> String {
+    format!(
+        r#"{{"postform":1,"program":1,"units":"mm","tools":[{{"number":1,"diameter":0.05}}],"operations":[{{"tool":1,"work":1,"feed":300.0,{path}}}]}}"#
+    )
+}
+
+/// Along the depth that the form ignores nothing counts, along X and Y all does: frames too.
+#[test]
+fn frames_of_a_flat_job_go_nowhere() {
+    let folder = Folder::new("torch_frames");
+    let job = flat(
+        r#""path":[{"rapid":[0,0]},{"line":[10,5]},{"line":[20,10]},{"line":[30,-10]},{"rapid":[21,22]},{"line":[30,25]}]"#,
+    );
+    let cases = [
+        (
+            "laser",
+            "identical",
+            ["G92 X1. Y1. Z1.", "G92 X0 Z0", "G92 X1. Y1.", "G10 L2 P1 X1.", "G10 L2 P1 X50. Y50. Z0"],
+        ),
+        ("plasma", "equivalent", ["G92 X1. Y1.", "G92 X0", "G52 X1.", "G10 L2 P1 X1.", "G92 Y2. Z0"]),
+    ];
+    for (name, verdict, frames) in cases {
+        let form = posts(name);
+        let right = printed(&folder, &job, &form, &[]).unwrap();
+        assert!(verified(&folder, &right, &form).contains(verdict), "{right}");
+        assert!(right.contains("X20. Y10."), "{right}");
+        for frame in frames {
+            let said = verified(&folder, &right.replace("X20. Y10.", &format!("{frame}\nX20. Y10.")), &form);
+            assert!(said.contains("PV021"), "{name} {frame}: {said}");
+        }
+    }
+}
+
+/// The power of a laser is the job's speed.
+#[test]
+fn the_power_of_a_laser_is_the_jobs() {
+    let folder = Folder::new("torch_power");
+    let form = posts("laser");
+    let path = r#""path":[{"rapid":[0,0]},{"line":[10,0]},{"line":[10,10]},{"rapid":[20,20]},{"line":[30,20]}]"#;
+    let job = flat(&format!(r#""spindle":{{"speed":600,"direction":"cw"}},{path}"#));
+    let right = printed(&folder, &job, &form, &[]).unwrap();
+    assert!(verified(&folder, &right, &form).contains("identical"), "{right}");
+    for to in ["M4 S60\n", "M4 S6000\n", "M4\n"] {
+        let said = verified(&folder, &right.replace("M4 S600\n", to), &form);
+        assert!(said.contains("PV011") || said.contains("PV026"), "{to}: {said}");
+    }
+    // without a speed it is the form's own
+    let right = printed(&folder, &flat(path), &form, &["--set", "beampower=300"]).unwrap();
+    assert!(right.contains("M4 S300") && verified(&folder, &right, &form).contains("identical"), "{right}");
+}

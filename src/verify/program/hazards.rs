@@ -18,7 +18,7 @@ impl Program<'_> {
     /// Is the frame moved along X or Y? Along an ignored depth it may be.
     pub(super) fn frame_goes_across(&self) -> bool {
         let state = self.simulator.state();
-        state.frame_unknown() & 0b11 != 0 || state.frame_shift()[..2] != [0.0; 2]
+        state.frame_unknown() & 0b11 != 0 || state.frame_shift()[..2] != [0.0; 2] || self.simulator.sets_offset_across()
     }
 
     pub(super) fn units_are_due(&mut self, line: u64, message: &str) {

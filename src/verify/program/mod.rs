@@ -19,7 +19,7 @@ use super::recent_lines::Recent;
 use super::scale::Scale;
 use super::unset::Due;
 use super::wire_codes::Codes;
-use crate::control::{self, Control, Meaning, Motions};
+use crate::control::{self, Control, Meaning, Motions, ToolLength};
 use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
@@ -311,6 +311,10 @@ impl<'a> Program<'a> {
             Action::Stop(kind) => self.stop(*kind, item),
             // Grbl reads M1 and goes on, as other controls do with their switch off
             Action::LeftOut(_, Meaning::StopOptional) => self.stop(StopKind::Optional, item),
+            // a speed alone starts nothing
+            Action::Spindle(_, speed) if !item.by_cycle && self.simulator.only_says_speed() => {
+                self.state.speed = Some(*speed);
+            }
             Action::Spindle(rotation, speed) => {
                 if !item.by_cycle {
                     self.before_tap = None;
@@ -325,6 +329,14 @@ impl<'a> Program<'a> {
             }
             Action::Tool(number) => self.tool(*number, item.line),
             Action::Length(register) => {
+                if register.is_some_and(|register| register != 0.0)
+                    && self.control.traits().tool_length == ToolLength::None
+                    && !self.control.is_lathe()
+                {
+                    let message =
+                        "the program turns on the length of a tool, which the job counts from the work offset";
+                    self.hazard(Code::PV014, item.line, message, "take G43 out, or name a control that has lengths");
+                }
                 self.due.length_changes(self.state.length, *register);
                 self.state.length = *register;
             }
@@ -339,7 +351,8 @@ impl<'a> Program<'a> {
             Action::SpeedLimit(limit) => self.state.limit = Some(*limit),
             Action::Plane(plane) => self.state.plane = *plane,
             Action::Frame if self.scale.flat && !self.frame_goes_across() => {}
-            Action::Frame if self.simulator.state().frame_unknown() != 0 => {} // reported at the first move in it
+            // reported at the first move in it
+            Action::Frame if self.scale.axes(self.simulator.state().frame_unknown()) != 0 => {}
             Action::Frame | Action::LeftOut(_, Meaning::SetOffsets) => {
                 let message = "the program moves its coordinate frame: the job's places lie elsewhere then";
                 self.hazard(Code::PV021, item.line, message, "take G10, G52 or G92 out");

@@ -35,6 +35,8 @@ pub(super) fn printed_by(sequence: SequenceId) -> u8 {
         // a thread is printed for all that it is; what Cancel types holds on after its hole
         S::AutoThread | S::CanThread | S::Cancel => by::JOB,
         S::Stop | S::OptStop | S::DwellBlock | S::MoveHome => by::PAUSE,
+        // of a torch: how it comes down, and no cut
+        S::BeginCut | S::EndCut => 0,
         S::SubStart | S::SubEnd | S::SubCall | S::Between => by::SUB,
         S::BeginLeadin
         | S::EndLeadin

@@ -35,7 +35,7 @@ pub(super) struct Mark<T> {
     /// The spindle was started from standing before it, since the cut.
     pub started: bool,
     /// A torch or a laser is off there: it is in no cut.
-    is_off: bool,
+    pub is_off: bool,
     /// The program's line; 0 of a job.
     pub line: u64,
     /// The job's item.

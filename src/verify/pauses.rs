@@ -5,6 +5,7 @@ use super::intent::Expected;
 use super::passage::{Mark, Passage};
 use super::rapids;
 use super::sides::Sides;
+use super::tables::STARTED;
 use crate::diag::Code;
 use crate::toolpath::StopKind;
 
@@ -190,12 +191,16 @@ fn waits(s: &mut Sides<'_>) {
     let own = holes.into_iter().flatten().any(|last| {
         last.custom && s.program.passage.start.is_some_and(|start| same(&start.to, &last.at, ACROSS, tolerance))
     });
+    let mut started = false;
     for other in &others {
         let passage = &s.program.passage;
         let in_hole = s.hole.holds(passage, other, tolerance);
         // fed out of a hole, the tool is in no cut where it stands
         let in_cut = s.hole.inside.is_none() && passage.in_cut(other, tolerance);
-        if !in_hole && (own || other.started || !in_cut) {
+        // a torch waits until it is through, once; a spindle until it has its speed
+        let burns = s.switches && !other.is_off;
+        let once = other.what <= STARTED && !std::mem::replace(&mut started, burns || in_cut);
+        if !in_hole && (own || other.started && in_cut && once || !in_cut && (!burns || once)) {
             s.report.allowed.dwells += 1;
             continue;
         }

@@ -14,6 +14,9 @@ pub(super) const ROUNDED: f64 = 0.01;
 pub(super) const PITCH: f64 = 0.0025;
 /// Dwells in seconds, where that is more.
 pub(super) const MOMENT: f64 = 0.001;
+/// How long a program may wait in a cut for a spindle, a torch or a laser that was just started, in seconds. Decided by us: spindles
+/// come to speed and torches pierce within it.
+pub(super) const STARTED: f64 = 30.0;
 /// How much longer than the job's longest peck one may be, as a factor.
 pub(super) const LONGER: f64 = 1.5;
 /// A last peck shorter than this part of the longest is what was left, and need not be one of its own.

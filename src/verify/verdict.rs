@@ -43,7 +43,7 @@ allowed! {
     outs    "hole" "left at feed farther up" "lines.rs" "Taps and reamed holes that are left at feed up to the return plane.";
     entries "cut" "left and entered again" "align.rs" "Cuts that were left and entered again where they go on.";
     slow    "rapid" "at feed that turn compensation on or off" "comparer.rs" "Feeds where the job has a rapid that turns compensation on or off.";
-    dwells  "dwell" "of the form" "pauses.rs" "Dwells that the job does not have: outside cuts and holes, or in a cut after a spindle that stood was started.";
+    dwells  "dwell" "of the form" "pauses.rs" "Dwells that the job does not have: outside cuts and holes, or one of up to 30 s in a cut after a spindle that stood was started, or with a torch or laser on.";
     stops   "stop" "of the form" "pauses.rs" "Stops outside cuts and holes that the job does not have.";
     pauses  "pause" "elsewhere on the way" "pauses.rs" "Stops and dwells of the job that the program makes elsewhere on the way; stops nowhere lower.";
     feeds   "feed" "of the form" "modal.rs" "Cuts at a feed that the form types, or makes of the job's: 0.2 to 2 times it.";

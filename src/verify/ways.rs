@@ -264,8 +264,15 @@ pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -
     if let Some((_, b)) = low {
         return Some((b.to, crossing));
     }
-    // where the job only goes up, so does the program
-    let floor = heights(&job.corners).into_iter().skip(1).reduce(f64::min).unwrap_or(highest);
+    // down only where the job goes down, and no lower; elsewhere no lower than it crosses, and where it only goes up not at all
+    let lowest = heights(&job.corners).into_iter().skip(1).reduce(f64::min).unwrap_or(highest);
+    let floor = |at: &Rapid| {
+        let there = |own: &&Rapid| {
+            at.unknown & 0b11 != 0 || own.unknown & 0b11 != 0 || same(&own.to, &at.to, ACROSS, tolerance)
+        };
+        let own = job.corners.iter().skip(1).filter(there).map(|own| own.to[DEPTH]).reduce(f64::min);
+        own.unwrap_or(lowest.max(crossing))
+    };
     // a cycle of the control may have left the hole higher than the job, whose place the program then goes to, straight down
     let comes_back = |at: usize| {
         let is_left = |rapid: &Rapid, axes| {
@@ -276,9 +283,9 @@ pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -
     };
     let mut pairs = program.corners.windows(2).enumerate();
     let dives = pairs.find(|(at, pair)| {
-        height(&pair[1]) < height(&pair[0]) && height(&pair[1]) < floor - tolerance && !comes_back(*at)
+        height(&pair[1]) < height(&pair[0]) && height(&pair[1]) < floor(&pair[1]) - tolerance && !comes_back(*at)
     });
-    dives.map(|(_, pair)| (pair[1].to, floor))
+    dives.map(|(_, pair)| (pair[1].to, floor(&pair[1])))
 }
 
 #[cfg(test)]

@@ -328,3 +328,16 @@ fn a_length_where_there_are_none_is_wrong() {
     let changed = after("grblhal.pf", &cut, &[("X9.", "G43 H3\nX9.")]);
     assert!(changed.contains("PV014"), "{changed}");
 }
+
+/// After a last cut the tool goes down where the job does, and nowhere else.
+#[test]
+fn the_way_out_goes_down_where_the_jobs_does() {
+    let leave = mm(
+        r#"{"tool":1,"work":54,"feed":300,"spindle":{"speed":2000,"direction":"cw"},"path":[{"rapid":[0,0,50]},{"rapid":[0,0,2]},{"line":[null,null,-3]},{"line":[60,0,-3]},{"rapid":[null,null,20]},{"rapid":[-60,0,20]},{"rapid":[-60,0,-8]}]},
+        {"tool":2,"work":54,"feed":200,"spindle":{"speed":1000,"direction":"cw"},"path":[{"rapid":[30,30,40]},{"line":[30,30,-2]},{"rapid":[null,null,20]},{"rapid":[-70,0,20]},{"rapid":[-70,0,-8]}]}"#,
+    );
+    assert_eq!(after("linuxcnc.pf", &leave, &[]), "identical");
+    for (from, to) in [("X-60.", "X45."), ("X-70. Y0", "X45. Y0")] {
+        assert_eq!(after("linuxcnc.pf", &leave, &[(from, to)]), "PV009 1", "{from}");
+    }
+}

@@ -203,3 +203,24 @@ fn the_power_of_a_laser_is_the_jobs() {
     let right = printed(&folder, &flat(path), &form, &["--set", "beampower=300"]).unwrap();
     assert!(right.contains("M4 S300") && verified(&folder, &right, &form).contains("identical"), "{right}");
 }
+
+/// Feed and dwell of `BeginCut` are its own: no cut has them, and it waits once.
+#[test]
+fn what_a_torch_does_before_a_cut_is_no_excuse_for_it() {
+    let folder = Folder::new("torch_begin");
+    let form = posts("plasma");
+    let path = r#""path":[{"rapid":[0,0]},{"line":[10,5]},{"line":[20,10]},{"rapid":[21,22]},{"line":[30,25]}]"#;
+    let right = printed(&folder, &flat(path), &form, &[]).unwrap();
+    assert!(verified(&folder, &right, &form).contains("equivalent"), "{right}");
+    let cases = [
+        ("X10. Y5. F300.", "X10. Y5. F500.", "PV006"),
+        ("X10. Y5. F300.", "X10. Y5.", "PV006"),
+        ("G4 P.5\n", "G4 P100\n", "PV010"),
+        ("G4 P.5\n", "G4 P.5\nG4 P6\n", "PV010"),
+    ];
+    for (from, to, code) in cases {
+        assert!(right.contains(from), "{right}");
+        let said = verified(&folder, &right.replacen(from, to, 1), &form);
+        assert!(said.contains(code), "{from} {to}: {said}");
+    }
+}

@@ -75,7 +75,7 @@ pub use explain::explain;
 pub use fmt::format;
 #[cfg(feature = "freecad")]
 pub use freecad::Options as FreecadOptions;
-pub use job::{Format, Job, Reading};
+pub use job::{Format, Job, Reading, Selection};
 pub use lang::{Machine, SequenceId, VarId};
 pub use lint::{Level, Levels};
 pub use nc::{JobOptions as NcOptions, RunSettings, Unpointed};

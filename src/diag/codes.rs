@@ -307,6 +307,7 @@ codes! {
     PR057 Error "two tools that are one to the control"
     PR058 Error "a path that a torch or a laser can't cut"
     PR059 Note "an axis that the form ignores"
+    PR060 Error "an operation that can't be begun alone"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

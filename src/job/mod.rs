@@ -1,9 +1,12 @@
 //! Jobs: what is to be made, whatever its format. Bytes come in, events go out.
 
 mod format;
+mod select;
 
 pub use format::Format;
+pub use select::Selection;
 
+use select::Selecting;
 use std::cell::Cell;
 use std::fmt;
 use std::io::{self, BufReader, Cursor, Read, Seek};
@@ -44,6 +47,8 @@ pub struct Reading {
     pub job: Option<String>,
     /// What a length without a point means in an NC program of a Fanuc; else it is an error.
     pub unpointed: Unpointed,
+    /// Which operations are taken.
+    pub select: Selection,
 }
 
 /// What can be read and gone back in.
@@ -213,7 +218,9 @@ impl<'a> Job<'a> {
         }
         self.report = Report::default();
         self.read.set(0);
-        let read = self.read_on(sink);
+        let selection = self.reading.select.clone();
+        let read =
+            if selection.is_all() { self.read_on(sink) } else { self.read_on(&mut Selecting::new(sink, &selection)) };
         // a reader that watches its file reports here whether it stayed as it was
         if let Input::File(input) = &mut self.input {
             input.rewind()?;

@@ -63,12 +63,7 @@ impl Simulator<'_> {
         self.frames.len()
     }
 
-    /// Does the block that was run last set parameters?
-    pub fn sets_parameters(&self) -> bool {
-        !self.block.settings.is_empty()
-    }
-
-    /// The motion code that the block that was run last names, or that it names none.
+    /// Does the block that was run last name a motion?
     pub fn names_motion(&self) -> bool {
         self.block.row(Group::Motion).is_some()
     }

@@ -213,18 +213,26 @@ impl<'a> Simulator<'a> {
         if !self.unfinished && !self.read_lines()? {
             return self.at_end().map_err(|fault| self.refused(fault));
         }
-        match self.line_step(items) {
-            Ok(Jump::On) => Ok(true),
+        let behind = self.at;
+        let jump = match self.line_step(items) {
+            Ok(Jump::On) => return Ok(true),
             Ok(Jump::End) => {
                 self.over = true;
-                Ok(false)
+                return Ok(false);
             }
-            Ok(Jump::To(spot)) => self.go(spot).map(|()| true),
-            Ok(Jump::Find(label, times)) => self.find(label, times).map(|()| true),
-            Ok(Jump::Skip(label, ends)) => self.skip(&label, ends).map(|()| true),
-            Ok(Jump::Search(search)) => self.search(search).map(|()| true),
+            Ok(Jump::To(spot)) => self.go(spot),
+            Ok(Jump::Find(label, times)) => self.find(label, times),
+            Ok(Jump::Skip(label, ends)) => self.skip(&label, ends),
+            Ok(Jump::Search(search)) => self.search(search),
             Err(fault) => Err(self.refused(fault)),
+        };
+        if let Err(error) = jump {
+            // whatever was looked for, the block after this one is the next
+            self.input.seek(SeekFrom::Start(behind.byte))?;
+            self.at = behind;
+            return Err(error);
         }
+        Ok(true)
     }
 
     /// Passes over the block that was refused, as an operator would; `false`: nothing comes after it.

@@ -2,7 +2,7 @@
 
 use super::entry::{Entry, Found};
 use super::{Asked, Refused, refuse};
-use crate::control::{Control, Meaning, ToolLength};
+use crate::control::{Code, Control, Meaning, ToolLength};
 use crate::machine::offsets;
 use crate::nc::Rotation;
 use crate::toolpath::{FeedMode, Plane, Units};
@@ -61,7 +61,8 @@ fn blocks(control: &Control, found: &Found, asked: &Asked) -> Result<(Vec<String
     }
     // up, to the machine's zero
     let up = if control.is_lathe() {
-        code(Meaning::Reference).map(|home| vec![format!("{home} U0 W0")])
+        let home = Code { letter: b'G', tenths: 280 };
+        control.row(home).filter(|row| row.meaning == Meaning::Reference).map(|row| vec![format!("{} U0 W0", row.code)])
     } else {
         let rapid = code(Meaning::Rapid);
         code(Meaning::Machine).zip(rapid).map(|(machine, rapid)| vec![format!("{rapid} {machine} Z0.")])
@@ -105,6 +106,10 @@ fn blocks(control: &Control, found: &Found, asked: &Asked) -> Result<(Vec<String
         if let Some(word) = code(meaning).filter(|_| is_on) {
             blocks.push(word);
         }
+    }
+    // the head may have turned it on
+    if !(switches.flood || switches.mist || switches.through) {
+        blocks.extend(code(Meaning::CoolantOff));
     }
     if !control.is_lathe() {
         way_in(control, &found.entry, &mut blocks)?;

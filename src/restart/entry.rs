@@ -2,7 +2,7 @@
 
 use super::{Refused, refuse};
 use crate::control::Meaning;
-use crate::nc::{Action, Cooling, RunError, RunSettings, Simulator, Standing};
+use crate::nc::{Action, Cooling, Kind, RunError, RunSettings, Simulator, Standing, tokens};
 use crate::terminal::escaped;
 
 /// What is asked for.
@@ -180,7 +180,7 @@ impl<'t> Search<'t> {
         if is_asked {
             self.asked = Some(line);
         }
-        if self.head.is_some() && run.sets_parameters() {
+        if self.head.is_some() && computes(run.text()) {
             self.never
                 .get_or_insert(format!("line {line} computes values, which are not known without the blocks before"));
         }
@@ -277,4 +277,11 @@ fn block_number(text: &[u8]) -> Option<u64> {
     let digits = text.strip_prefix(['N', 'n'])?;
     let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
     digits.get(..end)?.parse().ok()
+}
+
+/// Does a block give a parameter a value?
+fn computes(text: &[u8]) -> bool {
+    let mut symbols =
+        tokens(text).filter_map(|token| if let Kind::Symbol(symbol) = token.kind { Some(symbol) } else { None });
+    symbols.any(|symbol| symbol == b'#') && symbols.any(|symbol| symbol == b'=')
 }

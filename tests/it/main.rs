@@ -52,6 +52,7 @@ mod public_items;
 mod real_programs;
 mod reference;
 mod render_proof;
+mod restarts;
 mod rotary;
 mod rules;
 mod safety;

@@ -103,6 +103,9 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         None => (prepared.post.render_parts(job.again(), &options, &mut take), None),
     };
     drop(progress);
+    if !args.read.reading().select.is_all() && !args.options.quiet {
+        message("a part of the job is taken: its other operations are not in the program");
+    }
     let mut notes = match &printed {
         Ok(rendered) => rendered.notes.clone(),
         Err(error) => error.findings().diags.iter().filter(|diag| !diag.is_error()).cloned().collect(),

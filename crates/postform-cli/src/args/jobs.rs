@@ -8,7 +8,7 @@ use postform::diag::{Diag, Severity};
 use postform::internals::cl::{Assumed, AssumedSpeed, Dialect, parse_position};
 use postform::internals::render::{Clock, Cycles};
 use postform::toolpath::Units;
-use postform::{Format, Options, Reading};
+use postform::{Format, Options, Reading, Selection};
 
 use postform::internals::control::Control;
 use postform::internals::nc::Unpointed;
@@ -64,6 +64,9 @@ pub struct ReadArgs {
     /// Which setup of a CL file whose tool points several ways: `check` lists them
     #[arg(long, value_name = "N", value_parser = setup)]
     pub setup: Option<usize>,
+    /// Which operations are taken
+    #[command(flatten)]
+    pub select: SelectArgs,
     /// Whose rules a job that is an NC program follows [default: fanuc]
     #[arg(long, value_name = "CONTROL", value_parser = ControlParser)]
     pub job_control: Option<&'static Control>,
@@ -111,6 +114,7 @@ impl ReadArgs {
         reading.start = self.assume_start;
         reading.end = self.assume_end;
         reading.setup = self.setup;
+        reading.select = self.select.selection();
         reading
     }
 
@@ -118,6 +122,35 @@ impl ReadArgs {
     pub fn assumes_of_cl(&self) -> bool {
         self.assume_speed.is_some() || self.assume_feed.is_some() || self.assume_end || self.setup.is_some()
     }
+}
+
+/// Which operations of a job are taken.
+#[derive(Clone, Debug, Default, Args)]
+pub struct SelectArgs {
+    /// Take the operations from the first with this tool on
+    #[arg(long, value_name = "TOOL")]
+    pub from_tool: Option<u32>,
+    /// Take the operations up to those with this tool
+    #[arg(long, value_name = "TOOL")]
+    pub until: Option<u32>,
+    /// Take the operations with these tools, as `3,5`
+    #[arg(long, value_name = "TOOLS", value_delimiter = ',', value_parser = tool)]
+    pub only: Vec<u32>,
+    /// Leave out the operations with these tools
+    #[arg(long, value_name = "TOOLS", value_delimiter = ',', value_parser = tool)]
+    pub skip: Vec<u32>,
+}
+
+impl SelectArgs {
+    fn selection(&self) -> Selection {
+        let SelectArgs { from_tool: from, until, only, skip } = self.clone();
+        Selection { from, until, only, skip }
+    }
+}
+
+/// `3` or `T3`.
+fn tool(text: &str) -> Result<u32, String> {
+    text.strip_prefix(['T', 't']).unwrap_or(text).parse().map_err(|_| "a tool is written 3 or T3".into())
 }
 
 /// Where cycles come from.

@@ -1,0 +1,244 @@
+//! Some operations of a job: from a tool on, until one, those of some tools, or all but these.
+//!
+//! What an operation that is left out says and what holds on (work offset, spindle, coolant, values) is said by the next one that
+//! is taken; where it begins is filled in from where the tool was.
+
+use crate::diag::{Code, Diag};
+use crate::lang::Coolant;
+use crate::toolpath::{Axes, Event, First, Flow, Given, Hole, Place, Sink, Spindle, Start, ToolChange};
+
+/// Which operations are taken, by their tools.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// From the first operation with this tool on.
+    pub from: Option<u32>,
+    /// Up to the operations with this tool.
+    pub until: Option<u32>,
+    /// Those with these tools; none: all.
+    pub only: Vec<u32>,
+    /// Not those with these tools.
+    pub skip: Vec<u32>,
+}
+
+impl Selection {
+    /// Is everything taken?
+    pub fn is_all(&self) -> bool {
+        *self == Selection::default()
+    }
+}
+
+/// Where in a selection a job is.
+#[derive(Clone, Copy, Default)]
+struct Progress {
+    begun: bool,
+    /// An operation with the last tool was there.
+    reached: bool,
+    over: bool,
+}
+
+impl Progress {
+    /// Is the next operation taken, which has this tool?
+    fn takes(&mut self, selection: &Selection, tool: Option<f64>) -> bool {
+        let is = |number: u32| tool == Some(f64::from(number));
+        self.begun |= selection.from.is_none_or(is);
+        let is_last = selection.until.is_some_and(is);
+        self.over |= self.reached && !is_last;
+        self.reached |= is_last;
+        let named = selection.only.is_empty() || selection.only.iter().any(|number| is(*number));
+        self.begun && !self.over && named && !selection.skip.iter().any(|number| is(*number))
+    }
+}
+
+/// Passes the selected operations on.
+pub(super) struct Selecting<'s> {
+    sink: &'s mut dyn Sink,
+    selection: &'s Selection,
+    progress: Progress,
+    /// The operation is taken; before the first one all is.
+    takes: bool,
+    /// Something was left out since the last operation that was taken.
+    left_out: bool,
+    /// The next move is the first after something that was left out.
+    fills: bool,
+    /// A subprogram is open: it stays, whoever calls it.
+    in_subprogram: bool,
+    held: Held,
+    /// The position where it is known.
+    at: Axes,
+    tools: Vec<f64>,
+    taken: u64,
+}
+
+/// What holds on from operation to operation.
+#[derive(Default)]
+struct Held {
+    spindle: Option<Spindle>,
+    coolant: Option<Coolant>,
+    work: Option<f64>,
+    set: Vec<(String, Given)>,
+}
+
+impl<'s> Selecting<'s> {
+    pub fn new(sink: &'s mut dyn Sink, selection: &'s Selection) -> Selecting<'s> {
+        Selecting {
+            sink,
+            selection,
+            progress: Progress::default(),
+            takes: true,
+            left_out: false,
+            fills: false,
+            in_subprogram: false,
+            held: Held::default(),
+            at: Axes::default(),
+            tools: Vec::new(),
+            taken: 0,
+        }
+    }
+
+    /// An operation begins.
+    fn change(&mut self, change: &ToolChange, place: Place) -> Flow {
+        let tool = change.tool.as_ref().map(|tool| tool.number);
+        if let Some(tool) = tool.filter(|tool| !self.tools.contains(tool)) {
+            self.tools.push(tool);
+        }
+        self.takes = self.progress.takes(self.selection, tool);
+        self.hold(change);
+        if !self.takes {
+            self.left_out = true;
+            return Flow::Continue(());
+        }
+        self.taken += 1;
+        if !std::mem::take(&mut self.left_out) {
+            return self.sink.event(Event::ToolChange(change), place);
+        }
+        let held = &self.held;
+        let mut change = ToolChange {
+            spindle: held.spindle,
+            coolant: held.coolant,
+            work: held.work,
+            set: held.set.clone(),
+            ..change.clone()
+        };
+        match &mut change.first {
+            First::Rapid(to) => *to = self.filled(*to),
+            First::Hole(_, hole) => hole.at = self.filled(hole.at),
+            First::Cut => {
+                let name = change.name.as_deref().map(|name| format!(" `{name}`")).unwrap_or_default();
+                let message = format!("the operation{name} begins with a cut, where one that is left out ended");
+                let help = "take the operation before it too";
+                return Flow::Break(Diag::new(Code::PR060, message).help(help).place(place).into());
+            }
+            First::Nothing => {}
+        }
+        self.fills = true;
+        self.sink.event(Event::ToolChange(&change), place)
+    }
+
+    /// Keeps what the operation says.
+    fn hold(&mut self, change: &ToolChange) {
+        let held = &mut self.held;
+        held.spindle = change.spindle.map(|own| turned(own, held.spindle)).or(held.spindle);
+        held.coolant = change.coolant.or(held.coolant);
+        held.work = change.work.or(held.work);
+        change.set.iter().for_each(|(name, value)| self.set(name, value));
+    }
+
+    fn set(&mut self, name: &str, value: &Given) {
+        self.held.set.retain(|(known, _)| known != name);
+        self.held.set.push((name.to_owned(), value.clone()));
+    }
+
+    /// A position with the axes that it does not give, as far as they are known.
+    fn filled(&self, to: Axes) -> Axes {
+        let mut full = to;
+        for axis in 0..6 {
+            if let (None, Some(value)) = (to.get(axis), self.at.get(axis)) {
+                full.set(axis, value);
+            }
+        }
+        full
+    }
+
+    fn goes(&mut self, to: &Axes) {
+        for axis in 0..6 {
+            if let Some(value) = to.get(axis) {
+                self.at.set(axis, value);
+            }
+        }
+    }
+
+    /// What an event says that holds on.
+    fn follow(&mut self, event: &Event<'_>) {
+        match event {
+            Event::Rapid(to) | Event::Line { to, .. } | Event::Outfeed { to, .. } => self.goes(to),
+            Event::Arc { arc, .. } => self.goes(&arc.to),
+            Event::Infeed { infeed, .. } => self.goes(&infeed.to),
+            Event::Hole(Hole { at, .. }) => {
+                self.goes(at);
+                self.at.given &= !0b100; // it comes out at a height of the cycle
+            }
+            Event::SubCall(_) | Event::Home | Event::Thread(_) | Event::Edm(_) => self.at = Axes::default(),
+            Event::Work(work) => {
+                self.held.work = Some(*work);
+                self.at = Axes::default();
+            }
+            Event::Spindle(spindle) => self.held.spindle = Some(turned(*spindle, self.held.spindle)),
+            Event::Coolant(coolant) => self.held.coolant = Some(*coolant),
+            Event::Set(name, value) => self.set(name, value),
+            _ => {}
+        }
+    }
+
+    /// The head without the tools that are left out.
+    fn start(&mut self, start: &Start, place: Place) -> Flow {
+        let Some(order) = &start.tool_order else { return self.sink.event(Event::Start(start), place) };
+        let mut progress = Progress::default();
+        let taken = order.iter().copied().filter(|tool| progress.takes(self.selection, Some(*tool))).collect();
+        self.sink.event(Event::Start(&Start { tool_order: Some(taken), ..start.clone() }), place)
+    }
+}
+
+impl Sink for Selecting<'_> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+        match event {
+            Event::Start(start) => return self.start(start, place),
+            Event::ToolChange(change) => return self.change(change, place),
+            Event::SubStart(_) => self.in_subprogram = true,
+            Event::Finish if self.taken == 0 && !self.tools.is_empty() => {
+                let tools: Vec<String> = self.tools.iter().map(|tool| format!("T{tool}")).collect();
+                let message = format!("no operation is taken: the job has {}", tools.join(", "));
+                return Flow::Break(Diag::new(Code::PJ006, message).help("name tools that it has").into());
+            }
+            _ => {}
+        }
+        let passes = self.takes || self.in_subprogram || matches!(event, Event::Finish);
+        if !self.in_subprogram {
+            // the move is filled in from where the tool was before it
+            let filled = match &event {
+                Event::Rapid(to) if self.fills => Some(Event::Rapid(self.filled(*to))),
+                Event::Hole(hole) if self.fills => Some(Event::Hole(Hole { at: self.filled(hole.at), ..*hole })),
+                _ => None,
+            };
+            self.follow(&event);
+            if let Some(filled) = filled {
+                self.fills &= !passes;
+                return if passes { self.sink.event(filled, place) } else { Flow::Continue(()) };
+            }
+        }
+        if matches!(event, Event::SubEnd) {
+            self.in_subprogram = false;
+        }
+        if passes { self.sink.event(event, place) } else { Flow::Continue(()) }
+    }
+}
+
+/// A spindle with what the one before says and it does not.
+fn turned(own: Spindle, before: Option<Spindle>) -> Spindle {
+    let Some(before) = before else { return own };
+    Spindle {
+        speed: own.speed.or(before.speed),
+        turn: own.turn.or(before.turn),
+        css: own.css.or(before.css),
+        max: own.max.or(before.max),
+    }
+}

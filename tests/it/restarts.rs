@@ -1,0 +1,209 @@
+//! Programs that begin in the middle of another one, and jobs of which a part is taken.
+
+use std::fs;
+use std::path::Path;
+
+use crate::support::folder::{Folder, err, out};
+use crate::support::{nc, root};
+
+/// The program that begins there, or what was said.
+fn restarted(folder: &Folder, control: &str, at: &[&str]) -> Result<(String, String), String> {
+    let run = folder.run(&[&["restart", "a.nc", "--control", control], at].concat());
+    if run.status.success() { Ok((out(&run), err(&run))) } else { Err(err(&run)) }
+}
+
+/// From each line of the programs of the samples: the rest of the program as it is, or a sentence.
+#[test]
+fn every_line_of_the_samples_is_an_entry_or_has_a_reason() {
+    let folder = Folder::new("restart-samples");
+    for (control, file) in [
+        ("haas", "bracket/expected.haas.nc"),
+        ("fanuc", "bracket/expected.fanuc.nc"),
+        ("linuxcnc", "bracket/expected.linuxcnc.nc"),
+        ("grbl", "plate/expected.grbl.nc"),
+        ("haas-lathe", "lathe-part/expected.haas-lathe.nc"),
+    ] {
+        let text = fs::read_to_string(root().join("samples").join(file)).unwrap();
+        folder.write("a.nc", &text);
+        let lines: Vec<&str> = text.lines().collect();
+        let mut made = 0;
+        for line in (1..=lines.len()).step_by(7) {
+            match restarted(&folder, control, &["--line", &line.to_string()]) {
+                Ok((program, said)) => {
+                    made += 1;
+                    let begin: usize = said
+                        .split("begins at line ")
+                        .nth(1)
+                        .and_then(|rest| rest.split(' ').next())
+                        .and_then(|number| number.parse().ok())
+                        .unwrap();
+                    let rest = lines[begin - 1..].join("\n");
+                    assert!(begin <= line && program.trim_end().ends_with(&rest), "{file} {line}: {said}\n{program}");
+                    assert!(said.contains("proven"), "{said}");
+                }
+                Err(said) => assert!(said.contains("can't be begun") || said.contains("no block is run"), "{said}"),
+            }
+        }
+        assert!(made * 2 > lines.len() / 7, "{file}: {made} of {}", lines.len() / 7);
+    }
+}
+
+const PROGRAM: &str = "%\nO1 (PART)\nN1 G21 G17 G40 G49 G80 G90 G94\nN2 T1 M6\nN3 G54 G0 X0 Y0 S1000 M3\nN4 G43 H1 Z50. M8\nN5 Z2.\nN6 G1 Z-1. F100.\nN7 X50. F300.\nN8 G0 Z50.\nN9 (SECOND)\nN10 X10. Y10.\nN11 Z2.\nN12 G41 D1 G1 X20. F200.\nN13 Y40.\nN14 G40 X10.\nN15 G0 Z50. M9\nN16 G91 G28 Z0 M5\nN17 G90 T2 M6\nN18 G55 X5. Y5. S2000 M3\nN19 G43 H2 Z20.\nN20 G98 G81 X5. Y5. Z-9. R2. F80.\nN21 X15.\nN22 G80\nN23 M30\n%\n";
+
+#[test]
+fn what_is_in_force_is_put_in_force() {
+    let folder = Folder::new("restart-force");
+    folder.write("a.nc", PROGRAM);
+    let at = |at: &[&str]| restarted(&folder, "fanuc", at).unwrap();
+    // in the middle of a contour under compensation: before its way down
+    let (program, said) = at(&["--at", "N13"]);
+    assert!(said.contains("it begins at line 13, where the tool is clear, not at line 15"), "{said}");
+    let own: Vec<&str> = program.lines().skip(3).take_while(|line| !line.starts_with("N11")).collect();
+    assert_eq!(
+        own,
+        [
+            "(RESTART AT LINE 13)",
+            "G21 G17 G40 G80",
+            "G49 G90 G94",
+            "G0 G53 Z0.",
+            "T1 M6",
+            "G54",
+            "S1000 M3",
+            "M8",
+            "G0 X10. Y10.",
+            "G43 H1 Z50.",
+            "F300.",
+            "G98"
+        ]
+    );
+    // at the change of a tool
+    let (program, _) = at(&["--tool", "2"]);
+    assert!(program.contains("G98\nN17 G90 T2 M6\nN18 G55"), "{program}");
+    assert!(!program.contains("T1 M6"), "the tool before is not loaded");
+    // a hole of a cycle: from the height before it
+    let (program, _) = at(&["--at", "21"]);
+    assert!(program.contains("G55\nS2000 M3\nM9\nG0 X5. Y5.\nG43 H2 Z20.\n"), "{program}");
+    assert!(program.contains("\nN20 G98 G81"), "{program}");
+    let (_, said) = at(&["--operation", "second"]);
+    assert!(said.contains("begins at line 11"), "{said}");
+    // from a height that the operator says
+    let (program, _) = at(&["--tool", "2", "--clear-z", "80"]);
+    assert!(program.contains("G0 Z80.\n") && !program.contains("G53"), "{program}");
+}
+
+#[test]
+fn what_cant_be_rebuilt_is_refused() {
+    let folder = Folder::new("restart-refused");
+    let cases = [
+        (PROGRAM.to_owned(), "fanuc", vec!["--tool", "9"], "never changes to T9"),
+        (PROGRAM.to_owned(), "fanuc", vec!["--at", "N99"], "no block N99"),
+        (PROGRAM.to_owned(), "fanuc", vec!["--line", "999"], "no block is run at line 999"),
+        (PROGRAM.to_owned(), "fanuc", vec!["--operation", "third"], "no comment of the program has `third`"),
+        (PROGRAM.replace("N21 X15.", "N21 X15. Q"), "fanuc", vec!["--tool", "2"], "line 23"),
+        ("".into(), "fanuc", vec!["--tool", "2"], ""),
+        (
+            "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S100\n2 M30\n3 END PGM A MM\n".into(),
+            "heidenhain",
+            vec!["--tool", "1"],
+            "not restarted",
+        ),
+    ];
+    for (text, control, at, part) in cases {
+        folder.write("a.nc", &text);
+        let said = restarted(&folder, control, &at).unwrap_err();
+        assert!(said.contains(part), "{at:?}: {said}");
+    }
+    folder.write("a.nc", PROGRAM);
+    assert_eq!(folder.run(&["restart", "a.nc", "--control", "fanuc"]).status.code(), Some(2), "nowhere");
+    let same = folder.run(&["restart", "a.nc", "--control", "fanuc", "--tool", "2", "-o", "a.nc"]);
+    assert!(same.status.code() == Some(2) && folder.read("a.nc") == PROGRAM, "{}", err(&same));
+    // before what computes values or moves the frame: it is run again
+    for block in ["#1=5", "G52 X1."] {
+        folder.write("a.nc", PROGRAM.replace("N9 (SECOND)", &format!("N9 {block}")));
+        let (_, said) = restarted(&folder, "fanuc", &["--tool", "2"]).unwrap();
+        assert!(said.contains("begins at line 11"), "{said}");
+    }
+    folder.write("a.nc", PROGRAM.replace("N7 X50. F300.", "N7 X50. F300.\n#1=5").replace("N2 T1", "#2=1\nN2 T1"));
+    let (program, _) = restarted(&folder, "fanuc", &["--tool", "2"]).unwrap();
+    assert!(program.contains("#2=1") && program.contains("\nT1 M6"), "{program}");
+    // a code that no state keeps is named
+    folder.write("a.nc", PROGRAM.replace("N9 (SECOND)", "N9 M31"));
+    let (_, said) = restarted(&folder, "haas", &["--tool", "2"]).unwrap();
+    assert!(said.contains("M31 of line 11 is not run again"), "{said}");
+}
+
+/// What the interpreter of LinuxCNC does from each entry on is what it does there in the whole program.
+#[test_with::executable(rs274)]
+#[test]
+fn the_interpreter_goes_on_as_in_the_whole_program() {
+    let folder = Folder::new("restart-rs274");
+    let text = fs::read_to_string(root().join("samples/bracket/expected.linuxcnc.nc")).unwrap();
+    folder.write("a.nc", &text);
+    let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join("restart-tools.tbl");
+    let tools: String = (1..=20).map(|n| format!("T{n} P{n} Z0 D0.5\n")).collect();
+    let calls = |text: &str| -> Vec<String> {
+        let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("restart.ngc");
+        fs::write(&program, text).unwrap();
+        let arguments = ["-t".as_ref(), table.as_os_str(), "-g".as_ref(), program.as_os_str()];
+        let output = nc::rs274(&[(&table, &tools)], &arguments);
+        let moves = ["STRAIGHT_FEED(", "STRAIGHT_TRAVERSE(", "ARC_FEED(", "DWELL(", "CHANGE_TOOL("];
+        let lines = String::from_utf8_lossy(&output.stdout).into_owned();
+        let call = |line: &str| moves.iter().find_map(|name| line.find(name)).map(|at| line[at..].to_owned());
+        lines.lines().filter_map(call).collect()
+    };
+    let whole = calls(&text);
+    let mut made = 0;
+    for line in (1..=text.lines().count()).step_by(5) {
+        let Ok((program, _)) = restarted(&folder, "linuxcnc", &["--line", &line.to_string()]) else { continue };
+        let own = calls(&program);
+        let same = own.iter().rev().zip(whole.iter().rev()).take_while(|(one, two)| one == two).count();
+        // what it does before is the way in: no cut
+        let before = &own[..own.len() - same];
+        assert!(same > 0 && before.len() < 7, "{line}: {before:?}\n{program}");
+        assert!(!before.iter().any(|call| call.contains("FEED")), "{line}: {before:?}");
+        made += 1;
+    }
+    assert!(made > 15, "{made}");
+}
+
+/// A part of a job by its tools: it is proven as a job of its own, and carries what holds on.
+#[test]
+fn a_part_of_a_job_is_taken() {
+    let folder = Folder::new("select");
+    let job = fs::read_to_string(root().join("samples/bracket/job.json")).unwrap();
+    folder.write("job.json", &job);
+    let form = root().join("postforms/haas.pf").to_string_lossy().into_owned();
+    let tools = |more: &[&str]| {
+        let run = folder.run(&[&["render", "job.json", "--form", &form, "--require-proof"], more].concat());
+        assert!(run.status.success(), "{more:?}: {}", err(&run));
+        let program = out(&run);
+        let changes =
+            program.lines().filter(|line| line.contains(" M6")).map(|line| line.split(' ').nth(1).unwrap().to_owned());
+        changes.collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(tools(&[]), "T1 T2 T3 T4 T5");
+    assert_eq!(tools(&["--from-tool", "3"]), "T3 T4 T5");
+    assert_eq!(tools(&["--until", "2"]), "T1 T2");
+    assert_eq!(tools(&["--only", "2,T5"]), "T2 T5");
+    assert_eq!(tools(&["--skip", "1,3", "--until", "4"]), "T2 T4");
+    let none = folder.run(&["render", "job.json", "--form", &form, "--only", "9"]);
+    assert!(none.status.code() == Some(1) && err(&none).contains("the job has T1, T2, T3, T4, T5"), "{}", err(&none));
+    // what an operation that is left out said holds on, and the position is filled in
+    folder.write(
+        "job.json",
+        r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1},{"number":2}],"operations":[
+{"tool":1,"work":56,"coolant":"flood","spindle":{"speed":1500,"direction":"cw"},"feed":100,"path":[{"rapid":[1,2,30]},{"line":[1,2,-1]},{"rapid":[1,2,30]}]},
+{"tool":2,"spindle":{"speed":900},"feed":80,"path":[{"rapid":[9,null]},{"line":[9,2,-1]},{"rapid":[9,2,30]}]},
+{"tool":2,"feed":80,"path":[{"line":[9,5,-1]},{"rapid":[9,2,30]}]}]}"#,
+    );
+    let second = folder.run(&["render", "job.json", "--form", &form, "--from-tool", "2", "--set", "header=off"]);
+    let program = out(&second);
+    assert!(second.status.success(), "{}", err(&second));
+    assert!(
+        program.contains("G56 X9. Y2.") && program.contains("S900 M3") && program.contains("H2 Z30. M8"),
+        "{program}"
+    );
+    folder.write("cut.json", folder.read("job.json").replace("[{\"rapid\":[9,null]},", "["));
+    let cut = folder.run(&["render", "cut.json", "--form", &form, "--from-tool", "2"]);
+    assert!(cut.status.code() == Some(1) && err(&cut).contains("PR060"), "{}", err(&cut));
+}

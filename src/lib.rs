@@ -56,6 +56,7 @@ mod report;
 mod restart;
 mod scene;
 mod sema;
+mod setup;
 mod source;
 mod span;
 mod survey;
@@ -165,6 +166,9 @@ pub mod internals {
     }
     pub mod sema {
         pub use crate::sema::{Checked, Limits, MOST_TEXT, PropertyKind, PropertyValue, analyse, one_post};
+    }
+    pub mod setup {
+        pub use crate::setup::{SetupSheet, html, markdown};
     }
     pub mod source {
         pub use crate::source::Source;

@@ -5,6 +5,9 @@ use crate::control::{Code, Control, Meaning, WorkOffset};
 /// The names of the usual offsets, in their order.
 const USUAL: [&str; 9] = ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"];
 
+/// Those of them that have a part behind the point, as G59.1, in tenths.
+const USUAL_PARTS: [u16; 4] = [541, 591, 592, 593];
+
 /// How many additional offsets there may be.
 const ADDITIONAL: usize = WorkOffset::MOST as usize;
 
@@ -25,23 +28,24 @@ fn names(control: &Control, number: usize) -> Vec<String> {
     if let Some(letter) = counted(control) {
         return vec![format!("{}{number}", char::from(letter))];
     }
-    if let Some(usual) = number.checked_sub(1).and_then(|at| USUAL.get(at)) {
-        return vec![(*usual).to_owned()];
-    }
     let additional = number.saturating_sub(USUAL.len());
-    let row = |code: Code| control.row(code).filter(|row| row.meaning == Meaning::Work);
     let mut names = Vec::new();
-    let own = (0..6000).step_by(10).filter_map(|tenths| row(Code { letter: b'G', tenths }));
-    for row in own {
+    let codes = (0..6000).step_by(10).chain(USUAL_PARTS).map(|tenths| Code { letter: b'G', tenths });
+    for row in codes.filter_map(|code| control.row(code).filter(|row| row.meaning == Meaning::Work)) {
         match row.runs.work {
-            Some(WorkOffset::Word(letter)) if row.code.tenths != 541 => {
+            Some(own @ WorkOffset::Usual(_)) if own.usual() == Some(number) => names.push(row.code.to_string()),
+            Some(WorkOffset::Word(letter)) if additional > 0 => {
                 names.push(format!("{} {}{additional}", row.code, char::from(letter)));
             }
             Some(WorkOffset::Additional(own)) if usize::from(own) == additional => names.push(row.code.to_string()),
             _ => {}
         }
     }
-    names.push(format!("G54.1 P{additional}"));
+    // the name that other controls know comes last, where the control has its own
+    names.sort_by_key(|name| name.starts_with("G54.1 "));
+    if names.is_empty() {
+        names.push(USUAL.get(number.wrapping_sub(1)).map_or(format!("G54.1 P{additional}"), |name| (*name).to_owned()));
+    }
     names
 }
 

@@ -9,6 +9,7 @@ mod program;
 pub mod reading;
 mod render;
 mod sample;
+mod setup;
 pub mod shipped;
 mod verify;
 

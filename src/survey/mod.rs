@@ -5,7 +5,7 @@ mod motion;
 mod subprograms;
 mod totals;
 
-pub use totals::Totals;
+pub use totals::{Reach, Totals};
 
 use std::collections::HashMap;
 

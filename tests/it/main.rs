@@ -58,6 +58,7 @@ mod rules;
 mod safety;
 mod samples;
 mod sequences;
+mod sheets;
 mod silent;
 mod simulate;
 mod slips;

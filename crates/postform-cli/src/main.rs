@@ -34,6 +34,7 @@ mod rendered;
 mod report;
 mod restart;
 mod say;
+mod sheet;
 mod shells;
 mod simulate;
 mod spool;
@@ -114,6 +115,7 @@ fn main() -> ExitCode {
         Command::Simulate(args) => simulate::run(&args, colour),
         Command::Fit(args) => machine::fit(&args, colour),
         Command::Restart(args) => restart::run(&args),
+        Command::Sheet(args) => sheet::run(&args, colour),
         Command::Machine(args) => machine::run(&args),
         Command::Plot(args) => plot::run(&args, colour),
         Command::Watch(args) => watch::run(args),

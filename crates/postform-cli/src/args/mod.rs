@@ -9,6 +9,7 @@ mod pictures;
 mod posts;
 mod programs;
 mod restarts;
+mod sheets;
 
 use clap::{Args, Parser, Subcommand};
 
@@ -22,6 +23,7 @@ pub use pictures::{PlotArgs, WatchArgs};
 pub use posts::NewPost;
 pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, StartArg, VerifyArgs, VerifyFormat};
 pub use restarts::RestartArgs;
+pub use sheets::{SheetArgs, SheetFormat};
 
 /// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.
 #[derive(Debug, Parser)]
@@ -54,6 +56,8 @@ pub enum Command {
     Fit(FitArgs),
     /// Write a program that begins in the middle of another one, with everything in force that is in force there
     Restart(RestartArgs),
+    /// Write the setup sheet of a job: offsets, tools, operations, stops, pictures
+    Sheet(SheetArgs),
     /// Look at the file of a machine
     Machine(MachineArgs),
     /// Draw the backplot of a job's program, or of a program that is there

@@ -1,0 +1,32 @@
+//! The setup sheet of a job.
+
+use super::Post;
+use super::options::Options;
+use super::reading::taken;
+use crate::control::Control;
+use crate::error::Error;
+use crate::job::Job;
+use crate::setup::{SetupSheet, Stops, of_job};
+
+impl Post {
+    /// What a sheet says of a job that this form prints: the caller adds the program's verdict, pictures and hashes.
+    ///
+    /// # Errors
+    /// The job can't be read twice, or is wrong.
+    #[doc(hidden)]
+    pub fn setup(&self, mut job: Job<'_>, options: &Options) -> Result<SetupSheet, Error> {
+        job.hold()?;
+        let (read, survey) = self.surveyed(&mut job, options, false);
+        read?;
+        let mut stops = Stops::default();
+        taken(Some(&self.0.program.settings), &mut stops, |sink| job.read(sink))?;
+        // a fixture's number, or the code itself
+        let name = |work: f64| if work < 50.0 { format!("{work}") } else { format!("G{work}") };
+        let mut sheet = of_job(&survey, stops, &name);
+        let settings = &self.0.program.settings;
+        sheet.control = settings.control.unwrap_or_else(Control::usual).title().to_owned();
+        sheet.form = settings.name.clone();
+        sheet.program = options.program.or(sheet.program);
+        Ok(sheet)
+    }
+}

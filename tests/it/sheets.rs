@@ -1,0 +1,78 @@
+//! The setup sheet: what it says, in each format, and that nothing of a job runs in it.
+
+use crate::support::folder::{Folder, err, out};
+use crate::support::root;
+
+fn sheet(folder: &Folder, more: &[&str]) -> String {
+    let run = folder.run(&[&["sheet", "job.json", "--quiet"], more].concat());
+    assert!(run.status.success(), "{more:?}: {}", err(&run));
+    out(&run)
+}
+
+fn path(name: &str) -> String {
+    root().join(name).to_string_lossy().into_owned()
+}
+
+#[test]
+fn a_sheet_has_offsets_tools_operations_and_stops() {
+    let folder = Folder::new("sheet");
+    folder.write("job.json", std::fs::read(root().join("samples/bracket/job.json")).unwrap());
+    let form = path("postforms/haas.pf");
+    let json: serde_json::Value =
+        serde_json::from_str(&sheet(&folder, &["--form", &form, "--format", "json"])).unwrap();
+    assert_eq!(json["name"], "BRACKET");
+    assert_eq!(json["program"], 1001);
+    assert_eq!(json["works"][1]["name"], "G55");
+    assert_eq!(json["works"][0]["cuts"][2], serde_json::json!([-0.8, 0.2]));
+    assert_eq!(json["tools"].as_array().unwrap().len(), 5);
+    assert_eq!(json["tools"][2]["lowest"], -0.8);
+    assert_eq!(json["operations"][6]["name"], "dowels of the second part");
+    assert_eq!(json["stops"], serde_json::json!([{"optional": true, "tool": 5.0, "comment": null}]));
+    assert!(json["verdict"].as_str().unwrap().starts_with("equivalent"), "{json:#}");
+    assert_eq!(json["hashes"].as_array().unwrap().len(), 3);
+    let machine = path("samples/bracket/vf2.toml");
+    let page = sheet(&folder, &["--form", &form, "--machine", &machine]);
+    for part in
+        ["<h1>BRACKET</h1>", "VF-2 north", "G55 X lies between", "<svg", "1/2 END MILL", "M1, where you want it"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("src=") && !page.contains("href=") && !page.contains("<script"), "nothing from outside");
+    let text = sheet(&folder, &["--form", &form, "--format", "md", "--only", "2"]);
+    assert!(text.contains("| T2 |") && !text.contains("| T1 |"), "{text}");
+}
+
+/// Names and texts of a job are text, whatever they hold.
+#[test]
+fn hostile_texts_are_text() {
+    let folder = Folder::new("sheet-hostile");
+    let name = "<script>alert(1)</script>|`x`";
+    let job = r#"{"postform":1,"program":1,"name":"NAME","units":"mm","tools":[{"number":1,"name":"NAME","comment":"NAME"}],"operations":[{"name":"NAME","tool":1,"spindle":{"speed":900,"direction":"cw"},"feed":90,"path":[{"rapid":[0,0,9]},{"comment":"NAME"},{"stop":"program"},{"line":[0,0,-1]},{"rapid":[0,0,9]}]}]}"#;
+    folder.write("job.json", job.replace("NAME", name));
+    let form = path("postforms/linuxcnc.pf");
+    let page = sheet(&folder, &["--form", &form]);
+    assert!(!page.contains("<script") && page.contains("&lt;script&gt;"), "{page}");
+    let text = sheet(&folder, &["--form", &form, "--format", "md"]);
+    assert!(text.contains("\\<script\\>alert(1)\\</script\\>\\|\\`x\\`"), "{text}");
+    // the stop says what the job says before it
+    assert!(text.contains("| M0 | T1 | \\<script"), "{text}");
+}
+
+#[test]
+fn what_a_sheet_cant_be_is_said() {
+    let folder = Folder::new("sheet-wrong");
+    folder.write("job.json", "{");
+    let form = path("postforms/haas.pf");
+    let run = |args: &[&str]| {
+        let run = folder.run(args);
+        (run.status.code(), err(&run))
+    };
+    assert!(run(&["sheet", "job.json", "--form", &form]).1.contains("PJ"));
+    assert_eq!(run(&["sheet", "job.json", "--form", &form]).0, Some(1));
+    let (code, said) = run(&["sheet", "job.json", "--form", &form, "-o", "a.pdf"]);
+    assert!(code == Some(2) && said.contains(".html, .md or .json"), "{said}");
+    let (code, said) = run(&["sheet", "job.json"]);
+    assert!(code == Some(2) && said.contains("which form"), "{said}");
+    let (code, _) = run(&["sheet", "job.json", "--form", &form, "-o", "job.json"]);
+    assert!(code == Some(2) && folder.read("job.json") == "{", "an input stays");
+}

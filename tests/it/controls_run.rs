@@ -39,6 +39,8 @@ fn mills_differ_by_their_files() {
         ("mach3", "G59.1", "G59.1 is no code"),
         ("pathpilot", "G84 X1. Z-5. R2. F900.", ""),
         ("pathpilot", "G74 X1. Z-5. R2. F900.", "G74 is no code"),
+        ("pathpilot", "G7", ""),
+        ("pathpilot", "G8", ""),
         ("pathpilot", "G54.1 P2", "its P1 is G54 itself"),
         ("centroid", "E7", ""),
         ("centroid", "E19", "E19"),

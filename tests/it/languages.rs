@@ -387,3 +387,34 @@ fn a_program_is_printed_for_another_machine() {
         }
     }
 }
+
+/// A call whose subprogram is in no file is refused, and the blocks after it are run: the program is not cut off there.
+#[test]
+fn a_refused_call_hides_nothing() {
+    for (name, program) in [
+        ("siemens", "G0 X0 Y0 Z5\nHOME\nG0 X1\nM30\n"),
+        ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nCALL O77\nG0 X1\nM2\n"),
+        ("heidenhain", "0 BEGIN PGM T MM\nL X+0 FMAX\nCALL LBL 9\nL X+1 FMAX\nM2\nEND PGM T MM\n"),
+        ("fanuc", "G21\nG0 X0.\nM98 P77\nG0 X1.\nM30\n"),
+    ] {
+        let mut simulator = Simulator::new(Cursor::new(program.as_bytes()), RunSettings::new(control(name)));
+        let (mut items, mut refused) = (Vec::new(), Vec::new());
+        loop {
+            match simulator.step(&mut items) {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(RunError::Refused(diag, line)) => {
+                    refused.push((line, diag.message));
+                    assert!(simulator.pass_over(), "{name}: {refused:?}");
+                }
+                Err(RunError::Io(error)) => panic!("{error}"),
+            }
+        }
+        assert!(refused.len() == 1 && refused[0].0 == 3 - u64::from(name == "siemens"), "{name}: {refused:?}");
+        let last = items.iter().rev().find_map(|item| match &item.action {
+            Action::Rapid { to, .. } => Some(to[0]),
+            _ => None,
+        });
+        assert_eq!(last, Some(1.0), "{name}");
+    }
+}

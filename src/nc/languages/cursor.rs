@@ -1,5 +1,7 @@
 //! A block as text, read from left to right.
 
+use std::borrow::Cow;
+
 use crate::diag::Code;
 use crate::nc::digits::{signed, unsigned};
 use crate::nc::fault::{Done, Fault};
@@ -133,5 +135,13 @@ impl<'a> Cursor<'a> {
         let message =
             if word.is_empty() { "the block ends too early".to_owned() } else { format!("`{word}` can't be read") };
         Fault::at(Code::PN001, self.at, message, "take it out, or put it into a comment")
+    }
+}
+
+/// A word in capital letters; as it stands where it is written so, as in most programs.
+pub fn capitals(word: &[u8]) -> Cow<'_, str> {
+    match str::from_utf8(word) {
+        Ok(text) if !word.iter().any(u8::is_ascii_lowercase) => Cow::Borrowed(text),
+        _ => Cow::Owned(String::from_utf8_lossy(word).to_ascii_uppercase()),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::super::cursor::Cursor;
+use super::super::cursor::{Cursor, capitals};
 use super::super::formula::{Values, formula};
 use super::Osp;
 use super::cycles::{Back, Cycle};
@@ -62,10 +62,10 @@ impl Words<'_> {
     fn word(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let column = cursor.at();
         let Some(letters) = cursor.letters() else { return Err(cursor.unreadable()) };
-        let name = String::from_utf8_lossy(letters).to_ascii_uppercase();
+        let name = capitals(letters);
         let control = self.state.settings.control;
         let [letter] = name.as_bytes() else {
-            match name.as_str() {
+            match name.as_ref() {
                 "NCYL" => self.said.no_hole = true,
                 "NOEX" => self.said.no_move = true,
                 "HA" => self.block.word(b'H', self.state.tool.loaded.unwrap_or(0.0), false, column, control)?,

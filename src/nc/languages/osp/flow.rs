@@ -1,8 +1,9 @@
 //! Blocks and the way through them: labels, jumps, subprograms, variables.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
-use super::super::cursor::Cursor;
+use super::super::cursor::{Cursor, capitals};
 use super::block::{Said, Words};
 use crate::diag::Code;
 use crate::nc::action::{Action, Item};
@@ -40,25 +41,30 @@ fn program(line: &[u8]) -> Option<String> {
     is_name.then(|| String::from_utf8_lossy(line).to_ascii_uppercase())
 }
 
-/// The name of a block, `N10`, `NLOOP`, which a blank ends.
+/// The name of a block, `N10`, `NLOOP`, which a blank ends. Leading zeros of a number do not count.
 fn block_name(cursor: &mut Cursor<'_>) -> Option<String> {
+    let name = pass_block_name(cursor)?;
+    let number = name.get(1..)?.parse::<u32>().ok();
+    Some(number.map_or_else(|| name.to_string(), |number| format!("N{number}")))
+}
+
+/// Passes over the name of a block, which is as it stands, in capital letters.
+fn pass_block_name<'l>(cursor: &mut Cursor<'l>) -> Option<Cow<'l, str>> {
     let rest = cursor.rest();
     if !rest.first()?.eq_ignore_ascii_case(&b'N') {
         return None;
     }
     let length = rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count();
-    let name = String::from_utf8_lossy(&rest[..length]).to_ascii_uppercase();
+    let name = capitals(&rest[..length]);
     let numbered = rest[1..].iter().take_while(|byte| byte.is_ascii_digit()).count();
     // `N10G0`, and words as NCYL
     let (name, length) = match numbered {
-        0 if matches!(name.as_str(), "NCYL" | "NOEX") => return None,
+        0 if matches!(name.as_ref(), "NCYL" | "NOEX") => return None,
         0 => (name, length),
-        _ => (name[..=numbered].to_owned(), numbered + 1),
+        _ => (capitals(&rest[..=numbered]), numbered + 1),
     };
     *cursor = cursor.from(cursor.at() + length);
-    // leading zeros do not count
-    let number = name[1..].parse::<u32>().ok();
-    Some(number.map_or(name, |number| format!("N{number}")))
+    Some(name)
 }
 
 impl Simulator<'_> {
@@ -79,7 +85,7 @@ impl Simulator<'_> {
         }
         let mut cursor = Cursor::new(&text, 0);
         let mut deleted = cursor.takes(b"/");
-        block_name(&mut cursor);
+        pass_block_name(&mut cursor);
         deleted |= cursor.takes(b"/");
         if deleted {
             if self.state.settings.block_delete {
@@ -106,9 +112,9 @@ impl Simulator<'_> {
     fn osp_way(&mut self, cursor: &mut Cursor<'_>) -> Done<Option<Jump>> {
         let begin = cursor.at();
         let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
-        let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+        let name = capitals(name);
         let words = Words { own: &mut self.osp, state: &self.state, block: &mut self.block, said: Said::default() };
-        let jump = match name.as_str() {
+        let jump = match name.as_ref() {
             "IF" => {
                 let is_so = words.value(cursor)? != 0.0;
                 cursor.takes_word("GOTO");

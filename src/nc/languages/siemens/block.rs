@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::super::cursor::Cursor;
+use super::super::cursor::{Cursor, capitals};
 use super::super::formula::{Values, formula};
 use super::cycles::Cycle;
 use super::ways::Siemens;
@@ -96,8 +96,8 @@ impl Words<'_> {
             }
             return self.put(letter, value, column);
         }
-        let name = String::from_utf8_lossy(letters).to_ascii_uppercase();
-        match name.as_str() {
+        let name = capitals(letters);
+        match name.as_ref() {
             "SUPA" => {
                 let Some(row) = control.first(Meaning::Machine) else { return Err(cursor.unreadable()) };
                 self.block.put_g(row, group(row, control.rules()), takes_axes(row, control.rules()));

@@ -1,6 +1,6 @@
 //! Blocks that lead through a program: labels, conditions, loops, subprograms.
 
-use super::super::cursor::Cursor;
+use super::super::cursor::{Cursor, capitals};
 use super::block::Words;
 use super::head::{Head, head, section, without_comment};
 use super::ways::Siemens;
@@ -113,8 +113,8 @@ impl Simulator<'_> {
             return Ok(None);
         }
         let at = cursor.at();
-        let name = cursor.name().map(|name| String::from_utf8_lossy(name).to_ascii_uppercase()).unwrap_or_default();
-        match name.as_str() {
+        let name = cursor.name().map(capitals).unwrap_or_default();
+        match name.as_ref() {
             _ if name.starts_with("CYCLE") => match words.cycle(&name, &mut cursor)? {
                 Some(call) if modal => words.own.modal = Some(call),
                 Some(call) => words.block.call = Some(call),
@@ -144,11 +144,11 @@ impl Simulator<'_> {
     }
 
     /// Statements that lead through the program, or set what is known of it. `None`: the line is none of them.
-    fn siemens_way(&mut self, head: &Head, cursor: &mut Cursor<'_>) -> Done<Option<Jump>> {
+    fn siemens_way(&mut self, head: &Head<'_>, cursor: &mut Cursor<'_>) -> Done<Option<Jump>> {
         let begin = cursor.at();
         let words = Words { own: &mut self.siemens, state: &self.state, block: &mut self.block };
         cursor.name();
-        let jump = match head.word.as_str() {
+        let jump = match head.word.as_ref() {
             "IF" => {
                 let is_so = words.value(cursor)? != 0.0;
                 match cursor.is_over() {

@@ -1,6 +1,8 @@
 //! How a line begins: its number, its label, its first word; and what a word opens or ends.
 
-use super::super::cursor::Cursor;
+use std::borrow::Cow;
+
+use super::super::cursor::{Cursor, capitals};
 
 /// Words that open a part, and what ends it.
 pub const PARTS: [(&str, &str); 5] =
@@ -8,18 +10,29 @@ pub const PARTS: [(&str, &str); 5] =
 
 /// The beginning of a line.
 #[derive(Default)]
-pub struct Head {
-    /// `N100`, as a label.
-    pub number: Option<String>,
-    pub label: Option<String>,
+pub struct Head<'l> {
+    /// Of `N100`.
+    number: Option<f64>,
+    label: Option<Cow<'l, str>>,
     /// The first word behind them, in capital letters.
-    pub word: String,
+    pub word: Cow<'l, str>,
     /// Where the statement begins.
     pub start: usize,
 }
 
+impl Head<'_> {
+    /// Does a jump to this label come here? A number is one as `N100`.
+    pub fn is(&self, label: &str) -> bool {
+        self.label.as_deref() == Some(label)
+            || self.number.is_some_and(|number| label.strip_prefix('N').is_some_and(|own| own == number.to_string()))
+    }
+}
+
 /// Without its comment, and where that is.
 pub fn without_comment(line: &[u8]) -> (&[u8], Option<(usize, usize)>) {
+    if memchr::memchr(b';', line).is_none() {
+        return (line, None);
+    }
     let mut quoted = false;
     for (at, byte) in line.iter().enumerate() {
         match byte {
@@ -32,7 +45,7 @@ pub fn without_comment(line: &[u8]) -> (&[u8], Option<(usize, usize)>) {
 }
 
 /// Reads the beginning of a line.
-pub fn head(line: &[u8]) -> Head {
+pub fn head(line: &[u8]) -> Head<'_> {
     let (line, _) = without_comment(line);
     let mut head = Head::default();
     let mut cursor = Cursor::new(line, 0);
@@ -46,18 +59,16 @@ pub fn head(line: &[u8]) -> Head {
     if is_number(cursor.rest()) {
         let begin = cursor.at();
         cursor.takes(&line[begin..=begin]);
-        let number = cursor.unsigned().unwrap_or(0.0);
-        head.number = Some(format!("N{number}"));
+        head.number = Some(cursor.unsigned().unwrap_or(0.0));
     }
     head.start = cursor.at();
     if let Some(name) = cursor.name() {
-        let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+        let name = capitals(name);
         if cursor.peek() == Some(b':') && cursor.rest().get(1) != Some(&b'=') {
             cursor.takes(b":");
             head.label = Some(name);
             head.start = cursor.at();
-            head.word =
-                cursor.name().map(|word| String::from_utf8_lossy(word).to_ascii_uppercase()).unwrap_or_default();
+            head.word = cursor.name().map(capitals).unwrap_or_default();
         } else {
             head.word = name;
         }
@@ -85,10 +96,10 @@ pub fn section(line: &[u8]) -> Option<String> {
 }
 
 /// Does the line open a part, and which?
-pub fn opens(head: &Head, line: &[u8]) -> Option<usize> {
+pub fn opens(head: &Head<'_>, line: &[u8]) -> Option<usize> {
     let at = PARTS.iter().position(|(open, _)| *open == head.word)?;
     let rest = String::from_utf8_lossy(without_comment(line).0).to_ascii_uppercase();
-    match head.word.as_str() {
+    match head.word.as_ref() {
         "IF" if rest.contains("GOTO") => None,
         // `REPEAT LABEL P=3` repeats what stands before it
         "REPEAT" if rest[head.start.min(rest.len())..].trim() != "REPEAT" => None,

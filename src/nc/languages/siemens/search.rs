@@ -84,7 +84,7 @@ impl Simulator<'_> {
                     return false;
                 }
                 let head = head(line);
-                if [&head.number, &head.label].into_iter().flatten().any(|own| own == label) {
+                if head.is(label) {
                     found.push(before);
                 }
                 true
@@ -142,7 +142,7 @@ impl Simulator<'_> {
         };
         let opening = Spot { byte: back.byte - text.len() as u64, line: line - 1 };
         // where the lines at its middle and its end lead
-        let start = if matches!(own.word.as_str(), "WHILE" | "FOR") { opening } else { back };
+        let start = if matches!(own.word.as_ref(), "WHILE" | "FOR") { opening } else { back };
         if own.word != "IF" {
             self.siemens.ends.insert(end_line.line + 1, start);
         }

@@ -7,17 +7,19 @@ use crate::machine::offsets;
 use crate::nc::Rotation;
 use crate::toolpath::{FeedMode, Plane, Units};
 
-/// The text, how many lines stand before the old program's own, and what the operator must know.
+/// The text, how many lines stand before the old program's own, and what the operator must know. `across`: the tool goes over the
+/// entry.
 pub fn program(
     text: &[u8],
     control: &Control,
     found: &Found,
     asked: &Asked,
+    across: bool,
 ) -> Result<(Vec<u8>, u64, Vec<String>), Refused> {
     let lines: Vec<&[u8]> = text.split_inclusive(|byte| *byte == b'\n').collect();
     let crlf = lines.first().is_some_and(|line| line.ends_with(b"\r\n"));
     let head = (found.head as usize).min(lines.len());
-    let (own, notes) = blocks(control, found, asked)?;
+    let (own, notes) = blocks(control, found, asked, across)?;
     let mut new = Vec::with_capacity(text.len());
     lines[..head].iter().for_each(|line| new.extend_from_slice(line));
     if !new.is_empty() && !new.ends_with(b"\n") {
@@ -33,7 +35,12 @@ pub fn program(
 }
 
 /// What is put in force, and the way in.
-fn blocks(control: &Control, found: &Found, asked: &Asked) -> Result<(Vec<String>, Vec<String>), Refused> {
+fn blocks(
+    control: &Control,
+    found: &Found,
+    asked: &Asked,
+    across: bool,
+) -> Result<(Vec<String>, Vec<String>), Refused> {
     let Entry { line, standing, switches, height } = &found.entry;
     let code = |meaning: Meaning| control.first(meaning).map(|row| row.code.to_string());
     let mut notes = Vec::new();
@@ -111,7 +118,7 @@ fn blocks(control: &Control, found: &Found, asked: &Asked) -> Result<(Vec<String
     if !(switches.flood || switches.mist || switches.through) {
         blocks.extend(code(Meaning::CoolantOff));
     }
-    if !control.is_lathe() {
+    if !control.is_lathe() && across {
         way_in(control, &found.entry, &mut blocks)?;
     }
     if !standing.absolute {

@@ -82,9 +82,16 @@ pub fn restart(mut program: impl Read + Seek, settings: RunSettings, asked: &Ask
     program.read_to_end(&mut text)?;
     let settings = RunSettings { places_unknown: true, ..settings };
     let found = entry::find(&text, settings, &asked.target)?;
-    let (text_of_new, head_lines, notes) = blocks::program(&text, settings.control, &found, asked)?;
-    let moves = follow::same(&text, &text_of_new, settings, &found, head_lines)?;
-    Ok(Restarted { text: text_of_new, line: found.entry.line, asked: found.asked, notes, moves })
+    let made = |across: bool| -> Result<Restarted, Refused> {
+        let (new, head_lines, notes) = blocks::program(&text, settings.control, &found, asked, across)?;
+        let moves = follow::same(&text, &new, settings, &found, head_lines)?;
+        Ok(Restarted { text: new, line: found.entry.line, asked: found.asked, notes, moves })
+    };
+    // to a change of the tool across only where the blocks after it count on where the tool was
+    match found.entry.height {
+        None => made(false).or_else(|_| made(true)),
+        Some(_) => made(true),
+    }
 }
 
 /// A run of a text.

@@ -80,6 +80,7 @@ fn what_is_in_force_is_put_in_force() {
     let (program, _) = at(&["--tool", "2"]);
     assert!(program.contains("G98\nN17 G90 T2 M6\nN18 G55"), "{program}");
     assert!(!program.contains("T1 M6"), "the tool before is not loaded");
+    assert!(!program.contains("G0 X"), "the blocks after the change say where they go");
     // a hole of a cycle: from the height before it
     let (program, _) = at(&["--at", "21"]);
     assert!(program.contains("G55\nS2000 M3\nM9\nG0 X5. Y5.\nG43 H2 Z20.\n"), "{program}");

@@ -51,7 +51,7 @@ pub struct Machine {
     pub change: Option<f64>,
     /// Its tools, where the file or one that it names lists them.
     pub tools: Option<ToolTable>,
-    /// Its work offsets by their numbers, as [`offsets::number`] counts them: G54 is 1, the first additional one 10.
+    /// Its work offsets by their numbers, as `offsets::number` counts them: G54 is 1, the first additional one 10.
     pub offsets: Option<BTreeMap<usize, [Option<f64>; 6]>>,
     /// The kinds of coolant that it has.
     pub coolant: Option<Vec<Coolant>>,

@@ -3,7 +3,7 @@
 /// An axis of the machine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
-    /// How far it goes, in machine coordinates: millimetres or degrees. `None`: the file does not say it.
+    /// How far it goes, in machine coordinates: millimetres or degrees. `None`: the file does not give it.
     pub travel: Option<Travel>,
     /// Its rapid, in millimetres or degrees a minute.
     pub rapid: Option<f64>,

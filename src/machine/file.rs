@@ -30,7 +30,7 @@ pub fn read(name: &str, text: &str, beside: &Beside<'_>) -> Result<Machine, Wron
         Some(UnitsText::Inch) => Units::Inch,
         Some(UnitsText::Mm) | None => Units::Mm,
     };
-    let scale = if units == Units::Inch { 25.4 } else { 1.0 };
+    let scale = units.in_mm();
     let control = file.control.as_ref().map(|control| reader.control(control, beside)).transpose()?;
     let by_diameter = control.is_some_and(Control::is_lathe);
     let lengths = Lengths { reader: &reader, scale, by_diameter };

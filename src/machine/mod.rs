@@ -101,10 +101,8 @@ impl Coolant {
 impl Machine {
     /// A length for messages, in the units of the file.
     pub fn shown(&self, mm: f64) -> String {
-        match self.units {
-            Units::Inch => short(mm / 25.4, 1e4),
-            Units::Mm => short(mm, 1e3),
-        }
+        let parts = if self.units == Units::Inch { 1e4 } else { 1e3 };
+        short(mm / self.units.in_mm(), parts)
     }
 
     /// A position of an axis for messages: degrees are degrees.
@@ -116,7 +114,7 @@ impl Machine {
         }
     }
 
-    /// The work offset of a number, as far as the file says it.
+    /// The work offset with this number; `None` for one, or for an axis of it, that the file does not give.
     pub fn offset(&self, number: usize) -> Option<&[Option<f64>; 6]> {
         self.offsets.as_ref()?.get(&number)
     }

@@ -6,6 +6,14 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ToolTable(pub BTreeMap<u32, Entry>);
 
+impl ToolTable {
+    /// The length of a register, which has the number of its tool; taken off where the register is negative.
+    pub fn length(&self, register: i32) -> Option<f64> {
+        let length = self.0.get(&register.unsigned_abs())?.length?;
+        Some(if register < 0 { -length } else { length })
+    }
+}
+
 /// What a table says of a tool, in millimetres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Entry {

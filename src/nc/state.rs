@@ -192,7 +192,7 @@ impl State {
 
     /// Puts the machine's own offsets and reference points in force, in millimetres and degrees; before the first block.
     pub(super) fn begin_on(&mut self, offsets: &mut dyn Iterator<Item = (usize, Position)>, homes: [Position; 2]) {
-        let factor = if self.modes.units == Units::Inch { 1.0 / 25.4 } else { 1.0 };
+        let factor = 1.0 / self.modes.units.in_mm();
         for (number, at) in offsets {
             if let Some((work, _)) = self.place.frames.work(number) {
                 *work = scaled(&at, factor);

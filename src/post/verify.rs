@@ -165,7 +165,7 @@ struct Tools {
 impl Sink for Tools {
     fn event(&mut self, event: Event<'_>, _: Place) -> Flow {
         match event {
-            Event::Start(start) => self.scale = if start.units == Units::Inch { 25.4 } else { 1.0 },
+            Event::Start(start) => self.scale = start.units.in_mm(),
             Event::ToolChange(change) => {
                 if let Some(tool) = &change.tool
                     && self.tools.iter().all(|known| f64::from(known.number) != tool.number)

@@ -10,7 +10,7 @@ use crate::control::Control;
 use crate::diag::{Code, Severity};
 use crate::machine::{Coolant, LETTERS, Machine, Sweep, offsets};
 use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator, Turn};
-use crate::toolpath::{FeedMode, Units};
+use crate::toolpath::FeedMode;
 use crate::verify::Finding;
 
 /// What was found, and how the program lies in the machine.
@@ -25,6 +25,11 @@ pub struct Fitted {
 }
 
 impl Fitted {
+    /// Was the program run to its end, and nothing found?
+    pub fn fits(&self) -> bool {
+        self.findings.is_empty() && self.refused.is_none()
+    }
+
     /// Must the program not run on this machine?
     pub fn has_errors(&self) -> bool {
         self.findings.iter().any(|finding| finding.code.row().severity == Severity::Error)
@@ -238,17 +243,8 @@ impl<'m> Check<'m> {
 
     /// The length that is in a position of an axis.
     fn added(&self, axis: usize, register: Option<i32>) -> f64 {
-        let table = self.machine.tools.as_ref();
-        let length = |register: i32| {
-            let length = table?.0.get(&register.unsigned_abs())?.length?;
-            Some(if register < 0 { -length } else { length })
-        };
+        let length = |register: i32| self.machine.tools.as_ref()?.length(register);
         register.filter(|_| axis == 2).and_then(length).unwrap_or(0.0)
-    }
-
-    /// Millimetres of the program's unit.
-    fn scale(run: &Simulator<'_>) -> f64 {
-        if run.state().units() == Units::Inch { 25.4 } else { 1.0 }
     }
 
     /// The feed along the path in millimetres a minute.
@@ -277,7 +273,7 @@ impl<'m> Check<'m> {
         if length == 0.0 {
             return;
         }
-        let feed = self.per_minute(feed, length, Self::scale(run));
+        let feed = self.per_minute(feed, length, run.state().units().in_mm());
         for (axis, part) in way.into_iter().enumerate() {
             self.feeds(axis, feed * part.abs() / length, line);
         }
@@ -288,7 +284,7 @@ impl<'m> Check<'m> {
         if self.mode == FeedMode::InverseTime {
             return;
         }
-        let feed = self.per_minute(turn.feed, 0.0, Self::scale(run));
+        let feed = self.per_minute(turn.feed, 0.0, run.state().units().in_mm());
         let [first, second, _] = crate::nc::axes_of(turn.plane);
         for axis in [first, second] {
             self.feeds(axis, feed, line);
@@ -428,7 +424,7 @@ impl<'m> Check<'m> {
         findings.sort_by_key(|finding| finding.line);
         for (point, name) in ["G28", "G30"].into_iter().enumerate() {
             if self.no_reference[point] {
-                fit.not_checked.push(format!("where {name} goes: [reference] does not say it"));
+                fit.not_checked.push(format!("where {name} goes: [reference] does not give it"));
             }
         }
         if self.was_compensated {

@@ -2,7 +2,7 @@
 
 use crate::machine::Machine;
 use crate::nc::{Position, Simulator, Turn, axes_of, sweep};
-use crate::toolpath::{Direction, Units};
+use crate::toolpath::Direction;
 
 /// On what a machine position depends besides the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -125,14 +125,14 @@ impl<'m> Places<'m> {
 
     /// Where the tool stands, in the program's coordinates and units.
     pub fn program(&self, run: &Simulator<'_>) -> Position {
-        let factor = if run.state().units() == Units::Inch { 1.0 / 25.4 } else { 1.0 };
+        let factor = 1.0 / run.state().units().in_mm();
         run.state().in_program_coordinates(&std::array::from_fn(|axis| {
             if axis < 3 { self.known[axis] * factor } else { self.known[axis] }
         }))
     }
 
     fn scaled(&self, axis: usize, value: f64, run: &Simulator<'_>) -> f64 {
-        if axis < 3 && run.state().units() == Units::Inch { value * 25.4 } else { value }
+        if axis < 3 { value * run.state().units().in_mm() } else { value }
     }
 
     fn in_work(&self, axis: usize, value: f64, run: &Simulator<'_>) -> At {
@@ -150,8 +150,6 @@ impl<'m> Places<'m> {
 
     /// The length of a register, with its sign; of a mill alone: where a lathe's tool cuts, the machine's file does not say.
     fn length(&self, register: i32) -> Option<f64> {
-        let table = self.machine.tools.as_ref().filter(|_| !self.is_lathe)?;
-        let length = table.0.get(&register.unsigned_abs())?.length?;
-        Some(if register < 0 { -length } else { length })
+        self.machine.tools.as_ref().filter(|_| !self.is_lathe)?.length(register)
     }
 }

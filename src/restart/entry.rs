@@ -89,16 +89,10 @@ pub fn find(text: &[u8], settings: RunSettings, target: &Target) -> Result<Found
             Ok(more) => more,
             Err(RunError::Io(error)) => return Err(error.into()),
             Err(RunError::Refused(diag, line)) => {
-                if search.asked.is_some() && search.entry.is_some() {
-                    return refuse(
-                        format!("line {line} is refused: {}", diag.message),
-                        "a program that is not run to its end can't be proven: mend it first",
-                    );
-                }
                 return refuse(format!("line {line} is refused: {}", diag.message), diag.help.unwrap_or_default());
             }
         };
-        search.block(&standing, depth, &items, &run)?;
+        search.block(&standing, depth, &items, &run);
         standing = run.state().standing();
         depth = run.depth();
         if !more || search.is_done() {
@@ -152,13 +146,7 @@ impl<'t> Search<'t> {
         self.asked.is_some() && self.next.is_some()
     }
 
-    fn block(
-        &mut self,
-        before: &Standing,
-        depth: usize,
-        items: &[crate::nc::Item],
-        run: &Simulator<'_>,
-    ) -> Result<(), Refused> {
+    fn block(&mut self, before: &Standing, depth: usize, items: &[crate::nc::Item], run: &Simulator<'_>) {
         let line = run.line();
         let is_asked = self.asked.is_none() && self.is_target(line, items, run);
         let moves = |action: &Action| matches!(action, Action::Rapid { .. } | Action::Feed { .. } | Action::Arc(_));
@@ -205,7 +193,6 @@ impl<'t> Search<'t> {
                 _ => {}
             }
         }
-        Ok(())
     }
 
     fn is_target(&self, line: u64, items: &[crate::nc::Item], run: &Simulator<'_>) -> bool {

@@ -40,7 +40,7 @@ pub struct SetupSheet {
     pub tools: Vec<ToolRow>,
     /// Operations in their order.
     pub operations: Vec<OperationRow>,
-    /// Where the program stops, and what the job says there.
+    /// Where the program stops, with the comment before it in the job.
     pub stops: Vec<StopRow>,
     /// Minutes of all cuts at their programmed feeds; without rapids, dwells and tool changes.
     pub minutes: Option<f64>,

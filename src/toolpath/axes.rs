@@ -51,4 +51,12 @@ impl Units {
             Units::Mm => "mm",
         }
     }
+
+    /// Millimetres of one of it.
+    pub fn in_mm(self) -> f64 {
+        match self {
+            Units::Inch => 25.4,
+            Units::Mm => 1.0,
+        }
+    }
 }

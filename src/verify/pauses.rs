@@ -199,7 +199,8 @@ fn waits(s: &mut Sides<'_>) {
         let in_cut = s.hole.inside.is_none() && passage.in_cut(other, tolerance);
         // a torch waits until it is through, once; a spindle until it has its speed
         let burns = s.switches && !other.is_off;
-        let once = other.what <= STARTED && !std::mem::replace(&mut started, burns || in_cut);
+        let once = other.what <= STARTED && !started;
+        started |= burns || in_cut;
         if !in_hole && (own || other.started && in_cut && once || !in_cut && (!burns || once)) {
             s.report.allowed.dwells += 1;
             continue;

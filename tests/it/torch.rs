@@ -217,6 +217,8 @@ fn what_a_torch_does_before_a_cut_is_no_excuse_for_it() {
         ("X10. Y5. F300.", "X10. Y5.", "PV006"),
         ("G4 P.5\n", "G4 P100\n", "PV010"),
         ("G4 P.5\n", "G4 P.5\nG4 P6\n", "PV010"),
+        // one with the torch off between them makes no difference
+        ("G4 P.5\n", "G4 P.5\nM5\nG4 P1\nM3 S1\nG4 P6\n", "PV010"),
     ];
     for (from, to, code) in cases {
         assert!(right.contains(from), "{right}");

@@ -146,7 +146,7 @@ impl Fitting<'_> {
             })
             .collect();
         document["findings"] = findings.into();
-        document["fits"] = (fitted.findings.is_empty() && fitted.refused.is_none()).into();
+        document["fits"] = fitted.fits().into();
         document
     }
 }
@@ -198,7 +198,7 @@ pub fn fit(args: &FitArgs, colour: bool) -> Result<Ending, String> {
         VerifyFormat::Json => output::json(&fitting.document(&fitted)),
     };
     output::standard_output(|out| out.write_all(text.as_bytes()))?;
-    Ok(if fitted.findings.is_empty() && fitted.refused.is_none() { Ending::Clean } else { Ending::Findings })
+    Ok(if fitted.fits() { Ending::Clean } else { Ending::Findings })
 }
 
 /// `postform machine`.

@@ -70,7 +70,10 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
         let copy = program.try_clone().map_err(fail)?;
         let made = (&mut job, options);
         let (fitted, fitting) = machine::of_post(post, machine, made, &proof, (copy, "the program"))?;
-        fitting.show(&fitted, (Some(&args.job), post.files()), reporter);
+        // they are in the sheet too
+        if !args.options.quiet {
+            fitting.show(&fitted, (Some(&args.job), post.files()), reporter);
+        }
         let sentences = fitting.sentence(&fitted) + &fitting.sentences(&fitted);
         sheet.machine = sentences.lines().map(str::to_owned).collect();
         let findings = fitted.findings.iter().map(|finding| format!("{}: {}", finding.code.name(), finding.message));

@@ -91,7 +91,7 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
         }
         on_machine = Some((fitted, fitting));
     }
-    let fits = on_machine.as_ref().is_none_or(|(fitted, _)| fitted.findings.is_empty());
+    let fits = on_machine.as_ref().is_none_or(|(fitted, _)| fitted.fits());
     let text = match args.format {
         VerifyFormat::Text => {
             match &proven.verdict {

@@ -34,7 +34,7 @@ pub(super) struct Survey {
 }
 
 impl Survey {
-    /// What the job says first.
+    /// The head of the job: its number, name and units.
     ///
     /// # Errors
     /// Nothing says the units.

@@ -44,7 +44,7 @@ pub struct MachineArgs {
 /// What is done with the file of a machine.
 #[derive(Debug, Subcommand)]
 pub enum MachineCommand {
-    /// Say what the file says, and what is not checked because it does not say it
+    /// List the values in the file, and what is not checked for want of one
     Check {
         /// The file
         file: PathBuf,

@@ -121,7 +121,7 @@ fn fits(fitting: &Fitting<'_>, program: std::fs::File, reporter: &Reporter) -> R
     let fitted = fitting.fitted(program)?;
     fitting.show(&fitted, (None, &[]), reporter);
     say(&(fitting.sentences(&fitted) + &fitting.sentence(&fitted)));
-    Ok(if fitted.findings.is_empty() { Ending::Clean } else { Ending::Findings })
+    Ok(if fitted.fits() { Ending::Clean } else { Ending::Findings })
 }
 
 /// `false`: whoever read it has seen enough.

@@ -71,6 +71,9 @@ fn what_a_sheet_cant_be_is_said() {
     assert_eq!(run(&["sheet", "job.json", "--form", &form]).0, Some(1));
     let (code, said) = run(&["sheet", "job.json", "--form", &form, "-o", "a.pdf"]);
     assert!(code == Some(2) && said.contains(".html, .md or .json"), "{said}");
+    let lathe = [path("samples/lathe-part/job.json"), path("postforms/haas-lathe.pf")];
+    let (code, said) = run(&["sheet", &lathe[0], "--form", &lathe[1]]);
+    assert!(code == Some(2) && said.contains("sheets of lathes are not made"), "{said}");
     let (code, said) = run(&["sheet", "job.json"]);
     assert!(code == Some(2) && said.contains("which form"), "{said}");
     let (code, _) = run(&["sheet", "job.json", "--form", &form, "-o", "job.json"]);

@@ -45,6 +45,12 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
         return Err(format!("error: which form prints {}?\n  help: {help}", files::name(&args.job)));
     };
     let Some(prepared) = prepare(&form, &args.options, &args.job, reporter)? else { return Ok(Ending::Findings) };
+    if prepared.post.turns().is_some() {
+        let name = files::name(&args.job);
+        return Err(format!(
+            "error: setup sheets of lathes are not made: {name} is printed by a lathe's form\n  help: `postform check` lists its tools, `postform plot` draws its path"
+        ));
+    }
     let named = machine::named(&args.machine, Some((&form, &prepared.post)), &config)?;
     let mut job = files::job(&args.job, &args.read, true)?;
     let mut target = Target::open(&args.output, false)?;

@@ -121,6 +121,8 @@ meanings! {
     RigidTap         "rigid-tap"         Some(G::Motion), Target, "follows the spindle in, turns it back, and follows it out";
     ThreadCycle      "thread-cycle"      Some(G::Motion), Target, "cuts a thread in passes";
     ThreadPass       "thread-pass"       Some(G::Motion), Target,"cuts one pass of a thread and comes back";
+    TurnPass         "turn-pass"         Some(G::Motion), Target, "cuts along Z, comes back across and goes to its start";
+    FacePass         "face-pass"         Some(G::Motion), Target, "cuts along X, comes back along Z and goes to its start";
     Probe            "probe"             Some(G::Motion), Target, "moves until a probe touches";
     Cycle            "cycle"             Some(G::Motion), Target, "makes a hole at each position";
     CycleEnd         "cycle-end"         Some(G::Motion), Free,   "ends a cycle";
@@ -195,6 +197,12 @@ meanings! {
     Output           "output"            None, Free,              "sets an output of the machine";
     Override         "override"          None, Free,              "overrides of feed and speed on or off";
     Harmless         "harmless"          None, Free,              "changes nothing that is compared";
+    RoughTurn        "rough-turn"        None, Data,              "removes what is outside of a profile, by cuts along Z";
+    RoughFace        "rough-face"        None, Data,              "removes what is outside of a profile, by cuts along X";
+    RoughPattern     "rough-pattern"     None, Data,              "follows a profile several times, nearer each time";
+    Finish           "finish"            None, Data,              "follows a profile once";
+    FacePecks        "face-pecks"        None, Data,              "cuts along Z by pecks, at several positions along X";
+    GroovePecks      "groove-pecks"      None, Data,              "cuts along X by pecks, at several positions along Z";
     RigidAhead       "rigid-ahead"       None, Free,              "the taps after it follow the spindle";
     Unsaid           "unsaid"            None, Free,              "is known, and does what no meaning says";
 }

@@ -30,11 +30,8 @@ impl Simulator<'_> {
     pub fn is_of_lathe(&mut self, by_diameter: bool) {
         let units = self.state.units();
         let control = self.state.settings.control.of_lathe();
-        self.state = State::new(RunSettings { control, ..self.state.settings });
+        self.state = State::new(RunSettings { control, by_diameter: Some(by_diameter), ..self.state.settings });
         self.state.begin_in(units);
-        if control.is_lathe() {
-            self.state.modes.diameter = by_diameter;
-        }
         self.parameters = Parameters::new(control);
     }
 
@@ -51,6 +48,11 @@ impl Simulator<'_> {
     pub fn reference_point(&self) -> Option<usize> {
         let row = self.block.row(Group::Once).filter(|row| row.meaning == Meaning::Reference)?;
         Some(usize::from(row.runs.point == Some(2)))
+    }
+
+    /// How far a path may leave its corners, by P of the block that was run last.
+    pub fn path_tolerance(&self) -> Option<f64> {
+        self.block.get(b'P').filter(|_| self.block.row(Group::Path).is_some())
     }
 
     /// Does the block that was run last turn on coolant through the spindle?

@@ -6,7 +6,7 @@ use super::codes::Motion;
 use crate::toolpath::{Plane, Units};
 
 /// The cycle in force and its holes.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Holes {
     /// The cycle in force on a Fanuc; elsewhere it is the modal motion.
     pub cycle: Motion,

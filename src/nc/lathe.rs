@@ -28,8 +28,8 @@ pub struct FirstBlock {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Threads {
     first: Option<FirstBlock>,
-    /// Where a pass of G92 ends, radius and Z, and its taper.
-    pass: Option<[f64; 3]>,
+    /// Where a pass of G90, G92 or G94 ends, radius and Z, and its taper.
+    pub(super) pass: Option<[f64; 3]>,
 }
 
 impl State {
@@ -46,7 +46,7 @@ impl State {
     }
 
     /// Least increments as a length.
-    fn increments(&self, count: f64) -> f64 {
+    pub(super) fn increments(&self, count: f64) -> f64 {
         count * if self.modes.units == Units::Inch { 1e-4 } else { 1e-3 }
     }
 

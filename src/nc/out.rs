@@ -1,6 +1,7 @@
 //! Where actions go, and where a program goes after a block.
 
 use super::action::{Action, Item};
+use super::profiled::Profiled;
 
 /// Actions after which the rest of a block waits for the next call.
 const AT_ONCE: usize = 4096;
@@ -18,6 +19,8 @@ pub enum Next {
     Return,
     /// The block is not done: `State::run_on`.
     Rest,
+    /// A cycle follows a profile of the program.
+    Profile(Profiled),
 }
 
 /// The actions of a block.

@@ -5,7 +5,7 @@ use super::frames::Frames;
 use super::out::Out;
 
 /// The position of the tool, and the frame in which it counts.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Place {
     /// Position in program coordinates and the program's units; on axes in `at_machine` it counts from wherever the
     /// machine stood.

@@ -30,7 +30,7 @@ impl State {
         if self.control.rules() == Rules::Grbl {
             return self.grbl_block(block, &mut Out::new(items, line));
         }
-        if !self.control.is_linuxcnc() && block.whole & LENGTHS != 0 {
+        if !self.control.is_linuxcnc() && block.whole & (LENGTHS | letters("DUVW")) != 0 {
             self.unpointed(block)?;
         }
         let motion = self.motion_of(block)?;
@@ -61,6 +61,11 @@ impl State {
         }
         if block.axes_are_taken() || block.row(Group::Once).is_some() {
             self.once(block, &mut out)?;
+            if self.control.is_lathe()
+                && let Some(asked) = self.turning_cycle(block, &mut out)?
+            {
+                return Ok(Next::Profile(asked));
+            }
         }
         if self.control.is_linuxcnc() {
             if let Some(row) = motion {
@@ -109,7 +114,15 @@ impl State {
         }
         // K is then how often, and no length
         let cycle = self.cycle_of(block).is_some_and(|row| row.runs.motions.is_none_or(|motions| !motions.shifts()));
-        let whole = block.whole & LENGTHS & if cycle { !bit(b'K') } else { !0 };
+        // P and Q of a turning cycle name blocks, or count increments; R of one says how often
+        let (more, less) = match block.g_meaning(Group::Once) {
+            Some(Meaning::RoughPattern) => (0, letters("QR")),
+            Some(Meaning::RoughTurn | Meaning::RoughFace) => (bit(b'D'), bit(b'Q')),
+            Some(Meaning::Finish | Meaning::FacePecks | Meaning::GroovePecks) => (0, bit(b'Q')),
+            _ => (0, 0),
+        };
+        let more = more | if self.control.is_lathe() { letters("UVW") } else { 0 };
+        let whole = block.whole & (LENGTHS & !less | more) & if cycle { !bit(b'K') } else { !0 };
         for letter in (b'A'..=b'Z').filter(|&letter| whole & bit(letter) != 0) {
             let Some(value) = block.get(letter).filter(|&value| value != 0.0) else { continue };
             match self.settings.unpointed {
@@ -250,6 +263,7 @@ impl State {
             Meaning::Thread | Meaning::ThreadCycle | Meaning::ThreadPass if lathe => {
                 self.lathe_thread(row.meaning, block, out)
             }
+            Meaning::TurnPass | Meaning::FacePass if lathe => self.turning_pass(row.meaning, block, out),
             _ => refuse(
                 Code::PN016,
                 format!("{} is no motion of {}", row.code, self.control.name()),

@@ -26,6 +26,8 @@ pub struct RunSettings {
     pub assumed: bool,
     /// Which way G76 and G87 of a Fanuc move off the wall along the first axis: a parameter of the machine, 1 or -1.
     pub bore_shift: f64,
+    /// The control is a lathe's, and X counts diameters, or not; `None`: as its file says.
+    pub by_diameter: Option<bool>,
 }
 
 /// What a length without a point means on a Fanuc: a setting of the machine.
@@ -53,6 +55,7 @@ impl RunSettings {
             centers_absolute: false,
             assumed: false,
             bore_shift: 1.0,
+            by_diameter: None,
         }
     }
 }

@@ -14,6 +14,7 @@ use super::out::Next;
 use super::parameters::Parameters;
 use super::settings::RunSettings;
 use super::state::State;
+use super::turning::profile;
 use super::way::{Frame, Jump, Spot};
 use crate::control::Rules;
 use crate::diag::{Code, Diag};
@@ -72,6 +73,8 @@ pub struct Simulator<'a> {
     pub(super) labels: HashMap<String, Spot>,
     /// All labels of the rest are known.
     pub(super) searched: bool,
+    /// Profiles that a cycle has followed, for the finish.
+    pub(super) profiles: Vec<profile::Found>,
     /// The first O number.
     pub(super) program: Option<f64>,
     percent: bool,
@@ -119,6 +122,7 @@ impl<'a> Simulator<'a> {
             frames: Vec::new(),
             labels: HashMap::new(),
             searched: false,
+            profiles: Vec::new(),
             program: None,
             percent: false,
             over: false,
@@ -223,6 +227,7 @@ impl<'a> Simulator<'a> {
             Ok(Jump::To(spot)) => self.go(spot),
             Ok(Jump::Find(label, times)) => self.find(label, times),
             Ok(Jump::Skip(label, ends)) => self.skip(&label, ends),
+            Ok(Jump::Profile(asked)) => self.follow_profile(asked, items),
             Ok(Jump::Search(search)) => self.search(search),
             Err(fault) => Err(self.refused(fault)),
         };
@@ -361,6 +366,11 @@ impl<'a> Simulator<'a> {
         // a block alone may make as many as a loop
         if self.unfinished || !self.frames.is_empty() {
             self.repeated += (items.len() - before) as u64;
+            if next == Next::On
+                && let Some(back) = self.end_profile(items)
+            {
+                return Ok(Jump::To(back));
+            }
             if self.repeated > MOST_REPEATED {
                 let message = format!("over {MOST_REPEATED} actions by repeats, loops and pecks");
                 return refuse(Code::PN015, message, "look at Q, at K or L, and at loops inside each other");
@@ -372,6 +382,7 @@ impl<'a> Simulator<'a> {
             Next::Call(_, 0) => Ok(Jump::On),
             Next::Call(number, times) => Ok(Jump::Find(format!("{number}"), times)),
             Next::Return => self.return_from("a subprogram"),
+            Next::Profile(asked) => Ok(Jump::Profile(asked)),
         }
     }
 

@@ -7,13 +7,14 @@ use super::fault::{Done, refuse};
 use super::holes::Holes;
 use super::lathe::Threads;
 use super::place::Place;
+use super::profiled::FirstBlocks;
 use super::settings::RunSettings;
 use crate::control::{Centres, Control, Meaning, Rules};
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane, Side, Units};
 
 /// A control between two blocks.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct State {
     pub(super) settings: RunSettings,
     pub(super) control: &'static Control,
@@ -24,12 +25,14 @@ pub struct State {
     pub(super) holes: Holes,
     /// Threads of a lathe: what is kept from block to block.
     pub(super) threads: Threads,
+    /// Turning cycles of a lathe: what is kept from block to block.
+    pub(super) turning: FirstBlocks,
     /// Warnings of the block: what a machinist should know though the control does it.
     pub(super) warnings: Vec<(Code, &'static str)>,
 }
 
 /// Modal codes.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Modes {
     /// The modal motion; `None` after G80.
     pub motion: Motion,
@@ -49,7 +52,7 @@ pub(super) struct Modes {
 }
 
 /// Feed and spindle.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Drive {
     /// Feed in the unit of the feed mode; 0 where none is known.
     pub feed: f64,
@@ -58,7 +61,7 @@ pub(super) struct Drive {
 }
 
 /// The tool and its offsets.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Tool {
     /// What T said last.
     pub number: Option<f64>,
@@ -107,7 +110,7 @@ impl State {
                     || control.first(Meaning::CentresIncremental).is_none(),
                 feed_mode: FeedMode::PerMinute,
                 to_initial: !control.is_linuxcnc(),
-                diameter: control.is_lathe(),
+                diameter: control.is_lathe() && settings.by_diameter.unwrap_or(true),
             },
             place: Place::new(
                 match settings.places_unknown {
@@ -119,6 +122,7 @@ impl State {
             ),
             drive: Drive { feed: 0.0, spindle: Rotation::Stop, speed: 0.0 },
             threads: Threads::default(),
+            turning: FirstBlocks::default(),
             tool: Tool::default(),
             holes: Holes::default(),
             warnings: Vec::new(),

@@ -2,7 +2,8 @@
 
 use super::action::{Action, Item, Position, Turn};
 use super::arcs::axes_of;
-use crate::toolpath::{Direction, FeedMode, Units};
+use super::pace::Pace;
+use crate::toolpath::{Direction, Units};
 
 /// Counts what a program does.
 #[derive(Clone, Debug)]
@@ -26,8 +27,7 @@ pub struct Tally {
     /// Units of the lengths: those at the program's end.
     pub units: Units,
     at: Position,
-    mode: FeedMode,
-    speed: f64,
+    pace: Pace,
 }
 
 impl Tally {
@@ -44,13 +44,13 @@ impl Tally {
             timeless: 0,
             units,
             at: [0.0; 6],
-            mode: FeedMode::PerMinute,
-            speed: 0.0,
+            pace: Pace::new(f64::INFINITY),
         }
     }
 
     /// Adds an action.
     pub fn add(&mut self, item: &Item) {
+        self.pace.takes(&item.action);
         match &item.action {
             Action::Rapid { to, machine, .. } => {
                 self.moves[0] += 1;
@@ -63,22 +63,22 @@ impl Tally {
             Action::Feed { to, feed, lead, .. } => {
                 self.moves[1] += 1;
                 let length = distance(&self.at, to);
-                self.cut(length, *feed, *lead);
+                let radius = (self.at[0] + to[0]).abs() / 2.0;
+                self.cut(length, *feed, *lead, radius);
                 self.reach(&self.at.clone());
                 self.at = *to;
                 self.reach(to);
             }
             Action::Arc(turn) => {
                 self.moves[2] += 1;
-                self.cut(arc_length(&self.at, turn), turn.feed, None);
+                let radius = (self.at[0] + turn.to[0]).abs() / 2.0;
+                self.cut(arc_length(&self.at, turn), turn.feed, None, radius);
                 self.reach(&self.at.clone());
                 self.round(turn);
                 self.at = turn.to;
                 self.reach(&turn.to);
             }
             Action::Dwell(seconds) => self.dwelling += seconds / 60.0,
-            Action::Spindle(_, speed) => self.speed = *speed,
-            Action::FeedMode(mode) => self.mode = *mode,
             Action::Tool(_) => self.tools += 1,
             Action::Hole(_) => self.holes += 1,
             Action::Units(units) if *units != self.units => {
@@ -99,13 +99,16 @@ impl Tally {
         self.cutting + self.dwelling + self.distances[0] / rapid_rate(self.units)
     }
 
-    fn cut(&mut self, length: f64, feed: f64, lead: Option<f64>) {
+    /// `radius`: where a lathe cuts.
+    fn cut(&mut self, length: f64, feed: f64, lead: Option<f64>, radius: f64) {
         self.distances[1] += length;
-        let minutes = match (lead, self.mode) {
-            (Some(lead), _) => length / (lead * self.speed),
-            (None, FeedMode::PerMinute) => length / feed,
-            (None, FeedMode::PerRev) => length / (feed * self.speed),
-            (None, FeedMode::InverseTime) => 1.0 / feed,
+        let minutes = match lead {
+            // that of a rotary move too, which has no length
+            None if self.pace.is_inverse() => 1.0 / feed,
+            _ => {
+                let (scale, length) = (self.units.in_mm(), length * self.units.in_mm());
+                length / self.pace.per_minute(feed, lead, length, scale, radius * scale)
+            }
         };
         if minutes.is_finite() { self.cutting += minutes } else { self.timeless += u64::from(length > 0.0) }
     }

@@ -1,7 +1,10 @@
 //! Where a program goes: places in its text, what it is inside of, and what it looks for.
 
+use super::action::Position;
+use super::profiled::Profiled;
+
 /// A place in the program to go to: byte and lines before it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spot {
     pub byte: u64,
     pub line: u64,
@@ -18,6 +21,8 @@ pub(super) enum Frame {
     Do { label: String, start: Spot },
     /// A `repeat`, from the line behind it.
     Repeat { label: String, start: Spot, left: u32 },
+    /// The profile of a cycle: where its block ends, where the profile ends, and from where the cycle began.
+    Profile { back: Spot, end: Spot, start: Position },
     /// An `if` one of whose branches runs.
     If { label: String },
 }
@@ -31,6 +36,7 @@ impl Frame {
             | Frame::Do { label, .. }
             | Frame::Repeat { label, .. }
             | Frame::If { label } => label,
+            Frame::Profile { .. } => "",
         }
     }
 }
@@ -55,6 +61,8 @@ pub(super) enum Jump {
     To(Spot),
     Find(String, u32),
     Skip(String, Ends),
+    /// To the profile of a cycle.
+    Profile(Profiled),
     /// To what must be looked for first.
     Search(Search),
 }

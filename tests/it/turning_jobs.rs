@@ -112,7 +112,7 @@ fn what_no_job_of_a_lathe_has_is_refused() {
         ("G42 G1 Z1. F.2\nG41 Z-1.", "PN036 compensation changes its side"),
         ("G42 G1 Z1. F.2\nG40\nG53 G0 X0 Z0", "PN036 the tool goes home under compensation"),
         ("G42 G1 Z1. F.2\nG40 G3 X44. Z2. R1.", "PN036 compensation is switched on an arc"),
-        ("G71 U1. R.5", "PN016 G71 is not run: turning cycles are not simulated"),
+        ("G71 U1. R.5\nG71 P10 Q20 U.4 F.2", "PN018 the profile's block N10 does not stand after this one"),
     ];
     for (blocks, refused) in cases {
         let outcome = printed(&format!("{HEAD}{blocks}\nM30\n%\n"));

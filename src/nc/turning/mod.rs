@@ -1,0 +1,102 @@
+//! Turning cycles of Fanuc's kind: G70 to G75, G90 and G94 of system A, in two blocks, and Haas's in one.
+//!
+//! Sources: Fanuc's operator's manuals of the 0i-T and 31i (canned and multiple repetitive cycles), Haas's lathe operator's
+//! manual (G70 to G75). What they leave to parameters and settings is said where it is decided.
+
+mod passes;
+mod pecks;
+pub(in crate::nc) mod profile;
+mod rough;
+
+use super::block::Block;
+use super::codes::{Group, letters};
+use super::fault::{Done, refuse};
+use super::profiled::{How, Profiled};
+use super::state::State;
+use crate::control::Meaning;
+use crate::diag::Code;
+use crate::toolpath::Units;
+
+/// Most passes of a cycle.
+const MOST: f64 = 10_000.0;
+
+impl State {
+    /// A cycle of several passes. A profile that it follows is the caller's to find; the cycle itself is made then.
+    pub(super) fn turning_cycle(&mut self, block: &Block, out: &mut super::out::Out<'_>) -> Done<Option<Profiled>> {
+        let Some(row) = block.row(Group::Once) else { return Ok(None) };
+        match row.meaning {
+            Meaning::RoughTurn | Meaning::RoughFace | Meaning::RoughPattern | Meaning::Finish => {
+                let [Some(first), Some(last)] = [b'P', b'Q'].map(|letter| block.get(letter)) else {
+                    return self.first_of(row.meaning, block).map(|()| None);
+                };
+                if block.get(b'R').is_some_and(|second| second != 0.0) {
+                    let message = format!("{} with R, for profiles that go back on themselves", row.code);
+                    return refuse(Code::PN016, message, "cut the pocket by a cycle of its own, or write its moves");
+                }
+                let how = self.how(row.meaning, block)?;
+                Ok(Some(Profiled { first, last, how }))
+            }
+            Meaning::FacePecks | Meaning::GroovePecks => self.turning_pecks(row, block, out).map(|()| None),
+            _ => Ok(None),
+        }
+    }
+
+    /// The first block of two.
+    fn first_of(&mut self, meaning: Meaning, block: &Block) -> Done {
+        if meaning == Meaning::Finish || !block.has(letters("UWR")) {
+            return refuse(
+                Code::PN007,
+                "a turning cycle without P and Q",
+                "write the numbers of its profile's first block and its last: G71 P10 Q20",
+            );
+        }
+        let radius = |value: Option<f64>| value.map(f64::abs);
+        match meaning {
+            Meaning::RoughTurn => keep(&mut self.turning.turn, [radius(block.get(b'U')), block.get(b'R')]),
+            Meaning::RoughFace => keep(&mut self.turning.face, [radius(block.get(b'W')), block.get(b'R')]),
+            _ => keep(&mut self.turning.pattern, [block.get(b'U'), block.get(b'W'), block.get(b'R')]),
+        }
+        Ok(())
+    }
+
+    fn how(&self, meaning: Meaning, block: &Block) -> Done<How> {
+        let half = if self.modes.diameter { 0.5 } else { 1.0 };
+        let left = [block.get(b'U').unwrap_or(0.0) * half, block.get(b'W').unwrap_or(0.0)];
+        Ok(match meaning {
+            Meaning::Finish => How::Finish,
+            Meaning::RoughPattern => {
+                let [x, z, count] = self.turning.pattern;
+                // Haas has them in one block
+                let x = block.get(b'I').or(x).unwrap_or(0.0);
+                let z = block.get(b'K').or(z).unwrap_or(0.0);
+                let Some(count) = block.get(b'D').or(count).filter(|count| (1.0..=MOST).contains(count)) else {
+                    let help = "G73 U.. W.. R(how often) before it; on a Haas D in its block";
+                    return refuse(Code::PN007, "G73 does not say how often", help);
+                };
+                How::Pattern { outside: [x, z], count: count as u32, left }
+            }
+            meaning => {
+                let across = meaning == Meaning::RoughFace;
+                let [depth, back] = if across { self.turning.face } else { self.turning.turn };
+                let (code, letter) = if across { ("G72", 'W') } else { ("G71", 'U') };
+                let Some(depth) = block.get(b'D').map(f64::abs).or(depth).filter(|depth| *depth > 0.0) else {
+                    let message = format!("{code} does not say how deep a pass is: a parameter of the control does");
+                    let help = format!("{code} {letter}2. R1. before it; on a Haas D in its block");
+                    return refuse(Code::PN007, message, help);
+                };
+                How::Passes { across, depth, back: back.unwrap_or_else(|| self.usual_back()), left }
+            }
+        })
+    }
+
+    /// How far a pass goes back where the program does not say: 0.05 inch, which Haas's settings 22 and 73 have from the factory.
+    fn usual_back(&self) -> f64 {
+        if self.modes.units == Units::Inch { 0.05 } else { 1.27 }
+    }
+}
+
+fn keep<const N: usize>(kept: &mut [Option<f64>; N], said: [Option<f64>; N]) {
+    for (kept, said) in kept.iter_mut().zip(said) {
+        *kept = said.or(*kept);
+    }
+}

@@ -1,0 +1,44 @@
+//! G90 and G94 of system A: one pass along a cylinder or a face, and back to its start.
+
+use crate::control::Meaning;
+use crate::nc::block::Block;
+use crate::nc::codes::{Group, letters};
+use crate::nc::fault::Done;
+use crate::nc::out::Out;
+use crate::nc::state::State;
+
+impl State {
+    /// A pass. The blocks after it make another where they give another position.
+    pub(in crate::nc) fn turning_pass(&mut self, does: Meaning, block: &Block, out: &mut Out<'_>) -> Done {
+        let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
+        let (begin, unsaid) = (self.place.position, self.place.at_machine);
+        let mut end = self.target(block)?;
+        // how much farther out the pass begins than it ends: along X on a cone, along Z on a sloping face
+        let mut taper = block.get(b'R').unwrap_or(0.0);
+        if let Some([radius, z, before]) = self.threads.pass.filter(|_| block.row(Group::Motion).is_none()) {
+            end[0] = if block.has(letters("XU")) { end[0] } else { radius };
+            end[2] = if block.has(letters("ZW")) { end[2] } else { z };
+            taper = if block.has(letters("R")) { taper } else { before };
+            self.place.at_machine &= !0b101;
+        }
+        self.threads.pass = Some([end[0], end[2], taper]);
+        let [out_of, along] = if does == Meaning::TurnPass { [0, 2] } else { [2, 0] };
+        // a position that only the machine knows stays one until the block says it
+        let at_end = self.place.at_machine;
+        let is_said = |axis: usize| unsaid & !(1 << axis) | at_end & 1 << axis;
+        let mut to = begin;
+        to[out_of] = end[out_of] + taper;
+        self.place.at_machine = is_said(out_of);
+        self.place.rapid_to(to, out);
+        self.place.at_machine = at_end;
+        to[out_of] = end[out_of];
+        to[along] = end[along];
+        self.place.feed_to(to, feed, None, out);
+        to[out_of] = begin[out_of];
+        self.place.at_machine = is_said(along);
+        self.place.feed_to(to, feed, None, out);
+        self.place.at_machine = unsaid;
+        self.place.rapid_to(begin, out);
+        Ok(())
+    }
+}

@@ -1,0 +1,193 @@
+//! Profiles: found by the numbers of their blocks, read by running them aside, or run for good.
+
+use super::rough::{Move, Piece, Point, Profile, moves};
+use crate::diag::Code;
+use crate::nc::action::{Action, Item, Position, Turn};
+use crate::nc::fault::{Done, Fault, refuse};
+use crate::nc::out::{Next, Out};
+use crate::nc::profiled::{How, Profiled};
+use crate::nc::scan::{Kind, tokens};
+use crate::nc::simulator::{RunError, Simulator};
+use crate::nc::way::{Frame, Spot};
+use crate::toolpath::{Direction, Plane};
+
+/// Where a profile stands.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::nc) struct Found {
+    /// The numbers of its first block and its last.
+    numbers: [f64; 2],
+    /// Before its first block.
+    begin: Spot,
+    /// After its last one.
+    end: Spot,
+}
+
+impl Simulator<'_> {
+    /// Makes a cycle that follows a profile, from the block after which it stands.
+    pub(in crate::nc) fn follow_profile(&mut self, asked: Profiled, items: &mut Vec<Item>) -> Result<(), RunError> {
+        let (back, text) = (self.at, self.line.clone());
+        let start = *self.state.position();
+        let found = self.profile(asked, back)?;
+        if asked.how == How::Finish {
+            self.line = text;
+            let frame = Frame::Profile { back, end: found.end, start };
+            if let Err(fault) = self.push(frame) {
+                return Err(self.refused(fault));
+            }
+            return self.go(found.begin);
+        }
+        self.profiles.retain(|other| other.numbers != found.numbers);
+        self.profiles.push(found);
+        let profile = self.read_profile(&found)?;
+        let made = moves(&profile, [start[0], start[2]], &asked.how);
+        // what is wrong with the cycle is said of its block
+        let after = std::mem::replace(&mut self.at, back);
+        let read = std::mem::replace(&mut self.line, text);
+        let made = made.map_err(|fault| self.refused(fault))?;
+        let mut out = Out::new(items, back.line);
+        let place = &mut self.state.place;
+        let feed = self.state.drive.feed;
+        let position = |[radius, z]: Point| {
+            let mut to: Position = start;
+            (to[0], to[2]) = (radius, z);
+            to
+        };
+        for step in made {
+            match step {
+                Move::Rapid(to) => place.rapid_to(position(to), &mut out),
+                Move::Cut(Piece { to, arc: None }) => place.feed_to(position(to), feed, None, &mut out),
+                Move::Cut(Piece { to, arc: Some(([radius, z], ccw)) }) => {
+                    place.position = position(to);
+                    out.push(Action::Arc(Turn {
+                        to: position(to),
+                        center: [radius, start[1], z],
+                        plane: Plane::Xz,
+                        direction: if ccw { Direction::Ccw } else { Direction::Cw },
+                        turns: 0,
+                        feed,
+                        machine: place.at_machine,
+                    }));
+                }
+            }
+        }
+        (self.at, self.line) = (after, read);
+        // the control goes on after the profile
+        self.go(found.end)
+    }
+
+    /// The last block of a profile was run: back to the start of the cycle, and on after it.
+    pub(in crate::nc) fn end_profile(&mut self, items: &mut Vec<Item>) -> Option<Spot> {
+        let Some(&Frame::Profile { back, end, start }) = self.frames.last() else { return None };
+        if self.at.byte < end.byte {
+            return None;
+        }
+        self.frames.pop();
+        self.state.place.rapid_to(start, &mut Out::new(items, back.line));
+        Some(back)
+    }
+
+    /// Looks for a profile: the one that a cycle before has followed, else after this block.
+    fn profile(&mut self, asked: Profiled, after: Spot) -> Result<Found, RunError> {
+        let numbers = [asked.first, asked.last];
+        if asked.how == How::Finish
+            && let Some(found) = self.profiles.iter().find(|found| found.numbers == numbers)
+        {
+            return Ok(*found);
+        }
+        let text = self.line.clone();
+        let mut begin = None;
+        let (mut before, mut end) = (self.at, None);
+        while end.is_none() && self.read_line()? {
+            let number = number_of(&self.line);
+            if begin.is_none() && number == Some(asked.first) {
+                begin = Some(before);
+            }
+            if begin.is_some() && number == Some(asked.last) {
+                end = Some(self.at);
+            }
+            before = self.at;
+        }
+        self.go(after)?;
+        self.line = text;
+        let (Some(begin), Some(end)) = (begin, end) else {
+            let which = if begin.is_none() { asked.first } else { asked.last };
+            let message = format!("the profile's block N{which} does not stand after this one");
+            let fault = Fault::new(Code::PN018, message, "write the numbers of its first block and its last: P10 Q20");
+            return Err(self.refused(fault));
+        };
+        Ok(Found { numbers, begin, end })
+    }
+
+    /// Runs the blocks of a profile aside, and gives what they cut.
+    fn read_profile(&mut self, found: &Found) -> Result<Profile, RunError> {
+        self.go(found.begin)?;
+        let mut aside = self.state.clone();
+        let (mut items, mut reading) = (Vec::new(), Reading::default());
+        while self.at.byte < found.end.byte && self.read_line()? {
+            let read = self.block.read(&self.line, &mut self.parameters, &self.state.settings);
+            let run = read.and_then(|()| match self.block.flow.take() {
+                Some(_) => refuse(Code::PN016, "a jump or a call in a profile", "write its moves"),
+                None => match aside.run(&mut self.block, self.at.line, &mut items)? {
+                    Next::On => Ok(()),
+                    _ => refuse(Code::PN016, "a profile holds moves alone", "write this block before its cycle"),
+                },
+            });
+            let taken = run.and_then(|()| items.drain(..).try_for_each(|item| reading.take(&item)));
+            taken.map_err(|fault| self.refused(fault))?;
+        }
+        let Some(profile) = reading.profile else {
+            let help = "P and Q name its first block and its last";
+            return Err(self.refused(Fault::new(Code::PN018, "the profile has no move", help)));
+        };
+        Ok(profile)
+    }
+}
+
+/// The number of a block.
+fn number_of(line: &[u8]) -> Option<f64> {
+    let mut words = tokens(line).filter(|token| !matches!(token.kind, Kind::Blank | Kind::Delete));
+    match words.next()?.kind {
+        Kind::Word(b'N', number) => Some(number.value),
+        _ => None,
+    }
+}
+
+/// A profile as far as it is read.
+#[derive(Debug, Default)]
+struct Reading {
+    profile: Option<Profile>,
+    /// A rapid has taken the tool away: nothing more is cut.
+    is_over: bool,
+}
+
+impl Reading {
+    /// Takes an action of a block.
+    fn take(&mut self, item: &Item) -> Done {
+        let point = |to: &Position| [to[0], to[2]];
+        let (to, arc, rapid) = match &item.action {
+            Action::Rapid { to, .. } => (point(to), None, true),
+            Action::Feed { to, lead: None, .. } => (point(to), None, false),
+            Action::Arc(turn) if turn.plane == Plane::Xz && turn.turns == 0 => {
+                let [radius, _, z] = turn.center;
+                (point(&turn.to), Some(([radius, z], turn.direction == Direction::Ccw)), false)
+            }
+            Action::Comment(..)
+            | Action::BlockDelete
+            | Action::Compensation(_)
+            | Action::Spindle(..)
+            | Action::SurfaceSpeed(_)
+            | Action::FeedMode(_) => return Ok(()),
+            _ => return refuse(Code::PN016, "a profile holds moves alone", "write this block before its cycle"),
+        };
+        match &mut self.profile {
+            None if arc.is_none() => self.profile = Some(Profile { rapid, begin: to, pieces: Vec::new() }),
+            None => return refuse(Code::PN016, "a profile begins with an arc", "begin it with G0 or G1"),
+            Some(_) if rapid => self.is_over = true,
+            Some(_) if self.is_over => {
+                return refuse(Code::PN016, "a cut after a rapid inside of a profile", "write G1: a profile is cut");
+            }
+            Some(profile) => profile.pieces.push(Piece { to, arc }),
+        }
+        Ok(())
+    }
+}

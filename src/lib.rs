@@ -62,6 +62,7 @@ mod span;
 mod survey;
 mod syntax;
 mod terminal;
+mod times;
 pub mod toolpath;
 mod trace;
 mod verify;
@@ -130,6 +131,7 @@ pub mod internals {
     }
     pub mod machine {
         pub use crate::machine::{Beside, Machine, read, summary, template};
+        pub use crate::times::{AxisRates, Corner, Planner, Rates};
     }
     pub mod nc {
         pub use crate::nc::{
@@ -148,7 +150,7 @@ pub mod internals {
         pub use crate::post::{Part, sample_job, sample_program, shipped};
     }
     pub mod preflight {
-        pub use crate::preflight::{Fit, Fitted, JobTool, preflight};
+        pub use crate::preflight::{Fit, Fitted, JobTool, Times, preflight};
     }
     pub mod render {
         pub use crate::render::{Clock, Cycles, Options, Renderer, TraceLine, survey_terms};

@@ -3,7 +3,7 @@
 use super::document::{Document, Object, Value};
 use super::wrong;
 use crate::diag::{Code, Diag};
-use crate::toolpath::{SpindleTurn, Tool};
+use crate::toolpath::{Given, SpindleTurn, Tool};
 
 /// Most by which saving changes a feed: paths hold six decimals, controllers sixteen.
 const SAVED: f64 = 1e-6;
@@ -61,6 +61,25 @@ fn rounded(value: f64, units: f64) -> f64 {
     (value * units).round() / units
 }
 
+/// Properties of a tool bit that are for people, and how jobs call them. Lengths are millimetres.
+const DATA: [(&str, &str); 6] = [
+    ("Length", "length"),
+    ("CuttingEdgeHeight", "cutting_length"),
+    ("ShankDiameter", "shank"),
+    ("TipAngle", "tip_angle"),
+    ("Flutes", "flutes"),
+    ("Material", "material"),
+];
+
+/// A property that says something: FreeCAD has 0 for numbers that nobody gave.
+fn data(bit: &Object, name: &str) -> Option<Given> {
+    match bit.get(name)? {
+        Value::Number(number) if *number > 0.0 => Some(Given::Number(*number)),
+        Value::Text(text) if !text.trim().is_empty() => Some(Given::Text(text.clone())),
+        _ => None,
+    }
+}
+
 /// The tool of a controller: a tool bit, or a value inside the controller as documents before 0.19 have it.
 fn tool(document: &Document, controller: &Object, number: f64) -> Tool {
     let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
@@ -71,6 +90,9 @@ fn tool(document: &Document, controller: &Object, number: f64) -> Tool {
     } else if let Some((name, bit)) = controller.link("Tool").and_then(|name| document.objects.get_key_value(name)) {
         tool.comment = Some(bit.text("Label").unwrap_or(name).to_owned());
         (tool.diameter, tool.corner_radius) = (positive(bit.number("Diameter")), positive(bit.number("CornerRadius")));
+    }
+    if let Some(bit) = controller.link("Tool").and_then(|name| document.objects.get(name)) {
+        tool.data = DATA.iter().filter_map(|(name, own)| Some(((*own).to_owned(), data(bit, name)?))).collect();
     }
     tool.comment = tool.comment.filter(|comment| !comment.trim().is_empty());
     tool.name.clone_from(&tool.comment);

@@ -191,7 +191,7 @@ variables! {
     Toolcount     "toolcount"      "What lies ahead"    Count   Computed  "ML"   "number of tools"
     Opcount       "opcount"        "What lies ahead"    Count   Computed  "MLE"  "number of operations"
     Holecount     "holecount"      "What lies ahead"    Count   Computed  "ML"   "number of holes of cycles"
-    Cuttime       "cuttime"        "What lies ahead"    Time    Computed  "MLE"  "time of the cuts at their feeds, in seconds"
+    Cuttime       "cuttime"        "What lies ahead"    Time    Computed  "MLE"  "time of the cuts at their feeds, in seconds; on a machine with accelerations, with them"
     Cutlength     "cutlength"      "What lies ahead"    Length  Computed  "MLE"  "length of the cuts"
     Tparams       "tparams"        "Threads"            Number  Job       "L"    "packed passes, chamfer and angle of a threading cycle"
     Passes        "passes"         "Threads"            Count   Computed  "L"    "finish passes, or number of passes"

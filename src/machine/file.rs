@@ -9,7 +9,7 @@ use super::axis::{Axis, Travel};
 use super::file_text::{AxisText, Counts, File, FixtureText, RotaryText, ToolText, UnitsText};
 use super::fixture::Fixture;
 use super::tool_table::{self, Entry, ToolTable};
-use super::{LETTERS, Machine, Rotary, offsets};
+use super::{Corners, LETTERS, Machine, Rotary, offsets};
 use crate::control::{self, Control, Wrong};
 use crate::toolpath::Units;
 
@@ -60,6 +60,15 @@ pub fn read(name: &str, text: &str, beside: &Beside<'_>) -> Result<Machine, Wron
         }
         machine.speeds = Some([least, most]);
     }
+    let ahead = file.corners.ahead.as_ref();
+    if let Some(zero) = ahead.filter(|blocks| *blocks.get_ref() == 0) {
+        let help = "write how many blocks the control plans ahead, as 15";
+        return Err(reader.wrong(zero.span().start, "a control plans 1 block ahead, or more", help));
+    }
+    machine.corners = Corners {
+        deviation: positive(&file.corners.deviation, "the deviation at corners")?.map(|deviation| deviation * scale),
+        ahead: ahead.map(|blocks| *blocks.get_ref() as usize),
+    };
     machine.spin_up = positive(&file.spindle.acceleration, "the time to the highest speed")?;
     if let Some(numbers) = &file.memory.numbers {
         let [least, most] = *numbers.get_ref();

@@ -20,6 +20,8 @@ pub(super) struct File {
     pub(super) axes: BTreeMap<Spanned<String>, AxisText>,
     pub(super) rotary: Option<RotaryText>,
     #[serde(default)]
+    pub(super) corners: CornersText,
+    #[serde(default)]
     pub(super) reference: ReferenceText,
     #[serde(default)]
     pub(super) spindle: SpindleText,
@@ -67,6 +69,13 @@ pub(super) struct RotaryText {
     pub(super) centre: Option<Spanned<[f64; 3]>>,
     #[serde(default)]
     pub(super) tip_control: bool,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CornersText {
+    pub(super) deviation: Option<Spanned<f64>>,
+    pub(super) ahead: Option<Spanned<u32>>,
 }
 
 #[derive(Default, Deserialize)]

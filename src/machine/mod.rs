@@ -7,12 +7,14 @@ mod file;
 mod file_text;
 mod fixture;
 pub mod offsets;
+mod rates;
 mod summary;
 mod template;
 mod tool_table;
 
 pub use axis::{Axis, Travel};
 pub use fixture::{Fixture, Sweep};
+pub use rates::Corners;
 pub use summary::summary;
 pub use template::template;
 pub use tool_table::ToolTable;
@@ -37,6 +39,8 @@ pub struct Machine {
     pub by_diameter: bool,
     /// X Y Z A B C, those that the file describes.
     pub axes: [Option<Axis>; 6],
+    /// How its control goes through corners, for times.
+    pub corners: Corners,
     /// Where the rotary axes turn, in machine coordinates.
     pub rotary: Option<Rotary>,
     /// Where G28 and G30 go, in machine coordinates: millimetres and degrees.

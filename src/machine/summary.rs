@@ -72,6 +72,9 @@ pub fn summary(machine: &Machine) -> String {
         Some(bytes) => _ = writeln!(text, "  stores {bytes} bytes"),
         None => missing.push("the size of programs".into()),
     }
+    if let Err(lacks) = machine.rates() {
+        missing.push(format!("times with accelerations: the file does not give {lacks}"));
+    }
     if !machine.fixtures.is_empty() {
         _ = writeln!(text, "  fixtures: {}", machine.fixtures.len());
     }

@@ -28,6 +28,10 @@ units = \"mm\"                        # of all lengths in this file: mm or inch
 # turns = \"table\"                    # or \"head\"
 # about = [1, 0, 0]
 
+[corners]                            # for times
+# deviation = 0.01                   # how far the path may leave a corner; $11 of Grbl
+# ahead = 200                        # blocks that the control plans ahead; Grbl has 15
+
 [reference]
 # G28 = [0, 0, 0]
 # G30 = [0, -100, 0]

@@ -76,7 +76,7 @@ impl Post {
         options: &Options,
         only_order: bool,
     ) -> (Result<(), Error>, Survey) {
-        let terms = survey_terms(&self.0.program, options.sink_as_printed, only_order);
+        let terms = survey_terms(&self.0.program, options.sink_as_printed, only_order, options.rates.clone());
         let mut surveyor = Surveyor::new(terms);
         let read = taken(Some(&self.0.program.settings), &mut surveyor, |sink| job.again().read(sink));
         (read, surveyor.finish())

@@ -6,6 +6,7 @@ use crate::lang::{Origin, VARIABLES, VarId, did_you_mean};
 use crate::nc::Unpointed;
 use crate::render::{self, Clock, Cycles};
 use crate::sema::{Property, PropertyValue, Settings};
+use crate::times::Rates;
 use crate::toolpath::Units;
 
 /// How a job is printed. All of it may stay as it is.
@@ -38,6 +39,9 @@ pub struct Options {
     pub one_pass: bool,
     /// Keep for each line of the program which form line and which item of the job printed it.
     pub trace: bool,
+    /// How fast the machine's axes are: then `[cuttime]` counts their accelerations. For the command line, which reads machines.
+    #[doc(hidden)]
+    pub rates: Option<Rates>,
     /// How [`Post::render`](super::Post::render) proves the program; `None`: it does not.
     pub proof: Option<Proof>,
 }
@@ -58,6 +62,7 @@ impl Default for Options {
             job_file: None,
             one_pass: false,
             trace: false,
+            rates: None,
             proof: Some(Proof::default()),
         }
     }

@@ -22,9 +22,11 @@ impl Post {
         taken(Some(&self.0.program.settings), &mut stops, |sink| job.read(sink))?;
         // a fixture's number, or the code itself
         let name = |work: f64| if work < 50.0 { format!("{work}") } else { format!("G{work}") };
-        let mut sheet = of_job(&survey, stops, &name);
+        let mut sheet = of_job(&survey, stops, self.turns(), &name);
         let settings = &self.0.program.settings;
-        sheet.control = settings.control.unwrap_or_else(Control::usual).title().to_owned();
+        let control = settings.control.unwrap_or_else(Control::usual);
+        let control = if self.turns().is_some() { control.of_lathe() } else { control };
+        sheet.control = control.title().to_owned();
         sheet.form = settings.name.clone();
         sheet.program = options.program.or(sheet.program);
         Ok(sheet)

@@ -195,7 +195,10 @@ impl Proof {
         let form = form.map(|form| &form.settings);
         let of_form = form.and_then(|form| form.control);
         let control = self.control.or(of_form).unwrap_or_else(Control::usual);
+        let lathe = form.filter(|form| form.machine == crate::lang::Machine::Lathe);
+        let control = if lathe.is_some() { control.of_lathe() } else { control };
         RunSettings {
+            by_diameter: lathe.map(|form| form.by_diameter),
             units,
             block_delete: self.block_delete,
             back_off: self.back_off,

@@ -3,14 +3,16 @@
 use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
+use super::clock::{Clock, Times};
 use super::fit::Fit;
 use super::place::{At, Base, Places};
 use super::travel::Travels;
-use crate::control::Control;
+use crate::control::{Control, Meaning};
 use crate::diag::{Code, Severity};
 use crate::machine::{Coolant, LETTERS, Machine, Sweep, offsets};
-use crate::nc::{Action, Cooling, Item, Position, Rotation, RunError, RunSettings, Simulator, Turn};
-use crate::toolpath::FeedMode;
+use crate::nc::{Action, Cooling, Item, Pace, Position, RunError, RunSettings, Simulator, Turn, axes_of, sweep};
+use crate::times::Curve;
+use crate::toolpath::Direction;
 use crate::verify::Finding;
 
 /// What was found, and how the program lies in the machine.
@@ -20,6 +22,8 @@ pub struct Fitted {
     pub findings: Vec<Finding>,
     /// The extents, and what would do where offsets or lengths are not known.
     pub fit: Fit,
+    /// How long it takes, or what of the machine's accelerations is not known.
+    pub times: Result<Times, String>,
     /// A block was refused: nothing is known of what comes after it. The line, and why.
     pub refused: Option<(u64, String)>,
 }
@@ -45,14 +49,13 @@ pub struct JobTool {
     pub diameter: Option<f64>,
 }
 
-/// Runs a program on a machine. `turns`: it is a lathe's by its form, and whether its X counts diameters.
+/// Runs a program on a machine.
 ///
 /// # Errors
 /// The program can't be read.
 pub fn preflight(
     mut program: impl Read + Seek,
     settings: RunSettings,
-    turns: Option<bool>,
     machine: &Machine,
     job: &[JobTool],
 ) -> io::Result<Fitted> {
@@ -60,13 +63,9 @@ pub fn preflight(
     program.seek(SeekFrom::Start(0))?;
     let settings = RunSettings { places_unknown: true, ..settings };
     let mut run = Simulator::new(program, settings);
-    if let Some(by_diameter) = turns {
-        run.is_of_lathe(by_diameter);
-    }
-    let control = if turns.is_some() { settings.control.of_lathe() } else { settings.control };
     let known = machine.offsets.iter().flatten().map(|(number, at)| (*number, at.map(|value| value.unwrap_or(0.0))));
     run.begin_on(&mut known.into_iter(), machine.references.map(Option::unwrap_or_default));
-    let mut check = Check::new(machine, control, job);
+    let mut check = Check::new(machine, settings.control, job);
     let mut items = Vec::new();
     let refused = loop {
         items.clear();
@@ -97,9 +96,8 @@ struct Check<'m> {
     travels: Travels<'m>,
     tool: Option<u32>,
     tools: Vec<u32>,
-    mode: FeedMode,
-    speed: f64,
-    surface: bool,
+    pace: Pace,
+    clock: Result<Clock, String>,
     /// Findings by what they are about: each is one.
     found: BTreeMap<(Code, String), Finding>,
     /// A reference point that the file does not say was gone to.
@@ -119,9 +117,8 @@ impl<'m> Check<'m> {
             travels: Travels::new(machine),
             tool: None,
             tools: Vec::new(),
-            mode: FeedMode::PerMinute,
-            speed: 0.0,
-            surface: false,
+            pace: Pace::new(machine.speeds.map_or(f64::INFINITY, |[_, fastest]| fastest)),
+            clock: Clock::of(machine),
             found: BTreeMap::new(),
             no_reference: [false; 2],
             was_compensated: false,
@@ -152,39 +149,54 @@ impl<'m> Check<'m> {
 
     fn item(&mut self, item: &Item, [said, hidden]: [u8; 2], run: &Simulator<'_>) {
         let line = (item.line, run.text());
+        let before = self.places.at;
+        self.pace.takes(&item.action);
         match &item.action {
             Action::Rapid { to, machine, astray } => {
-                let before = self.places.at;
                 self.places.goes(to, [*machine, said, astray | hidden & machine], run);
+                self.clocks(|clock, after| clock.rapid(&before, after));
                 self.travels.moved(&self.places, None, self.tool, line);
                 self.fixtures(&before, line);
             }
             Action::Feed { to, feed, lead, machine, .. } => {
-                let before = self.places.program(run);
+                let from = self.places.program(run);
                 self.places.goes(to, [*machine, said, 0], run);
                 self.travels.moved(&self.places, None, self.tool, line);
-                self.straight_feed(&before, to, *feed, *lead, run, line);
+                let feed = self.straight_feed(&from, to, (*feed, *lead), run, line);
+                self.clocks(|clock, after| clock.cut(&before, after, feed));
             }
             Action::Arc(turn) => {
-                let before = self.places.program(run);
+                let from = self.places.program(run);
                 self.places.goes(&turn.to, [turn.machine, said, 0], run);
-                let ranges = self.places.extremes(&before, turn, run);
+                let ranges = self.places.extremes(&from, turn, run);
                 self.travels.moved(&self.places, Some(ranges), self.tool, line);
-                self.arc_feed(turn, run, line);
+                let (curve, feed) = self.arc_feed(&from, turn, run, line);
+                self.clocks(|clock, after| clock.arc(curve, &before, after, feed));
             }
-            Action::Tool(number) => self.changes_tool(*number, line),
+            Action::Tool(number) => {
+                self.changes_tool(*number, line);
+                let tool = self.tool;
+                self.clocks(|clock, _| clock.change(tool));
+            }
+            Action::Dwell(seconds) => self.clocks(|clock, _| clock.dwell(*seconds)),
+            Action::Stop(_) | Action::Orient(_) => self.clocks(|clock, _| clock.stop()),
+            Action::LeftOut(_, Meaning::ExactStop) => self.clocks(|clock, _| clock.stop()),
+            Action::LeftOut(code, Meaning::Path) => {
+                let tolerance = run.path_tolerance().map(|tolerance| tolerance * run.state().units().in_mm());
+                self.clocks(|clock, _| clock.follows(*code, tolerance));
+            }
             Action::Length(register) => self.takes_length(*register, line),
             Action::Work(_) => self.takes_offset(run, line),
             Action::Compensation(side) => self.was_compensated |= side.is_some(),
-            Action::Coolant(kind) => self.cools(*kind, run, line),
-            Action::FeedMode(mode) => self.mode = *mode,
-            Action::SurfaceSpeed(on) => self.surface = on.is_some(),
+            Action::Coolant(kind) => {
+                self.cools(*kind, run, line);
+                self.clocks(|clock, _| clock.stop());
+            }
             Action::SpeedLimit(limit) => self.turns(*limit, "the highest speed", line),
             Action::Spindle(rotation, speed) => {
-                self.speed = *speed;
-                if *rotation != Rotation::Stop && !self.surface {
-                    self.turns(*speed, "the spindle's speed", line);
-                }
+                let speed = self.pace.switched(*rotation, *speed);
+                self.turns(speed, "the spindle's speed", line);
+                self.clocks(|clock, _| clock.spindle(*rotation, speed));
             }
             _ => {}
         }
@@ -247,48 +259,55 @@ impl<'m> Check<'m> {
         register.filter(|_| axis == 2).and_then(length).unwrap_or(0.0)
     }
 
-    /// The feed along the path in millimetres a minute.
-    fn per_minute(&self, feed: f64, length: f64, scale: f64) -> f64 {
-        match self.mode {
-            FeedMode::PerMinute => feed * scale,
-            FeedMode::PerRev => feed * scale * self.speed,
-            FeedMode::InverseTime => feed * length * scale,
+    /// Gives the clock what it is to count, with where the axes are now.
+    fn clocks(&mut self, count: impl FnOnce(&mut Clock, &[At; 6])) {
+        if let Ok(clock) = &mut self.clock {
+            count(clock, &self.places.at);
         }
     }
 
+    /// Checks a straight cut's feed, which follows the spindle where it has a lead; the feed in millimetres a minute, or degrees
+    /// where only rotary axes move.
     fn straight_feed(
         &mut self,
         from: &Position,
         to: &Position,
-        feed: f64,
-        lead: Option<f64>,
+        (feed, lead): (f64, Option<f64>),
         run: &Simulator<'_>,
         line: (u64, &[u8]),
-    ) {
-        if self.machine.axes[..3].iter().flatten().all(|axis| axis.feed.is_none()) || lead.is_some() {
-            return;
-        }
-        let way: [f64; 3] = std::array::from_fn(|axis| to[axis] - from[axis]);
-        let length = way.iter().map(|part| part * part).sum::<f64>().sqrt();
+    ) -> f64 {
+        let way: Position = std::array::from_fn(|axis| to[axis] - from[axis]);
+        let size = |way: &[f64]| way.iter().map(|part| part * part).sum::<f64>().sqrt();
+        let (scale, length) = (run.state().units().in_mm(), size(&way[..3]));
         if length == 0.0 {
-            return;
+            return self.pace.per_minute(feed, lead, size(&way), 1.0, from[0].abs());
         }
-        let feed = self.per_minute(feed, length, run.state().units().in_mm());
-        for (axis, part) in way.into_iter().enumerate() {
-            self.feeds(axis, feed * part.abs() / length, line);
+        let radius = (from[0] + to[0]).abs() / 2.0 * scale;
+        let feed = self.pace.per_minute(feed, lead, length * scale, scale, radius);
+        if lead.is_none() {
+            for (axis, part) in way[..3].iter().enumerate() {
+                self.feeds(axis, feed * part.abs() / length, line);
+            }
         }
+        feed
     }
 
-    /// Somewhere on an arc an axis has the whole feed, unless the arc is short: then it has at most that.
-    fn arc_feed(&mut self, turn: &Turn, run: &Simulator<'_>, line: (u64, &[u8])) {
-        if self.mode == FeedMode::InverseTime {
-            return;
+    /// The arc for the clock, and its feed in millimetres a minute. Somewhere on an arc an axis has the whole feed, unless the
+    /// arc is short: then it has at most that.
+    fn arc_feed(&mut self, from: &Position, turn: &Turn, run: &Simulator<'_>, line: (u64, &[u8])) -> (Curve, f64) {
+        let scale = run.state().units().in_mm();
+        let [first, second, _] = axes_of(turn.plane);
+        let begin = [first, second].map(|axis| (from[axis] - turn.center[axis]) * scale);
+        let sign = if turn.direction == Direction::Ccw { 1.0 } else { -1.0 };
+        let curve = Curve { plane: [first, second], from: begin, sweep: sign * sweep(from, turn), rise: [0.0; 6] };
+        let radius = (from[0] + turn.to[0]).abs() / 2.0 * scale;
+        let feed = self.pace.per_minute(turn.feed, None, curve.length(), scale, radius);
+        if !self.pace.is_inverse() {
+            for axis in [first, second] {
+                self.feeds(axis, feed, line);
+            }
         }
-        let feed = self.per_minute(turn.feed, 0.0, run.state().units().in_mm());
-        let [first, second, _] = crate::nc::axes_of(turn.plane);
-        for axis in [first, second] {
-            self.feeds(axis, feed, line);
-        }
+        (curve, feed)
     }
 
     fn feeds(&mut self, axis: usize, feed: f64, line: (u64, &[u8])) {
@@ -434,6 +453,10 @@ impl<'m> Check<'m> {
         if let Some((line, why)) = &refused {
             fit.not_checked.push(format!("anything from line {line} on: {why}"));
         }
-        Fitted { findings, fit, refused }
+        let times = self.clock.map(Clock::finish);
+        if let Err(lacks) = &times {
+            fit.not_checked.push(format!("times with accelerations: the file does not give {lacks}"));
+        }
+        Fitted { findings, fit, times, refused }
     }
 }

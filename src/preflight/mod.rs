@@ -4,10 +4,12 @@
 //! on; in machine coordinates nothing is added. What depends on an offset or a length that is not known is kept as an interval.
 
 mod check;
+mod clock;
 mod extent;
 mod fit;
 mod place;
 mod travel;
 
 pub use check::{Fitted, JobTool, preflight};
+pub use clock::Times;
 pub use fit::Fit;

@@ -28,6 +28,13 @@ pub struct Needs {
     pub length_unknown: bool,
 }
 
+impl Needs {
+    /// Is the position not known in machine coordinates?
+    pub fn is_open(self) -> bool {
+        self.offset_unknown || self.length_unknown
+    }
+}
+
 /// An axis.
 #[derive(Clone, Copy, Debug)]
 pub struct At {

@@ -8,6 +8,7 @@ use crate::compile::Program;
 use crate::lang::{Each, Machine, VarId, work_code};
 use crate::sema::Settings;
 use crate::survey::{Survey, Terms, Totals};
+use crate::times::Rates;
 use crate::toolpath::{SpindleTurn, Tool, Units};
 
 /// One of those that a list goes through: a row of the survey.
@@ -29,10 +30,10 @@ pub fn is_reach(var: VarId) -> bool {
 }
 
 /// What a survey must know of a form. `only_order`: only which tools come, nothing of what they do.
-pub fn survey_terms(program: &Program, sink_as_printed: bool, only_order: bool) -> Terms {
+pub fn survey_terms(program: &Program, sink_as_printed: bool, only_order: bool, rates: Option<Rates>) -> Terms {
     let settings = &program.settings;
     let defaults = [Units::Inch, Units::Mm].map(|units| cycle_defaults(settings, units, units, sink_as_printed));
-    Terms { defaults, work: default_work(settings), first_work: settings.work, only_order }
+    Terms { defaults, work: default_work(settings), first_work: settings.work, only_order, rates }
 }
 
 /// The work offset of a job that names none. A form that counts its offsets from 1 counts the default code so too.

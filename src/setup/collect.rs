@@ -1,8 +1,8 @@
 //! The sheet of a job, from what lies in it.
 
 use super::{OperationRow, SetupSheet, StopRow, ToolRow, Work};
-use crate::survey::{Survey, Totals};
-use crate::toolpath::{Event, Flow, Place, Sink, Start, StopKind, Units};
+use crate::survey::{Reach, Survey, Totals};
+use crate::toolpath::{Event, Flow, Given, Place, Sink, Start, StopKind, Tool, Units};
 
 /// Takes the head of a job and its stops.
 #[derive(Debug, Default)]
@@ -35,10 +35,34 @@ impl Sink for Stops {
     }
 }
 
-/// The rows that the job gives; the caller adds what it knows of program, machine and files.
-pub fn of_job(survey: &Survey, stops: Stops, work_name: &dyn Fn(f64) -> String) -> SetupSheet {
-    let lowest = |totals: &Totals| totals.cuts.0[2].map(|(least, _)| least);
-    let ranges = |reach: &crate::survey::Reach| reach.0.map(|range| range.map(|(least, most)| [least, most]));
+fn json(value: &Given) -> serde_json::Value {
+    match value {
+        Given::Number(number) => (*number).into(),
+        Given::Text(text) => text.as_str().into(),
+    }
+}
+
+/// The rows that the job gives; the caller adds what it knows of program, machine and files. `by_diameter`: the job is a
+/// lathe's, and whether X of its programs counts diameters.
+pub fn of_job(
+    survey: &Survey,
+    stops: Stops,
+    by_diameter: Option<bool>,
+    work_name: &dyn Fn(f64) -> String,
+) -> SetupSheet {
+    let ranges = |reach: &Reach| {
+        let [first, second, third] = reach.0.map(|range| range.map(|(least, most)| [least, most]));
+        match by_diameter {
+            None => [first, second, third],
+            // a lathe's job has Z first, and then the radius
+            Some(by_diameter) => {
+                let scale = if by_diameter { 2.0 } else { 1.0 };
+                [second.map(|ends| ends.map(|end| end * scale)), None, first]
+            }
+        }
+    };
+    let lowest = |totals: &Totals| ranges(&totals.cuts)[2].map(|[least, _]| least);
+    let register = |tool: &Tool| tool.length_offset.or(Some(tool.number).filter(|_| by_diameter.is_none()));
     let name = |at: &usize| survey.operations.get(*at).and_then(|operation| operation.begins.name.clone());
     let start = stops.start.clone();
     SetupSheet {
@@ -46,6 +70,7 @@ pub fn of_job(survey: &Survey, stops: Stops, work_name: &dyn Fn(f64) -> String) 
         part: start.as_ref().and_then(|start| start.about.part.clone()),
         material: start.as_ref().and_then(|start| start.about.material.clone()),
         program: start.as_ref().and_then(|start| start.program).map(|number| number as u32),
+        x: by_diameter.map(|by_diameter| if by_diameter { "diameters" } else { "radii" }),
         units: start.map_or(Units::Mm, |start| start.units).name(),
         works: survey
             .works
@@ -64,12 +89,14 @@ pub fn of_job(survey: &Survey, stops: Stops, work_name: &dyn Fn(f64) -> String) 
                 name: row.tool.name.clone(),
                 diameter: row.tool.diameter,
                 corner_radius: row.tool.corner_radius,
-                length_register: row.tool.length_offset.or(Some(row.tool.number)),
+                length_register: register(&row.tool),
                 diameter_register: row.tool.diameter_offset,
                 comment: row.tool.comment.clone(),
+                data: row.tool.data.iter().map(|(name, value)| (name.clone(), json(value))).collect(),
                 operations: row.operations.iter().filter_map(name).collect(),
                 lowest: lowest(&row.totals),
                 minutes: row.totals.minutes(),
+                seconds: None,
             })
             .collect(),
         operations: survey

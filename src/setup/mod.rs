@@ -11,6 +11,8 @@ pub use markdown::markdown;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
+use crate::preflight::Times;
+
 /// What the page says. Lengths are in `units`, feeds in units a minute or a turn, as the job counts them.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct SetupSheet {
@@ -30,6 +32,8 @@ pub struct SetupSheet {
     pub form: String,
     /// `mm` or `inch`.
     pub units: &'static str,
+    /// What X counts, of a lathe; `None`: the job is a mill's.
+    pub x: Option<&'static str>,
     /// What the proof of the program says.
     pub verdict: String,
     /// The machine, and whether the program fits into it: a sentence each.
@@ -42,8 +46,11 @@ pub struct SetupSheet {
     pub operations: Vec<OperationRow>,
     /// Where the program stops, with the comment before it in the job.
     pub stops: Vec<StopRow>,
-    /// Minutes of all cuts at their programmed feeds; without rapids, dwells and tool changes.
+    /// Minutes of all cuts; without rapids, dwells and tool changes.
     pub minutes: Option<f64>,
+    /// How long the program takes on the machine, with its accelerations, in seconds; `None`: they are not known.
+    #[serde(serialize_with = "seconds")]
+    pub times: Option<Times>,
     /// SHA-256 of job, form, control, machine and program.
     pub hashes: Vec<[String; 2]>,
     /// Pictures as SVG, with what they show.
@@ -57,6 +64,19 @@ impl SetupSheet {
         let digits = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         self.hashes.push([name, digits]);
     }
+
+    /// Takes how long the program takes on the machine, as a whole and for each tool.
+    pub fn take_times(&mut self, times: &Times) {
+        for row in &mut self.tools {
+            let own = |(tool, _): &&(Option<u32>, f64)| tool.is_some_and(|tool| f64::from(tool) == row.number);
+            row.seconds = times.tools.iter().find(own).map(|(_, seconds)| *seconds);
+        }
+        self.times = Some(times.clone());
+    }
+}
+
+fn seconds<S: serde::Serializer>(times: &Option<Times>, serializer: S) -> Result<S::Ok, S::Error> {
+    times.as_ref().map(Times::json).serialize(serializer)
 }
 
 /// A work offset.
@@ -64,7 +84,7 @@ impl SetupSheet {
 pub struct Work {
     /// As the program calls it.
     pub name: String,
-    /// Least and greatest X, Y, Z of the cuts.
+    /// Least and greatest X, Y, Z of the cuts; X of a lathe as its programs count it, and no Y.
     pub cuts: [Option<[f64; 2]>; 3],
     /// Of cuts and rapids.
     pub moves: [Option<[f64; 2]>; 3],
@@ -87,12 +107,28 @@ pub struct ToolRow {
     pub diameter_register: Option<f64>,
     /// What the job says of it.
     pub comment: Option<String>,
+    /// What else the job has of it, by names of its own.
+    pub data: serde_json::Map<String, serde_json::Value>,
     /// Names of its operations.
     pub operations: Vec<String>,
     /// Its lowest cut.
     pub lowest: Option<f64>,
-    /// Minutes of its cuts at their programmed feeds.
+    /// Minutes of its cuts; with their accelerations where the machine's are known.
     pub minutes: Option<f64>,
+    /// Seconds from its change to the next one, on the machine.
+    pub seconds: Option<f64>,
+}
+
+impl ToolRow {
+    /// What a reader is told of it: its comment, and its data.
+    fn remark(&self) -> String {
+        let data = self.data.iter().map(|(name, value)| {
+            let text = value.as_str().map(str::to_owned).or_else(|| value.as_f64().map(short));
+            format!("{name} {}", text.unwrap_or_default())
+        });
+        let parts: Vec<String> = self.comment.clone().into_iter().chain(data).collect();
+        if parts.is_empty() { "-".into() } else { parts.join(", ") }
+    }
 }
 
 /// An operation.
@@ -114,7 +150,7 @@ pub struct OperationRow {
     pub length: f64,
     /// Its lowest cut.
     pub lowest: Option<f64>,
-    /// Minutes of its cuts at their programmed feeds.
+    /// Minutes of its cuts; with their accelerations where the machine's are known.
     pub minutes: Option<f64>,
 }
 
@@ -157,12 +193,16 @@ struct Table {
 /// The tables of the page.
 fn tables(sheet: &SetupSheet) -> Vec<Table> {
     let text = |text: &Option<String>| text.clone().unwrap_or_else(|| "-".into());
+    let axes: &[usize] = if sheet.x.is_some() { &[0, 2] } else { &[0, 1, 2] };
     let works = sheet.works.iter().map(|work| {
         let mut row = vec![work.name.clone()];
-        row.extend(work.cuts.iter().map(|cuts| range(*cuts)));
+        row.extend(axes.iter().map(|axis| range(work.cuts[*axis])));
         row.push(range(work.moves[2]));
         row
     });
+    let mut of_works = vec!["offset"];
+    of_works.extend(axes.iter().map(|axis| ["X of cuts", "Y of cuts", "Z of cuts"][*axis]));
+    of_works.push("Z of all moves");
     let tools = sheet.tools.iter().map(|tool| {
         vec![
             format!("T{}", short(tool.number)),
@@ -170,9 +210,9 @@ fn tables(sheet: &SetupSheet) -> Vec<Table> {
             maybe(tool.diameter),
             tool.length_register.map_or("-".into(), |register| format!("H{}", short(register))),
             maybe(tool.lowest),
-            time(tool.minutes),
+            time(tool.seconds.map(|seconds| seconds / 60.0).or(tool.minutes)),
             tool.operations.join(", "),
-            text(&tool.comment),
+            tool.remark(),
         ]
     });
     let operations = sheet.operations.iter().enumerate().map(|(at, operation)| {
@@ -196,11 +236,7 @@ fn tables(sheet: &SetupSheet) -> Vec<Table> {
         ]
     });
     let mut tables = vec![
-        Table {
-            title: "Work offsets",
-            head: vec!["offset", "X of cuts", "Y of cuts", "Z of cuts", "Z of all moves"],
-            rows: works.collect(),
-        },
+        Table { title: "Work offsets", head: of_works, rows: works.collect() },
         Table {
             title: "Tools",
             head: vec!["tool", "name", "diameter", "length", "lowest Z", "time", "operations", "remark"],
@@ -231,12 +267,17 @@ fn facts(sheet: &SetupSheet) -> Vec<[String; 2]> {
     say("program", sheet.program.map(|number| format!("O{number}")));
     say("control", Some(sheet.control.clone()));
     say("form", Some(sheet.form.clone()));
-    say("units", Some(sheet.units.into()));
+    let units = sheet.units.to_owned();
+    say("units", Some(sheet.x.map_or(units.clone(), |x| format!("{units}; X counts {x}"))));
     say("date", sheet.date.clone());
-    say(
-        "time of the cuts",
-        Some(format!("{} at programmed feeds, without rapids and tool changes", time(sheet.minutes))),
-    );
+    match &sheet.times {
+        Some(times) => say("time", Some(format!("{}; that of an operation is that of its cuts", times.sentence()))),
+        None => {
+            let feeds =
+                if sheet.minutes.is_some() { " at programmed feeds, without rapids and tool changes" } else { "" };
+            say("time of the cuts", Some(format!("{}{feeds}", time(sheet.minutes))));
+        }
+    }
     say("proof", Some(sheet.verdict.clone()));
     for (at, sentence) in sheet.machine.iter().enumerate() {
         let what = if at == 0 { "machine" } else { "" };

@@ -13,6 +13,7 @@ use indexmap::IndexSet;
 
 use crate::cycle::Defaults;
 use crate::lang::{Machine, work_code};
+use crate::times::Rates;
 use crate::toolpath::{Call, Event, First, Flow, Place, Sink, Spindle, Stop, Tool, ToolChange, Units, key};
 use motion::Motion;
 use subprograms::Subprograms;
@@ -28,6 +29,8 @@ pub struct Terms {
     pub first_work: f64,
     /// Only the order of the tools is asked for, which some jobs say in their head.
     pub only_order: bool,
+    /// How fast the machine is: times have its accelerations.
+    pub rates: Option<Rates>,
 }
 
 /// An operation of the job.
@@ -107,7 +110,7 @@ impl Surveyor {
         Surveyor {
             terms,
             survey: Survey::default(),
-            motion: Motion::new(defaults, Machine::Mill),
+            motion: Motion::new(defaults, Machine::Mill, Units::Mm, None),
             now: Totals::default(),
             work,
             tool_rows: HashMap::new(),
@@ -134,6 +137,7 @@ impl Surveyor {
 
     /// Adds what was summed up to all that it is a part of.
     fn flush(&mut self) {
+        self.motion.stop(&mut self.now);
         let now = std::mem::take(&mut self.now);
         match self.subs.is_open() {
             true => self.subs.add(&now),
@@ -256,7 +260,7 @@ impl Sink for Surveyor {
                     return Flow::Break(Stop::Enough);
                 }
                 let defaults = self.terms.defaults[usize::from(start.units == Units::Mm)];
-                self.motion = Motion::new(defaults, start.machine);
+                self.motion = Motion::new(defaults, start.machine, start.units, self.terms.rates.as_ref());
             }
             Event::ToolChange(change) => self.operation(change),
             _ if self.terms.only_order => {}

@@ -3,14 +3,16 @@
 use super::totals::Totals;
 use crate::cycle::{Defaults, Plan, Step, Steps, plan, thread_passes};
 use crate::lang::Machine;
-use crate::toolpath::{Arc, Axes, CycleSpec, Direction, Event, FeedMode, Hole, PlaneArc, Spindle, Thread, ToolChange};
+use crate::times::{Curve, Planner, Rates, Way};
+use crate::toolpath::{
+    Arc, Axes, CycleSpec, Direction, Event, FeedMode, Hole, PlaneArc, Spindle, Thread, ToolChange, Units,
+};
 
 /// Where the tool is, and how fast it cuts.
 #[derive(Debug)]
 pub struct Motion {
     defaults: Defaults,
-    /// The axis along which the tool goes into a hole.
-    depth: usize,
+    is_lathe: bool,
     at: Axes,
     feed: Option<f64>,
     mode: FeedMode,
@@ -23,15 +25,19 @@ pub struct Motion {
     steps: Steps,
     /// Quarters of an arc.
     parts: Vec<f64>,
+    /// Plans the times on axes that accelerate, where the machine is known.
+    planner: Option<Planner>,
+    /// Millimetres of a unit of the job.
+    scale: f64,
 }
 
 impl Motion {
-    /// At an unknown place.
-    pub fn new(defaults: Defaults, machine: Machine) -> Motion {
+    /// At an unknown place. `rates`: how fast the machine is, where that is known.
+    pub fn new(defaults: Defaults, machine: Machine, units: Units, rates: Option<&Rates>) -> Motion {
         Motion {
             // a rigid tap goes in and out at its feed, whoever makes it
             defaults: Defaults { rigid: true, ..defaults },
-            depth: if machine == Machine::Lathe { 0 } else { 2 },
+            is_lathe: machine == Machine::Lathe,
             at: Axes::default(),
             feed: None,
             mode: FeedMode::PerMinute,
@@ -41,6 +47,15 @@ impl Motion {
             return_plane: None,
             steps: Steps::default(),
             parts: Vec::new(),
+            planner: rates.cloned().map(Planner::new),
+            scale: units.in_mm(),
+        }
+    }
+
+    /// The axes stop: the time of the cuts so far is added.
+    pub fn stop(&mut self, sums: &mut Totals) {
+        if let Some(planner) = &mut self.planner {
+            sums.cut(0.0, Some(planner.take().cutting / 60.0));
         }
     }
 
@@ -87,6 +102,16 @@ impl Motion {
         self.spindle.speed.filter(|_| self.spindle.css != Some(true))
     }
 
+    /// Turns of the spindle in a minute over a cut that begins there: at a constant surface speed (metres or feet a minute)
+    /// those at its middle, which for a straight cut is exact.
+    fn rpm_from(&self, from: &Axes) -> Option<f64> {
+        let (Some(speed), Some(true)) = (self.spindle.speed, self.spindle.css) else { return self.rpm() };
+        let radius = (from.get(1)? + self.at.get(1)?).abs() / 2.0;
+        let a_turn = std::f64::consts::TAU * radius * self.scale;
+        let surface = if self.scale == 1.0 { 1000.0 } else { 12.0 * 25.4 };
+        Some((speed * surface / a_turn).min(self.spindle.max.unwrap_or(f64::INFINITY))).filter(|rpm| rpm.is_finite())
+    }
+
     /// Adds what an event does.
     pub fn event(&mut self, event: &Event<'_>, sums: &mut Totals) {
         match event {
@@ -123,8 +148,38 @@ impl Motion {
     }
 
     fn rapid(&mut self, to: &Axes, sums: &mut Totals) {
+        let from = self.at;
         self.go(to);
+        if self.planner.is_some() {
+            let way = self.way(&from);
+            self.plan(|planner| planner.rapid(&way));
+        }
         sums.moves.moves_to(&self.at);
+    }
+
+    fn plan(&mut self, plan: impl FnOnce(&mut Planner)) {
+        if let Some(planner) = &mut self.planner {
+            plan(planner);
+        }
+    }
+
+    /// How far the tool came from there, in millimetres and degrees, as far as both positions are known.
+    fn way(&self, from: &Axes) -> Way {
+        let between = |axis| Some(self.at.get(axis)? - from.get(axis)?);
+        let way = |axis| between(axis).map_or(0.0, |way| if axis < 3 { way * self.scale } else { way });
+        let mut whole = Way::default();
+        (0..6).for_each(|axis| whole[self.machine_axis(axis)] = way(axis));
+        whole
+    }
+
+    /// The machine's axis that an axis of the job is: a lathe's job has Z first, and then the radius.
+    fn machine_axis(&self, axis: usize) -> usize {
+        match (self.is_lathe, axis) {
+            (true, 0) => 2,
+            (true, 1) => 0,
+            (true, 2) => 1,
+            _ => axis,
+        }
     }
 
     fn line(&mut self, to: &Axes, feed: Option<f64>, sums: &mut Totals) {
@@ -136,22 +191,36 @@ impl Motion {
             sums.cuts.moves_to(place);
             sums.moves.moves_to(place);
         }
-        self.cut(square.sqrt(), feed, sums);
+        self.feed = feed.or(self.feed);
+        let way = self.way(&from);
+        self.cut((&from, square.sqrt()), self.feed, sums, |planner, feed| planner.cut(&way, feed));
     }
 
-    /// A cut of this length.
-    fn cut(&mut self, length: f64, feed: Option<f64>, sums: &mut Totals) {
-        self.feed = feed.or(self.feed);
-        sums.cut(length, self.feed.and_then(|feed| self.minutes(length, feed)));
+    /// A cut of this length from there, and how it is planned at so many millimetres a second.
+    fn cut(
+        &mut self,
+        (from, length): (&Axes, f64),
+        feed: Option<f64>,
+        sums: &mut Totals,
+        plan: impl FnOnce(&mut Planner, f64),
+    ) {
+        let minutes = feed.and_then(|feed| self.minutes(length, feed, from));
+        match (&mut self.planner, minutes) {
+            (Some(planner), Some(minutes)) if length > 0.0 => {
+                plan(planner, length * self.scale / (minutes * 60.0));
+                sums.cut(length, Some(0.0));
+            }
+            _ => sums.cut(length, minutes),
+        }
     }
 
     /// The time of a cut, if it is known.
-    fn minutes(&self, length: f64, feed: f64) -> Option<f64> {
+    fn minutes(&self, length: f64, feed: f64, from: &Axes) -> Option<f64> {
         let minutes = match self.mode {
             FeedMode::InverseTime => 1.0 / feed,
             _ if length == 0.0 => 0.0,
             FeedMode::PerMinute => length / feed,
-            FeedMode::PerRev => length / (feed * self.rpm()?),
+            FeedMode::PerRev => length / (feed * self.rpm_from(from)?),
         };
         Some(minutes).filter(|minutes| minutes.is_finite())
     }
@@ -190,7 +259,16 @@ impl Motion {
         }
         sums.moves.join(&sums.cuts);
         let rise = from.get(across).zip(self.at.get(across)).map_or(0.0, |(from, to)| to - from);
-        self.cut((curve.radius * curve.sweep).hypot(rise), feed, sums);
+        self.feed = feed.or(self.feed);
+        let mut way = self.way(&from);
+        let plane = [a, b].map(|axis| self.machine_axis(axis));
+        plane.iter().for_each(|&axis| way[axis] = 0.0);
+        let begin = [a, b].map(|axis| from.values[axis]);
+        let offset = [0, 1].map(|axis| (begin[axis] - curve.centre[axis]) * self.scale);
+        let planned = Curve { plane, from: offset, sweep: curve.sweep, rise: way };
+        self.cut((&from, (curve.radius * curve.sweep).hypot(rise)), self.feed, sums, |planner, feed| {
+            planner.arc(&planned, feed)
+        });
     }
 
     fn thread(&mut self, thread: &Thread, sums: &mut Totals) {
@@ -215,9 +293,10 @@ impl Motion {
 
     fn hole(&mut self, hole: &Hole, sums: &mut Totals) {
         sums.holes += 1;
-        self.go(&hole.at);
+        self.rapid(&hole.at, &mut Totals::default());
         sums.moves.moves_to(&self.at);
-        let depth_axis = self.depth;
+        // along which it goes into the hole
+        let depth_axis = if self.is_lathe { 0 } else { 2 };
         // a point without its height is as high as the one before it
         let (Some(spec), Some(point)) = (&self.cycle, hole.at.get(depth_axis).or(self.point)) else { return };
         self.point = Some(point);
@@ -242,20 +321,33 @@ impl Motion {
             return;
         }
         let mut height = top;
-        for step in &self.steps.list {
+        let steps = std::mem::take(&mut self.steps.list);
+        let from = self.at;
+        for step in &steps {
+            let along = |to: f64| {
+                let mut way = Way::default();
+                way[self.machine_axis(depth_axis)] = (to - height) * self.scale;
+                way
+            };
             match *step {
-                Step::Rapid(to) | Step::RapidAside(to, ..) => height = to,
+                Step::Rapid(to) | Step::RapidAside(to, ..) => {
+                    let way = along(to);
+                    self.plan(|planner| planner.rapid(&way));
+                    height = to;
+                }
                 Step::Feed(to, feed) => {
+                    let way = along(to);
                     for reached in [height, to] {
                         sums.cuts.to(depth_axis, point + reached);
                         sums.moves.to(depth_axis, point + reached);
                     }
                     let length = (to - height).abs();
-                    sums.cut(length, self.minutes(length, feed));
+                    self.cut((&from, length), Some(feed), sums, |planner, feed| planner.cut(&way, feed));
                     height = to;
                 }
-                _ => {}
+                _ => self.plan(Planner::stop),
             }
         }
+        self.steps.list = steps;
     }
 }

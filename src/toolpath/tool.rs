@@ -2,6 +2,8 @@
 
 pub use crate::lang::Coolant;
 
+use super::start::Given;
+
 /// A tool.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tool {
@@ -21,6 +23,8 @@ pub struct Tool {
     pub name: Option<String>,
     /// What the program says of the tool.
     pub comment: Option<String>,
+    /// What else is known of it, as a holder or its stick-out, by names of the job's own.
+    pub data: Vec<(String, Given)>,
 }
 
 /// Which way the spindle turns.

@@ -21,7 +21,7 @@ fn machine(text: &str) -> Machine {
 fn fitted(program: &str, machine: &Machine) -> Fitted {
     let mut settings = RunSettings::new(machine.control.unwrap_or_else(|| control("haas")));
     settings.unpointed = Unpointed::Whole;
-    preflight(Cursor::new(program), settings, None, machine, &[]).unwrap()
+    preflight(Cursor::new(program), settings, machine, &[]).unwrap()
 }
 
 /// What is found: code, line, message.

@@ -42,6 +42,47 @@ fn a_sheet_has_offsets_tools_operations_and_stops() {
     assert!(text.contains("| T2 |") && !text.contains("| T1 |"), "{text}");
 }
 
+/// What a job says of a tool under names of its own stands on the sheet, and with a machine the time of each tool.
+#[test]
+fn a_sheet_has_what_a_job_says_of_tools_and_their_times() {
+    let folder = Folder::new("sheet-data");
+    let job = std::fs::read_to_string(root().join("samples/bracket/job.json")).unwrap();
+    let data = r#""data": {"holder": "ER32", "stickout": 38}"#;
+    folder.write("job.json", job.replacen("\"number\": 1,", &format!("\"number\": 1, {data},"), 1));
+    let (form, machine) = (path("postforms/haas.pf"), path("samples/bracket/vf2.toml"));
+    let text = sheet(&folder, &["--form", &form, "--format", "md"]);
+    assert!(text.contains("1/2 END MILL, holder ER32, stickout 38 |"), "{text}");
+    let more = ["--form", &form, "--format", "json", "--machine", &machine];
+    let json: serde_json::Value = serde_json::from_str(&sheet(&folder, &more)).unwrap();
+    assert_eq!(json["tools"][0]["data"], serde_json::json!({"holder": "ER32", "stickout": 38.0}));
+    let seconds = |value: &serde_json::Value| value.as_f64().unwrap();
+    let tools: f64 = json["tools"].as_array().unwrap().iter().map(|tool| seconds(&tool["seconds"])).sum();
+    let whole = seconds(&json["times"]["whole"]);
+    assert!((tools - whole).abs() < 1e-6 && whole > seconds(&json["minutes"]) * 60.0, "{json:#}");
+}
+
+/// A lathe's sheet has X as its programs count it, no Y, and the time of cuts at a constant surface speed.
+#[test]
+fn the_sheet_of_a_lathe_has_its_own_axes() {
+    let folder = Folder::new("sheet-lathe");
+    folder.write("job.json", std::fs::read(root().join("samples/lathe-part/job.json")).unwrap());
+    let form = path("postforms/haas-lathe.pf");
+    let json: serde_json::Value =
+        serde_json::from_str(&sheet(&folder, &["--form", &form, "--format", "json"])).unwrap();
+    assert_eq!(json["control"], "Haas lathe");
+    assert_eq!(json["x"], "diameters");
+    assert_eq!(json["works"][0]["cuts"], serde_json::json!([[0.0, 1.2], null, [-1.125, 0.2]]));
+    assert_eq!(json["tools"][0]["length_register"], serde_json::Value::Null);
+    // 400 ft/min at 0.008 a turn: 1.1 inch at a radius of 0.375, a quarter of 0.125 inch at its middle, 0.1 inch at 0.55
+    let turns = |radius: f64| 400.0 * 12.0 / (std::f64::consts::TAU * radius);
+    let quarter = std::f64::consts::FRAC_PI_2 * 0.125;
+    let minutes = 1.1 / turns(0.375) + quarter / turns(0.4375) + 0.1 / turns(0.55);
+    assert!((json["tools"][0]["minutes"].as_f64().unwrap() - minutes / 0.008).abs() < 1e-9, "{json:#}");
+    let page = sheet(&folder, &["--form", &form]);
+    assert!(page.contains("X counts diameters") && page.contains("Z to the right, X up"), "{page}");
+    assert!(!page.contains("Y of cuts"), "a lathe has none");
+}
+
 /// Names and texts of a job are text, whatever they hold.
 #[test]
 fn hostile_texts_are_text() {
@@ -71,9 +112,6 @@ fn what_a_sheet_cant_be_is_said() {
     assert_eq!(run(&["sheet", "job.json", "--form", &form]).0, Some(1));
     let (code, said) = run(&["sheet", "job.json", "--form", &form, "-o", "a.pdf"]);
     assert!(code == Some(2) && said.contains(".html, .md or .json"), "{said}");
-    let lathe = [path("samples/lathe-part/job.json"), path("postforms/haas-lathe.pf")];
-    let (code, said) = run(&["sheet", &lathe[0], "--form", &lathe[1]]);
-    assert!(code == Some(2) && said.contains("sheets of lathes are not made"), "{said}");
     let (code, said) = run(&["sheet", "job.json"]);
     assert!(code == Some(2) && said.contains("which form"), "{said}");
     let (code, _) = run(&["sheet", "job.json", "--form", &form, "-o", "job.json"]);

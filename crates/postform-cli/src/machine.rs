@@ -7,7 +7,7 @@ use std::path::Path;
 use postform::diag::{Diag, Location, Severity};
 use postform::internals::machine::{self, Machine};
 use postform::internals::nc::{RunSettings, settings_for};
-use postform::internals::preflight::{Fitted, JobTool, preflight};
+use postform::internals::preflight::{Fitted, JobTool, Times, preflight};
 use postform::internals::terminal::{escaped, escaped_lines};
 use postform::toolpath::Units;
 use postform::{Control, Finding, Job, Options, Post, Proof, Source};
@@ -15,6 +15,7 @@ use postform::{Control, Finding, Job, Options, Post, Proof, Source};
 use super::args::{ControlArgs, FitArgs, MachineArg, MachineArgs, MachineCommand, VerifyFormat};
 use super::config::Config;
 use super::files::{self, io_message};
+use super::prepare::Prepared;
 use super::report::{Reporter, count, place_in};
 use super::say::{message, say};
 use super::{Ending, inputs, output};
@@ -54,13 +55,26 @@ pub fn named(arg: &MachineArg, form: Option<(&Path, &Post)>, config: &Config) ->
     path.as_deref().map(read).transpose()
 }
 
+/// The machine of a form that is to print; its accelerations count in the times that programs say.
+///
+/// # Errors
+/// Its file can't be read, or is wrong.
+pub fn of_prepared(
+    arg: &MachineArg,
+    form: &Path,
+    prepared: &mut Prepared,
+    config: &Config,
+) -> Result<Option<Machine>, String> {
+    let machine = named(arg, Some((form, &prepared.post)), config)?;
+    prepared.options.rates = machine.as_ref().and_then(|machine| machine.rates().ok());
+    Ok(machine)
+}
+
 /// A program and the machine into which it must fit.
 pub struct Fitting<'a> {
     pub machine: &'a Machine,
     /// How the program is run.
     pub settings: RunSettings,
-    /// It is a lathe's by its form, and whether its X counts diameters.
-    pub turns: Option<bool>,
     /// The job's tools, where a job is known.
     pub tools: Vec<JobTool>,
     /// What the program is called.
@@ -73,14 +87,13 @@ impl Fitting<'_> {
     /// # Errors
     /// It can't be read.
     pub fn fitted(&self, program: impl Read + Seek) -> Result<Fitted, String> {
-        let fitted = preflight(program, self.settings, self.turns, self.machine, &self.tools);
+        let fitted = preflight(program, self.settings, self.machine, &self.tools);
         fitted.map_err(|error| io_message("read", Path::new(self.program), &error))
     }
 
     /// The control by which offsets have their names.
     pub fn control(&self) -> &'static Control {
-        let control = self.settings.control;
-        if self.turns.is_some() { control.of_lathe() } else { control }
+        self.settings.control
     }
 
     /// Shows what was found, with what is not checked.
@@ -117,6 +130,11 @@ impl Fitting<'_> {
         sentences.iter().map(|sentence| format!("{sentence}\n")).collect()
     }
 
+    /// How long the program takes on it, in a line.
+    pub fn time(&self, times: &Times) -> String {
+        format!("time on {} {}\n", escaped(&self.machine.name), times.sentence())
+    }
+
     /// How it came out, in a sentence.
     pub fn sentence(&self, fitted: &Fitted) -> String {
         let (program, machine) = (self.program, escaped(&self.machine.name));
@@ -145,6 +163,9 @@ impl Fitting<'_> {
                 })
             })
             .collect();
+        if let Ok(times) = &fitted.times {
+            document["seconds"] = times.json();
+        }
         document["findings"] = findings.into();
         document["fits"] = fitted.fits().into();
         document
@@ -166,7 +187,7 @@ pub fn of_post<'a>(
     let reads = again && machine.tools.is_some();
     let tools = if reads { post.job_tools(job.again()).unwrap_or_default() } else { Vec::new() };
     let settings = post.run_settings(proof, options.units.unwrap_or(Units::Mm));
-    let fitting = Fitting { machine, settings, turns: post.turns(), tools, program: name };
+    let fitting = Fitting { machine, settings, tools, program: name };
     let mut fitted = fitting.fitted(program)?;
     if again {
         // without them the findings stand all the same
@@ -188,12 +209,14 @@ pub fn fit(args: &FitArgs, colour: bool) -> Result<Ending, String> {
     let settings = settings_for(&mut program, control.settings(None, args.units.units()))
         .map_err(|error| io_message("read", &args.program, &error))?;
     let name = files::name(&args.program);
-    let fitting = Fitting { machine: &machine, settings, turns: None, tools: Vec::new(), program: &name };
+    let fitting = Fitting { machine: &machine, settings, tools: Vec::new(), program: &name };
     let fitted = fitting.fitted(program)?;
     let text = match args.format {
         VerifyFormat::Text => {
             fitting.show(&fitted, (None, &[]), &Reporter::new(colour));
-            fitted.fit.table(&machine, fitting.control()) + &fitting.sentences(&fitted) + &fitting.sentence(&fitted)
+            let time = fitted.times.as_ref().map_or_else(|_| String::new(), |times| fitting.time(times));
+            let table = fitted.fit.table(&machine, fitting.control());
+            table + &time + &fitting.sentences(&fitted) + &fitting.sentence(&fitted)
         }
         VerifyFormat::Json => output::json(&fitting.document(&fitted)),
     };

@@ -55,11 +55,11 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         let help = "give --form, or name one in a postform.toml in the folder of the job or above: form = \"fanuc.pf\"";
         return Err(format!("error: which form?\n  help: {help}"));
     };
-    let Some(prepared) = prepare(&form, &args.options, &args.job, &reporter)? else {
+    let Some(mut prepared) = prepare(&form, &args.options, &args.job, &reporter)? else {
         return Ok(Ending::Findings);
     };
     distinct(args)?;
-    let machine = machine::named(&args.machine, Some((&form, &prepared.post)), &config)?;
+    let machine = machine::of_prepared(&args.machine, &form, &mut prepared, &config)?;
     if machine.is_some() && args.stream {
         return Err("error: with --stream the program is out before it is known whether it fits into the machine\n  help: render without --stream".into());
     }

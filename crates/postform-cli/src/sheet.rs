@@ -44,14 +44,8 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
         let help = "give --form, or name one in a postform.toml: form = \"fanuc.pf\"";
         return Err(format!("error: which form prints {}?\n  help: {help}", files::name(&args.job)));
     };
-    let Some(prepared) = prepare(&form, &args.options, &args.job, reporter)? else { return Ok(Ending::Findings) };
-    if prepared.post.turns().is_some() {
-        let name = files::name(&args.job);
-        return Err(format!(
-            "error: setup sheets of lathes are not made: {name} is printed by a lathe's form\n  help: `postform check` lists its tools, `postform plot` draws its path"
-        ));
-    }
-    let named = machine::named(&args.machine, Some((&form, &prepared.post)), &config)?;
+    let Some(mut prepared) = prepare(&form, &args.options, &args.job, reporter)? else { return Ok(Ending::Findings) };
+    let named = machine::of_prepared(&args.machine, &form, &mut prepared, &config)?;
     let mut job = files::job(&args.job, &args.read, true)?;
     let mut target = Target::open(&args.output, false)?;
     let (post, options) = (&prepared.post, &prepared.options);
@@ -79,6 +73,9 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
         // they are in the sheet too
         if !args.options.quiet {
             fitting.show(&fitted, (Some(&args.job), post.files()), reporter);
+        }
+        if let Ok(times) = &fitted.times {
+            sheet.take_times(times);
         }
         let sentences = fitting.sentence(&fitted) + &fitting.sentences(&fitted);
         sheet.machine = sentences.lines().map(str::to_owned).collect();

@@ -82,7 +82,7 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
             }
             None => {
                 let settings = control.settings(None, args.options.units.map_or(Units::Mm, UnitsArg::units));
-                let fitting = Fitting { machine, settings, turns: None, tools: Vec::new(), program: &name };
+                let fitting = Fitting { machine, settings, tools: Vec::new(), program: &name };
                 (fitting.fitted(program)?, fitting)
             }
         };

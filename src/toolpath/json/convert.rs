@@ -50,6 +50,7 @@ pub(super) fn tool_of(object: ToolObject) -> Result<Tool, Box<Diag>> {
         turret: object.turret.map(|n| whole("turret", n)).transpose()?,
         name: object.name,
         comment: object.comment,
+        data: object.data.map_or_else(Vec::new, |data| data.0),
     })
 }
 

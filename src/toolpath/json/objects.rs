@@ -125,6 +125,7 @@ objects! {
         "turret" turret Number, "turret";
         "name" name String, "its name";
         "comment" comment String, "what it is";
+        "data" data Values, "what else is known of it, for people: a number or a text by any name";
     }
     /// Spindle of an operation, or a change of it.
     SpindleObject "a spindle" {

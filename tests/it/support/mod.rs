@@ -117,7 +117,7 @@ pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) 
     let mut survey = None;
     let asks = program.asks_ahead(&options.properties);
     if asks.all || asks.tools {
-        let mut surveyor = Surveyor::new(survey_terms(&program, false, !asks.all));
+        let mut surveyor = Surveyor::new(survey_terms(&program, false, !asks.all, None));
         if let Err(ReadError::Job(diag)) = read(&mut surveyor) {
             return Err(diag);
         }

@@ -81,10 +81,18 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
             Err(RunError::Io(error)) => return Err(io_message("read", &args.program, &error)),
         }
     }
+    let name = files::name(&args.program);
+    let fitting = |machine| Fitting { machine, settings, tools: Vec::new(), program: &name };
+    let fitting = machine.as_ref().filter(|_| refused.is_empty()).map(fitting);
+    let fitted = fitting.as_ref().map(|fitting| fitting.fitted(on_machine)).transpose()?;
     if args.dry {
+        let times = fitted.as_ref().and_then(|fitted| fitted.times.as_ref().ok());
         let summary = match args.format {
-            MotionFormat::Text => summary::describe(&tally, simulator.blocks()),
-            MotionFormat::Json => summary::counted(&tally, simulator.blocks()),
+            MotionFormat::Text => {
+                let on_machine = fitting.as_ref().zip(times).map(|(fitting, times)| fitting.time(times));
+                summary::describe(&tally, simulator.blocks()) + &on_machine.unwrap_or_default()
+            }
+            MotionFormat::Json => summary::counted(&tally, simulator.blocks(), times),
         };
         text.extend_from_slice(summary.as_bytes());
     }
@@ -92,21 +100,18 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     out.flush().or_else(ignore_closed)?;
     drop(out);
     let reporter = Reporter::new(colour);
-    let name = files::name(&args.program);
     warnings.iter_mut().for_each(|diag| place_in(&name, diag));
     say(&reporter.text(&warnings, &[]));
     if left_out > 0 {
         message(&format!("and {left_out} more warnings"));
     }
+    if let Some((fitting, fitted)) = fitting.zip(fitted) {
+        fitting.show(&fitted, (None, &[]), &reporter);
+        say(&(fitting.sentences(&fitted) + &fitting.sentence(&fitted)));
+        return Ok(if fitted.fits() { Ending::Clean } else { Ending::Findings });
+    }
     if refused.is_empty() {
-        return match &machine {
-            Some(machine) => fits(
-                &Fitting { machine, settings, turns: None, tools: Vec::new(), program: &name },
-                on_machine,
-                &reporter,
-            ),
-            None => Ok(Ending::Clean),
-        };
+        return Ok(Ending::Clean);
     }
     refused.iter_mut().for_each(|diag| place_in(&name, diag));
     say(&reporter.text(&refused, &[]));
@@ -114,14 +119,6 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
         message(&format!("{MOST_REFUSED} blocks are refused: the rest is not run"));
     }
     Ok(Ending::Findings)
-}
-
-/// Says whether the program fits into the machine.
-fn fits(fitting: &Fitting<'_>, program: std::fs::File, reporter: &Reporter) -> Result<Ending, String> {
-    let fitted = fitting.fitted(program)?;
-    fitting.show(&fitted, (None, &[]), reporter);
-    say(&(fitting.sentences(&fitted) + &fitting.sentence(&fitted)));
-    Ok(if fitted.fits() { Ending::Clean } else { Ending::Findings })
 }
 
 /// `false`: whoever read it has seen enough.

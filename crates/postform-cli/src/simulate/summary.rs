@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use postform::internals::nc::{Tally, clock, rapid_rate};
+use postform::internals::preflight::Times;
 
 /// The summary as a machinist reads it.
 pub fn describe(tally: &Tally, blocks: u64) -> String {
@@ -41,17 +42,20 @@ pub fn describe(tally: &Tally, blocks: u64) -> String {
     text
 }
 
-/// The summary as JSON.
-pub fn counted(tally: &Tally, blocks: u64) -> String {
+/// The summary as JSON, with the times on a machine.
+pub fn counted(tally: &Tally, blocks: u64, times: Option<&Times>) -> String {
     let [rapids, feeds, arcs] = tally.moves;
     let rapid = tally.distances[0];
-    let row = serde_json::json!({
+    let mut row = serde_json::json!({
         "blocks": blocks, "units": tally.units.name(), "rapids": rapids, "feeds": feeds, "arcs": arcs,
         "holes": tally.holes, "tools": tally.tools,
         "extents": tally.extents.map(|extents| extents.map(|(least, greatest)| [least, greatest])),
         "distance": { "rapid": rapid, "feed": tally.distances[1] },
         "minutes": { "cutting": tally.cutting, "dwells": tally.dwelling, "rapids": rapid / rapid_rate(tally.units) },
     });
+    if let Some(times) = times {
+        row["seconds"] = times.json();
+    }
     format!("{row}\n")
 }
 

@@ -1,0 +1,59 @@
+//! How fast a machine moves, for the times of programs.
+
+use super::{LETTERS, Machine};
+use crate::control::{Control, Rules};
+use crate::times::{AxisRates, Corner, PathMode, Rates};
+
+/// How far a path may leave a corner where the file does not say: Grbl's own `$11`, in millimetres.
+const DEVIATION: f64 = 0.01;
+/// Blocks that Grbl has in its planner: its ring of 16 has one that is free.
+const GRBL_AHEAD: usize = 15;
+/// Blocks of other controls, where the file does not say. We decided that.
+const AHEAD: usize = 200;
+
+/// How a control goes through corners.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Corners {
+    /// How far the path may leave a corner, in millimetres.
+    pub deviation: Option<f64>,
+    /// Over how many blocks the control plans.
+    pub ahead: Option<usize>,
+}
+
+impl Machine {
+    /// How fast it is, with its accelerations.
+    ///
+    /// # Errors
+    /// What the file does not give of them, in words.
+    pub fn rates(&self) -> Result<Rates, String> {
+        let missing = |what: &str, of: fn(&super::Axis) -> Option<f64>| {
+            let lacks = |axis: &usize| self.axes[*axis].as_ref().is_some_and(|axis| of(axis).is_none());
+            let letters: Vec<String> = (0..6).filter(lacks).map(|axis| LETTERS[axis].to_string()).collect();
+            (!letters.is_empty()).then(|| format!("the {what} of {}", letters.join(", ")))
+        };
+        let lacks = [missing("acceleration", |axis| axis.acceleration), missing("rapid", |axis| axis.rapid)];
+        let lacks: Vec<String> = lacks.into_iter().flatten().collect();
+        if !lacks.is_empty() {
+            return Err(lacks.join(" and "));
+        }
+        if self.axes.iter().all(Option::is_none) {
+            return Err("the accelerations of its axes".into());
+        }
+        let axes = std::array::from_fn(|axis| {
+            let second = |minute: f64| minute / 60.0;
+            self.axes[axis].as_ref().map_or_else(AxisRates::default, |axis| AxisRates {
+                rapid: axis.rapid.map(second),
+                feed: axis.feed.map(second),
+                acceleration: axis.acceleration,
+            })
+        });
+        let rules = self.control.map(Control::rules);
+        let ahead = self.corners.ahead.unwrap_or(if rules == Some(Rules::Grbl) { GRBL_AHEAD } else { AHEAD });
+        let corner = match (rules, self.corners.deviation) {
+            // until the program says how exactly
+            (Some(Rules::Linuxcnc | Rules::Emc2), tolerance) => Corner::Linuxcnc(PathMode::Blend(tolerance)),
+            (_, deviation) => Corner::Deviation(deviation.unwrap_or(DEVIATION)),
+        };
+        Ok(Rates { axes, corner, ahead })
+    }
+}

@@ -1,0 +1,77 @@
+//! Corners by a junction deviation, as Grbl goes around them: `plan_buffer_line` and `plan_compute_profile_parameters` of its
+//! planner.c. The chords of an arc are lines to it.
+
+use super::leg::Leg;
+use super::queue::Queue;
+use super::rates::{Rates, Way, size};
+
+/// From this cosine on two directions are the same, or opposite: Grbl's own.
+const SAME: f64 = 0.999_999;
+
+/// What it keeps from one leg to the next.
+#[derive(Clone, Debug)]
+pub(super) struct Deviation {
+    /// How far the path may leave a corner, in millimetres.
+    deviation: f64,
+    /// Direction of the last leg; `None`: the tool stands.
+    direction: Option<Way>,
+}
+
+impl Deviation {
+    pub fn new(deviation: f64) -> Deviation {
+        Deviation { deviation, direction: None }
+    }
+
+    pub fn stop(&mut self) {
+        self.direction = None;
+    }
+
+    /// A line; `feed`: a cut, at so many millimetres a second.
+    pub fn line(&mut self, way: &Way, feed: Option<f64>, rates: &Rates, queue: &mut Queue) {
+        let all = size(way);
+        if all == 0.0 {
+            return;
+        }
+        let length = rates.length(way);
+        let along = way.map(|part| part / length);
+        let speed = rates.speed(&along, feed);
+        if !(speed > 0.0 && speed.is_finite()) {
+            // nothing says how fast it is
+            self.stop();
+            return queue.stop();
+        }
+        let direction = way.map(|part| part / all);
+        let speed = speed * speed;
+        let corner = match (&self.direction, queue.last()) {
+            (Some(before), Some(last)) => self.corner(rates, before, &direction).min(last.speed),
+            _ => 0.0,
+        };
+        let acceleration = rates.along(&along, |axis| axis.acceleration);
+        self.direction = Some(direction);
+        queue.push(Leg {
+            length,
+            speed,
+            acceleration,
+            most_entry: corner.min(speed),
+            entry: 0.0,
+            is_cut: feed.is_some(),
+        });
+    }
+
+    /// The square of the greatest speed from one direction into another; infinite where they are the same.
+    fn corner(&self, rates: &Rates, before: &Way, after: &Way) -> f64 {
+        let cosine: f64 = before.iter().zip(after).map(|(before, after)| -before * after).sum();
+        if cosine > SAME {
+            // back the way it came
+            return 0.0;
+        }
+        if cosine < -SAME {
+            return f64::INFINITY;
+        }
+        let inwards: Way = std::array::from_fn(|axis| after[axis] - before[axis]);
+        let inwards = inwards.map(|part| part / size(&inwards));
+        let acceleration = rates.along(&inwards, |axis| axis.acceleration);
+        let half_sine = (0.5 * (1.0 - cosine)).sqrt();
+        acceleration * self.deviation * half_sine / (1.0 - half_sine)
+    }
+}

@@ -1,0 +1,39 @@
+//! A piece of path with one direction.
+
+/// A leg of the way. Speeds are kept as their squares: a leg of this length at this acceleration changes them by `2 a s`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leg {
+    /// Millimetres, or degrees where only those turn.
+    pub length: f64,
+    /// Square of the speed at which it would go without the legs beside it.
+    pub speed: f64,
+    pub acceleration: f64,
+    /// Square of the greatest speed at its beginning, for the corner there.
+    pub most_entry: f64,
+    /// Square of its speed at the beginning, as planned so far.
+    pub entry: f64,
+    pub is_cut: bool,
+}
+
+impl Leg {
+    /// The square of the speed that it reaches over its length from one end.
+    pub fn reached_from(&self, speed: f64) -> f64 {
+        2.0f64.mul_add(self.acceleration * self.length, speed)
+    }
+
+    /// Seconds from its beginning to its end, where the speed has the square `exit`.
+    pub fn seconds(&self, exit: f64) -> f64 {
+        let (entry, exit) = (self.entry.min(self.speed), exit.min(self.speed));
+        if self.acceleration.is_infinite() {
+            return self.length / self.speed.sqrt();
+        }
+        let change = 2.0 * self.acceleration;
+        // without a speed of its own it would accelerate to the middle
+        let peak = ((change * self.length + entry + exit) / 2.0).min(self.speed).max(entry).max(exit);
+        let ramps = (2.0 * peak - entry - exit) / change;
+        let steady = (self.length - ramps).max(0.0);
+        let speed = peak.sqrt();
+        let turning = (2.0 * speed - entry.sqrt() - exit.sqrt()) / self.acceleration;
+        turning + if steady > 0.0 { steady / speed } else { 0.0 }
+    }
+}

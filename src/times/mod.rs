@@ -1,0 +1,17 @@
+//! How long moves take on axes that accelerate: trapezoids of speed along the path, planned ahead over the blocks that come.
+//!
+//! Lengths are millimetres and degrees, times are seconds.
+
+mod corner;
+mod curve;
+mod deviation;
+mod leg;
+mod linuxcnc;
+mod planner;
+mod queue;
+mod rates;
+
+pub use corner::{Corner, PathMode};
+pub use curve::Curve;
+pub use planner::Planner;
+pub use rates::{AxisRates, Rates, Way};

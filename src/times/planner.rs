@@ -1,0 +1,85 @@
+//! Plans the speeds of moves and counts their time, by the rules of a control for corners.
+
+use super::corner::{Corner, PathMode};
+use super::curve::Curve;
+use super::deviation::Deviation;
+use super::linuxcnc::Linuxcnc;
+use super::queue::{Queue, Spent};
+use super::rates::{Rates, Way};
+
+/// Plans the speeds of moves and counts their time.
+#[derive(Clone, Debug)]
+pub struct Planner {
+    rates: Rates,
+    queue: Queue,
+    rule: Rule,
+}
+
+/// What stands between two legs.
+#[derive(Clone, Debug)]
+enum Rule {
+    Deviation(Deviation),
+    Linuxcnc(Box<Linuxcnc>),
+}
+
+impl Planner {
+    /// The tool stands.
+    pub fn new(rates: Rates) -> Planner {
+        let rule = match rates.corner {
+            Corner::Deviation(deviation) => Rule::Deviation(Deviation::new(deviation)),
+            Corner::Linuxcnc(mode) => Rule::Linuxcnc(Box::new(Linuxcnc::new(mode))),
+        };
+        Planner { queue: Queue::new(rates.ahead.max(1)), rates, rule }
+    }
+
+    /// A rapid.
+    pub fn rapid(&mut self, way: &Way) {
+        self.line(way, None);
+    }
+
+    /// A straight cut at so many millimetres a second; degrees, where only rotary axes move.
+    pub fn cut(&mut self, way: &Way, feed: f64) {
+        self.line(way, Some(feed));
+    }
+
+    /// An arc at so many millimetres a second.
+    pub fn arc(&mut self, curve: &Curve, feed: f64) {
+        match &mut self.rule {
+            Rule::Deviation(rule) => {
+                for chord in curve.chords() {
+                    rule.line(&chord, Some(feed), &self.rates, &mut self.queue);
+                }
+            }
+            Rule::Linuxcnc(rule) => rule.arc(curve, feed, &self.rates, &mut self.queue),
+        }
+    }
+
+    /// The program says how exactly the path is followed; a control that has one way keeps it.
+    pub fn path_mode(&mut self, mode: PathMode) {
+        if let Rule::Linuxcnc(rule) = &mut self.rule {
+            rule.path_mode(mode, &self.rates, &mut self.queue);
+        }
+    }
+
+    /// The tool stops: what comes waits for all that was before it.
+    pub fn stop(&mut self) {
+        match &mut self.rule {
+            Rule::Deviation(rule) => rule.stop(),
+            Rule::Linuxcnc(rule) => rule.stop(&self.rates, &mut self.queue),
+        }
+        self.queue.stop();
+    }
+
+    /// Stops, and gives the time since it was asked last.
+    pub fn take(&mut self) -> Spent {
+        self.stop();
+        self.queue.take()
+    }
+
+    fn line(&mut self, way: &Way, feed: Option<f64>) {
+        match &mut self.rule {
+            Rule::Deviation(rule) => rule.line(way, feed, &self.rates, &mut self.queue),
+            Rule::Linuxcnc(rule) => rule.line(way, feed, &self.rates, &mut self.queue),
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Speeds over the legs that are known: each begins so fast that all after it can still be followed.
+
+use std::collections::VecDeque;
+
+use super::leg::Leg;
+
+/// Seconds of moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spent {
+    /// Of cuts.
+    pub cutting: f64,
+    /// Of rapids.
+    pub rapid: f64,
+}
+
+/// Legs whose speeds may still rise.
+///
+/// The last leg is taken to end in a stop; a new leg raises the speeds before it, backwards until one stays as it was, then
+/// forwards as far as the accelerations allow. Legs that no later one can change are counted and dropped, and so is the first
+/// one when more wait than the control plans ahead.
+#[derive(Clone, Debug)]
+pub(super) struct Queue {
+    ahead: usize,
+    /// The first one's entry is fixed.
+    legs: VecDeque<Leg>,
+    spent: Spent,
+}
+
+impl Queue {
+    pub fn new(ahead: usize) -> Queue {
+        Queue { ahead, legs: VecDeque::new(), spent: Spent::default() }
+    }
+
+    /// The last leg, where the tool does not stand.
+    pub fn last(&self) -> Option<&Leg> {
+        self.legs.back()
+    }
+
+    pub fn push(&mut self, leg: Leg) {
+        self.legs.push_back(leg);
+        let count = self.legs.len();
+        // backwards: as fast as the way to the stop at the end allows
+        let (mut exit, mut changed) = (0.0, count);
+        for at in (1..count).rev() {
+            let leg = &mut self.legs[at];
+            let entry = leg.most_entry.min(leg.reached_from(exit));
+            if entry == leg.entry && at + 1 < count {
+                break;
+            }
+            (leg.entry, exit, changed) = (entry, entry, at);
+        }
+        // forwards: as fast as the way from the beginning allows; what limits a speed here is over and done
+        let mut done = 0;
+        for at in changed..count {
+            let before = &self.legs[at - 1];
+            let reached = before.reached_from(before.entry);
+            let leg = &mut self.legs[at];
+            if reached <= leg.entry {
+                leg.entry = reached;
+                done = at;
+            } else if leg.entry == leg.most_entry {
+                done = at;
+            }
+        }
+        for _ in 0..done.max((count + 1).saturating_sub(self.ahead)) {
+            self.count_first();
+        }
+    }
+
+    /// The last leg ends in a stop.
+    pub fn stop(&mut self) {
+        while let Some(leg) = self.legs.pop_front() {
+            let exit = self.legs.front().map_or(0.0, |next| next.entry);
+            self.count(&leg, exit);
+        }
+    }
+
+    /// The time since it was asked last.
+    pub fn take(&mut self) -> Spent {
+        std::mem::take(&mut self.spent)
+    }
+
+    /// Two moves overlap for so long.
+    pub fn overlap(&mut self, seconds: f64, is_cut: bool) {
+        *self.spent_on(is_cut) -= seconds;
+    }
+
+    fn count_first(&mut self) {
+        if self.legs.len() > 1
+            && let Some(leg) = self.legs.pop_front()
+        {
+            self.count(&leg, self.legs[0].entry);
+        }
+    }
+
+    fn count(&mut self, leg: &Leg, exit: f64) {
+        *self.spent_on(leg.is_cut) += leg.seconds(exit);
+    }
+
+    fn spent_on(&mut self, is_cut: bool) -> &mut f64 {
+        if is_cut { &mut self.spent.cutting } else { &mut self.spent.rapid }
+    }
+}

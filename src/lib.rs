@@ -163,7 +163,7 @@ pub mod internals {
     }
     pub mod scene {
         pub use crate::scene::{
-            At, PLOT_PAGE, Printed, Request, Scene, WATCH_PAGE, behind, help, of_program, program_of, scene,
+            At, PLOT_PAGE, Printed, Request, Scene, WATCH_PAGE, behind, help, no_machine, of_program, program_of, scene,
         };
     }
     pub mod sema {

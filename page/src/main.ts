@@ -9,7 +9,7 @@ import { keys } from "./keys.ts";
 import { Listing } from "./listing.ts";
 import { findingsOf, type Marks, marksOf, noMarks, stops } from "./marks.ts";
 import { base, jobName } from "./names.ts";
-import { noteOf, stoppedNote, verdictNote, whereOf } from "./note.ts";
+import { fitNote, noteOf, stoppedNote, verdictNote, whereOf } from "./note.ts";
 import { Program } from "./program.ts";
 import { type Head, Scene, type Verdict } from "./scene.ts";
 import { StateStrip } from "./state.ts";
@@ -24,6 +24,7 @@ export class Page {
   private readonly state = new StateStrip();
   private readonly title = element("h1", {});
   private readonly verdict = element("button", { class: "verdict" });
+  private readonly fit = element("button", { class: "fit", hidden: "" });
   private readonly lint = element("button", { class: "lint" });
   private readonly tabs = element("div", { class: "tabs", role: "tablist", "aria-label": "Jobs" });
   private readonly foot = element("span", { class: "where", "aria-live": "polite" });
@@ -53,7 +54,7 @@ export class Page {
 
   /** Without a host the page shows one scene; without an editor it has two panes. */
   constructor(private readonly host: Host | null, readonly editor: Editor | null) {
-    const header = element("header", {}, this.title, this.saving, this.verdict, this.lint, this.tabs);
+    const header = element("header", {}, this.title, this.saving, this.verdict, this.fit, this.lint, this.tabs);
     const main = element("main", { class: editor ? "three" : "two" });
     if (editor) main.append(editor.root);
     main.append(this.listing.root, this.backplot.root);
@@ -71,6 +72,10 @@ export class Page {
     backplot.onHover = (line) => this.tell(line ?? this.line, line !== null);
     this.state.onPick = (line) => this.choose(line, "key");
     this.verdict.onclick = () => this.explain();
+    this.fit.onclick = () => {
+      const fit = this.head?.fit;
+      if (fit) this.listing.note.replaceChildren(...fitNote(fit));
+    };
     this.lint.onclick = () => this.nextFinding(1);
     this.saving.onclick = () => void this.save();
     if (editor) {
@@ -134,8 +139,8 @@ export class Page {
 
   /** What is said of what is shown, and took longer than its picture: the verdict, and what changed. */
   private tellMore(head: Partial<Head>): void {
-    const { verdict = this.head!.verdict, saved = this.head!.saved, against = this.head!.against } = head;
-    Object.assign(this.head!, { verdict, saved, against });
+    const { verdict = this.head!.verdict, fit = this.head!.fit, saved = this.head!.saved, against = this.head!.against } = head;
+    Object.assign(this.head!, { verdict, fit, saved, against });
     this.mark();
     this.relight(false);
   }
@@ -280,6 +285,10 @@ export class Page {
     const head = this.head!;
     const waits = !!this.host && !!head.picture && !head.stopped && !head.verdict;
     this.sayVerdict(waits ? PROVING : head.verdict, head.stopped);
+    this.fit.hidden = !head.fit || !!head.stopped;
+    this.fit.className = `fit ${head.fit?.kind ?? "dim"}`;
+    this.fit.textContent = head.fit?.text ?? "";
+    this.fit.title = head.fit?.more.join("\n") ?? "";
     const marks = marksOf(head, this.old);
     const picture = head.picture;
     const count = picture ? `${picture.blocks} blocks · ${picture.time}` : "";

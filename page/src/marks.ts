@@ -33,6 +33,7 @@ export function marksOf(head: Head, old: Program | null): Marks {
     }
   }
   for (const found of head.verdict?.findings ?? []) marks.bad.set(found.line, { text: `${found.code}: ${found.message}`, help: found.help });
+  for (const found of head.fit?.findings ?? []) if (found.line) marks.bad.set(found.line, { text: `${found.code}: ${found.message}`, help: found.help });
   const refused = head.picture?.refused;
   if (refused?.line) marks.bad.set(refused.line, { text: `${refused.code}: ${refused.message}`, help: refused.help ?? "" });
   return marks;
@@ -49,14 +50,16 @@ function starts(lines: Iterable<number>): number[] {
   return sorted.filter((line, i) => i === 0 || sorted[i - 1] !== line - 1);
 }
 
-/** All findings of the form: lint's, those of printing, and where it differs from the job. */
+/** All findings of the form: lint's, those of printing, where it differs from the job, and where it does not fit into its machine. */
 export function findingsOf(head: Head): Finding[] {
   const printed = [...(head.notes ?? []), ...(head.stopped?.by === "job" ? head.stopped.findings : [])];
-  const differences = (head.verdict?.findings ?? []).flatMap((found): Finding[] => {
+  const wrong = (head.verdict?.findings ?? []).map((found) => ({ severity: "error" as const, ...found }));
+  const differences = [...wrong, ...(head.fit?.findings ?? [])].flatMap((found): Finding[] => {
     if (!found.form) return [];
     const message = `${found.message} (line ${found.line} of the program)`;
     const labels = [{ at: found.form, text: "prints this block" }];
-    return [{ code: found.code, severity: "error", message, help: found.help, labels, place: found.item, fix: null }];
+    const { severity } = found;
+    return [{ code: found.code, severity, message, help: found.help, labels, place: found.item, fix: null }];
   });
   return [...(head.form?.findings ?? []), ...printed.filter((found) => found.labels.length), ...differences];
 }

@@ -4,7 +4,7 @@ import { element } from "./element.ts";
 import type { Marks } from "./marks.ts";
 import { itemPath, type Program } from "./program.ts";
 import { repeats } from "./repeats.ts";
-import type { Finding, Verdict } from "./scene.ts";
+import type { Finding, Fit, Verdict } from "./scene.ts";
 
 /** What a form may say of blocks that are made otherwise, by what stands in them. */
 const OWN: [RegExp, string][] = [
@@ -53,6 +53,12 @@ export function stoppedNote(findings: Finding[]): HTMLElement[] {
 export function verdictNote(verdict: Verdict): HTMLElement[] {
   const lines = [...verdict.allowed.map((line) => `allowed: ${line}`), verdict.help].filter(Boolean);
   return [element("div", {}, verdict.text), ...lines.map((line) => element("div", { class: "help" }, line))];
+}
+
+/** What is said of a machine besides: times, intervals, what is not checked. */
+export function fitNote(fit: Fit): HTMLElement[] {
+  const findings = fit.findings.map((found) => element("div", { class: found.severity === "error" ? "bad" : "warn" }, `${found.code}: ${found.message}`));
+  return [element("div", {}, fit.text), ...findings, ...fit.more.map((line) => element("div", { class: "help" }, line))];
 }
 
 function struck(words: { word: string; why?: string }[]): (Node | string)[] {

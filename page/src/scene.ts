@@ -32,6 +32,15 @@ export interface Verdict {
   findings: Difference[];
 }
 
+/** Whether the program fits into its machine. */
+export interface Fit {
+  kind: "ok" | "warn" | "bad";
+  text: string;
+  /** How long it takes, what would do where an offset or a length is not known, what is not checked. */
+  more: string[];
+  findings: (Difference & { severity: "error" | "warning" })[];
+}
+
 interface Said {
   line: number | null;
   code: string;
@@ -80,6 +89,7 @@ export interface Head {
   /** It is the program that is shown. */
   same?: boolean;
   verdict?: Verdict;
+  fit?: Fit;
   picture?: PictureHead;
   "old/picture"?: PictureHead;
   against?: Hunks;

@@ -1,7 +1,7 @@
 // The page of `postform watch` in a real browser: what is typed, clicked and pressed, and what is then shown.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { equal, ok, ready, root, run, test } from "./harness.mjs";
+import { equal, ok, ready, root, run, test, watch } from "./harness.mjs";
 
 const chosen = (page) => page.locator(".ln.on").innerText();
 const formLine = (page) => page.locator(".cm-line.cm-lit").innerText();
@@ -369,6 +369,34 @@ test("of a long path a coarse picture is drawn while it is turned, and a fine on
   await page.waitForFunction(() => window.least < 26_000);
   await page.waitForFunction(() => window.page.backplot.frames.pieces > 50_000);
   ok((await page.locator(".verdict").innerText()).startsWith("proven"), "the verdict came behind the picture");
+});
+
+test("a machine says whether the program fits, and how long it takes", async ({ open }) => {
+  const machine = join(root, "samples/bracket/vf2.toml");
+  const { page, path } = await open({ form: "postforms/haas.pf", more: ["--machine", machine] });
+  const fit = page.locator(".fit");
+  await page.waitForFunction(() => document.querySelector(".fit").textContent.startsWith("fits VF-2 north, 2 warnings · "));
+  await fit.click();
+  const note = await page.locator(".note").innerText();
+  for (const part of ["PM015: the machine's table has no length H5", "G55 X lies between -31.5 and -1.5", "tool changes 0:21", "not checked: cutter compensation"]) {
+    ok(note.includes(part), `${part} in ${note}`);
+  }
+  ok((await page.locator(".verdict").innerText()).startsWith("proven"), "whether it is what the job asks for is another question");
+  // a form may name its machine, and one that is wrong is said
+  writeFileSync(join(path, "own.toml"), 'control = "haas"\nunits = "inch"\n[axes.X]\ntravel = [0, -30]\n');
+  const served = await watch(path);
+  const other = await page.context().newPage();
+  await other.goto(served.address);
+  await ready(other);
+  ok(await other.locator(".fit").isHidden(), "no machine, nothing said");
+  await type(other, "Control haas", "\nMachineFile own.toml");
+  await other.waitForFunction(() => document.querySelector(".verdict").textContent.includes("the travel of X goes from 0 to -30"));
+  writeFileSync(join(path, "own.toml"), 'control = "haas"\nunits = "inch"\n[axes.X]\ntravel = [-14, 0]\n[offsets]\nG54 = [-14, 0, 0]\n');
+  await type(other, "MachineFile own.toml", " ");
+  await other.waitForFunction(() => document.querySelector(".fit").textContent.startsWith("does not fit"));
+  ok((await other.evaluate(() => [...window.page.marks.bad.values()].map((mark) => mark.text).join())).includes("PM001: T1 needs X-14.5"), "its block is marked");
+  await other.close();
+  served.end();
 });
 
 await run();

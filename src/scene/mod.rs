@@ -5,12 +5,14 @@
 //! a page of `postform plot`, and are made in the browser by the playground.
 
 mod compare;
+mod fit;
 mod form;
 mod help;
 mod pack;
 mod program;
 mod verdict;
 
+pub use fit::no_machine;
 pub use help::{At, help};
 pub use pack::Scene;
 
@@ -23,9 +25,11 @@ use crate::diff;
 use crate::error::{Error, ErrorKind};
 use crate::job::Job;
 use crate::lint::{Levels, lint, ready_of};
+use crate::machine::Machine;
 use crate::nc::RunSettings;
 use crate::picture::{Picture, draw};
 use crate::post::{Files, Options, Post, Program, Proof};
+use crate::preflight::preflight;
 use crate::sema::{Limits, analyse};
 use crate::source::Source;
 use crate::terminal::escaped;
@@ -150,6 +154,15 @@ impl Printed {
     pub fn verdict(&self, job: Job<'_>) -> Value {
         let proven = self.post.verify_with(job, Cursor::new(self.text()), &self.options, &self.proof);
         verdict::verdict(proven, self.program.trace(), self.post.files())
+    }
+
+    /// Whether the program fits into a machine: what the page shows of it.
+    pub fn fit(&self, job: Job<'_>, machine: &Machine) -> Value {
+        let tools = self.post.job_tools(job).unwrap_or_default();
+        match preflight(Cursor::new(self.text()), self.settings, machine, &tools) {
+            Ok(fitted) => fit::fit(&fitted, machine, self.settings.control, self.program.trace(), self.post.files()),
+            Err(error) => no_machine(&error.to_string()),
+        }
     }
 
     /// Says what another program of the job does.

@@ -38,7 +38,7 @@ pub fn verdict(proven: Result<Proven, Error>, trace: &[TraceLine], files: &[Sour
     json!({ "kind": kind, "text": text, "line": from, "help": help, "allowed": allowed, "findings": findings })
 }
 
-fn finding(found: &Finding, trace: &[TraceLine], files: &[Source]) -> Value {
+pub fn finding(found: &Finding, trace: &[TraceLine], files: &[Source]) -> Value {
     let traced = trace.binary_search_by_key(&found.line, |line| line.line).ok().map(|at| &trace[at]);
     let place = found.place.or(traced.map(|traced| traced.place));
     json!({

@@ -141,6 +141,24 @@ fn a_program_is_read_as_its_control_reads_it() {
     editor.quit();
 }
 
+/// A program of a folder whose postform.toml names a machine must fit into it.
+#[test]
+fn a_program_must_fit_into_the_machine_of_its_folder() {
+    let folder = shop("machine");
+    folder.write("postform.toml", "control = \"haas\"\nmachine = \"vf2.toml\"\n");
+    folder.write("vf2.toml", "[axes.X]\ntravel = [-300, 0]\n[offsets]\nG54 = [-200, 0, 0]\n");
+    let mut editor = Editor::open(&folder.0, &able(), &Value::Null);
+    let program = "G21 G90 G54\nG0 X10.\nG0 X250.\nM30\n";
+    let found = editor.show("part.nc", "plaintext", program);
+    assert_eq!((codes(&found), &found[0]["severity"]), (vec!["PM001"], &json!(1)), "{found:?}");
+    assert_eq!((&found[0]["range"]["start"]["line"], &found[0]["source"]), (&json!(2), &json!("vf2.toml")));
+    assert!(editor.change("part.nc", &program.replace("250", "150")).is_empty());
+    folder.write("vf2.toml", "[axes.X]\ntravel = 7\n");
+    let found = editor.change("part.nc", program);
+    assert!(found[0]["message"].as_str().unwrap().contains("the travel of X is two numbers"), "{found:?}");
+    editor.quit();
+}
+
 #[test]
 fn a_job_of_the_folder_is_read_and_printed() {
     let folder = shop("jobs");

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use postform::internals::picture::View;
 
-use super::{ControlArgs, ReadArgs, RenderOptions};
+use super::{ControlArgs, MachineArg, ReadArgs, RenderOptions};
 
 /// From where a picture is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -76,6 +76,9 @@ pub struct WatchArgs {
     /// A program of the job to compare with
     #[arg(long, value_name = "PROGRAM")]
     pub against: Option<PathBuf>,
+    /// The machine into which programs must fit
+    #[command(flatten)]
+    pub machine: MachineArg,
     /// Open no browser
     #[arg(long)]
     pub no_open: bool,

@@ -1,16 +1,20 @@
 //! What is found in a text, as its editor shows it.
 
+use std::io::Cursor;
+
 use gen_lsp_types as lsp;
-use postform::diag::Diag;
+use postform::diag::{Diag, Location};
 use postform::internals::control::Control;
 use postform::internals::ide::program;
-use postform::{Job, Source};
+use postform::internals::preflight::preflight;
+use postform::{Finding, Job, RunSettings, Source, Unpointed};
 
 use super::convert::{diagnostic, line, range, trouble};
 use super::server::Server;
 use super::texts::{Kind, Text};
 use super::view::View;
 use crate::config::Config;
+use crate::machine;
 
 /// Findings of one text that are sent.
 const MOST: usize = 1000;
@@ -80,7 +84,30 @@ fn nc(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     let checked = program::check(&text.source.text, control);
     let by = format!("postform ({})", control.name());
     found.extend(checked.diags.iter().map(|diag| at_location(diag, &text.source, &by)));
+    if !checked.cut && checked.refused == 0 {
+        found.extend(fits(text, control));
+    }
     found
+}
+
+/// Whether a program fits into the machine that the folder's postform.toml names.
+fn fits(text: &Text, control: &'static Control) -> Vec<lsp::Diagnostic> {
+    let Some(path) = text.path.as_deref() else { return Vec::new() };
+    let Some(file) = Config::near(path).ok().and_then(|config| config.machine) else { return Vec::new() };
+    let machine = match machine::read(&file) {
+        Ok(machine) => machine,
+        Err(message) => return vec![trouble(&message, line(0))],
+    };
+    let settings = RunSettings { unpointed: Unpointed::Whole, ..RunSettings::new(control) };
+    let Ok(fitted) = preflight(Cursor::new(text.source.text.as_bytes()), settings, &machine, &[]) else {
+        return Vec::new();
+    };
+    let of = |finding: &Finding| {
+        let mut diag = Diag::new(finding.code, finding.message.as_str()).help(finding.help);
+        diag.place = Some(Location::line(finding.line.max(1)));
+        at_location(&diag, &text.source, &machine.name)
+    };
+    fitted.findings.iter().map(of).collect()
 }
 
 fn at_location(diag: &Diag, source: &Source, by: &str) -> lsp::Diagnostic {

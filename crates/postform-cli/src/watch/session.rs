@@ -10,8 +10,9 @@ use std::thread;
 
 use postform::internals::diff;
 use postform::internals::lint::Levels;
+use postform::internals::machine::Machine;
 use postform::internals::post::sample_job;
-use postform::internals::scene::{At, Printed, Request, Scene, behind, help, program_of, scene};
+use postform::internals::scene::{At, Printed, Request, Scene, behind, help, no_machine, program_of, scene};
 use postform::{Files, Job, Limits, Options, Proof, Source};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -21,6 +22,7 @@ use super::super::clock;
 use super::super::config::Config;
 use super::super::files::{self, io_message};
 use super::super::forms::FormFile;
+use super::super::machine;
 use super::super::output::write_whole;
 use super::super::prompt;
 
@@ -85,6 +87,8 @@ pub struct Session {
     options: Options,
     proof: Proof,
     config: Option<PathBuf>,
+    /// The file of the machine that the command line or postform.toml names; the form's own stands between them.
+    machine: [Option<PathBuf>; 2],
     /// Names of the jobs, as they are shown.
     names: Vec<String>,
     /// How often files were changed.
@@ -157,6 +161,7 @@ impl Session {
             options,
             proof,
             config: config.path,
+            machine: [args.machine.machine, config.machine],
             generation: AtomicU64::new(0),
             saved: Mutex::new(None),
             shown: Mutex::default(),
@@ -172,7 +177,8 @@ impl Session {
             }
             Err(_) => vec![self.form.clone()],
         };
-        paths.extend(self.jobs.iter().chain(&self.against).chain(&self.config).cloned());
+        let named = self.machine.iter().flatten();
+        paths.extend(self.jobs.iter().chain(&self.against).chain(&self.config).chain(named).cloned());
         paths.extend(lock(&self.shown).iter().cloned());
         paths
     }
@@ -205,6 +211,7 @@ impl Session {
             return Ok(());
         };
         let sample = self.sample(&form, &ask.texts);
+        let machine = self.machine(&form, &ask.texts);
         let program = printed.fingerprint(&scene, against.as_ref().map_or(&[][..], |(_, old)| old));
         // most of what is typed prints what was there, and the page need not draw it again
         let same = ask.shown.as_ref() == Some(&program);
@@ -219,8 +226,20 @@ impl Session {
         }
         thread::scope(|scope| {
             let (sender, behind_it) = channel();
-            let (proves, compares) = (sender.clone(), sender);
+            let (proves, fits, compares) = (sender.clone(), sender.clone(), sender);
             let (printed, against) = (&printed, &against);
+            if let Some(machine) = &machine {
+                scope.spawn(move || {
+                    let fit = match (machine, self.job(ask.job, sample)) {
+                        (Err(why), _) => no_machine(why),
+                        (Ok(machine), Ok(job)) => printed.fit(job, machine),
+                        (Ok(_), Err(_)) => return,
+                    };
+                    _ = fits.send(("fit", fit));
+                });
+            } else {
+                drop(fits);
+            }
             scope.spawn(move || {
                 // a job that can't be read any more is told by the next scene
                 if let Ok(job) = self.job(ask.job, sample) {
@@ -289,6 +308,8 @@ impl Session {
     fn request<'a>(&'a self, typed: &'a Typed<'a>, job: usize) -> Result<Request<'a>, String> {
         let mut options = self.options.clone();
         options.job_file = self.names.get(job).cloned();
+        let machine = self.machine(typed.form, typed.texts).and_then(Result::ok);
+        options.rates = machine.and_then(|machine| machine.rates().ok());
         Ok(Request {
             form: typed.of(typed.form.source()),
             files: typed,
@@ -299,6 +320,14 @@ impl Session {
             options,
             proof: self.proof.clone(),
         })
+    }
+
+    /// The machine into which programs must fit: by the command line, by the form, or by postform.toml.
+    fn machine(&self, form: &FormFile, texts: &HashMap<String, String>) -> Option<Result<Machine, String>> {
+        let of_form = || Some(form.place(form.analyse(texts).form.settings.machine_file.as_deref()?));
+        let [first, last] = &self.machine;
+        let path = first.clone().or_else(of_form).or_else(|| last.clone())?;
+        Some(machine::read(&path).map_err(|why| why.trim_start_matches("error: ").to_owned()))
     }
 
     /// The sample job, where no job is named.

@@ -1,0 +1,50 @@
+//! Whether the program fits into its machine, and how long it takes there.
+
+use serde_json::{Value, json};
+
+use super::verdict::finding;
+use crate::control::Control;
+use crate::diag::Severity;
+use crate::machine::Machine;
+use crate::nc::clock;
+use crate::preflight::Fitted;
+use crate::render::TraceLine;
+use crate::source::Source;
+use crate::terminal::escaped;
+
+/// How it came out in a few words, what would do where offsets or lengths are not known, what is not checked, and each finding.
+pub fn fit(fitted: &Fitted, machine: &Machine, control: &Control, trace: &[TraceLine], files: &[Source]) -> Value {
+    let name = escaped(&machine.name);
+    let is_error = |severity: Severity| severity == Severity::Error;
+    let errors = fitted.findings.iter().filter(|found| is_error(found.code.row().severity)).count();
+    let all = fitted.findings.len();
+    let some = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let (kind, text) = match (errors, all) {
+        (0, 0) if fitted.refused.is_some() => ("warn", format!("not run to its end on {name}")),
+        (0, 0) => ("ok", format!("fits {name}")),
+        (0, warnings) => ("warn", format!("fits {name}, {}", some(warnings, "warning"))),
+        (errors, _) => ("bad", format!("does not fit {name}: {}", some(errors, "error"))),
+    };
+    let mut more = fitted.fit.sentences(machine, control);
+    let mut text = text;
+    if let Ok(times) = &fitted.times {
+        text += &format!(" · {}", clock(times.whole() / 60.0));
+        more.insert(0, format!("time {}", times.sentence()));
+    }
+    more.extend(fitted.fit.not_checked.iter().map(|what| format!("not checked: {}", escaped(what))));
+    let findings: Vec<Value> = fitted
+        .findings
+        .iter()
+        .map(|found| {
+            let mut said = finding(found, trace, files);
+            said["severity"] = json!(found.code.row().severity.name());
+            said
+        })
+        .collect();
+    json!({ "kind": kind, "text": text, "more": more, "findings": findings })
+}
+
+/// The machine's file can't be read.
+pub fn no_machine(why: &str) -> Value {
+    json!({ "kind": "bad", "text": why, "more": [], "findings": [] })
+}

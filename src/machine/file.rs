@@ -181,7 +181,7 @@ impl Lengths<'_> {
             let help = "write the direction of the axis, as [0, 0, 1]";
             return Err(self.reader.wrong(about.span().start, "an axis turns about a direction", help));
         }
-        Ok(Axis {
+        let said = Axis {
             travel: text.travel.as_ref().map(|travel| self.travel(at, travel)).transpose()?,
             rapid: positive(&text.rapid, "rapid")?,
             feed: positive(&text.feed, "feed")?,
@@ -189,7 +189,14 @@ impl Lengths<'_> {
             kind: text.turns.as_ref().map(|turns| *turns.get_ref()),
             about: text.about.as_ref().map(|about| *about.get_ref()),
             counts_table: text.counts == Some(Counts::Table),
-        })
+        };
+        if let (Some(rapid), Some(feed), Some(place)) = (said.rapid, said.feed, &text.rapid)
+            && rapid < feed
+        {
+            let message = format!("the rapid of {letter} is slower than its fastest feed");
+            return Err(self.reader.wrong(place.span().start, message, "both count a minute: 25 m/min is 25000"));
+        }
+        Ok(said)
     }
 
     fn travel(&self, at: usize, said: &Spanned<Value>) -> Result<Travel, Wrong> {

@@ -56,8 +56,14 @@ pub fn summary(machine: &Machine) -> String {
     match &machine.offsets {
         Some(offsets) => {
             let control = machine.control.unwrap_or_else(crate::control::Control::usual);
-            let names: Vec<String> = offsets.keys().map(|number| super::offsets::name(control, *number)).collect();
-            _ = writeln!(text, "  work offsets: {}", names.join(", "));
+            for (number, at) in offsets {
+                let value = |axis: usize| at[axis].map_or("not said".to_owned(), |value| machine.at(axis, value));
+                let lathe = [0, 2];
+                let axes = if machine.by_diameter { &lathe[..] } else { &[0, 1, 2] };
+                let values: Vec<String> =
+                    axes.iter().map(|axis| format!("{}{}", LETTERS[*axis], value(*axis))).collect();
+                _ = writeln!(text, "  {} at {}", super::offsets::name(control, *number), values.join(" "));
+            }
         }
         None => missing.push("the work offsets: the interval is said".into()),
     }

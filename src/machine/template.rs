@@ -6,7 +6,7 @@ use crate::control::Control;
 pub fn template(control: &Control) -> String {
     let offset = super::offsets::name(control, 1);
     let further = super::offsets::name(control, 10);
-    format!(
+    let whole = format!(
         "# A machine. What this file does not say is not checked: `postform machine check FILE` lists it.
 # Take the # from a line and write your machine's own value; the values here are examples.
 name = \"my machine\"
@@ -66,5 +66,16 @@ units = \"mm\"                        # of all lengths in this file: mm or inch
 # box = [[-20, -20, -40], [0, 120, 15]]
 ",
         name = control.name()
-    )
+    );
+    if !control.is_lathe() {
+        return whole;
+    }
+    // X counts diameters, and there is no Y
+    let whole = whole.replace("[axes.Y]\n# travel = [-406.0, 0.0]\n", "");
+    let whole = whole.replace(
+        "[axes.X]\n",
+        "[axes.X]                             # in diameters: travel, rapid, feed, acceleration\n",
+    );
+    let lists = [("[0, -100, 0]", "[0, 0, -100]"), ("[-400.0, -210.0, -350.0]", "[-400.0, 0.0, -350.0]")];
+    lists.into_iter().fold(whole, |text, (mill, lathe)| text.replace(mill, lathe))
 }

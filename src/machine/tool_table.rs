@@ -91,8 +91,7 @@ fn csv(lines: &mut dyn Iterator<Item = (usize, &str)>, scale: f64) -> Result<Too
     let mut table = ToolTable::default();
     let Some((at, head)) = lines.next() else { return Ok(table) };
     let between = [';', '\t', ','].into_iter().find(|mark| head.contains(*mark)).unwrap_or(',');
-    let cells =
-        |line: &str| line.split(between).map(|cell| cell.trim().trim_matches('"').to_owned()).collect::<Vec<_>>();
+    let cells = |line: &str| line.split(between).map(|cell| unquoted(cell.trim()).to_owned()).collect::<Vec<_>>();
     let head: Vec<String> = cells(head).iter().map(|cell| cell.to_ascii_lowercase()).collect();
     let column = |names: &[&str]| head.iter().position(|cell| names.contains(&cell.as_str()));
     let Some(number) = column(&["number", "tool", "t", "no", "nr"]) else {
@@ -124,6 +123,11 @@ fn csv(lines: &mut dyn Iterator<Item = (usize, &str)>, scale: f64) -> Result<Too
         put(&mut table, number, entry, at)?;
     }
     Ok(table)
+}
+
+/// A cell without the quotation marks around it; one alone, as that of inches, stays.
+fn unquoted(cell: &str) -> &str {
+    cell.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(cell)
 }
 
 /// `G10 L10 P5 R123.4` lengths, `L12` radii or diameters as the list says nothing of: lengths alone are taken. `L11` and `L13`
@@ -196,6 +200,7 @@ mod tests {
             ("T1 Z1\nT1 Z2\n", 2, "twice"),
             ("number,length\n1,2\n2,nan\n", 3, "`nan`"),
             ("a,b\n1,2\n", 1, "number"),
+            ("number,length\n1,4\"\n", 2, "`4\"` is no length"),
             ("number\n\u{a1}\n", 2, "`\u{a1}`"),
             ("G10 L10 P1\n", 1, "without"),
             ("T1 \u{a1}5\n", 1, "`\u{a1}5`"),

@@ -75,6 +75,21 @@ impl Simulator<'_> {
         self.block.get(b'T').is_some()
     }
 
+    /// Does it say a height, as a position?
+    pub fn says_height(&self) -> bool {
+        self.block.get(b'Z').is_some() && self.state.standing().absolute
+    }
+
+    /// Does it say its units, and what feeds count?
+    pub fn says_modes(&self) -> [bool; 2] {
+        [Group::Units, Group::FeedMode].map(|group| self.block.row(group).is_some())
+    }
+
+    /// The line that is read next, where no subprogram or loop leads elsewhere.
+    pub fn next_line(&self) -> u64 {
+        self.at.line + 1
+    }
+
     /// Does it have axis words?
     pub fn has_axes(&self) -> bool {
         self.block.has_axes()

@@ -47,7 +47,7 @@ mod tool;
 mod turning;
 mod way;
 
-pub use action::{Action, Cooling, Item, Position, Rotation, Turn};
+pub use action::{Action, Cooling, Drilling, Item, Position, Rotation, Turn};
 pub(crate) use arcs::axes_of;
 pub use foreign::settings_for;
 pub use job::{JobOptions, read_program};

@@ -68,6 +68,8 @@ pub struct Simulator<'a> {
     pub(super) line: Vec<u8>,
     /// The place behind the line.
     pub(super) at: Spot,
+    /// The line that was run last.
+    ran: u64,
     pub(super) frames: Vec<Frame>,
     /// Subprograms by their O number or name, with the byte behind their first line.
     pub(super) labels: HashMap<String, Spot>,
@@ -119,6 +121,7 @@ impl<'a> Simulator<'a> {
             block: Block::default(),
             line: Vec::new(),
             at: Spot { byte: 0, line: 0 },
+            ran: 0,
             frames: Vec::new(),
             labels: HashMap::new(),
             searched: false,
@@ -160,7 +163,7 @@ impl<'a> Simulator<'a> {
 
     /// The line that was run last.
     pub fn line(&self) -> u64 {
-        self.at.line
+        self.ran
     }
 
     /// Did the program end with M99, which begins it again?
@@ -218,6 +221,7 @@ impl<'a> Simulator<'a> {
             return self.at_end().map_err(|fault| self.refused(fault));
         }
         let behind = self.at;
+        self.ran = behind.line;
         let jump = match self.line_step(items) {
             Ok(Jump::On) => return Ok(true),
             Ok(Jump::End) => {

@@ -39,6 +39,8 @@ pub struct Standing {
     pub compensated: bool,
     /// The motion in force is a rapid.
     pub is_rapid: bool,
+    /// It is a straight cut.
+    pub is_line: bool,
     /// A canned cycle is in force.
     pub has_cycle: bool,
     /// The number of the work offset.
@@ -66,6 +68,7 @@ impl State {
             tool: self.tool.loaded,
             compensated: self.tool.side.is_some(),
             is_rapid: self.modes.motion.is_some_and(|row| row.meaning == Meaning::Rapid),
+            is_line: self.modes.motion.is_some_and(|row| row.meaning == Meaning::Line),
             has_cycle: self.cycle_in_force().is_some(),
             work: self.place.frames.active,
             is_shifted: self.place.frames.shift != Shift::default() || self.place.frames.angle() != 0.0,

@@ -454,6 +454,13 @@ impl<'m> Check<'m> {
             fit.not_checked.push(format!("anything from line {line} on: {why}"));
         }
         let times = self.clock.map(Clock::finish);
+        let has_travel = |axis: &usize| self.machine.axes[*axis].as_ref().is_some_and(|axis| axis.travel.is_some());
+        let axes = if self.control.is_lathe() { &[0, 2][..] } else { &[0, 1, 2] };
+        let without: Vec<String> =
+            axes.iter().filter(|axis| !has_travel(axis)).map(|axis| LETTERS[*axis].to_string()).collect();
+        if !without.is_empty() {
+            fit.not_checked.push(format!("the travel of {}: the file does not give it", without.join(", ")));
+        }
         if let Err(lacks) = &times {
             fit.not_checked.push(format!("times with accelerations: the file does not give {lacks}"));
         }

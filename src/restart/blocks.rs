@@ -1,25 +1,24 @@
 //! The blocks of the new program: head, what is put in force, the way in, the rest.
 
 use super::entry::{Entry, Found};
-use super::{Asked, Refused, refuse};
+use super::{Asked, Refused, Way, refuse};
 use crate::control::{Code, Control, Meaning, ToolLength};
 use crate::machine::offsets;
 use crate::nc::Rotation;
 use crate::toolpath::{FeedMode, Plane, Units};
 
-/// The text, how many lines stand before the old program's own, and what the operator must know. `across`: the tool goes over the
-/// entry.
+/// The text, how many lines stand before the old program's own, and what the operator must know.
 pub fn program(
     text: &[u8],
     control: &Control,
     found: &Found,
     asked: &Asked,
-    across: bool,
+    way: Way,
 ) -> Result<(Vec<u8>, u64, Vec<String>), Refused> {
     let lines: Vec<&[u8]> = text.split_inclusive(|byte| *byte == b'\n').collect();
     let crlf = lines.first().is_some_and(|line| line.ends_with(b"\r\n"));
     let head = (found.head as usize).min(lines.len());
-    let (own, notes) = blocks(control, found, asked, across)?;
+    let (own, notes) = blocks(control, found, asked, way)?;
     let mut new = Vec::with_capacity(text.len());
     lines[..head].iter().for_each(|line| new.extend_from_slice(line));
     if !new.is_empty() && !new.ends_with(b"\n") {
@@ -35,13 +34,8 @@ pub fn program(
 }
 
 /// What is put in force, and the way in.
-fn blocks(
-    control: &Control,
-    found: &Found,
-    asked: &Asked,
-    across: bool,
-) -> Result<(Vec<String>, Vec<String>), Refused> {
-    let Entry { line, standing, switches, height } = &found.entry;
+fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(Vec<String>, Vec<String>), Refused> {
+    let Entry { line, standing, switches, said, height, depth } = &found.entry;
     let code = |meaning: Meaning| control.first(meaning).map(|row| row.code.to_string());
     let mut notes = Vec::new();
     let comment = format!("RESTART AT LINE {line}");
@@ -61,7 +55,15 @@ fn blocks(
     };
     let modes = [units, plane, Meaning::SideOff, Meaning::CycleEnd, Meaning::LengthOff, Meaning::Absolute, feed_mode];
     for group in modes.chunks(4) {
-        let words: Vec<String> = group.iter().filter_map(|meaning| code(*meaning)).collect();
+        // a lathe has its lengths by the turret
+        // what the program never said is the machine's own
+        let is_said = |meaning: &&Meaning| match **meaning {
+            Meaning::LengthOff => !control.is_lathe(),
+            own if own == units => said.units,
+            own if own == feed_mode => said.feed_mode,
+            _ => true,
+        };
+        let words: Vec<String> = group.iter().filter(is_said).filter_map(|meaning| code(*meaning)).collect();
         if !words.is_empty() {
             blocks.push(words.join(" "));
         }
@@ -69,17 +71,50 @@ fn blocks(
     // up, to the machine's zero
     let up = if control.is_lathe() {
         let home = Code { letter: b'G', tenths: 280 };
-        control.row(home).filter(|row| row.meaning == Meaning::Reference).map(|row| vec![format!("{} U0 W0", row.code)])
+        control.row(home).filter(|row| row.meaning == Meaning::Reference).map(|row| {
+            notes.push(
+                "it goes home along X first: a tool in a bore or behind a shoulder is taken out by hand before"
+                    .to_owned(),
+            );
+            vec![format!("{} U0", row.code), format!("{} W0", row.code)]
+        })
     } else {
         let rapid = code(Meaning::Rapid);
         code(Meaning::Machine).zip(rapid).map(|(machine, rapid)| vec![format!("{rapid} {machine} Z0.")])
     };
     match (up, asked.clear) {
         (_, Some(clear)) if !control.is_lathe() => {
+            if code(Meaning::Machine).and(code(Meaning::ToolChange)).is_some() {
+                return refuse(
+                    "a height of the work offset counts with the length of the tool, and which one is in the spindle is not known",
+                    "leave --clear-z out: the tool goes up to the machine's zero by G53",
+                );
+            }
+            if let Some(height) = height.filter(|height| clear < *height) {
+                return refuse(
+                    format!(
+                        "--clear-z {} is below the height from which the tool comes down: {}",
+                        number(clear),
+                        number(height)
+                    ),
+                    "say a height above everything",
+                );
+            }
+            if switches.work {
+                blocks.push(offsets::name(control, standing.work));
+            }
             let rapid = code(Meaning::Rapid).unwrap_or_else(|| "G0".into());
             blocks.push(format!("{rapid} Z{}", number(clear)));
         }
-        (Some(up), _) => blocks.extend(up),
+        (Some(up), _) => {
+            if is_bare(control) {
+                notes.push(
+                    "G53 counts from the machine's zero: home the machine first, or say a height with --clear-z"
+                        .to_owned(),
+                );
+            }
+            blocks.extend(up);
+        }
         (None, _) => {
             return refuse(
                 format!("{} has no code that goes up to the machine's zero", control.name()),
@@ -106,7 +141,11 @@ fn blocks(
     if switches.work {
         blocks.push(offsets::name(control, standing.work));
     }
-    spindle(control, found, &mut blocks);
+    if way.turning {
+        spindle(control, found, &mut blocks);
+    } else {
+        blocks.extend(code(Meaning::SpindleOff));
+    }
     for (is_on, meaning) in
         [(switches.flood, Meaning::Flood), (switches.mist, Meaning::Mist), (switches.through, Meaning::Through)]
     {
@@ -118,8 +157,15 @@ fn blocks(
     if !(switches.flood || switches.mist || switches.through) {
         blocks.extend(code(Meaning::CoolantOff));
     }
-    if !control.is_lathe() && across {
+    if !control.is_lathe() && way.across {
         way_in(control, &found.entry, &mut blocks)?;
+    }
+    if let (Some(depth), Some(cut)) = (depth, code(Meaning::Line)) {
+        blocks.push(format!("{cut} Z{} F{}", number(*depth), number(standing.feed)));
+        notes.push(format!(
+            "it goes down at feed to Z{} beside what is cut already: look whether there is room",
+            number(*depth)
+        ));
     }
     if !standing.absolute {
         blocks.extend(code(Meaning::Increments));

@@ -1,9 +1,10 @@
 //! Where a program can be begun: the last safe place before the one that is asked for.
 
-use super::{Refused, refuse};
+use super::{Asked, Refused, refuse};
 use crate::control::Meaning;
-use crate::nc::{Action, Cooling, Kind, RunError, RunSettings, Simulator, Standing, tokens};
+use crate::nc::{Action, Cooling, Kind, Rotation, RunError, RunSettings, Simulator, Standing, tokens};
 use crate::terminal::escaped;
+use crate::toolpath::{FeedMode, StopKind};
 
 /// What is asked for.
 #[derive(Clone, Debug)]
@@ -27,8 +28,11 @@ pub struct Entry {
     pub standing: Standing,
     /// What is on besides.
     pub switches: Switches,
+    pub said: Said,
     /// The height from which the tool comes down; `None`: it comes from where tools are changed.
     pub height: Option<f64>,
+    /// Where it goes down to from there at feed: into a cut that goes on.
+    pub depth: Option<f64>,
 }
 
 /// What a run of a program has switched on, besides what its state says.
@@ -45,6 +49,13 @@ pub struct Switches {
     pub limit: Option<f64>,
     /// A work offset was named.
     pub work: bool,
+}
+
+/// What the program has said, be it what held before.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Said {
+    pub units: bool,
+    pub feed_mode: bool,
 }
 
 impl Switches {
@@ -77,8 +88,17 @@ pub struct Found {
 }
 
 /// Finds the entry for a target.
-pub fn find(text: &[u8], settings: RunSettings, target: &Target) -> Result<Found, Refused> {
-    let mut search = Search::new(target);
+pub fn find(text: &[u8], settings: RunSettings, asked: &Asked) -> Result<Found, Refused> {
+    let first = search(text, settings, asked, true);
+    match asked.target {
+        // that of the first operation may stand in the head
+        Target::Operation(_) => first.or_else(|_| search(text, settings, asked, false)),
+        _ => first,
+    }
+}
+
+fn search(text: &[u8], settings: RunSettings, asked: &Asked, past_head: bool) -> Result<Found, Refused> {
+    let mut search = Search::new(asked, past_head);
     let mut run = super::run(text, settings);
     let mut items = Vec::new();
     let mut standing = run.state().standing();
@@ -99,11 +119,15 @@ pub fn find(text: &[u8], settings: RunSettings, target: &Target) -> Result<Found
             break;
         }
     }
-    search.finish(target)
+    search.finish()
 }
 
 struct Search<'t> {
     target: &'t Target,
+    exactly: bool,
+    said: Said,
+    /// Only what comes after the head is an operation.
+    past_head: bool,
     switches: Switches,
     /// The last place where the program can be begun, up to what is asked for.
     entry: Option<Entry>,
@@ -116,18 +140,25 @@ struct Search<'t> {
     kept: usize,
     /// Why no place after the head can be one.
     never: Option<String>,
+    /// The last block moved.
+    moved: bool,
     /// The highest way across since the tool was changed.
     way: Option<f64>,
     /// The last move was a rapid.
     came_at_rapid: bool,
+    /// Another length of a tool is on than that by which the height was said: where the tool is depends on both.
+    height_by_other: bool,
     /// The line with the T word of a change that is not made yet, where the tool stands free.
     tool_line: Option<Entry>,
 }
 
 impl<'t> Search<'t> {
-    fn new(target: &'t Target) -> Search<'t> {
+    fn new(asked: &'t Asked, past_head: bool) -> Search<'t> {
         Search {
-            target,
+            past_head,
+            target: &asked.target,
+            exactly: asked.exactly,
+            said: Said::default(),
             switches: Switches::default(),
             entry: None,
             next: None,
@@ -137,7 +168,9 @@ impl<'t> Search<'t> {
             kept: 0,
             never: None,
             way: None,
+            moved: false,
             came_at_rapid: false,
+            height_by_other: false,
             tool_line: None,
         }
     }
@@ -148,17 +181,36 @@ impl<'t> Search<'t> {
 
     fn block(&mut self, before: &Standing, depth: usize, items: &[crate::nc::Item], run: &Simulator<'_>) {
         let line = run.line();
-        let is_asked = self.asked.is_none() && self.is_target(line, items, run);
+        let is_asked = self.asked.is_none() && self.is_target(line, depth, items, run);
         let moves = |action: &Action| matches!(action, Action::Rapid { .. } | Action::Feed { .. } | Action::Arc(_));
-        let changes = items.iter().any(|item| matches!(item.action, Action::Tool(_)));
-        if self.head.is_none() && (changes || items.iter().any(|item| moves(&item.action))) {
+        // where no code changes tools the program stops for it, with the tool at the machine's zero
+        let by_hand = run.control().first(Meaning::ToolChange).is_none() && !run.control().is_lathe();
+        let stops = by_hand && before.said & 0b100 != 0;
+        let changes = items.iter().any(|item| match item.action {
+            Action::Tool(_) => true,
+            Action::Stop(StopKind::Program) => stops,
+            _ => false,
+        });
+        let switches = |action: &Action| match action {
+            Action::Spindle(rotation, _) => *rotation != Rotation::Stop,
+            Action::Coolant(cooling) => *cooling != Cooling::Off,
+            _ => false,
+        };
+        // what moves or turns is not run again before the tool is out
+        let begins = |item: &crate::nc::Item| moves(&item.action) || switches(&item.action);
+        if self.head.is_none() && (changes || items.iter().any(begins)) {
             self.head = Some(line - 1);
         }
         // the place before this block
-        if self.head.is_some() && depth == 0 && self.never.is_none() {
+        if self.exactly {
+            if is_asked && depth == 0 && self.never.is_none() {
+                (self.entry, self.kept) = (self.exact_entry(before, line, changes, run), self.codes.len());
+                self.next = Some(line);
+            }
+        } else if self.head.is_some() && depth == 0 && self.never.is_none() {
             let entry = self.entry_before(before, line, changes, run);
             if let Some(entry) = entry {
-                if self.asked.is_none() || is_asked {
+                if is_asked || self.asked.is_none_or(|asked| entry.line <= asked) {
                     (self.entry, self.kept) = (Some(entry), self.codes.len());
                 } else if self.next.is_none() {
                     self.next = Some(entry.line);
@@ -172,6 +224,12 @@ impl<'t> Search<'t> {
             self.never
                 .get_or_insert(format!("line {line} computes values, which are not known without the blocks before"));
         }
+        let [units, feed_mode] = run.says_modes();
+        self.said.units |= units;
+        self.said.feed_mode |= feed_mode;
+        self.moved = items.iter().any(|item| moves(&item.action));
+        self.height_by_other |= items.iter().any(|item| matches!(item.action, Action::Length(_)));
+        self.height_by_other &= !(self.moved && run.says_height());
         for item in items {
             self.switches.follow(&item.action, run);
             match &item.action {
@@ -184,6 +242,7 @@ impl<'t> Search<'t> {
                 }
                 Action::Feed { .. } | Action::Arc(_) => self.came_at_rapid = false,
                 Action::Tool(_) => self.way = None,
+                Action::Stop(StopKind::Program) if stops => self.way = None,
                 Action::LeftOut(code, meaning) if self.head.is_some() && *meaning != Meaning::ExactStop => {
                     self.codes.push((line, code.to_string()));
                 }
@@ -195,13 +254,18 @@ impl<'t> Search<'t> {
         }
     }
 
-    fn is_target(&self, line: u64, items: &[crate::nc::Item], run: &Simulator<'_>) -> bool {
+    fn is_target(&self, line: u64, depth: usize, items: &[crate::nc::Item], run: &Simulator<'_>) -> bool {
         match self.target {
             Target::Tool(number) => {
-                items.iter().any(|item| matches!(item.action, Action::Tool(tool) if tool == f64::from(*number)))
+                // T0303 of a lathe is station 3
+                let station = if run.control().is_lathe() && *number > 99 { number / 100 } else { *number };
+                items.iter().any(|item| matches!(item.action, Action::Tool(tool) if tool == f64::from(station)))
             }
-            Target::Line(asked) => line >= *asked,
+            // a line of a subprogram is not after those of the main program
+            Target::Line(asked) => line == *asked || depth == 0 && line > *asked,
             Target::Block(number) => block_number(run.text()) == Some(*number),
+            // the list of operations in a header is none
+            Target::Operation(_) if self.past_head && self.head.is_none() => false,
             Target::Operation(name) => items.iter().any(|item| match item.action {
                 Action::Comment(start, end) => {
                     let text = run.text().get(start..end).unwrap_or_default();
@@ -216,7 +280,17 @@ impl<'t> Search<'t> {
     fn entry_before(&mut self, before: &Standing, line: u64, changes: bool, run: &Simulator<'_>) -> Option<Entry> {
         let control = run.control();
         let is_free = !before.compensated && !before.has_cycle && !before.is_shifted;
-        let entry = |height: Option<f64>| Entry { line, standing: *before, switches: self.switches.clone(), height };
+        if self.moved {
+            self.tool_line = None;
+        }
+        let entry = |height: Option<f64>| Entry {
+            line,
+            standing: *before,
+            switches: self.switches.clone(),
+            said: self.said,
+            height,
+            depth: None,
+        };
         let names_tool = run.names_tool();
         if changes {
             // from its T word on, where that stands in a block before
@@ -226,7 +300,8 @@ impl<'t> Search<'t> {
         if names_tool && is_free && !control.is_lathe() {
             self.tool_line = Some(entry(None));
         }
-        if control.is_lathe() || !is_free || !self.came_at_rapid || before.unknown & 0b111 != 0 {
+        if control.is_lathe() || !is_free || !self.came_at_rapid || self.height_by_other || before.unknown & 0b111 != 0
+        {
             return None;
         }
         let height = before.position[2];
@@ -236,9 +311,36 @@ impl<'t> Search<'t> {
         (is_high && goes_on).then(|| entry(Some(height)))
     }
 
-    fn finish(self, target: &Target) -> Result<Found, Refused> {
+    /// The entry with the very block: down from the height of the ways, and at feed into the cut.
+    fn exact_entry(&mut self, before: &Standing, line: u64, changes: bool, run: &Simulator<'_>) -> Option<Entry> {
+        if changes {
+            return self.entry_before(before, line, changes, run);
+        }
+        let why = if run.control().is_lathe() {
+            "a lathe begins at a change of the turret"
+        } else if before.compensated {
+            "it is inside of cutter compensation, which begins with a move of its own"
+        } else if before.has_cycle {
+            "a canned cycle is in force, whose words stand in the blocks before"
+        } else if before.is_shifted || self.height_by_other || before.unknown & 0b111 != 0 {
+            "where the tool is there only the machine knows"
+        } else if before.feed <= 0.0 || before.feed_mode == FeedMode::InverseTime {
+            "no feed is in force with which it could go down"
+        } else if !(run.names_motion() || before.is_line || !run.has_axes()) {
+            "its block moves by the G2, G3 or G0 of a block before"
+        } else {
+            let depth = before.position[2];
+            let height = self.way.filter(|way| *way >= depth).unwrap_or(depth);
+            let (standing, switches, said) = (*before, self.switches.clone(), self.said);
+            return Some(Entry { line, standing, switches, said, height: Some(height), depth: Some(depth) });
+        };
+        self.never = Some(why.to_owned());
+        None
+    }
+
+    fn finish(self) -> Result<Found, Refused> {
         let Some(asked) = self.asked else {
-            let what = match target {
+            let what = match self.target {
                 Target::Tool(number) => format!("the program never changes to T{number}"),
                 Target::Block(number) => format!("the program has no block N{number} that is run"),
                 Target::Line(line) => format!("no block is run at line {line} or after it"),
@@ -247,6 +349,11 @@ impl<'t> Search<'t> {
             return refuse(what, "`postform simulate PROGRAM` shows what is run, with lines");
         };
         let after = self.next.map_or("none after it".to_owned(), |line| format!("line {line} is the next"));
+        if self.exactly && self.entry.is_none() {
+            let why = self.never.unwrap_or_else(|| "it can't be begun with this very block".into());
+            let help = "leave --exactly out: then it begins at the last place before it where the tool is clear";
+            return refuse(format!("the program can't be begun exactly at line {asked}: {why}"), help);
+        }
         let Some(entry) = self.entry else {
             let why = self.never.unwrap_or_else(|| "the tool is nowhere at the height of its ways before it".into());
             return refuse(format!("the program can't be begun before line {asked}: {why}"), after);

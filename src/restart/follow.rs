@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::entry::{Found, Switches};
 use super::{Refused, refuse};
-use crate::nc::{Action, Item, RunError, RunSettings, Simulator, Standing};
+use crate::nc::{Action, Drilling, Item, RunError, RunSettings, Simulator, Standing};
 
 /// How far positions may differ, in the program's units: text has six decimals.
 const SAME: f64 = 2e-6;
@@ -31,7 +31,7 @@ pub fn same(old: &[u8], new: &[u8], settings: RunSettings, found: &Found, head_l
                         text(&one),
                         text(&other)
                     ),
-                    "begin at the change of a tool: --tool",
+                    "begin at another place: at a change of the tool, or print the job again with `render --from-tool`",
                 );
             }
         }
@@ -69,12 +69,39 @@ impl Seen {
                     && (turn.plane, turn.direction, turn.turns) == (own.plane, own.direction, own.turns)
                     && near(&[turn.feed], &[own.feed])
             }
+            (Action::Hole(hole), Action::Hole(own)) => {
+                let numbers = |of: &Drilling| {
+                    let [x, y, z, a, b, c] = of.at;
+                    [
+                        x,
+                        y,
+                        z,
+                        a,
+                        b,
+                        c,
+                        of.r,
+                        of.bottom,
+                        of.clear,
+                        of.dwell,
+                        of.peck,
+                        of.shift[0],
+                        of.shift[1],
+                        of.level,
+                        of.feed,
+                    ]
+                };
+                (hole.cycle, hole.plane, hole.heights) == (own.cycle, own.plane, own.heights)
+                    && near(&numbers(hole), &numbers(own))
+            }
             (one, two) => one == two,
         };
         let (one, two) = (&self.standing, &other.standing);
-        let stands = (one.tool, one.work, one.units, one.plane, one.feed_mode, one.compensated, one.rotation)
-            == (two.tool, two.work, two.units, two.plane, two.feed_mode, two.compensated, two.rotation)
-            && one.speed == two.speed;
+        // up to the first cut the spindle may stand
+        let cuts = matches!(self.action, Action::Feed { .. } | Action::Arc(_) | Action::Hole(_));
+        let turns = !cuts || (one.rotation, one.speed) == (two.rotation, two.speed);
+        let stands = (one.tool, one.work, one.units, one.plane, one.feed_mode, one.compensated)
+            == (two.tool, two.work, two.units, two.plane, two.feed_mode, two.compensated)
+            && turns;
         // a length does not matter while the height is the machine's
         let (mut on, own) = (self.switches.clone(), &other.switches);
         if self.is_at_machine_height() {
@@ -97,7 +124,12 @@ impl Seen {
             Action::Rapid { to, .. } => format!("a rapid goes to {}", at(to)),
             Action::Feed { to, feed, .. } => format!("a cut goes to {} at F{feed}", at(to)),
             Action::Arc(turn) => format!("an arc goes to {} at F{}", at(&turn.to), turn.feed),
-            other => format!("it does {other:?}"),
+            Action::Hole(hole) => format!("{} drills at {}", hole.cycle.code, at(&hole.at)),
+            Action::Tool(tool) => format!("it changes to T{tool}"),
+            Action::Dwell(seconds) => format!("it waits {seconds} s"),
+            Action::Stop(_) => "it stops".to_owned(),
+            Action::Orient(angle) => format!("the spindle stops at {angle} degrees"),
+            _ => "it ends".to_owned(),
         };
         let Standing { tool, speed, rotation, .. } = &self.standing;
         _ = write!(text, " with T{} and the spindle {} S{speed}", tool.unwrap_or(0.0), rotation.name());
@@ -142,7 +174,7 @@ impl<'a> Side<'a> {
 
     /// Runs the blocks before the entry.
     fn reach(&mut self, what: &str) -> Result<(), Refused> {
-        while !self.over && self.run.line() + 1 < self.begin {
+        while !self.over && (self.run.depth() > 0 || self.run.next_line() < self.begin) {
             self.step(what)?;
         }
         self.waiting.clear();

@@ -22,6 +22,8 @@ pub struct Asked {
     pub target: Target,
     /// Above this height nothing is in the way, in the program's units; where the control can't go up to the machine's zero.
     pub clear: Option<f64>,
+    /// Begin with the very block that is asked for, though the tool stands in its cut there: it goes down at feed.
+    pub exactly: bool,
 }
 
 /// The new program.
@@ -81,17 +83,30 @@ pub fn restart(mut program: impl Read + Seek, settings: RunSettings, asked: &Ask
     let mut text = Vec::new();
     program.read_to_end(&mut text)?;
     let settings = RunSettings { places_unknown: true, ..settings };
-    let found = entry::find(&text, settings, &asked.target)?;
-    let made = |across: bool| -> Result<Restarted, Refused> {
-        let (new, head_lines, notes) = blocks::program(&text, settings.control, &found, asked, across)?;
+    let found = entry::find(&text, settings, asked)?;
+    let made = |way: Way| -> Result<Restarted, Refused> {
+        let (new, head_lines, notes) = blocks::program(&text, settings.control, &found, asked, way)?;
         let moves = follow::same(&text, &new, settings, &found, head_lines)?;
         Ok(Restarted { text: new, line: found.entry.line, asked: found.asked, notes, moves })
     };
-    // to a change of the tool across only where the blocks after it count on where the tool was
+    // to a change of the tool the spindle stands, and the tool stays where it is; else only where the blocks after it count on it
     match found.entry.height {
-        None => made(false).or_else(|_| made(true)),
-        Some(_) => made(true),
+        None => {
+            let [first, ways @ ..] = [[false, false], [true, false], [false, true], [true, true]];
+            let way = |[across, turning]: [bool; 2]| Way { across, turning };
+            ways.into_iter().fold(made(way(first)), |tried, next| tried.or_else(|_| made(way(next))))
+        }
+        Some(_) => made(Way { across: true, turning: true }),
     }
+}
+
+/// How the tool comes to the entry.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    /// It goes over the entry.
+    across: bool,
+    /// The spindle turns.
+    turning: bool,
 }
 
 /// A run of a text.

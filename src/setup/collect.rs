@@ -2,7 +2,7 @@
 
 use super::{OperationRow, SetupSheet, StopRow, ToolRow, Work};
 use crate::survey::{Reach, Survey, Totals};
-use crate::toolpath::{Event, Flow, Given, Place, Sink, Start, StopKind, Tool, Units};
+use crate::toolpath::{Event, FeedMode, Flow, Given, Place, Sink, Start, StopKind, Tool, Units};
 
 /// Takes the head of a job and its stops.
 #[derive(Debug, Default)]
@@ -91,6 +91,7 @@ pub fn of_job(
                 corner_radius: row.tool.corner_radius,
                 length_register: register(&row.tool),
                 diameter_register: row.tool.diameter_offset,
+                length: None,
                 comment: row.tool.comment.clone(),
                 data: row.tool.data.iter().map(|(name, value)| (name.clone(), json(value))).collect(),
                 operations: row.operations.iter().filter_map(name).collect(),
@@ -107,7 +108,13 @@ pub fn of_job(
                 tool: operation.begins.tool.as_ref().map(|tool| tool.number),
                 work: work_name(operation.work),
                 speed: operation.spindle.speed,
+                surface: operation.spindle.css.filter(|css| *css).map(|_| operation.spindle.max.unwrap_or(0.0)),
                 feed: operation.begins.feed,
+                feed_mode: match operation.begins.feed_mode {
+                    Some(FeedMode::PerRev) => "per_rev",
+                    Some(FeedMode::InverseTime) => "inverse_time",
+                    Some(FeedMode::PerMinute) | None => "per_minute",
+                },
                 holes: operation.totals.holes,
                 length: operation.totals.length,
                 lowest: lowest(&operation.totals),

@@ -11,6 +11,7 @@ pub use markdown::markdown;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
+use crate::machine::Machine;
 use crate::preflight::Times;
 
 /// What the page says. Lengths are in `units`, feeds in units a minute or a turn, as the job counts them.
@@ -65,6 +66,18 @@ impl SetupSheet {
         self.hashes.push([name, digits]);
     }
 
+    /// Takes what the machine's table has of the tools: lengths, and names where the job has none.
+    pub fn take_tools(&mut self, machine: &Machine) {
+        let Some(table) = &machine.tools else { return };
+        let scale = if self.units == "inch" { 25.4 } else { 1.0 };
+        for row in &mut self.tools {
+            let entry = |number: f64| table.0.get(&(number as u32));
+            row.length =
+                row.length_register.and_then(entry).and_then(|entry| entry.length).map(|length| length / scale);
+            row.name = row.name.take().or_else(|| entry(row.number)?.name.clone());
+        }
+    }
+
     /// Takes how long the program takes on the machine, as a whole and for each tool.
     pub fn take_times(&mut self, times: &Times) {
         for row in &mut self.tools {
@@ -105,6 +118,8 @@ pub struct ToolRow {
     pub length_register: Option<f64>,
     /// Register of its diameter.
     pub diameter_register: Option<f64>,
+    /// Its length in the machine, in the job's units.
+    pub length: Option<f64>,
     /// What the job says of it.
     pub comment: Option<String>,
     /// What else the job has of it, by names of its own.
@@ -120,6 +135,15 @@ pub struct ToolRow {
 }
 
 impl ToolRow {
+    /// Its registers, with the length that the machine has.
+    fn registers(&self) -> String {
+        let length = self.length.map_or(String::new(), |length| format!(" = {}", short(length)));
+        let of = |letter: char, register: Option<f64>| Some(format!("{letter}{}", short(register?)));
+        let length = of('H', self.length_register).map(|register| register + &length);
+        let both: Vec<String> = [length, of('D', self.diameter_register)].into_iter().flatten().collect();
+        if both.is_empty() { "-".into() } else { both.join(", ") }
+    }
+
     /// What a reader is told of it: its comment, and its data.
     fn remark(&self) -> String {
         let data = self.data.iter().map(|(name, value)| {
@@ -140,10 +164,14 @@ pub struct OperationRow {
     pub tool: Option<f64>,
     /// Its work offset.
     pub work: String,
-    /// The speed of the spindle when it begins.
+    /// The speed of the spindle when it begins: revolutions a minute, or the surface speed's unit.
     pub speed: Option<f64>,
+    /// It is a surface speed, and the spindle turns at most so fast; 0: nothing limits it.
+    pub surface: Option<f64>,
     /// The feed when it begins.
     pub feed: Option<f64>,
+    /// What the feed counts: `per_minute`, `per_rev` or `inverse_time`.
+    pub feed_mode: &'static str,
     /// Holes of its cycles.
     pub holes: u64,
     /// Length of its cuts.
@@ -152,6 +180,27 @@ pub struct OperationRow {
     pub lowest: Option<f64>,
     /// Minutes of its cuts; with their accelerations where the machine's are known.
     pub minutes: Option<f64>,
+}
+
+impl OperationRow {
+    fn speed_text(&self) -> String {
+        match (self.surface, self.speed) {
+            (Some(most), Some(speed)) if most > 0.0 => {
+                format!("{} along the surface, at most {} rev/min", short(speed), short(most))
+            }
+            (Some(_), Some(speed)) => format!("{} along the surface", short(speed)),
+            (_, speed) => maybe(speed),
+        }
+    }
+
+    fn feed_text(&self) -> String {
+        let unit = match self.feed_mode {
+            "per_rev" => " a turn",
+            "inverse_time" => " moves a minute",
+            _ => "",
+        };
+        self.feed.map_or("-".into(), |feed| short(feed) + unit)
+    }
 }
 
 /// A stop.
@@ -208,7 +257,7 @@ fn tables(sheet: &SetupSheet) -> Vec<Table> {
             format!("T{}", short(tool.number)),
             text(&tool.name),
             maybe(tool.diameter),
-            tool.length_register.map_or("-".into(), |register| format!("H{}", short(register))),
+            tool.registers(),
             maybe(tool.lowest),
             time(tool.seconds.map(|seconds| seconds / 60.0).or(tool.minutes)),
             tool.operations.join(", "),
@@ -221,8 +270,8 @@ fn tables(sheet: &SetupSheet) -> Vec<Table> {
             text(&operation.name),
             operation.tool.map_or("-".into(), |tool| format!("T{}", short(tool))),
             operation.work.clone(),
-            maybe(operation.speed),
-            maybe(operation.feed),
+            operation.speed_text(),
+            operation.feed_text(),
             operation.holes.to_string(),
             maybe(operation.lowest),
             time(operation.minutes),
@@ -239,12 +288,12 @@ fn tables(sheet: &SetupSheet) -> Vec<Table> {
         Table { title: "Work offsets", head: of_works, rows: works.collect() },
         Table {
             title: "Tools",
-            head: vec!["tool", "name", "diameter", "length", "lowest Z", "time", "operations", "remark"],
+            head: vec!["tool", "name", "diameter", "registers", "lowest Z", "time", "operations", "remark"],
             rows: tools.collect(),
         },
         Table {
             title: "Operations",
-            head: vec!["", "name", "tool", "offset", "speed", "feed", "holes", "lowest Z", "time"],
+            head: vec!["", "name", "tool", "offset", "rev/min", "feed", "holes", "lowest Z", "time"],
             rows: operations.collect(),
         },
     ];

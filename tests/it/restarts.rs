@@ -87,9 +87,116 @@ fn what_is_in_force_is_put_in_force() {
     assert!(program.contains("\nN20 G98 G81"), "{program}");
     let (_, said) = at(&["--operation", "second"]);
     assert!(said.contains("begins at line 11"), "{said}");
-    // from a height that the operator says
-    let (program, _) = at(&["--tool", "2", "--clear-z", "80"]);
-    assert!(program.contains("G0 Z80.\n") && !program.contains("G53"), "{program}");
+}
+
+/// Blocks after the mark of the new program, up to those of the old one.
+fn way_in(program: &str, first_old: &str) -> String {
+    let own = program.split("RESTART AT LINE").nth(1).unwrap_or_else(|| panic!("{program}"));
+    own.split(first_old).next().unwrap().lines().skip(1).collect::<Vec<_>>().join(" / ")
+}
+
+/// The tool comes out before anything turns: what starts the spindle or the coolant is no part of the head.
+#[test]
+fn nothing_turns_before_the_tool_is_out() {
+    let folder = Folder::new("restart-still");
+    folder.write(
+        "a.nc",
+        "G21 G90\nS1000 M3\nM8\nG54 G0 X0 Y0\nG43 H1 Z50.\nG1 Z-1. F100.\nG0 Z50.\nX10.\nG1 Z-1.\nG0 Z50.\nM30\n",
+    );
+    let (program, _) = restarted(&folder, "haas", &["--line", "8"]).unwrap();
+    assert!(program.starts_with("G21 G90\n(RESTART AT LINE 8)\n"), "{program}");
+    let way = way_in(&program, "X10.");
+    assert!(way.find("G53").unwrap() < way.find("M3").unwrap() && way.contains("M8"), "{way}");
+    // to a change of the tool the spindle stands, where the old program did not stop it
+    folder.write("a.nc", "G21 G90 G94\nT1 M6\nG54 G0 X0 Y0 S1000 M3\nG43 H1 Z50.\nG1 Z-1. F100.\nG0 Z50.\nG0 G53 Z0\nT2 M6\nX5. S500 M3\nG43 H2 Z50.\nG1 Z-2.\nG0 Z50.\nM30\n");
+    let (program, _) = restarted(&folder, "haas", &["--tool", "T2"]).unwrap();
+    let way = way_in(&program, "T2 M6");
+    assert!(way.contains("M5") && !way.contains("M3"), "{way}");
+}
+
+/// A height that was said with another length, or with none, is no place to go down to.
+#[test]
+fn a_height_counts_with_its_own_length() {
+    let folder = Folder::new("restart-length");
+    let program = "G21 G90\nT1 M6\nG54 G0 X0 Y0 S1000 M3\nG43 H1 Z50.\nG1 Z-1. F100.\nG0 Z50.\nG49\nG91 G28 Z0\nG90\nT2 M6\nS900 M3\nM30\n";
+    folder.write("a.nc", program);
+    for line in ["8", "9"] {
+        let said = restarted(&folder, "fanuc", &["--line", line]).unwrap().1;
+        assert!(said.contains("begins at line 7"), "{line}: {said}");
+    }
+}
+
+/// A control without a change of tools stops for one: with the tool at the machine's zero the program can be begun there.
+#[test]
+fn a_stop_for_a_tool_is_an_entry_where_no_code_changes_it() {
+    let folder = Folder::new("restart-stops");
+    let text = fs::read_to_string(root().join("samples/plate/expected.grbl.nc")).unwrap();
+    folder.write("a.nc", &text);
+    let lines: Vec<&str> = text.lines().collect();
+    let stops: Vec<usize> = (1..=lines.len()).filter(|line| lines[line - 1] == "M0").collect();
+    assert!(stops.len() > 2, "{text}");
+    for stop in stops {
+        let (program, said) = restarted(&folder, "grbl", &["--line", &(stop + 1).to_string()]).unwrap();
+        assert!(said.contains(&format!("begins at line {stop} ")) && said.contains("home the machine first"), "{said}");
+        assert!(way_in(&program, "M0").contains("M5"), "{program}");
+    }
+    // a height is that of the offset, above the way in, and no answer where lengths count
+    let way = restarted(&folder, "grbl", &["--line", "60", "--clear-z", "40"]).unwrap().0;
+    assert!(way.find("G54").unwrap() < way.find("G0 Z40.").unwrap(), "{way}");
+    let low = restarted(&folder, "grbl", &["--line", "58", "--clear-z", "-5"]).unwrap_err();
+    assert!(low.contains("is below the height"), "{low}");
+    folder.write("a.nc", PROGRAM);
+    let long = restarted(&folder, "fanuc", &["--tool", "2", "--clear-z", "80"]).unwrap_err();
+    assert!(long.contains("counts with the length of the tool") && long.contains("leave --clear-z out"), "{long}");
+}
+
+/// What the program never said is the machine's own: it is not written. A lathe goes home along one axis after the other.
+#[test]
+fn what_was_never_said_is_not_written() {
+    let folder = Folder::new("restart-unsaid");
+    let program = "G21 G40 G80\nT0101\nG97 S1000 M3\nG0 X50. Z2.\nG1 Z-10. F0.2\nG0 X100. Z50.\nT0202\nG97 S900 M3\nG0 X40. Z2.\nG1 Z-5. F.1\nM30\n";
+    folder.write("a.nc", program);
+    let (program, said) = restarted(&folder, "fanuc-lathe", &["--tool", "202"]).unwrap();
+    let way = way_in(&program, "T0202");
+    assert!(
+        !way.contains("G98") && !way.contains("G99") && !way.contains("G49") && way.contains("G28 U0 / G28 W0"),
+        "{way}"
+    );
+    assert!(said.contains("along X first"), "{said}");
+}
+
+/// Subprograms, a tool that is named long before its change, and lists of operations in a header.
+#[test]
+fn subprograms_and_tools_named_before_are_no_obstacle() {
+    let folder = Folder::new("restart-subs");
+    folder.write("a.nc", "O1 (- SECOND)\nG21 G90\nT1 M6\nT2\nG54 G0 X0 Y0 S1000 M3\nG43 H1 Z50.\nM98 P100\nG0 Z50.\nG0 G53 Z0\n(SECOND)\nM6\nG0 X9. Y9. S500 M3\nG43 H2 Z50.\nM98 P100\nG0 Z50.\nM30\nO100\nG1 Z-1. F100.\nG0 Z5.\nM99\n");
+    let (program, said) = restarted(&folder, "fanuc", &["--tool", "2"]).unwrap();
+    assert!(said.contains("begins at line 11") && way_in(&program, "\nM6").contains("T2"), "{said}{program}");
+    assert!(restarted(&folder, "fanuc", &["--line", "14"]).unwrap().1.contains("begins at line 14"));
+    // not the one of the header
+    let said = restarted(&folder, "fanuc", &["--operation", "second"]).unwrap().1;
+    assert!(said.contains("begins at line 10") || said.contains("begins at line 9"), "{said}");
+}
+
+/// `--exactly` begins inside a cut: down at feed.
+#[test]
+fn exactly_goes_down_at_feed() {
+    let folder = Folder::new("restart-exactly");
+    folder.write("a.nc", "G21 G90 G94 G17\nT1 M6\nG54 G0 X0 Y0 S1000 M3\nG43 H1 Z50.\nX1.\nZ2.\nG1 Z-1. F100.\nX50. F300.\nY20.\nG2 X60. Y30. I10.\nX70. Y40. I10.\nG0 Z50.\nM30\n");
+    let at = |line: &str| restarted(&folder, "haas", &["--line", line, "--exactly"]);
+    let (program, said) = at("9").unwrap();
+    assert!(way_in(&program, "Y20.").contains("G0 X50. Y0. / G43 H1 Z50. / G1 Z-1. F300."), "{program}");
+    assert!(said.contains("begins at line 9") && said.contains("goes down at feed to Z-1."), "{said}");
+    let refused = at("11").unwrap_err();
+    assert!(
+        refused.contains("moves by the G2, G3 or G0 of a block before") && refused.contains("leave --exactly out"),
+        "{refused}"
+    );
+    folder.write("a.nc", PROGRAM);
+    let refused = restarted(&folder, "fanuc", &["--at", "N13", "--exactly"]).unwrap_err();
+    assert!(refused.contains("inside of cutter compensation"), "{refused}");
+    let refused = restarted(&folder, "fanuc", &["--at", "N21", "--exactly"]).unwrap_err();
+    assert!(refused.contains("a canned cycle is in force"), "{refused}");
 }
 
 #[test]

@@ -183,6 +183,7 @@ fn what_is_not_certain_is_refused() {
         ("G71 U2. R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nG0 Z-3.\nN20 G1 Z-5.", "PN016 9 a cut after a rapid inside"),
         ("G71 U2. R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nM8\nT0202\nN20 G1 Z-5.", "PN016 8 a profile holds moves alone"),
         ("G71 U2 R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nN20 G1 Z-5.", "PN017 5 U2 has no point"),
+        ("G71 U2. R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nG1 Z-5.\nN20 X51.", "PN018 6 G71: the profile ends farther out"),
         ("G74 Z-6. Q3000 F.1", "PN007 5 G74 does not say how far it goes back"),
         ("G74 R1.\nG74 X10. Z-6. Q3000 R.5 F.1", "PN016 6 G74 with a relief"),
         ("G70 P10 Q20", "PN018 5 the profile's block N10"),

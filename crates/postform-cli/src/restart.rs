@@ -27,7 +27,7 @@ pub fn run(args: &RestartArgs) -> Result<Ending, String> {
         _ => return Err("error: where? give --tool, --at, --line or --operation".into()),
     };
     let mut output = Output::open(&args.output, false)?;
-    let asked = Asked { target, clear: args.clear_z };
+    let asked = Asked { target, clear: args.clear_z, exactly: args.exactly };
     let made = match restart(program, settings, &asked) {
         Ok(made) => made,
         Err(Refused::Io(error)) => return Err(io_message("read", &args.program, &error)),

@@ -77,10 +77,12 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
         if let Ok(times) = &fitted.times {
             sheet.take_times(times);
         }
+        sheet.take_tools(machine);
         let sentences = fitting.sentence(&fitted) + &fitting.sentences(&fitted);
         sheet.machine = sentences.lines().map(str::to_owned).collect();
         let findings = fitted.findings.iter().map(|finding| format!("{}: {}", finding.code.name(), finding.message));
         sheet.machine.extend(findings);
+        sheet.machine.extend(fitted.fit.not_checked.iter().map(|what| format!("not checked: {what}")));
     }
     program.rewind().map_err(fail)?;
     let units = args.options.units.map_or(Units::Mm, UnitsArg::units);

@@ -42,7 +42,7 @@ impl Simulator<'_> {
         let made = moves(&profile, [start[0], start[2]], &asked.how);
         // what is wrong with the cycle is said of its block
         let after = std::mem::replace(&mut self.at, back);
-        let read = std::mem::replace(&mut self.line, text);
+        self.line = text;
         let made = made.map_err(|fault| self.refused(fault))?;
         let mut out = Out::new(items, back.line);
         let place = &mut self.state.place;
@@ -70,7 +70,7 @@ impl Simulator<'_> {
                 }
             }
         }
-        (self.at, self.line) = (after, read);
+        self.at = after;
         // the control goes on after the profile
         self.go(found.end)
     }
@@ -112,7 +112,13 @@ impl Simulator<'_> {
         let (Some(begin), Some(end)) = (begin, end) else {
             let which = if begin.is_none() { asked.first } else { asked.last };
             let message = format!("the profile's block N{which} does not stand after this one");
-            let fault = Fault::new(Code::PN018, message, "write the numbers of its first block and its last: P10 Q20");
+            let help = match asked.how {
+                How::Finish => {
+                    "a finish has its profile after it, or after a cycle before it that has the same P and Q"
+                }
+                _ => "write the numbers of its first block and its last: P10 Q20",
+            };
+            let fault = Fault::new(Code::PN018, message, help);
             return Err(self.refused(fault));
         };
         Ok(Found { numbers, begin, end })

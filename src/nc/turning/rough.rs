@@ -110,6 +110,12 @@ fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, a
             format!("the first block of the profile goes to the {deep} of its beginning"),
         );
     }
+    let beyond = |piece: &&Piece| (piece.to[0] - start[0]) * inwards < -SAME;
+    if profile.pieces.iter().any(|piece| beyond(&piece)) {
+        let message =
+            format!("{code}: the profile ends farther out than the cycle begins: what is there is cut in one pass");
+        return refuse(Code::PN018, message, format!("begin at the {deep} of the stock, outside of the whole profile"));
+    }
     let mut from = profile.begin;
     for piece in &profile.pieces {
         let ends = [[from[0], piece.to[0]], [from[1], piece.to[1]]];

@@ -149,7 +149,7 @@ impl SelectArgs {
 }
 
 /// `3` or `T3`.
-fn tool(text: &str) -> Result<u32, String> {
+pub(super) fn tool(text: &str) -> Result<u32, String> {
     text.strip_prefix(['T', 't']).unwrap_or(text).parse().map_err(|_| "a tool is written 3 or T3".into())
 }
 

@@ -13,7 +13,7 @@ pub struct RestartArgs {
     /// The NC program, or - for standard input
     pub program: PathBuf,
     /// At the first change to this tool
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", value_parser = super::jobs::tool)]
     pub tool: Option<u32>,
     /// At the block with this number, or the last safe one before it
     #[arg(long, value_name = "N", value_parser = block)]
@@ -24,6 +24,9 @@ pub struct RestartArgs {
     /// At the first comment that has this text
     #[arg(long, value_name = "NAME")]
     pub operation: Option<String>,
+    /// Begin with the very block, though it is in a cut: down at feed [default: at the last place before it where the tool is clear]
+    #[arg(long)]
+    pub exactly: bool,
     /// A height above everything, in the work offset and the program's units, instead of the machine's zero
     #[arg(long, value_name = "HEIGHT", allow_negative_numbers = true)]
     pub clear_z: Option<f64>,

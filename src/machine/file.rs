@@ -264,8 +264,9 @@ impl Lengths<'_> {
     }
 
     fn reference(&self, said: &Spanned<Vec<f64>>, axes: &[Option<Axis>; 6], point: usize) -> Result<[f64; 6], Wrong> {
-        let to = self.list(said)?.map(|value| value.unwrap_or(0.0));
-        for (axis, value) in to.iter().enumerate() {
+        let given = self.list(said)?;
+        let to = given.map(|value| value.unwrap_or(0.0));
+        for (axis, value) in to.iter().enumerate().filter(|(axis, _)| given[*axis].is_some()) {
             let limits = axes[axis].as_ref().and_then(Axis::limits);
             if let Some([least, greatest]) = limits.filter(|[least, greatest]| !(*least..=*greatest).contains(value)) {
                 let factor = self.factor(axis);
@@ -333,7 +334,7 @@ impl Lengths<'_> {
                         return Err(wrong(start, format!("T{number} has no such size"), "write numbers"));
                     }
                     let [length, diameter] = sizes.map(|size| size.map(|size| size * self.scale));
-                    table.0.insert(number, Entry { length, diameter, name: tool.name });
+                    table.0.insert(number, Entry { length, diameter, name: tool.name, ..Entry::default() });
                     listed = true;
                 }
                 (other, _) => {

@@ -23,6 +23,8 @@ pub struct Entry {
     pub diameter: Option<f64>,
     /// What the shop calls it.
     pub name: Option<String>,
+    /// How far its tip is beside the spindle along X and Y, by LinuxCNC's table.
+    pub aside: [f64; 2],
 }
 
 /// What is wrong with a table: the line from 1, and what.
@@ -68,8 +70,10 @@ fn linuxcnc<'t>(lines: impl Iterator<Item = (usize, &'t str)>, scale: f64) -> Re
                 'T' => number = Some(value.parse::<u32>().map_err(|_| wrong())?),
                 'Z' => entry.length = Some(length().ok_or_else(wrong)?),
                 'D' => entry.diameter = Some(length().ok_or_else(wrong)?),
+                'X' => entry.aside[0] = length().ok_or_else(wrong)?,
+                'Y' => entry.aside[1] = length().ok_or_else(wrong)?,
                 // pockets, other axes, angles, orientation
-                'P' | 'X' | 'Y' | 'A' | 'B' | 'C' | 'U' | 'V' | 'W' | 'I' | 'J' | 'Q' => {
+                'P' | 'A' | 'B' | 'C' | 'U' | 'V' | 'W' | 'I' | 'J' | 'Q' => {
                     length().ok_or_else(wrong)?;
                 }
                 _ => return Err(wrong()),
@@ -119,6 +123,7 @@ fn csv(lines: &mut dyn Iterator<Item = (usize, &str)>, scale: f64) -> Result<Too
             length: value(length, "length")?,
             diameter: value(diameter, "diameter")?,
             name: cell(name).cloned(),
+            ..Entry::default()
         };
         put(&mut table, number, entry, at)?;
     }
@@ -178,7 +183,7 @@ mod tests {
     use super::*;
 
     fn row(number: u32, length: f64, diameter: Option<f64>, name: Option<&str>) -> (u32, Entry) {
-        (number, Entry { length: Some(length), diameter, name: name.map(str::to_owned) })
+        (number, Entry { length: Some(length), diameter, name: name.map(str::to_owned), ..Entry::default() })
     }
 
     #[test]

@@ -85,6 +85,21 @@ impl Simulator<'_> {
         [Group::Units, Group::FeedMode].map(|group| self.block.row(group).is_some())
     }
 
+    /// Axes to which the block says positions, as bits.
+    pub fn says_positions(&self) -> u8 {
+        self.state.said_positions(&self.block)
+    }
+
+    /// Does it add another length to the tool's?
+    pub fn adds_length(&self) -> bool {
+        self.block.g_meaning(Group::Length) == Some(Meaning::LengthAdd)
+    }
+
+    /// Are axis words positions?
+    pub fn is_absolute(&self) -> bool {
+        self.state.modes.absolute
+    }
+
     /// The line that is read next, where no subprogram or loop leads elsewhere.
     pub fn next_line(&self) -> u64 {
         self.at.line + 1

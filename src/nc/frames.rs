@@ -107,6 +107,18 @@ impl Frames {
         self.given[self.active]
     }
 
+    /// How far a work offset moves so that a place of the machine is at these values in it, where they are given.
+    pub fn to_stand(&self, number: usize, place: &Position, values: &[Option<f64>; 6]) -> Position {
+        if number >= self.work.len() {
+            return Position::default();
+        }
+        let own = Frames { active: number, ..self.clone() };
+        let at = own.to_program(place);
+        let mut by: Position = std::array::from_fn(|axis| values[axis].map_or(0.0, |value| at[axis] - value));
+        turn(&mut by, own.angle());
+        by
+    }
+
     /// The work offset of a number, if there is one.
     pub fn work(&mut self, number: usize) -> Option<(&mut Position, &mut f64)> {
         Some((self.work.get_mut(number)?, self.rotation.get_mut(number)?))

@@ -25,6 +25,13 @@ impl State {
         block.absolute & at != 0 || self.modes.absolute && block.incremental & at == 0
     }
 
+    /// Axes to which a block says positions, as bits.
+    pub(super) fn said_positions(&self, block: &Block) -> u8 {
+        let polar = if block.polar == [None; 2] { 0 } else { 0b11 };
+        let said = |axis: &usize| self.axis_word(block, *axis).is_some() && self.is_absolute(block, *axis);
+        (0..6).filter(said).fold(if self.modes.absolute { polar } else { 0 }, |said, axis| said | 1 << axis)
+    }
+
     /// Where a block's axis words lead, in program coordinates.
     #[inline]
     pub(super) fn target(&mut self, block: &Block) -> Done<Position> {

@@ -62,7 +62,9 @@ impl State {
         self.compensated(number == active, "a moved frame")?;
         let place = self.place.frames.to_machine(&self.place.position);
         let words: [Option<f64>; 6] = std::array::from_fn(|axis| self.axis_word(block, axis));
-        let (absolute, control, position) = (self.modes.absolute, self.control, self.place.position);
+        let (absolute, control) = (self.modes.absolute, self.control);
+        // so that the tool stands at the value, counted in that offset
+        let to_stand = self.place.frames.to_stand(number, &place, &words);
         let Some((work, rotation)) = self.place.frames.work(number) else {
             return refuse(Code::PN018, format!("there is no work offset P{p}"), "write P1 for G54");
         };
@@ -70,11 +72,13 @@ impl State {
         for (axis, value) in words.iter().enumerate() {
             let Some(value) = *value else { continue };
             work[axis] = match l == 20.0 && control.is_linuxcnc() {
-                // so that the tool stands at the value
-                true => work[axis] + position[axis] - value,
+                true => continue,
                 false if absolute || control.is_linuxcnc() => value,
                 false => work[axis] + value,
             };
+        }
+        if l == 20.0 && control.is_linuxcnc() {
+            work.iter_mut().zip(to_stand).for_each(|(work, by)| *work += by);
         }
         if let Some(angle) = block.get(b'R') {
             *rotation = angle;

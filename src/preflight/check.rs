@@ -5,7 +5,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 
 use super::clock::{Clock, Times};
 use super::fit::Fit;
-use super::place::{At, Base, Places};
+use super::place::{At, Base, Going, Places};
 use super::travel::Travels;
 use crate::control::{Control, Meaning};
 use crate::diag::{Code, Severity};
@@ -150,24 +150,31 @@ impl<'m> Check<'m> {
     fn item(&mut self, item: &Item, [said, hidden]: [u8; 2], run: &Simulator<'_>) {
         let line = (item.line, run.text());
         let before = self.places.at;
+        let going = |in_machine: u8, hidden: u8| Going {
+            in_machine,
+            said,
+            hidden,
+            says: run.says_positions(),
+            all_said: item.by_cycle && run.is_absolute(),
+        };
         self.pace.takes(&item.action);
         match &item.action {
-            Action::Rapid { to, machine, astray } => {
-                self.places.goes(to, [*machine, said, astray | hidden & machine], run);
+            Action::Rapid { to, machine, .. } => {
+                self.places.goes(to, going(*machine, hidden & machine), run);
                 self.clocks(|clock, after| clock.rapid(&before, after));
                 self.travels.moved(&self.places, None, self.tool, line);
                 self.fixtures(&before, line);
             }
             Action::Feed { to, feed, lead, machine, .. } => {
                 let from = self.places.program(run);
-                self.places.goes(to, [*machine, said, 0], run);
+                self.places.goes(to, going(*machine, 0), run);
                 self.travels.moved(&self.places, None, self.tool, line);
                 let feed = self.straight_feed(&from, to, (*feed, *lead), run, line);
                 self.clocks(|clock, after| clock.cut(&before, after, feed));
             }
             Action::Arc(turn) => {
                 let from = self.places.program(run);
-                self.places.goes(&turn.to, [turn.machine, said, 0], run);
+                self.places.goes(&turn.to, going(turn.machine, 0), run);
                 let ranges = self.places.extremes(&from, turn, run);
                 self.travels.moved(&self.places, Some(ranges), self.tool, line);
                 let (curve, feed) = self.arc_feed(&from, turn, run, line);
@@ -176,6 +183,7 @@ impl<'m> Check<'m> {
             Action::Tool(number) => {
                 self.changes_tool(*number, line);
                 let tool = self.tool;
+                self.places.changes_tool();
                 self.clocks(|clock, _| clock.change(tool));
             }
             Action::Dwell(seconds) => self.clocks(|clock, _| clock.dwell(*seconds)),
@@ -185,7 +193,10 @@ impl<'m> Check<'m> {
                 let tolerance = run.path_tolerance().map(|tolerance| tolerance * run.state().units().in_mm());
                 self.clocks(|clock, _| clock.follows(*code, tolerance));
             }
-            Action::Length(register) => self.takes_length(*register, line),
+            Action::Length(register) => {
+                self.places.adds = register.is_some() && (self.places.adds || run.adds_length());
+                self.takes_length(*register, line);
+            }
             Action::Work(_) => self.takes_offset(run, line),
             Action::Compensation(side) => self.was_compensated |= side.is_some(),
             Action::Coolant(kind) => {
@@ -445,6 +456,10 @@ impl<'m> Check<'m> {
             if self.no_reference[point] {
                 fit.not_checked.push(format!("where {name} goes: [reference] does not give it"));
             }
+        }
+        if self.places.astray {
+            fit.not_checked
+                .push("increments from a position that only the machine knows, as after a tool change".into());
         }
         if self.was_compensated {
             fit.not_checked

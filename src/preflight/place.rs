@@ -55,32 +55,66 @@ pub struct Places<'m> {
     pub register: Option<i32>,
     /// Lengths of a lathe's tools lie along X and Z.
     is_lathe: bool,
+    /// Lengths are added to one another: which is on is not followed.
+    pub adds: bool,
+    /// A tool was changed since the program said a height.
+    changed: bool,
+    /// An axis moved on from a position that is not known.
+    pub astray: bool,
+}
+
+/// What a block says of a move; axes as bits.
+#[derive(Clone, Copy, Debug)]
+pub struct Going {
+    /// Axes that stand at a place of the machine.
+    pub in_machine: u8,
+    /// Axes whose place of the machine the program says.
+    pub said: u8,
+    /// Axes that go to a place that the machine's file does not give.
+    pub hidden: u8,
+    /// Axes to which the block says positions.
+    pub says: u8,
+    /// Where it moves an axis, it says positions: a cycle whose words are.
+    pub all_said: bool,
 }
 
 impl<'m> Places<'m> {
     pub fn new(machine: &'m Machine, is_lathe: bool) -> Places<'m> {
         let at = [At { value: 0.0, base: Base::Unknown }; 6];
-        Places { machine, at, known: [0.0; 6], register: None, is_lathe }
+        Places { machine, at, known: [0.0; 6], register: None, is_lathe, adds: false, changed: false, astray: false }
     }
 
-    /// A move to a program position; `in_machine`: axes that stand at a place of the machine, `said`: those of them whose place
-    /// the program says, `astray`: those that increments have moved since.
-    pub fn goes(&mut self, to: &Position, [in_machine, said, astray]: [u8; 3], run: &Simulator<'_>) {
+    /// A move to a program position. What its block says of an axis as a position counts from the offset and the length that are
+    /// on; all else moves on from where the axis stands, whatever was on when it went there.
+    pub fn goes(&mut self, to: &Position, going: Going, run: &Simulator<'_>) {
         let known = run.state().in_machine_coordinates(to);
         let known: Position = std::array::from_fn(|axis| self.scaled(axis, known[axis], run));
         for (axis, known) in known.into_iter().enumerate() {
             let bit = 1 << axis;
-            self.at[axis] = if run.state().frame_unknown() & bit != 0 || astray & bit != 0 {
+            let moved = known - self.known[axis];
+            self.changed &= !(axis == 2 && going.says & bit != 0);
+            let says = going.says & bit != 0 || going.all_said && moved != 0.0;
+            self.at[axis] = if run.state().frame_unknown() & bit != 0 || going.hidden & bit != 0 {
                 At { base: Base::Unknown, ..self.at[axis] }
-            } else if in_machine & bit == 0 {
-                self.in_work(axis, known, run)
-            } else if said & bit != 0 {
+            } else if going.in_machine & going.said & bit != 0 {
                 At { value: known, base: Base::Machine }
+            } else if going.in_machine & bit == 0 && says {
+                self.in_work(axis, known, run)
             } else {
-                self.at[axis]
+                let At { value, mut base } = self.at[axis];
+                if axis == 2 && moved != 0.0 && self.changed {
+                    base = Base::Unknown;
+                }
+                self.astray |= base == Base::Unknown && moved != 0.0;
+                At { value: value + moved, base }
             };
         }
         self.known = known;
+    }
+
+    /// A tool is changed: how high it stands then only the machine knows, until the program says it.
+    pub fn changes_tool(&mut self) {
+        self.changed = !self.is_lathe;
     }
 
     /// Least and greatest position of each axis on an arc, which has begun where the tool stood; after [`Places::goes`].
@@ -99,7 +133,7 @@ impl<'m> Places<'m> {
             let start = start[axis] + shift[axis];
             [start.min(end[axis]), start.max(end[axis])]
         });
-        let [first, second, _] = axes_of(turn.plane);
+        let [first, second, across] = axes_of(turn.plane);
         let radius = (from[first] - turn.center[first]).hypot(from[second] - turn.center[second]);
         let begin = (from[second] - turn.center[second]).atan2(from[first] - turn.center[first]);
         let swept = sweep(from, turn);
@@ -113,17 +147,37 @@ impl<'m> Places<'m> {
             std::array::from_fn::<f64, 3, _>(|axis| at[axis] - centre[axis])
         };
         let (middle, u, v) = (machine(&centre), along(first), along(second));
+        // a helix: how far each axis goes besides for a radian
+        let rise: [f64; 3] = {
+            let mut raised = centre;
+            raised[across] = turn.to[across];
+            let mut level = centre;
+            level[across] = from[across];
+            let (raised, level) = (machine(&raised), machine(&level));
+            std::array::from_fn(|axis| if swept > 0.0 { sign * (raised[axis] - level[axis]) / swept } else { 0.0 })
+        };
+        let mut level = centre;
+        level[across] = from[across];
+        let middle = if rise == [0.0; 3] { middle } else { machine(&level) };
         for axis in 0..3 {
             let size = u[axis].hypot(v[axis]);
-            if size == 0.0 {
+            if size <= rise[axis].abs() {
                 continue;
             }
+            // where the sum of circle and rise stands still
             let peak = v[axis].atan2(u[axis]);
-            for (angle, value) in [(peak, size), (peak + std::f64::consts::PI, -size)] {
-                let ahead = (sign * (angle - begin)).rem_euclid(std::f64::consts::TAU);
-                if ahead < swept {
-                    let value = middle[axis] + value + shift[axis];
-                    ranges[axis] = [ranges[axis][0].min(value), ranges[axis][1].max(value)];
+            let aside = (rise[axis] / size).asin();
+            for angle in [peak + aside, peak + std::f64::consts::PI - aside] {
+                let first = (sign * (angle - begin)).rem_euclid(std::f64::consts::TAU);
+                let turns = ((swept - first) / std::f64::consts::TAU).floor();
+                // the first time and the last: those between lie between
+                for ahead in [first, std::f64::consts::TAU.mul_add(turns, first)] {
+                    if turns >= 0.0 && ahead < swept {
+                        let at = begin + sign * ahead;
+                        let value = middle[axis] + u[axis] * at.cos() + v[axis] * at.sin();
+                        let value = value + rise[axis] * sign * ahead + shift[axis];
+                        ranges[axis] = [ranges[axis][0].min(value), ranges[axis][1].max(value)];
+                    }
                 }
             }
         }
@@ -149,10 +203,20 @@ impl<'m> Places<'m> {
         // what rotary axes have no offset for counts from the machine's zero
         let offset_unknown = axis < 3 && !of_file && !given;
         let takes = if self.is_lathe { axis == 0 || axis == 2 } else { axis == 2 };
+        if self.adds && takes {
+            return At { value, base: Base::Unknown };
+        }
+        let aside = self.register.filter(|_| axis < 2).and_then(|register| self.aside(register)).unwrap_or([0.0; 2]);
+        let value = value + aside.get(axis).copied().unwrap_or(0.0);
         let register = self.register.filter(|register| takes && *register != 0);
         let length = register.map_or(Some(0.0), |register| self.length(register));
         let needs = Needs { work, offset_unknown, register, length_unknown: length.is_none() };
         At { value: value + length.unwrap_or(0.0), base: Base::Work(needs) }
+    }
+
+    /// How far a tool is beside the spindle, as LinuxCNC's table has it.
+    fn aside(&self, register: i32) -> Option<[f64; 2]> {
+        Some(self.machine.tools.as_ref().filter(|_| !self.is_lathe)?.0.get(&u32::try_from(register).ok()?)?.aside)
     }
 
     /// The length of a register, with its sign; of a mill alone: where a lathe's tool cuts, the machine's file does not say.

@@ -39,6 +39,50 @@ fn finds(program: &str, more: &str, expected: &[&str]) {
     }
 }
 
+/// What a block does not say as a position moves on from where the axis stands, whatever was on when it went there. Each was
+/// found beside LinuxCNC's interpreter, whose machine positions these are.
+#[test]
+fn what_a_block_does_not_say_stays_or_moves_on() {
+    let file = "control = \"linuxcnc\"\n[axes.X]\ntravel = [-1000, 1000]\n[axes.Y]\ntravel = [-1000, 1000]\n[axes.Z]\ntravel = [-1000, 1000]\n[axes.A]\ntravel = [10, 100]\n[reference]\nG28 = [-1, -2, -3]\n[offsets]\nG54 = [-100, -100, -100]\nG55 = [-200, -200, -200]\n[tools]\nfile = \"tool.tbl\"\n";
+    let table = "T1 Z10\nT2 Z50\nT3 Z66.5 Y-14.5\n";
+    let machine = read("m.toml", file, &|_| Ok(table.to_owned())).unwrap_or_else(|wrong| panic!("{wrong}"));
+    // the last row of an axis: from, to
+    let cases = [
+        ("G55\nG91 G0 X5", 'X', [-99.0, -94.0]),
+        ("F100 G55\nG91 G2 X5 Y0 I2.5 J0", 'X', [-99.0, -94.0]),
+        ("G43 H1\nG0 X5", 'Z', [-97.0, -97.0]),
+        ("G43 H1\nG0 Z5\nG49\nG91 G0 Z2", 'Z', [-85.0, -83.0]),
+        ("G91 G0 Z2\nG43 H1", 'Z', [-97.0, -95.0]),
+        ("G43 H3\nG0 X1 Y1 Z1", 'Y', [-113.5, -98.0]),
+        ("G10 L20 P2 X5\nG55\nG0 X1", 'X', [-103.0, -103.0]),
+        ("G10 L2 P1 R30\nG10 L20 P1 X5 Y7\nG0 X1 Y1 Z1", 'Y', [-105.196, -98.0]),
+    ];
+    for (blocks, axis, [from, to]) in cases {
+        let program = format!("G21 G90 G17 G94 G54\nG0 X1 Y2 Z3\n{blocks}\nM2\n");
+        let fitted = fitted(&program, &machine);
+        assert!(fitted.findings.is_empty(), "{blocks}: {:?}", fitted.findings);
+        let json = fitted.fit.json(&machine, control("linuxcnc"));
+        let rows = json["extents"].as_array().unwrap();
+        let row = rows.iter().rev().find(|row| row["axis"] == axis.to_string()).unwrap();
+        let near = |value: &serde_json::Value, own: f64| (value.as_f64().unwrap() - own).abs() < 1e-3;
+        assert!(near(&row["from"], from) && near(&row["to"], to), "{blocks}: {row}");
+    }
+    let far = fitted("G21 G90 G54\nG0 X1 Y2 Z3\nG53 G0 X-20 Y-20 Z-20\nG91 G0 X2000\nM2\n", &machine);
+    assert!(far.findings[0].message.contains("needs X1980"), "{:?}", far.findings);
+    for blocks in ["T1 M6\nG91 G0 Z2", "G43 H1\nG43.2 H2\nG0 Z1\nG91 Z1"] {
+        let fitted = fitted(&format!("G21 G90 G54\nG0 X1 Y2 Z3\n{blocks}\nM2\n"), &machine);
+        let said = fitted.fit.not_checked.join("; ");
+        assert!(said.contains("increments from a position that only the machine knows"), "{blocks}: {said}");
+    }
+    // a helix in G19 whose frame is turned: the machine's X has its least within it, by LinuxCNC at -6.3332 inch
+    let inch = "control = \"linuxcnc\"\nunits = \"inch\"\n[axes.X]\ntravel = [-100, 100]\n[offsets]\nG55 = [-4.12, -8.782, -3.94]\n";
+    let program = "G20 G90 G94 F9\nG10 L2 P2 R45\nG55 G0 X0 Y0 Z0\nG19\nG1 Y-0.23 Z-0.8892 X-1.5596\nG3 Y-0.3534165 Z-0.1860424 X-1.5196 J0.8381818 K0.5095253\nM2\n";
+    let turned = fitted(program, &read("m.toml", inch, &|_| Err(String::new())).unwrap());
+    let json = turned.fit.json(&read("m.toml", inch, &|_| Err(String::new())).unwrap(), control("linuxcnc"));
+    let least = json["extents"].as_array().unwrap().iter().find(|row| row["axis"] == "X").unwrap()["from"].as_f64();
+    assert!((least.unwrap() + 6.3332).abs() < 1e-3, "{json}");
+}
+
 #[test]
 fn an_axis_ends() {
     finds("G1 Z-10 F100", "", &[]);

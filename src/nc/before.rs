@@ -95,6 +95,15 @@ impl Simulator<'_> {
         self.block.g_meaning(Group::Length) == Some(Meaning::LengthAdd)
     }
 
+    /// Does it move a frame so that the tool is at its values?
+    pub fn presets(&self) -> bool {
+        match self.block.g_meaning(Group::Once) {
+            Some(Meaning::Preset) => true,
+            Some(Meaning::SetOffsets) => self.block.get(b'L') == Some(20.0),
+            _ => false,
+        }
+    }
+
     /// Are axis words positions?
     pub fn is_absolute(&self) -> bool {
         self.state.modes.absolute

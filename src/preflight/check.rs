@@ -198,6 +198,7 @@ impl<'m> Check<'m> {
                 self.takes_length(*register, line);
             }
             Action::Work(_) => self.takes_offset(run, line),
+            Action::Frame if run.presets() => self.places.reframed(),
             Action::Compensation(side) => self.was_compensated |= side.is_some(),
             Action::Coolant(kind) => {
                 self.cools(*kind, run, line);
@@ -377,7 +378,7 @@ impl<'m> Check<'m> {
     }
 
     fn takes_length(&mut self, register: Option<f64>, line: (u64, &[u8])) {
-        self.places.register = register.map(|register| register as i32);
+        self.places.takes_length(register);
         let (Some(register), Some(table)) =
             (self.places.register.filter(|register| *register != 0), &self.machine.tools)
         else {
@@ -456,6 +457,13 @@ impl<'m> Check<'m> {
             if self.no_reference[point] {
                 fit.not_checked.push(format!("where {name} goes: [reference] does not give it"));
             }
+        }
+        let unframed: String =
+            (0..3).filter(|axis| self.places.unframed & 1 << axis != 0).map(|axis| LETTERS[axis]).collect();
+        if !unframed.is_empty() {
+            fit.not_checked.push(format!(
+                "{unframed} after G92 or G10 named a position that only the machine knows: after G53, or before the first position under a length"
+            ));
         }
         if self.places.astray {
             fit.not_checked

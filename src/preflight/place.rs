@@ -59,6 +59,12 @@ pub struct Places<'m> {
     pub adds: bool,
     /// A tool was changed since the program said a height.
     changed: bool,
+    /// Axes whose position the program has not said since another length is on, as bits.
+    lengthened: u8,
+    /// Axes whose frame was moved then: what positions in it mean is not known here.
+    lost: u8,
+    /// Axes that positions in such a frame were said to.
+    pub unframed: u8,
     /// An axis moved on from a position that is not known.
     pub astray: bool,
 }
@@ -81,7 +87,19 @@ pub struct Going {
 impl<'m> Places<'m> {
     pub fn new(machine: &'m Machine, is_lathe: bool) -> Places<'m> {
         let at = [At { value: 0.0, base: Base::Unknown }; 6];
-        Places { machine, at, known: [0.0; 6], register: None, is_lathe, adds: false, changed: false, astray: false }
+        Places {
+            machine,
+            at,
+            known: [0.0; 6],
+            register: None,
+            is_lathe,
+            adds: false,
+            changed: false,
+            lengthened: 0,
+            lost: 0,
+            unframed: 0,
+            astray: false,
+        }
     }
 
     /// A move to a program position. What its block says of an axis as a position counts from the offset and the length that are
@@ -94,11 +112,14 @@ impl<'m> Places<'m> {
             let moved = known - self.known[axis];
             self.changed &= !(axis == 2 && going.says & bit != 0);
             let says = going.says & bit != 0 || going.all_said && moved != 0.0;
-            self.at[axis] = if run.state().frame_unknown() & bit != 0 || going.hidden & bit != 0 {
+            let lost = (run.state().frame_unknown() | self.lost) & bit;
+            self.unframed |= if says { lost } else { 0 };
+            self.at[axis] = if lost != 0 || going.hidden & bit != 0 {
                 At { base: Base::Unknown, ..self.at[axis] }
             } else if going.in_machine & going.said & bit != 0 {
                 At { value: known, base: Base::Machine }
             } else if going.in_machine & bit == 0 && says {
+                self.lengthened &= !bit;
                 self.in_work(axis, known, run)
             } else {
                 let At { value, mut base } = self.at[axis];
@@ -110,6 +131,17 @@ impl<'m> Places<'m> {
             };
         }
         self.known = known;
+    }
+
+    /// A length is turned on or off: until the program says a position again, its coordinates are not those of the simulator.
+    pub fn takes_length(&mut self, register: Option<f64>) {
+        self.register = register.map(|register| register as i32);
+        self.lengthened = 0b111;
+    }
+
+    /// A frame is moved so that the tool is at a value in it.
+    pub fn reframed(&mut self) {
+        self.lost |= self.lengthened;
     }
 
     /// A tool is changed: how high it stands then only the machine knows, until the program says it.

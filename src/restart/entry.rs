@@ -210,7 +210,7 @@ impl<'t> Search<'t> {
         } else if self.head.is_some() && depth == 0 && self.never.is_none() {
             let entry = self.entry_before(before, line, changes, run);
             if let Some(entry) = entry {
-                if is_asked || self.asked.is_none_or(|asked| entry.line <= asked) {
+                if is_asked || self.asked.is_none_or(|asked| entry.line <= asked && line > asked) {
                     (self.entry, self.kept) = (Some(entry), self.codes.len());
                 } else if self.next.is_none() {
                     self.next = Some(entry.line);

@@ -5,22 +5,41 @@ use std::fmt::Write as _;
 use super::entry::{Found, Switches};
 use super::{Refused, refuse};
 use crate::nc::{Action, Drilling, Item, RunError, RunSettings, Simulator, Standing};
+use crate::toolpath::Plane;
 
 /// How far positions may differ, in the program's units: text has six decimals.
 const SAME: f64 = 2e-6;
 
-/// Runs both programs side by side; how many moves they have in common.
-pub fn same(old: &[u8], new: &[u8], settings: RunSettings, found: &Found, head_lines: u64) -> Result<u64, Refused> {
+/// Runs both programs side by side; how many moves they have in common. `across`: the new one has gone to where the tool is at the
+/// entry, as far as that is known.
+pub fn same(
+    old: &[u8],
+    new: &[u8],
+    settings: RunSettings,
+    found: &Found,
+    (head_lines, across): (u64, bool),
+) -> Result<u64, Refused> {
     let mut old = Side::new(super::run(old, settings), found.entry.line);
     let mut new = Side::new(super::run(new, settings), head_lines + 1);
     // both as far as the entry
     old.reach("the program")?;
     new.reach("the new program")?;
     let mut moves = 0;
+    // where the program does not say again where to cut, both must cut where they were at the entry
+    let placed = across && found.entry.standing.unknown & 0b11 == 0;
     loop {
         let (one, other) = (old.next("the program")?, new.next("the new program")?);
         match (&one, &other) {
             (None, None) => break,
+            (Some(one), Some(_)) if !placed && one.cuts_unsaid() => {
+                return refuse(
+                    format!(
+                        "at line {} the program cuts at a position of X and Y that it says only before the entry",
+                        old.line()
+                    ),
+                    "begin at another place: where X and Y are said before the cut",
+                );
+            }
             (Some(one), Some(other)) if one.is_as(other) => moves += 1,
             _ => {
                 let text = |seen: &Option<Seen>| seen.as_ref().map_or("it is over".to_owned(), Seen::text);
@@ -108,6 +127,16 @@ impl Seen {
             on.length = own.length;
         }
         same && stands && on == *own
+    }
+
+    /// Does it cut where X or Y, or X or Z of a lathe, are those of a block before, counted from an unknown position?
+    fn cuts_unsaid(&self) -> bool {
+        let across = |machine: u8| machine & if self.standing.plane == Plane::Xz { 0b101 } else { 0b011 } != 0;
+        match &self.action {
+            Action::Feed { machine, .. } => across(*machine),
+            Action::Arc(turn) => across(turn.machine),
+            _ => false,
+        }
     }
 
     fn is_at_machine_height(&self) -> bool {

@@ -86,7 +86,7 @@ pub fn restart(mut program: impl Read + Seek, settings: RunSettings, asked: &Ask
     let found = entry::find(&text, settings, asked)?;
     let made = |way: Way| -> Result<Restarted, Refused> {
         let (new, head_lines, notes) = blocks::program(&text, settings.control, &found, asked, way)?;
-        let moves = follow::same(&text, &new, settings, &found, head_lines)?;
+        let moves = follow::same(&text, &new, settings, &found, (head_lines, way.across))?;
         Ok(Restarted { text: new, line: found.entry.line, asked: found.asked, notes, moves })
     };
     // to a change of the tool the spindle stands, and the tool stays where it is; else only where the blocks after it count on it

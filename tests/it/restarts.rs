@@ -165,6 +165,23 @@ fn what_was_never_said_is_not_written() {
     assert!(said.contains("along X first"), "{said}");
 }
 
+/// A cut whose X and Y are those of before the entry is one at the same place: the way in goes there, or there is none.
+#[test]
+fn a_cut_is_where_it_was() {
+    let folder = Folder::new("restart-where");
+    let program = "G21 G90 G94\nT1 M6\nG0 G54 X50. Y50. S1000 M3\nG43 H1 Z50.\nG1 Z-1. F100.\nG0 Z50.\nG0 G53 Z0.\nT2 M6\nG55\nS1000 M3\nG43 H2 Z2.\nG1 Z-5.\nG0 Z50.\nM30\n";
+    folder.write("a.nc", program);
+    let (new, _) = restarted(&folder, "fanuc", &["--tool", "2"]).unwrap();
+    assert!(way_in(&new, "T2 M6").contains("G54 / M5 / M9 / G0 X50. Y50."), "{new}");
+    folder.write("a.nc", program.replace("G0 G53 Z0.", "G0 G53 Z0.\nG53 X-10. Y-10."));
+    let said = restarted(&folder, "fanuc", &["--tool", "2"]).unwrap_err();
+    assert!(said.contains("cuts at a position of X and Y that it says only before the entry"), "{said}");
+    // what ends the program changes what is in force before it
+    folder.write("a.nc", "G21 G90 G17 G94\nG0 G56 X0 Y0 S1000 M3\nZ5.\nX10.\nM30\n");
+    let (new, _) = restarted(&folder, "grbl", &["--line", "5"]).unwrap();
+    assert!(way_in(&new, "M30").contains("G56 / S1000 M3"), "{new}");
+}
+
 /// Subprograms, a tool that is named long before its change, and lists of operations in a header.
 #[test]
 fn subprograms_and_tools_named_before_are_no_obstacle() {

@@ -124,7 +124,9 @@ impl Post {
 
     /// Properties of the form: the answers are [`Options::properties`].
     pub fn properties(&self) -> &[Property] {
-        &self.0.program.settings.properties
+        let all = &self.0.program.settings.properties;
+        // fields of tools come first, and are the job's
+        &all[all.iter().take_while(|property| property.of_tool().is_some()).count()..]
     }
 
     /// Does the form say the day or the time of printing? Then [`Options::clock`] gives them.

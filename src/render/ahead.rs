@@ -133,6 +133,7 @@ fn place_in_order(at: usize, count: usize, number: impl Fn(usize) -> Option<f64>
 pub fn tool_variables(tool: &Tool, shape: &Shape, want: &mut Want) {
     let settings = &shape.program.settings;
     want.set(VarId::Tool, tool.number);
+    want.properties.tool(settings, &tool.data);
     want.put(VarId::Toold, tool.diameter.map(|diameter| diameter * shape.scale));
     want.set(VarId::Lcomp, tool.length_offset.unwrap_or(tool.number + settings.lcomp));
     want.set(VarId::Dcomp, tool.diameter_offset.unwrap_or(tool.number + settings.dcomp));

@@ -23,6 +23,8 @@ pub struct Properties {
     of_job: Vec<Held>,
     /// The caller has said it: nothing else counts.
     fixed: Vec<bool>,
+    /// How many are fields of tools: the first ones.
+    of_tool: usize,
 }
 
 impl Properties {
@@ -40,7 +42,8 @@ impl Properties {
         for (row, _) in caller {
             fixed[usize::from(*row)] = true;
         }
-        Properties { of_job: now.clone(), now, fixed }
+        let of_tool = settings.properties.iter().take_while(|property| property.of_tool().is_some()).count();
+        Properties { of_job: now.clone(), now, fixed, of_tool }
     }
 
     /// A value.
@@ -60,8 +63,22 @@ impl Properties {
 
     /// An operation begins: what the one before has set is over.
     pub fn operation(&mut self) {
-        if self.now != self.of_job {
-            self.now.clone_from(&self.of_job);
+        let own = self.of_tool..;
+        if self.now[own.clone()] != self.of_job[own.clone()] {
+            self.now[own.clone()].clone_from_slice(&self.of_job[own]);
+        }
+    }
+
+    /// A tool gives what its fields say; what it does not have is empty.
+    pub fn tool(&mut self, settings: &Settings, data: &[(String, Given)]) {
+        for row in (0..self.of_tool).filter(|row| !self.fixed[*row]) {
+            let name = settings.properties[row].of_tool().unwrap_or_default();
+            let given = data.iter().find(|(own, _)| own.eq_ignore_ascii_case(name));
+            let text = given.map_or_else(String::new, |(_, given)| match given {
+                Given::Number(number) => number.to_string(),
+                Given::Text(text) => text.trim().to_owned(),
+            });
+            self.now[row] = Held { value: PropertyValue::Text(text), in_forms_units: false };
         }
     }
 

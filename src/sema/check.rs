@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use super::args::choice_of;
 use super::limits::Limits;
 use super::model::Form;
+use super::property::fields_of_tools;
 use super::settings::Settings;
 use super::upon_sets;
 use crate::control::Control;
@@ -90,7 +91,8 @@ impl Analysis {
         };
         let machine = find(CommandId::Machine).and_then(Machine::parse).unwrap_or_default();
         let units = find(CommandId::Units).and_then(UnitChoice::parse).unwrap_or_default();
-        self.form.settings = Settings { control: self.control, ..Settings::new(machine, units) };
+        let properties = fields_of_tools(self.files.iter().map(|file| file.text.as_str()));
+        self.form.settings = Settings { control: self.control, properties, ..Settings::new(machine, units) };
     }
 
     fn item(&mut self, item: &Head) {

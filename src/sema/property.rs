@@ -7,6 +7,43 @@ use super::store::Setting;
 use crate::lang::{TextVar, VarId, did_you_mean};
 use crate::span::Span;
 
+/// How many fields of tools a form may name.
+const MOST_FIELDS: usize = 24;
+/// What the name of a tool's field begins with.
+const OF_TOOL: &str = "tool.";
+
+impl Property {
+    /// The field of a job's tools that it stands for, as `holder`; `None`: the form declares it.
+    pub fn of_tool(&self) -> Option<&str> {
+        self.name.strip_prefix(OF_TOOL)
+    }
+}
+
+/// The fields of tools that texts name, as `[tool.holder]`: texts that each tool of a job gives under `data`, or does not have.
+pub(super) fn fields_of_tools<'t>(texts: impl Iterator<Item = &'t str>) -> Vec<Property> {
+    let mut fields: Vec<Property> = Vec::new();
+    for text in texts {
+        let lower = text.to_ascii_lowercase();
+        for (at, _) in lower.match_indices("[tool.") {
+            let rest = &lower[at + 1..];
+            let in_name = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
+            let name = &rest[..rest.find(|c| !in_name(c)).unwrap_or(rest.len())];
+            let own = &name[OF_TOOL.len()..];
+            let is_name = own.starts_with(|c: char| c.is_ascii_alphabetic()) && !own.contains('.');
+            if is_name && fields.len() < MOST_FIELDS && fields.iter().all(|field| field.name != name) {
+                fields.push(Property {
+                    name: name.to_owned(),
+                    kind: PropertyKind::Text,
+                    default: PropertyValue::Text(String::new()),
+                    text: format!("what the job says of its tool as `{own}`, under `data`"),
+                    span: Span::default(),
+                });
+            }
+        }
+    }
+    fields
+}
+
 /// How many properties a form may have.
 const MOST: usize = 64;
 /// How long a name may be.

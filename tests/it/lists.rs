@@ -366,3 +366,26 @@ fn a_rigid_tap_has_its_time() {
         program(&text, &job(&[(1, 54, tap)]))
     );
 }
+
+/// `[tool.holder]` is what the job says of the tool under `data`; what a tool does not have is empty, also after one that has it.
+#[test]
+fn fields_of_tools_are_those_of_the_tool() {
+    let jobs = [LINE, LINE, LINE].map(|path| path.to_owned());
+    let job = job(&[(1, 54, &jobs[0]), (1, 54, &jobs[1]), (2, 54, &jobs[2])]);
+    let data = "\"data\":{\"holder\":\"ER32\",\"stickout\":38.5},";
+    let job = job.replacen("{\"number\":1,", &format!("{{\"number\":1,{data}"), 1);
+    assert!(job.contains("ER32"), "{job}");
+    // a comment whose texts are all empty is left out
+    let list = "@for tool\n  (T[tool] [tool.holder] [Tool.Stickout])\n@end";
+    assert_eq!(lines(list, &job), ["(T1 ER32 38.5)"]);
+    let asked = "@for tool\n@if [tool.holder] = \"ER32\"\n  (T[tool] IN ER32)\n@elif [tool.holder]\n  (OTHER)\n@else\n  (T[tool] IN WHAT)\n@end\n@end";
+    assert_eq!(lines(asked, &job), ["(T1 IN ER32)", "(T2 IN WHAT)"]);
+    // at each operation, also the second of a tool
+    let form = mill("Units both\nX->4.>4\nY->4.>4\nZ->4.>4", "Operation\n(AT [tool.holder] [opname])\nEnd\n");
+    let printed = program(&form, &job);
+    let said: Vec<&String> = printed.iter().filter(|line| line.starts_with("(AT")).collect();
+    assert_eq!(said, ["(AT ER32 OP 0)", "(AT ER32 OP 1)", "(AT  OP 2)"], "{printed:?}");
+    // a name that is none is still said
+    let wrong = crate::support::check("StartCode\n(X [tool.])\nEnd\n");
+    assert!(wrong.diags.iter().any(|diag| diag.message.contains("`tool.` is no variable")), "{:?}", wrong.diags);
+}

@@ -29,7 +29,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
     }
     printed.into_iter().for_each(|row| asked[row] = true);
-    for (property, _) in properties.iter().zip(asked).filter(|(_, asked)| !asked) {
+    for (property, _) in properties.iter().zip(asked).filter(|(property, asked)| !asked && property.of_tool().is_none())
+    {
         diags.push(
             Diag::new(Code::PF710, format!("the property {} does nothing", property.name))
                 .at(property.span, "no line asks for it")

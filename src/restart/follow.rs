@@ -31,13 +31,13 @@ pub fn same(
         let (one, other) = (old.next("the program")?, new.next("the new program")?);
         match (&one, &other) {
             (None, None) => break,
-            (Some(one), Some(_)) if !placed && one.cuts_unsaid() => {
+            (Some(one), Some(_)) if !placed && one.goes_down_unsaid() => {
                 return refuse(
                     format!(
-                        "at line {} the program cuts at a position of X and Y that it says only before the entry",
+                        "at line {} the program goes down at a position of X and Y that it says only before the entry",
                         old.line()
                     ),
-                    "begin at another place: where X and Y are said before the cut",
+                    "begin at another place: where X and Y are said before the tool goes down",
                 );
             }
             (Some(one), Some(other)) if one.is_as(other) => moves += 1,
@@ -129,12 +129,15 @@ impl Seen {
         same && stands && on == *own
     }
 
-    /// Does it cut where X or Y, or X or Z of a lathe, are those of a block before, counted from an unknown position?
-    fn cuts_unsaid(&self) -> bool {
+    /// Does it go down, or cut, where X or Y (X or Z of a lathe) are those of a block before, counted from an unknown position?
+    fn goes_down_unsaid(&self) -> bool {
         let across = |machine: u8| machine & if self.standing.plane == Plane::Xz { 0b101 } else { 0b011 } != 0;
         match &self.action {
             Action::Feed { machine, .. } => across(*machine),
             Action::Arc(turn) => across(turn.machine),
+            Action::Rapid { machine, .. } => {
+                self.standing.plane != Plane::Xz && machine & 0b100 == 0 && across(*machine)
+            }
             _ => false,
         }
     }

@@ -75,11 +75,6 @@ impl Simulator<'_> {
         self.block.get(b'T').is_some()
     }
 
-    /// Does it say a height, as a position?
-    pub fn says_height(&self) -> bool {
-        self.block.get(b'Z').is_some() && self.state.standing().absolute
-    }
-
     /// Does it say its units, and what feeds count?
     pub fn says_modes(&self) -> [bool; 2] {
         [Group::Units, Group::FeedMode].map(|group| self.block.row(group).is_some())

@@ -64,21 +64,20 @@ impl State {
         let words: [Option<f64>; 6] = std::array::from_fn(|axis| self.axis_word(block, axis));
         let (absolute, control) = (self.modes.absolute, self.control);
         // so that the tool stands at the value, counted in that offset
-        let to_stand = self.place.frames.to_stand(number, &place, &words);
+        let stands = l == 20.0 && control.is_linuxcnc();
+        let to_stand = stands.then(|| self.place.frames.to_stand(number, &place, &words));
         let Some((work, rotation)) = self.place.frames.work(number) else {
             return refuse(Code::PN018, format!("there is no work offset P{p}"), "write P1 for G54");
         };
         let before = [*work, [*rotation; 6]];
-        for (axis, value) in words.iter().enumerate() {
-            let Some(value) = *value else { continue };
-            work[axis] = match l == 20.0 && control.is_linuxcnc() {
-                true => continue,
-                false if absolute || control.is_linuxcnc() => value,
-                false => work[axis] + value,
-            };
-        }
-        if l == 20.0 && control.is_linuxcnc() {
-            work.iter_mut().zip(to_stand).for_each(|(work, by)| *work += by);
+        match to_stand {
+            // a turned offset moves along both axes
+            Some(by) => work.iter_mut().zip(by).for_each(|(work, by)| *work += by),
+            None => {
+                for (work, value) in work.iter_mut().zip(words).filter_map(|(work, value)| Some((work, value?))) {
+                    *work = if absolute || control.is_linuxcnc() { value } else { *work + value };
+                }
+            }
         }
         if let Some(angle) = block.get(b'R') {
             *rotation = angle;

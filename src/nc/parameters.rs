@@ -10,7 +10,7 @@ use crate::diag::Code;
 const HIGHEST: usize = 9999;
 
 /// Parameters of a program, by number and by name.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Parameters {
     control: &'static Control,
     numbered: Vec<Option<f64>>,

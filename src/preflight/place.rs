@@ -102,8 +102,8 @@ impl<'m> Places<'m> {
         }
     }
 
-    /// A move to a program position. What its block says of an axis as a position counts from the offset and the length that are
-    /// on; all else moves on from where the axis stands, whatever was on when it went there.
+    /// A move to a program position. An axis to which the block gives a position goes to that position in the work offset and
+    /// with the tool length in force. Every other axis keeps its machine position, plus its increment.
     pub fn goes(&mut self, to: &Position, going: Going, run: &Simulator<'_>) {
         let known = run.state().in_machine_coordinates(to);
         let known: Position = std::array::from_fn(|axis| self.scaled(axis, known[axis], run));

@@ -229,7 +229,7 @@ impl<'t> Search<'t> {
         self.said.feed_mode |= feed_mode;
         self.moved = items.iter().any(|item| moves(&item.action));
         self.height_by_other |= items.iter().any(|item| matches!(item.action, Action::Length(_)));
-        self.height_by_other &= !(self.moved && run.says_height());
+        self.height_by_other &= !(self.moved && run.says_positions() & 0b100 != 0);
         for item in items {
             self.switches.follow(&item.action, run);
             match &item.action {

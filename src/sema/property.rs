@@ -35,7 +35,7 @@ pub(super) fn fields_of_tools<'t>(texts: impl Iterator<Item = &'t str>) -> Vec<P
                     name: name.to_owned(),
                     kind: PropertyKind::Text,
                     default: PropertyValue::Text(String::new()),
-                    text: format!("what the job says of its tool as `{own}`, under `data`"),
+                    text: format!("field `{own}` of the tool, from `data` in the job"),
                     span: Span::default(),
                 });
             }

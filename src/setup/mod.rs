@@ -120,7 +120,7 @@ pub struct ToolRow {
     pub diameter_register: Option<f64>,
     /// Its length in the machine, in the job's units.
     pub length: Option<f64>,
-    /// What the job says of it.
+    /// Its comment in the job.
     pub comment: Option<String>,
     /// What else the job has of it, by names of its own.
     pub data: serde_json::Map<String, serde_json::Value>,

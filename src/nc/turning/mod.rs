@@ -13,7 +13,7 @@ use super::codes::{Group, letters};
 use super::fault::{Done, refuse};
 use super::profiled::{How, Profiled};
 use super::state::State;
-use crate::control::Meaning;
+use crate::control::{Meaning, Row};
 use crate::diag::Code;
 use crate::toolpath::Units;
 
@@ -33,7 +33,7 @@ impl State {
                     let message = format!("{} with R, for profiles that go back on themselves", row.code);
                     return refuse(Code::PN016, message, "cut the pocket by a cycle of its own, or write its moves");
                 }
-                let how = self.how(row.meaning, block)?;
+                let how = self.how(row, block)?;
                 Ok(Some(Profiled { first, last, how }))
             }
             Meaning::FacePecks | Meaning::GroovePecks => self.turning_pecks(row, block, out).map(|()| None),
@@ -59,10 +59,10 @@ impl State {
         Ok(())
     }
 
-    fn how(&self, meaning: Meaning, block: &Block) -> Done<How> {
+    fn how(&self, row: &Row, block: &Block) -> Done<How> {
         let half = if self.modes.diameter { 0.5 } else { 1.0 };
         let left = [block.get(b'U').unwrap_or(0.0) * half, block.get(b'W').unwrap_or(0.0)];
-        Ok(match meaning {
+        Ok(match row.meaning {
             Meaning::Finish => How::Finish,
             Meaning::RoughPattern => {
                 let [x, z, count] = self.turning.pattern;
@@ -84,7 +84,14 @@ impl State {
                     let help = format!("{code} {letter}2. R1. before it; on a Haas D in its block");
                     return refuse(Code::PN007, message, help);
                 };
-                How::Passes { across, depth, back: back.unwrap_or_else(|| self.usual_back()), left }
+                // the one block of a Haas does not say it
+                let one_block = row.words.has(b'D');
+                let Some(back) = back.or_else(|| one_block.then(|| self.usual_back())) else {
+                    let message =
+                        format!("{code} does not say how far a pass goes back: a parameter of the control does");
+                    return refuse(Code::PN007, message, format!("{code} {letter}2. R1. before it"));
+                };
+                How::Passes { across, depth, back, left }
             }
         })
     }

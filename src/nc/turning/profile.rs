@@ -127,10 +127,11 @@ impl Simulator<'_> {
     /// Runs the blocks of a profile aside, and gives what they cut.
     fn read_profile(&mut self, found: &Found) -> Result<Profile, RunError> {
         self.go(found.begin)?;
-        let mut aside = self.state.clone();
+        // what it computes is computed once: where it is run for good
+        let (mut aside, mut parameters) = (self.state.clone(), self.parameters.clone());
         let (mut items, mut reading) = (Vec::new(), Reading::default());
         while self.at.byte < found.end.byte && self.read_line()? {
-            let read = self.block.read(&self.line, &mut self.parameters, &self.state.settings);
+            let read = self.block.read(&self.line, &mut parameters, &self.state.settings);
             let run = read.and_then(|()| match self.block.flow.take() {
                 Some(_) => refuse(Code::PN016, "a jump or a call in a profile", "write its moves"),
                 None => match aside.run(&mut self.block, self.at.line, &mut items)? {

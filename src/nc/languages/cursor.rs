@@ -94,6 +94,42 @@ impl<'a> Cursor<'a> {
         Some(taken)
     }
 
+    /// Passes over the digits that are next.
+    pub fn pass_digits(&mut self) {
+        let length = self.rest().iter().take_while(|byte| byte.is_ascii_digit()).count();
+        self.goes_to(self.at + length);
+    }
+
+    /// A word of one letter and its number, as `X12.5`: the letter in capital form. Nothing is taken of `X=5`, `X1=5` or `X+Q5`.
+    pub fn word(&mut self) -> Option<(u8, f64)> {
+        let [letter, next, ..] = *self.rest() else { return None };
+        if !letter.is_ascii_alphabetic() || next.is_ascii_alphabetic() {
+            return None;
+        }
+        let (number, end) = signed(self.text, self.at + 1)?;
+        let before = self.at;
+        self.goes_to(end);
+        if self.peek() == Some(b'=') {
+            self.at = before;
+            return None;
+        }
+        Some((letter.to_ascii_uppercase(), number.value))
+    }
+
+    /// Is the rest of the block words of one letter, and the first of them a code G or an axis? It then sets no variable, has no
+    /// label and calls nothing.
+    pub fn is_words(&self) -> bool {
+        let [letter, next, ..] = *self.rest() else { return false };
+        matches!(letter, b'G' | b'X' | b'Y' | b'Z' | b'A' | b'B' | b'C')
+            && matches!(next, b'0'..=b'9' | b'+' | b'-' | b'.')
+            && memchr::memchr2(b'=', b':', self.rest()).is_none()
+    }
+
+    /// Do these bytes, in capital letters, come next, in capital or small letters?
+    pub fn is_next(&self, capitals: &[u8]) -> bool {
+        self.rest().get(..capitals.len()).is_some_and(|next| next.eq_ignore_ascii_case(capitals))
+    }
+
     /// A number without a sign.
     pub fn unsigned(&mut self) -> Option<f64> {
         let (number, end) = unsigned(self.text, self.at)?;

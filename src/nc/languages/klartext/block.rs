@@ -10,8 +10,17 @@ use crate::nc::block::Block;
 use crate::nc::codes::{group, takes_axes};
 use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::state::State;
+use crate::toolpath::Side;
 
 const FEED_WANTED: &str = "write F with it, or FMAX; after a cycle too: no feed is known there";
+
+/// Words of a polar position: whether it is the angle, and an increment.
+const POLAR: [(&[u8], bool, bool); 4] =
+    [(b"PR", false, false), (b"PA", true, false), (b"IPR", false, true), (b"IPA", true, true)];
+
+/// Words of the tool's side.
+const SIDES: [(&[u8], Side, Meaning); 2] =
+    [(b"RL", Side::Left, Meaning::SideLeft), (b"RR", Side::Right, Meaning::SideRight)];
 
 /// Reads a block.
 pub struct Words<'s> {
@@ -99,9 +108,14 @@ impl Words<'_> {
         let (mut moves, mut calls) = (false, false);
         while !cursor.is_over() {
             let begin = cursor.at();
-            let rest = cursor.rest().to_ascii_uppercase();
             let is_polar = matches!(path, Path::Polar | Path::PolarArc);
-            if rest.starts_with(b"DR") {
+            if let Some((axis, value, by)) = self.axis(cursor)? {
+                moves = true;
+                let control = self.state.settings.control;
+                self.block.word(letters[axis], value, false, begin, control)?;
+                let marked = if by { &mut self.block.incremental } else { &mut self.block.absolute };
+                *marked |= 1 << axis;
+            } else if cursor.is_next(b"DR") {
                 *cursor = cursor.from(begin + 2);
                 turns_left = Some(match cursor.peek() {
                     Some(b'+') => true,
@@ -109,53 +123,32 @@ impl Words<'_> {
                     _ => return Err(cursor.unreadable()),
                 });
                 *cursor = cursor.from(cursor.at() + 1);
-            } else if is_polar
-                && (rest.starts_with(b"PR")
-                    || rest.starts_with(b"PA")
-                    || rest.starts_with(b"IPR")
-                    || rest.starts_with(b"IPA"))
-            {
-                let by = rest[0] == b'I';
-                let is_angle = rest[1 + usize::from(by)] == b'A';
-                *cursor = cursor.from(begin + 2 + usize::from(by));
-                polar[usize::from(is_angle)] = Some((self.number(cursor)?, by));
-            } else if let Some((axis, value, by)) = self.axis(cursor)? {
-                moves = true;
-                let control = self.state.settings.control;
-                self.block.word(letters[axis], value, false, begin, control)?;
-                let marked = if by { &mut self.block.incremental } else { &mut self.block.absolute };
-                *marked |= 1 << axis;
-            } else if rest.starts_with(b"RND") {
+            } else if let Some((name, is_angle, by)) = POLAR.iter().find(|word| is_polar && cursor.is_next(word.0)) {
+                *cursor = cursor.from(begin + name.len());
+                polar[usize::from(*is_angle)] = Some((self.number(cursor)?, *by));
+            } else if cursor.is_next(b"RND") {
                 return Err(cursor.unreadable());
-            } else if rest.starts_with(b"R0") {
+            } else if cursor.is_next(b"R0") {
                 *cursor = cursor.from(begin + 2);
                 if self.state.tool.side.is_some() {
                     self.code(Meaning::SideOff)?;
                 }
-            } else if path == Path::Radius
-                && rest.first() == Some(&b'R')
-                && !rest.starts_with(b"RL")
-                && !rest.starts_with(b"RR")
-            {
+            } else if let Some((name, side, meaning)) = SIDES.iter().find(|word| cursor.is_next(word.0)) {
+                *cursor = cursor.from(begin + name.len());
+                if self.state.tool.side != Some(*side) {
+                    self.code(*meaning)?;
+                }
+            } else if path == Path::Radius && cursor.is_next(b"R") {
                 *cursor = cursor.from(begin + 1);
                 radius = Some(self.number(cursor)?);
-            } else if rest.starts_with(b"RL") || rest.starts_with(b"RR") {
-                *cursor = cursor.from(begin + 2);
-                let (side, meaning) = match rest[1] {
-                    b'L' => (crate::toolpath::Side::Left, Meaning::SideLeft),
-                    _ => (crate::toolpath::Side::Right, Meaning::SideRight),
-                };
-                if self.state.tool.side != Some(side) {
-                    self.code(meaning)?;
-                }
-            } else if rest.first() == Some(&b'F') {
+            } else if cursor.is_next(b"F") {
                 *cursor = cursor.from(begin + 1);
                 rapid |= self.feed(cursor)?;
-            } else if rest.starts_with(b"M140") {
+            } else if cursor.is_next(b"M140") {
                 *cursor = cursor.from(begin + 4);
                 self.back_along_tool(cursor)?;
                 (rapid, moves) = (true, true);
-            } else if rest.first() == Some(&b'M') {
+            } else if cursor.is_next(b"M") {
                 calls |= self.switch(cursor)?;
             } else {
                 return Err(cursor.unreadable());

@@ -1,8 +1,9 @@
 //! Blocks and the way through them: labels, parts that are repeated, conditions.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
-use super::super::cursor::Cursor;
+use super::super::cursor::{Cursor, capitals};
 use super::block::{Path, Words};
 use super::is_parameter;
 use crate::diag::Code;
@@ -15,16 +16,20 @@ use crate::nc::way::{Frame, Jump, Search, Spot};
 pub fn skip_number(cursor: &mut Cursor<'_>) {
     if cursor.takes(b"/") {
         skip_number(cursor);
-    } else if cursor.peek().is_some_and(|byte| byte.is_ascii_digit()) {
-        cursor.unsigned();
+    } else {
+        cursor.pass_digits();
     }
 }
 
 /// Without its comment; a decimal comma is a point.
-fn plain(line: &[u8]) -> Vec<u8> {
+fn plain(line: &[u8]) -> Cow<'_, [u8]> {
+    let line = line.trim_ascii_end();
+    if memchr::memchr2(b',', b';', line).is_none() {
+        return Cow::Borrowed(line);
+    }
     let mut quoted = false;
     let mut plain = Vec::with_capacity(line.len());
-    for byte in line.trim_ascii_end() {
+    for byte in line {
         match byte {
             b'"' => quoted = !quoted,
             b';' if !quoted => break,
@@ -32,7 +37,7 @@ fn plain(line: &[u8]) -> Vec<u8> {
         }
         plain.push(if *byte == b',' && !quoted { b'.' } else { *byte });
     }
-    plain
+    Cow::Owned(plain)
 }
 
 /// The label that a line sets: `LBL 5`, `LBL "POCKET"`.
@@ -110,7 +115,7 @@ impl Simulator<'_> {
                 if !self.read_line()? {
                     break;
                 }
-                *block = plain(&self.line);
+                *block = plain(&self.line).into_owned();
                 let is_text = block.trim_ascii().is_empty() || block.contains(&b'*');
                 if !is_text {
                     break;
@@ -133,9 +138,17 @@ impl Simulator<'_> {
     /// Reads the line into the block; a jump where there is nothing for the control to do.
     pub(in crate::nc) fn read_klartext(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
-        let text = plain(&self.line);
-        if let Some(at) = self.line.iter().position(|byte| *byte == b';') {
-            self.block.comment = Some((at + 1, self.line.trim_ascii_end().len().max(at + 1)));
+        let line = std::mem::take(&mut self.line);
+        let jump = self.klartext_line(&line, items);
+        self.line = line;
+        jump
+    }
+
+    fn klartext_line(&mut self, line: &[u8], items: &mut Vec<Item>) -> Done<Option<Jump>> {
+        let text = plain(line);
+        let end = line.trim_ascii_end().len();
+        if let Some(at) = memchr::memchr(b';', line) {
+            self.block.comment = Some((at + 1, end.max(at + 1)));
         }
         let mut cursor = Cursor::new(&text, 0);
         let deleted = cursor.peek() == Some(b'/');
@@ -151,9 +164,8 @@ impl Simulator<'_> {
         }
         if cursor.takes(b"*") {
             // the heading of a part
-            let start = cursor.at();
-            self.block.comment =
-                Some((start.min(self.line.len()), self.line.trim_ascii_end().len().max(start.min(self.line.len()))));
+            let start = cursor.at().min(line.len());
+            self.block.comment = Some((start, end.max(start)));
             return Ok(None);
         }
         self.blocks += 1;
@@ -163,9 +175,9 @@ impl Simulator<'_> {
     fn klartext_block(&mut self, cursor: &mut Cursor<'_>) -> Done<Option<Jump>> {
         let begin = cursor.at();
         let Some(word) = cursor.letters() else { return Err(cursor.unreadable()) };
-        let word = String::from_utf8_lossy(word).to_ascii_uppercase();
+        let word = capitals(word);
         let mut words = Words { own: &mut self.klartext, state: &self.state, block: &mut self.block };
-        match word.as_str() {
+        match word.as_ref() {
             "BEGIN" => {
                 if words.own.begun {
                     let help = "give each program a file of its own";
@@ -420,15 +432,14 @@ fn turns_nothing(cursor: &mut Cursor<'_>) -> bool {
 
 /// Is the first line here a rounding or chamfer? `None`: it is not here as a whole.
 fn is_corner(text: &[u8]) -> Option<bool> {
-    let line = match text.iter().position(|byte| *byte == b'\n') {
+    let line = match memchr::memchr(b'\n', text) {
         Some(end) => &text[..end],
         None if text.len() >= 64 => text,
         None => return None,
     };
     let mut cursor = Cursor::new(line, 0);
     skip_number(&mut cursor);
-    let rest = cursor.rest();
-    Some(rest.get(..3).is_some_and(|word| word.eq_ignore_ascii_case(b"RND") || word.eq_ignore_ascii_case(b"CHF")))
+    Some(cursor.is_next(b"RND") || cursor.is_next(b"CHF"))
 }
 
 /// `END PGM` ends the program as M30 does.

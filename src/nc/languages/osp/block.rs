@@ -61,6 +61,9 @@ impl Words<'_> {
 
     fn word(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let column = cursor.at();
+        if let Some((letter, value)) = cursor.word() {
+            return self.put(letter, value, column);
+        }
         let Some(letters) = cursor.letters() else { return Err(cursor.unreadable()) };
         let name = capitals(letters);
         let control = self.state.settings.control;
@@ -90,10 +93,14 @@ impl Words<'_> {
             true => self.value(cursor)?,
             false => cursor.signed().ok_or_else(|| cursor.unreadable())?,
         };
+        self.put(*letter, value, column)
+    }
+
+    fn put(&mut self, letter: u8, value: f64, column: usize) -> Done {
         match letter {
             b'G' => self.g_word(value, column),
             b'M' => self.m_word(value, column),
-            _ => self.block.word(*letter, value, false, column, control),
+            _ => self.block.word(letter, value, false, column, self.state.settings.control),
         }
     }
 

@@ -13,13 +13,16 @@ use crate::nc::way::{Frame, Jump, Search, Spot};
 
 /// Where the first comment of a line stands; its closing mark may be missing at the end.
 fn comment(line: &[u8]) -> Option<(usize, usize)> {
-    let open = line.iter().position(|byte| *byte == b'(')?;
+    let open = memchr::memchr(b'(', line)?;
     let close = line[open..].iter().position(|byte| *byte == b')').map(|at| open + at);
     Some((open + 1, close.unwrap_or(line.trim_ascii_end().len())))
 }
 
 /// The line with blanks for its comments.
-fn plain(line: &[u8]) -> Vec<u8> {
+fn plain(line: &[u8]) -> Cow<'_, [u8]> {
+    if memchr::memchr(b'(', line).is_none() {
+        return Cow::Borrowed(line.trim_ascii_end());
+    }
     let mut inside = false;
     let blank = |byte: &u8| {
         inside |= *byte == b'(';
@@ -29,11 +32,12 @@ fn plain(line: &[u8]) -> Vec<u8> {
     };
     let mut plain: Vec<u8> = line.iter().map(blank).collect();
     plain.truncate(plain.trim_ascii_end().len());
-    plain
+    Cow::Owned(plain)
 }
 
 /// The name of a program that begins: `O100` alone in its block.
 fn program(line: &[u8]) -> Option<String> {
+    memchr::memchr2(b'O', b'o', line)?; // most lines have none
     let line = plain(line);
     let line = line.trim_ascii();
     let is_name =
@@ -43,26 +47,26 @@ fn program(line: &[u8]) -> Option<String> {
 
 /// The name of a block, `N10`, `NLOOP`, which a blank ends. Leading zeros of a number do not count.
 fn block_name(cursor: &mut Cursor<'_>) -> Option<String> {
-    let name = pass_block_name(cursor)?;
+    let name = capitals(pass_block_name(cursor)?);
     let number = name.get(1..)?.parse::<u32>().ok();
     Some(number.map_or_else(|| name.to_string(), |number| format!("N{number}")))
 }
 
-/// Passes over the name of a block, which is as it stands, in capital letters.
-fn pass_block_name<'l>(cursor: &mut Cursor<'l>) -> Option<Cow<'l, str>> {
+/// Passes over the name of a block, which is as it stands.
+fn pass_block_name<'l>(cursor: &mut Cursor<'l>) -> Option<&'l [u8]> {
     let rest = cursor.rest();
     if !rest.first()?.eq_ignore_ascii_case(&b'N') {
         return None;
     }
-    let length = rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count();
-    let name = capitals(&rest[..length]);
-    let numbered = rest[1..].iter().take_while(|byte| byte.is_ascii_digit()).count();
     // `N10G0`, and words as NCYL
-    let (name, length) = match numbered {
-        0 if matches!(name.as_ref(), "NCYL" | "NOEX") => return None,
-        0 => (name, length),
-        _ => (capitals(&rest[..=numbered]), numbered + 1),
+    let length = match rest[1..].iter().take_while(|byte| byte.is_ascii_digit()).count() {
+        0 => rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count(),
+        numbered => 1 + numbered,
     };
+    let name = &rest[..length];
+    if [b"NCYL", b"NOEX"].iter().any(|word| name.eq_ignore_ascii_case(*word)) {
+        return None;
+    }
     *cursor = cursor.from(cursor.at() + length);
     Some(name)
 }
@@ -76,14 +80,21 @@ impl Simulator<'_> {
             return Ok(Some(Jump::On)); // the head of a transfer
         }
         self.block.comment = comment(&self.line);
-        let text = plain(&self.line);
-        if program(&text).is_some() {
+        let line = std::mem::take(&mut self.line);
+        let jump = self.osp_line(&plain(&line), items);
+        self.line = line;
+        jump
+    }
+
+    /// A line without its comments.
+    fn osp_line(&mut self, line: &[u8], items: &mut Vec<Item>) -> Done<Option<Jump>> {
+        if program(line).is_some() {
             return match self.frames.last() {
                 Some(Frame::Call { .. }) => refuse(Code::PN015, "the subprogram has no end", "end it with RTS"),
                 _ => Ok(Some(Jump::On)),
             };
         }
-        let mut cursor = Cursor::new(&text, 0);
+        let mut cursor = Cursor::new(line, 0);
         let mut deleted = cursor.takes(b"/");
         pass_block_name(&mut cursor);
         deleted |= cursor.takes(b"/");
@@ -97,7 +108,9 @@ impl Simulator<'_> {
             return Ok(self.block.comment.is_none().then_some(Jump::On));
         }
         self.blocks += 1;
-        if let Some(jump) = self.osp_way(&mut cursor)? {
+        if !cursor.is_words()
+            && let Some(jump) = self.osp_way(&mut cursor)?
+        {
             return Ok(Some(jump));
         }
         let mut words = Words { own: &mut self.osp, state: &self.state, block: &mut self.block, said: Said::default() };

@@ -68,6 +68,9 @@ impl Words<'_> {
 
     fn word(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let column = cursor.at();
+        if let Some((letter, value)) = cursor.word() {
+            return self.put(letter, value, column);
+        }
         let Some(letters) = cursor.letters() else { return Err(cursor.unreadable()) };
         let control = self.state.settings.control;
         if let [letter] = letters {

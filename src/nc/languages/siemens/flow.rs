@@ -2,7 +2,7 @@
 
 use super::super::cursor::{Cursor, capitals};
 use super::block::Words;
-use super::head::{Head, head, section, without_comment};
+use super::head::{Head, head, number, section, without_comment};
 use super::ways::Siemens;
 use crate::diag::Code;
 use crate::nc::action::{Action, Item};
@@ -89,8 +89,14 @@ impl Simulator<'_> {
             }
             items.push(Item { line: self.at.line, by_cycle: false, action: Action::BlockDelete });
         }
+        let mut cursor = number(line).1;
+        if cursor.is_words() {
+            self.block.is_empty = false;
+            let mut words = Words { own: &mut self.siemens, state: &self.state, block: &mut self.block };
+            return words.read(&mut cursor).map(|()| None);
+        }
         let head = head(line);
-        let mut cursor = Cursor::new(line, head.start);
+        cursor = cursor.from(head.start);
         if cursor.is_over() {
             return Ok(None);
         }

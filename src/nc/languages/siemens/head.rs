@@ -44,10 +44,8 @@ pub fn without_comment(line: &[u8]) -> (&[u8], Option<(usize, usize)>) {
     (line, None)
 }
 
-/// Reads the beginning of a line.
-pub fn head(line: &[u8]) -> Head<'_> {
-    let (line, _) = without_comment(line);
-    let mut head = Head::default();
+/// The number of a line, and what stands behind it.
+pub fn number(line: &[u8]) -> (Option<f64>, Cursor<'_>) {
     let mut cursor = Cursor::new(line, 0);
     while cursor.peek() == Some(b'/') {
         cursor.takes(b"/");
@@ -56,12 +54,18 @@ pub fn head(line: &[u8]) -> Head<'_> {
         }
     }
     let is_number = |text: &[u8]| text.len() > 1 && matches!(text[0], b'N' | b'n' | b':') && text[1].is_ascii_digit();
-    if is_number(cursor.rest()) {
-        let begin = cursor.at();
-        cursor.takes(&line[begin..=begin]);
-        head.number = Some(cursor.unsigned().unwrap_or(0.0));
+    if !is_number(cursor.rest()) {
+        return (None, cursor);
     }
-    head.start = cursor.at();
+    cursor = cursor.from(cursor.at() + 1);
+    let number = cursor.unsigned().unwrap_or(0.0);
+    (Some(number), cursor)
+}
+
+/// Reads the beginning of a line.
+pub fn head(line: &[u8]) -> Head<'_> {
+    let (number, mut cursor) = number(without_comment(line).0);
+    let mut head = Head { number, start: cursor.at(), ..Head::default() };
     if let Some(name) = cursor.name() {
         let name = capitals(name);
         if cursor.peek() == Some(b':') && cursor.rest().get(1) != Some(&b'=') {
@@ -84,7 +88,8 @@ pub fn section(line: &[u8]) -> Option<String> {
         let name = name.strip_suffix("_SPF").or(name.strip_suffix("_MPF")).unwrap_or(&name).to_owned();
         return Some(name);
     } else {
-        let head = head(line);
+        // most lines have no P
+        let head = memchr::memchr2(b'P', b'p', text).map(|_| head(line))?;
         if head.word != "PROC" {
             return None;
         }

@@ -28,8 +28,31 @@ pub struct FirstBlock {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Threads {
     first: Option<FirstBlock>,
-    /// Where a pass of G90, G92 or G94 ends, radius and Z, and its taper.
-    pub(super) pass: Option<[f64; 3]>,
+    /// The last pass of G90, G92 or G94.
+    pass: Option<Pass>,
+}
+
+/// A pass: the blocks after it say what is another.
+#[derive(Clone, Copy, Debug)]
+struct Pass {
+    /// Whether it was made by G90, G92 or G94.
+    made_by: Meaning,
+    /// Where it ends: radius and Z.
+    end: [f64; 2],
+    /// How much farther out it begins than it ends.
+    taper: f64,
+}
+
+impl Threads {
+    /// A code that is no pass ends what passes keep: one of another motion, or one that is in force in its block alone, but for
+    /// a dwell.
+    pub(super) fn end_passes(&mut self, by: Option<Meaning>) {
+        let goes_on =
+            matches!(by, None | Some(Meaning::Dwell | Meaning::TurnPass | Meaning::FacePass | Meaning::ThreadPass));
+        if !goes_on {
+            self.pass = None;
+        }
+    }
 }
 
 impl State {
@@ -63,6 +86,33 @@ impl State {
         Ok(())
     }
 
+    /// Where a pass goes, from the words of its block and those of the pass before: its end, and its taper.
+    pub(super) fn pass_end(&mut self, does: Meaning, block: &Block) -> Done<([f64; 6], f64)> {
+        let mut end = self.target(block)?;
+        let says = [letters("XU"), letters("ZW")].map(|words| block.has(words));
+        let taper = block.get(b'R').or(block.get(b'I'));
+        let code =
+            block.row(Group::Motion).or(self.modes.motion).map_or("a pass".to_owned(), |row| row.code.to_string());
+        let kept = self.threads.pass.filter(|pass| pass.made_by == does);
+        for (at, name) in ["X", "Z"].into_iter().enumerate().filter(|(at, _)| !says[*at]) {
+            let Some(kept) = kept else {
+                let message = format!("{code} does not say its {name}, and no pass of its own stands before it");
+                return refuse(Code::PN007, message, format!("write {name} with it, or {}", ["U", "W"][at]));
+            };
+            end[2 * at] = kept.end[at];
+            self.place.at_machine &= !(1 << (2 * at));
+        }
+        // whether the taper of the pass before stays is another thing from control to control where the code is written again
+        let before = self.threads.pass.map_or(0.0, |pass| pass.taper);
+        if taper.is_none() && before != 0.0 && block.row(Group::Motion).is_some() {
+            let message = format!("{code} again after a tapered pass, and without its taper");
+            return refuse(Code::PN016, message, "write R with it, R0. for none");
+        }
+        let taper = taper.unwrap_or(before);
+        self.threads.pass = Some(Pass { made_by: does, end: [end[0], end[2]], taper });
+        Ok((end, taper))
+    }
+
     /// G32: a cut that follows the spindle. G92: a pass and the way back. G76: all passes.
     pub(super) fn lathe_thread(&mut self, does: Meaning, block: &Block, out: &mut Out<'_>) -> Done {
         if self.drive.spindle == Rotation::Stop {
@@ -76,23 +126,18 @@ impl State {
         }
         let lead = Some(self.drive.feed);
         let (begin, unsaid) = (self.place.position, self.place.at_machine);
-        let mut end = self.target(block)?;
         if does == Meaning::Thread {
+            let end = self.target(block)?;
             self.place.feed_to(end, self.drive.feed, lead, out);
             return Ok(());
         }
-        let mut taper = block.get(b'R').or(block.get(b'I')).unwrap_or(0.0);
-        if does == Meaning::ThreadPass {
-            // the next passes say what is another
-            let kept = self.threads.pass.filter(|_| block.row(Group::Motion).is_none());
-            if let Some([radius, z, before]) = kept {
-                end[0] = if block.has(letters("XU")) { end[0] } else { radius };
-                end[2] = if block.has(letters("ZW")) { end[2] } else { z };
-                taper = if block.has(letters("RI")) { taper } else { before };
-                self.place.at_machine &= !0b101;
+        let (end, taper) = match does {
+            Meaning::ThreadPass => self.pass_end(does, block)?,
+            _ => {
+                self.begins_in_the_program("G76")?;
+                (self.target(block)?, block.get(b'R').or(block.get(b'I')).unwrap_or(0.0))
             }
-            self.threads.pass = Some([end[0], end[2], taper]);
-        }
+        };
         let mut ways = vec![end[0]];
         if does == Meaning::ThreadCycle {
             let (passes, list) = self.passes(begin, end, taper, block)?;

@@ -122,6 +122,9 @@ impl State {
             return refuse(Code::PN016, message, "write the points of the corner; an axis turns in a block of its own");
         }
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
+        if self.control.is_lathe() {
+            return self.cut_with_corners(block, feed, out);
+        }
         let to = self.target(block)?;
         self.place.feed_to(to, feed, None, out);
         Ok(())

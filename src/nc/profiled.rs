@@ -11,6 +11,17 @@ pub struct FirstBlocks {
     pub pattern: [Option<f64>; 3],
     /// How far G74 and G75 go back after a peck.
     pub back: Option<f64>,
+    /// A chamfer or rounded corner that the next block leaves.
+    pub corner: Option<Corner>,
+}
+
+/// A chamfer or a rounded corner that was cut, and what the next block has to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// The axis along which the next block moves.
+    pub axis: usize,
+    /// From the corner to where the chamfer ends along it, with its sign.
+    pub by: f64,
 }
 
 /// A cycle that follows a profile of the program.

@@ -36,6 +36,9 @@ impl State {
         let motion = self.motion_of(block)?;
         let in_force = if self.control.is_linuxcnc() { None } else { self.holes.cycle };
         block.check_words(in_force.or(motion), self.free_words(block))?;
+        if self.turning.corner.is_some() && !block.is_empty {
+            self.check_after_corner(motion, block)?;
+        }
         let mut out = Out::new(items, line);
         if let Some((start, end)) = block.comment {
             out.push(Action::Comment(start, end));
@@ -61,6 +64,7 @@ impl State {
         }
         if block.axes_are_taken() || block.row(Group::Once).is_some() {
             self.once(block, &mut out)?;
+            self.threads.end_passes(block.g_meaning(Group::Once));
             if self.control.is_lathe()
                 && let Some(asked) = self.turning_cycle(block, &mut out)?
             {
@@ -108,17 +112,18 @@ impl State {
     fn unpointed(&self, block: &mut Block) -> Done {
         let said = block.g_meaning(Group::Units).map(|meaning| meaning == Meaning::Inch);
         let inch = said.unwrap_or(self.modes.units == Units::Inch);
-        let own = matches!(block.g_meaning(Group::Motion), Some(Meaning::ThreadCycle | Meaning::ThreadPass));
-        if own || block.row(Group::Other).is_some() || block.means(Meaning::Orient) {
+        if block.row(Group::Other).is_some() || block.means(Meaning::Orient) {
             return Ok(()); // their words are no lengths
         }
         // K is then how often, and no length
         let cycle = self.cycle_of(block).is_some_and(|row| row.runs.motions.is_none_or(|motions| !motions.shifts()));
-        // P and Q of a turning cycle name blocks, or count increments; R of one says how often
-        let (more, less) = match block.g_meaning(Group::Once) {
-            Some(Meaning::RoughPattern) => (0, letters("QR")),
-            Some(Meaning::RoughTurn | Meaning::RoughFace) => (bit(b'D'), bit(b'Q')),
-            Some(Meaning::Finish | Meaning::FacePecks | Meaning::GroovePecks) => (0, bit(b'Q')),
+        // P and Q of a turning cycle name blocks, or count increments, Q of a thread an angle; R of a pattern says how often
+        let motion = block.row(Group::Motion).or(self.modes.motion).map(|row| row.meaning);
+        let (more, less) = match (block.g_meaning(Group::Once), motion) {
+            (Some(Meaning::RoughPattern), _) => (0, letters("QR")),
+            (Some(Meaning::RoughTurn | Meaning::RoughFace), _) => (bit(b'D'), bit(b'Q')),
+            (Some(Meaning::Finish | Meaning::FacePecks | Meaning::GroovePecks), _) => (0, bit(b'Q')),
+            (None, Some(Meaning::Thread | Meaning::ThreadPass | Meaning::ThreadCycle)) => (0, bit(b'Q')),
             _ => (0, 0),
         };
         let more = more | if self.control.is_lathe() { letters("UVW") } else { 0 };
@@ -275,6 +280,7 @@ impl State {
     /// A motion that is no cycle: the series is over.
     fn leave_cycle(&mut self, row: &'static Row, out: &mut Out<'_>) {
         self.end_cycle(out);
+        self.threads.end_passes(Some(row.meaning));
         self.modes.motion = Some(row).filter(|row| row.meaning != Meaning::CycleEnd);
     }
 

@@ -67,6 +67,8 @@ pub(super) struct Passage {
     pub does: Vec<Mark<Coded>>,
     /// The tool was changed.
     pub new_tool: bool,
+    /// For each change of a lathe's tool, the axes at a place of the machine.
+    pub turrets: Vec<u8>,
     /// The job's way leaves the axis of its hole.
     pub aside: bool,
     /// The job's way left the axis of its hole before the last change of the frame.
@@ -100,6 +102,7 @@ impl Passage {
             codes: Vec::new(),
             does: Vec::new(),
             new_tool: false,
+            turrets: Vec::new(),
             aside: false,
             left_aside: false,
             astray: Vec::new(),
@@ -125,6 +128,7 @@ impl Passage {
         self.codes.clear();
         self.does.clear();
         self.astray.clear();
+        self.turrets.clear();
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 

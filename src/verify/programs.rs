@@ -84,7 +84,10 @@ pub fn compare_motions(
             let same_way = ways[0].is(&ways[1], tolerance);
             let leaves_well = same_way || !low(0, 1) && !low(1, 0);
             // the end stops spindle and coolant, said or not
-            let besides = astray(&a, &b, tolerance).or_else(|| pauses(&a, &b, tolerance)).or_else(|| standing(&a, &b));
+            let besides = astray(&a, &b, tolerance)
+                .or_else(|| pauses(&a, &b, tolerance))
+                .or_else(|| turrets(&a, &b))
+                .or_else(|| standing(&a, &b));
             if x.is_none() && y.is_none() && leaves_well && besides.is_none() {
                 motions.ways += u64::from(!same_way);
                 return Ok(motions);
@@ -124,6 +127,7 @@ pub fn compare_motions(
             .or_else(|| astray(&a, &b, tolerance))
             .or_else(|| pauses(&a, &b, tolerance))
             .or_else(|| switching(&a, &b, names))
+            .or_else(|| turrets(&a, &b))
             .or_else(|| standing(&a, &b));
         if let Some(message) = message {
             let difference = Some(MotionDifference { message, blocks: blocks(&a, &b) });
@@ -194,6 +198,12 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
     if !same(&a, &b, ALL, tolerance) {
         return Some(format!("a cut goes to {}, before to {}", shown(&b, 0b111), shown(&a, 0b111)));
     }
+    match (cut.lead, found.lead) {
+        (None, None) => {}
+        (Some(a), Some(b)) if (a - b).abs() <= 1e-6 * a.abs() + tolerance => {}
+        (Some(a), Some(b)) => return Some(format!("the lead of a thread is {}, before {}", number(b), number(a))),
+        _ => return Some("a cut follows the spindle, as a thread does, in one of them".to_owned()),
+    }
     if cut.mode != found.mode {
         return Some("feeds count otherwise: per minute, per turn or inverse time".to_owned());
     }
@@ -201,6 +211,12 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
         && (a - b).abs() > 1e-6 * a.abs() + tolerance
     {
         return Some(format!("the feed is {}, before {}", number(b), number(a)));
+    }
+    let taps = cut.by_cycle && found.by_cycle && !names.by_order;
+    if taps && (cut.state.rigid, cut.state.into_tap) != (found.state.rigid, found.state.into_tap) {
+        return Some(
+            "a tap follows the spindle (M29), or goes in as the spindle turned before, in one of them".to_owned(),
+        );
     }
     state(&cut.state, &found.state, names)
 }
@@ -250,6 +266,13 @@ fn state(before: &State, now: &State, names: Names) -> Option<String> {
     let text = |value: Option<f64>| value.map_or("none".to_owned(), |value| number(value).to_string());
     if let Some((name, a, b)) = pairs.into_iter().find(|(_, a, b)| a != b) {
         return Some(format!("{name} is {}, before {}", text(b), text(a)));
+    }
+    if before.css != now.css {
+        let counts = |css| if css { "at the surface (G96)" } else { "turns (G97)" };
+        return Some(format!("the speed of the spindle counts {}, before {}", counts(now.css), counts(before.css)));
+    }
+    if before.limit != now.limit {
+        return Some(format!("the highest speed of the spindle is {}, before {}", text(now.limit), text(before.limit)));
     }
     if before.rotation != now.rotation {
         return Some("the spindle turns otherwise".to_owned());
@@ -301,6 +324,20 @@ fn switching(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<Strin
         return None;
     }
     (before != now).then(|| format!("the spindle on the way here: {}, before {}", listed(&now), listed(&before)))
+}
+
+/// Where the turret of a lathe turns: at home along X, Z, both or neither.
+fn turrets(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
+    let text = |axes: Option<&u8>| match axes {
+        None => "at no tool change",
+        Some(0) => "at a position of the program",
+        Some(0b001) => "at home along X alone",
+        Some(0b100) => "at home along Z alone",
+        Some(_) => "at home",
+    };
+    let (before, now) = (&old.passage.turrets, &new.passage.turrets);
+    let differ = (0..before.len().max(now.len())).find(|at| before.get(*at) != now.get(*at))?;
+    Some(format!("the turret turns {}, before {}", text(now.get(differ)), text(before.get(differ))))
 }
 
 /// At which angles the spindle stands while the tool moves at rapid.

@@ -177,6 +177,42 @@ fn motions_differ_where_the_spindle_stands_at_another_angle() {
     }
 }
 
+/// What a lathe's spindle and turret do.
+#[test]
+fn motions_of_lathes_differ_in_spindle_and_turret() {
+    const PART: &str = "G21 G18 G40 G99\nT0101\nG50 S2500\nG96 S150 M3\nG0 X44. Z5.\nG1 Z-20. F2.\nG28 U0 W0\nT0202\nG97 S800 M3\n\
+        G0 X44. Z5.\nG1 Z-20. F.2\nG28 U0 W0\nM5\nM30\n";
+    let differs = |from: &str, to: &str| {
+        let settings = [RunSettings::new(control("fanuc-lathe")); 2];
+        let programs = [PART.to_owned(), PART.replacen(from, to, 1)].map(Cursor::new);
+        let [old, new] = programs;
+        let found = compare_motions([(old, settings[0]), (new, settings[1])], Units::Mm, 1e-6).unwrap();
+        found.difference.map_or("none".to_owned(), |found| found.message)
+    };
+    assert_eq!(differs("G21", "G21"), "none");
+    for (from, to, message) in [
+        ("G96 S150", "G97 S150", "the speed of the spindle counts turns (G97), before at the surface (G96)"),
+        ("S2500", "S500", "the highest speed of the spindle is 500, before 2500"),
+        ("G50 S2500\n", "", "the highest speed of the spindle is none, before 2500"),
+        ("G1 Z-20. F2.", "G32 Z-20. F2.", "a cut follows the spindle, as a thread does, in one of them"),
+        ("G28 U0 W0", "G28 W0", "the turret turns at home along Z alone, before at home"),
+        ("G28 U0 W0", "G28 U0", "the turret turns at home along X alone, before at home"),
+    ] {
+        assert_eq!(differs(from, to), message, "{from} -> {to}");
+    }
+}
+
+#[test]
+fn motions_of_taps_differ_in_what_makes_them_rigid() {
+    let tap = |ahead: &str| {
+        format!("G90 G21 G17 G94\nT1 M6\nG0 X0 Y0\nG43 H1 Z5.\nS500 M3\n{ahead}G84 Z-9. R2. F500.\nG80\nM30\n")
+    };
+    let settings = [RunSettings::new(control("fanuc")); 2];
+    let [old, new] = ["M29 S500\n", ""].map(|ahead| Cursor::new(tap(ahead)));
+    let found = compare_motions([(old, settings[0]), (new, settings[1])], Units::Mm, 1e-6).unwrap();
+    assert!(found.difference.unwrap().message.starts_with("a tap follows the spindle (M29)"));
+}
+
 /// A detour is no difference, and is said.
 #[test]
 fn other_ways_are_counted() {

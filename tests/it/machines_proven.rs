@@ -66,7 +66,7 @@ fn lathes() {
             ("fanuc-lathe.pf", "Z-.9 R0 P383", "Z-.8 R0 P383", "PV017"),
             ("fanuc-lathe.pf", "X.6734 Z-.9", "X.7 Z-.9", "PV004"),
             ("fanuc-lathe.pf", "P383", "P283", "PV023"),
-            ("fanuc-lathe.pf", "G76 X.6734", "T0303\nG76 X.6734", "PV017"),
+            ("fanuc-lathe.pf", "G76 X.6734", "T0303\nG76 X.6734", "PV015"),
             ("fanuc-lathe.pf", "F.0625", "F.1", "PV006"),
             ("fanuc-lathe.pf", "G1 Z-.9\n", "G1 Z-.8\n", "PV004"),
             ("haas-lathe.pf", "X.6734\n", "(none)\n", "PV004"),

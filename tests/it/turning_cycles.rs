@@ -316,3 +316,157 @@ fn a_profile_computes_once() {
     let depths = |from: &str| found.iter().filter(|line| line.starts_with(from) && line.ends_with(" -15")).count();
     assert!(depths("f 10 ") == 2 && !found.iter().any(|line| line.ends_with(" -20")), "{found:#?}");
 }
+
+#[test]
+fn chamfers_and_rounded_corners() {
+    // I goes the way of the next block along X, on the radius; the corner itself is not reached
+    makes(
+        "G0 X20. Z2.\nG1 Z-20. I3. F.2\nX50. K-2.\nZ-40.",
+        &["r 10 2", "f 10 -17", "f 13 -20", "f 23 -20", "f 25 -22", "f 25 -40"],
+    );
+    // an arc of its own, as G3 and G2 with its radius cut it
+    let corner = |blocks: &str| moves("fanuc-lathe", &format!("G0 X20. Z2.\n{blocks}")).unwrap();
+    assert_eq!(
+        corner("G1 Z-20. R3. F.2\nX50. R-2.\nZ-40."),
+        corner("G1 Z-17. F.2\nG2 X26. Z-20. R3.\nG1 X46.\nG3 X50. Z-22. R2.\nG1 Z-40."),
+    );
+    // increments count from the corner
+    assert_eq!(
+        corner("G1 Z-20. R3. F.2\nU30. (TO X50)\nW-5."),
+        ["r 10 2", "f 10 -17", "a 13 -20", "f 25 -20", "f 25 -25"]
+    );
+    // comments and empty blocks may stand between
+    assert_eq!(corner("G1 Z-20. R3. F.2\n(STEP)\nN5\nX50."), ["r 10 2", "f 10 -17", "a 13 -20", "f 25 -20"]);
+}
+
+#[test]
+fn arcs_of_rounded_corners_turn_as_the_cut_does() {
+    let arcs = |blocks: &str| {
+        let program = format!("{HEAD}G0 X20. Z2.\n{blocks}\nM30\n");
+        let mut run = Simulator::new(Cursor::new(program), RunSettings::new(control("fanuc-lathe")));
+        let (mut items, mut arcs) = (Vec::new(), Vec::new());
+        while run.step(&mut items).unwrap() {}
+        for item in items {
+            if let Action::Arc(turn) = item.action {
+                arcs.push((turn.to, turn.center, turn.direction));
+            }
+        }
+        arcs
+    };
+    for (short, long) in [
+        ("G1 Z-20. R3. F.2\nX50. R-2.\nZ-40.", "G1 Z-17. F.2\nG2 X26. Z-20. R3.\nG1 X46.\nG3 X50. Z-22. R2.\nG1 Z-40."),
+        ("G1 Z-20. R-3. F.2\nX4. R2.\nZ-4.", "G1 Z-17. F.2\nG3 X14. Z-20. R3.\nG1 X8.\nG3 X4. Z-18. R2.\nG1 Z-4."),
+    ] {
+        assert_eq!(arcs(short), arcs(long), "{short}");
+    }
+}
+
+#[test]
+fn corners_that_nothing_leaves_are_refused() {
+    let refused = |blocks: &str, message: &str| {
+        let text = moves("fanuc-lathe", &format!("G0 X20. Z2.\n{blocks}")).unwrap_err();
+        assert!(text.contains(message), "{blocks}: {text}");
+    };
+    refused("G1 Z-20. R3. F.2\nG0 X50.", "PN006 6 a chamfer or rounded corner, and the next block does not leave it");
+    refused("G1 Z-20. R3. F.2\nX50. Z-30.", "does not leave it");
+    refused("G1 Z-20. R3. F.2\nG4 P100", "does not leave it");
+    refused("G1 Z-20. R3. F.2", "does not leave it");
+    refused("G1 Z-20. R3. F.2\nX10.", "PN018 6 the block after a chamfer or rounded corner goes the other way");
+    refused("G1 Z-20. R3. F.2\nX24.", "or is shorter than it");
+    refused("G1 Z0. R3. F.2\nX50.", "a cut of 2 is shorter than its chamfer or rounded corner of 3");
+    refused("G1 Z-20. K3. F.2\nX50.", "PN009 5 K in a cut that is not along X");
+    refused("G1 X30. Z-20. R3. F.2\nX50.", "R in a cut that is not along one axis");
+    refused("G1 Z-20. R3. I3. F.2\nX50.", "PN004 5 a cut with two of I, K and R");
+    refused("G28 U0 W0\nG1 Z-20. R3. F.2\nX50.", "from a position that only the machine knows");
+}
+
+#[track_caller]
+fn is_refused(control: &str, blocks: &str, message: &str) {
+    let text = moves(control, blocks).unwrap_err();
+    assert!(text.contains(message), "{blocks}: {text}");
+}
+
+#[test]
+fn lengths_of_threads_without_a_point_are_asked_for() {
+    for blocks in [
+        "G0 X40. Z2.\nG92 X39000 Z-20. F2.",
+        "G0 X40. Z2.\nG92 X39. Z-20000 F2.",
+        "G0 X40. Z2.\nG92 U-1000 Z-20. F2.",
+        "G0 X40. Z2.\nG92 X39. Z-20. R-500 F2.",
+        "G0 X40. Z2.\nG76 P010060 Q50 R.02\nG76 X38000 Z-20. P1000 Q600 F2.",
+        "G0 X40. Z2.\nG76 P010060 Q50 R20\nG76 X38. Z-20. P1000 Q600 F2.",
+        "G0 X40. Z2.\nG32 Z-20000 F2.",
+    ] {
+        is_refused("fanuc-lathe", blocks, "PN017");
+    }
+    // P and Q of G76 count increments, Q of a thread is an angle
+    assert!(moves("fanuc-lathe", "G0 X40. Z2.\nG76 P010060 Q50 R.02\nG76 X38. Z-20. P1000 Q600 F2.").is_ok());
+    assert!(moves("fanuc-lathe", "G0 X40. Z2.\nG92 X39. Z-20. Q180000 F2.").is_ok());
+}
+
+#[test]
+fn a_pass_keeps_what_its_code_written_again_does_not_say() {
+    makes(
+        "G0 X44. Z5.\nG92 X40. Z-20. F2.\nG92 X39.\nX38.",
+        &[
+            "r 22 5",
+            "r 20 5",
+            "f 20 -20",
+            "r 22 -20",
+            "r 22 5",
+            "r 19.5 5",
+            "f 19.5 -20",
+            "r 22 -20",
+            "r 22 5",
+            "r 19 5",
+            "f 19 -20",
+            "r 22 -20",
+            "r 22 5",
+        ],
+    );
+    // a pass of another code, and one after a code that ends passes, keep nothing
+    let head = "G0 X44. Z5.\nG90 X40. Z-20. F.2\n";
+    for end in ["G92 X39.", "G94 Z-3.", "G28 U0 W0\nX39.", "G0 X44. Z5.\nG90 X39."] {
+        is_refused("fanuc-lathe", &format!("{head}{end}"), "PN007");
+    }
+    is_refused("fanuc-lathe", "G0 X44. Z5.\nG92 X40. F2.", "G92 does not say its Z");
+    is_refused("fanuc-lathe", "G0 X44. Z5.\nG90 X40. Z-20. R-1. F.2\nG90 X39.", "G90 again after a tapered pass");
+    // a dwell ends nothing
+    assert!(moves("fanuc-lathe", &format!("{head}G4 P500\nX39.")).is_ok());
+}
+
+#[test]
+fn cycles_of_passes_begin_in_the_program() {
+    for cycle in [
+        "G71 U2. R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nN20 G1 Z-9.",
+        "G70 P10 Q20\nN10 G0 X20.\nN20 G1 Z-9.",
+        "G74 R1.\nG74 Z-10. Q3000 F.2",
+        "G75 R1.\nG75 X10. P3000 F.2",
+        "G76 P010060 Q50 R.02\nG76 X38. Z-20. P1000 Q600 F2.",
+    ] {
+        is_refused(
+            "fanuc-lathe",
+            &format!("G28 U0 W0\nG0 X40.\n{cycle}"),
+            "begins at a position that only the machine",
+        );
+    }
+}
+
+#[test]
+fn a_depth_that_divides_exactly_makes_no_pass_at_the_bottom() {
+    for left in ["0", ".2", ".4", ".6"] {
+        let blocks = format!("G0 X48. Z4.\nG71 U2. R.25\nG71 P50 Q100 U{left} F.3\nN50 G0 X20.\nN60 G1 Z0.\nN100 X48.");
+        let passes = moves("fanuc-lathe", &blocks).unwrap().iter().filter(|step| step.starts_with('f')).count();
+        assert_eq!(passes, 6 + 2, "U{left}");
+    }
+}
+
+#[test]
+fn what_manuals_leave_open_is_refused() {
+    let cycle = "G0 X50. Z2.\nG71 U2. R1.\nG71 P10 Q20 F.2\n";
+    let blocks = format!("{cycle}N10 G0 X20. Z1.\nN20 G1 Z-9.");
+    is_refused("fanuc-lathe", &blocks, "the first block of the profile goes along X and Z");
+    is_refused("fanuc-lathe", &format!("{cycle}N10 G0 X20.\nN20 G1 Z-9.\nX60."), "PN006");
+    let pattern = "G0 X50. Z2.\nG73 U5. W5. R1\nG73 P10 Q20 F.2\nN10 G0 X20.\nN20 G1 Z-9.";
+    is_refused("fanuc-lathe", pattern, "G73 with one pass");
+}

@@ -3,6 +3,7 @@
 //! Sources: Fanuc's operator's manuals of the 0i-T and 31i (canned and multiple repetitive cycles), Haas's lathe operator's
 //! manual (G70 to G75). What they leave to parameters and settings is said where it is decided.
 
+mod corner;
 mod passes;
 mod pecks;
 pub(in crate::nc) mod profile;
@@ -33,12 +34,23 @@ impl State {
                     let message = format!("{} with R, for profiles that go back on themselves", row.code);
                     return refuse(Code::PN016, message, "cut the pocket by a cycle of its own, or write its moves");
                 }
+                self.begins_in_the_program(row.code)?;
                 let how = self.how(row, block)?;
                 Ok(Some(Profiled { first, last, how }))
             }
             Meaning::FacePecks | Meaning::GroovePecks => self.turning_pecks(row, block, out).map(|()| None),
             _ => Ok(None),
         }
+    }
+
+    /// A cycle of several passes counts them from where it begins.
+    pub(in crate::nc) fn begins_in_the_program(&self, code: impl std::fmt::Display) -> Done {
+        if self.place.at_machine & 0b101 == 0 {
+            return Ok(());
+        }
+        let message =
+            format!("{code} begins at a position that only the machine knows: where its passes lie is unknown");
+        refuse(Code::PN007, message, "write a rapid with X and Z before it")
     }
 
     /// The first block of two.
@@ -73,6 +85,11 @@ impl State {
                     let help = "G73 U.. W.. R(how often) before it; on a Haas D in its block";
                     return refuse(Code::PN007, "G73 does not say how often", help);
                 };
+                if count == 1.0 && [x, z] != [0.0; 2] {
+                    let message =
+                        "G73 with one pass that also has a distance to the first: which counts is in no manual";
+                    return refuse(Code::PN016, message, "write two passes or more, or no distance");
+                }
                 How::Pattern { outside: [x, z], count: count as u32, left }
             }
             meaning => {

@@ -2,7 +2,6 @@
 
 use crate::control::Meaning;
 use crate::nc::block::Block;
-use crate::nc::codes::{Group, letters};
 use crate::nc::fault::Done;
 use crate::nc::out::Out;
 use crate::nc::state::State;
@@ -12,16 +11,8 @@ impl State {
     pub(in crate::nc) fn turning_pass(&mut self, does: Meaning, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let (begin, unsaid) = (self.place.position, self.place.at_machine);
-        let mut end = self.target(block)?;
-        // how much farther out the pass begins than it ends: along X on a cone, along Z on a sloping face
-        let mut taper = block.get(b'R').unwrap_or(0.0);
-        if let Some([radius, z, before]) = self.threads.pass.filter(|_| block.row(Group::Motion).is_none()) {
-            end[0] = if block.has(letters("XU")) { end[0] } else { radius };
-            end[2] = if block.has(letters("ZW")) { end[2] } else { z };
-            taper = if block.has(letters("R")) { taper } else { before };
-            self.place.at_machine &= !0b101;
-        }
-        self.threads.pass = Some([end[0], end[2], taper]);
+        // the taper is along X on a cone, along Z on a sloping face
+        let (end, taper) = self.pass_end(does, block)?;
         let [out_of, along] = if does == Meaning::TurnPass { [0, 2] } else { [2, 0] };
         // a position that only the machine knows stays one until the block says it
         let at_end = self.place.at_machine;

@@ -48,6 +48,7 @@ impl State {
                 return refuse(Code::PN007, format!("{code} does not say how far it goes back after a peck"), help);
             }
         };
+        self.begins_in_the_program(code)?;
         let begin = self.place.position;
         let end = self.target(block)?;
         let (depth, width) = (end[along] - begin[along], end[across] - begin[across]);

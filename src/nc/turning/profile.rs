@@ -3,6 +3,8 @@
 use super::rough::{Move, Piece, Point, Profile, moves};
 use crate::diag::Code;
 use crate::nc::action::{Action, Item, Position, Turn};
+use crate::nc::block::Block;
+use crate::nc::codes::letters;
 use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::out::{Next, Out};
 use crate::nc::profiled::{How, Profiled};
@@ -38,7 +40,7 @@ impl Simulator<'_> {
         }
         self.profiles.retain(|other| other.numbers != found.numbers);
         self.profiles.push(found);
-        let profile = self.read_profile(&found)?;
+        let profile = self.read_profile(&found, matches!(asked.how, How::Passes { .. }))?;
         let made = moves(&profile, [start[0], start[2]], &asked.how);
         // what is wrong with the cycle is said of its block
         let after = std::mem::replace(&mut self.at, back);
@@ -71,6 +73,7 @@ impl Simulator<'_> {
             }
         }
         self.at = after;
+        self.state.modes.motion = None; // the one of the profile, or the one before: controls differ
         // the control goes on after the profile
         self.go(found.end)
     }
@@ -82,6 +85,7 @@ impl Simulator<'_> {
             return None;
         }
         self.frames.pop();
+        self.state.modes.motion = None;
         self.state.place.rapid_to(start, &mut Out::new(items, back.line));
         Some(back)
     }
@@ -124,14 +128,16 @@ impl Simulator<'_> {
         Ok(Found { numbers, begin, end })
     }
 
-    /// Runs the blocks of a profile aside, and gives what they cut.
-    fn read_profile(&mut self, found: &Found) -> Result<Profile, RunError> {
+    /// Runs the blocks of a profile aside, and gives what they cut. `in_passes`: it is cut by G71 or G72.
+    fn read_profile(&mut self, found: &Found, in_passes: bool) -> Result<Profile, RunError> {
         self.go(found.begin)?;
         // what it computes is computed once: where it is run for good
         let (mut aside, mut parameters) = (self.state.clone(), self.parameters.clone());
         let (mut items, mut reading) = (Vec::new(), Reading::default());
         while self.at.byte < found.end.byte && self.read_line()? {
             let read = self.block.read(&self.line, &mut parameters, &self.state.settings);
+            let begins = reading.profile.is_none() && in_passes;
+            let read = read.and_then(|()| if begins { is_first_kind(&self.block) } else { Ok(()) });
             let run = read.and_then(|()| match self.block.flow.take() {
                 Some(_) => refuse(Code::PN016, "a jump or a call in a profile", "write its moves"),
                 None => match aside.run(&mut self.block, self.at.line, &mut items)? {
@@ -148,6 +154,15 @@ impl Simulator<'_> {
         };
         Ok(profile)
     }
+}
+
+/// Is the profile one of the first kind, that goes on along both axes? A first block along both axes makes it one of the second.
+fn is_first_kind(block: &Block) -> Done {
+    if [letters("XU"), letters("ZW")].iter().all(|words| block.has(*words)) {
+        let message = "the first block of the profile goes along X and Z: the cycle then cuts pockets, each control by rules of its own";
+        return refuse(Code::PN016, message, "write X alone in it for G71, Z alone for G72");
+    }
+    Ok(())
 }
 
 /// The number of a block.

@@ -36,7 +36,7 @@ pub(super) enum Move {
 }
 
 /// Lengths below which two positions are one.
-const SAME: f64 = 1e-9;
+const SAME: f64 = 1e-7;
 
 /// The moves of a cycle that begins and ends at `start`.
 pub(super) fn moves(profile: &Profile, start: Point, how: &How) -> Done<Vec<Move>> {
@@ -135,7 +135,8 @@ fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, a
     let clear = moved(start, left);
     let (begin, pieces) = (moved(profile.begin, left), profile.pieces.iter().map(|piece| shifted(piece, left)));
     let pieces: Vec<Piece> = pieces.collect();
-    let count = ((begin[0] - clear[0]).abs() / depth).ceil();
+    // a level that is the beginning of the profile but for the last digits is it
+    let count = (((begin[0] - clear[0]).abs() - SAME) / depth).ceil();
     if count > MOST {
         return refuse(Code::PN018, format!("{code} of over {MOST} passes"), "write a larger depth");
     }
@@ -183,7 +184,7 @@ fn crossing(begin: Point, pieces: &[Piece], level: f64, inwards: f64) -> f64 {
     let mut from = begin;
     for piece in pieces {
         // the profile comes outwards: it is met where it first reaches the level
-        if (piece.to[0] - level) * inwards <= 0.0 {
+        if (piece.to[0] - level) * inwards <= SAME {
             return meets(from, piece, level);
         }
         from = piece.to;

@@ -435,8 +435,11 @@ impl<'a> Program<'a> {
             self.state.length = None;
             self.due.new_tool();
             self.changed();
+            if self.control.is_lathe() {
+                self.passage.turrets.push(self.unknown & 0b101);
+            }
         }
-        if self.scale.lathe {
+        if self.control.is_lathe() {
             self.unknown |= 0b101; // a turret turns, and the spindle with it
             return;
         }

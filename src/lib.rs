@@ -136,7 +136,7 @@ pub mod internals {
     pub mod nc {
         pub use crate::nc::{
             Action, Cooling, Item, JobOptions, Kind, Position, Rotation, RunError, RunSettings, Simulator, Tally, Turn,
-            Unpointed, clock, rapid_rate, read_program, settings_for, tokens,
+            Unpointed, clock, control_of_name, rapid_rate, read_program, settings_for, tokens,
         };
     }
     pub mod number {

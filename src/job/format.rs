@@ -21,7 +21,7 @@ const EXTENSIONS: [(Format, &[&str]); 5] = [
     (Format::Json, &["json"]),
     (Format::JsonLines, &["jsonl", "ndjson"]),
     (Format::Cl, &["cl", "apt", "aptsource", "ncl", "cls", "cldata", "as"]),
-    (Format::Nc, &["nc", "ngc", "tap", "eia", "min", "mpf"]),
+    (Format::Nc, &["nc", "ngc", "tap", "eia", "min", "ssb", "mpf", "spf", "h", "i"]),
     (Format::Freecad, &["fcstd"]),
 ];
 

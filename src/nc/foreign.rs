@@ -2,6 +2,7 @@
 //! of ours reads are read by it; the others are named and refused.
 
 use std::io::{self, Read, Seek};
+use std::path::Path;
 
 use memchr::memmem;
 
@@ -71,6 +72,13 @@ const LANGUAGES: [(&str, Option<&str>, &[Mark]); 5] = [
     ),
 ];
 
+/// What programs are called that are for one control.
+const NAMES: [(&str, &[&str]); 4] =
+    [("siemens", &["mpf", "spf"]), ("heidenhain", &["h", "i"]), ("okuma", &["min", "ssb"]), ("mazak", &["eia"])];
+
+/// What stands in programs of lathes alone: codes with their words, without blanks.
+const TURNED: [&str; 8] = ["G50S", "G28U", "G28W", "G30U", "G30W", "G71U", "G72W", "G70P"];
+
 /// The language of a program.
 pub struct Foreign {
     /// What it is, as `Klartext of a Heidenhain control`.
@@ -127,18 +135,48 @@ pub fn foreign(start: &[u8]) -> Option<Foreign> {
     Some(Foreign { is, control, line: line as u64 + 1, text })
 }
 
+/// The line, from 1, that shows that a program is for a lathe: codes of lathes, or a tool with its register (`T0101`) that nothing
+/// but the turret changes.
+pub fn turned(start: &[u8]) -> Option<(u64, Vec<u8>)> {
+    let start = start.get(..SEARCHED).unwrap_or(start);
+    let mut block = Vec::new();
+    let (mut station, mut is_changed) = (None, false);
+    for (number, line) in start.split(|&byte| byte == b'\n').enumerate() {
+        block.clear();
+        push_block(line, &mut block);
+        let found = |at: usize, line: &[u8]| Some((at as u64 + 1, line.trim_ascii().to_vec()));
+        if TURNED.iter().any(|mark| memmem::find(&block, mark.as_bytes()).is_some()) {
+            return found(number, line);
+        }
+        is_changed |= [b"M6".as_slice(), b"M06"].iter().any(|change| block.ends_with(change));
+        if let [b'T', a @ b'0'..=b'9', b, c, d] = block[..]
+            && [a, b] == [c, d]
+        {
+            station = station.or_else(|| found(number, line));
+        }
+    }
+    station.filter(|_| !is_changed)
+}
+
+/// The control of a program with this name: `part.MPF` is for a Siemens control.
+pub fn control_of_name(name: &Path) -> Option<&'static Control> {
+    let extension = name.extension()?.to_str()?.to_ascii_lowercase();
+    let (control, _) = NAMES.iter().find(|(_, extensions)| extensions.contains(&extension.as_str()))?;
+    Control::named(control)
+}
+
 /// The settings for a program whose control is not named: where its first blocks are in a language that one of our controls reads,
-/// they are that one's.
+/// they are that one's, else those of its name.
 ///
 /// # Errors
 /// The input fails.
-pub fn settings_for(input: &mut (impl Read + Seek), settings: RunSettings) -> io::Result<RunSettings> {
+pub fn settings_for(input: &mut (impl Read + Seek), name: &Path, settings: RunSettings) -> io::Result<RunSettings> {
     // an input that can't be gone back in is left alone
     let Some(start) = input.stream_position().ok().filter(|_| settings.assumed) else { return Ok(settings) };
     let mut head = Vec::new();
     input.by_ref().take(SEARCHED as u64).read_to_end(&mut head)?;
     input.seek(io::SeekFrom::Start(start))?;
-    Ok(match foreign(&head).and_then(|found| found.control) {
+    Ok(match foreign(&head).and_then(|found| found.control).or_else(|| control_of_name(name)) {
         Some(control) => RunSettings { control, assumed: false, ..settings },
         None => settings,
     })
@@ -167,6 +205,29 @@ fn push_block(line: &[u8], blocks: &mut Vec<u8>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_lathe_is_found_by_its_codes() {
+        for (text, line) in [
+            ("%\nO1\nG50 S2000\nG96 S150 M3", Some(3)),
+            ("G28 U0 W0\nM30", Some(1)),
+            ("G21\nN20 T0101 (TURN)\nG0 X50. Z2.", Some(2)),
+            ("G21\nT0101\nT0101 M6\nG0 X50.", None),
+            ("T1001\nG0 X5.", None),
+            ("G50\nS2000 M3\n(G28 U0)\nG28 Z0", None),
+        ] {
+            assert_eq!(turned(text.as_bytes()).map(|found| found.0), line, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_control_is_found_by_a_name() {
+        let named = |name: &str| control_of_name(Path::new(name)).map(|control| control.name().to_owned());
+        assert_eq!(named("a/PART.MPF").as_deref(), Some("siemens"));
+        assert_eq!(named("part.h").as_deref(), Some("heidenhain"));
+        assert_eq!(named("O1.MIN").as_deref(), Some("okuma"));
+        assert_eq!([named("part.nc"), named("part"), named("-")], [None, None, None]);
+    }
 
     #[test]
     fn a_language_is_found_by_its_marks() {

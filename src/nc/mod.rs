@@ -49,7 +49,7 @@ mod way;
 
 pub use action::{Action, Cooling, Drilling, Item, Position, Rotation, Turn};
 pub(crate) use arcs::axes_of;
-pub use foreign::settings_for;
+pub use foreign::{control_of_name, settings_for};
 pub use job::{JobOptions, read_program};
 pub use modal::Modal;
 pub use pace::Pace;

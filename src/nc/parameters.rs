@@ -69,6 +69,11 @@ impl Parameters {
             Some(value) => Ok(value),
             // the interpreter keeps system values from run to run: only those that it always has are known
             None if self.control.is_linuxcnc() && number < 5000 => Ok(0.0),
+            // where the tool is, alarms, offsets: they are not the program's to set
+            None if number >= 1000 => {
+                let help = "write the number that it would have, or run the program without this block";
+                refuse(Code::PN016, format!("#{number} is a variable of the control, known at the machine alone"), help)
+            }
             None => {
                 let help = format!("set it in the program before this block: #{number}=0");
                 refuse(Code::PN016, format!("nothing in the program sets #{number}"), help)
@@ -85,6 +90,10 @@ impl Parameters {
             if name.starts_with('_') { self.global.get(name) } else { self.local.last().and_then(|l| l.get(name)) };
         match found {
             Some(value) => Ok(*value),
+            None if name.starts_with("_hal[") || name.starts_with("_ini[") => {
+                let help = "write the number that it would have, or run the program without this block";
+                refuse(Code::PN016, format!("#<{name}> is a value of the machine"), help)
+            }
             None => {
                 let help = format!("set it before this block: #<{name}>=0");
                 // LinuxCNC has some of its own, and refuses any other

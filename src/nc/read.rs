@@ -110,9 +110,7 @@ impl Block {
                 }
                 Kind::Name => {
                     let text = String::from_utf8_lossy(reader.text(token)).into_owned();
-                    let message = format!("`{text}` is not simulated");
-                    let help = "jumps and conditions of Fanuc macros are known only at the control";
-                    return Err(Fault::at(Code::PN016, token.start, message, help));
+                    return Err(unknown_name(&text, self.comment.is_some(), token.start, control));
                 }
                 _ => self.mark(line, token.kind, token.start, token.end, control)?,
             }
@@ -305,6 +303,25 @@ impl Block {
 fn twice<T>(letter: u8, column: usize) -> Done<T> {
     let message = format!("{} stands twice in the block", char::from(letter));
     Err(Fault::at(Code::PN002, column, message, "keep one of them"))
+}
+
+/// Statements of Fanuc macros that are not run.
+const STATEMENTS: [&str; 13] =
+    ["IF", "THEN", "GOTO", "WHILE", "DO", "END", "POPEN", "PCLOS", "DPRNT", "BPRNT", "SETVN", "ACTVN", "SETSVN"];
+
+/// A name that is no word of the control.
+#[cold]
+fn unknown_name(text: &str, after_comment: bool, column: usize, control: &'static Control) -> Box<Fault> {
+    if STATEMENTS.contains(&text.to_ascii_uppercase().as_str()) {
+        let help = "run the program without it: what it does depends on the control";
+        return Fault::at(Code::PN016, column, format!("the statement `{text}` is not simulated"), help);
+    }
+    let help = if after_comment {
+        "a comment ends at its first `)`: take the inner brackets out"
+    } else {
+        "look for a misprint, or name the control by `--control`: some read whole words (siemens, heidenhain, okuma)"
+    };
+    Fault::at(Code::PN016, column, format!("`{text}` is no word of {}", control.name()), help)
 }
 
 #[cold]

@@ -6,7 +6,7 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use super::action::{Action, Item, Rotation};
 use super::block::Block;
 use super::fault::{Done, Fault, refuse};
-use super::foreign::{Foreign, foreign};
+use super::foreign::{Foreign, foreign, turned};
 use super::languages::klartext::Klartext;
 use super::languages::osp::Osp;
 use super::languages::siemens::Siemens;
@@ -278,6 +278,18 @@ impl<'a> Simulator<'a> {
         let control = self.state.settings.control;
         if !control.is_run() {
             return Ok(()); // its first block is refused
+        }
+        if self.state.settings.assumed
+            && !control.is_lathe()
+            && let Some((line, text)) = turned(head)
+        {
+            (self.at.line, self.line, self.ended) = (line, text, true);
+            let help = "name its control: `--control fanuc-lathe` or `haas-lathe`, for a job `--job-control`";
+            return Err(self.refused(Fault::new(
+                Code::PN016,
+                "the program is for a lathe, of which kind is not said",
+                help,
+            )));
         }
         let reads = |found: &Foreign| found.control.is_some_and(|own| own.rules() == control.rules());
         let Some(found) = foreign(head).filter(|found| !reads(found)) else { return Ok(()) };

@@ -1,6 +1,7 @@
 //! Programs proven: run as the control would, and compared with their job.
 
 use std::io::{Cursor, Read, Seek};
+use std::path::Path;
 
 use super::Post;
 use super::options::{Options, Proof};
@@ -251,7 +252,8 @@ fn prove(
     proof: &Proof,
 ) -> Result<Proven, Error> {
     let settings = proof.settings(form, options.units.unwrap_or(Units::Mm));
-    let settings = settings_for(&mut program, settings).map_err(|error| Error::of_io(ErrorKind::Program, error))?;
+    let settings =
+        settings_for(&mut program, Path::new(""), settings).map_err(|error| Error::of_io(ErrorKind::Program, error))?;
     let Plan { settings, mut expectation, of_job, assumed } = Plan::of(form, options, proof, settings);
     // a program that is the job says its own registers, where it has any
     expectation.lengths_due = form.is_some() || job.format() != Format::Nc;

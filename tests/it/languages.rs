@@ -285,6 +285,23 @@ fn bad_programs_are_refused() {
     }
 }
 
+/// What Siemens programs have and postform does not run is named as what it is, not as a missing subprogram.
+#[test]
+fn what_is_not_run_is_named() {
+    let refused = |block: &str| actions(&format!("G17 G54\n{block}\nG0 X1\nM30"), "siemens").1;
+    for (block, message) in [
+        ("TRAORI", "`TRAORI`, a transformation of five axes, is not run"),
+        ("TRAORI(1)", "`TRAORI`, a transformation of five axes, is not run"),
+        ("ROT RPL=45", "`ROT`, a turned frame, is not run"),
+        ("LIMS=3000", "`LIMS`, the highest speed of the spindle under G96, is not run"),
+        ("POCKET7", "there is no subprogram POCKET7 in this file"),
+    ] {
+        assert!(refused(block).unwrap().contains(message), "{block}");
+    }
+    assert_eq!(refused("TRAFOOF"), None);
+    assert_eq!(refused("FNORM"), None);
+}
+
 /// A program whose control is not named is run by the one that its language shows.
 #[test]
 fn the_language_of_a_program_is_found() {
@@ -297,7 +314,7 @@ fn the_language_of_a_program_is_found() {
     ] {
         let settings = RunSettings { assumed: true, ..RunSettings::new(control("fanuc")) };
         let mut input = Cursor::new(program.as_bytes());
-        let found = postform::internals::nc::settings_for(&mut input, settings).unwrap();
+        let found = postform::internals::nc::settings_for(&mut input, std::path::Path::new(""), settings).unwrap();
         assert_eq!(found.control.name(), name, "{program}");
         // another control is told, and reads nothing
         let (_, refused) = actions(program, "grbl");

@@ -28,6 +28,38 @@ pub fn text(bytes: &[u8]) -> String {
 }
 
 #[test]
+fn a_program_for_a_lathe_asks_which_one() {
+    let program = b"G21\nT0101\nG97 S800 M3\nG0 X50. Z2.\nG1 Z-20. R2. F.2\nX60.\nM30\n";
+    let refused = fed(&["simulate", "-"], program);
+    assert_eq!(refused.status.code(), Some(1));
+    let message = text(&refused.stderr);
+    assert!(message.contains("the program is for a lathe, of which kind is not said"), "{message}");
+    assert!(message.contains("`--control fanuc-lathe` or `haas-lathe`"), "{message}");
+    // X as the program counts it
+    let run = fed(&["simulate", "-", "--control", "fanuc-lathe"], program);
+    let shown = "     1  units   mm\n     2  tool    1\n     3  spindle cw S800\n     4  rapid   X50 Z2\n     5  feed    X50 Z-18 F0.2\n\
+        \u{20}    5  cw      X54 Z-20 F0.2  centre X54 Z-18 in zx\n     6  feed    X60 Z-20 F0.2\n     7  end\n";
+    assert_eq!((text(&run.stdout), run.status.code()), (shown.to_owned(), Some(0)));
+}
+
+#[test]
+fn the_name_of_a_program_says_its_control() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("PART.MPF");
+    fs::write(&file, "G0 X=10 Y=5\nM30\n").unwrap();
+    let file = file.to_str().unwrap();
+    for arguments in [
+        &["simulate", file][..],
+        &["diff", "--motion", file, file],
+        &["fit", file, "--machine", "tests/data/machines/vf2.toml"],
+    ] {
+        let output = postform(arguments);
+        assert!(!text(&output.stderr).contains("PN0"), "{arguments:?}: {}", text(&output.stderr));
+    }
+    assert_eq!(postform(&["simulate", file, "--control", "fanuc"]).status.code(), Some(1));
+}
+
+#[test]
 fn exit_status_and_streams_of_simulate() {
     let program = b"%\nG21 G90 G0 X1. Y2.\nM30\n%\n";
     let clean = fed(&["simulate", "-"], program);

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::SystemTime;
 
 use postform::internals::control::Control;
+use postform::internals::nc::control_of_name;
 use postform::internals::sema::MOST_TEXT;
 use postform::internals::terminal::{escaped, escaped_lines};
 use postform::{Format, Job};
@@ -263,6 +264,9 @@ pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, St
         false => Job::stream(format, open(path)?),
     };
     job.reading = args.reading();
+    if format == Format::Nc {
+        job.reading.control = job.reading.control.or_else(|| control_of_name(path));
+    }
     Ok(job)
 }
 

@@ -206,7 +206,7 @@ pub fn fit(args: &FitArgs, colour: bool) -> Result<Ending, String> {
     let control =
         ControlArgs { control: args.control.control.or(machine.control).or(config.control), ..args.control.clone() };
     let mut program = files::open_program(&args.program)?;
-    let settings = settings_for(&mut program, control.settings(None, args.units.units()))
+    let settings = settings_for(&mut program, &args.program, control.settings(None, args.units.units()))
         .map_err(|error| io_message("read", &args.program, &error))?;
     let name = files::name(&args.program);
     let fitting = Fitting { machine: &machine, settings, tools: Vec::new(), program: &name };

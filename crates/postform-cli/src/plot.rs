@@ -6,7 +6,7 @@ use std::path::Path;
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD as BASE64;
-use postform::internals::nc::RunSettings;
+use postform::internals::nc::{RunSettings, settings_for};
 use postform::internals::picture::{self, Picture, Sheet};
 use postform::internals::scene::{PLOT_PAGE, of_program};
 use postform::toolpath::Units;
@@ -85,7 +85,10 @@ fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, File
         let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };
         let units = args.options.units.map_or(Units::Mm, |units| units.units());
         let settings = control.settings(None, units);
-        return drawn(files::open_program(&args.file)?, settings, &args.file).map(Some);
+        let mut program = files::open_program(&args.file)?;
+        let settings =
+            settings_for(&mut program, &args.file, settings).map_err(|error| io_message("read", &args.file, &error))?;
+        return drawn(program, settings, &args.file).map(Some);
     }
     files::check_format(&args.file, &args.read)?;
     let Some(form) = args.form.clone().or(config.form) else {

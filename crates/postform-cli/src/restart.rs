@@ -17,7 +17,7 @@ pub fn run(args: &RestartArgs) -> Result<Ending, String> {
     let config = Config::near(&args.program)?;
     let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };
     let mut program = files::open_program(&args.program)?;
-    let settings = settings_for(&mut program, control.settings(None, args.units.units()))
+    let settings = settings_for(&mut program, &args.program, control.settings(None, args.units.units()))
         .map_err(|error| io_message("read", &args.program, &error))?;
     let target = match (args.tool, args.at, args.line, &args.operation) {
         (Some(tool), ..) => Target::Tool(tool),

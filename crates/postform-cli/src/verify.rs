@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use postform::diag::Severity;
+use postform::internals::nc::control_of_name;
 use postform::internals::post::Part;
 use postform::internals::verify::Verdict;
 use postform::toolpath::Units;
@@ -43,7 +44,8 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let named = form.as_deref().zip(prepared.as_ref().map(|prepared| &prepared.post));
     let machine = machine::named(&args.machine, named, &config)?;
     let of_machine = machine.as_ref().and_then(|machine| machine.control);
-    let by_config = of_machine.or(config.control).filter(|_| prepared.is_none());
+    let by_name = || control_of_name(args.nc.as_deref()?);
+    let by_config = of_machine.or(config.control).or_else(by_name).filter(|_| prepared.is_none());
     let control = ControlArgs { control: args.control.control.or(by_config), ..args.control.clone() };
     let mut proof = control.proof(args.tolerance);
     proof.units = args.options.units.map(UnitsArg::units);

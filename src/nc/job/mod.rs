@@ -14,6 +14,7 @@ mod switches;
 mod turning;
 
 use std::io::{Read, Seek};
+use std::path::Path;
 
 use super::action::Item;
 use super::foreign::settings_for;
@@ -40,7 +41,7 @@ pub fn read_program(
     warnings: &mut Vec<Diag>,
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
-    let settings = settings_for(&mut input, options.settings).map_err(ReadError::Io)?;
+    let settings = settings_for(&mut input, Path::new(""), options.settings).map_err(ReadError::Io)?;
     let options = &JobOptions { settings, ..*options };
     if options.settings.control.is_wire() {
         return unsaid(1, "the program is a wire EDM machine's", "programs of mills and lathes can be read as jobs");

@@ -6,6 +6,7 @@ mod sides;
 mod text;
 
 use std::io::{Cursor, IsTerminal, Write};
+use std::path::Path;
 
 use postform::internals::diff::{Ignore, Options, Program, Summary, compare};
 use postform::internals::nc::{Kind, RunError, RunSettings, settings_for, tokens};
@@ -135,8 +136,10 @@ fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Resu
     let inputs = [old, new].map(|side| Cursor::new(side.program.bytes()));
     let failed = |error: std::io::Error| format!("error: can't read the program: {error}");
     let [mut a, mut b] = inputs;
-    let settings =
-        [settings_for(&mut a, settings[0]).map_err(failed)?, settings_for(&mut b, settings[1]).map_err(failed)?];
+    let settings = [
+        settings_for(&mut a, Path::new(&old.name), settings[0]).map_err(failed)?,
+        settings_for(&mut b, Path::new(&new.name), settings[1]).map_err(failed)?,
+    ];
     match compare_motions([(a, settings[0]), (b, settings[1])], units, tolerance) {
         Ok(found) => Ok(Outcome::Compared(found)),
         Err(NoMotion(which, RunError::Refused(mut diag, _))) => {

@@ -35,9 +35,11 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     let unknown = args.start == StartArg::Unknown;
     let settings = RunSettings { places_unknown: unknown, ..control.settings(None, args.units.units()) };
     let mut program = files::open_program(&args.program)?;
-    let settings = settings_for(&mut program, settings).map_err(|error| io_message("read", &args.program, &error))?;
+    let settings = settings_for(&mut program, &args.program, settings)
+        .map_err(|error| io_message("read", &args.program, &error))?;
     let on_machine = program.try_clone().map_err(|error| io_message("read", &args.program, &error))?;
     let mut simulator = Simulator::new(program, settings);
+    let shown = text::Shown::of(&settings);
     let mut tally = Tally::new(settings.units);
     let mut warnings = Vec::new();
     let mut left_out = 0;
@@ -54,7 +56,7 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
             } else if args.format == MotionFormat::Json {
                 json::json(item, unknown, &mut text);
             } else {
-                text::line(item, simulator.text(), unknown, &mut text);
+                text::line(item, simulator.text(), shown, &mut text);
             }
         }
         let new = simulator.take_warnings();

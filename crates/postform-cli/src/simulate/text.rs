@@ -1,9 +1,27 @@
 //! Actions as lines of text.
 
-use postform::internals::nc::{Action, Item};
+use postform::internals::nc::{Action, Item, RunSettings};
 use postform::internals::number::quantise;
 
 use super::{plane_name, stop_name, turn_name};
+
+/// How positions are shown.
+#[derive(Clone, Copy)]
+pub struct Shown {
+    /// Positions that only the machine knows are shown as `?`.
+    pub unknown: bool,
+    /// Of a lathe: X as its programs count it, in radii; no Y.
+    pub across: Option<f64>,
+}
+
+impl Shown {
+    /// For a program that is run so.
+    pub fn of(settings: &RunSettings) -> Shown {
+        let by_diameter = settings.by_diameter.unwrap_or(true);
+        let across = settings.control.is_lathe().then_some(if by_diameter { 2.0 } else { 1.0 });
+        Shown { unknown: settings.places_unknown, across }
+    }
+}
 
 /// A line that is written from its end to its beginning: digits come that way, and nothing is copied twice.
 struct Backwards {
@@ -68,18 +86,21 @@ impl Backwards {
         self.text(letter);
     }
 
-    fn position(&mut self, to: &[f64; 6], unknown: u8) {
+    fn position(&mut self, to: &[f64; 6], unknown: u8, across: Option<f64>) {
         for (letter, value) in [b" C", b" B", b" A"].iter().zip(to[3..].iter().rev()) {
             if *value != 0.0 {
                 self.word(*letter, *value);
             }
         }
         for (axis, letter) in [b"X".as_slice(), b" Y", b" Z"].into_iter().enumerate().rev() {
-            if unknown & 1 << axis != 0 {
-                self.byte(b'?');
-                self.text(letter);
-            } else {
-                self.word(letter, to[axis]);
+            match (axis, across) {
+                (1, Some(_)) => {}
+                _ if unknown & 1 << axis != 0 => {
+                    self.byte(b'?');
+                    self.text(letter);
+                }
+                (0, Some(times)) => self.word(letter, to[0] * times),
+                _ => self.word(letter, to[axis]),
             }
         }
     }
@@ -106,8 +127,8 @@ impl Backwards {
     }
 }
 
-/// One action as a line of text. `unknown`: positions that only the machine knows are shown as `?`.
-pub fn line(item: &Item, block: &[u8], unknown: bool, out: &mut Vec<u8>) {
+/// One action as a line of text.
+pub fn line(item: &Item, block: &[u8], Shown { unknown, across }: Shown, out: &mut Vec<u8>) {
     let hidden = |machine: u8| if unknown { machine } else { 0 };
     let mut text = Backwards::new();
     text.byte(b'\n');
@@ -116,7 +137,7 @@ pub fn line(item: &Item, block: &[u8], unknown: bool, out: &mut Vec<u8>) {
             if *machine != 0 && !unknown {
                 text.in_machine(*machine);
             }
-            text.position(to, hidden(*machine));
+            text.position(to, hidden(*machine), across);
             "rapid"
         }
         Action::Feed { to, feed, lead, machine, home } => {
@@ -127,7 +148,7 @@ pub fn line(item: &Item, block: &[u8], unknown: bool, out: &mut Vec<u8>) {
                 Some(lead) => text.word(b" lead ", *lead),
                 None => text.word(b" F", *feed),
             }
-            text.position(to, hidden(*machine));
+            text.position(to, hidden(*machine), across);
             "feed"
         }
         Action::Arc(turn) => {
@@ -137,10 +158,12 @@ pub fn line(item: &Item, block: &[u8], unknown: bool, out: &mut Vec<u8>) {
             text.text(plane_name(turn.plane).as_bytes());
             text.text(b" in ");
             text.word(b" Z", turn.center[2]);
-            text.word(b" Y", turn.center[1]);
-            text.word(b"  centre X", turn.center[0]);
+            if across.is_none() {
+                text.word(b" Y", turn.center[1]);
+            }
+            text.word(b"  centre X", turn.center[0] * across.unwrap_or(1.0));
             text.word(b" F", turn.feed);
-            text.position(&turn.to, hidden(turn.machine));
+            text.position(&turn.to, hidden(turn.machine), across);
             turn_name(turn.direction)
         }
         Action::Dwell(seconds) => {

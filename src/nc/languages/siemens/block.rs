@@ -16,7 +16,11 @@ use crate::nc::state::State;
 use crate::toolpath::Units;
 
 /// Words of path control and look-ahead, which change nothing that is compared.
-const HARMLESS: [&str; 24] = [
+const HARMLESS: [&str; 27] = [
+    // they take back what no program that is run has turned on
+    "TRAFOOF",
+    "FNORM",
+    "DIAMOF",
     "SOFT",
     "BRISK",
     "DRIVE",
@@ -42,6 +46,37 @@ const HARMLESS: [&str; 24] = [
     "RTLION",
     "RTLIOF",
 ];
+
+/// Words that begin what is not run, and what that is.
+const NOT_RUN: [(&str, &str); 22] = [
+    ("TRAORI", "a transformation of five axes"),
+    ("TRANSMIT", "polar coordinate interpolation"),
+    ("TRACYL", "a transformation about a cylinder"),
+    ("TRAANG", "a transformation of an inclined axis"),
+    ("ROT", "a turned frame"),
+    ("AROT", "a turned frame"),
+    ("ROTS", "a turned frame"),
+    ("AROTS", "a turned frame"),
+    ("SCALE", "a scaled frame"),
+    ("ASCALE", "a scaled frame"),
+    ("MIRROR", "a mirror image"),
+    ("AMIRROR", "a mirror image"),
+    ("ASPLINE", "a spline"),
+    ("BSPLINE", "a spline"),
+    ("CSPLINE", "a spline"),
+    ("POLY", "a polynomial"),
+    ("DIAMON", "X as a diameter"),
+    ("LIMS", "the highest speed of the spindle under G96"),
+    ("SPOS", "a stop of the spindle at an angle"),
+    ("SPOSA", "a stop of the spindle at an angle"),
+    ("SETMS", "another master spindle"),
+    ("WHENEVER", "a synchronised action"),
+];
+
+/// What a word begins that is not run.
+pub(super) fn not_run(name: &str) -> Option<&'static str> {
+    NOT_RUN.iter().find(|(word, _)| *word == name).map(|(_, what)| *what)
+}
 
 /// Reads the words of a block that moves and switches.
 pub struct Words<'s> {
@@ -123,13 +158,12 @@ impl Words<'_> {
                 Ok(())
             }
             _ => {
-                let message = format!("`{name}` is not known");
-                Err(Fault::at(
-                    Code::PN016,
-                    column,
-                    message,
-                    "run the program without it, or write what it does as moves",
-                ))
+                let message = match not_run(&name) {
+                    Some(what) => format!("`{name}`, {what}, is not run"),
+                    None => format!("`{name}` is not known"),
+                };
+                let help = "run the program without it, or write what it does as moves";
+                Err(Fault::at(Code::PN016, column, message, help))
             }
         }
     }

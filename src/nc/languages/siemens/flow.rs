@@ -358,7 +358,8 @@ fn is_call(name: &str, cursor: &Cursor<'_>, is_name: bool) -> bool {
     let own = ["CYCLE", "HOLES", "TRANS", "ATRANS", "MCALL", "SUPA"];
     let rest = cursor.rest();
     let alone = rest.is_empty() || rest[0] == b'(' || rest[0].eq_ignore_ascii_case(&b'P');
-    is_name && alone && !own.iter().any(|known| name.starts_with(known)) && !super::block::is_harmless(name)
+    let is_known = super::block::is_harmless(name) || super::block::not_run(name).is_some();
+    is_name && alone && !is_known && !own.iter().any(|known| name.starts_with(known))
 }
 
 /// `P3` behind a call: how often.

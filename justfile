@@ -24,6 +24,16 @@ hunt-kind kind jobs="20000" programs="5000" seed="0":
     cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin jobs {{jobs}} {{seed}} {{kind}}
     cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin programs {{programs}} {{seed}} {{kind}}
 
+# random turning programs through an executor of their own, and the same with a mistake
+hunt-turning programs="20000" changed="12000" seed="0":
+    cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin turning {{programs}} {{seed}}
+    cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin turning {{changed}} {{seed}} fanuc-lathe change
+    cargo run --quiet --release --locked --manifest-path fuzz/Cargo.toml --bin turning {{changed}} {{seed}} haas-lathe change
+
+# 30 mistakes in each of three forms: which the standard cases see
+broken-forms:
+    BROKEN=30 cargo test --test it -- cases::the_standard_cases_see_broken_forms --nocapture
+
 # ten million of them: a night
 hunt-long:
     just hunt 10000000 1000000 1000000

@@ -15,3 +15,4 @@ pub mod random;
 pub mod shrink;
 pub mod tally;
 pub mod text;
+pub mod turning;

@@ -28,6 +28,8 @@ pub enum Action {
         machine: u8,
         /// Those of them that increments have moved since, so that their position is unknown.
         astray: u8,
+        /// Those of them whose place in machine coordinates the program says, by G28 or G53.
+        placed: u8,
     },
     /// A straight feed move.
     Feed {
@@ -78,6 +80,8 @@ pub enum Action {
     Frame,
     /// A hole of a canned cycle; its moves follow.
     Hole(Box<Drilling>),
+    /// How the next moves cut a thread.
+    Threading(Threading),
     /// A thread in passes; its moves follow.
     Passes(Box<Passes>),
     /// The cycle is no longer in force.
@@ -88,6 +92,17 @@ pub enum Action {
     LeftOut(Code, Meaning),
     /// The block has a slash, and is run.
     BlockDelete,
+}
+
+/// What a lathe's thread says besides its moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Threading {
+    /// Where on its turn the spindle is when the cut begins, in degrees from its mark.
+    pub start: f64,
+    /// The angle of the flanks, along which the passes go in, in degrees.
+    pub flanks: f64,
+    /// How far from the end the tool begins to leave the thread, in leads.
+    pub pull_out: f64,
 }
 
 /// A thread in passes, as G76 of a lathe. Positions are a radius and Z, in the units in force.

@@ -1,6 +1,6 @@
 //! Lathes of Fanuc's kind: the turret, and threads by G32, G92 and G76 (system A).
 
-use super::action::{Action, Passes, Rotation};
+use super::action::{Action, Passes, Rotation, Threading};
 use super::block::Block;
 use super::codes::{Group, letters};
 use super::fault::{Done, refuse};
@@ -10,6 +10,8 @@ use crate::control::Meaning;
 use crate::diag::Code;
 use crate::toolpath::Units;
 
+/// Angles of flanks that G76 takes, in degrees.
+const FLANKS: [f64; 6] = [0.0, 29.0, 30.0, 55.0, 60.0, 80.0];
 /// Most passes of a thread.
 const MOST: u32 = 10_000;
 
@@ -22,6 +24,10 @@ pub struct FirstBlock {
     least: f64,
     /// What is left for the last pass, on the radius.
     allowance: f64,
+    /// How far from the end the tool leaves the thread, in leads.
+    pull_out: f64,
+    /// The angle of the flanks in degrees.
+    flanks: f64,
 }
 
 /// What a lathe keeps of its threads.
@@ -78,10 +84,25 @@ impl State {
         let Some(packed) = block.get(b'P').filter(|p| (0.0..=999_999.0).contains(p) && p.fract() == 0.0) else {
             return refuse(Code::PN007, "the first block of G76 without P", "write P010060: passes, chamfer, angle");
         };
+        let (least, allowance) = (block.get(b'Q').unwrap_or(0.0), block.get(b'R').unwrap_or(0.0));
+        if least < 0.0 || allowance < 0.0 {
+            return refuse(
+                Code::PN018,
+                "a negative Q or R in the first block of G76",
+                "both are sizes, without a sign",
+            );
+        }
+        let flanks = packed % 100.0;
+        if !FLANKS.contains(&flanks) {
+            let message = format!("G76 with flanks of {flanks} degrees");
+            return refuse(Code::PN018, message, "the last two digits of P are 00, 29, 30, 55, 60 or 80");
+        }
         self.threads.first = Some(FirstBlock {
             last: (packed / 10_000.0) as u32,
-            least: self.increments(block.get(b'Q').unwrap_or(0.0)),
-            allowance: block.get(b'R').unwrap_or(0.0).abs(),
+            least: self.increments(least),
+            allowance,
+            pull_out: (packed / 100.0).trunc() % 100.0 / 10.0,
+            flanks,
         });
         Ok(())
     }
@@ -125,6 +146,13 @@ impl State {
             return refuse(Code::PN013, "a thread under cutter compensation", "end it with G40 first");
         }
         let lead = Some(self.drive.feed);
+        let first = self.threads.first.filter(|_| does == Meaning::ThreadCycle);
+        out.push(Action::Threading(Threading {
+            // thousandths of a degree; Q of G76 is a depth
+            start: block.get(b'Q').filter(|_| first.is_none()).map_or(0.0, |angle| (angle / 1e3).rem_euclid(360.0)),
+            flanks: first.map_or(0.0, |first| first.flanks),
+            pull_out: first.map_or(0.0, |first| first.pull_out),
+        }));
         let (begin, unsaid) = (self.place.position, self.place.at_machine);
         if does == Meaning::Thread {
             let end = self.target(block)?;

@@ -47,7 +47,7 @@ mod tool;
 mod turning;
 mod way;
 
-pub use action::{Action, Cooling, Drilling, Item, Position, Rotation, Turn};
+pub use action::{Action, Cooling, Drilling, Item, Position, Rotation, Threading, Turn};
 pub(crate) use arcs::axes_of;
 pub use foreign::{control_of_name, settings_for};
 pub use job::{JobOptions, read_program};

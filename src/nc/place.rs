@@ -91,7 +91,8 @@ impl Place {
     #[inline]
     pub fn rapid_to(&mut self, to: Position, out: &mut Out<'_>) {
         self.position = to;
-        out.push(Action::Rapid { to, machine: self.at_machine, astray: self.astray & self.at_machine });
+        let machine = self.at_machine;
+        out.push(Action::Rapid { to, machine, astray: self.astray & machine, placed: self.placed & machine });
     }
 
     /// A straight feed move; `lead`: it follows the spindle, by so much a turn.

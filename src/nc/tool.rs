@@ -155,7 +155,9 @@ impl State {
 
     pub(super) fn compensation(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         if !self.control.is_linuxcnc() {
-            self.tool.diameter_register = block.get(b'D').or(self.tool.diameter_register);
+            // D of a Haas lathe's cycle is a depth
+            let of_cycle = block.row(Group::Once).is_some_and(|row| row.words.has(b'D'));
+            self.tool.diameter_register = block.get(b'D').filter(|_| !of_cycle).or(self.tool.diameter_register);
         }
         let Some(row) = block.row(Group::Compensation) else {
             // another register while it is on

@@ -4,7 +4,7 @@ use std::ops::{Deref, DerefMut};
 use std::rc::Rc;
 
 use super::tables::{ANGLE, MOMENT, ORIENTED, ROUNDED};
-use crate::nc::{Cooling, Position, Rotation, Turn, axes_of, sweep};
+use crate::nc::{Cooling, Position, Rotation, Threading, Turn, axes_of, sweep};
 use crate::toolpath::{FeedMode, Plane, Side};
 
 /// A place: X Y Z in the job's units, A B C in degrees, and U V, the upper guide of a wire, in the job's units.
@@ -100,6 +100,8 @@ pub(super) struct State {
     pub plane: Plane,
     /// The control keeps feed and spindle in step.
     pub rigid: Option<bool>,
+    /// What a thread says besides its moves.
+    pub thread: Threading,
     /// How the spindle turned where a control's floating tap begins; of the job: how it must.
     pub into_tap: Option<Rotation>,
 }
@@ -162,6 +164,8 @@ pub(super) struct Cut {
     pub unknown: u8,
     /// Axes that the cut takes to a place of the machine (G53 under G1).
     pub home: u8,
+    /// Axes of its end that only the machine knows.
+    pub open: u8,
     pub what: What,
     pub feed: Option<f64>,
     pub mode: FeedMode,

@@ -353,6 +353,7 @@ impl Job {
             from: self.whole(&self.at),
             unknown: self.unknown(),
             home: 0,
+            open: 0,
             what,
             feed: self.feed,
             mode: self.mode,

@@ -69,6 +69,8 @@ pub(super) struct Passage {
     pub new_tool: bool,
     /// For each change of a lathe's tool, the axes at a place of the machine.
     pub turrets: Vec<u8>,
+    /// Axes that went to a place of the machine which the program says.
+    pub homes: u8,
     /// The job's way leaves the axis of its hole.
     pub aside: bool,
     /// The job's way left the axis of its hole before the last change of the frame.
@@ -103,6 +105,7 @@ impl Passage {
             does: Vec::new(),
             new_tool: false,
             turrets: Vec::new(),
+            homes: 0,
             aside: false,
             left_aside: false,
             astray: Vec::new(),
@@ -129,6 +132,7 @@ impl Passage {
         self.does.clear();
         self.astray.clear();
         self.turrets.clear();
+        self.homes = 0;
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 

@@ -11,7 +11,7 @@ use super::rapid_path::RapidPath;
 use super::ways::{Compared, compare, leaves_low};
 use crate::control::{Control, ToolLength};
 use crate::lang::additional_work;
-use crate::nc::{Cooling, RunError, RunSettings, axes_of};
+use crate::nc::{Cooling, RunError, RunSettings, Threading, axes_of};
 use crate::toolpath::{StopKind, Units};
 
 /// The first difference of two programs' motions.
@@ -87,6 +87,7 @@ pub fn compare_motions(
             let besides = astray(&a, &b, tolerance)
                 .or_else(|| pauses(&a, &b, tolerance))
                 .or_else(|| turrets(&a, &b))
+                .or_else(|| homes(&a, &b, names))
                 .or_else(|| standing(&a, &b));
             if x.is_none() && y.is_none() && leaves_well && besides.is_none() {
                 motions.ways += u64::from(!same_way);
@@ -128,6 +129,7 @@ pub fn compare_motions(
             .or_else(|| pauses(&a, &b, tolerance))
             .or_else(|| switching(&a, &b, names))
             .or_else(|| turrets(&a, &b))
+            .or_else(|| homes(&a, &b, names))
             .or_else(|| standing(&a, &b));
         if let Some(message) = message {
             let difference = Some(MotionDifference { message, blocks: blocks(&a, &b) });
@@ -172,6 +174,9 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
         });
         return Some(format!("a cut begins at {new}, before at {old}"));
     }
+    if cut.open != found.open {
+        return Some("a cut goes to a position that only the machine knows in one of them".to_owned());
+    }
     if cut.home != found.home {
         return Some("a cut goes to a position of the machine in one of them".to_owned());
     }
@@ -203,6 +208,17 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
         (Some(a), Some(b)) if (a - b).abs() <= 1e-6 * a.abs() + tolerance => {}
         (Some(a), Some(b)) => return Some(format!("the lead of a thread is {}, before {}", number(b), number(a))),
         _ => return Some("a cut follows the spindle, as a thread does, in one of them".to_owned()),
+    }
+    if cut.lead.is_some() && cut.state.thread != found.state.thread {
+        let text = |words: Threading| {
+            format!(
+                "at {} degrees, flanks of {}, {} leads to leave",
+                number(words.start),
+                number(words.flanks),
+                number(words.pull_out)
+            )
+        };
+        return Some(format!("a thread begins {}, before {}", text(found.state.thread), text(cut.state.thread)));
     }
     if cut.mode != found.mode {
         return Some("feeds count otherwise: per minute, per turn or inverse time".to_owned());
@@ -264,7 +280,12 @@ fn state(before: &State, now: &State, names: Names) -> Option<String> {
         ("the spindle speed", before.speed, now.speed),
     ];
     let text = |value: Option<f64>| value.map_or("none".to_owned(), |value| number(value).to_string());
-    if let Some((name, a, b)) = pairs.into_iter().find(|(_, a, b)| a != b) {
+    // a surface speed in other units has other last digits
+    let differ = |a: Option<f64>, b: Option<f64>| match (a, b) {
+        (Some(a), Some(b)) => (a - b).abs() > 1e-6 * a.abs(),
+        (a, b) => a != b,
+    };
+    if let Some((name, a, b)) = pairs.into_iter().find(|(_, a, b)| differ(*a, *b)) {
         return Some(format!("{name} is {}, before {}", text(b), text(a)));
     }
     if before.css != now.css {
@@ -338,6 +359,20 @@ fn turrets(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     let (before, now) = (&old.passage.turrets, &new.passage.turrets);
     let differ = (0..before.len().max(now.len())).find(|at| before.get(*at) != now.get(*at))?;
     Some(format!("the turret turns {}, before {}", text(now.get(differ)), text(before.get(differ))))
+}
+
+/// The tool goes home along fewer axes: a height, or a lathe's X and Z. Homes of controls of other languages are not compared.
+fn homes(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
+    let counts = if old.control().is_lathe() { 0b101 } else { 0b100 };
+    let lost = old.passage.homes & !new.passage.homes & counts;
+    let axes: Vec<String> = ["X", "Y", "Z"]
+        .iter()
+        .enumerate()
+        .filter(|(axis, _)| lost & 1 << axis != 0)
+        .map(|(_, name)| (*name).to_owned())
+        .collect();
+    (!axes.is_empty() && !names.by_order)
+        .then(|| format!("the tool no longer goes home along {} on the way here", axes.join(" and ")))
 }
 
 /// At which angles the spindle stands while the tool moves at rapid.

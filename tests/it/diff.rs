@@ -195,11 +195,66 @@ fn motions_of_lathes_differ_in_spindle_and_turret() {
         ("S2500", "S500", "the highest speed of the spindle is 500, before 2500"),
         ("G50 S2500\n", "", "the highest speed of the spindle is none, before 2500"),
         ("G1 Z-20. F2.", "G32 Z-20. F2.", "a cut follows the spindle, as a thread does, in one of them"),
+        ("G28 U0 W0", "G58 U0 W0", "a cut goes to a position that only the machine knows in one of them"),
         ("G28 U0 W0", "G28 W0", "the turret turns at home along Z alone, before at home"),
         ("G28 U0 W0", "G28 U0", "the turret turns at home along X alone, before at home"),
     ] {
         assert_eq!(differs(from, to), message, "{from} -> {to}");
     }
+}
+
+/// Threads by the words that their moves do not show.
+#[test]
+fn motions_of_threads_differ_in_their_words() {
+    let part =
+        |thread: &str| format!("G21 G18 G40 G99\nT0101\nG97 S800 M3\nG0 X40. Z2.\n{thread}\nG0 X60.\nG28 U0 W0\nM30\n");
+    let differs = |old: &str, new: &str| {
+        let settings = [RunSettings::new(control("fanuc-lathe")); 2];
+        let [a, b] = [part(old), part(new)].map(Cursor::new);
+        compare_motions([(a, settings[0]), (b, settings[1])], Units::Mm, 1e-6)
+            .unwrap()
+            .difference
+            .map(|found| found.message)
+    };
+    let twice = "G92 X38. Z-10. F1.5\nG92 X38. Z-10. F1.5 Q180000";
+    let at = |angle: &str| {
+        format!(
+            "a thread begins at {angle}, flanks of 0, 0 leads to leave, before at 180 degrees, flanks of 0, 0 leads to leave"
+        )
+    };
+    assert_eq!(differs(twice, "G92 X38. Z-10. F1.5\nG92 X38. Z-10. F1.5"), Some(at("0 degrees")));
+    assert_eq!(differs(twice, &twice.replace("Q180000", "Q-180000")), None);
+    let cycle = "G76 P010060 Q50 R.02\nG76 X38. Z-10. P1000 Q300 F1.5";
+    for words in ["P010000", "P010055", "P012060"] {
+        let found = differs(cycle, &cycle.replace("P010060", words)).unwrap();
+        assert!(found.starts_with("a thread begins at 0 degrees, flanks of "), "{words}: {found}");
+    }
+    assert_eq!(differs(cycle, cycle), None);
+}
+
+/// An offset that stands in for a way home, and an axis that is left where it was in another offset.
+#[test]
+fn motions_differ_where_a_position_is_unknown_for_another_reason() {
+    let settings = [RunSettings::new(control("fanuc")); 2];
+    let part = |middle: &str| {
+        format!("G90 G21 G17 G94\nT1 M6\nG54 G0 X0 Y0 S900 M3\nG43 H1 Z2.\nG1 Z-20. F200.\n{middle}\nM30\n")
+    };
+    let differs = |old: &str, new: &str| {
+        let [a, b] = [part(old), part(new)].map(Cursor::new);
+        compare_motions([(a, settings[0]), (b, settings[1])], Units::Mm, 1e-6)
+            .unwrap()
+            .difference
+            .map(|found| found.message)
+    };
+    let home = "G0 Z2.\nG91 G28 Z0\nG90 G54\nG0 X90. Y50.\nG43 H1 Z2.\nG1 Z-5.";
+    assert_eq!(
+        differs(home, &home.replace("G28", "G58")),
+        Some("the tool no longer goes home along Z on the way here".to_owned())
+    );
+    assert_eq!(
+        differs("G55\nG1 X50.", "G55\nG1 X50. Z-20."),
+        Some("a cut goes to a position that only the machine knows in one of them".to_owned())
+    );
 }
 
 #[test]

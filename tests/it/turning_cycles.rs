@@ -470,3 +470,28 @@ fn what_manuals_leave_open_is_refused() {
     let pattern = "G0 X50. Z2.\nG73 U5. W5. R1\nG73 P10 Q20 F.2\nN10 G0 X20.\nN20 G1 Z-9.";
     is_refused("fanuc-lathe", pattern, "G73 with one pass");
 }
+
+#[test]
+fn sizes_have_no_sign() {
+    for blocks in [
+        "G0 X50. Z2.\nG71 U-2. R1.",
+        "G0 X50. Z2.\nG71 U2. R-1.",
+        "G0 X0 Z2.\nG74 R-1.",
+        "G0 X0 Z2.\nG74 R1.\nG74 Z-9. Q-3000 F.1",
+        "G0 X40. Z2.\nG76 P010060 Q50 R-.02",
+        "G0 X40. Z2.\nG76 P010007 Q50 R.02",
+    ] {
+        is_refused("fanuc-lathe", blocks, "PN018");
+    }
+    // a Haas has one block
+    is_refused("haas-lathe", "G0 X50. Z2.\nG71 U2. R1.", "PN007");
+}
+
+#[test]
+fn a_chamfer_may_be_as_long_as_its_cut() {
+    makes("G0 X50. Z2.\nG1 X50.4 K-.2 F.2\nZ-9.", &["r 25 2", "f 25.2 1.8", "f 25.2 -9"]);
+    makes("G0 X4.6 Z.3\nG1 X3.92 K-.02 F.15\nZ.28", &["r 2.3 0.3", "f 1.98 0.3", "f 1.96 0.28"]);
+    // what leaves the corner leaves nothing else
+    is_refused("fanuc-lathe", "G0 X20. Z2.\nG1 Z-20. R3. F.2\nG55 X50.", "does not leave it");
+    is_refused("fanuc-lathe", "G0 X20. Z2.\nG1 Z-20. R3. F.2\nT0202 X50.", "does not leave it");
+}

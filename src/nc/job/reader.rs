@@ -139,7 +139,7 @@ impl<'a> Reader<'a> {
         }
         self.settle_way(&item.action)?;
         match &item.action {
-            Action::Rapid { to, machine, astray } if astray & 0b111 == 0 => self.rapid(to, *machine),
+            Action::Rapid { to, machine, astray, .. } if astray & 0b111 == 0 => self.rapid(to, *machine),
             Action::Rapid { .. } => {
                 let help = "write the position under G90, or go there by G53";
                 unsaid(item.line, "an increment leads on from a position that only the machine knows", help)
@@ -221,6 +221,7 @@ impl<'a> Reader<'a> {
             | Action::Length(_)
             | Action::End
             | Action::LeftOut(..)
+            | Action::Threading(_)
             | Action::Passes(_) // threads of lathes
             | Action::BlockDelete
             | Action::SpeedLimit(_) => Ok(()),

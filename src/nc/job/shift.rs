@@ -38,7 +38,9 @@ impl Reader<'_> {
         }
         let [.., z] = self.shift;
         match action {
-            &Action::Rapid { to, machine, astray } => Some(Action::Rapid { to: self.place_of(&to), machine, astray }),
+            &Action::Rapid { to, machine, astray, placed } => {
+                Some(Action::Rapid { to: self.place_of(&to), machine, astray, placed })
+            }
             &Action::Feed { to, feed, lead, machine, home } => {
                 Some(Action::Feed { to: self.place_of(&to), feed, lead, machine, home })
             }

@@ -166,6 +166,7 @@ impl<'a> Turner<'a> {
                 self.comment(text.trim())
             }
             Action::Plane(_)
+            | Action::Threading(_)
             | Action::Units(_)
             | Action::CycleOff
             | Action::End

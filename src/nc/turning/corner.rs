@@ -7,7 +7,7 @@ use crate::control::Meaning;
 use crate::diag::Code;
 use crate::nc::action::{Action, Position, Turn};
 use crate::nc::block::Block;
-use crate::nc::codes::{Motion, letters};
+use crate::nc::codes::{Group, Motion, letters};
 use crate::nc::fault::{Done, refuse};
 use crate::nc::out::Out;
 use crate::nc::profiled::Corner;
@@ -23,6 +23,9 @@ struct Asked {
     rounds: bool,
 }
 
+/// Lengths below which two positions are one.
+const SAME: f64 = 1e-7;
+
 const NEXT: &str = "write a G1 along the other axis after it, or write the corner as moves";
 
 impl State {
@@ -31,7 +34,8 @@ impl State {
         let Some(due) = self.turning.corner else { return Ok(()) };
         let [own, other] = if due.axis == 0 { ["XU", "ZW"] } else { ["ZW", "XU"] };
         let moves = motion.is_some_and(|row| row.meaning == Meaning::Line) && block.has(letters(own));
-        if moves && !block.has(letters(other)) && !block.has(letters("Y")) {
+        let frames = [Group::Work, Group::Once].iter().any(|group| block.row(*group).is_some());
+        if moves && !block.has(letters(other)) && !block.has(letters("YT")) && !frames {
             return Ok(());
         }
         refuse(Code::PN006, "a chamfer or rounded corner, and the next block does not leave it", NEXT)
@@ -46,9 +50,13 @@ impl State {
             if block.has(if due.axis == 0 { letters("U") } else { letters("W") }) {
                 to[due.axis] -= due.by;
             }
-            if (to[due.axis] - from[due.axis]) * due.by < 0.0 {
+            if (to[due.axis] - from[due.axis]) * due.by.signum() < -SAME {
                 let message = "the block after a chamfer or rounded corner goes the other way, or is shorter than it";
                 return refuse(Code::PN018, message, "look at the sign and the size of I, K or R before it");
+            }
+            // a chamfer as long as this cut leaves nothing of it
+            if asked.is_none() && (to[due.axis] - from[due.axis]).abs() <= SAME {
+                return Ok(());
             }
         }
         let Some(Asked { along, size, rounds }) = asked else {
@@ -60,7 +68,7 @@ impl State {
             return refuse(Code::PN007, message, "write a move with X and Z before it");
         }
         let length = to[along] - from[along];
-        if length.abs() < size.abs() {
+        if length.abs() < size.abs() - SAME {
             let message = format!("a cut of {} is shorter than its chamfer or rounded corner of {size}", length.abs());
             return refuse(Code::PN018, message, "write a smaller I, K or R");
         }
@@ -69,7 +77,11 @@ impl State {
         begin[along] -= length.signum() * size.abs();
         let mut end = to;
         end[across] += size;
-        self.place.feed_to(begin, feed, None, out);
+        if (begin[along] - from[along]).abs() > SAME {
+            self.place.feed_to(begin, feed, None, out);
+        } else {
+            begin = from;
+        }
         if rounds {
             self.place.position = end;
             out.push(Action::Arc(self.rounding(begin, end, along, length * size, feed)));

@@ -28,7 +28,7 @@ impl State {
         match row.meaning {
             Meaning::RoughTurn | Meaning::RoughFace | Meaning::RoughPattern | Meaning::Finish => {
                 let [Some(first), Some(last)] = [b'P', b'Q'].map(|letter| block.get(letter)) else {
-                    return self.first_of(row.meaning, block).map(|()| None);
+                    return self.first_of(row, block).map(|()| None);
                 };
                 if block.get(b'R').is_some_and(|second| second != 0.0) {
                     let message = format!("{} with R, for profiles that go back on themselves", row.code);
@@ -54,21 +54,43 @@ impl State {
     }
 
     /// The first block of two.
-    fn first_of(&mut self, meaning: Meaning, block: &Block) -> Done {
-        if meaning == Meaning::Finish || !block.has(letters("UWR")) {
+    fn first_of(&mut self, row: &Row, block: &Block) -> Done {
+        let meaning = row.meaning;
+        // a Haas has one block
+        if meaning == Meaning::Finish || row.words.has(b'D') || !block.has(letters("UWR")) {
             return refuse(
                 Code::PN007,
                 "a turning cycle without P and Q",
                 "write the numbers of its profile's first block and its last: G71 P10 Q20",
             );
         }
-        let radius = |value: Option<f64>| value.map(f64::abs);
+        let depth = if meaning == Meaning::RoughFace { b'W' } else { b'U' };
+        if meaning != Meaning::RoughPattern {
+            for letter in [depth, b'R'] {
+                self.is_size(block, letter)?;
+            }
+        }
         match meaning {
-            Meaning::RoughTurn => keep(&mut self.turning.turn, [radius(block.get(b'U')), block.get(b'R')]),
-            Meaning::RoughFace => keep(&mut self.turning.face, [radius(block.get(b'W')), block.get(b'R')]),
+            Meaning::RoughTurn => keep(&mut self.turning.turn, [block.get(depth), block.get(b'R')]),
+            Meaning::RoughFace => keep(&mut self.turning.face, [block.get(depth), block.get(b'R')]),
             _ => keep(&mut self.turning.pattern, [block.get(b'U'), block.get(b'W'), block.get(b'R')]),
         }
         Ok(())
+    }
+
+    /// A word that has no sign.
+    pub(in crate::nc) fn is_size(&self, block: &Block, letter: u8) -> Done {
+        match block.get(letter) {
+            Some(size) if size < 0.0 => {
+                let letter = char::from(letter);
+                refuse(
+                    Code::PN018,
+                    format!("{letter}{size} is a size, and below 0"),
+                    format!("write {letter} without the minus"),
+                )
+            }
+            _ => Ok(()),
+        }
     }
 
     fn how(&self, row: &Row, block: &Block) -> Done<How> {
@@ -96,7 +118,8 @@ impl State {
                 let across = meaning == Meaning::RoughFace;
                 let [depth, back] = if across { self.turning.face } else { self.turning.turn };
                 let (code, letter) = if across { ("G72", 'W') } else { ("G71", 'U') };
-                let Some(depth) = block.get(b'D').map(f64::abs).or(depth).filter(|depth| *depth > 0.0) else {
+                self.is_size(block, b'D')?;
+                let Some(depth) = block.get(b'D').or(depth).filter(|depth| *depth > 0.0) else {
                     let message = format!("{code} does not say how deep a pass is: a parameter of the control does");
                     let help = format!("{code} {letter}2. R1. before it; on a Haas D in its block");
                     return refuse(Code::PN007, message, help);

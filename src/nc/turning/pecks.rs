@@ -16,7 +16,8 @@ impl State {
         let one_block = row.words.has(b'K');
         let is_first = !one_block && !block.has(letters("XZUWPQ"));
         if is_first {
-            self.turning.back = block.get(b'R').map(f64::abs).or(self.turning.back);
+            self.is_size(block, b'R')?;
+            self.turning.back = block.get(b'R').or(self.turning.back);
             return Ok(());
         }
         let code = row.code;
@@ -34,8 +35,11 @@ impl State {
             (false, 0) => b'P',
             (false, _) => b'Q',
         };
+        for axis in [along, across] {
+            self.is_size(block, letter_of(axis))?;
+        }
         let size = |axis: usize| {
-            let said = block.get(letter_of(axis)).map(f64::abs).filter(|size| *size > 0.0)?;
+            let said = block.get(letter_of(axis)).filter(|size| *size > 0.0)?;
             Some(if one_block { said } else { self.increments(said) })
         };
         let (peck, step) = (size(along), size(across));

@@ -35,6 +35,8 @@ pub(super) struct Program<'a> {
     /// Where the tool is.
     at: Place,
     unknown: u8,
+    /// Those of them whose place in machine coordinates the program says.
+    placed: u8,
     state: Shared,
     spin: Spin,
     mode: FeedMode,
@@ -88,6 +90,7 @@ impl<'a> Program<'a> {
             recent: Recent::default(),
             at: place(&[0.0; 6]),
             unknown: 0b111,
+            placed: 0,
             state: state.into(),
             spin: Spin::Turns(Rotation::Stop),
             mode: FeedMode::PerMinute,
@@ -277,11 +280,12 @@ impl<'a> Program<'a> {
             *unsaid = self.simulator.state().at_machine();
         }
         match &item.action {
-            Action::Rapid { to, machine, astray } => self.rapid(to, [*machine, *astray], item.line),
+            Action::Rapid { to, machine, astray, placed } => self.rapid(to, [*machine, *astray, *placed], item.line),
+            Action::Threading(words) => self.state.thread = *words,
             Action::Feed { to, feed, lead, home, .. } => {
                 // a feed that follows the spindle
                 let feed = match (lead, self.mode, self.state.speed) {
-                    (Some(lead), FeedMode::PerMinute, Some(speed)) => lead * speed,
+                    (Some(lead), FeedMode::PerMinute, Some(speed)) if !self.state.css => lead * speed,
                     (Some(lead), FeedMode::PerRev, _) => *lead,
                     _ => *feed,
                 };
@@ -436,7 +440,7 @@ impl<'a> Program<'a> {
             self.due.new_tool();
             self.changed();
             if self.control.is_lathe() {
-                self.passage.turrets.push(self.unknown & 0b101);
+                self.passage.turrets.push(self.placed & 0b101);
             }
         }
         if self.control.is_lathe() {

@@ -1,12 +1,12 @@
 //! Rapids and cuts of the program, with what must hold before them.
 
 use super::{Doubt, Program};
-use crate::nc::{Item, Position};
+use crate::nc::{Action, Item, Position};
 use crate::toolpath::FeedMode;
 use crate::verify::cut::{Cut, Rapid, What};
 
 impl Program<'_> {
-    pub(super) fn rapid(&mut self, to: &Position, [machine, astray]: [u8; 2], line: u64) {
+    pub(super) fn rapid(&mut self, to: &Position, [machine, astray, placed]: [u8; 3], line: u64) {
         let own = to;
         let to = self.scale.place(to);
         let unknown = self.scale.unknown(machine);
@@ -35,7 +35,8 @@ impl Program<'_> {
                 leg.lengths.push(length);
             }
         }
-        (self.at, self.unknown) = (to, unknown);
+        (self.at, self.unknown, self.placed) = (to, unknown, placed);
+        self.passage.homes |= placed;
         self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
     }
 
@@ -48,6 +49,14 @@ impl Program<'_> {
         if home != 0 {
             self.doubt.get_or_insert(Doubt::Home(item.line));
         }
+        let machine = match &item.action {
+            Action::Feed { machine, .. } => *machine,
+            Action::Arc(turn) => turn.machine,
+            _ => 0,
+        };
+        self.placed = 0;
+        let axes = if self.control.is_lathe() { 0b101 } else { !0 };
+        let open = self.scale.unknown(machine) & axes;
         let mut state = self.state.clone();
         if let (true, Some(speed)) = (state.css, state.speed) {
             state.speed = Some(speed * self.scale.surface());
@@ -60,6 +69,7 @@ impl Program<'_> {
             from: self.at,
             unknown: self.unknown,
             home,
+            open,
             what,
             feed: Some(feed * factor),
             mode: self.mode,

@@ -30,6 +30,25 @@ pub struct Config {
     pub levels: Levels,
     /// Values of properties of forms, by their names, as [`Options::shop_properties`](crate::Options::shop_properties) takes them.
     pub properties: Vec<(String, String)>,
+    /// What `postform test` does; of no other command's concern.
+    pub test: Tests,
+}
+
+/// `[test]`: cases of forms.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
+pub struct Tests {
+    /// The forms that print the jobs, or folders of forms.
+    pub forms: Vec<String>,
+    /// The post of a form that holds several.
+    pub post: Option<String>,
+    /// What is no difference: names of [`crate::internals::diff::Ignore`], as `numbers`.
+    pub ignore: Vec<String>,
+    /// How near two numbers must be to be one, in the unit in which they stand.
+    pub tolerance: f64,
+    /// The day on which programs are printed, as `2026-03-31`.
+    pub date: Option<String>,
 }
 
 /// A control that comes with postform, or a shop's own.
@@ -58,6 +77,8 @@ struct Written {
     rules: BTreeMap<String, String>,
     #[serde(default)]
     properties: BTreeMap<String, WrittenValue>,
+    #[serde(default)]
+    test: Tests,
 }
 
 /// `through = "high"`, `header = false`.
@@ -98,7 +119,7 @@ impl Config {
     pub fn parse(text: &str) -> Result<Config, Error> {
         let written: Written = toml::from_str(text).map_err(|error| {
             let known =
-                "it may say form, control, machine, limits, jobs, require-proof, under [rules] codes as PF303 = \"off\", and under [properties] values as header = false";
+                "it may say form, control, machine, limits, jobs, require-proof, under [rules] codes as PF303 = \"off\", under [properties] values as header = false, and under [test] forms, post, ignore, tolerance and date";
             Error::usage(format!("{}\n  help: {known}", error.to_string().trim_end()))
         })?;
         let mut levels = Levels::default();
@@ -136,6 +157,7 @@ impl Config {
             require_proof: written.require_proof,
             levels,
             properties: written.properties.into_iter().map(|(name, value)| (name, value.typed())).collect(),
+            test: written.test,
         })
     }
 }

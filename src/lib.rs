@@ -124,7 +124,9 @@ pub mod internals {
         };
     }
     pub mod lang {
-        pub use crate::lang::{COMMANDS, CommandId, Machine, SEQUENCES, SequenceId, VARIABLES, did_you_mean};
+        pub use crate::lang::{
+            COMMANDS, CommandId, Machine, SEQUENCES, SequenceId, UnitChoice, VARIABLES, did_you_mean,
+        };
     }
     pub mod lint {
         pub use crate::lint::{Changed, Found, Level, Levels, Mended, RULES, lint, mend, parts};
@@ -156,7 +158,7 @@ pub mod internals {
         pub use crate::render::{Clock, Cycles, Options, Renderer, TraceLine, survey_terms};
     }
     pub mod report {
-        pub use crate::report::{github, json, proof, sarif};
+        pub use crate::report::{github, github_property, github_text, json, proof, sarif};
     }
     pub mod restart {
         pub use crate::restart::{Asked, Refused, Restarted, Target, restart};

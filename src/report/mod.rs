@@ -5,7 +5,7 @@ mod json;
 mod proof;
 mod sarif;
 
-pub use github::annotations as github;
+pub use github::{annotations as github, data as github_text, property as github_property};
 pub use json::report as json;
 pub use proof::proof;
 pub use sarif::log as sarif;

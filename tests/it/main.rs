@@ -4,6 +4,7 @@
 mod allocations;
 mod architecture;
 mod bad_input;
+mod cases;
 mod cl;
 mod cl_points;
 mod codes_agree;

@@ -1,59 +1,30 @@
 //! Every folder of samples/ is a test: its job rendered by its form is its expected program, byte for byte.
 //! `SAMPLES=overwrite cargo test samples::` writes what is printed now; look at the difference before committing.
 
+use crate::program_commands::{postform, text};
 use crate::support;
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
 
-use crate::support::{assert_same, check_file, render_sample, render_sample_with, root, sample_form, samples};
+use crate::support::{check_file, render_sample, render_sample_with, root, sample_form, samples};
 use postform::internals::control::Meaning;
-use postform::internals::render::{Cycles, Options};
+use postform::internals::render::Options;
 use postform::toolpath::Place;
 use serde_json::Value;
 
-fn compare(folder: &Path, form: &Path, expected: &Path, cycles: Cycles) {
-    let name = format!("{} by {}, cycles {cycles:?}", folder.display(), form.display());
-    // a CL file has no program number
-    let program = folder.join("job.cl").exists().then_some(1);
-    let options = Options { cycles, program, ..Options::default() };
-    let rendered = render_sample_with(folder, form, options).unwrap_or_else(|diag| panic!("{name}: {diag:?}"));
-    if std::env::var("SAMPLES").is_ok_and(|v| v == "overwrite") {
-        fs::write(expected, &rendered.text).unwrap();
-    }
-    let expected = fs::read_to_string(expected).unwrap_or_else(|e| panic!("{name}: {}: {e}", expected.display()));
-    assert_same(&name, &expected, &rendered.text);
-}
-
+/// The command tries them: a person's own cases are tried the same way.
 #[test]
 fn samples_print_what_they_say() {
     for folder in samples() {
         assert!(folder.join("README.md").exists(), "{} has no README.md", folder.display());
-        if let Some(form) = sample_form(&folder) {
-            compare(&folder, &form, &folder.join("expected.nc"), Cycles::Form);
-            continue;
-        }
-        let posts = expected_posts(&folder);
-        assert!(!posts.is_empty(), "{} has neither a form nor expected.NAME.nc", folder.display());
-        for post in posts {
-            // expected.NAME.moves.nc is what the post prints with every cycle as single moves
-            let (name, cycles) = match post.strip_suffix(".moves") {
-                Some(name) => (name, Cycles::Emulated),
-                None => (post.as_str(), Cycles::Form),
-            };
-            let form = root().join(format!("postforms/{name}.pf"));
-            compare(&folder, &form, &folder.join(format!("expected.{post}.nc")), cycles);
-        }
     }
-}
-
-/// The posts that a sample is printed by: from `expected.NAME.nc`.
-fn expected_posts(folder: &Path) -> Vec<String> {
-    let names = fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
-    let posts = names.filter_map(|n| Some(n.strip_prefix("expected.")?.strip_suffix(".nc")?.to_owned()));
-    let mut posts: Vec<String> = posts.collect();
-    posts.sort();
-    posts
+    let update = std::env::var("SAMPLES").is_ok_and(|asked| asked == "overwrite");
+    let arguments = ["test", "samples", "--update"];
+    let output = postform(&arguments[..if update { 3 } else { 2 }]);
+    let said = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}{}", text(&output.stderr));
+    let last = said.lines().last().unwrap();
+    assert!(update || last.starts_with("84 cases, 83 forms: 108 programs"), "{last}");
 }
 
 #[test]

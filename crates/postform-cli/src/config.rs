@@ -33,6 +33,23 @@ pub struct Config {
     pub levels: Levels,
     /// Values of properties of forms, by their names.
     pub properties: Vec<(String, String)>,
+    /// What `postform test` does.
+    pub test: Tests,
+}
+
+/// [test] of the configuration.
+#[derive(Clone, Debug, Default)]
+pub struct Tests {
+    /// The forms, or folders of forms.
+    pub forms: Vec<PathBuf>,
+    /// The post of a form that holds several.
+    pub post: Option<String>,
+    /// Names of what is no difference, as `diff --ignore` takes them.
+    pub ignore: Vec<String>,
+    /// How near numbers must be.
+    pub tolerance: f64,
+    /// The day on which programs are printed.
+    pub date: Option<String>,
 }
 
 /// The name of the file.
@@ -106,6 +123,13 @@ impl Config {
             require_proof: said.require_proof,
             levels: said.levels,
             properties: said.properties,
+            test: Tests {
+                forms: said.test.forms.iter().map(near).collect(),
+                post: said.test.post,
+                ignore: said.test.ignore,
+                tolerance: said.test.tolerance,
+                date: said.test.date,
+            },
         })
     }
 }
@@ -177,7 +201,7 @@ fn is_common(folder: &Path) -> bool {
 }
 
 /// A path as people would type it: from the working folder where it is below.
-fn shortened(path: PathBuf) -> PathBuf {
+pub fn shortened(path: PathBuf) -> PathBuf {
     let here = std::env::current_dir().and_then(|here| here.canonicalize());
     here.ok().and_then(|here| path.strip_prefix(here).ok().map(Path::to_path_buf)).unwrap_or(path)
 }

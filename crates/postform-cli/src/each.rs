@@ -1,11 +1,17 @@
 //! The same work for each of many things, on as many threads as there are to be had.
 
+use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 /// What the work makes of each item, in their order.
 pub fn each<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
-    let threads = thread::available_parallelism().map_or(1, usize::from).min(items.len());
+    each_on(None, items, work)
+}
+
+/// The same on so many threads; `None`: one a core.
+pub fn each_on<T: Send, R: Send>(threads: Option<NonZeroUsize>, items: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
+    let threads = threads.or(thread::available_parallelism().ok()).map_or(1, usize::from).min(items.len());
     let waiting = Mutex::new(items.into_iter().enumerate());
     let done = Mutex::new(Vec::new());
     let run = || loop {

@@ -38,6 +38,7 @@ mod sheet;
 mod shells;
 mod simulate;
 mod spool;
+mod test;
 mod unnamed;
 mod verdict;
 mod verify;
@@ -111,6 +112,7 @@ fn main() -> ExitCode {
         Command::Lint(args) => lint::run(&args, arguments.color),
         Command::Check(args) => check::run(&args, colour),
         Command::Verify(args) => verify::run(&args, colour),
+        Command::Test(args) => test::run(&args, arguments.color),
         Command::Diff(args) => diff::run(&args, arguments.color),
         Command::Simulate(args) => simulate::run(&args, colour),
         Command::Fit(args) => machine::fit(&args, colour),

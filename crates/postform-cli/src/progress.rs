@@ -1,44 +1,67 @@
 //! Progress of long work, on a terminal only.
 
 use std::io::{IsTerminal, stderr};
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use super::say::say;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// Work shorter than this shows nothing.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// How often the line changes.
-const EVERY: Duration = Duration::from_millis(250);
+/// How often the line is drawn in a second.
+const DRAWN: u8 = 4;
 
-/// A line on standard error that says how far the work is.
+/// A line on standard error that says how far the work is. It is taken away at the end, so that messages begin at their margin.
 pub struct Progress {
-    started: Instant,
-    shown: Option<Instant>,
-    enabled: bool,
+    bar: ProgressBar,
+    /// When the line is shown; `None`: it is, or never will be.
+    begins: Mutex<Option<Instant>>,
 }
 
 impl Progress {
-    /// Work begins.
+    /// Work of unknown length begins, which counts program lines.
     pub fn new() -> Progress {
-        Progress { started: Instant::now(), shown: None, enabled: stderr().is_terminal() }
+        Progress::with(ProgressBar::hidden(), "{human_pos} lines")
+    }
+
+    /// Work on so many items begins.
+    pub fn of(count: u64) -> Progress {
+        let bar = ProgressBar::hidden();
+        bar.set_length(count);
+        Progress::with(bar, "{bar:40} {human_pos} of {human_len}, {eta} left")
+    }
+
+    fn with(bar: ProgressBar, template: &str) -> Progress {
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        let begins = stderr().is_terminal().then(|| Instant::now() + PATIENCE);
+        Progress { bar, begins: Mutex::new(begins) }
     }
 
     /// Shows how many program lines are done.
-    pub fn lines(&mut self, lines: u64) {
-        let now = Instant::now();
-        let due = self.shown.map_or(self.started + PATIENCE, |shown| shown + EVERY);
-        if self.enabled && now >= due {
-            say(&format!("\r{lines} lines"));
-            self.shown = Some(now);
+    pub fn lines(&self, lines: u64) {
+        self.show();
+        self.bar.set_position(lines);
+    }
+
+    /// One more item is done.
+    pub fn one(&self) {
+        self.show();
+        self.bar.inc(1);
+    }
+
+    fn show(&self) {
+        let Ok(mut begins) = self.begins.try_lock() else { return };
+        if begins.is_some_and(|begins| Instant::now() >= begins) {
+            *begins = None;
+            self.bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(DRAWN));
         }
     }
 }
 
 impl Drop for Progress {
-    /// The line is taken away, so that messages begin at their margin.
     fn drop(&mut self) {
-        if self.shown.is_some() {
-            say("\r\x1b[K");
-        }
+        self.bar.finish_and_clear();
     }
 }

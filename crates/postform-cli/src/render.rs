@@ -87,7 +87,7 @@ fn print(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     options.trace = args.trace.is_some();
     options.one_pass = args.stream;
     let proof = (!args.no_verify && !args.stream).then(|| args.control.proof(None));
-    let mut progress = Progress::new();
+    let progress = Progress::new();
     let kept = |error: &io::Error| io_message("write", Path::new("the program"), error);
     let mut program = machine.as_ref().map(|_| Spool::new()).transpose().map_err(|error| kept(&error))?;
     let mut take = |part: Part<'_>| {

@@ -40,8 +40,8 @@ pub fn check_file(path: &Path) -> Checked {
     let folder = path.parent().unwrap().to_path_buf();
     let mut form = Source::from_bytes(path.to_string_lossy(), &fs::read(path).unwrap());
     // of a file that holds several posts, the folder says which
-    if let Ok(post) = fs::read_to_string(folder.join("post")) {
-        form = one_post(form, post.trim()).unwrap_or_else(|names| panic!("{names:?}"));
+    if let Some(post) = tests_of(&folder).1 {
+        form = one_post(form, post.as_str()).unwrap_or_else(|names| panic!("{names:?}"));
     }
     analyse(form, Limits::Classic, &mut |name| {
         fs::read(folder.join(name)).map(|bytes| Source::from_bytes(name, &bytes)).map_err(|e| e.to_string())
@@ -175,7 +175,8 @@ pub fn path_lines(head: &str, sequences: &str, path: &str) -> Vec<String> {
 
 /// All samples: a folder each.
 pub fn samples() -> Vec<PathBuf> {
-    let mut folders: Vec<_> = fs::read_dir(root().join("samples")).unwrap().map(|e| e.unwrap().path()).collect();
+    let entries = fs::read_dir(root().join("samples")).unwrap().map(|e| e.unwrap().path());
+    let mut folders: Vec<_> = entries.filter(|path| path.is_dir()).collect();
     folders.sort();
     assert!(folders.len() >= 12, "at least 12 samples");
     folders
@@ -187,8 +188,14 @@ pub fn sample_form(folder: &Path) -> Option<PathBuf> {
     if own.exists() {
         return Some(own);
     }
-    let pointer = fs::read_to_string(folder.join("form")).ok()?;
-    Some(folder.join(pointer.trim()))
+    tests_of(folder).0.first().map(|form| folder.join(form))
+}
+
+/// What a sample's own postform.toml says under [test]: forms, and a post.
+fn tests_of(folder: &Path) -> (Vec<String>, Option<String>) {
+    let Ok(text) = fs::read_to_string(folder.join("postform.toml")) else { return Default::default() };
+    let test = postform::Config::parse(&text).unwrap().test;
+    (test.forms, test.post)
 }
 
 /// The formats of jobs.

@@ -10,6 +10,7 @@ mod posts;
 mod programs;
 mod restarts;
 mod sheets;
+mod tests;
 
 use clap::{Args, Parser, Subcommand};
 
@@ -24,6 +25,7 @@ pub use posts::NewPost;
 pub use programs::{DiffArgs, DiffFormat, Layout, MotionFormat, SimulateArgs, StartArg, VerifyArgs, VerifyFormat};
 pub use restarts::RestartArgs;
 pub use sheets::{SheetArgs, SheetFormat};
+pub use tests::{TestArgs, TestFormat};
 
 /// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.
 #[derive(Debug, Parser)]
@@ -48,6 +50,8 @@ pub enum Command {
     Check(CheckArgs),
     /// Prove that a program makes the motions of its job
     Verify(VerifyArgs),
+    /// Print the jobs of a folder, and compare the programs with those that are expected
+    Test(TestArgs),
     /// Show what changed between two NC programs
     Diff(DiffArgs),
     /// Run an NC program and print what the machine does

@@ -18,7 +18,9 @@ use super::colour::Colour;
 use super::report::{Reporter, place_in};
 use super::say::say;
 use super::{Ending, output};
-use sides::{Side, sides};
+pub use sides::Side;
+use sides::sides;
+pub use text::unified;
 
 /// Compares two programs.
 pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
@@ -55,7 +57,7 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
                     let colour = colour.on_stdout();
                     text::side_by_side(&old, &new, &comparison, &summary, args.context, columns, colour)
                 }
-                None => text::unified(&old, &new, &comparison, &summary, args, &options, colour.on_stdout()),
+                None => unified(&old, &new, &comparison, &summary, args.context, &options, colour.on_stdout()),
             },
             DiffFormat::Json => json::document(&old, &new, &comparison, &summary, &options),
             DiffFormat::Html => {
@@ -89,7 +91,7 @@ fn said(text: String) -> Result<Ending, String> {
 }
 
 /// The names of `--ignore`.
-fn ignored(names: &[String]) -> Result<Ignore, String> {
+pub fn ignored(names: &[String]) -> Result<Ignore, String> {
     let mut ignore = Ignore::default();
     for name in names {
         match name.as_str() {

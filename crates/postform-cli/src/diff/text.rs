@@ -7,7 +7,6 @@ use postform::internals::diff::{Comparison, Edit, Hunk, Options, Summary, change
 use postform::internals::terminal::escaped;
 use postform::internals::verify::Motions;
 
-use super::super::args::DiffArgs;
 use super::super::report::count;
 use super::sides::Side;
 
@@ -22,7 +21,7 @@ pub fn unified(
     new: &Side,
     comparison: &Comparison,
     summary: &Summary,
-    args: &DiffArgs,
+    context: usize,
     options: &Options,
     colour: bool,
 ) -> String {
@@ -31,8 +30,8 @@ pub fn unified(
     }
     let mut page = Page { old, new, options, colour, text: String::new() };
     _ = writeln!(page.text, "--- {}\n+++ {}", old.name, new.name);
-    for group in grouped(&comparison.hunks, args.context) {
-        page.group(group, args.context);
+    for group in grouped(&comparison.hunks, context) {
+        page.group(group, context);
     }
     page.text += &sentence(summary);
     page.text

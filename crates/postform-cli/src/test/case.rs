@@ -1,0 +1,280 @@
+//! A case: what a form prints of a job, beside what is expected.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use postform::diag::Diag;
+use postform::internals::diff::{self, Edit, Ignore, Summary, compare};
+use postform::internals::post::Part;
+use postform::internals::render::{Cycles, TraceLine};
+use postform::internals::trace::Trace;
+use postform::{Error, Finding, Format, Verdict};
+
+use super::super::args::ReadArgs;
+use super::super::beside::{self, Printed};
+use super::super::diff::{Side, unified};
+use super::super::files::{self, io_message};
+use super::super::output::write_whole;
+use super::super::report::{Reporter, place_in};
+use super::posts::{Posts, Ready};
+
+/// Blocks around a difference.
+const CONTEXT: usize = 2;
+
+/// A job, a form, and what is expected of them.
+pub struct Case {
+    /// The job's file.
+    pub job: PathBuf,
+    /// The form, by its number.
+    pub form: usize,
+    /// The file of the expected program, or of the code of an error that is right.
+    pub expected: PathBuf,
+    /// Cycles are printed as the form has them, or as moves.
+    pub cycles: Cycles,
+    /// What is expected.
+    pub wanted: Wanted,
+    /// What is no difference.
+    pub ignore: Ignore,
+    /// How near numbers must be.
+    pub tolerance: f64,
+}
+
+/// What is expected of a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// A program.
+    Program,
+    /// An error, by its code.
+    Refusal,
+    /// Not yet known: what comes is written.
+    Nothing,
+}
+
+/// What a form printed.
+pub struct Program {
+    /// The text of the program.
+    pub text: Vec<u8>,
+    trace: Vec<TraceLine>,
+    verdict: Verdict,
+}
+
+/// Why no program came, or none that does what the job asks for.
+pub struct Refused {
+    /// Errors, or what the program does otherwise.
+    pub diags: Vec<Diag>,
+    /// Where there are none.
+    pub message: String,
+}
+
+impl Refused {
+    fn by(error: &Error) -> Refused {
+        let diags = error.findings().diags.iter().filter(|diag| diag.is_error()).cloned().collect();
+        Refused { diags, message: error.to_string() }
+    }
+}
+
+/// How a case came out.
+pub struct Tried {
+    /// The case.
+    pub case: Case,
+    /// What was found.
+    pub end: End,
+    /// The program was not proven to do what the job asks for.
+    pub unproven: bool,
+    /// The lines of the form that printed, each by its first byte in its file.
+    pub printed: Vec<(u32, u32)>,
+}
+
+/// What was found.
+pub enum End {
+    /// As expected.
+    Passed,
+    /// Another program. The text for people, and the first line of the expected program that differs, from 1.
+    Differs { text: String, line: usize },
+    /// No program, or one that is wrong: why, for people.
+    Failed(String),
+    /// What is expected was written: why, for people.
+    Written(String),
+}
+
+impl End {
+    /// The word for it in reports.
+    pub fn name(&self) -> &'static str {
+        match self {
+            End::Passed => "passed",
+            End::Differs { .. } => "differs",
+            End::Failed(_) => "failed",
+            End::Written(_) => "written",
+        }
+    }
+
+    /// Is it as it should be?
+    pub fn is_right(&self) -> bool {
+        matches!(self, End::Passed | End::Written(_))
+    }
+}
+
+impl Case {
+    /// A job of which nothing is expected yet.
+    pub fn new(job: PathBuf, expected: PathBuf) -> Case {
+        let (ignore, tolerance) = (Ignore::default(), 0.0);
+        Case { job, form: 0, expected, cycles: Cycles::Form, wanted: Wanted::Nothing, ignore, tolerance }
+    }
+
+    /// Prints the case and compares it. `update`: what is expected is written where it differs.
+    pub fn tried(self, posts: &Posts, reporter: &Reporter, update: bool, colour: bool) -> Tried {
+        let entry = posts.get(self.form);
+        let ready = match &entry.ready {
+            Ok(ready) => ready,
+            Err(why) => {
+                let end = End::Failed(why.trim_start_matches("error: ").to_owned());
+                return Tried { case: self, end, unproven: false, printed: Vec::new() };
+            }
+        };
+        let printed = match self.print(ready) {
+            Ok(printed) => printed,
+            Err(why) => return Tried { case: self, end: End::Failed(why), unproven: false, printed: Vec::new() },
+        };
+        let lines = printed.as_ref().map(|program| program.trace.as_slice()).unwrap_or_default();
+        let spans = lines.iter().filter_map(|line: &TraceLine| line.form.map(|span| (span.file, span.start)));
+        let mut spans: Vec<(u32, u32)> = spans.collect();
+        spans.sort_unstable();
+        spans.dedup();
+        let unproven = matches!(printed.as_ref().map(|program| &program.verdict), Ok(Verdict::NotProven(_)));
+        let end = self.compared(printed, ready, reporter, update, colour).unwrap_or_else(End::Failed);
+        Tried { case: self, end, unproven, printed: spans }
+    }
+
+    /// What the form prints, proven while it is printed. `Err` outside: the job can't be read.
+    pub fn print(&self, ready: &Ready) -> Result<Result<Program, Refused>, String> {
+        let read = ReadArgs::default();
+        let mut job = files::job(&self.job, &read, true).map_err(|why| why.trim_start_matches("error: ").to_owned())?;
+        let mut options = ready.options.clone();
+        options.cycles = self.cycles;
+        options.job_file = self.job.file_name().map(|name| name.to_string_lossy().into_owned());
+        // a CL file says no number
+        if Format::of_name(&self.job.to_string_lossy()) == Some(Format::Cl) {
+            options.program = Some(1);
+        }
+        let (mut text, mut trace) = (Vec::new(), Vec::new());
+        let mut take = |part: Part<'_>| {
+            text.extend_from_slice(part.text);
+            trace.extend_from_slice(part.trace);
+            Ok(())
+        };
+        let Printed { rendered, proven } = beside::print(&ready.post, job.again(), &options, &ready.proof, &mut take)?;
+        if let Err(error) = rendered {
+            return Ok(Err(Refused::by(&error)));
+        }
+        let mut proven = match proven.and_then(|proven| ready.post.located(proven, job.again(), &options)) {
+            Ok(proven) => proven,
+            Err(error) => return Ok(Err(Refused::by(&error))),
+        };
+        if let Verdict::Different(findings) = &mut proven.verdict {
+            let diag = |finding: &Finding| finding.diag("the program");
+            return Ok(Err(Refused { diags: findings.iter().map(diag).collect(), message: String::new() }));
+        }
+        Ok(Ok(Program { text, trace, verdict: proven.verdict }))
+    }
+
+    fn compared(
+        &self,
+        printed: Result<Program, Refused>,
+        ready: &Ready,
+        reporter: &Reporter,
+        update: bool,
+        colour: bool,
+    ) -> Result<End, String> {
+        match printed {
+            Ok(program) => self.program(&program, ready, update, colour),
+            Err(error) => self.refusal(&error, ready, reporter, update),
+        }
+    }
+
+    fn program(&self, program: &Program, ready: &Ready, update: bool, colour: bool) -> Result<End, String> {
+        if let (Verdict::NotProven(why), true) = (&program.verdict, ready.require_proof) {
+            return Ok(End::Failed(format!("the program is not proven, and postform.toml asks for that: {}", why.why)));
+        }
+        let write = |why: String| {
+            let target = match self.wanted {
+                Wanted::Refusal => self.expected.with_extension("nc"),
+                _ => self.expected.clone(),
+            };
+            write_whole(&target, &program.text)?;
+            if target != self.expected {
+                fs::remove_file(&self.expected).map_err(|error| io_message("remove", &self.expected, &error))?;
+            }
+            Ok(End::Written(why))
+        };
+        match self.wanted {
+            Wanted::Nothing => return write(String::new()),
+            Wanted::Refusal => {
+                let code = self.code()?;
+                let why = format!("a program is printed, where {code} was expected");
+                return if update { write(why) } else { Ok(End::Failed(why)) };
+            }
+            Wanted::Program => {}
+        }
+        let bytes = fs::read(&self.expected).map_err(|error| io_message("read", &self.expected, &error))?;
+        let old = side(&self.expected, bytes)?;
+        let new = Side {
+            name: format!(
+                "what {} prints of {}",
+                files::name(Path::new(&ready.post.files()[0].name)),
+                files::name(&self.job)
+            ),
+            trace: Some((Trace::new(program.trace.clone()), ready.post.files().to_vec())),
+            control: ready.post.control(),
+            ..side(&self.expected, program.text.clone())?
+        };
+        let options = diff::Options { ignore: self.ignore, tolerance: self.tolerance };
+        let comparison = compare(&old.program, &new.program, &options);
+        if comparison.is_same() {
+            return Ok(End::Passed);
+        }
+        let first = comparison.edits().next().copied();
+        let line = first.map_or(0, |edit| match edit {
+            Edit::Removed(line) | Edit::Changed(line, _) | Edit::Moved(line, _) => line,
+            Edit::Added(_) => comparison.hunks.first().map_or(0, |hunk| hunk.old.start),
+        });
+        let summary = Summary::of(&comparison, &old.program, &new.program, &self.ignore);
+        let text = unified(&old, &new, &comparison, &summary, CONTEXT, &options, colour);
+        if update { write(text) } else { Ok(End::Differs { text, line: line + 1 }) }
+    }
+
+    fn refusal(&self, error: &Refused, ready: &Ready, reporter: &Reporter, update: bool) -> Result<End, String> {
+        let mut diags = error.diags.clone();
+        let codes: Vec<&str> = diags.iter().map(|diag| diag.code.name()).collect();
+        let first = codes.first().copied().unwrap_or("an error").to_owned();
+        if self.wanted == Wanted::Refusal {
+            let code = self.code()?;
+            if codes.contains(&code.as_str()) {
+                return Ok(End::Passed);
+            }
+        }
+        diags.iter_mut().for_each(|diag| place_in(&files::name(&self.job), diag));
+        let shown =
+            if diags.is_empty() { format!("{}\n", error.message) } else { reporter.text(&diags, ready.post.files()) };
+        if self.wanted == Wanted::Program || !update {
+            return Ok(End::Failed(shown));
+        }
+        let target = self.expected.with_extension("refused");
+        write_whole(&target, format!("{first}\n").as_bytes())?;
+        Ok(End::Written(shown))
+    }
+
+    /// The code of an error that is expected.
+    fn code(&self) -> Result<String, String> {
+        let text = fs::read_to_string(&self.expected).map_err(|error| io_message("read", &self.expected, &error))?;
+        let code = text.split_whitespace().next().unwrap_or_default();
+        if code.is_empty() {
+            return Err(format!("{} says no code, as PR010", files::name(&self.expected)));
+        }
+        Ok(code.to_owned())
+    }
+}
+
+fn side(path: &Path, bytes: Vec<u8>) -> Result<Side, String> {
+    let program = diff::Program::new(bytes).map_err(|_| format!("{} is larger than 4 GB", files::name(path)))?;
+    Ok(Side { name: files::name(path), program, control: None, trace: None })
+}

@@ -1,0 +1,46 @@
+//! Which lines of the forms the cases printed.
+
+use std::collections::HashSet;
+
+use postform::internals::source::Source;
+
+use super::case::Tried;
+use super::posts::Posts;
+
+/// A form and what no case printed of it.
+pub struct Covered {
+    /// The form's name.
+    pub form: String,
+    /// How many of its lines print.
+    pub lines: usize,
+    /// Those that no case printed: file, line from 1, text.
+    pub missing: Vec<(String, u32, String)>,
+}
+
+/// Of each form that the cases print: the lines of its sequences, those under conditions each for itself.
+pub fn of(posts: &Posts, tried: &[Tried]) -> Vec<Covered> {
+    let mut all = Vec::new();
+    for (at, entry) in posts.all().iter().enumerate() {
+        let Ok(ready) = &entry.ready else { continue };
+        let files = &ready.checked.files;
+        let own = tried.iter().filter(|tried| tried.case.form == at);
+        let line_of = |&(file, at): &(u32, u32)| Some((file, files.get(file as usize)?.line(at)));
+        let printed: HashSet<(u32, usize)> = own.flat_map(|tried| &tried.printed).filter_map(line_of).collect();
+        let form = &ready.checked.form;
+        let of_sequences = form.sequences.values().flat_map(|sequence| &sequence.lines);
+        let lines = of_sequences.chain(form.upons.iter().flat_map(|upon| &upon.lines));
+        let (mut count, mut missing) = (0, Vec::new());
+        for line in lines {
+            count += 1;
+            let file = line.span.file;
+            let source: Option<&Source> = files.get(file as usize);
+            if let Some(source) = source.filter(|source| !printed.contains(&(file, source.line(line.span.start)))) {
+                let (number, _) = source.line_column(line.span.start);
+                missing.push((source.name.clone(), number, source.slice(line.span).trim().to_owned()));
+            }
+        }
+        missing.sort();
+        all.push(Covered { form: super::super::files::name(&entry.path), lines: count, missing });
+    }
+    all
+}

@@ -1,0 +1,163 @@
+//! Cases in folders: jobs, and the programs expected of them.
+
+use std::fs;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use postform::Format;
+use postform::internals::render::Cycles;
+
+use super::super::args::TestArgs;
+use super::super::config::{Config, shortened};
+use super::super::diff::ignored;
+use super::super::files::{self, io_message};
+use super::case::{Case, Wanted};
+use super::posts::Posts;
+
+/// What was found.
+#[derive(Default)]
+pub struct Found {
+    /// The cases, in the order of their paths.
+    pub cases: Vec<Case>,
+    /// What can't be a case, for people.
+    pub problems: Vec<String>,
+}
+
+/// Folders below one another; deeper ones are left alone.
+const DEEPEST: usize = 32;
+/// So much of a JSON document tells whether it is a job.
+const HEAD: u64 = 4096;
+
+impl Found {
+    /// Adds the cases of a folder and of those below it, or those of one job.
+    ///
+    /// # Errors
+    /// A message: it can't be read, or its postform.toml says something that makes no sense.
+    pub fn search(&mut self, path: &Path, posts: &mut Posts, args: &TestArgs) -> Result<(), String> {
+        let meta = fs::metadata(path).map_err(|error| io_message("read", path, &error))?;
+        if meta.is_file() {
+            let files = listed(files::folder(path))?;
+            return self.job(path, &files, posts, args);
+        }
+        self.folder(path, posts, args, DEEPEST)
+    }
+
+    fn folder(&mut self, folder: &Path, posts: &mut Posts, args: &TestArgs, deeper: usize) -> Result<(), String> {
+        let entries = listed(folder)?;
+        for path in entries.iter().filter(|path| is_job(path)) {
+            self.job(path, &entries, posts, args)?;
+        }
+        for path in &entries {
+            let is_hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
+            // a link to a folder could lead back
+            let is_folder = path.symlink_metadata().is_ok_and(|meta| meta.is_dir());
+            if is_folder && !is_hidden && deeper > 0 {
+                self.folder(path, posts, args, deeper - 1)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn job(&mut self, job: &Path, beside: &[PathBuf], posts: &mut Posts, args: &TestArgs) -> Result<(), String> {
+        let config = Config::near(job)?;
+        let folder = files::folder(job);
+        let stem = job.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let head = if stem == "job" { "expected.".to_owned() } else { format!("{stem}.expected.") };
+        let own_form = folder.join("form.pf");
+        let forms = posts.under(&config)?;
+        let ignore = ignored(&config.test.ignore).map_err(|error| in_file(&config, &error))?;
+        let mut count = 0;
+        let add = |found: &mut Found, form: usize, expected: PathBuf, cycles: Cycles, wanted: Wanted| {
+            let tolerance = config.test.tolerance;
+            found.cases.push(Case { job: job.to_path_buf(), form, expected, cycles, wanted, ignore, tolerance });
+        };
+        for path in beside {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let Some(rest) = name.strip_prefix(head.as_str()) else { continue };
+            count += 1;
+            let (rest, ending) = rest.rsplit_once('.').unwrap_or(("", rest));
+            let wanted = if ending == "refused" { Wanted::Refusal } else { Wanted::Program };
+            let (form_name, cycles) = match rest.strip_suffix(".moves") {
+                Some(form) => (form, Cycles::Emulated),
+                None => (rest, Cycles::Form),
+            };
+            let form = match form_name {
+                "" => match posts.are_named() {
+                    true => continue,
+                    false if own_form.is_file() => Some(posts.entry(&own_form)?),
+                    false => forms.first().copied().filter(|_| forms.len() == 1),
+                },
+                _ => forms.iter().copied().find(|form| posts.get(*form).name == form_name),
+            };
+            match form {
+                Some(form) => add(self, form, path.clone(), cycles, wanted),
+                // the forms of the command line are those that are tried
+                None if posts.are_named() => {}
+                None => self.problems.push(no_form(path, form_name, &config)),
+            }
+        }
+        if args.update && posts.are_named() {
+            for &form in &forms {
+                let expected = folder.join(format!("{head}{}.nc", posts.get(form).name));
+                let is_there = |path: &PathBuf| beside.contains(path);
+                if !is_there(&expected) && !is_there(&expected.with_extension("refused")) {
+                    add(self, form, expected, Cycles::Form, Wanted::Nothing);
+                    count += 1;
+                }
+            }
+        }
+        if count == 0 {
+            let name = files::name(job);
+            self.problems.push(format!(
+                "{name} has no expected program beside it\n  help: `postform test --update --form FORM {name}` writes {head}FORM.nc"
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// What stands in a folder, in the order of the names.
+fn listed(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let fail = |error: std::io::Error| io_message("read", folder, &error);
+    let entries: Result<Vec<PathBuf>, _> =
+        fs::read_dir(folder).map_err(fail)?.map(|entry| entry.map(|entry| entry.path())).collect();
+    let mut entries = entries.map_err(fail)?;
+    entries.sort();
+    Ok(entries)
+}
+
+/// Is the file a job? JSON must look like one, and an NC program is one if it is called `job`.
+fn is_job(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    if !path.is_file() || name.starts_with("expected.") || name.contains(".expected.") {
+        return false;
+    }
+    match Format::of_name(&name) {
+        Some(Format::Nc) => path.file_stem().is_some_and(|stem| stem == "job"),
+        Some(Format::Json) => looks_like_a_job(path),
+        Some(_) => true,
+        None => false,
+    }
+}
+
+fn looks_like_a_job(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    read.is_ok() && String::from_utf8_lossy(&head).contains("\"postform\"")
+}
+
+fn no_form(expected: &Path, form: &str, config: &Config) -> String {
+    let name = files::name(expected);
+    if form.is_empty() {
+        return format!("{name}: there is no form.pf beside it, and no one form under [test]");
+    }
+    let file = config.path.clone().map_or("a postform.toml".to_owned(), |path| files::name(&shortened(path)));
+    format!(
+        "{name}: there is no form called {form}\n  help: name it in {file}, under [test], as forms = [\"{form}.pf\"], or by --form"
+    )
+}
+
+fn in_file(config: &Config, error: &str) -> String {
+    let file = config.path.as_deref().map(files::name).unwrap_or_default();
+    format!("error: {file}: ignore under [test]: {}", error.trim_start_matches("error: "))
+}

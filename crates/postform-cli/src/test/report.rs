@@ -1,0 +1,202 @@
+//! How the result is shown: to people, as JSON, as JUnit's XML, as marks on GitHub.
+
+use std::fmt::Write as _;
+
+use postform::internals::report::{github_property, github_text};
+use postform::internals::terminal::{escaped, escaped_lines};
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
+use serde_json::json;
+
+use super::super::files;
+use super::super::output;
+use super::super::report::count;
+use super::case::{Case, End, Tried};
+use super::coverage::Covered;
+use super::posts::Posts;
+
+/// All that was tried.
+pub struct Report<'a> {
+    /// The cases.
+    pub tried: &'a [Tried],
+    /// What can't be a case.
+    pub problems: &'a [String],
+    /// The forms.
+    pub posts: &'a Posts,
+    /// What no case prints, where it was asked for.
+    pub covered: Option<&'a [Covered]>,
+}
+
+impl Report<'_> {
+    /// Is all as expected?
+    pub fn is_clean(&self) -> bool {
+        self.problems.is_empty() && self.tried.iter().all(|tried| tried.end.is_right())
+    }
+
+    /// The counts: `142 cases, 3 forms: 426 programs, 2 differ`.
+    pub fn sentence(&self) -> String {
+        let number = |list: Vec<String>| list.into_iter().collect::<std::collections::BTreeSet<_>>().len();
+        let jobs = number(self.tried.iter().map(|tried| files::name(&tried.case.job)).collect());
+        let forms = number(self.tried.iter().map(|tried| tried.case.form.to_string()).collect());
+        let of = |name: &str| self.tried.iter().filter(|tried| tried.end.name() == name).count();
+        let mut text =
+            format!("{}, {}: {}", count(jobs, "case"), count(forms, "form"), count(self.tried.len(), "program"));
+        let differ = of("differs");
+        for (number, what) in [
+            (differ, if differ == 1 { "differs" } else { "differ" }),
+            (of("failed"), "failed"),
+            (of("written"), "written"),
+            (self.tried.iter().filter(|tried| tried.unproven).count(), "not proven"),
+        ] {
+            if number > 0 {
+                _ = write!(text, ", {number} {what}");
+            }
+        }
+        if !self.problems.is_empty() {
+            _ = write!(text, "; {}", count(self.problems.len(), "problem"));
+        }
+        if self.is_clean() && of("written") == 0 {
+            text += ", all as expected";
+        }
+        text
+    }
+
+    /// For people.
+    pub fn pretty(&self) -> String {
+        let mut text = String::new();
+        for tried in self.tried {
+            let head = self.head(&tried.case);
+            match &tried.end {
+                End::Passed => {}
+                End::Differs { text: shown, .. } => _ = writeln!(text, "{shown}"),
+                End::Failed(why) => _ = writeln!(text, "{head}:\n{}", escaped_lines(why.trim_end())),
+                End::Written(why) if why.is_empty() => _ = writeln!(text, "{head}: written"),
+                End::Written(why) => _ = writeln!(text, "{}\n{head}: written\n", why.trim_end()),
+            }
+        }
+        for problem in self.problems {
+            _ = writeln!(text, "{}", escaped_lines(problem));
+        }
+        for covered in self.covered.unwrap_or_default() {
+            let missing = covered.missing.len();
+            let printed = covered.lines - missing;
+            _ = writeln!(text, "{}: {printed} of {} lines are printed by a case", covered.form, covered.lines);
+            for (file, line, shown) in &covered.missing {
+                _ = writeln!(text, "  {file}:{line}: {}", escaped(shown));
+            }
+        }
+        text + &self.sentence() + "\n"
+    }
+
+    /// One JSON document.
+    pub fn json(&self) -> String {
+        let programs: Vec<_> = self
+            .tried
+            .iter()
+            .map(|tried| {
+                let (message, line) = said(&tried.end);
+                json!({
+                    "job": files::name(&tried.case.job),
+                    "form": self.form(&tried.case),
+                    "expected": files::name(&tried.case.expected),
+                    "result": tried.end.name(),
+                    "proven": !tried.unproven,
+                    "message": message,
+                    "line": line,
+                })
+            })
+            .collect();
+        let coverage = self.covered.map(|covered| {
+            let form = |covered: &Covered| {
+                let missing = covered.missing.iter();
+                let missing: Vec<_> =
+                    missing.map(|(file, line, text)| json!({ "file": file, "line": line, "text": text })).collect();
+                json!({ "form": covered.form, "lines": covered.lines, "missing": missing })
+            };
+            covered.iter().map(form).collect::<Vec<_>>()
+        });
+        output::json(&json!({
+            "programs": programs,
+            "problems": self.problems,
+            "coverage": coverage,
+            "summary": self.sentence(),
+        }))
+    }
+
+    /// The XML of JUnit, as CI systems read it.
+    pub fn junit(&self) -> String {
+        self.xml().map(|bytes| String::from_utf8_lossy(&bytes).into_owned() + "\n").unwrap_or_default()
+    }
+
+    fn xml(&self) -> std::io::Result<Vec<u8>> {
+        let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
+        writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+        let failed = self.tried.iter().filter(|tried| !tried.end.is_right()).count() + self.problems.len();
+        let total = (self.tried.len() + self.problems.len()).to_string();
+        let mut suite = BytesStart::new("testsuite");
+        suite.push_attribute(("name", "postform"));
+        suite.push_attribute(("tests", total.as_str()));
+        suite.push_attribute(("failures", failed.to_string().as_str()));
+        writer.write_event(Event::Start(suite))?;
+        for tried in self.tried {
+            let message = match &tried.end {
+                end if end.is_right() => None,
+                end => Some(said(end).0),
+            };
+            case(&mut writer, &self.form(&tried.case), &files::name(&tried.case.expected), message.as_deref())?;
+        }
+        for problem in self.problems {
+            let name = problem.split(':').next().unwrap_or_default();
+            case(&mut writer, "postform", name, Some(problem))?;
+        }
+        writer.write_event(Event::End(BytesEnd::new("testsuite")))?;
+        Ok(writer.into_inner())
+    }
+
+    /// Commands of GitHub's runners: each marks a line of a file.
+    pub fn github(&self) -> String {
+        let mut text = String::new();
+        for tried in self.tried.iter().filter(|tried| !tried.end.is_right()) {
+            let (message, line) = said(&tried.end);
+            let file = github_property(&files::name(&tried.case.expected));
+            let message = github_text(&format!("{}\n{message}", self.head(&tried.case)));
+            _ = writeln!(text, "::error file={file},line={}::{message}", line.unwrap_or(1));
+        }
+        for problem in self.problems {
+            _ = writeln!(text, "::error::{}", github_text(problem));
+        }
+        text
+    }
+
+    fn form(&self, case: &Case) -> String {
+        files::name(&self.posts.get(case.form).path)
+    }
+
+    fn head(&self, case: &Case) -> String {
+        format!("{} by {}", files::name(&case.expected), self.form(case))
+    }
+}
+
+/// What is said of an end without colour, and the line of the expected program.
+fn said(end: &End) -> (String, Option<usize>) {
+    match end {
+        End::Passed => (String::new(), None),
+        End::Differs { text, line } => (text.clone(), Some(*line)),
+        End::Failed(why) | End::Written(why) => (why.trim_end().to_owned(), None),
+    }
+}
+
+fn case(writer: &mut Writer<Vec<u8>>, form: &str, name: &str, failure: Option<&str>) -> std::io::Result<()> {
+    let mut start = BytesStart::new("testcase");
+    start.push_attribute(("classname", form));
+    start.push_attribute(("name", name));
+    let Some(message) = failure else { return writer.write_event(Event::Empty(start)) };
+    writer.write_event(Event::Start(start))?;
+    let mut failure = BytesStart::new("failure");
+    failure.push_attribute(("message", message.lines().next().unwrap_or_default()));
+    writer.write_event(Event::Start(failure))?;
+    // what XML has no character for is escaped
+    writer.write_event(Event::Text(BytesText::new(&escaped_lines(message))))?;
+    writer.write_event(Event::End(BytesEnd::new("failure")))?;
+    writer.write_event(Event::End(BytesEnd::new("testcase")))
+}

@@ -1,0 +1,101 @@
+//! `postform test --new`: the standard cases for a form, with what it prints of each.
+
+use std::borrow::Cow;
+use std::fs;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use postform::internals::lang::{Machine, UnitChoice};
+
+use super::super::Ending;
+use super::super::files::{self, io_message};
+use super::super::output::{self, write_new};
+use super::case::Case;
+use super::cases::{BEAM, LATHE, MILL, WIRE};
+use super::posts::Ready;
+
+/// Writes the cases into a folder: for each a job, and beside it what the form prints of it. Files that are there stay.
+pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
+    let ready = Ready::of(form)?;
+    let name = form.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let settings = &ready.checked.form.settings;
+    let cases = match settings.machine {
+        _ if settings.beam.is_some() => BEAM,
+        Machine::Mill => MILL,
+        Machine::Lathe => LATHE,
+        Machine::Edm => WIRE,
+    };
+    let (mut printed, mut refused) = (0, Vec::new());
+    for (case, job) in cases {
+        let job = in_units(job, settings.units);
+        let place = folder.join(case);
+        fs::create_dir_all(&place).map_err(|error| io_message("make", &place, &error))?;
+        new(&place.join("job.json"), job.as_bytes())?;
+        let job = place.join("job.json");
+        let expected = place.join(format!("expected.{name}.nc"));
+        match Case::new(job, expected.clone()).print(&ready)? {
+            Ok(program) => {
+                new(&expected, &program.text)?;
+                printed += 1;
+            }
+            Err(why) => {
+                let said = why.diags.first().map(|diag| (diag.code.name(), diag.message.as_str()));
+                let (code, message) = said.unwrap_or(("an error", &why.message));
+                new(&expected.with_extension("refused"), format!("{code}\n").as_bytes())?;
+                refused.push(format!("  {case}: {code} {message}"));
+            }
+        }
+    }
+    let config = folder.join("postform.toml");
+    let from_there = relative(folder, form)?;
+    let said = toml_string(&from_there.to_string_lossy());
+    let written = new(&config, format!("[test]\nforms = [{said}]\n").as_bytes())?;
+    let mut text = format!("{}: {printed} programs of {} jobs\n", files::name(folder), cases.len());
+    if !refused.is_empty() {
+        text += &format!(
+            "{} does not print the others, which is then expected:\n{}\n",
+            files::name(form),
+            refused.join("\n")
+        );
+    }
+    if !written {
+        text += &format!("{} was there: it names the forms under [test]\n", files::name(&config));
+    }
+    text += &format!("look the programs through once, then: postform test {}\n", files::name(folder));
+    output::standard_output(|out| io::Write::write_all(out, text.as_bytes()))?;
+    Ok(Ending::Clean)
+}
+
+/// A job in units that the form prints. The numbers stay: it is a smaller part, or a larger one.
+fn in_units(job: &str, printed: UnitChoice) -> Cow<'_, str> {
+    let units = ["\"units\": \"mm\"", "\"units\": \"inch\""];
+    let [from, to] = match printed {
+        UnitChoice::Both => return job.into(),
+        UnitChoice::Inch => units,
+        UnitChoice::Mm => [units[1], units[0]],
+    };
+    job.replacen(from, to, 1).into()
+}
+
+/// Writes a file that is not there yet. `false`: it is, and stays.
+fn new(path: &Path, bytes: &[u8]) -> Result<bool, String> {
+    match write_new(path, bytes) {
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
+        Err(error) => Err(io_message("write", path, &error)),
+    }
+}
+
+/// The path of a file as seen from a folder.
+fn relative(folder: &Path, file: &Path) -> Result<PathBuf, String> {
+    let whole = |path: &Path| path.canonicalize().map_err(|error| io_message("read", path, &error));
+    let (folder, file) = (whole(folder)?, whole(file)?);
+    let shared = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
+    let up = folder.components().skip(shared).map(|_| Component::ParentDir);
+    Ok(up.chain(file.components().skip(shared)).collect())
+}
+
+/// A text in TOML.
+fn toml_string(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "/").replace('"', "\\\""))
+}

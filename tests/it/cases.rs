@@ -1,0 +1,242 @@
+//! `postform test`: cases in folders, as a person keeps them beside a form.
+
+use std::fs;
+use std::process::Output;
+
+use crate::support::folder::{Folder, err, out};
+use crate::support::root;
+
+/// A folder with a form that ships and its standard cases.
+fn kept(test: &str, form: &str) -> Folder {
+    let folder = Folder::new(&format!("cases-{test}"));
+    fs::copy(root().join("postforms").join(form), folder.0.join(form)).unwrap();
+    let output = folder.run(&["test", "--new", form]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    folder
+}
+
+fn ends(output: &Output, status: i32, last: &str) {
+    let said = out(output);
+    assert_eq!(output.status.code(), Some(status), "{said}{}", err(output));
+    assert_eq!(said.lines().last(), Some(last), "{said}");
+}
+
+fn change(folder: &Folder, file: &str, from: &str, to: &str) {
+    let path = folder.0.join(file);
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains(from), "{file} has no {from}");
+    fs::write(path, text.replace(from, to)).unwrap();
+}
+
+#[test]
+fn the_standard_cases_see_a_change_of_the_form() {
+    let folder = kept("change", "haas.pf");
+    ends(&folder.run(&["test"]), 0, "56 cases, 1 form: 56 programs, all as expected");
+    change(
+        &folder,
+        "haas.pf",
+        "G[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]",
+        "G[retplane] G81 X[h] Y[v] R[vclear] Z[d] F[frate]",
+    );
+    let output = folder.run(&["test"]);
+    let said = out(&output);
+    assert_eq!(output.status.code(), Some(1));
+    for shown in [
+        "--- tests/drill/expected.haas.nc\n+++ what haas.pf prints of tests/drill/job.json\n",
+        "-N90 G98 G81 X10. Y10. Z-15. R2. F120.\n",
+        "+N90 G98 G81 X10. Y10. R2. Z-15. F120.\n",
+        "    printed by haas.pf:",
+    ] {
+        assert!(said.contains(shown), "{shown}: {said}");
+    }
+    let last = said.lines().last().unwrap();
+    assert!(last.starts_with("56 cases, 1 form: 56 programs, ") && last.ends_with(" differ"), "{last}");
+    // the order of words is no difference where postform.toml says so
+    folder.write("tests/postform.toml", "[test]\nforms = [\"../haas.pf\"]\nignore = [\"order\", \"spaces\"]\n");
+    ends(&folder.run(&["test"]), 0, "56 cases, 1 form: 56 programs, all as expected");
+    folder.write("tests/postform.toml", "[test]\nforms = [\"../haas.pf\"]\n");
+    // shown, then written
+    let output = folder.run(&["test", "--update"]);
+    assert!(out(&output).contains("+N90 G98 G81 X10. Y10. R2. Z-15. F120.\n"));
+    assert_eq!(output.status.code(), Some(0));
+    ends(&folder.run(&["test"]), 0, "56 cases, 1 form: 56 programs, all as expected");
+}
+
+#[test]
+fn every_form_that_ships_prints_its_standard_cases() {
+    let folder = Folder::new("cases-kit");
+    for entry in fs::read_dir(root().join("postforms")).unwrap() {
+        let form = entry.unwrap().path();
+        let name = form.file_stem().unwrap().to_string_lossy().into_owned();
+        let output = folder.run(&["test", "--new", form.to_str().unwrap(), &name]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", err(&output));
+        let said = out(&output);
+        let counts: Vec<usize> = said.split(|c: char| !c.is_ascii_digit()).filter_map(|n| n.parse().ok()).collect();
+        // what a control has not is refused by name
+        assert!(counts[counts.len().min(2) - 1] > 0 && !said.contains("PX001"), "{said}");
+    }
+    let output = folder.run(&["test", "."]);
+    let said = out(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}{}", err(&output));
+    assert!(said.lines().last().unwrap().contains("21 forms") && said.contains("all as expected"), "{said}");
+}
+
+/// A word lost, a number changed, two codes exchanged: the cases that print the line see it, or the proof does.
+#[test]
+fn the_standard_cases_see_broken_forms() {
+    let most: usize = std::env::var("BROKEN").map_or(6, |count| count.parse().unwrap());
+    for form in ["haas.pf", "siemens.pf", "fanuc-lathe.pf"] {
+        let folder = kept(&format!("broken-{form}"), form);
+        let whole = fs::read_to_string(folder.0.join(form)).unwrap();
+        let coverage = folder.run(&["test", "--coverage", "--format", "json"]);
+        let report: serde_json::Value = serde_json::from_str(&out(&coverage)).unwrap();
+        let missing: Vec<usize> = report["coverage"][0]["missing"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|line| usize::try_from(line["line"].as_u64().unwrap()).unwrap())
+            .collect();
+        let lines: Vec<&str> = whole.lines().collect();
+        let is_printed =
+            |line: &str| line.contains('[') && !line.contains(['@', '#', '(', '=']) && line.trim().contains(' ');
+        let begins = lines.iter().position(|line| line.trim() == "StartCode").unwrap_or(0);
+        let printed = (begins..lines.len()).filter(|at| is_printed(lines[*at]) && !missing.contains(&(at + 1)));
+        let (mut tried, mut unseen) = (0, Vec::new());
+        for (count, at) in printed.enumerate() {
+            // the last word is lost, or the first
+            let (head, tail) = if count % 2 == 0 {
+                lines[at].rsplit_once(' ').unwrap()
+            } else {
+                ("", lines[at].trim_start().split_once(' ').unwrap().1)
+            };
+            let broken = if count % 2 == 0 { head } else { tail };
+            let mut text = lines.clone();
+            text[at] = broken;
+            fs::write(folder.0.join(form), text.join("\n") + "\n").unwrap();
+            tried += 1;
+            if folder.run(&["test", "--format", "json"]).status.code() == Some(0) {
+                unseen.push(format!("{form}:{}: {}", at + 1, lines[at]));
+            }
+            if tried == most {
+                break;
+            }
+        }
+        println!("{form}: {tried} mistakes, {} not seen", unseen.len());
+        assert!(tried >= most.min(6) && unseen.is_empty(), "{unseen:#?}");
+    }
+}
+
+#[test]
+fn what_can_be_no_case_is_a_problem_and_stops_no_other() {
+    let folder = kept("problems", "haas.pf");
+    folder.write("tests/drill/expected.mill.nc", "%\n");
+    folder.write("tests/alone/job.json", r#"{"postform": 1, "units": "mm", "operations": []}"#);
+    folder.write("tests/cut-short/job.json", "{\"postform\": 1, \"units\": \"mm\", ");
+    folder.write("tests/cut-short/expected.haas.nc", "%\n");
+    folder.write("tests/helix/expected.haas.nc", "\u{0}\u{1b}[2J\n");
+    let output = folder.run(&["test"]);
+    let said = out(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    for shown in [
+        "tests/drill/expected.mill.nc: there is no form called mill\n  help: name it in tests/postform.toml, under [test], as forms = [\"mill.pf\"], or by --form",
+        "tests/alone/job.json has no expected program beside it",
+        "tests/cut-short/expected.haas.nc by haas.pf:\n",
+        "--- tests/helix/expected.haas.nc\n",
+    ] {
+        assert!(said.contains(shown), "{shown}: {said}");
+    }
+    assert!(!said.contains('\u{1b}'), "{said}");
+    assert!(
+        said.lines().last().unwrap().starts_with("57 cases, 1 form: 57 programs, 1 differs, 1 failed; 2 problems"),
+        "{said}"
+    );
+}
+
+#[test]
+fn an_error_may_be_what_is_expected() {
+    let folder = kept("refused", "haas.pf");
+    assert_eq!(fs::read_to_string(folder.0.join("tests/subprogram/expected.haas.refused")).unwrap(), "PR008\n");
+    folder.write("tests/subprogram/expected.haas.refused", "PR010 another\n");
+    let output = folder.run(&["test", "tests/subprogram"]);
+    assert!(out(&output).contains("PR008"), "{}", out(&output));
+    ends(&output, 1, "1 case, 1 form: 1 program, 1 failed");
+    // a program that is expected stays where none is printed
+    fs::remove_file(folder.0.join("tests/subprogram/expected.haas.refused")).unwrap();
+    folder.write("tests/subprogram/expected.haas.nc", "%\n");
+    ends(&folder.run(&["test", "tests/subprogram", "--update"]), 1, "1 case, 1 form: 1 program, 1 failed");
+    assert_eq!(fs::read_to_string(folder.0.join("tests/subprogram/expected.haas.nc")).unwrap(), "%\n");
+    // and a refusal gives way to a program that is printed
+    fs::remove_file(folder.0.join("tests/drill/expected.haas.nc")).unwrap();
+    folder.write("tests/drill/expected.haas.refused", "PR008\n");
+    ends(&folder.run(&["test", "tests/drill"]), 1, "1 case, 1 form: 1 program, 1 failed");
+    ends(&folder.run(&["test", "tests/drill", "--update"]), 0, "1 case, 1 form: 1 program, 1 written");
+    assert!(!folder.0.join("tests/drill/expected.haas.refused").exists());
+    ends(&folder.run(&["test", "tests/drill"]), 0, "1 case, 1 form: 1 program, all as expected");
+}
+
+#[test]
+fn forms_and_jobs_of_any_kind() {
+    let folder = Folder::new("cases-kinds");
+    for form in ["fanuc.pf", "linuxcnc.pf"] {
+        fs::copy(root().join("postforms").join(form), folder.0.join(form)).unwrap();
+    }
+    let job = |name: &str| fs::read_to_string(root().join("samples").join(name)).unwrap();
+    folder.write("parts/bracket.json", job("bracket/job.json"));
+    folder.write("parts/drill.cl", job("cl-drill/job.cl"));
+    folder.write("parts/package.json", "{\"name\": \"no job\"}");
+    let output = folder.run(&["test", "parts", "--update", "--form", "fanuc.pf", "--form", "linuxcnc.pf"]);
+    ends(&output, 0, "2 cases, 2 forms: 4 programs, 4 written");
+    assert!(folder.0.join("parts/drill.expected.linuxcnc.nc").is_file());
+    folder.write("parts/postform.toml", "[test]\nforms = [\"..\"]\n");
+    ends(&folder.run(&["test", "parts", "--jobs", "1"]), 0, "2 cases, 2 forms: 4 programs, all as expected");
+    ends(&folder.run(&["test", "parts/drill.cl"]), 0, "1 case, 2 forms: 2 programs, all as expected");
+    ends(&folder.run(&["test", "parts", "--form", "fanuc.pf"]), 0, "2 cases, 1 form: 2 programs, all as expected");
+    // a form with an error fails its own cases
+    folder.write("fanuc.pf", "Machine Mill\nNonsense\n");
+    let output = folder.run(&["test", "parts"]);
+    assert!(out(&output).contains("fanuc.pf has errors"), "{}", out(&output));
+    ends(&output, 1, "2 cases, 2 forms: 4 programs, 2 failed");
+}
+
+#[test]
+fn reports_for_programs() {
+    let folder = kept("reports", "haas.pf");
+    change(&folder, "tests/drill/expected.haas.nc", "Z-15.", "Z-16.");
+    let json = folder.run(&["test", "--format", "json"]);
+    let report: serde_json::Value = serde_json::from_str(&out(&json)).unwrap();
+    let programs = report["programs"].as_array().unwrap();
+    assert_eq!((programs.len(), json.status.code()), (56, Some(1)));
+    let drill = programs.iter().find(|row| row["expected"] == "tests/drill/expected.haas.nc").unwrap();
+    assert_eq!((&drill["result"], &drill["line"]), (&serde_json::json!("differs"), &serde_json::json!(12)));
+    assert_eq!(report["summary"], "56 cases, 1 form: 56 programs, 1 differs");
+    let junit = out(&folder.run(&["test", "--format", "junit"]));
+    assert!(
+        junit.starts_with(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"postform\" tests=\"56\" failures=\"1\">"
+        ),
+        "{junit}"
+    );
+    assert_eq!(junit.matches("<testcase ").count(), 56);
+    assert_eq!(junit.matches("<failure ").count(), 1);
+    let marks = out(&folder.run(&["test", "--format", "github"]));
+    assert!(marks.starts_with("::error file=tests/drill/expected.haas.nc,line=12::"), "{marks}");
+    assert_eq!(marks.lines().count(), 1);
+}
+
+#[test]
+fn a_folder_without_cases_says_what_one_is() {
+    let folder = Folder::new("cases-none");
+    for arguments in
+        [&["test"][..], &["test", "nowhere"], &["test", "--new", "nowhere.pf"], &["test", "--form", "nowhere.pf"]]
+    {
+        let output = folder.run(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(out(&output).is_empty() && err(&output).starts_with("error: "), "{arguments:?}: {}", err(&output));
+    }
+    assert!(err(&folder.run(&["test"])).contains("`postform test --new FORM` writes the standard ones"));
+    folder.write("postform.toml", "[test]\nignore = [\"everything\"]\n");
+    folder.write("job.json", "{\"postform\": 1}");
+    let said = err(&folder.run(&["test", "."]));
+    assert!(said.contains("ignore under [test]: there is no `everything` to ignore"), "{said}");
+    assert!(!folder.has("tests"));
+}

@@ -17,7 +17,7 @@ use crate::control::Control;
 use crate::diag::Diag;
 use crate::error::Error;
 use crate::nc::{JobOptions, RunSettings, Unpointed, read_program};
-use crate::toolpath::json::{read_document, read_lines};
+use crate::toolpath::json::{read_document, read_document_again, read_lines};
 use crate::toolpath::{Event, Flow, Hold, Place, ReadError, Sink, Stop, Units, flow};
 
 /// What a CL file or NC program does not say itself. JSON needs none of it.
@@ -275,6 +275,7 @@ impl<'a> Job<'a> {
                 match format {
                     Format::Nc => read_nc(Cursor::new(*bytes), reading, report, sink),
                     Format::Freecad => read_document_of_freecad(Cursor::new(*bytes), reading, report, sink),
+                    Format::Json => read_document_again(Cursor::new(*bytes), sink),
                     _ => read_once(*bytes, format, reading, report, sink),
                 }
             }
@@ -283,6 +284,7 @@ impl<'a> Job<'a> {
                 let input = Counted { input, count };
                 match format {
                     Format::Nc => read_nc(input, reading, report, sink),
+                    Format::Json => read_document_again(input, sink),
                     Format::Freecad => {
                         let input = BufReader::with_capacity(DOCUMENT_BUFFER, input);
                         read_document_of_freecad(input, reading, report, sink)

@@ -231,7 +231,7 @@ fn jobs() {
         ("missing tool", good.replace("\"tool\":1", "\"tool\":7").into(), 1, vec!["PJ006", "tool 7"]),
         ("no tool", good.replace("\"tool\":1,", "").into(), 1, vec!["PJ006", "has no tool"]),
         ("no operations", b"{\"postform\":1,\"operations\":[]}".into(), 1, vec!["PJ009"]),
-        ("operations not last", b"{\"operations\":[],\"postform\":1}".into(), 1, vec!["PJ005", "last key of a job"]),
+        ("operations not last, and none", b"{\"operations\":[],\"postform\":1}".into(), 1, vec!["PJ009"]),
         ("path not last", good.replacen("\"tool\":1,", "\"path\":[],\"tool\":1,", 1).into(), 1, vec!["PJ"]),
         (
             "operation without path",

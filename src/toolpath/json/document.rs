@@ -2,13 +2,14 @@
 
 use std::cell::RefCell;
 use std::fmt;
-use std::io::Read;
+use std::io::{Read, Seek};
 
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 
 use super::build::Builder;
 use super::context::{Context, Step, not_utf_8};
 use super::objects::{CycleObject, ItemObject, JobHead, KeySeed, Object, OperationHead, SubprogramHead, once};
+use super::order::{InParts, parts};
 use super::position::PointSeed;
 use super::strings::{Strings, too_long};
 use super::values::Point;
@@ -23,7 +24,53 @@ const MOST_WAITING: usize = 4096;
 /// # Errors
 /// What is wrong with the job, or with what the sink was asked to do, and where.
 pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadError> {
+    read_from(AsItStands(input), true, sink)
+}
+
+/// Reads a job document that can be gone back in: its keys may stand in any order.
+///
+/// # Errors
+/// As [`read_document`].
+pub fn read_document_again(mut input: impl Read + Seek, sink: &mut dyn Sink) -> Result<(), ReadError> {
+    let found = parts(&mut input).map_err(ReadError::Io)?;
+    input.rewind().map_err(ReadError::Io)?;
+    match found {
+        Some(parts) => read_from(InParts::new(input, &parts), false, sink),
+        None => read_from(AsItStands(input), false, sink),
+    }
+}
+
+/// A text as it comes.
+trait Text {
+    /// Reads on; where the text goes on elsewhere, it says the line and column of the first byte.
+    fn read_on(&mut self, out: &mut [u8]) -> std::io::Result<(usize, Option<(u64, u32)>)>;
+
+    /// May it begin with a mark of its encoding?
+    const IS_WHOLE: bool;
+}
+
+struct AsItStands<R>(R);
+
+impl<R: Read> Text for AsItStands<R> {
+    #[inline]
+    fn read_on(&mut self, out: &mut [u8]) -> std::io::Result<(usize, Option<(u64, u32)>)> {
+        Ok((self.0.read(out)?, None))
+    }
+
+    const IS_WHOLE: bool = true;
+}
+
+impl<R: Read + Seek> Text for InParts<'_, R> {
+    fn read_on(&mut self, out: &mut [u8]) -> std::io::Result<(usize, Option<(u64, u32)>)> {
+        self.read_part(out)
+    }
+
+    const IS_WHOLE: bool = false;
+}
+
+fn read_from(input: impl Text, streams: bool, sink: &mut dyn Sink) -> Result<(), ReadError> {
     let context = Context::default();
+    context.streams.set(streams);
     context.at.set((1, 0));
     let strings = Strings::default();
     let mut reader = Counting { input, context: &context, strings, buffer: Box::new([0; 64 * 1024]), from: 0, to: 0 };
@@ -56,10 +103,13 @@ struct Counting<'a, R> {
     to: usize,
 }
 
-impl<R: Read> Counting<'_, R> {
+impl<R: Text> Counting<'_, R> {
     /// Reads so far that an encoding shows, and passes over the mark of UTF-8. How many bytes are there then.
     fn begin(&mut self) -> std::io::Result<usize> {
-        while self.to < 3 && self.fill()? > 0 {}
+        while R::IS_WHOLE && self.to < 3 && self.fill()? > 0 {}
+        if !R::IS_WHOLE {
+            return self.fill();
+        }
         if self.buffer[..self.to].starts_with(b"\xef\xbb\xbf") {
             self.from = 3;
         }
@@ -69,10 +119,13 @@ impl<R: Read> Counting<'_, R> {
     /// Reads on behind what is there; 0 at the end.
     fn fill(&mut self) -> std::io::Result<usize> {
         loop {
-            match self.input.read(&mut self.buffer[self.to..]) {
+            match self.input.read_on(&mut self.buffer[self.to..]) {
                 Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
                 Err(error) => return Err(error),
-                Ok(count) => {
+                Ok((count, begins)) => {
+                    if let Some((line, column)) = begins {
+                        self.context.at.set((line, column - 1));
+                    }
                     // serde gathers a whole string before anybody sees it
                     if !self.strings.take(&self.buffer[self.to..self.to + count]) {
                         return Err(self.context.fail_reading(too_long()));
@@ -85,7 +138,7 @@ impl<R: Read> Counting<'_, R> {
     }
 }
 
-impl<R: Read> Read for Counting<'_, R> {
+impl<R: Text> Read for Counting<'_, R> {
     #[inline]
     fn read(&mut self, out: &mut [u8]) -> std::io::Result<usize> {
         if self.from == self.to {
@@ -115,7 +168,7 @@ impl<'s> Job<'_, 's> {
     fn misplaced<E: serde::de::Error>(&self, list: &str, object: &str, key: &str) -> E {
         self.context.fail(
             Diag::new(Code::PJ005, format!("`{key}` stands after `{list}`"))
-                .help(format!("make `{list}` the last key of {object}: a stream can't wait for what comes behind it")),
+                .help(format!("make `{list}` the last key of {object}, or give the job as a file: a stream can't wait for what comes after it")),
         )
     }
 
@@ -273,6 +326,12 @@ fn job<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
         let is_list = key >= JobHead::KEYS.len();
         if done == LISTS[1] || (done == LISTS[0] && name != LISTS[1]) {
             return Err(job.misplaced(done, JobHead::NAME, name));
+        }
+        let says = |key: &str| JobHead::KEYS.iter().position(|own| *own == key).is_some_and(|at| seen & 1 << at != 0);
+        if job.context.streams.get() && is_list && head.is_some() && !says("postform") && !says("units") {
+            let message = format!("`{name}` stands before `postform` and `units`, or the job does not say them");
+            let help = format!("make `{name}` the last key of the job, or give the job as a file");
+            return Err(job.context.fail(Diag::new(Code::PJ005, message).help(help)));
         }
         if let Some(head) = head.take_if(|_| is_list) {
             job.build(|b| b.start(head))?;

@@ -7,13 +7,14 @@ mod document;
 mod fast;
 mod lines;
 mod objects;
+mod order;
 mod position;
 #[cfg(feature = "schema")]
 mod schema;
 mod strings;
 mod values;
 
-pub use document::read_document;
+pub use document::{read_document, read_document_again};
 pub use lines::read_lines;
 #[cfg(feature = "schema")]
 pub use schema::schema;

@@ -13,9 +13,9 @@ pub fn schema() -> Value {
     generator.subschema_for::<Position>();
     let points = list(generator.subschema_for::<Point>(), "the points of the cycle");
     let cycle = generator.subschema_for::<CycleObject>().to_value();
-    let path = list(generator.subschema_for::<ItemObject>(), "the moves; the last key");
+    let path = list(generator.subschema_for::<ItemObject>(), "the moves; in a stream the last key");
     let subprograms = list(generator.subschema_for::<SubprogramHead>(), "subprograms, before the operations");
-    let operations = list(generator.subschema_for::<OperationHead>(), "the operations; the last key");
+    let operations = list(generator.subschema_for::<OperationHead>(), "the operations; in a stream the last key");
     let mut root = generator.root_schema_for::<JobHead>().to_value();
     for (at, key, value) in [
         ("/properties", "subprograms", subprograms),

@@ -1,0 +1,384 @@
+//! Keys in any order: an object of JSON has none. Where a list stands before other keys of its object, the text is read in parts,
+//! the list last.
+
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+
+/// A piece of the text, or a sign between two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Bytes from the first to before the last, and the line and column of the first, from 1.
+    Text { from: u64, to: u64, line: u64, column: u32 },
+    /// One byte of JSON.
+    Sign(u8),
+}
+
+/// So many bytes at the end and at the beginning show how a writer orders keys.
+const TAIL: u64 = 512;
+const HEAD: u64 = 16 << 10;
+
+/// The parts in which a job is read where its lists stand before other keys. `None`: it is read as it stands, because its beginning
+/// and its end show the usual order, or because it is no such document, of which its reader says what is wrong.
+///
+/// # Errors
+/// The input fails.
+pub fn parts(input: &mut (impl Read + Seek)) -> io::Result<Option<Vec<Part>>> {
+    let length = input.seek(SeekFrom::End(0))?;
+    input.seek(SeekFrom::Start(length.saturating_sub(TAIL)))?;
+    let mut tail = Vec::new();
+    input.by_ref().take(TAIL).read_to_end(&mut tail)?;
+    input.rewind()?;
+    if ends_as_usual(&tail) {
+        let mut head = Scan::new(input.by_ref().take(HEAD));
+        head.job()?;
+        if !head.is_late {
+            return Ok(None);
+        }
+        input.rewind()?;
+    }
+    let mut scan = Scan::new(input);
+    let parts = scan.job()?;
+    Ok(parts.filter(|_| scan.is_late))
+}
+
+/// Does a job end with the list of its operations, and the last of them with its path?
+fn ends_as_usual(tail: &[u8]) -> bool {
+    let mut signs = tail.iter().rev().filter(|byte| !byte.is_ascii_whitespace());
+    let mut next = || signs.next().copied();
+    if (next(), next()) != (Some(b'}'), Some(b']')) {
+        return false;
+    }
+    match next() {
+        Some(b'[') => true, // no operation
+        Some(b'}') => next() == Some(b']'),
+        _ => false,
+    }
+}
+
+/// The text, byte by byte.
+struct Scan<R> {
+    input: BufReader<R>,
+    next: Option<u8>,
+    /// Offset, line and column of the next byte.
+    at: u64,
+    line: u64,
+    column: u32,
+    /// A list was found that stands before another key of its object.
+    is_late: bool,
+}
+
+/// A key with its value.
+struct Entry {
+    /// Which list it is, by its number; `None`: another key.
+    list: Option<usize>,
+    parts: Vec<Part>,
+}
+
+impl<R: Read> Scan<R> {
+    fn new(input: R) -> Scan<R> {
+        let input = BufReader::with_capacity(HEAD as usize, input);
+        Scan { input, next: None, at: 0, line: 1, column: 1, is_late: false }
+    }
+
+    /// The parts of a job; `None`: it is none, or not all of it is here.
+    fn job(&mut self) -> io::Result<Option<Vec<Part>>> {
+        self.begin()?;
+        let mut parts = Vec::new();
+        let whole = self.object(&mut parts, &["subprograms", "operations"], true)?;
+        Ok(whole.map(|_| parts))
+    }
+
+    fn read(&mut self) -> io::Result<Option<u8>> {
+        let mut byte = [0];
+        loop {
+            match self.input.read(&mut byte) {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+                Ok(0) => return Ok(None),
+                Ok(_) => return Ok(Some(byte[0])),
+            }
+        }
+    }
+
+    /// Passes over the mark of UTF-8.
+    fn begin(&mut self) -> io::Result<()> {
+        self.next = self.read()?;
+        if self.next == Some(0xef) {
+            for _ in 0..3 {
+                self.next = self.read()?;
+            }
+            self.at = 3;
+            self.column = 4;
+        }
+        Ok(())
+    }
+
+    fn pass(&mut self) -> io::Result<()> {
+        (self.line, self.column) = match self.next {
+            Some(b'\n') => (self.line + 1, 1),
+            _ => (self.line, self.column + 1),
+        };
+        self.at += 1;
+        self.next = self.read()?;
+        Ok(())
+    }
+
+    fn blanks(&mut self) -> io::Result<()> {
+        while self.next.is_some_and(|byte| byte.is_ascii_whitespace()) {
+            self.pass()?;
+        }
+        Ok(())
+    }
+
+    /// Takes this byte after blanks; `false`: another is next.
+    fn takes(&mut self, sign: u8) -> io::Result<bool> {
+        self.blanks()?;
+        let is_next = self.next == Some(sign);
+        if is_next {
+            self.pass()?;
+        }
+        Ok(is_next)
+    }
+
+    /// The text between two quotes, as it is written, as far as keys go; `None`: there is none.
+    fn string(&mut self) -> io::Result<Option<Vec<u8>>> {
+        const LONGEST: usize = 64;
+        if !self.takes(b'"')? {
+            return Ok(None);
+        }
+        let mut text = Vec::new();
+        loop {
+            match self.next {
+                None => return Ok(None),
+                Some(b'"') => break,
+                Some(b'\\') => {
+                    self.pass()?;
+                    text.push(b'\\'); // no key of a job has one
+                }
+                Some(byte) if text.len() < LONGEST => text.push(byte),
+                Some(_) => {}
+            }
+            self.pass()?;
+        }
+        self.pass()?;
+        Ok(Some(text))
+    }
+
+    /// Passes over a value of any kind; `false`: the text ends before.
+    fn value(&mut self) -> io::Result<bool> {
+        self.blanks()?;
+        let mut depth = 0u64;
+        loop {
+            match self.next {
+                None => return Ok(false),
+                Some(b'"') => {
+                    if self.string()?.is_none() {
+                        return Ok(false);
+                    }
+                }
+                Some(b'[' | b'{') => {
+                    depth += 1;
+                    self.pass()?;
+                }
+                Some(b']' | b'}' | b',') if depth == 0 => return Ok(true),
+                Some(b']' | b'}') => {
+                    depth -= 1;
+                    self.pass()?;
+                }
+                Some(_) => self.pass()?,
+            }
+            if depth == 0 && self.next.is_some_and(|byte| byte.is_ascii_whitespace()) {
+                return Ok(true);
+            }
+        }
+    }
+
+    fn from_here(&self) -> (u64, u64, u32) {
+        (self.at, self.line, self.column)
+    }
+
+    fn text(&self, (from, line, column): (u64, u64, u32)) -> Part {
+        Part::Text { from, to: self.at, line, column }
+    }
+
+    /// The parts of an object, its lists last. Says whether one stood before another key, or does so within a list; `None`: it is
+    /// no object.
+    fn object(&mut self, parts: &mut Vec<Part>, lists: &[&str], is_job: bool) -> io::Result<Option<bool>> {
+        let start = {
+            self.blanks()?;
+            self.from_here()
+        };
+        if !self.takes(b'{')? {
+            return Ok(None);
+        }
+        let (mut entries, mut is_late, mut listed) = (Vec::new(), false, false);
+        if !self.takes(b'}')? {
+            loop {
+                self.blanks()?;
+                let begin = self.from_here();
+                let Some(key) = self.string()? else { return Ok(None) };
+                if !self.takes(b':')? {
+                    return Ok(None);
+                }
+                let list = lists.iter().position(|list| list.as_bytes() == key);
+                // of a job, subprograms stand before operations, and both after all else
+                is_late |=
+                    listed && list.is_none() || entries.iter().any(|entry: &Entry| entry.list > list && list.is_some());
+                listed |= list.is_some();
+                self.is_late |= is_late;
+                self.blanks()?;
+                let mut own = Vec::new();
+                if is_job && list.is_some() && self.next == Some(b'[') {
+                    let Some(late) = self.list(begin, &mut own)? else { return Ok(None) };
+                    is_late |= late;
+                } else {
+                    if !self.value()? {
+                        return Ok(None);
+                    }
+                    own.push(self.text(begin));
+                }
+                entries.push(Entry { list, parts: own });
+                if self.takes(b'}')? {
+                    break;
+                }
+                if !self.takes(b',')? {
+                    return Ok(None);
+                }
+            }
+        }
+        if !is_late {
+            parts.push(self.text(start));
+            return Ok(Some(false));
+        }
+        entries.sort_by_key(|entry| entry.list);
+        parts.push(Part::Sign(b'{'));
+        for (number, entry) in entries.into_iter().enumerate() {
+            if number > 0 {
+                parts.push(Part::Sign(b','));
+            }
+            parts.extend(entry.parts);
+        }
+        parts.push(Part::Sign(b'}'));
+        Ok(Some(true))
+    }
+
+    /// The parts of a list of objects with its key.
+    fn list(&mut self, begin: (u64, u64, u32), parts: &mut Vec<Part>) -> io::Result<Option<bool>> {
+        self.takes(b'[')?;
+        parts.push(self.text(begin));
+        let mut is_late = false;
+        if !self.takes(b']')? {
+            loop {
+                let Some(late) = self.object(parts, &["path"], false)? else { return Ok(None) };
+                is_late |= late;
+                if self.takes(b']')? {
+                    break;
+                }
+                if !self.takes(b',')? {
+                    return Ok(None);
+                }
+                parts.push(Part::Sign(b','));
+            }
+        }
+        parts.push(Part::Sign(b']'));
+        Ok(Some(is_late))
+    }
+}
+
+/// The text in its parts.
+pub struct InParts<'p, R> {
+    input: R,
+    parts: std::slice::Iter<'p, Part>,
+    /// What is left of the part that is read.
+    left: u64,
+}
+
+impl<'p, R: Read + Seek> InParts<'p, R> {
+    /// A text that is read in these parts.
+    pub fn new(input: R, parts: &'p [Part]) -> InParts<'p, R> {
+        InParts { input, parts: parts.iter(), left: 0 }
+    }
+
+    /// Reads on, no further than the end of a part. At the beginning of a part it says the line and column of its first byte.
+    pub fn read_part(&mut self, out: &mut [u8]) -> io::Result<(usize, Option<(u64, u32)>)> {
+        let mut begins = None;
+        if self.left == 0 {
+            match self.parts.next() {
+                None => return Ok((0, None)),
+                Some(Part::Sign(sign)) => {
+                    out[0] = *sign;
+                    return Ok((1, None));
+                }
+                Some(&Part::Text { from, to, line, column }) => {
+                    self.input.seek(SeekFrom::Start(from))?;
+                    self.left = to - from;
+                    begins = Some((line, column));
+                }
+            }
+        }
+        let most = usize::try_from(self.left).unwrap_or(usize::MAX).min(out.len());
+        let count = self.input.read(&mut out[..most])?;
+        // a file that has become shorter ends in the middle of a value
+        self.left = if count == 0 { 0 } else { self.left - count as u64 };
+        Ok((count, begins))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use super::*;
+
+    fn reordered(text: &str) -> Option<String> {
+        let mut input = Cursor::new(text);
+        let parts = parts(&mut input).unwrap()?;
+        let mut whole = Vec::new();
+        for part in parts {
+            match part {
+                Part::Sign(sign) => whole.push(sign),
+                Part::Text { from, to, .. } => whole.extend(&text.as_bytes()[from as usize..to as usize]),
+            }
+        }
+        Some(String::from_utf8(whole).unwrap())
+    }
+
+    #[test]
+    fn lists_come_last() {
+        assert_eq!(
+            reordered(
+                r#"{"operations": [{"path": [{"line": [1, 2]}], "tool": 1}, {"tool": 2, "path": []}], "postform": 1}"#
+            )
+            .unwrap(),
+            r#"{"postform": 1,"operations": [{"tool": 1,"path": [{"line": [1, 2]}]},{"tool": 2, "path": []}]}"#
+        );
+        assert_eq!(
+            reordered(r#"{"operations": [], "name": "]}\"", "subprograms": [ ] , "units": "mm" }"#).unwrap(),
+            r#"{"name": "]}\"","units": "mm","subprograms": [],"operations": []}"#
+        );
+        // the end alone would show the usual order
+        assert_eq!(
+            reordered(r#"{"operations": [{"path": [], "tool": 1}], "subprograms": [{"number": 1, "path": []}]}"#)
+                .unwrap(),
+            r#"{"subprograms": [{"number": 1, "path": []}],"operations": [{"tool": 1,"path": []}]}"#
+        );
+    }
+
+    #[test]
+    fn the_usual_order_and_what_is_no_job_stay() {
+        for text in [
+            r#"{"postform": 1, "operations": [{"tool": 1, "path": [1]}]}"#,
+            r#"{"postform": 1, "operations": [] }"#,
+            r#"{"operations": [{"path": [], "tool": 1}], "postform": 1"#,
+            r#"{"postform": 1, "operations": [{"path": [], "tool": 1}, {"path": [}]}"#,
+            r#"{"postform": 1}"#,
+            r#"{"operations": [1], "postform": 1}"#,
+            r#"["operations"]"#,
+            r#"{"operations": [{"path": [}], "postform": 1}"#,
+            "",
+            "{",
+            "\u{feff}{\"a\": \"",
+        ] {
+            assert_eq!(reordered(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Keys of a job in any order: JSON objects have none.
+
+use std::fs;
+use std::io::Cursor;
+use std::process::{Command, Stdio};
+
+use postform::{Format, Job, NoFiles, Options, Post, Source};
+use proptest::prelude::*;
+use serde_json::Value;
+
+use crate::program_commands::{postform, text};
+use crate::support::{root, samples};
+
+/// A value as text, with the keys of each object turned on by as many as the numbers say.
+fn turned(value: &Value, by: &mut impl Iterator<Item = usize>) -> String {
+    match value {
+        Value::Object(map) => {
+            let mut rows: Vec<String> =
+                map.iter().map(|(key, value)| format!("{}:{}", Value::from(key.as_str()), turned(value, by))).collect();
+            if !rows.is_empty() {
+                let count = by.next().unwrap_or(0) % rows.len();
+                rows.rotate_left(count);
+            }
+            format!("{{{}}}", rows.join(",\n"))
+        }
+        Value::Array(list) => {
+            format!("[{}]", list.iter().map(|value| turned(value, by)).collect::<Vec<_>>().join(", "))
+        }
+        other => other.to_string(),
+    }
+}
+
+fn printed(post: &Post, job: Job<'_>) -> String {
+    let mut options = Options::default();
+    options.proof = None;
+    options.program = Some(7);
+    match post.render(job, &options) {
+        Ok(program) => program.into_text(),
+        Err(error) => {
+            error.findings().diags.iter().map(|diag| format!("{} {}\n", diag.code.name(), diag.message)).collect()
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(5))]
+
+    /// Every sample's job prints the same program, whatever the order of its keys.
+    #[test]
+    fn the_order_of_keys_changes_no_program(by in proptest::collection::vec(0usize..12, 1..40)) {
+        let form = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
+        let post = Post::compile(Source::from_text("fanuc.pf", form), &NoFiles).unwrap();
+        for folder in samples() {
+            let Ok(whole) = fs::read_to_string(folder.join("job.json")) else { continue };
+            let value: Value = serde_json::from_str(&whole).unwrap();
+            let mut numbers = by.iter().copied().cycle();
+            let other = turned(&value, &mut numbers);
+            let usual = printed(&post, Job::json(&whole));
+            prop_assert_eq!(&printed(&post, Job::json(&other)), &usual, "{}\n{}", folder.display(), other);
+            prop_assert_eq!(&printed(&post, Job::file(Format::Json, Cursor::new(other.as_bytes()))), &usual);
+        }
+    }
+}
+
+#[test]
+fn an_error_has_its_place_in_the_text_as_it_stands() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("job.json");
+    let job = "{\n \"operations\": [\n  {\"path\": [{\"rapid\": [0, 0, 9]},\n   {\"line\": [0, 0, \"x\"]}],\n   \"tool\": 1}],\n \"postform\": 1,\n \"units\": \"mm\",\n \"tools\": [{\"number\": 1}]\n}\n";
+    fs::write(&file, job).unwrap();
+    let said = text(&postform(&["check", file.to_str().unwrap()]).stderr);
+    assert!(said.contains("job.json:4:") && said.contains("operations[0].path[1].line"), "{said}");
+    // cut off: the same error as in the usual order
+    for length in (0..job.len() - 2).step_by(3) {
+        fs::write(&file, &job[..length]).unwrap();
+        let output = postform(&["check", file.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(1), "{}", &job[..length]);
+        assert!(text(&output.stderr).starts_with("PJ"), "{}: {}", &job[..length], text(&output.stderr));
+    }
+}
+
+/// A stream can't be gone back in.
+#[test]
+fn a_stream_says_which_key_comes_too_late() {
+    let feed = |job: &str| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_postform"))
+            .args([
+                "render",
+                "-",
+                "--from",
+                "json",
+                "--form",
+                "postforms/linuxcnc.pf",
+                "--set",
+                "header=off",
+                "--stream",
+            ])
+            .current_dir(root())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::io::Write::write_all(&mut child.stdin.take().unwrap(), job.as_bytes()).unwrap();
+        text(&child.wait_with_output().unwrap().stderr)
+    };
+    let said = feed(r#"{"operations": [{"path": []}], "postform": 1, "units": "mm"}"#);
+    assert!(
+        said.contains("`operations` stands before `postform` and `units`")
+            && said.contains("or give the job as a file"),
+        "{said}"
+    );
+    let said = feed(
+        r#"{"postform": 1, "units": "mm", "operations": [{"path": [{"rapid": [0, 0, 1]}], "tool": 1}], "tools": []}"#,
+    );
+    assert!(said.contains("PJ"), "{said}");
+}

@@ -192,7 +192,7 @@ impl<R: Read> Scan<R> {
         }
     }
 
-    fn from_here(&self) -> (u64, u64, u32) {
+    fn here(&self) -> (u64, u64, u32) {
         (self.at, self.line, self.column)
     }
 
@@ -205,7 +205,7 @@ impl<R: Read> Scan<R> {
     fn object(&mut self, parts: &mut Vec<Part>, lists: &[&str], is_job: bool) -> io::Result<Option<bool>> {
         let start = {
             self.blanks()?;
-            self.from_here()
+            self.here()
         };
         if !self.takes(b'{')? {
             return Ok(None);
@@ -214,7 +214,7 @@ impl<R: Read> Scan<R> {
         if !self.takes(b'}')? {
             loop {
                 self.blanks()?;
-                let begin = self.from_here();
+                let begin = self.here();
                 let Some(key) = self.string()? else { return Ok(None) };
                 if !self.takes(b':')? {
                     return Ok(None);

@@ -302,6 +302,29 @@ fn what_is_not_run_is_named() {
     assert_eq!(refused("FNORM"), None);
 }
 
+/// A parameter of a cycle that is mistyped was passed over as a part of the cycle's name.
+#[test]
+fn mistyped_parameters_of_a_cycle_are_refused() {
+    let cycle = |words: &str| {
+        let program = format!(
+            "0 BEGIN PGM T MM\n1 TOOL CALL 1 Z S1000 F500\n2 L X+0 Y+0 Z+10 FMAX M3\n3 CYCL DEF 200 {words}\n4 L X+5 Y+5 FMAX M99\n5 M30\n"
+        );
+        actions(&program, "heidenhain").1
+    };
+    let right = "DRILLING Q200=2 Q201=-10 Q206=100 Q202=5 Q210=0 Q203=0 Q204=10 Q211=0";
+    assert_eq!(cycle(right), None);
+    assert_eq!(cycle(&right.replace("DRILLING", "BOHREN 2-FACH (NEU)")), None);
+    for (from, to) in [
+        ("Q210=0", "Q-210=0"),
+        ("Q210=0", "Q210 0"),
+        ("Q210=0", "W210=0"),
+        ("Q211=0", "Q211=0 X"),
+        ("Q200=2", "Q-200=2"),
+    ] {
+        assert!(cycle(&right.replacen(from, to, 1)).unwrap().contains("can't be read"), "{to}");
+    }
+}
+
 /// A program whose control is not named is run by the one that its language shows.
 #[test]
 fn the_language_of_a_program_is_found() {

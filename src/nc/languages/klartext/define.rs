@@ -138,14 +138,23 @@ impl Words<'_> {
         let mut words = BTreeMap::new();
         while !cursor.is_over() {
             let begin = cursor.at();
+            // the name of the cycle stands before the first of them, and has no `=`
+            let astray = !words.is_empty() || cursor.peek() == Some(b'=');
             let Some(name) = cursor.name() else {
-                // the text of a name
+                if astray {
+                    return Err(cursor.unreadable());
+                }
                 *cursor = cursor.from(begin + 1);
                 continue;
             };
             let name = String::from_utf8_lossy(name).to_ascii_uppercase();
             let number = name.strip_prefix('Q').and_then(|number| number.parse::<u16>().ok());
-            let Some(number) = number.filter(|_| cursor.takes(b"=")) else { continue };
+            let Some(number) = number.filter(|_| cursor.takes(b"=")) else {
+                if astray {
+                    return Err(cursor.from(begin).unreadable());
+                }
+                continue;
+            };
             let value = if cursor.takes_word("MAX") {
                 f64::INFINITY
             } else if cursor.takes_word("AUTO") {

@@ -148,7 +148,7 @@ pub fn turned(start: &[u8]) -> Option<(u64, Vec<u8>)> {
         if TURNED.iter().any(|mark| memmem::find(&block, mark.as_bytes()).is_some()) {
             return found(number, line);
         }
-        is_changed |= [b"M6".as_slice(), b"M06"].iter().any(|change| block.ends_with(change));
+        is_changed |= ["M6", "M06"].iter().any(|change| memmem::find(&block, change.as_bytes()).is_some());
         if let [b'T', a @ b'0'..=b'9', b, c, d] = block[..]
             && [a, b] == [c, d]
         {
@@ -213,6 +213,7 @@ mod tests {
             ("G28 U0 W0\nM30", Some(1)),
             ("G21\nN20 T0101 (TURN)\nG0 X50. Z2.", Some(2)),
             ("G21\nT0101\nT0101 M6\nG0 X50.", None),
+            ("T0101\nM06 T0101\nG0 X50.", None),
             ("T1001\nG0 X5.", None),
             ("G50\nS2000 M3\n(G28 U0)\nG28 Z0", None),
         ] {

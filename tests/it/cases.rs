@@ -81,7 +81,30 @@ fn every_form_that_ships_prints_its_standard_cases() {
     assert!(said.lines().last().unwrap().contains("21 forms") && said.contains("all as expected"), "{said}");
 }
 
-/// A word lost, a number changed, two codes exchanged: the cases that print the line see it, or the proof does.
+/// A line of a form that prints words: a letter with a number or a variable comes first.
+fn is_block(line: &str) -> bool {
+    let mut letters = line.trim().chars();
+    letters.next().is_some_and(|letter| letter.is_ascii_uppercase())
+        && letters.next().is_some_and(|next| next == '[' || next.is_ascii_digit())
+}
+
+/// The line without its last word, without its first, and with another digit in what is typed.
+fn mistakes(line: &str) -> Vec<String> {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let mut list = vec![words[..words.len() - 1].join(" "), words[1..].join(" ")];
+    let typed = words.iter().position(|word| word[1..].starts_with(|next: char| next.is_ascii_digit()));
+    if let Some(at) = typed {
+        let digit = words[at].as_bytes()[1];
+        let other = if digit == b'9' { '8' } else { char::from(digit + 1) };
+        let changed = format!("{}{other}{}", &words[at][..1], &words[at][2..]);
+        let all: Vec<&str> = words.iter().enumerate().map(|(i, word)| if i == at { &changed } else { *word }).collect();
+        list.push(all.join(" "));
+    }
+    list.dedup();
+    list
+}
+
+/// A word lost or a digit changed: the cases that print the line see it, or the proof does.
 #[test]
 fn the_standard_cases_see_broken_forms() {
     let most: usize = std::env::var("BROKEN").map_or(6, |count| count.parse().unwrap());
@@ -97,32 +120,25 @@ fn the_standard_cases_see_broken_forms() {
             .map(|line| usize::try_from(line["line"].as_u64().unwrap()).unwrap())
             .collect();
         let lines: Vec<&str> = whole.lines().collect();
-        let is_printed =
-            |line: &str| line.contains('[') && !line.contains(['@', '#', '(', '=']) && line.trim().contains(' ');
         let begins = lines.iter().position(|line| line.trim() == "StartCode").unwrap_or(0);
-        let printed = (begins..lines.len()).filter(|at| is_printed(lines[*at]) && !missing.contains(&(at + 1)));
+        let printed = (begins..lines.len()).filter(|at| is_block(lines[*at]) && !missing.contains(&(at + 1)));
+        // of all lines, not of the first ones
+        let all: Vec<(usize, String)> =
+            printed.flat_map(|at| mistakes(lines[at]).into_iter().map(move |broken| (at, broken))).collect();
         let (mut tried, mut unseen) = (0, Vec::new());
-        for (count, at) in printed.enumerate() {
-            // the last word is lost, or the first
-            let (head, tail) = if count % 2 == 0 {
-                lines[at].rsplit_once(' ').unwrap()
-            } else {
-                ("", lines[at].trim_start().split_once(' ').unwrap().1)
-            };
-            let broken = if count % 2 == 0 { head } else { tail };
+        for (at, broken) in all.iter().step_by((all.len() / most).max(1)).take(most) {
             let mut text = lines.clone();
-            text[at] = broken;
+            text[*at] = broken;
             fs::write(folder.0.join(form), text.join("\n") + "\n").unwrap();
             tried += 1;
-            if folder.run(&["test", "--format", "json"]).status.code() == Some(0) {
-                unseen.push(format!("{form}:{}: {}", at + 1, lines[at]));
-            }
-            if tried == most {
-                break;
+            // a coolant that a tool change does not print is printed before the first cut all the same: the program is as it was
+            let is_said_again = lines[*at].trim() == "M[cool]";
+            if folder.run(&["test", "--format", "json"]).status.code() == Some(0) && !is_said_again {
+                unseen.push(format!("{form}:{}: `{}` became `{broken}`", at + 1, lines[*at]));
             }
         }
         println!("{form}: {tried} mistakes, {} not seen", unseen.len());
-        assert!(tried >= most.min(6) && unseen.is_empty(), "{unseen:#?}");
+        assert!(tried == most && unseen.is_empty(), "{unseen:#?}");
     }
 }
 

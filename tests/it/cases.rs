@@ -154,7 +154,7 @@ fn what_can_be_no_case_is_a_problem_and_stops_no_other() {
     let said = out(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
     for shown in [
-        "tests/drill/expected.mill.nc: there is no form called mill\n  help: name it in tests/postform.toml, under [test], as forms = [\"mill.pf\"], or by --form",
+        "tests/drill/expected.mill.nc: there is no form called mill\n  help: add its file to forms under [test] in tests/postform.toml, or name it by --form",
         "tests/alone/job.json has no expected program beside it",
         "tests/cut-short/expected.haas.nc by haas.pf:\n",
         "--- tests/helix/expected.haas.nc\n",
@@ -255,4 +255,124 @@ fn a_folder_without_cases_says_what_one_is() {
     let said = err(&folder.run(&["test", "."]));
     assert!(said.contains("ignore under [test]: there is no `everything` to ignore"), "{said}");
     assert!(!folder.has("tests"));
+}
+
+#[test]
+fn an_expected_program_without_its_job_is_a_problem() {
+    let folder = kept("orphans", "haas.pf");
+    fs::remove_file(folder.0.join("tests/drill/job.json")).unwrap();
+    folder.write("tests/arcs/job.json", "");
+    folder.write("tests/helix/job.json", r#"{"a": 1}"#);
+    folder.write("tests/lines/part.expected.haas.nc", "%\n");
+    let output = folder.run(&["test"]);
+    let said = out(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    for shown in [
+        "tests/drill/expected.haas.nc has no job beside it",
+        "tests/lines/part.expected.haas.nc has no part beside it",
+        "tests/arcs/expected.haas.nc by haas.pf:\nPJ007",
+        "tests/helix/expected.haas.nc by haas.pf:\nPJ",
+    ] {
+        assert!(said.contains(shown), "{shown}: {said}");
+    }
+    assert!(said.lines().last().unwrap().starts_with("55 cases, 1 form: 55 programs, 2 failed; 2 problems"), "{said}");
+}
+
+/// A broken job and a program that does something else are never what is expected.
+#[test]
+fn what_is_wrong_can_not_be_expected() {
+    let folder = Folder::new("cases-wrong");
+    let form = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    folder.write("lost.pf", form.replace("G43 H[lcomp] Z[d]", "Z[d]"));
+    let output = folder.run(&["test", "--new", "lost.pf"]);
+    let said = out(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(
+        said.contains("lost.pf prints programs of these that do something else than the job:\n  arc-in-xz: PV014"),
+        "{said}"
+    );
+    assert!(!folder.has("tests/drill/expected.lost.refused") && !folder.has("tests/drill/expected.lost.nc"));
+    folder.write("tests/drill/expected.lost.refused", "PV014\n");
+    let output = folder.run(&["test", "tests/drill"]);
+    assert!(out(&output).contains("PV014 was expected, PV014 came"), "{}", out(&output));
+    assert_eq!(output.status.code(), Some(1));
+    folder.write("haas.pf", form);
+    folder.write("cut/job.json", "{\"postform\": 1, ");
+    ends(&folder.run(&["test", "cut", "--update", "--form", "haas.pf"]), 1, "1 case, 1 form: 1 program, 1 failed");
+    assert!(!folder.has("cut/expected.haas.refused"));
+}
+
+#[test]
+fn the_file_of_the_cases_says_day_post_and_proof() {
+    let folder = Folder::new("cases-file");
+    let form = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    folder.write("haas.pf", form.replace("  (MATERIAL [material])", "  (DATE [date] [time])"));
+    assert_eq!(folder.run(&["test", "--new", "haas.pf"]).status.code(), Some(0));
+    assert!(folder.read("tests/drill/expected.haas.nc").contains("(DATE 2000-01-01 00:00)"));
+    folder.write("tests/postform.toml", "[test]\nforms = [\"../haas.pf\"]\ndate = \"2026-03-31\"\n");
+    assert!(out(&folder.run(&["test", "tests/drill"])).contains("(DATE 2026-03-31 )"));
+    for (line, message) in [
+        ("date = \"tomorrow\"", "date = \"tomorrow\" under [test]: write a day"),
+        ("tolerance = -1.0", "tolerance = -1 under [test]: it is 0 or more"),
+        ("post = \"Mill wet\"", "Mill wet"),
+    ] {
+        folder.write("tests/postform.toml", format!("[test]\nforms = [\"../haas.pf\"]\n{line}\n"));
+        let output = folder.run(&["test", "tests/drill"]);
+        assert_ne!(output.status.code(), Some(0));
+        assert!((err(&output) + &out(&output)).contains(message), "{line}: {}{}", err(&output), out(&output));
+    }
+    folder.write("tests/postform.toml", "[test]\nforms = [\"../none.pf\"]\n");
+    let said = err(&folder.run(&["test"]));
+    assert!(said.contains("none.pf") && said.contains("tests/postform.toml names it under [test]"), "{said}");
+}
+
+/// A program that calls itself is proven in a file, as render proves it; one that is not is named with the reason.
+#[test]
+fn what_is_not_proven_is_named() {
+    let folder = kept("unproven", "siemens.pf");
+    let said = out(&folder.run(&["test"]));
+    assert_eq!(said, "56 cases, 1 form: 56 programs, all as expected\n");
+    change(&folder, "siemens.pf", "Control siemens", "Control siemens-iso");
+    let said = out(&folder.run(&["test", "tests/lines"]));
+    let why =
+        "not proven: tests/lines/expected.siemens.nc by siemens.pf: the program is in the language of Siemens controls";
+    assert!(said.contains(why), "{said}");
+}
+
+#[test]
+fn a_second_form_is_added_by_hand() {
+    let folder = kept("second", "haas.pf");
+    for form in ["siemens.pf", "fanuc-lathe.pf"] {
+        fs::copy(root().join("postforms").join(form), folder.0.join(form)).unwrap();
+    }
+    let said = out(&folder.run(&["test", "--new", "siemens.pf"]));
+    assert!(said.contains("tests/postform.toml was there: add \"../siemens.pf\" to its forms under [test]"), "{said}");
+    folder.write("tests/postform.toml", "[test]\nforms = [\"../haas.pf\", \"../siemens.pf\"]\n");
+    ends(&folder.run(&["test"]), 0, "56 cases, 2 forms: 112 programs, all as expected");
+    // jobs of a lathe by the same names
+    let said = out(&folder.run(&["test", "--new", "fanuc-lathe.pf"]));
+    assert!(
+        said.contains("other jobs have these names, and stay; nothing was written beside them:\n  arcs\n"),
+        "{said}"
+    );
+    assert!(!folder.has("tests/arcs/expected.fanuc-lathe.refused"));
+}
+
+#[test]
+fn what_differs_alone_is_said() {
+    let folder = kept("alone", "haas.pf");
+    let path = folder.0.join("tests/drill/expected.haas.nc");
+    let program = fs::read_to_string(&path).unwrap();
+    fs::write(&path, program.replace('\n', "\r\n")).unwrap();
+    assert!(out(&folder.run(&["test", "tests/drill"])).contains("blanks or line ends alone differ\n"));
+    // a block less: the numbers of the blocks after it are not shown
+    fs::write(&path, program).unwrap();
+    change(&folder, "haas.pf", "G[unitmode] G17 G40 G49 G80 G90\n", "G[unitmode] G17 G40 G49 G80 G90\nG64\n");
+    let said = out(&folder.run(&["test", "tests/drill"]));
+    assert_eq!(said.lines().filter(|line| line.starts_with('-') || line.starts_with('+')).count(), 3, "{said}");
+    // a form with an error: once
+    folder.write("haas.pf", "Machine Mill\nNonsense\n");
+    let said = out(&folder.run(&["test"]));
+    assert_eq!(said.matches("haas.pf has errors").count(), 1, "{said}");
+    assert!(said.contains("none of its 56 programs is printed\n") && said.contains("Nonsense"), "{said}");
 }

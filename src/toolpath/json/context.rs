@@ -23,8 +23,6 @@ pub enum Step {
 pub struct Context {
     /// Line and column of what was read last; only the document reader counts them.
     pub at: Cell<(u64, u32)>,
-    /// The text can't be gone back in: what comes too late is an error.
-    pub streams: Cell<bool>,
     /// Where the last point began.
     pub point_at: Cell<(u64, u32)>,
     path: RefCell<Vec<Step>>,

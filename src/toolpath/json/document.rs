@@ -4,12 +4,14 @@ use std::cell::RefCell;
 use std::fmt;
 use std::io::{Read, Seek};
 
-use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::Deserialize as _;
+use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde_json::de::IoRead;
 
 use super::build::Builder;
 use super::context::{Context, Step, not_utf_8};
 use super::objects::{CycleObject, ItemObject, JobHead, KeySeed, Object, OperationHead, SubprogramHead, once};
-use super::order::{InParts, parts};
+use super::order::{InParts, Order, order};
 use super::position::PointSeed;
 use super::strings::{Strings, too_long};
 use super::values::Point;
@@ -24,7 +26,7 @@ const MOST_WAITING: usize = 4096;
 /// # Errors
 /// What is wrong with the job, or with what the sink was asked to do, and where.
 pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadError> {
-    read_from(AsItStands(input), true, sink)
+    read_from(AsItStands(input), sink)
 }
 
 /// Reads a job document that can be gone back in: its keys may stand in any order.
@@ -32,11 +34,20 @@ pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadEr
 /// # Errors
 /// As [`read_document`].
 pub fn read_document_again(mut input: impl Read + Seek, sink: &mut dyn Sink) -> Result<(), ReadError> {
-    let found = parts(&mut input).map_err(ReadError::Io)?;
+    let found = order(&mut input).map_err(ReadError::Io)?;
     input.rewind().map_err(ReadError::Io)?;
     match found {
-        Some(parts) => read_from(InParts::new(input, &parts), false, sink),
-        None => read_from(AsItStands(input), false, sink),
+        Order::Late(parts) => read_from(InParts::new(input, &parts), sink),
+        Order::Usual => read_document(input, sink),
+        // what is wrong with its text comes first: the reader would miss keys that stand further on
+        Order::Broken => {
+            let is_whole = read_text(AsItStands(&mut input), |text, _| {
+                IgnoredAny::deserialize(&mut *text).and_then(|_| text.end())
+            });
+            is_whole?;
+            input.rewind().map_err(ReadError::Io)?;
+            read_document(input, sink)
+        }
     }
 }
 
@@ -68,9 +79,21 @@ impl<R: Read + Seek> Text for InParts<'_, R> {
     const IS_WHOLE: bool = false;
 }
 
-fn read_from(input: impl Text, streams: bool, sink: &mut dyn Sink) -> Result<(), ReadError> {
+fn read_from(input: impl Text, sink: &mut dyn Sink) -> Result<(), ReadError> {
+    read_text(input, |text, context| {
+        let job = Job { context, builder: RefCell::new(Builder::new(sink)) };
+        JobSeed(&job, Part::Job).deserialize(&mut *text)?;
+        text.end()?;
+        job.builder.borrow_mut().finish().map_err(|stop| context.fail_with(stop))
+    })
+}
+
+/// Reads a text of JSON.
+fn read_text<T: Text>(
+    input: T,
+    read: impl FnOnce(&mut serde_json::Deserializer<IoRead<Counting<'_, T>>>, &Context) -> serde_json::Result<()>,
+) -> Result<(), ReadError> {
     let context = Context::default();
-    context.streams.set(streams);
     context.at.set((1, 0));
     let strings = Strings::default();
     let mut reader = Counting { input, context: &context, strings, buffer: Box::new([0; 64 * 1024]), from: 0, to: 0 };
@@ -81,13 +104,8 @@ fn read_from(input: impl Text, streams: bool, sink: &mut dyn Sink) -> Result<(),
         diag.place = Some(Location::at(1, 1));
         return Err(ReadError::Job(Box::new(diag)));
     }
-    let job = Job { context: &context, builder: RefCell::new(Builder::new(sink)) };
-    let mut deserializer = serde_json::Deserializer::from_reader(reader);
-    let read = JobSeed(&job, Part::Job).deserialize(&mut deserializer).and_then(|()| {
-        deserializer.end()?;
-        job.builder.borrow_mut().finish().map_err(|stop| context.fail_with(stop))
-    });
-    read.map_err(|error| {
+    let mut text = serde_json::Deserializer::from_reader(reader);
+    read(&mut text, &context).map_err(|error| {
         let (line, column) = context.at.get();
         context.explain(error, line, column.max(1))
     })
@@ -326,12 +344,6 @@ fn job<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
         let is_list = key >= JobHead::KEYS.len();
         if done == LISTS[1] || (done == LISTS[0] && name != LISTS[1]) {
             return Err(job.misplaced(done, JobHead::NAME, name));
-        }
-        let says = |key: &str| JobHead::KEYS.iter().position(|own| *own == key).is_some_and(|at| seen & 1 << at != 0);
-        if job.context.streams.get() && is_list && head.is_some() && !says("postform") && !says("units") {
-            let message = format!("`{name}` stands before `postform` and `units`, or the job does not say them");
-            let help = format!("make `{name}` the last key of the job, or give the job as a file");
-            return Err(job.context.fail(Diag::new(Code::PJ005, message).help(help)));
         }
         if let Some(head) = head.take_if(|_| is_list) {
             job.build(|b| b.start(head))?;

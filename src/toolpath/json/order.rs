@@ -16,12 +16,22 @@ pub enum Part {
 const TAIL: u64 = 512;
 const HEAD: u64 = 16 << 10;
 
-/// The parts in which a job is read where its lists stand before other keys. `None`: it is read as it stands, because its beginning
-/// and its end show the usual order, or because it is no such document, of which its reader says what is wrong.
+/// In which order the keys of a job stand.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Order {
+    /// It is read as it stands: its beginning and its end show the usual order, or it is no such document.
+    Usual,
+    /// Lists stand before other keys: it is read in these parts.
+    Late(Vec<Part>),
+    /// Lists stand before other keys, and it is no whole document of JSON, or lists hold what they can't.
+    Broken,
+}
+
+/// In which order the keys of a job stand.
 ///
 /// # Errors
 /// The input fails.
-pub fn parts(input: &mut (impl Read + Seek)) -> io::Result<Option<Vec<Part>>> {
+pub fn order(input: &mut (impl Read + Seek)) -> io::Result<Order> {
     let length = input.seek(SeekFrom::End(0))?;
     input.seek(SeekFrom::Start(length.saturating_sub(TAIL)))?;
     let mut tail = Vec::new();
@@ -31,13 +41,17 @@ pub fn parts(input: &mut (impl Read + Seek)) -> io::Result<Option<Vec<Part>>> {
         let mut head = Scan::new(input.by_ref().take(HEAD));
         head.job()?;
         if !head.is_late {
-            return Ok(None);
+            return Ok(Order::Usual);
         }
         input.rewind()?;
     }
     let mut scan = Scan::new(input);
     let parts = scan.job()?;
-    Ok(parts.filter(|_| scan.is_late))
+    Ok(match parts {
+        Some(parts) if scan.is_late => Order::Late(parts),
+        None if scan.is_late => Order::Broken,
+        _ => Order::Usual,
+    })
 }
 
 /// Does a job end with the list of its operations, and the last of them with its path?
@@ -84,6 +98,9 @@ impl<R: Read> Scan<R> {
         self.begin()?;
         let mut parts = Vec::new();
         let whole = self.object(&mut parts, &["subprograms", "operations"], true)?;
+        // what stands after it is for the reader to see
+        let (from, line, column) = self.here();
+        parts.push(Part::Text { from, to: u64::MAX, line, column });
         Ok(whole.map(|_| parts))
     }
 
@@ -331,12 +348,16 @@ mod tests {
 
     fn reordered(text: &str) -> Option<String> {
         let mut input = Cursor::new(text);
-        let parts = parts(&mut input).unwrap()?;
+        let Order::Late(parts) = order(&mut input).unwrap() else { return None };
         let mut whole = Vec::new();
         for part in parts {
             match part {
                 Part::Sign(sign) => whole.push(sign),
-                Part::Text { from, to, .. } => whole.extend(&text.as_bytes()[from as usize..to as usize]),
+                Part::Text { from, to, .. } => {
+                    whole.extend(
+                        &text.as_bytes()[from as usize..text.len().min(usize::try_from(to).unwrap_or(usize::MAX))],
+                    );
+                }
             }
         }
         Some(String::from_utf8(whole).unwrap())

@@ -1,12 +1,13 @@
 //! A case: what a form prints of a job, beside what is expected.
 
 use std::fs;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use postform::diag::Diag;
 use postform::internals::diff::{self, Edit, Ignore, Summary, compare};
 use postform::internals::post::Part;
-use postform::internals::render::{Cycles, TraceLine};
+use postform::internals::render::{Clock, Cycles, TraceLine};
 use postform::internals::trace::Trace;
 use postform::{Error, Finding, Format, Verdict};
 
@@ -37,6 +38,10 @@ pub struct Case {
     pub ignore: Ignore,
     /// How near numbers must be.
     pub tolerance: f64,
+    /// The day on which the program is printed.
+    pub clock: Clock,
+    /// A program that is not proven fails.
+    pub require_proof: bool,
 }
 
 /// What is expected of a case.
@@ -79,8 +84,8 @@ pub struct Tried {
     pub case: Case,
     /// What was found.
     pub end: End,
-    /// The program was not proven to do what the job asks for.
-    pub unproven: bool,
+    /// Why the program was not proven to do what the job asks for; `None`: it was, or there is none.
+    pub unproven: Option<String>,
     /// The lines of the form that printed, each by its first byte in its file.
     pub printed: Vec<(u32, u32)>,
 }
@@ -93,8 +98,8 @@ pub enum End {
     Differs { text: String, line: usize },
     /// No program, or one that is wrong: why, for people.
     Failed(String),
-    /// What is expected was written: why, for people.
-    Written(String),
+    /// What is expected was written: why, for people, and into which file.
+    Written { text: String, file: PathBuf },
 }
 
 impl End {
@@ -104,13 +109,13 @@ impl End {
             End::Passed => "passed",
             End::Differs { .. } => "differs",
             End::Failed(_) => "failed",
-            End::Written(_) => "written",
+            End::Written { .. } => "written",
         }
     }
 
     /// Is it as it should be?
     pub fn is_right(&self) -> bool {
-        matches!(self, End::Passed | End::Written(_))
+        matches!(self, End::Passed | End::Written { .. })
     }
 }
 
@@ -118,7 +123,9 @@ impl Case {
     /// A job of which nothing is expected yet.
     pub fn new(job: PathBuf, expected: PathBuf) -> Case {
         let (ignore, tolerance) = (Ignore::default(), 0.0);
-        Case { job, form: 0, expected, cycles: Cycles::Form, wanted: Wanted::Nothing, ignore, tolerance }
+        let clock = Clock { date: "2000-01-01".into(), time: "00:00".into() };
+        let (cycles, wanted) = (Cycles::Form, Wanted::Nothing);
+        Case { job, form: 0, expected, cycles, wanted, ignore, tolerance, clock, require_proof: false }
     }
 
     /// Prints the case and compares it. `update`: what is expected is written where it differs.
@@ -128,19 +135,22 @@ impl Case {
             Ok(ready) => ready,
             Err(why) => {
                 let end = End::Failed(why.trim_start_matches("error: ").to_owned());
-                return Tried { case: self, end, unproven: false, printed: Vec::new() };
+                return Tried { case: self, end, unproven: None, printed: Vec::new() };
             }
         };
         let printed = match self.print(ready) {
             Ok(printed) => printed,
-            Err(why) => return Tried { case: self, end: End::Failed(why), unproven: false, printed: Vec::new() },
+            Err(why) => return Tried { case: self, end: End::Failed(why), unproven: None, printed: Vec::new() },
         };
         let lines = printed.as_ref().map(|program| program.trace.as_slice()).unwrap_or_default();
         let spans = lines.iter().filter_map(|line: &TraceLine| line.form.map(|span| (span.file, span.start)));
         let mut spans: Vec<(u32, u32)> = spans.collect();
         spans.sort_unstable();
         spans.dedup();
-        let unproven = matches!(printed.as_ref().map(|program| &program.verdict), Ok(Verdict::NotProven(_)));
+        let unproven = match printed.as_ref().map(|program| &program.verdict) {
+            Ok(Verdict::NotProven(why)) => Some(why.why.clone()),
+            _ => None,
+        };
         let end = self.compared(printed, ready, reporter, update, colour).unwrap_or_else(End::Failed);
         Tried { case: self, end, unproven, printed: spans }
     }
@@ -151,6 +161,7 @@ impl Case {
         let mut job = files::job(&self.job, &read, true).map_err(|why| why.trim_start_matches("error: ").to_owned())?;
         let mut options = ready.options.clone();
         options.cycles = self.cycles;
+        options.clock = Some(self.clock.clone());
         options.job_file = self.job.file_name().map(|name| name.to_string_lossy().into_owned());
         // a CL file says no number
         if Format::of_name(&self.job.to_string_lossy()) == Some(Format::Cl) {
@@ -166,6 +177,13 @@ impl Case {
         if let Err(error) = rendered {
             return Ok(Err(Refused::by(&error)));
         }
+        // what calls or repeats parts of itself is proven in a file
+        let proven = proven.and_then(|proven| match &proven.verdict {
+            Verdict::NotProven(why) if why.in_a_file => {
+                ready.post.verify_with(job.again(), Cursor::new(text.as_slice()), &options, &ready.proof)
+            }
+            _ => Ok(proven),
+        });
         let mut proven = match proven.and_then(|proven| ready.post.located(proven, job.again(), &options)) {
             Ok(proven) => proven,
             Err(error) => return Ok(Err(Refused::by(&error))),
@@ -192,7 +210,7 @@ impl Case {
     }
 
     fn program(&self, program: &Program, ready: &Ready, update: bool, colour: bool) -> Result<End, String> {
-        if let (Verdict::NotProven(why), true) = (&program.verdict, ready.require_proof) {
+        if let (Verdict::NotProven(why), true) = (&program.verdict, self.require_proof) {
             return Ok(End::Failed(format!("the program is not proven, and postform.toml asks for that: {}", why.why)));
         }
         let write = |why: String| {
@@ -204,7 +222,7 @@ impl Case {
             if target != self.expected {
                 fs::remove_file(&self.expected).map_err(|error| io_message("remove", &self.expected, &error))?;
             }
-            Ok(End::Written(why))
+            Ok(End::Written { text: why, file: target })
         };
         match self.wanted {
             Wanted::Nothing => return write(String::new()),
@@ -228,9 +246,20 @@ impl Case {
             ..side(&self.expected, program.text.clone())?
         };
         let options = diff::Options { ignore: self.ignore, tolerance: self.tolerance };
-        let comparison = compare(&old.program, &new.program, &options);
+        let mut comparison = compare(&old.program, &new.program, &options);
         if comparison.is_same() {
             return Ok(End::Passed);
+        }
+        // shown without what one more block changes in all others: block numbers
+        let unnumbered = diff::Options { ignore: Ignore { numbers: true, ..self.ignore }, ..options };
+        let unspaced = diff::Options { ignore: Ignore { numbers: true, spaces: true, ..self.ignore }, ..options };
+        let without = compare(&old.program, &new.program, &unnumbered);
+        let mut note = "";
+        if compare(&old.program, &new.program, &unspaced).is_same() {
+            let blanks = without.is_same();
+            note = if blanks { "block numbers alone differ\n" } else { "blanks or line ends alone differ\n" };
+        } else if !without.is_same() {
+            comparison = without;
         }
         let first = comparison.edits().next().copied();
         let line = first.map_or(0, |edit| match edit {
@@ -238,7 +267,7 @@ impl Case {
             Edit::Added(_) => comparison.hunks.first().map_or(0, |hunk| hunk.old.start),
         });
         let summary = Summary::of(&comparison, &old.program, &new.program, &self.ignore);
-        let text = unified(&old, &new, &comparison, &summary, CONTEXT, &options, colour);
+        let text = unified(&old, &new, &comparison, &summary, CONTEXT, &options, colour) + note;
         if update { write(text) } else { Ok(End::Differs { text, line: line + 1 }) }
     }
 
@@ -246,21 +275,23 @@ impl Case {
         let mut diags = error.diags.clone();
         let codes: Vec<&str> = diags.iter().map(|diag| diag.code.name()).collect();
         let first = codes.first().copied().unwrap_or("an error").to_owned();
+        let mut expected = String::new();
         if self.wanted == Wanted::Refusal {
             let code = self.code()?;
-            if codes.contains(&code.as_str()) {
+            if codes.contains(&code.as_str()) && may_be_expected(&code) {
                 return Ok(End::Passed);
             }
+            expected = format!("{code} was expected, {first} came\n");
         }
         diags.iter_mut().for_each(|diag| place_in(&files::name(&self.job), diag));
         let shown =
             if diags.is_empty() { format!("{}\n", error.message) } else { reporter.text(&diags, ready.post.files()) };
-        if self.wanted == Wanted::Program || !update {
-            return Ok(End::Failed(shown));
+        if self.wanted == Wanted::Program || !update || !may_be_expected(&first) {
+            return Ok(End::Failed(expected + &shown));
         }
         let target = self.expected.with_extension("refused");
         write_whole(&target, format!("{first}\n").as_bytes())?;
-        Ok(End::Written(shown))
+        Ok(End::Written { text: expected + &shown, file: target })
     }
 
     /// The code of an error that is expected.
@@ -272,6 +303,11 @@ impl Case {
         }
         Ok(code.to_owned())
     }
+}
+
+/// May a form end with this error, and be right? A job that can't be read and a program that does something else are wrong.
+pub fn may_be_expected(code: &str) -> bool {
+    !["PJ", "PV", "PX"].iter().any(|family| code.starts_with(family))
 }
 
 fn side(path: &Path, bytes: Vec<u8>) -> Result<Side, String> {

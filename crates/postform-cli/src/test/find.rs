@@ -8,6 +8,7 @@ use postform::Format;
 use postform::internals::render::Cycles;
 
 use super::super::args::TestArgs;
+use super::super::clock;
 use super::super::config::{Config, shortened};
 use super::super::diff::ignored;
 use super::super::files::{self, io_message};
@@ -25,6 +26,8 @@ pub struct Found {
 
 /// Folders below one another; deeper ones are left alone.
 const DEEPEST: usize = 32;
+/// The day on which programs are printed, unless [test] says another: nothing in them depends on the day of the test.
+const DAY: &str = "2000-01-01T00:00";
 /// So much of a JSON document tells whether it is a job.
 const HEAD: u64 = 4096;
 
@@ -37,6 +40,13 @@ impl Found {
         let meta = fs::metadata(path).map_err(|error| io_message("read", path, &error))?;
         if meta.is_file() {
             let files = listed(files::folder(path))?;
+            let name = files::name(path);
+            if files::is_form(path) {
+                return Err(format!("error: {name} is a form\n  help: `postform test FOLDER --form {name}` tries it"));
+            }
+            if is_expected(path) {
+                return Err(format!("error: {name} is an expected program: give its job, or its folder"));
+            }
             return self.job(path, &files, posts, args);
         }
         self.folder(path, posts, args, DEEPEST)
@@ -44,8 +54,22 @@ impl Found {
 
     fn folder(&mut self, folder: &Path, posts: &mut Posts, args: &TestArgs, deeper: usize) -> Result<(), String> {
         let entries = listed(folder)?;
-        for path in entries.iter().filter(|path| is_job(path)) {
-            self.job(path, &entries, posts, args)?;
+        let jobs: Vec<&PathBuf> = entries.iter().filter(|path| is_job(path, &entries)).collect();
+        for (at, job) in jobs.iter().enumerate() {
+            if let Some(other) = jobs[..at].iter().find(|other| other.file_stem() == job.file_stem()) {
+                let (job, other) = (files::name(job), files::name(other));
+                self.problems.push(format!(
+                    "{job} and {other} would share their expected programs\n  help: give one another name"
+                ));
+                continue;
+            }
+            self.job(job, &entries, posts, args)?;
+        }
+        for path in entries.iter().filter(|path| is_expected(path)) {
+            let stem = stem_of_expected(path);
+            if !jobs.iter().any(|job| job.file_stem().is_some_and(|own| own.to_string_lossy() == stem)) {
+                self.problems.push(format!("{} has no {stem} beside it: no job of that name", files::name(path)));
+            }
         }
         for path in &entries {
             let is_hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
@@ -65,11 +89,24 @@ impl Found {
         let head = if stem == "job" { "expected.".to_owned() } else { format!("{stem}.expected.") };
         let own_form = folder.join("form.pf");
         let forms = posts.under(&config)?;
-        let ignore = ignored(&config.test.ignore).map_err(|error| in_file(&config, &error))?;
+        let ignore = ignored(&config.test.ignore).map_err(|error| {
+            in_file(&config, &format!("ignore under [test]: {}", error.trim_start_matches("error: ")))
+        })?;
+        let day = config.test.date.as_deref().unwrap_or(DAY);
+        let clock =
+            clock::parse(day).map_err(|why| in_file(&config, &format!("date = {day:?} under [test]: {why}")))?;
+        if !(0.0..=1e3).contains(&config.test.tolerance) {
+            let message = format!("tolerance = {} under [test]: it is 0 or more", config.test.tolerance);
+            return Err(in_file(&config, &message));
+        }
         let mut count = 0;
         let add = |found: &mut Found, form: usize, expected: PathBuf, cycles: Cycles, wanted: Wanted| {
-            let tolerance = config.test.tolerance;
-            found.cases.push(Case { job: job.to_path_buf(), form, expected, cycles, wanted, ignore, tolerance });
+            let (job, tolerance, require_proof) = (job.to_path_buf(), config.test.tolerance, config.require_proof);
+            let is_new = !found.cases.iter().any(|case| case.expected == expected && case.form == form);
+            if is_new {
+                let clock = clock.clone();
+                found.cases.push(Case { job, form, expected, cycles, wanted, ignore, tolerance, clock, require_proof });
+            }
         };
         for path in beside {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -84,7 +121,7 @@ impl Found {
             let form = match form_name {
                 "" => match posts.are_named() {
                     true => continue,
-                    false if own_form.is_file() => Some(posts.entry(&own_form)?),
+                    false if own_form.is_file() => Some(posts.entry(&own_form, config.test.post.as_deref())?),
                     false => forms.first().copied().filter(|_| forms.len() == 1),
                 },
                 _ => forms.iter().copied().find(|form| posts.get(*form).name == form_name),
@@ -126,15 +163,30 @@ fn listed(folder: &Path) -> Result<Vec<PathBuf>, String> {
     Ok(entries)
 }
 
-/// Is the file a job? JSON must look like one, and an NC program is one if it is called `job`.
-fn is_job(path: &Path) -> bool {
+/// Is it the program, or the error, that is expected of a job?
+fn is_expected(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    if !path.is_file() || name.starts_with("expected.") || name.contains(".expected.") {
+    name.starts_with("expected.") || name.contains(".expected.")
+}
+
+/// The name of the job to which an expected program belongs, without its ending.
+fn stem_of_expected(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    name.split_once(".expected.").map_or("job".to_owned(), |(stem, _)| stem.to_owned())
+}
+
+/// Is the file a job? JSON must look like one, unless it is called `job` or has expected programs; an NC program is one if it is
+/// called `job`.
+fn is_job(path: &Path, beside: &[PathBuf]) -> bool {
+    if !path.is_file() || is_expected(path) {
         return false;
     }
-    match Format::of_name(&name) {
-        Some(Format::Nc) => path.file_stem().is_some_and(|stem| stem == "job"),
-        Some(Format::Json) => looks_like_a_job(path),
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let is_called_so =
+        stem == "job" || beside.iter().any(|other| is_expected(other) && stem_of_expected(other) == stem);
+    match Format::of_name(&path.to_string_lossy()) {
+        Some(Format::Nc) => stem == "job",
+        Some(Format::Json) => is_called_so || looks_like_a_job(path),
         Some(_) => true,
         None => false,
     }
@@ -153,11 +205,11 @@ fn no_form(expected: &Path, form: &str, config: &Config) -> String {
     }
     let file = config.path.clone().map_or("a postform.toml".to_owned(), |path| files::name(&shortened(path)));
     format!(
-        "{name}: there is no form called {form}\n  help: name it in {file}, under [test], as forms = [\"{form}.pf\"], or by --form"
+        "{name}: there is no form called {form}\n  help: add its file to forms under [test] in {file}, or name it by --form"
     )
 }
 
 fn in_file(config: &Config, error: &str) -> String {
     let file = config.path.as_deref().map(files::name).unwrap_or_default();
-    format!("error: {file}: ignore under [test]: {}", error.trim_start_matches("error: "))
+    format!("error: {file}: {error}")
 }

@@ -25,12 +25,17 @@ use posts::Posts;
 /// Prints every case and compares it with what is expected.
 pub fn run(args: &TestArgs, colour: Colour) -> Result<Ending, String> {
     if let Some(form) = &args.new {
-        return standard::write(form, &folders(args)[0]);
+        let folders = folders(args);
+        let [folder] = folders.as_slice() else { return Err("error: --new takes one folder".to_owned()) };
+        return standard::write(form, folder);
     }
     let mut posts = Posts::named(&args.forms)?;
     let mut found = Found::default();
     for path in folders(args) {
         found.search(&path, &mut posts, args)?;
+    }
+    if args.coverage && matches!(args.format, TestFormat::Junit | TestFormat::Github) {
+        return Err("error: --coverage is shown by --format pretty and json".to_owned());
     }
     if found.cases.is_empty() && found.problems.is_empty() {
         return Err(nothing(args));
@@ -70,6 +75,13 @@ fn folders(args: &TestArgs) -> Vec<PathBuf> {
 
 fn nothing(args: &TestArgs) -> String {
     let names: Vec<String> = folders(args).iter().map(|path| super::files::name(path)).collect();
+    if let Some(form) = args.forms.first() {
+        let form = super::files::name(form);
+        return format!(
+            "error: no job in {0} has an expected program of {form}\n  help: `postform test --update --form {form} {0}` writes them",
+            names.join(" ")
+        );
+    }
     format!(
         "error: there are no cases in {}\n  help: a case is a job (job.json, or any other) and beside it expected.NAME.nc, the program that NAME.pf prints; \
          `postform test --new FORM` writes the standard ones, `postform test --update --form FORM FOLDER` those of the jobs in a folder",

@@ -3,14 +3,15 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use postform::diag::Diag;
 use postform::internals::lint::Changed;
 use postform::internals::sema::Checked;
 use postform::{Limits, Options, Post, Proof};
 
-use super::super::clock;
 use super::super::config::{Config, shortened};
 use super::super::files::{self, io_message};
 use super::super::forms::FormFile;
+use super::super::report::Reporter;
 
 /// A form under test.
 pub struct Entry {
@@ -18,6 +19,8 @@ pub struct Entry {
     pub path: PathBuf,
     /// The file's name without its ending: expected programs have it in theirs.
     pub name: String,
+    /// Which post of a file that holds several.
+    of_post: Option<String>,
     /// It prints, or why not.
     pub ready: Result<Ready, String>,
 }
@@ -26,14 +29,12 @@ pub struct Entry {
 pub struct Ready {
     /// What prints.
     pub post: Post,
-    /// How it prints: nothing in a program depends on the day of the test.
+    /// How it prints.
     pub options: Options,
     /// How its programs are proven.
     pub proof: Proof,
     /// What its files mean.
     pub checked: Checked,
-    /// A program that is not proven fails.
-    pub require_proof: bool,
 }
 
 /// Forms, each once.
@@ -41,10 +42,9 @@ pub struct Posts {
     entries: Vec<Entry>,
     /// Those of the command line, which go before those of postform.toml.
     named: Option<Vec<usize>>,
+    /// Those that are named one by one, not by their folder.
+    pub single: Vec<usize>,
 }
-
-/// The day on which programs are printed, unless [test] says another.
-const DAY: &str = "2000-01-01T00:00";
 
 impl Posts {
     /// The forms of the command line, which may be none.
@@ -52,9 +52,9 @@ impl Posts {
     /// # Errors
     /// A message: a form is not there.
     pub fn named(forms: &[PathBuf]) -> Result<Posts, String> {
-        let mut posts = Posts { entries: Vec::new(), named: None };
+        let mut posts = Posts { entries: Vec::new(), named: None, single: Vec::new() };
         if !forms.is_empty() {
-            posts.named = Some(posts.of_paths(forms)?);
+            posts.named = Some(posts.of_paths(forms, None)?);
         }
         Ok(posts)
     }
@@ -74,14 +74,19 @@ impl Posts {
         }
         let of_shop = config.form.iter().filter(|_| config.test.forms.is_empty());
         let paths: Vec<PathBuf> = config.test.forms.iter().chain(of_shop).cloned().collect();
-        self.of_paths(&paths)
+        self.of_paths(&paths, config.test.post.as_deref()).map_err(|error| match &config.path {
+            Some(path) => format!("{error}\n  help: {} names it under [test]", files::name(&shortened(path.clone()))),
+            None => error,
+        })
     }
 
-    fn of_paths(&mut self, paths: &[PathBuf]) -> Result<Vec<usize>, String> {
+    fn of_paths(&mut self, paths: &[PathBuf], post: Option<&str>) -> Result<Vec<usize>, String> {
         let mut all = Vec::new();
         for path in paths {
             if !path.is_dir() {
-                all.push(self.entry(path)?);
+                let form = self.entry(path, post)?;
+                self.single.push(form);
+                all.push(form);
                 continue;
             }
             let listed = fs::read_dir(path).map_err(|error| io_message("read", path, &error))?;
@@ -89,7 +94,7 @@ impl Posts {
             forms.retain(|form| files::is_form(form) && form.is_file());
             forms.sort();
             for form in forms {
-                all.push(self.entry(&form)?);
+                all.push(self.entry(&form, post)?);
             }
         }
         Ok(all)
@@ -99,13 +104,15 @@ impl Posts {
     ///
     /// # Errors
     /// A message: it is not there.
-    pub fn entry(&mut self, path: &Path) -> Result<usize, String> {
+    pub fn entry(&mut self, path: &Path, post: Option<&str>) -> Result<usize, String> {
         let path = &shortened(path.canonicalize().map_err(|error| io_message("read", path, &error))?);
-        if let Some(at) = self.entries.iter().position(|entry| entry.path == *path) {
+        if let Some(at) = self.entries.iter().position(|entry| entry.path == *path && entry.of_post.as_deref() == post)
+        {
             return Ok(at);
         }
         let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        self.entries.push(Entry { path: path.to_path_buf(), name, ready: Ready::of(path) });
+        let of_post = post.map(str::to_owned);
+        self.entries.push(Entry { path: path.to_path_buf(), name, ready: Ready::of(path, post), of_post });
         Ok(self.entries.len() - 1)
     }
 
@@ -122,23 +129,22 @@ impl Posts {
 
 impl Ready {
     /// Reads a form. `Err`: why it can't print, for people.
-    pub fn of(path: &Path) -> Result<Ready, String> {
+    pub fn of(path: &Path, post: Option<&str>) -> Result<Ready, String> {
         let config = Config::near(path)?;
         let limits: Limits = config.limits.unwrap_or_default();
-        let file = FormFile::read(path, limits)?.of_post(config.test.post.as_deref())?;
+        let file = FormFile::read(path, limits)?.of_post(post)?;
         let name = files::name(path);
         let post = Post::compile_with(file.source(), &file, limits, &config.levels).map_err(|error| {
-            let errors = error.findings().diags.iter().filter(|diag| diag.is_error()).count();
-            format!("{name} has errors ({errors}): `postform lint {name}` shows them")
+            let found = error.into_findings();
+            let errors: Vec<Diag> = found.diags.into_iter().filter(Diag::is_error).collect();
+            format!("{name} has errors\n{}", Reporter::new(false).text(&errors, &found.files).trim_end())
         })?;
         config.check_properties(post.properties())?;
         let mut options = Options::default();
         options.trace = true;
         options.shop_properties.clone_from(&config.properties);
-        let day = config.test.date.as_deref().unwrap_or(DAY);
-        options.clock = Some(clock::parse(day).map_err(|why| format!("date = {day:?} under [test]: {why}"))?);
         let mut proof = Proof::default();
         proof.control = post.control().is_none().then_some(config.control).flatten();
-        Ok(Ready { post, options, proof, checked: file.analyse(&Changed::new()), require_proof: config.require_proof })
+        Ok(Ready { post, options, proof, checked: file.analyse(&Changed::new()) })
     }
 }

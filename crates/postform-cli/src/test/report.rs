@@ -46,7 +46,7 @@ impl Report<'_> {
             (differ, if differ == 1 { "differs" } else { "differ" }),
             (of("failed"), "failed"),
             (of("written"), "written"),
-            (self.tried.iter().filter(|tried| tried.unproven).count(), "not proven"),
+            (self.tried.iter().filter(|tried| tried.unproven.is_some()).count(), "not proven"),
         ] {
             if number > 0 {
                 _ = write!(text, ", {number} {what}");
@@ -64,18 +64,55 @@ impl Report<'_> {
     /// For people.
     pub fn pretty(&self) -> String {
         let mut text = String::new();
-        for tried in self.tried {
+        for (form, entry) in self.posts.all().iter().enumerate() {
+            let own = self.tried.iter().filter(|tried| tried.case.form == form).count();
+            if let (Err(why), true) = (&entry.ready, own > 0) {
+                _ = writeln!(
+                    text,
+                    "{}\nnone of its {} is printed",
+                    escaped_lines(why.trim_start_matches("error: ")),
+                    count(own, "program")
+                );
+            }
+            if own == 0 && self.posts.single.contains(&form) {
+                _ = writeln!(text, "{}: no job has an expected program of it", files::name(&entry.path));
+            }
+        }
+        for tried in self.tried.iter().filter(|tried| self.posts.get(tried.case.form).ready.is_ok()) {
             let head = self.head(&tried.case);
             match &tried.end {
                 End::Passed => {}
                 End::Differs { text: shown, .. } => _ = writeln!(text, "{shown}"),
                 End::Failed(why) => _ = writeln!(text, "{head}:\n{}", escaped_lines(why.trim_end())),
-                End::Written(why) if why.is_empty() => _ = writeln!(text, "{head}: written"),
-                End::Written(why) => _ = writeln!(text, "{}\n{head}: written\n", why.trim_end()),
+                End::Written { text: why, file } => {
+                    let (why, file) = (why.trim_end(), files::name(file));
+                    let gone = if file == files::name(&tried.case.expected) {
+                        String::new()
+                    } else {
+                        format!(" in place of {}", files::name(&tried.case.expected))
+                    };
+                    _ = match why {
+                        "" => writeln!(text, "{file}: written{gone}"),
+                        why => writeln!(text, "{head}:\n{why}\n{file}: written{gone}\n"),
+                    };
+                }
             }
         }
         for problem in self.problems {
             _ = writeln!(text, "{}", escaped_lines(problem));
+        }
+        let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
+        for tried in self.tried {
+            let Some(why) = tried.unproven.as_deref() else { continue };
+            let head = self.head(&tried.case);
+            match reasons.iter_mut().find(|(own, _)| *own == why) {
+                Some((_, list)) => list.push(head),
+                None => reasons.push((why, vec![head])),
+            }
+        }
+        for (why, list) in reasons {
+            let more = if list.len() > 1 { format!(" and {} more", list.len() - 1) } else { String::new() };
+            _ = writeln!(text, "not proven: {}{more}: {}", list[0], escaped(why));
         }
         for covered in self.covered.unwrap_or_default() {
             let missing = covered.missing.len();
@@ -100,7 +137,7 @@ impl Report<'_> {
                     "form": self.form(&tried.case),
                     "expected": files::name(&tried.case.expected),
                     "result": tried.end.name(),
-                    "proven": !tried.unproven,
+                    "not_proven": tried.unproven,
                     "message": message,
                     "line": line,
                 })
@@ -182,7 +219,7 @@ fn said(end: &End) -> (String, Option<usize>) {
     match end {
         End::Passed => (String::new(), None),
         End::Differs { text, line } => (text.clone(), Some(*line)),
-        End::Failed(why) | End::Written(why) => (why.trim_end().to_owned(), None),
+        End::Failed(why) | End::Written { text: why, .. } => (why.trim_end().to_owned(), None),
     }
 }
 
@@ -193,7 +230,8 @@ fn case(writer: &mut Writer<Vec<u8>>, form: &str, name: &str, failure: Option<&s
     let Some(message) = failure else { return writer.write_event(Event::Empty(start)) };
     writer.write_event(Event::Start(start))?;
     let mut failure = BytesStart::new("failure");
-    failure.push_attribute(("message", message.lines().next().unwrap_or_default()));
+    let short = message.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or_default();
+    failure.push_attribute(("message", short));
     writer.write_event(Event::Start(failure))?;
     // what XML has no character for is escaped
     writer.write_event(Event::Text(BytesText::new(&escaped_lines(message))))?;

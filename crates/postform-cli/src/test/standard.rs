@@ -10,13 +10,13 @@ use postform::internals::lang::{Machine, UnitChoice};
 use super::super::Ending;
 use super::super::files::{self, io_message};
 use super::super::output::{self, write_new};
-use super::case::Case;
+use super::case::{Case, may_be_expected};
 use super::cases::{BEAM, LATHE, MILL, WIRE};
 use super::posts::Ready;
 
 /// Writes the cases into a folder: for each a job, and beside it what the form prints of it. Files that are there stay.
 pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
-    let ready = Ready::of(form)?;
+    let ready = Ready::of(form, None)?;
     let name = form.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let settings = &ready.checked.form.settings;
     let cases = match settings.machine {
@@ -25,13 +25,17 @@ pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
         Machine::Lathe => LATHE,
         Machine::Edm => WIRE,
     };
-    let (mut printed, mut refused) = (0, Vec::new());
+    let (mut printed, mut refused, mut wrong, mut others) = (0, Vec::new(), Vec::new(), Vec::new());
     for (case, job) in cases {
         let job = in_units(job, settings.units);
         let place = folder.join(case);
         fs::create_dir_all(&place).map_err(|error| io_message("make", &place, &error))?;
-        new(&place.join("job.json"), job.as_bytes())?;
+        let text = job;
         let job = place.join("job.json");
+        if !new(&job, text.as_bytes())? && !fs::read(&job).is_ok_and(|there| there == text.as_bytes()) {
+            others.push(format!("  {case}"));
+            continue;
+        }
         let expected = place.join(format!("expected.{name}.nc"));
         match Case::new(job, expected.clone()).print(&ready)? {
             Ok(program) => {
@@ -41,8 +45,13 @@ pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
             Err(why) => {
                 let said = why.diags.first().map(|diag| (diag.code.name(), diag.message.as_str()));
                 let (code, message) = said.unwrap_or(("an error", &why.message));
+                let line = format!("  {case}: {code} {}", message.lines().next().unwrap_or_default());
+                if !may_be_expected(code) {
+                    wrong.push(line);
+                    continue;
+                }
                 new(&expected.with_extension("refused"), format!("{code}\n").as_bytes())?;
-                refused.push(format!("  {case}: {code} {message}"));
+                refused.push(line);
             }
         }
     }
@@ -58,8 +67,23 @@ pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
             refused.join("\n")
         );
     }
-    if !written {
-        text += &format!("{} was there: it names the forms under [test]\n", files::name(&config));
+    if !others.is_empty() {
+        let text_of = others.join("\n");
+        text += &format!(
+            "other jobs have these names, and stay; nothing was written beside them:\n{text_of}\n  help: give this form a folder of its own\n"
+        );
+    }
+    if !written && !fs::read_to_string(&config).is_ok_and(|there| there.contains(&said)) {
+        text += &format!("{} was there: add {said} to its forms under [test]\n", files::name(&config));
+    }
+    if !wrong.is_empty() {
+        let list = wrong.join("\n");
+        text += &format!(
+            "{} prints programs of these that do something else than the job:\n{list}\n  help: fix the form, then run this again\n",
+            files::name(form)
+        );
+        output::standard_output(|out| io::Write::write_all(out, text.as_bytes()))?;
+        return Ok(Ending::Findings);
     }
     text += &format!("look the programs through once, then: postform test {}\n", files::name(folder));
     output::standard_output(|out| io::Write::write_all(out, text.as_bytes()))?;

@@ -107,7 +107,7 @@ fn mistakes(line: &str) -> Vec<String> {
 /// A word lost or a digit changed: the cases that print the line see it, or the proof does.
 #[test]
 fn the_standard_cases_see_broken_forms() {
-    let most: usize = std::env::var("BROKEN").map_or(6, |count| count.parse().unwrap());
+    let most: usize = std::env::var("BROKEN").map_or(2, |count| count.parse().unwrap());
     for form in ["haas.pf", "siemens.pf", "fanuc-lathe.pf"] {
         let folder = kept(&format!("broken-{form}"), form);
         let whole = fs::read_to_string(folder.0.join(form)).unwrap();

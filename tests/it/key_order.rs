@@ -43,7 +43,7 @@ fn printed(post: &Post, job: Job<'_>) -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(5))]
+    #![proptest_config(ProptestConfig::with_cases(2))]
 
     /// Every sample's job prints the same program, whatever the order of its keys.
     #[test]

@@ -1,6 +1,6 @@
 //! The ways between cuts: a program may go higher than the job, never lower or elsewhere.
 
-use super::cut::{ALL, DEPTH, RADIUS, Rapid, number, same, shown};
+use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, number, same, shown};
 use super::idle;
 use super::passage::{Frame, Leg};
 use super::sides::Sides;
@@ -160,6 +160,13 @@ fn goes_home(s: &mut Sides<'_>, line: u64) {
     }
 }
 
+/// The first position beside this one to which rapids go at a height that is known.
+fn crosses(from: Option<&Rapid>, rapids: &[Rapid], tolerance: f64) -> Option<Place> {
+    let from = from?;
+    let beside = |rapid: &&Rapid| rapid.unknown & 0b111 == 0 && !same(&rapid.to, &from.to, ACROSS, tolerance);
+    rapids.iter().take_while(|rapid| rapid.unknown & 1 << DEPTH == 0).find(beside).map(|rapid| rapid.to)
+}
+
 /// The way away from the last cut of a tool or work offset, or of the program: so many of the program's rapids.
 fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     let tolerance = s.limits.tolerance;
@@ -170,6 +177,10 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     let aside = if s.job.changed() { s.job.left_aside } else { s.job.aside };
     let (own, other) = (s.job.leaving(), &s.program.passage.rapids[..until]);
     let as_job = goes_as(own, other, tolerance);
+    // where the job sends the tool home from the end of its way, nothing crosses the part before
+    let beyond =
+        other.split_at_checked(own.len()).filter(|(way, _)| s.job.was_sent_home() && goes_as(own, way, tolerance));
+    let before_home = beyond.and_then(|(_, beyond)| crosses(own.last().or(s.job.start.as_ref()), beyond, tolerance));
     job.set(s.job.start, own, tolerance);
     program.set(s.program.passage.start, other, tolerance);
     match leaves_hole(job, program, tolerance) {
@@ -178,7 +189,11 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
         // the job's own way, and from its end to places of the machine
         _ if as_job && other[own.len()..].iter().all(|rapid| rapid.unknown & 1 << DEPTH != 0) => {}
         _ => {
-            if let Some((to, limit)) = leaves_low(job, program, tolerance) {
+            if let Some(to) = before_home {
+                s.found(Code::PV001, line, "print the way home before the next position", || {
+                    format!("a rapid goes to {} before the tool goes home", shown(&to, 0b111))
+                });
+            } else if let Some((to, limit)) = leaves_low(job, program, tolerance) {
                 s.found(Code::PV009, line, "go up first, as high as the job does", || {
                     format!("after the last cut a rapid goes to {}, below Z{}", shown(&to, 0b111), number(limit))
                 });

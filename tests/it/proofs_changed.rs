@@ -64,6 +64,17 @@ fn pauses_keep_their_places() {
     assert_eq!(after("grbl.pf", &way, &[("M1\n", "(none)\n"), ("X10. Y10.\n", "X10. Y10.\nM1\n")]), behind);
 }
 
+/// Where the job sends the tool home, it crosses the part from there, and not before.
+#[test]
+fn nothing_crosses_the_part_before_the_way_home() {
+    let home = one(
+        r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"rapid":[0,0,25]},{"home":true},{"rapid":[10,10,25]},{"line":[10,10,-1]},{"rapid":[10,10,25]}"#,
+    );
+    assert_eq!(after("linuxcnc.pf", &home, &[]), "identical");
+    let swapped = ("G0 G53 Z0\nX10. Y10. Z25.\n", "X10. Y10.\nG0 G53 Z0\nG0 Z25.\n");
+    assert_eq!(after("linuxcnc.pf", &home, &[swapped]), "PV001 1");
+}
+
 /// Nobody stops with the tool in a hole, and who does outside is counted.
 #[test]
 fn stops_between_pecks_are_seen() {

@@ -337,7 +337,7 @@ fn mutilated_programs_get_an_answer() {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         (state >> 33) as usize % limit
     };
-    for round in 0..20_000 {
+    for round in 0..8_000 {
         let mut bytes = program.as_bytes().to_vec();
         if round % 3 == 0 {
             bytes.truncate(random(bytes.len()));

@@ -177,17 +177,20 @@ fn motions_differ_where_the_spindle_stands_at_another_angle() {
     }
 }
 
+/// The first difference between the motions of two programs of one control.
+fn difference(name: &str, programs: [String; 2]) -> Option<String> {
+    let settings = RunSettings::new(control(name));
+    let programs = programs.map(|program| (Cursor::new(program), settings));
+    compare_motions(programs, Units::Mm, 1e-6).unwrap().difference.map(|found| found.message)
+}
+
 /// What a lathe's spindle and turret do.
 #[test]
 fn motions_of_lathes_differ_in_spindle_and_turret() {
     const PART: &str = "G21 G18 G40 G99\nT0101\nG50 S2500\nG96 S150 M3\nG0 X44. Z5.\nG1 Z-20. F2.\nG28 U0 W0\nT0202\nG97 S800 M3\n\
         G0 X44. Z5.\nG1 Z-20. F.2\nG28 U0 W0\nM5\nM30\n";
     let differs = |from: &str, to: &str| {
-        let settings = [RunSettings::new(control("fanuc-lathe")); 2];
-        let programs = [PART.to_owned(), PART.replacen(from, to, 1)].map(Cursor::new);
-        let [old, new] = programs;
-        let found = compare_motions([(old, settings[0]), (new, settings[1])], Units::Mm, 1e-6).unwrap();
-        found.difference.map_or("none".to_owned(), |found| found.message)
+        difference("fanuc-lathe", [PART.to_owned(), PART.replacen(from, to, 1)]).unwrap_or("none".to_owned())
     };
     assert_eq!(differs("G21", "G21"), "none");
     for (from, to, message) in [
@@ -208,14 +211,7 @@ fn motions_of_lathes_differ_in_spindle_and_turret() {
 fn motions_of_threads_differ_in_their_words() {
     let part =
         |thread: &str| format!("G21 G18 G40 G99\nT0101\nG97 S800 M3\nG0 X40. Z2.\n{thread}\nG0 X60.\nG28 U0 W0\nM30\n");
-    let differs = |old: &str, new: &str| {
-        let settings = [RunSettings::new(control("fanuc-lathe")); 2];
-        let [a, b] = [part(old), part(new)].map(Cursor::new);
-        compare_motions([(a, settings[0]), (b, settings[1])], Units::Mm, 1e-6)
-            .unwrap()
-            .difference
-            .map(|found| found.message)
-    };
+    let differs = |old: &str, new: &str| difference("fanuc-lathe", [part(old), part(new)]);
     let twice = "G92 X38. Z-10. F1.5\nG92 X38. Z-10. F1.5 Q180000";
     let at = |angle: &str| {
         format!(
@@ -235,17 +231,10 @@ fn motions_of_threads_differ_in_their_words() {
 /// An offset that stands in for a way home, and an axis that is left where it was in another offset.
 #[test]
 fn motions_differ_where_a_position_is_unknown_for_another_reason() {
-    let settings = [RunSettings::new(control("fanuc")); 2];
     let part = |middle: &str| {
         format!("G90 G21 G17 G94\nT1 M6\nG54 G0 X0 Y0 S900 M3\nG43 H1 Z2.\nG1 Z-20. F200.\n{middle}\nM30\n")
     };
-    let differs = |old: &str, new: &str| {
-        let [a, b] = [part(old), part(new)].map(Cursor::new);
-        compare_motions([(a, settings[0]), (b, settings[1])], Units::Mm, 1e-6)
-            .unwrap()
-            .difference
-            .map(|found| found.message)
-    };
+    let differs = |old: &str, new: &str| difference("fanuc", [part(old), part(new)]);
     let home = "G0 Z2.\nG91 G28 Z0\nG90 G54\nG0 X90. Y50.\nG43 H1 Z2.\nG1 Z-5.";
     assert_eq!(
         differs(home, &home.replace("G28", "G58")),

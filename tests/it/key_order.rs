@@ -2,13 +2,12 @@
 
 use std::fs;
 use std::io::Cursor;
-use std::process::{Command, Stdio};
 
 use postform::{Format, Job, NoFiles, Options, Post, Source};
 use proptest::prelude::*;
 use serde_json::Value;
 
-use crate::program_commands::{postform, text};
+use crate::program_commands::{fed, postform, text};
 use crate::support::{root, samples};
 
 /// A value as text, with the keys of each object turned on by as many as the numbers say.
@@ -91,28 +90,9 @@ fn an_error_has_its_place_in_the_text_as_it_stands() {
 /// A stream can't be gone back in.
 #[test]
 fn a_stream_says_which_key_comes_too_late() {
-    let feed = |job: &str| {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_postform"))
-            .args([
-                "render",
-                "-",
-                "--from",
-                "json",
-                "--form",
-                "postforms/linuxcnc.pf",
-                "--set",
-                "header=off",
-                "--stream",
-            ])
-            .current_dir(root())
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        std::io::Write::write_all(&mut child.stdin.take().unwrap(), job.as_bytes()).unwrap();
-        text(&child.wait_with_output().unwrap().stderr)
-    };
+    let arguments =
+        ["render", "-", "--from", "json", "--form", "postforms/linuxcnc.pf", "--set", "header=off", "--stream"];
+    let feed = |job: &str| text(&fed(&arguments, job.as_bytes()).stderr);
     let said = feed(
         r#"{"postform": 1, "program": 1, "operations": [{"tool": 1, "path": [{"rapid": [0, 0, 1]}]}], "tools": [{"number": 1}]}"#,
     );

@@ -10,7 +10,7 @@ pub fn postform(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_postform")).args(arguments).current_dir(root()).output().unwrap()
 }
 
-fn fed(arguments: &[&str], input: &[u8]) -> Output {
+pub fn fed(arguments: &[&str], input: &[u8]) -> Output {
     let mut child = Command::new(env!("CARGO_BIN_EXE_postform"))
         .args(arguments)
         .current_dir(root())

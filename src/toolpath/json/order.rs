@@ -237,7 +237,7 @@ impl<R: Read> Scan<R> {
                     return Ok(None);
                 }
                 let list = lists.iter().position(|list| list.as_bytes() == key);
-                // of a job, subprograms stand before operations, and both after all else
+                // the usual order of a job: other keys, `subprograms`, `operations`
                 is_late |=
                     listed && list.is_none() || entries.iter().any(|entry: &Entry| entry.list > list && list.is_some());
                 listed |= list.is_some();

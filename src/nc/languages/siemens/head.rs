@@ -44,7 +44,7 @@ pub fn without_comment(line: &[u8]) -> (&[u8], Option<(usize, usize)>) {
     (line, None)
 }
 
-/// The number of a line, and what stands behind it.
+/// The number of a line, and the rest of the line.
 pub fn number(line: &[u8]) -> (Option<f64>, Cursor<'_>) {
     let mut cursor = Cursor::new(line, 0);
     while cursor.peek() == Some(b'/') {

@@ -194,6 +194,12 @@ codes! {
     PD003 Error "a command of a path that no job can say"
     PD004 Error "a document that leaves out what a program needs"
     PD005 Warning "something of a document that is left out"
+    // PI: the NCI file
+    PI001 Error "a line of an NCI file that can't be read"
+    PI002 Error "something that an NCI file leaves out"
+    PI003 Error "a record of an NCI file that no job can have"
+    PI004 Error "an NCI file that is cut short"
+    PI005 Warning "a text of an NCI file that is printed as it is"
     // PL: the CL file
     PL001 Error "a statement that can't be read"
     PL002 Error "an unknown minor word"
@@ -308,6 +314,7 @@ codes! {
     PR058 Error "a path that a torch or a laser can't cut"
     PR059 Note "an axis that the form ignores"
     PR060 Error "an operation that can't be begun alone"
+    PR061 Error "an operation that belongs to no one part of a job"
     // PN: NC programs
     PN001 Error "text that no control reads"
     PN002 Error "a word that is there twice"

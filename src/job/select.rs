@@ -7,8 +7,8 @@ use crate::diag::{Code, Diag};
 use crate::lang::Coolant;
 use crate::toolpath::{Axes, Event, First, Flow, Given, Hole, Place, Sink, Spindle, Start, ToolChange};
 
-/// Which operations are taken, by their tools.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// Which operations are taken, by their tools, their numbers or their work offsets.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
     /// From the first operation with this tool on.
     pub from: Option<u32>,
@@ -18,6 +18,10 @@ pub struct Selection {
     pub only: Vec<u32>,
     /// Not those with these tools.
     pub skip: Vec<u32>,
+    /// The one with this number, from 1 on.
+    pub operation: Option<u64>,
+    /// Those that begin in this work offset; `Some(None)`: those before the job names one.
+    pub work: Option<Option<f64>>,
 }
 
 impl Selection {
@@ -30,6 +34,8 @@ impl Selection {
 /// Where in a selection a job is.
 #[derive(Clone, Copy, Default)]
 struct Progress {
+    /// Operations so far.
+    count: u64,
     begun: bool,
     /// An operation with the last tool was there.
     reached: bool,
@@ -37,8 +43,15 @@ struct Progress {
 }
 
 impl Progress {
-    /// Is the next operation taken, which has this tool?
-    fn takes(&mut self, selection: &Selection, tool: Option<f64>) -> bool {
+    /// Is the next operation taken, which begins with this tool and work offset?
+    fn takes(&mut self, selection: &Selection, tool: Option<f64>, work: Option<f64>) -> bool {
+        self.count += 1;
+        self.takes_tool(selection, tool)
+            && selection.operation.is_none_or(|operation| operation == self.count)
+            && selection.work.is_none_or(|wanted| wanted == work)
+    }
+
+    fn takes_tool(&mut self, selection: &Selection, tool: Option<f64>) -> bool {
         let is = |number: u32| tool == Some(f64::from(number));
         self.begun |= selection.from.is_none_or(is);
         let is_last = selection.until.is_some_and(is);
@@ -101,8 +114,8 @@ impl<'s> Selecting<'s> {
         if let Some(tool) = tool.filter(|tool| !self.tools.contains(tool)) {
             self.tools.push(tool);
         }
-        self.takes = self.progress.takes(self.selection, tool);
         self.hold(change);
+        self.takes = self.progress.takes(self.selection, tool, self.held.work);
         if !self.takes {
             self.left_out = true;
             return Flow::Continue(());
@@ -193,8 +206,11 @@ impl<'s> Selecting<'s> {
     fn start(&mut self, start: &Start, place: Place) -> Flow {
         let Some(order) = &start.tool_order else { return self.sink.event(Event::Start(start), place) };
         let mut progress = Progress::default();
-        let taken = order.iter().copied().filter(|tool| progress.takes(self.selection, Some(*tool))).collect();
-        self.sink.event(Event::Start(&Start { tool_order: Some(taken), ..start.clone() }), place)
+        let mut taken = order.clone();
+        taken.retain(|tool| progress.takes_tool(self.selection, Some(*tool)));
+        // which tools some operations have is known when they are read
+        let is_known = self.selection.operation.is_none() && self.selection.work.is_none();
+        self.sink.event(Event::Start(&Start { tool_order: is_known.then_some(taken), ..start.clone() }), place)
     }
 }
 

@@ -3,6 +3,7 @@
 mod ahead;
 mod follow;
 mod growth;
+mod naming;
 mod options;
 mod origin;
 mod program;

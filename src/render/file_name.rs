@@ -1,11 +1,14 @@
 //! What the file of a program is called.
 
+use super::Options;
 use super::ascii::plain;
 use super::shape::Shape;
 use super::want::Want;
+use crate::compile::Program;
 use crate::lang::{TextId, VarId};
 use crate::number::write_number;
 use crate::sema::{NamePart, is_of_file_names};
+use crate::toolpath::Start;
 
 /// How long a name may be: what every file system takes.
 const LONGEST: usize = 100;
@@ -35,6 +38,17 @@ pub fn file_name(shape: &Shape, want: &Want) -> String {
     let name = if name.is_empty() { "program" } else { name };
     let mark = if is_device(name) { "_" } else { "" };
     format!("{mark}{name}.{}", settings.extension.0)
+}
+
+/// The name of the file of a program that is not printed yet, whose job begins so.
+pub fn file_name_of(program: &Program, options: Options, start: &Start) -> String {
+    let mut shape = Shape::new(program, options);
+    // where the units are wrong nothing is printed, under no name
+    _ = shape.choose_units(start.units);
+    let mut want = Want::new(&shape);
+    want.put(VarId::Program, shape.options.program.map(f64::from).or(start.program));
+    want.texts.start(start, &shape);
+    file_name(&shape, &want)
 }
 
 /// Is it a name that Windows keeps for a device, whatever comes after a point?

@@ -59,6 +59,7 @@ use want::Want;
 
 pub use ahead::survey_terms;
 pub use defaults::cycle_defaults;
+pub use file_name::file_name_of;
 pub use options::{Clock, Cycles, Options};
 pub use printer::{TraceLine, TraceWord};
 

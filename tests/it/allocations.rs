@@ -43,7 +43,7 @@ fn events_do_not_allocate() {
     assert!(!checked.has_errors(), "{:?}", checked.diags);
     let program = compile(&checked.form);
     let mut renderer = Renderer::new(&program, Options::default());
-    let head = "{\"start\":{\"program\":1,\"tools\":[{\"number\":1}]}}\n\
+    let head = "{\"start\":{\"program\":1,\"units\":\"inch\",\"tools\":[{\"number\":1}]}}\n\
         {\"operation\":{\"tool\":1,\"spindle\":{\"speed\":9,\"direction\":\"cw\"},\"feed\":5}}\n{\"rapid\":[0,0,1]}\n";
     // the head comes from a reader that is then cut off: only its events matter here
     _ = read_lines(head.as_bytes(), &mut renderer);
@@ -86,7 +86,7 @@ fn reading_moves_from_json_lines_does_not_allocate() {
     let program = compile(&checked.form);
     let count = |moves: usize| {
         let mut text = String::from(
-            "{\"start\":{\"program\":1,\"tools\":[{\"number\":1}]}}\n\
+            "{\"start\":{\"program\":1,\"units\":\"inch\",\"tools\":[{\"number\":1}]}}\n\
              {\"operation\":{\"tool\":1,\"spindle\":{\"speed\":9,\"direction\":\"cw\"},\"feed\":5}}\n{\"rapid\":[0,0,1]}\n",
         );
         for i in 0..moves {

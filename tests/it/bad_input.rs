@@ -235,8 +235,14 @@ fn jobs() {
         ("tool without a number", good.replace("{\"number\":2}", "{\"diameter\":1}").into(), 1, vec!["PJ004"]),
         ("missing tool", good.replace("\"tool\":1", "\"tool\":7").into(), 1, vec!["PJ006", "tool 7"]),
         ("no tool", good.replace("\"tool\":1,", "").into(), 1, vec!["PJ006", "has no tool"]),
-        ("no operations", b"{\"postform\":1,\"operations\":[]}".into(), 1, vec!["PJ009"]),
-        ("operations not last, and none", b"{\"operations\":[],\"postform\":1}".into(), 1, vec!["PJ009"]),
+        ("no units", b"{\"postform\":1,\"operations\":[]}".into(), 1, vec!["PJ004", "write \"units\": \"mm\""]),
+        ("no operations", b"{\"postform\":1,\"units\":\"inch\",\"operations\":[]}".into(), 1, vec!["PJ009"]),
+        (
+            "operations not last, and none",
+            b"{\"operations\":[],\"postform\":1,\"units\":\"inch\"}".into(),
+            1,
+            vec!["PJ009"],
+        ),
         ("path not last", good.replacen("\"tool\":1,", "\"path\":[],\"tool\":1,", 1).into(), 1, vec!["PJ"]),
         (
             "operation without path",
@@ -336,7 +342,7 @@ fn jobs() {
 fn json_lines() {
     let folder = Folder::new("bad_lines");
     let form = folder.write("form.pf", mill("", ""));
-    let start = "{\"start\":{\"postform\":1,\"program\":1,\"tools\":[{\"number\":1}]}}\n";
+    let start = "{\"start\":{\"postform\":1,\"program\":1,\"units\":\"inch\",\"tools\":[{\"number\":1}]}}\n";
     let operation =
         "{\"operation\":{\"tool\":1,\"work\":54,\"spindle\":{\"speed\":9,\"direction\":\"cw\"},\"feed\":5}}\n";
     let moves = "{\"rapid\":[0,0,1]}\n{\"line\":[1,2,3]}\n";

@@ -94,7 +94,7 @@ fn a_stream_says_which_key_comes_too_late() {
         ["render", "-", "--from", "json", "--form", "postforms/linuxcnc.pf", "--set", "header=off", "--stream"];
     let feed = |job: &str| text(&fed(&arguments, job.as_bytes()).stderr);
     let said = feed(
-        r#"{"postform": 1, "program": 1, "operations": [{"tool": 1, "path": [{"rapid": [0, 0, 1]}]}], "tools": [{"number": 1}]}"#,
+        r#"{"postform": 1, "program": 1, "units": "inch", "operations": [{"tool": 1, "path": [{"rapid": [0, 0, 1]}]}], "tools": [{"number": 1}]}"#,
     );
     assert!(said.contains("list the tools under \"tools\", before the operations"), "{said}");
 }

@@ -230,7 +230,7 @@ fn a_wire_takes_compensation_in_one_block_on_four_axes() {
     let form = "Machine EDM\nStartCode\n%0\nEnd\nEndCode\nM2\nEnd\nInFeed\nG[side]\nG1 X[h] Y[v]\nEnd";
     let text = |infeed: &str| {
         format!(
-            "{{\"machine\":\"edm\",\"operations\":[{{\"feed\":2,\"path\":[{{\"rapid\":[0,0]}},{{\"infeed\":{infeed},\"side\":\"left\"}}]}}]}}"
+            "{{\"machine\":\"edm\",\"units\":\"inch\",\"operations\":[{{\"feed\":2,\"path\":[{{\"rapid\":[0,0]}},{{\"infeed\":{infeed},\"side\":\"left\"}}]}}]}}"
         )
     };
     assert_eq!(program(form, &text("[1,0]"))[1..4], ["G0 X0 Y0", "F2.", "G41"]);
@@ -308,7 +308,7 @@ fn a_leaning_wire_leans_from_its_lead_in() {
         "Machine EDM\nStartCode\n%0\nEnd\nEndCode\nM2\nEnd\nInFeed\nG1 G[side] X[h] Y[v] U[h2] V[v2] F[frate]\nEnd";
     let text = |axes: &str| {
         format!(
-            "{{\"machine\":\"edm\",\"operations\":[{{\"feed\":2,\"path\":[{{\"rapid\":[0,0]}},{{\"infeed\":{axes},\"side\":\"left\"}}]}}]}}"
+            "{{\"machine\":\"edm\",\"units\":\"inch\",\"operations\":[{{\"feed\":2,\"path\":[{{\"rapid\":[0,0]}},{{\"infeed\":{axes},\"side\":\"left\"}}]}}]}}"
         )
     };
     assert_eq!(program(form, &text("[5,0]"))[2], "G1 G41 X5. Y0 F2.");
@@ -342,7 +342,7 @@ fn wire_actions_need_their_sequences() {
         [("thread", "EdmThread"), ("cut", "EdmCut"), ("predrill", "EdmPreDrillThread"), ("submerge", "SubmergeTank")]
     {
         let text = format!(
-            "{{\"machine\":\"edm\",\"operations\":[{{\"feed\":2,\"path\":[{{\"rapid\":[0,0]}},{{\"edm\":\"{action}\"}}]}}]}}"
+            "{{\"machine\":\"edm\",\"units\":\"inch\",\"operations\":[{{\"feed\":2,\"path\":[{{\"rapid\":[0,0]}},{{\"edm\":\"{action}\"}}]}}]}}"
         );
         assert!(program(&form(""), &text)[0].starts_with("PR008"), "{action}");
         assert_eq!(program(&form(&format!("{id}\nM50\nEnd")), &text)[2], "M50", "{action}");

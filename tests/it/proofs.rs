@@ -361,7 +361,7 @@ fn right_programs_of_other_forms_are_proven() {
     let unusual = |name: &str| std::fs::read_to_string(root().join(format!("tests/data/forms/{name}.pf"))).unwrap();
     let inch = |path: &str| {
         format!(
-            r#"{{"postform":1,"program":5,"tools":[{{"number":1}}],"operations":[{{"tool":1,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"feed":35,"path":[{path}]}}]}}"#
+            r#"{{"postform":1,"program":5,"units":"inch","tools":[{{"number":1}}],"operations":[{{"tool":1,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"feed":35,"path":[{path}]}}]}}"#
         )
     };
     let arcs = inch(
@@ -372,7 +372,7 @@ fn right_programs_of_other_forms_are_proven() {
     let across = inch(
         r#"{"rapid":[93.788,84.085,46.211]},{"line":[93.78775,84.085,46.211]},{"rapid":[93.78775,84.086,46.211]},{"line":[93.78775,84.0835,46.211]},{"rapid":[68.733,82.644,46.211]},{"line":[68.733,82.644,-1.199]}"#,
     )
-    .replacen("\"program\":5", "\"program\":5,\"units\":\"mm\"", 1);
+    .replacen("\"units\":\"inch\"", "\"units\":\"mm\"", 1);
     is_right("a cut across one that no digits show", of_form(&unusual("metric"), &across));
     // from home down at first, and then across: nobody knows from where
     let home = inch(

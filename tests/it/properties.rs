@@ -44,7 +44,7 @@ fn item() -> impl Strategy<Value = String> {
     ]
 }
 
-const START: &str = "\"postform\":1,\"program\":7,\"tools\":[{\"number\":1}]";
+const START: &str = "\"postform\":1,\"program\":7,\"units\":\"inch\",\"tools\":[{\"number\":1}]";
 const OPERATION: &str = "\"tool\":1,\"work\":54,\"spindle\":{\"speed\":9,\"direction\":\"cw\"},\"feed\":5";
 
 fn form() -> postform::internals::sema::Checked {

@@ -11,7 +11,7 @@ fn form(head: &str, lines: &str) -> String {
 /// A job whose tool and operation have these keys.
 fn job(head: &str, tool: &str, operation: &str) -> String {
     format!(
-        "{{\"postform\":1,{head} \"tools\":[{{\"number\":1{tool}}}],\"operations\":[{{\"tool\":1,\"work\":54,\
+        "{{\"postform\":1,\"units\":\"inch\",{head} \"tools\":[{{\"number\":1{tool}}}],\"operations\":[{{\"tool\":1,\"work\":54,\
          \"spindle\":{{\"speed\":1000,\"direction\":\"cw\"}},\"feed\":10{operation},\"path\":[{{\"rapid\":[0,0,1]}}]}}]}}"
     )
 }

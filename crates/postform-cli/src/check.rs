@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::Write as _;
+use std::path::Path;
 
 use postform::Format;
 use postform::diag::Diag;
@@ -11,17 +12,28 @@ use postform::toolpath::{Summary, Units};
 
 use super::args::CheckArgs;
 use super::files;
-use super::report::Reporter;
-use super::report::stopped;
+use super::report::{Reporter, place_in, stopped};
 use super::say::say;
-use super::{Ending, output};
+use super::{Ending, inputs, many, output};
 
-/// Reads a job and prints what is in it.
+/// Reads jobs and prints what is in them.
 pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
-    let Some(path) = args.job.as_ref().filter(|_| !args.schema) else {
-        output::standard_output(|out| out.write_all(SCHEMA.as_bytes()))?;
-        return Ok(Ending::Clean);
-    };
+    if args.schema {
+        return output::shown(|out| out.write_all(SCHEMA.as_bytes()));
+    }
+    let reporter = &Reporter::new(colour);
+    if let ([job], false) = (args.jobs.as_slice(), args.jobs.iter().any(|job| job.is_dir())) {
+        let (text, ending) = checked(job, args, reporter)?;
+        output::standard_output(|out| out.write_all(text.as_bytes()))?;
+        return Ok(ending);
+    }
+    let jobs = many::jobs(&args.jobs)?;
+    inputs::are_many();
+    many::run(None, jobs, |job| files::name(job), "job", |job| checked(job, args, reporter))
+}
+
+/// What is in a job, as text for standard output.
+fn checked(path: &Path, args: &CheckArgs, reporter: &Reporter) -> Result<(String, Ending), String> {
     let mut summary = Summary::default();
     let mut job = files::job(path, &args.read, true)?;
     // of a file that can't be read there is nothing to list
@@ -29,26 +41,19 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     let read = job.read(&mut summary);
     let report = job.report();
     let placed = |mut diag: Diag| {
-        diag.place.get_or_insert_default().file = Some(files::name(path));
+        place_in(&files::name(path), &mut diag);
         diag
     };
     let warnings: Vec<Diag> = report.warnings.iter().cloned().map(placed).collect();
-    say(&Reporter::new(colour).text(&warnings, &[]));
+    say(&reporter.text(&warnings, &[]));
     match read {
         Ok(()) => {
-            let unprintable = summary.unprintable();
-            let mut text = describe(&files::name(path), job.format(), &summary, report);
-            text += &listed(&setups);
-            output::standard_output(|out| out.write_all(text.as_bytes()))?;
-            let unprintable: Vec<Diag> = unprintable.into_iter().map(placed).collect();
-            say(&Reporter::new(colour).text(&unprintable, &[]));
-            Ok(unprintable.first().map_or(Ending::Clean, Ending::of))
+            let unprintable: Vec<Diag> = summary.unprintable().into_iter().map(placed).collect();
+            let text = describe(&files::name(path), job.format(), &summary, report) + &listed(&setups);
+            say(&reporter.text(&unprintable, &[]));
+            Ok((text, unprintable.first().map_or(Ending::Clean, Ending::of)))
         }
-        Err(error) => {
-            let text = listed(&setups);
-            output::standard_output(|out| out.write_all(text.as_bytes()))?;
-            stopped(error, path, &Reporter::new(colour), &[])
-        }
+        Err(error) => Ok((listed(&setups), stopped(error, path, reporter, &[])?)),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The same work for each of many things, on as many threads as there are to be had.
 
+use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
@@ -11,14 +12,32 @@ pub fn each<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + Sync) -> Ve
 
 /// The same on so many threads; `None`: one a core.
 pub fn each_on<T: Send, R: Send>(threads: Option<NonZeroUsize>, items: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
+    let mut all = Vec::with_capacity(items.len());
+    each_in_order(threads, items, work, |result| all.push(result));
+    all
+}
+
+/// The same; `take` gets each result as soon as those of all items before it are there, one at a time.
+pub fn each_in_order<T: Send, R: Send>(
+    threads: Option<NonZeroUsize>,
+    items: Vec<T>,
+    work: impl Fn(T) -> R + Sync,
+    take: impl FnMut(R) + Send,
+) {
     let threads = threads.or(thread::available_parallelism().ok()).map_or(1, usize::from).min(items.len());
     let waiting = Mutex::new(items.into_iter().enumerate());
-    let done = Mutex::new(Vec::new());
+    let done = Mutex::new((0, BTreeMap::new(), take));
     let run = || loop {
         let next = waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
         let Some((at, item)) = next else { break };
         let result = work(item);
-        done.lock().unwrap_or_else(PoisonError::into_inner).push((at, result));
+        let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+        let (taken, results, take) = &mut *done;
+        results.insert(at, result);
+        while let Some(result) = results.remove(taken) {
+            *taken += 1;
+            take(result);
+        }
     };
     let run = &run;
     thread::scope(|scope| {
@@ -30,18 +49,28 @@ pub fn each_on<T: Send, R: Send>(threads: Option<NonZeroUsize>, items: Vec<T>, w
         }
         run();
     });
-    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-    done.sort_unstable_by_key(|(at, _)| *at);
-    done.into_iter().map(|(_, result)| result).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::each;
+    use std::time::Duration;
+
+    use super::*;
 
     #[test]
     fn results_come_in_the_order_of_their_items() {
         assert_eq!(each((0..1000).collect(), |n: i32| n * 2), (0..2000).step_by(2).collect::<Vec<_>>());
         assert!(each(Vec::<i32>::new(), |n| n).is_empty());
+    }
+
+    #[test]
+    fn a_result_is_taken_as_soon_as_those_before_it_are() {
+        let taken = Mutex::new(Vec::new());
+        let work = |n: u64| {
+            thread::sleep(Duration::from_millis(n % 3));
+            n
+        };
+        each_in_order(NonZeroUsize::new(3), (0..100).collect(), work, |n| taken.lock().unwrap().push(n));
+        assert_eq!(taken.into_inner().unwrap(), (0..100).collect::<Vec<_>>());
     }
 }

@@ -14,6 +14,7 @@ use postform::{Format, Job};
 use super::args::{From, ReadArgs};
 pub use super::destination::folder;
 use super::inputs;
+use super::packed::{unpacked, unpacked_name};
 use super::spool::Spool;
 
 /// Largest form: a longer file is none.
@@ -42,6 +43,7 @@ pub fn open(path: &Path) -> Result<Box<dyn Read>, String> {
         return Ok(Box::new(io::stdin().lock()));
     }
     match File::open(path) {
+        Ok(file) if unpacked_name(path).is_some() => Ok(Box::new(unpacked(io::BufReader::new(file)))),
         Ok(file) => Ok(Box::new(file)),
         Err(error) => Err(io_message("read", path, &error)),
     }
@@ -58,7 +60,7 @@ pub struct Again {
 }
 
 impl Again {
-    /// Opens a file; standard input and pipes are copied.
+    /// Opens a file; standard input, pipes and the text of compressed files are copied.
     pub fn open(path: &Path) -> Result<Again, String> {
         inputs::note(path);
         let fail = |error: io::Error| io_message("read", path, &error);
@@ -68,7 +70,7 @@ impl Again {
             if meta.is_dir() {
                 return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
             }
-            if meta.is_file() {
+            if meta.is_file() && unpacked_name(path).is_none() {
                 return Ok(Again { file });
             }
         }
@@ -202,8 +204,9 @@ fn fits(from: Format, path: &Path, args: &ReadArgs) -> Result<(), String> {
     if from != Format::Freecad && args.job_name.is_some() {
         return Err(format!("error: --job is for FreeCAD documents, which {} is not", name(path)));
     }
-    let of_both = args.assume_units.is_some() || args.assume_tool.is_some() || args.assume_start.is_some();
-    if !matches!(from, Format::Cl | Format::Nc) && of_both {
+    let of_both = args.assume_tool.is_some() || args.assume_start.is_some();
+    let has_units = !matches!(from, Format::Cl | Format::Nc | Format::Nci) && args.assume_units.is_some();
+    if has_units || !matches!(from, Format::Cl | Format::Nc) && of_both {
         return Err(format!("error: --assume-.. is for CL files and NC programs, which {} is not", name(path)));
     }
     if from != Format::Cl && args.assumes_of_cl() {
@@ -220,14 +223,15 @@ fn fits(from: Format, path: &Path, args: &ReadArgs) -> Result<(), String> {
 }
 
 fn format_of(path: &Path, from: Option<From>) -> Result<Format, String> {
-    let by_name = || Format::of_name(&path.to_string_lossy());
+    let unpacked = unpacked_name(path);
+    let by_name = || Format::of_name(&unpacked.as_deref().unwrap_or(path).to_string_lossy());
     match from.map(From::format).or_else(by_name) {
         Some(format) => Ok(format),
         None if path == Path::new("-") => Ok(Format::Json),
         None => by_content(path)?.ok_or_else(|| {
             let name = name(path);
             format!(
-                "error: can't tell what {name} is by its name or how it begins: say it with --from json, jsonl, cl, nc or freecad"
+                "error: can't tell what {name} is by its name or how it begins: say it with --from json, jsonl, cl, nc, nci or freecad"
             )
         }),
     }
@@ -241,7 +245,11 @@ fn by_content(path: &Path) -> Result<Option<Format>, String> {
         return Ok(None);
     }
     let mut start = Vec::new();
-    file.take(LOOKED_AT).read_to_end(&mut start).map_err(fail)?;
+    match unpacked_name(path) {
+        Some(_) => unpacked(io::BufReader::new(file)).take(LOOKED_AT).read_to_end(&mut start),
+        None => file.take(LOOKED_AT).read_to_end(&mut start),
+    }
+    .map_err(fail)?;
     Ok(Format::of_content(&start))
 }
 
@@ -265,7 +273,8 @@ pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, St
     };
     job.reading = args.reading();
     if format == Format::Nc {
-        job.reading.control = job.reading.control.or_else(|| control_of_name(path));
+        let name = unpacked_name(path);
+        job.reading.control = job.reading.control.or_else(|| control_of_name(name.as_deref().unwrap_or(path)));
     }
     Ok(job)
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::destination::{destination, folder};
 
 /// A regular file, or the place of one that is still to be made.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Identity {
     /// The file; before it is made, its folder.
     node: Node,

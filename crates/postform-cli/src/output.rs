@@ -4,12 +4,14 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use flate2::write::GzEncoder;
 use postform::internals::terminal::{escaped, steers};
 
 use super::Ending;
 use super::destination::{Destination, destination};
 use super::files::{io_message, output_name};
 use super::inputs;
+use super::packed::{pack, packing, unpacked_name};
 use super::spool::Spool;
 use super::unnamed::Unnamed;
 
@@ -21,6 +23,8 @@ pub enum Target {
     Spooled(Spool, Option<PathBuf>),
     /// Standard output, written as text comes.
     Stream,
+    /// One of these, by a name that ends with `.gz`.
+    Packed(Box<(Target, GzEncoder<Vec<u8>>)>),
 }
 
 impl Target {
@@ -32,7 +36,11 @@ impl Target {
         if inputs::holds(path) {
             return Err(format!("error: {} is an input: choose another output", output_name(path)));
         }
-        Target::place(path, stream)
+        let target = Target::place(path, stream)?;
+        Ok(match unpacked_name(path) {
+            Some(_) => Target::Packed(Box::new((target, packing()))),
+            None => target,
+        })
     }
 
     /// The same for a file that is read and written.
@@ -98,6 +106,10 @@ impl Target {
             Target::Beside(unnamed) => unnamed.file().write_all(bytes),
             Target::Spooled(spool, _) => spool.write_all(bytes),
             Target::Stream => io::stdout().write_all(bytes),
+            Target::Packed(packed) => {
+                let (target, encoder) = &mut **packed;
+                pack(encoder, bytes, |bytes| target.write(bytes))
+            }
         }
     }
 
@@ -124,6 +136,11 @@ impl Target {
                 }
             }
             Target::Stream => io::stdout().flush(),
+            Target::Packed(packed) => {
+                let (mut target, encoder) = *packed;
+                target.write(&encoder.finish()?)?;
+                target.complete()
+            }
         }
     }
 }

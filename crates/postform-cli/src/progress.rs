@@ -51,6 +51,11 @@ impl Progress {
         self.bar.inc(1);
     }
 
+    /// Does some work that writes to the terminal, with the line taken away.
+    pub fn hidden<R>(&self, work: impl FnOnce() -> R) -> R {
+        self.bar.suspend(work)
+    }
+
     fn show(&self) {
         let Ok(mut begins) = self.begins.try_lock() else { return };
         if begins.is_some_and(|begins| Instant::now() >= begins) {

@@ -1,12 +1,28 @@
-//! What is said on standard error. Nobody may hear it: a terminal that is full or gone fails no work.
+//! Messages on standard error. A terminal that is full or gone fails no work.
 
+use std::cell::RefCell;
 use std::io::{Write, stderr};
 
 use postform::internals::terminal::escaped_lines;
 
-/// Says a report as it stands.
+thread_local! {
+    /// The messages of this thread while they are kept.
+    static KEPT: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// Writes a report as it is.
 pub fn say(report: &str) {
-    _ = stderr().write_all(report.as_bytes());
+    KEPT.with_borrow_mut(|kept| match kept {
+        Some(text) => text.push_str(report),
+        None => _ = stderr().write_all(report.as_bytes()),
+    });
+}
+
+/// Does some work and returns the messages of this thread in place of writing them, so that those of several threads stay apart.
+pub fn kept<R>(work: impl FnOnce() -> R) -> (R, String) {
+    KEPT.set(Some(String::new()));
+    let done = work();
+    (done, KEPT.take().unwrap_or_default())
 }
 
 /// Says a message on lines of its own. What it quotes from files and arguments can't steer the terminal.

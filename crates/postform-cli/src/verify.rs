@@ -1,7 +1,9 @@
 //! `postform verify`.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use postform::diag::Severity;
 use postform::internals::nc::control_of_name;
@@ -20,29 +22,78 @@ use super::rendered::{denied, rendered};
 use super::report::{Reporter, stopped};
 use super::spool::Spool;
 use super::verdict::Sides;
-use super::{Ending, output};
+use super::{Ending, inputs, many, output};
 
-/// Compares a program with its job.
+/// Compares a program with its job, or with each of several jobs the program that a form prints of it.
 pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let reporter = &Reporter::new(colour);
-    files::check_format(&args.job, &args.read)?;
-    if args.job == Path::new("-") && args.nc.as_deref() == Some(Path::new("-")) {
-        return Err("error: job and program can't both be standard input".into());
+    if let ([job], false) = (args.jobs.as_slice(), args.jobs.iter().any(|job| job.is_dir())) {
+        files::check_format(job, &args.read)?;
+        if job == Path::new("-") && args.nc.as_deref() == Some(Path::new("-")) {
+            return Err("error: job and program can't both be standard input".into());
+        }
+        let config = Config::near(job)?;
+        let form = form_of(args, &config);
+        let prepared = match &form {
+            Some(form) => match prepare(form, &args.options, job, reporter)? {
+                Some(prepared) => Some(prepared),
+                None => return Ok(Ending::Findings),
+            },
+            None => None,
+        };
+        let (text, ending) = tried(job, args, form.as_deref().zip(prepared.as_ref()), &config, reporter)?;
+        output::standard_output(|out| out.write_all(text.as_bytes()))?;
+        return Ok(ending);
     }
-    let config = Config::near(&args.job)?;
-    let form = match args.nc {
-        Some(_) => args.form.clone(), // a program is proven without a form, unless one is named
-        None => args.form.clone().or(config.form.clone()),
-    };
-    let prepared = match &form {
-        Some(form) => match prepare(form, &args.options, &args.job, reporter)? {
-            Some(prepared) => Some(prepared),
-            None => return Ok(Ending::Findings),
+    if args.nc.is_some() {
+        return Err("error: --nc takes one job".into());
+    }
+    let jobs = many::jobs(&args.jobs)?;
+    let mut forms: HashMap<PathBuf, Prepared> = HashMap::new();
+    for job in &jobs {
+        let form = form_of(args, &Config::near(job)?).ok_or_else(no_form)?;
+        if let Entry::Vacant(entry) = forms.entry(form) {
+            let prepared = prepare(entry.key(), &args.options, job, reporter)?;
+            let Some(prepared) = prepared else { return Ok(Ending::Findings) };
+            entry.insert(prepared);
+        }
+    }
+    inputs::are_many();
+    many::run(
+        args.at_a_time,
+        jobs,
+        |job| files::name(job),
+        "job",
+        |job| {
+            let config = Config::near(job)?;
+            let form = form_of(args, &config).ok_or_else(no_form)?;
+            let made = forms.get_key_value(&form).map(|(form, prepared)| (form.as_path(), prepared));
+            let (text, ending) = tried(job, args, made, &config, reporter)?;
+            Ok((if args.format == VerifyFormat::Json { many::line(&text) } else { text }, ending))
         },
-        None => None,
-    };
-    let named = form.as_deref().zip(prepared.as_ref().map(|prepared| &prepared.post));
-    let machine = machine::named(&args.machine, named, &config)?;
+    )
+}
+
+/// The form of a job's program. A program that is there is proven without a form, unless one is named.
+fn form_of(args: &VerifyArgs, config: &Config) -> Option<PathBuf> {
+    args.form.clone().or_else(|| config.form.clone().filter(|_| args.nc.is_none()))
+}
+
+fn no_form() -> String {
+    "error: give --form, --nc, or both; or name a form in postform.toml".into()
+}
+
+/// The verdict about a job's program, as text for standard output.
+fn tried(
+    job_path: &Path,
+    args: &VerifyArgs,
+    form: Option<(&Path, &Prepared)>,
+    config: &Config,
+    reporter: &Reporter,
+) -> Result<(String, Ending), String> {
+    let prepared = form.map(|(_, prepared)| prepared);
+    let named = form.map(|(form, prepared)| (form, &prepared.post));
+    let machine = machine::named(&args.machine, named, config)?;
     let of_machine = machine.as_ref().and_then(|machine| machine.control);
     let by_name = || control_of_name(args.nc.as_deref()?);
     let by_config = of_machine.or(config.control).or_else(by_name).filter(|_| prepared.is_none());
@@ -50,11 +101,11 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let mut proof = control.proof(args.tolerance);
     proof.units = args.options.units.map(UnitsArg::units);
     // a program that is printed may need its job once more: for what lies ahead in it, or to be printed into a file
-    let mut job = files::job(&args.job, &args.read, args.nc.is_none())?;
+    let mut job = files::job(job_path, &args.read, args.nc.is_none())?;
     let name = args.nc.as_deref().map_or("the program".to_owned(), files::name);
-    let files = prepared.as_ref().map_or(&[][..], |prepared| prepared.post.files());
-    let sides = Sides { job: &args.job, program: &name, files };
-    let (tried, program) = match (&args.nc, &prepared) {
+    let files = prepared.map_or(&[][..], |prepared| prepared.post.files());
+    let sides = Sides { job: job_path, program: &name, files };
+    let (tried, program) = match (&args.nc, prepared) {
         (Some(path), prepared) => {
             let file = Again::open(path)?.into_file()?;
             let program = file.try_clone().map_err(|error| io_message("read", path, &error))?;
@@ -70,15 +121,15 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
             let tried = of_form(&mut job, prepared, &proof, &sides, (args.options.quiet, &mut take), reporter)?;
             (tried, spool.map(Spool::into_file).transpose().map_err(|error| spooled(&error))?)
         }
-        (None, None) => return Err("error: give --form, --nc, or both; or name a form in postform.toml".into()),
+        (None, None) => return Err(no_form()),
     };
     let proven = match tried {
         Ok(proven) => proven,
-        Err(ending) => return Ok(ending),
+        Err(ending) => return Ok((String::new(), ending)),
     };
     let mut on_machine = None;
     if let (Some(machine), Some(program)) = (&machine, program) {
-        let (fitted, fitting) = match &prepared {
+        let (fitted, fitting) = match prepared {
             Some(Prepared { post, options, .. }) => {
                 machine::of_post(post, machine, (&mut job, options), &proof, (program, &name))?
             }
@@ -89,7 +140,7 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
             }
         };
         if args.format == VerifyFormat::Text {
-            fitting.show(&fitted, (Some(&args.job), files), reporter);
+            fitting.show(&fitted, (Some(job_path), files), reporter);
         }
         on_machine = Some((fitted, fitting));
     }
@@ -113,8 +164,7 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
             output::json(&document)
         }
     };
-    output::standard_output(|out| out.write_all(text.as_bytes()))?;
-    Ok(if proven.verdict.is_proven() && fits { Ending::Clean } else { Ending::Findings })
+    Ok((text, if proven.verdict.is_proven() && fits { Ending::Clean } else { Ending::Findings }))
 }
 
 /// The program could not be kept.

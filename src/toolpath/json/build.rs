@@ -7,7 +7,7 @@ use super::objects::{CycleObject, EndWord, ItemObject, JobHead, Object, Operatio
 use super::values::Number;
 use crate::diag::Code;
 use crate::toolpath::{
-    About, Axes, Event, First, Hold, Hole, Infeed, LastDwell, Place, Sink, Start, Stop, Tool, ToolChange, Units, key,
+    About, Axes, Event, First, Hold, Hole, Infeed, LastDwell, Place, Sink, Start, Stop, Tool, ToolChange, key,
 };
 
 type Done = Result<(), Stop>;
@@ -68,13 +68,17 @@ impl<'s> Builder<'s> {
             self.by_number.entry(key(tool.number)).or_insert(self.tools.len());
             self.tools.push(tool);
         }
+        let Some(units) = head.units else {
+            let help = "write \"units\": \"mm\" or \"units\": \"inch\"";
+            return fault(Code::PJ004, "the job has no units", help);
+        };
         let machine = head.machine.map_or(Default::default(), |m| m.0);
         self.tool_needed = machine != crate::lang::Machine::Edm;
         let start = Start {
             program: head.program.map(|p| whole("program", p)).transpose()?,
             name: head.name,
             about: About { part: head.part, material: head.material, customer: head.customer, author: head.author },
-            units: head.units.map_or(Units::Inch, |u| u.0),
+            units: units.0,
             machine,
             set: head.set.unwrap_or_default().0,
             tool_order: head.tool_order.map(|order| order.iter().map(|n| n.0).collect()),

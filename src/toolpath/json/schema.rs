@@ -25,7 +25,7 @@ pub fn schema() -> Value {
         ("/$defs/ItemObject/properties", "cycle", cycle),
         ("/$defs/CycleObject/properties", "points", points),
         ("", "title", "postform job".into()),
-        ("", "required", json!(["operations"])),
+        ("", "required", json!(["operations", "units"])),
     ] {
         if let Some(object) = root.pointer_mut(at).and_then(Value::as_object_mut) {
             object.insert(key.to_owned(), value);

@@ -1,5 +1,6 @@
 //! What is done with jobs: read them, print their programs.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -29,6 +30,8 @@ pub enum From {
     Nc,
     /// A FreeCAD document
     Freecad,
+    /// A Mastercam NCI file
+    Nci,
 }
 
 /// How a job is read.
@@ -43,7 +46,7 @@ pub struct ReadArgs {
     /// Who wrote a CL file: gener, catia, creo, nx, solidworks, makino, ncl, autodesk [default: by its first lines]
     #[arg(long, value_name = "SYSTEM", value_parser = Dialect::parse)]
     pub dialect: Option<Dialect>,
-    /// Units of a CL file or program that does not say them
+    /// Units of a CL file, NCI file or program that does not give them
     #[arg(long, value_name = "UNITS")]
     pub assume_units: Option<UnitsArg>,
     /// Tool number of a CL file or program that loads none; of a CL file that names several: NAME=1,OTHER=2
@@ -95,6 +98,7 @@ impl From {
             From::Cl => Format::Cl,
             From::Nc => Format::Nc,
             From::Freecad => Format::Freecad,
+            From::Nci => Format::Nci,
         }
     }
 }
@@ -144,7 +148,7 @@ pub struct SelectArgs {
 impl SelectArgs {
     fn selection(&self) -> Selection {
         let SelectArgs { from_tool: from, until, only, skip } = self.clone();
-        Selection { from, until, only, skip }
+        Selection { from, until, only, skip, ..Selection::default() }
     }
 }
 
@@ -265,14 +269,30 @@ impl RenderOptions {
 /// `postform render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// The job: job.json, .jsonl, a CL file or an NC program, or - for standard input
-    pub job: PathBuf,
+    /// The job: job.json, .jsonl, a CL file or an NC program, or - for standard input; with --out-dir several, or folders of jobs
+    #[arg(required = true, value_name = "JOB")]
+    pub jobs: Vec<PathBuf>,
     /// The form of the machine [default: that of postform.toml]
     #[arg(long, value_name = "FORM")]
     pub form: Option<PathBuf>,
     /// Where the program goes: a file, a folder in which the form names it, or - for standard output; it appears there when it is complete
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: PathBuf,
+    /// Print each job into this folder, which is made if it is not there
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["output", "trace", "stream", "watch"])]
+    pub out_dir: Option<PathBuf>,
+    /// Leave out programs that are newer than their job, form, machine and postform.toml
+    #[arg(long, requires = "out_dir")]
+    pub changed: bool,
+    /// Print a program of its own for each of these parts of a job
+    #[arg(long, value_name = "PART", requires = "out_dir")]
+    pub split: Option<SplitArg>,
+    /// Names of the programs: {job}, {part}, {tool}, {operation}, {work}, {setup}, {number} [default: of the form; with --split {job}-{part}]
+    #[arg(long, value_name = "PATTERN", requires = "out_dir")]
+    pub name: Option<String>,
+    /// How many programs are printed at a time [default: one a core]
+    #[arg(long = "jobs", value_name = "N", requires = "out_dir")]
+    pub at_a_time: Option<NonZeroUsize>,
     /// How it is rendered
     #[command(flatten)]
     pub options: RenderOptions,
@@ -302,12 +322,25 @@ pub struct RenderArgs {
     pub machine: MachineArg,
 }
 
+/// What a job is split by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SplitArg {
+    /// A program for each tool
+    Tool,
+    /// A program for each operation
+    Operation,
+    /// A program for each work offset
+    Work,
+    /// A program for each setup of a CL file whose tool points several ways
+    Setup,
+}
+
 /// `postform check`.
 #[derive(Debug, Args)]
 pub struct CheckArgs {
-    /// The job, or - for standard input
-    #[arg(required_unless_present = "schema")]
-    pub job: Option<PathBuf>,
+    /// The job, or - for standard input; or several jobs, or folders of jobs
+    #[arg(required_unless_present = "schema", value_name = "JOB")]
+    pub jobs: Vec<PathBuf>,
     /// How the job is read
     #[command(flatten)]
     pub read: ReadArgs,

@@ -1,5 +1,6 @@
 //! What is done with programs: prove, compare, run them.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -19,8 +20,9 @@ pub enum VerifyFormat {
 /// `postform verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
-    /// The job, or - for standard input
-    pub job: PathBuf,
+    /// The job, or - for standard input; or several jobs, or folders of jobs
+    #[arg(required = true, value_name = "JOB")]
+    pub jobs: Vec<PathBuf>,
     /// The form that prints the program; with --nc, what it says of the job's defaults
     #[arg(long, value_name = "FORM")]
     pub form: Option<PathBuf>,
@@ -33,6 +35,9 @@ pub struct VerifyArgs {
     /// How the verdict is shown
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     pub format: VerifyFormat,
+    /// How many of several jobs are verified at a time [default: one a core]
+    #[arg(long = "jobs", value_name = "N")]
+    pub at_a_time: Option<NonZeroUsize>,
     /// How the program is run
     #[command(flatten)]
     pub control: ControlArgs,
@@ -115,8 +120,8 @@ pub enum Layout {
 /// `postform diff`.
 #[derive(Debug, Args)]
 pub struct DiffArgs {
-    /// OLD and NEW program; with --form the JOB; with --forms OLD.pf, NEW.pf and the JOB
-    #[arg(required = true, num_args = 1..=3, value_name = "FILE")]
+    /// OLD and NEW program; with --form the JOB; with --forms OLD.pf, NEW.pf and the JOB, or several jobs or folders of jobs
+    #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// What does not count, of numbers, comments, spaces, case, format, order, all, none
     #[arg(long, value_name = "NAMES", value_delimiter = ',', default_value = "numbers,spaces,case,format")]

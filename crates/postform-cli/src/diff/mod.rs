@@ -1,5 +1,6 @@
 //! `postform diff`.
 
+mod archive;
 mod html;
 mod json;
 mod sides;
@@ -22,56 +23,84 @@ pub use sides::Side;
 use sides::sides;
 pub use text::unified;
 
-/// Compares two programs.
+/// Compares two programs, or of each of several jobs the programs of two forms.
 pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
-    let options = Options { ignore: ignored(&args.ignore)?, tolerance: args.tolerance };
     if args.motion && args.format == DiffFormat::Html {
         return Err("error: --motion has one difference, which --format text or json shows".into());
     }
     let reporter = Reporter::new(colour.on_stderr());
+    if let (true, [old, new, jobs @ ..]) = (args.forms, args.files.as_slice())
+        && (jobs.len() > 1 || jobs.iter().any(|job| job.is_dir()))
+    {
+        return archive::run([old, new], jobs, args, colour, &reporter);
+    }
     let Some([old, new]) = sides(args, &reporter)? else { return Ok(Ending::Findings) };
-    let text = if args.motion {
-        match motions(args, &old, &new, &reporter)? {
+    let difference = match difference(args, &old, &new, colour, &reporter)? {
+        Ok(difference) => difference,
+        Err(ending) => return Ok(ending),
+    };
+    output::standard_output(|out| out.write_all(difference.text.as_bytes()))?;
+    Ok(if difference.is_none() { Ending::Clean } else { Ending::Findings })
+}
+
+/// What differs in two programs.
+struct Difference {
+    /// For standard output.
+    text: String,
+    /// Its kind, alike for programs that differ in the same words; empty: nothing differs.
+    kind: String,
+}
+
+impl Difference {
+    fn is_none(&self) -> bool {
+        self.kind.is_empty()
+    }
+}
+
+/// Compares two programs as the options ask for. `Err` within: it was shown why they can't be compared.
+fn difference(
+    args: &DiffArgs,
+    old: &Side,
+    new: &Side,
+    colour: Colour,
+    reporter: &Reporter,
+) -> Result<Result<Difference, Ending>, String> {
+    let options = Options { ignore: ignored(&args.ignore)?, tolerance: args.tolerance };
+    if args.motion {
+        return Ok(match motions(args, old, new, reporter)? {
             Outcome::Refused => {
                 say(&format!("not proven: {} and {} can't be compared to their ends\n", old.name, new.name));
-                return Ok(Ending::Findings);
+                Err(Ending::Findings)
             }
             Outcome::Compared(found) => {
-                say(&text::verdict(&old, &new, &found));
+                say(&text::verdict(old, new, &found));
                 let text = match args.format {
-                    DiffFormat::Text => text::motion(&old, &new, &found),
-                    _ => json::motion(&old, &new, &found),
+                    DiffFormat::Text => text::motion(old, new, &found),
+                    _ => json::motion(old, new, &found),
                 };
-                if found.difference.is_none() {
-                    return said(text);
-                }
-                text
+                let kind = if found.difference.is_some() { "the machine does something else" } else { "" };
+                Ok(Difference { text, kind: kind.to_owned() })
             }
-        }
-    } else {
-        let comparison = compare(&old.program, &new.program, &options);
-        let summary = Summary::of(&comparison, &old.program, &new.program, &options.ignore);
-        let text = match args.format {
-            DiffFormat::Text => match columns(args.layout) {
-                Some(columns) => {
-                    let colour = colour.on_stdout();
-                    text::side_by_side(&old, &new, &comparison, &summary, args.context, columns, colour)
-                }
-                None => unified(&old, &new, &comparison, &summary, args.context, &options, colour.on_stdout()),
-            },
-            DiffFormat::Json => json::document(&old, &new, &comparison, &summary, &options),
-            DiffFormat::Html => {
-                let path = html::path([&old.program, &new.program], settings(args, &old, &new).1);
-                html::page(&old, &new, &comparison, &summary, args.context, &options, &path)
+        });
+    }
+    let comparison = compare(&old.program, &new.program, &options);
+    let summary = Summary::of(&comparison, &old.program, &new.program, &options.ignore);
+    let text = match args.format {
+        DiffFormat::Text => match columns(args.layout) {
+            Some(columns) => {
+                let colour = colour.on_stdout();
+                text::side_by_side(old, new, &comparison, &summary, args.context, columns, colour)
             }
-        };
-        if comparison.is_same() {
-            return said(text);
+            None => unified(old, new, &comparison, &summary, args.context, &options, colour.on_stdout()),
+        },
+        DiffFormat::Json => json::document(old, new, &comparison, &summary, &options),
+        DiffFormat::Html => {
+            let path = html::path([&old.program, &new.program], settings(args, old, new).1);
+            html::page(old, new, &comparison, &summary, args.context, &options, &path)
         }
-        text
     };
-    said(text)?;
-    Ok(Ending::Findings)
+    let kind = if comparison.is_same() { String::new() } else { text::kind(&summary) };
+    Ok(Ok(Difference { text, kind }))
 }
 
 /// Columns for programs side by side; `None`: one below the other.
@@ -83,11 +112,6 @@ fn columns(layout: Layout) -> Option<usize> {
         Layout::Side => Some(terminal().unwrap_or(WIDE)),
         Layout::Auto => terminal().filter(|&columns| columns >= WIDE && std::io::stdout().is_terminal()),
     }
-}
-
-fn said(text: String) -> Result<Ending, String> {
-    output::standard_output(|out| out.write_all(text.as_bytes()))?;
-    Ok(Ending::Clean)
 }
 
 /// The names of `--ignore`.

@@ -96,18 +96,34 @@ fn printed<const N: usize, P: AsRef<Path>>(
     args: &DiffArgs,
     reporter: &Reporter,
 ) -> Result<Option<[Side; N]>, String> {
-    let mut input = files::job(job, &args.read, true)?;
-    let mut sides = Vec::with_capacity(N);
+    let mut made = Vec::with_capacity(N);
     for form in &forms {
         let form = form.as_ref();
         let Some(prepared) = prepare(form, &args.options, job, reporter)? else { return Ok(None) };
-        let Ok((file, lines)) = rendered(&mut input, job, &prepared, true, reporter)? else { return Ok(None) };
+        made.push((form, prepared));
+    }
+    let Ok(made) = made.try_into() else { return Ok(None) };
+    let made: [(&Path, Prepared); N] = made;
+    printed_by(&made, job, args, reporter)
+}
+
+/// The job printed by forms that are made ready. `None`: one can't, which was shown.
+pub fn printed_by<const N: usize>(
+    forms: &[(&Path, Prepared); N],
+    job: &Path,
+    args: &DiffArgs,
+    reporter: &Reporter,
+) -> Result<Option<[Side; N]>, String> {
+    let mut input = files::job(job, &args.read, true)?;
+    let mut sides = Vec::with_capacity(N);
+    for (form, prepared) in forms {
+        let Ok((file, lines)) = rendered(&mut input, job, prepared, true, reporter)? else { return Ok(None) };
         sides.push(side(form, file, lines, prepared)?);
     }
     Ok(sides.try_into().ok())
 }
 
-fn side(form: &Path, mut file: File, lines: Vec<TraceLine>, prepared: Prepared) -> Result<Side, String> {
+fn side(form: &Path, mut file: File, lines: Vec<TraceLine>, prepared: &Prepared) -> Result<Side, String> {
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(|error| io_message("read", Path::new("the program"), &error))?;
     Ok(Side {

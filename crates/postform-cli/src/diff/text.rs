@@ -237,6 +237,27 @@ pub fn sentence(summary: &Summary) -> String {
     format!("{}{kinds}\n", blocks.join(", "))
 }
 
+/// What changed, without numbers: alike for programs that one change of a form concerns.
+pub fn kind(summary: &Summary) -> String {
+    let mut kinds: Vec<String> = Vec::new();
+    kinds.extend(summary.letters.keys().map(|letter| format!("other {}", escaped(&letter.to_string()))));
+    for (words, how) in [(&summary.more, "more"), (&summary.less, "less")] {
+        // texts of comments are the jobs' own
+        let word = |word: &String| if word.starts_with('(') { "comments".to_owned() } else { escaped(word) };
+        kinds.extend(words.keys().map(|name| format!("{} {how}", word(name))));
+    }
+    for (number, how) in [(summary.added, "added"), (summary.removed, "removed"), (summary.moved, "moved")] {
+        kinds.extend((number > 0).then(|| format!("blocks {how}")));
+    }
+    kinds.dedup();
+    let left_out = kinds.len().saturating_sub(MOST_KINDS);
+    if left_out > 0 {
+        kinds.truncate(MOST_KINDS);
+        kinds.push(format!("and {left_out} more kinds of changes"));
+    }
+    if kinds.is_empty() { "other blocks".to_owned() } else { kinds.join(", ") }
+}
+
 /// What a comparison of motions saw and did not judge; nothing, where there was nothing.
 fn left_out(found: &Motions) -> String {
     let list = [

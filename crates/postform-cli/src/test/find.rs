@@ -71,13 +71,8 @@ impl Found {
                 self.problems.push(format!("{} has no {stem} beside it: no job of that name", files::name(path)));
             }
         }
-        for path in &entries {
-            let is_hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
-            // a link to a folder could lead back
-            let is_folder = path.symlink_metadata().is_ok_and(|meta| meta.is_dir());
-            if is_folder && !is_hidden && deeper > 0 {
-                self.folder(path, posts, args, deeper - 1)?;
-            }
+        for folder in below(&entries).filter(|_| deeper > 0) {
+            self.folder(folder, posts, args, deeper - 1)?;
         }
         Ok(())
     }
@@ -151,6 +146,34 @@ impl Found {
         }
         Ok(())
     }
+}
+
+/// The jobs in a folder and in those below it, in the order of their paths.
+///
+/// # Errors
+/// A message: a folder can't be read.
+pub fn jobs_in(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let mut jobs = Vec::new();
+    collect(folder, DEEPEST, &mut jobs)?;
+    Ok(jobs)
+}
+
+fn collect(folder: &Path, deeper: usize, jobs: &mut Vec<PathBuf>) -> Result<(), String> {
+    let entries = listed(folder)?;
+    jobs.extend(entries.iter().filter(|path| is_job(path, &entries)).cloned());
+    for folder in below(&entries).filter(|_| deeper > 0) {
+        collect(folder, deeper - 1, jobs)?;
+    }
+    Ok(())
+}
+
+/// The folders among what stands in one.
+fn below(entries: &[PathBuf]) -> impl Iterator<Item = &PathBuf> {
+    entries.iter().filter(|path| {
+        let is_hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
+        // a link to a folder could lead back
+        !is_hidden && path.symlink_metadata().is_ok_and(|meta| meta.is_dir())
+    })
 }
 
 /// What stands in a folder, in the order of the names.

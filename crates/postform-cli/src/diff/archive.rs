@@ -1,0 +1,120 @@
+//! What a change of a form does to many jobs.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use super::super::args::{DiffArgs, DiffFormat};
+use super::super::colour::Colour;
+use super::super::prepare::prepare;
+use super::super::report::{Reporter, count};
+use super::super::{Ending, files, inputs, many, output};
+use super::difference;
+use super::sides::printed_by;
+
+/// Jobs of one kind that are named.
+const MOST_NAMED: usize = 20;
+
+/// Programs that change in the same words.
+#[derive(Default)]
+struct Kind {
+    /// Their jobs, by their rows.
+    jobs: Vec<usize>,
+    /// The first of them, and what differs in its program.
+    example: Option<(usize, String)>,
+}
+
+/// Prints each job with both forms, and shows the programs that differ by the kind of their difference.
+///
+/// # Errors
+/// A message: a form or a folder can't be read.
+pub fn run(
+    forms: [&Path; 2],
+    jobs: &[PathBuf],
+    args: &DiffArgs,
+    colour: Colour,
+    reporter: &Reporter,
+) -> Result<Ending, String> {
+    if args.format == DiffFormat::Html {
+        return Err("error: --format html shows one job\n  help: take text or json for several".into());
+    }
+    let jobs = many::jobs(jobs)?;
+    let [old, new] = forms.map(|form| prepare(form, &args.options, &jobs[0], reporter));
+    let (Some(old), Some(new)) = (old?, new?) else { return Ok(Ending::Findings) };
+    let forms = [(forms[0], old), (forms[1], new)];
+    inputs::are_many();
+    let kinds: Mutex<BTreeMap<String, Kind>> = Mutex::default();
+    let differs = AtomicBool::new(false);
+    let items: Vec<(usize, &PathBuf)> = jobs.iter().enumerate().collect();
+    let ending = many::run(
+        None,
+        items,
+        |(_, job)| files::name(job),
+        "job",
+        |&(at, job)| {
+            let Some([old, new]) = printed_by(&forms, job, args, reporter)? else {
+                return Ok((String::new(), Ending::Findings));
+            };
+            let difference = match difference(args, &old, &new, colour, reporter)? {
+                Ok(difference) => difference,
+                Err(ending) => return Ok((String::new(), ending)),
+            };
+            differs.fetch_or(!difference.is_none(), Ordering::Relaxed);
+            if args.format == DiffFormat::Json {
+                return Ok((line(job, &difference.text), Ending::Clean));
+            }
+            if !difference.is_none() {
+                let mut kinds = kinds.lock().unwrap_or_else(PoisonError::into_inner);
+                let kind = kinds.entry(difference.kind).or_default();
+                kind.jobs.push(at);
+                if kind.example.as_ref().is_none_or(|(first, _)| at < *first) {
+                    kind.example = Some((at, difference.text));
+                }
+            }
+            Ok((String::new(), Ending::Clean))
+        },
+    )?;
+    if args.format != DiffFormat::Json {
+        let text = shown(kinds.into_inner().unwrap_or_else(PoisonError::into_inner), &jobs);
+        output::standard_output(|out| out.write_all(text.as_bytes()))?;
+    }
+    Ok(if ending == Ending::Clean && differs.into_inner() { Ending::Findings } else { ending })
+}
+
+/// All kinds as text, the commonest first, and how many programs change.
+fn shown(kinds: BTreeMap<String, Kind>, jobs: &[PathBuf]) -> String {
+    let mut kinds: Vec<(String, Kind)> = kinds.into_iter().collect();
+    for (_, kind) in &mut kinds {
+        kind.jobs.sort_unstable();
+    }
+    kinds.sort_by_key(|(_, kind)| (std::cmp::Reverse(kind.jobs.len()), kind.jobs.first().copied()));
+    let changed: usize = kinds.iter().map(|(_, kind)| kind.jobs.len()).sum();
+    let mut text = String::new();
+    for (name, kind) in &kinds {
+        _ = writeln!(text, "{}: {name}", count(kind.jobs.len(), "program"));
+        for &at in kind.jobs.iter().take(MOST_NAMED) {
+            _ = writeln!(text, "  {}", files::name(&jobs[at]));
+        }
+        if kind.jobs.len() > MOST_NAMED {
+            _ = writeln!(text, "  and {} more", kind.jobs.len() - MOST_NAMED);
+        }
+        if let Some((at, example)) = &kind.example {
+            _ = writeln!(text, "as {}:\n{example}", files::name(&jobs[*at]));
+        }
+    }
+    let of = count(jobs.len(), "program");
+    let in_kinds = if changed == 0 { String::new() } else { format!(", in {}", count(kinds.len(), "kind")) };
+    let verb = if changed == 1 { "changes" } else { "change" };
+    _ = writeln!(text, "{changed} of {of} {verb}{in_kinds}");
+    text
+}
+
+/// The document of a job, with the job's name, on a line.
+fn line(job: &Path, document: &str) -> String {
+    let mut value: serde_json::Value = serde_json::from_str(document).unwrap_or_default();
+    value["job"] = files::name(job).into();
+    format!("{value}\n")
+}

@@ -1,0 +1,213 @@
+//! Many jobs, or the parts of jobs, printed into a folder.
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use super::super::args::{RenderArgs, SplitArg};
+use super::super::config::Config;
+use super::super::files::{self, io_message};
+use super::super::report::{Reporter, count, stopped};
+use super::super::say::{kept, message, say};
+use super::super::{Ending, inputs, many};
+use super::name::{Pattern, Values};
+use super::print::{self, Task};
+use super::split::{self, Part};
+use super::{Ready, form_of};
+
+/// A program that is to be printed.
+struct Planned {
+    job: PathBuf,
+    part: Option<Part>,
+    /// The number of the program; `None`: the job's.
+    number: Option<u32>,
+    /// The form, by its row.
+    ready: usize,
+    /// Where the program goes, or why there will be none.
+    to: Result<PathBuf, Refused>,
+}
+
+/// A job of which nothing can be printed.
+#[derive(Debug)]
+struct Refused {
+    messages: String,
+    ending: Ending,
+}
+
+/// Prints each job into the folder of the command line.
+///
+/// # Errors
+/// A message: nothing was printed.
+pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
+    let Some(folder) = &args.out_dir else { return Err("error: give --out-dir FOLDER".into()) };
+    let reporter = Reporter::new(colour);
+    let pattern = args.name.as_deref().or(args.split.map(|_| "{job}-{part}")).map(Pattern::parse).transpose()?;
+    let jobs = many::jobs(&args.jobs)?;
+    let mut forms = Forms::default();
+    let mut rows = Vec::with_capacity(jobs.len());
+    for job in &jobs {
+        let Some(row) = forms.of(job, args, &reporter)? else { return Ok(Ending::Findings) };
+        rows.push(row);
+    }
+    let newest = inputs::newest();
+    inputs::are_many();
+    jobs.iter().for_each(|job| inputs::note(job));
+    let mut planned: Vec<Planned> =
+        jobs.into_iter().zip(rows).flat_map(|(job, row)| parts_of(&job, row, args, &reporter)).collect();
+    for (at, program) in planned.iter_mut().enumerate() {
+        if let Some(first) = args.options.program {
+            program.number = first.checked_add(at as u32);
+        }
+        let name = refused(|| name(program, &forms.ready[program.ready], pattern.as_ref(), args, &reporter));
+        if program.to.is_ok() {
+            program.to = name.map(|name| folder.join(name));
+        }
+    }
+    apart(&planned)?;
+    fs::create_dir_all(folder).map_err(|error| io_message("write", folder, &error))?;
+    if args.changed {
+        let all = planned.len();
+        planned.retain(|program| !is_current(program, newest));
+        if !args.options.quiet {
+            let current = all - planned.len();
+            let (is, its) = if current == 1 { ("is", "its") } else { ("are", "their") };
+            message(&format!("{current} of {} {is} newer than {its} job and form", count(all, "program")));
+        }
+    }
+    let called = |program: &Planned| {
+        let job = files::name(&program.job);
+        program.part.map_or(job.clone(), |part| format!("{job} {}", part.name()))
+    };
+    many::run(args.at_a_time, planned, called, "program", |program| match &program.to {
+        Ok(output) => {
+            let name = files::output_name(output);
+            let (job, part) = (program.job.as_path(), program.part.as_ref());
+            let task = Task { job, output, called: &name, part, number: program.number };
+            print::print(&task, &forms.ready[program.ready], args, &reporter).map(|ending| (String::new(), ending))
+        }
+        Err(refused) => {
+            say(&refused.messages);
+            Ok((String::new(), refused.ending))
+        }
+    })
+}
+
+/// The forms of the jobs, each made ready once.
+#[derive(Default)]
+struct Forms {
+    /// By the form and the postform.toml of the job.
+    rows: HashMap<(PathBuf, Option<PathBuf>), usize>,
+    ready: Vec<Ready>,
+}
+
+impl Forms {
+    /// The form of a job, by its row. `None`: it has errors, which were shown.
+    fn of(&mut self, job: &Path, args: &RenderArgs, reporter: &Reporter) -> Result<Option<usize>, String> {
+        let config = Config::near(job)?;
+        let form = form_of(job, args, &config)?;
+        let key = (form.clone(), config.path.clone());
+        if let Some(&row) = self.rows.get(&key) {
+            return Ok(Some(row));
+        }
+        let Some(ready) = Ready::of(&form, job, args, &config, reporter)? else { return Ok(None) };
+        self.ready.push(ready);
+        self.rows.insert(key, self.ready.len() - 1);
+        Ok(Some(self.ready.len() - 1))
+    }
+}
+
+/// Keeps the messages of work that ends a job.
+fn refused<R>(work: impl FnOnce() -> Result<Result<R, Ending>, String>) -> Result<R, Refused> {
+    let (done, messages) = kept(work);
+    match done {
+        Ok(Ok(done)) => Ok(done),
+        Ok(Err(ending)) => Err(Refused { messages, ending }),
+        Err(error) => Err(Refused { messages: format!("{messages}{error}\n"), ending: Ending::Failed }),
+    }
+}
+
+/// The programs of a job.
+fn parts_of(job: &Path, ready: usize, args: &RenderArgs, reporter: &Reporter) -> Vec<Planned> {
+    let planned = |part, number, to| Planned { job: job.to_path_buf(), part, number, ready, to };
+    let Some(by) = args.split else { return vec![planned(None, None, Ok(PathBuf::new()))] };
+    let found = refused(|| match split::parts(&mut files::job(job, &args.read, true)?, by) {
+        Ok(found) if found.parts.is_empty() => {
+            let what = if by == SplitArg::Setup { "setups, which CL files have alone" } else { "operations" };
+            Err(format!("error: {} has no {what}\n  help: choose another --split", files::name(job)))
+        }
+        Ok(found) => Ok(Ok(found)),
+        Err(error) => stopped(error, job, reporter, &[]).map(Err),
+    });
+    match found {
+        Ok(found) => {
+            let numbers = |at: usize| Some(found.number? as u32 + at as u32);
+            let parts = found.parts.iter().enumerate();
+            parts.map(|(at, part)| planned(Some(*part), numbers(at), Ok(PathBuf::new()))).collect()
+        }
+        Err(refused) => vec![planned(None, None, Err(refused))],
+    }
+}
+
+/// The name of a program's file.
+fn name(
+    program: &Planned,
+    ready: &Ready,
+    pattern: Option<&Pattern>,
+    args: &RenderArgs,
+    reporter: &Reporter,
+) -> Result<Result<String, Ending>, String> {
+    let mut job = files::job(&program.job, &args.read, false)?;
+    if let Some(part) = program.part {
+        part.select(&mut job.reading);
+    }
+    let own_name = job_name(&program.job);
+    let mut options = ready.prepared.options.clone();
+    options.program = program.number.or(options.program);
+    options.job_file = Some(own_name.clone());
+    let (name, number) = match ready.prepared.post.file_name(job, &options) {
+        Ok(named) => named,
+        Err(error) => return stopped(error, &program.job, reporter, &[]).map(Err),
+    };
+    let Some(pattern) = pattern else { return Ok(Ok(name)) };
+    let extension = name.rsplit_once('.').map_or("nc", |(_, extension)| extension);
+    let job = own_name.rsplit_once('.').map_or(own_name.as_str(), |(stem, _)| stem);
+    let number = number.map(|number| number as u32);
+    pattern.name(&Values { job, part: program.part, number, extension }).map(Ok)
+}
+
+/// The name of a job's file; one that is called `job` has the name of its folder.
+fn job_name(job: &Path) -> String {
+    let name = job.file_name().unwrap_or_default().to_string_lossy();
+    let (stem, extension) = name.rsplit_once('.').unwrap_or((&name, ""));
+    let folder = files::folder(job).canonicalize().ok();
+    match folder.as_deref().and_then(Path::file_name) {
+        Some(folder) if stem == "job" => format!("{}.{extension}", folder.to_string_lossy()),
+        _ => name.into_owned(),
+    }
+}
+
+/// No program may replace another one.
+fn apart(planned: &[Planned]) -> Result<(), String> {
+    let mut names = HashMap::new();
+    for program in planned {
+        let Ok(to) = &program.to else { continue };
+        // some file systems take them for one
+        let key = to.to_string_lossy().to_lowercase();
+        if let Some(other) = names.insert(key, &program.job) {
+            let (to, job, other) = (files::output_name(to), files::name(&program.job), files::name(other));
+            let whose = if job == other { format!("two parts of {job}") } else { format!("{other} and {job}") };
+            return Err(format!(
+                "error: {to} would be the program of {whose}: nothing was printed\n  help: name the programs apart, as --name '{{job}}-{{number}}'; a job that is called `job` has the name of its folder"
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Is a program there, and newer than all that it comes from?
+fn is_current(program: &Planned, newest: Option<SystemTime>) -> bool {
+    let changed = |path: &Path| fs::metadata(path).and_then(|meta| meta.modified()).ok();
+    let made = program.to.as_ref().ok().and_then(|to| changed(to));
+    made > changed(&program.job) && made > newest && newest.is_some()
+}

@@ -1,0 +1,110 @@
+//! `postform render`.
+
+mod many;
+mod name;
+mod output;
+mod print;
+mod split;
+
+use std::path::{Path, PathBuf};
+
+use postform::internals::lint::Changed;
+use postform::internals::machine::Machine;
+
+use super::Ending;
+use super::args::RenderArgs;
+use super::config::Config;
+use super::files;
+use super::forms::FormFile;
+use super::identity::Identity;
+use super::machine;
+use super::poll;
+use super::prepare::{Prepared, prepare};
+use super::report::Reporter;
+use print::Task;
+
+/// Renders a job to its output, with --watch again when a file of it is changed; or several jobs into a folder.
+pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
+    if args.out_dir.is_some() {
+        return many::run(args, colour);
+    }
+    let [job] = args.jobs.as_slice() else {
+        return Err("error: several jobs need a folder for their programs\n  help: give --out-dir FOLDER".into());
+    };
+    if args.watch { poll::repeat(|| inputs(job, args), || one(job, args, colour)) } else { one(job, args, colour) }
+}
+
+/// The job, the form and those that it calls, and what they follow.
+fn inputs(job: &Path, args: &RenderArgs) -> Vec<PathBuf> {
+    let config = Config::near(job).unwrap_or_default();
+    let form = args.form.clone().or(config.form);
+    let mut paths: Vec<PathBuf> = config.path.into_iter().chain([job.to_path_buf()]).chain(form.clone()).collect();
+    if let Some(file) = form.and_then(|form| FormFile::read(&form, postform::Limits::default()).ok()) {
+        file.analyse(&Changed::new());
+        paths.extend(file.paths());
+    }
+    paths
+}
+
+/// Renders one job.
+fn one(job: &Path, args: &RenderArgs, colour: bool) -> Result<Ending, String> {
+    let reporter = Reporter::new(colour);
+    files::check_format(job, &args.read)?;
+    let config = Config::near(job)?;
+    let form = form_of(job, args, &config)?;
+    let Some(ready) = Ready::of(&form, job, args, &config, &reporter)? else { return Ok(Ending::Findings) };
+    distinct(args)?;
+    let task = Task { job, output: &args.output, called: "the program", part: None, number: None };
+    print::print(&task, &ready, args, &reporter)
+}
+
+/// The form that prints a job.
+///
+/// # Errors
+/// A message: neither the command line nor postform.toml names one.
+fn form_of(job: &Path, args: &RenderArgs, config: &Config) -> Result<PathBuf, String> {
+    args.form.clone().or(config.form.clone()).ok_or_else(|| {
+        format!(
+            "error: which form prints {}?\n  help: give --form, or name one in a postform.toml in the folder of the job or above: form = \"fanuc.pf\"",
+            files::name(job)
+        )
+    })
+}
+
+/// A form that prints, and its machine.
+struct Ready {
+    form: PathBuf,
+    prepared: Prepared,
+    machine: Option<Machine>,
+    /// A program that is not proven is not printed.
+    required: bool,
+}
+
+impl Ready {
+    /// `None`: the form has errors, which were shown.
+    fn of(
+        form: &Path,
+        job: &Path,
+        args: &RenderArgs,
+        config: &Config,
+        reporter: &Reporter,
+    ) -> Result<Option<Ready>, String> {
+        let Some(mut prepared) = prepare(form, &args.options, job, reporter)? else { return Ok(None) };
+        let machine = machine::of_prepared(&args.machine, form, &mut prepared, config)?;
+        let required = args.require_proof || config.require_proof;
+        Ok(Some(Ready { form: form.to_path_buf(), prepared, machine, required }))
+    }
+}
+
+/// One output must not replace the other.
+fn distinct(args: &RenderArgs) -> Result<(), String> {
+    let outputs = [Some(&args.output), args.trace.as_ref()].map(|path| Some((path?, Identity::of_output(path?)?)));
+    if let [Some((program, a)), Some((trace, b))] = &outputs
+        && a == b
+        // both as text to standard output is what was asked for
+        && [program, trace].iter().any(|path| path.as_os_str() != "-")
+    {
+        return Err("error: program and source map can't be one file".into());
+    }
+    Ok(())
+}

@@ -1,0 +1,139 @@
+//! Names of programs by a pattern: `{job}-{tool}.nc`.
+
+use super::split::Part;
+
+/// What stands in braces in a pattern.
+const FIELDS: [&str; 7] = ["job", "part", "tool", "operation", "work", "setup", "number"];
+
+/// A pattern: texts and fields.
+pub struct Pattern(Vec<Piece>);
+
+enum Piece {
+    Text(String),
+    /// A row of [`FIELDS`].
+    Field(usize),
+}
+
+/// What the fields of a name are filled with.
+pub struct Values<'a> {
+    /// The job's file without its extension.
+    pub job: &'a str,
+    /// The part of the job.
+    pub part: Option<Part>,
+    /// The number of the program.
+    pub number: Option<u32>,
+    /// The extension that the form gives its programs.
+    pub extension: &'a str,
+}
+
+impl Pattern {
+    /// Reads a pattern.
+    ///
+    /// # Errors
+    /// A message: a brace is open, a field is unknown, or a character is none of a file's name.
+    pub fn parse(text: &str) -> Result<Pattern, String> {
+        let wrong = |why: String| format!("error: --name {text:?}: {why}");
+        let (mut pieces, mut rest) = (Vec::new(), text);
+        while !rest.is_empty() {
+            let (typed, field) = rest.split_once('{').map_or((rest, None), |(typed, rest)| (typed, Some(rest)));
+            if let Some(c) = typed.chars().find(|c| !c.is_ascii_alphanumeric() && !"_-.".contains(*c)) {
+                return Err(wrong(format!(
+                    "`{}` stands in no name of a program\n  help: take letters, digits and _ - . ",
+                    c.escape_debug()
+                )));
+            }
+            if !typed.is_empty() {
+                pieces.push(Piece::Text(typed.to_owned()));
+            }
+            let Some(field) = field else { break };
+            let Some((name, after)) = field.split_once('}') else {
+                return Err(wrong("a `{` without its `}`".to_owned()));
+            };
+            let Some(row) = FIELDS.iter().position(|known| *known == name) else {
+                return Err(wrong(format!("there is no {{{name}}}\n  help: there are {{{}}}", FIELDS.join("}, {"))));
+            };
+            pieces.push(Piece::Field(row));
+            rest = after;
+        }
+        if pieces.is_empty() { Err(wrong("it is empty".to_owned())) } else { Ok(Pattern(pieces)) }
+    }
+
+    /// A name.
+    ///
+    /// # Errors
+    /// A message: a field has no value.
+    pub fn name(&self, values: &Values<'_>) -> Result<String, String> {
+        let mut name = String::new();
+        let mut has_extension = false;
+        for piece in &self.0 {
+            match piece {
+                Piece::Text(text) => {
+                    has_extension |= text.contains('.');
+                    name.push_str(text);
+                }
+                Piece::Field(row) => {
+                    let field = FIELDS[*row];
+                    let value = values.of(field).ok_or_else(|| {
+                        let help = match field {
+                            "number" => "give --program, or name the files by something else",
+                            "part" => "give --split",
+                            _ => "a field of this name needs --split by it",
+                        };
+                        format!("error: --name: {{{field}}} has no value here\n  help: {help}")
+                    })?;
+                    name.push_str(&value);
+                }
+            }
+        }
+        if !has_extension {
+            name = format!("{name}.{}", values.extension);
+        }
+        Ok(name)
+    }
+}
+
+impl Values<'_> {
+    fn of(&self, field: &str) -> Option<String> {
+        let part = match (field, self.part) {
+            ("job", _) => return Some(self.job.to_owned()),
+            ("number", _) => return self.number.map(|number| number.to_string()),
+            ("part", part) => part,
+            ("tool", part @ Some(Part::Tool(_)))
+            | ("operation", part @ Some(Part::Operation(_)))
+            | ("work", part @ Some(Part::Work(_)))
+            | ("setup", part @ Some(Part::Setup(_))) => part,
+            _ => None,
+        };
+        part.map(Part::name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn name(pattern: &str, part: Option<Part>) -> Result<String, String> {
+        Pattern::parse(pattern)?.name(&Values { job: "bracket", part, number: Some(12), extension: "nc" })
+    }
+
+    #[test]
+    fn fields_are_filled_in() {
+        assert_eq!(name("{job}-{tool}", Some(Part::Tool(3))).unwrap(), "bracket-T3.nc");
+        assert_eq!(name("O{number}.ngc", Some(Part::Work(None))).unwrap(), "O12.ngc");
+        assert_eq!(name("{part}", Some(Part::Operation(4))).unwrap(), "OP04.nc");
+    }
+
+    #[test]
+    fn a_wrong_pattern_is_an_error() {
+        for (pattern, part, why) in [
+            ("", None, "it is empty"),
+            ("{job", None, "a `{` without its `}`"),
+            ("{tol}", None, "there is no {tol}"),
+            ("../{job}", None, "`/` stands in no name"),
+            ("{tool}", Some(Part::Operation(1)), "{tool} has no value here"),
+        ] {
+            let error = name(pattern, part).unwrap_err();
+            assert!(error.contains(why), "{pattern}: {error}");
+        }
+    }
+}

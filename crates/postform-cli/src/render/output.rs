@@ -1,0 +1,119 @@
+//! The outputs of a job: its program, and its source map.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use postform::internals::post::Part;
+use postform::internals::render::TraceLine;
+use postform::internals::source::Source;
+
+use super::super::Ending;
+use super::super::files::{self, io_message};
+use super::super::output::Target;
+use super::super::say::message;
+
+/// A folder, in which the program gets the name that form and job give it.
+fn is_folder(output: &Path) -> bool {
+    output.is_dir() || output.to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR])
+}
+
+/// Who closes standard output has seen enough; what was named must be whole.
+fn output_failed(path: &Path, error: &io::Error) -> Result<Ending, String> {
+    match error.kind() {
+        io::ErrorKind::BrokenPipe if path == Path::new("-") => Ok(Ending::Clean),
+        io::ErrorKind::BrokenPipe => {
+            message(&format!("error: {} was closed by its reader before all was written", files::output_name(path)));
+            Ok(Ending::Findings)
+        }
+        _ => Err(io_message("write", path, error)),
+    }
+}
+
+/// The program and its source map while they are written.
+pub struct Output<'p> {
+    path: PathBuf,
+    target: Target,
+    trace: Option<(PathBuf, Target)>,
+    files: &'p [Source],
+    /// The source map could not be written, not the program.
+    trace_failed: bool,
+}
+
+impl<'p> Output<'p> {
+    /// Prepares the outputs; `files` are those of the form. In a folder the program gets its name from [`Output::name`].
+    ///
+    /// # Errors
+    /// A message: one can't be made, or is an input.
+    pub fn open(path: &Path, trace: Option<&Path>, stream: bool, files: &'p [Source]) -> Result<Output<'p>, String> {
+        let target = if is_folder(path) { Target::open_in(path)? } else { Target::open(path, stream)? };
+        let trace = trace.map(|path| Ok::<_, String>((path.to_path_buf(), Target::open(path, false)?))).transpose()?;
+        Ok(Output { path: path.to_path_buf(), target, trace, files, trace_failed: false })
+    }
+
+    /// Gives the program in a folder its name, and returns its path. `None`: it has one.
+    ///
+    /// # Errors
+    /// A message: a file that has this name must not be replaced.
+    pub fn name(&mut self, file_name: &str) -> Result<Option<PathBuf>, String> {
+        if !is_folder(&self.path) {
+            return Ok(None);
+        }
+        let path = self.path.join(file_name);
+        self.target = std::mem::replace(&mut self.target, Target::Stream).named(&path)?;
+        self.path.clone_from(&path);
+        Ok(Some(path))
+    }
+
+    /// Writes a part.
+    ///
+    /// # Errors
+    /// As the system reports them.
+    pub fn write(&mut self, part: &Part<'_>) -> io::Result<()> {
+        self.target.write(part.text)?;
+        let Some((_, target)) = &mut self.trace else { return Ok(()) };
+        let mut text = Vec::new();
+        for line in part.trace {
+            trace_line(line, self.files, &mut text);
+        }
+        target.write(&text).inspect_err(|_| self.trace_failed = true)
+    }
+
+    /// A part could not be written.
+    ///
+    /// # Errors
+    /// A message.
+    pub fn failed(&self, error: &io::Error) -> Result<Ending, String> {
+        let trace = self.trace.as_ref().filter(|_| self.trace_failed);
+        output_failed(trace.map_or(&self.path, |(path, _)| path), error)
+    }
+
+    /// The program is complete.
+    ///
+    /// # Errors
+    /// A message.
+    pub fn finish(self) -> Result<Ending, String> {
+        // the map first: a program without its map is whole, a map without its program is not
+        if let Some((path, trace)) = self.trace
+            && let Err(error) = trace.complete()
+        {
+            return output_failed(&path, &error);
+        }
+        match self.target.complete() {
+            Ok(()) => Ok(Ending::Clean),
+            Err(error) => output_failed(&self.path, &error),
+        }
+    }
+}
+
+/// One line of the source map.
+fn trace_line(line: &TraceLine, files: &[Source], out: &mut Vec<u8>) {
+    let form = line.form.and_then(|span| {
+        let source = files.get(span.file as usize)?;
+        Some(serde_json::json!({ "file": source.name, "line": source.line(span.start) + 1 }))
+    });
+    let place = &line.place;
+    let job = serde_json::json!({ "line": place.line, "column": place.column, "path": place.path() });
+    let row = serde_json::json!({ "line": line.line, "form": form, "job": job });
+    out.extend_from_slice(row.to_string().as_bytes());
+    out.push(b'\n');
+}

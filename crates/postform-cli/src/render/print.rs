@@ -1,0 +1,178 @@
+//! A job printed to its output, and proven.
+
+use std::io::{self, Write as _};
+use std::path::Path;
+
+use postform::diag::Severity;
+use postform::internals::post;
+use postform::internals::verify::Verdict;
+use postform::{Error, ErrorKind, Proven};
+
+use super::super::Ending;
+use super::super::args::RenderArgs;
+use super::super::beside::{self, Printed};
+use super::super::files::{self, io_message};
+use super::super::machine;
+use super::super::progress::Progress;
+use super::super::report::{Reporter, place_in, stopped};
+use super::super::say::{message, say};
+use super::super::spool::Spool;
+use super::super::verdict::Sides;
+use super::super::verify::in_a_file;
+use super::Ready;
+use super::output::Output;
+use super::split::Part;
+
+/// What is printed, and where.
+pub struct Task<'a> {
+    /// The job.
+    pub job: &'a Path,
+    /// Where the program goes: a file, a folder, or `-`.
+    pub output: &'a Path,
+    /// What messages call the program.
+    pub called: &'a str,
+    /// The part of the job that is printed. `None`: what the options take.
+    pub part: Option<&'a Part>,
+    /// The program's number. `None`: that of the command line, else the job's.
+    pub number: Option<u32>,
+}
+
+/// Prints a job.
+///
+/// # Errors
+/// A message: a file can't be read or written, or the options make no sense together.
+pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Reporter) -> Result<Ending, String> {
+    let Ready { prepared, machine, .. } = ready;
+    if machine.is_some() && args.stream {
+        return Err("error: with --stream the program is out before it is known whether it fits into the machine\n  help: render without --stream".into());
+    }
+    let error = |error: Error| format!("error: {error}");
+    if args.stream && prepared.post.reads_ahead(&prepared.options).map_err(error)? {
+        let or = prepared.post.reads_once_with().map(|set| format!(", or with --set {set}")).unwrap_or_default();
+        return Err(format!(
+            "error: {} says what lies ahead in the job, which must be read to its end first\n  help: render without --stream{or}",
+            files::name(&ready.form)
+        ));
+    }
+    let again = prepared.post.may_read_twice(&prepared.options).map_err(error)? && !args.stream;
+    let mut job = files::job(task.job, &args.read, again)?;
+    if let Some(part) = task.part {
+        part.select(&mut job.reading);
+    }
+    let mut output = Output::open(task.output, args.trace.as_deref(), args.stream, prepared.post.files())?;
+    let mut options = prepared.options.clone();
+    options.program = task.number.or(options.program);
+    options.trace = args.trace.is_some();
+    options.one_pass = args.stream;
+    let proof = (!args.no_verify && !args.stream).then(|| args.control.proof(None));
+    let progress = Progress::new();
+    let kept = |error: &io::Error| io_message("write", Path::new("the program"), error);
+    let mut program = machine.as_ref().map(|_| Spool::new()).transpose().map_err(|error| kept(&error))?;
+    let mut take = |part: post::Part<'_>| {
+        progress.lines(part.lines);
+        program.as_mut().map_or(Ok(()), |program| program.write_all(part.text))?;
+        output.write(&part)
+    };
+    let (printed, proven) = match &proof {
+        Some(proof) => {
+            let Printed { rendered, proven } = beside::print(&prepared.post, job.again(), &options, proof, &mut take)?;
+            (rendered, Some((proof, proven)))
+        }
+        None => (prepared.post.render_parts(job.again(), &options, &mut take), None),
+    };
+    drop(progress);
+    if task.part.is_none() && !args.read.reading().select.is_all() && !args.options.quiet {
+        message("a part of the job is taken: its other operations are not in the program");
+    }
+    let mut notes = match &printed {
+        Ok(rendered) => rendered.notes.clone(),
+        Err(error) => error.findings().diags.iter().filter(|diag| !diag.is_error()).cloned().collect(),
+    };
+    let file_name = printed.as_ref().map(|rendered| rendered.file_name.clone()).unwrap_or_default();
+    let name = files::name(task.job);
+    notes.iter_mut().for_each(|diag| place_in(&name, diag));
+    let denied = args.options.denies_warnings() && notes.iter().any(|diag| diag.severity == Severity::Warning);
+    notes.retain(|diag| args.options.shows(diag));
+    say(&reporter.text(&notes, prepared.post.files()));
+    if let Err(error) = printed {
+        return match (error.kind(), error.io()) {
+            (ErrorKind::Output, Some(error)) => output.failed(error),
+            _ => stopped(error, task.job, reporter, prepared.post.files()),
+        };
+    }
+    if denied {
+        message("nothing was printed: --deny warnings");
+        return Ok(Ending::Findings);
+    }
+    if let Some((proof, proven)) = proven {
+        let sides = Sides { job: task.job, program: task.called, files: prepared.post.files() };
+        let proven = in_a_file(proven, &mut job, prepared, proof, &sides, reporter)?;
+        let told = Told { required: ready.required, quiet: args.options.quiet, form: &ready.form };
+        match told.verdict(proven, &sides, reporter)? {
+            Ending::Clean => {}
+            ending => return Ok(ending),
+        }
+    } else if args.stream && !args.options.quiet {
+        message("not verified: with --stream the program is out before it is known what it does");
+    }
+    if let (Some(machine), Some(program)) = (machine, program) {
+        let program = program.into_file().map_err(|error| kept(&error))?;
+        let (post, proof) = (&prepared.post, args.control.proof(None));
+        let made = (&mut job, &prepared.options);
+        let (fitted, fitting) = machine::of_post(post, machine, made, &proof, (program, task.called))?;
+        let stops = fitted.has_errors() && !args.no_verify;
+        if !args.options.quiet || stops {
+            fitting.show(&fitted, (Some(task.job), post.files()), reporter);
+            say(&(fitting.sentences(&fitted) + &fitting.sentence(&fitted)));
+        }
+        if stops {
+            message("nothing was printed: --no-verify prints it all the same");
+            return Ok(Ending::Findings);
+        }
+    }
+    if let Some(path) = output.name(&file_name)?
+        && !args.options.quiet
+    {
+        message(&format!("{} is written", files::output_name(&path)));
+    }
+    output.finish()
+}
+
+/// What is said of a proof.
+struct Told<'a> {
+    /// What is not proven is not printed.
+    required: bool,
+    /// Only what keeps the program from being printed is said.
+    quiet: bool,
+    form: &'a Path,
+}
+
+impl Told<'_> {
+    /// Says the verdict; `Clean`: the program may be printed.
+    fn verdict(&self, proven: Result<Proven, Error>, sides: &Sides<'_>, reporter: &Reporter) -> Result<Ending, String> {
+        let proven = match sides.tried(proven, self.quiet, reporter)? {
+            Ok(proven) => proven,
+            Err(ending) => return Ok(ending),
+        };
+        let prints = match &proven.verdict {
+            Verdict::Different(findings) => {
+                sides.show(findings, Severity::Error, reporter);
+                false
+            }
+            Verdict::NotProven(unproven) if !self.quiet || self.required => {
+                let command = format!("postform verify {} --form {}", files::name(sides.job), files::name(self.form));
+                sides.brief(&unproven.notes, &command);
+                !self.required
+            }
+            _ => true,
+        };
+        if !self.quiet || !prints {
+            say(&sides.sentence(&proven));
+        }
+        if prints {
+            return Ok(Ending::Clean);
+        }
+        message("nothing was printed");
+        Ok(Ending::Findings)
+    }
+}

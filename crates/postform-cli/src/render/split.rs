@@ -1,0 +1,126 @@
+//! Parts of a job that get a program each.
+
+use postform::diag::{Code, Diag};
+use postform::toolpath::{Event, Flow, Place, Sink};
+use postform::{Error, Job, Reading};
+
+use super::super::args::SplitArg;
+
+/// A part of a job.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Part {
+    /// The operations with a tool.
+    Tool(u32),
+    /// An operation, from 1 on.
+    Operation(u64),
+    /// The operations in a work offset; `None`: before the job names one.
+    Work(Option<f64>),
+    /// A setup of a CL file, from 1 on.
+    Setup(usize),
+}
+
+impl Part {
+    /// Only this part of a job is read.
+    pub fn select(self, reading: &mut Reading) {
+        match self {
+            Part::Tool(tool) => reading.select.only = vec![tool],
+            Part::Operation(operation) => reading.select.operation = Some(operation),
+            Part::Work(work) => reading.select.work = Some(work),
+            Part::Setup(setup) => reading.setup = Some(setup),
+        }
+    }
+
+    /// Its name in names of files: `T3`, `OP02`, `G54`, `SETUP1`.
+    pub fn name(self) -> String {
+        match self {
+            Part::Tool(tool) => format!("T{tool}"),
+            Part::Operation(operation) => format!("OP{operation:02}"),
+            // below 50 it is the number of a fixture
+            Part::Work(Some(work)) if work < 50.0 => format!("W{work}"),
+            Part::Work(Some(work)) => format!("G{work}"),
+            Part::Work(None) => "W0".to_owned(),
+            Part::Setup(setup) => format!("SETUP{setup}"),
+        }
+    }
+}
+
+/// What a job consists of.
+pub struct Parts {
+    /// In the order of the job.
+    pub parts: Vec<Part>,
+    /// The number of the job's program.
+    pub number: Option<f64>,
+}
+
+/// Reads a job and lists its parts.
+///
+/// # Errors
+/// The job can't be read, or a part has no name of its own.
+pub fn parts(job: &mut Job<'_>, by: SplitArg) -> Result<Parts, Error> {
+    let setups = if by == SplitArg::Setup { job.setups()?.len() } else { 0 };
+    if setups > 0 {
+        // each is a job of its own, with the same head
+        job.reading.setup = Some(1);
+    }
+    let mut seen =
+        Seen { by, operations: 0, in_subprogram: false, work: None, found: Parts { parts: Vec::new(), number: None } };
+    job.read(&mut seen)?;
+    let mut found = seen.found;
+    if by == SplitArg::Setup {
+        found.parts = (1..=setups).map(Part::Setup).collect();
+    }
+    Ok(found)
+}
+
+/// Collects the parts of a job.
+struct Seen {
+    by: SplitArg,
+    operations: u64,
+    in_subprogram: bool,
+    work: Option<f64>,
+    found: Parts,
+}
+
+impl Sink for Seen {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+        let part = match event {
+            Event::Start(start) => {
+                self.found.number = start.program;
+                return Flow::Continue(());
+            }
+            Event::ToolChange(change) => {
+                self.operations += 1;
+                self.work = change.work.or(self.work);
+                match self.by {
+                    SplitArg::Tool => match change.tool.as_ref().map(|tool| tool.number) {
+                        Some(number) if number >= 0.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 => {
+                            Part::Tool(number as u32)
+                        }
+                        _ => return wrong("it names no tool", "split the job by operation", place),
+                    },
+                    SplitArg::Operation => Part::Operation(self.operations),
+                    SplitArg::Work => Part::Work(self.work),
+                    SplitArg::Setup => return Flow::Continue(()),
+                }
+            }
+            Event::SubStart(_) | Event::SubEnd => {
+                self.in_subprogram = matches!(event, Event::SubStart(_));
+                return Flow::Continue(());
+            }
+            Event::Work(work) if self.by == SplitArg::Work && self.work != Some(work) && !self.in_subprogram => {
+                let help = "write an operation for each work offset, or split the job by tool or operation";
+                return wrong("the work offset changes inside of it", help, place);
+            }
+            _ => return Flow::Continue(()),
+        };
+        if !self.found.parts.contains(&part) {
+            self.found.parts.push(part);
+        }
+        Flow::Continue(())
+    }
+}
+
+fn wrong(why: &str, help: &str, place: Place) -> Flow {
+    let message = format!("the operation belongs to no one part of the job: {why}");
+    Flow::Break(Diag::new(Code::PR061, message).help(help).place(place).into())
+}

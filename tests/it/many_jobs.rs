@@ -1,0 +1,221 @@
+//! Many jobs in one command: `render --out-dir`, `--split`, `--changed`, `verify`, `check` and `diff --forms` over folders.
+
+use std::fs;
+use std::time::{Duration, SystemTime};
+
+use crate::support::folder::{Folder, err, out};
+use crate::support::root;
+
+/// A folder with `haas.pf` and the jobs of two samples, in folders of their own.
+fn shop(test: &str) -> Folder {
+    let folder = Folder::new(&format!("many-{test}"));
+    fs::copy(root().join("postforms/haas.pf"), folder.0.join("haas.pf")).unwrap();
+    for sample in ["bracket", "plate"] {
+        folder.write(
+            &format!("jobs/{sample}/job.json"),
+            fs::read(root().join("samples").join(sample).join("job.json")).unwrap(),
+        );
+    }
+    folder
+}
+
+/// The last line of the messages.
+fn last(output: &std::process::Output) -> String {
+    err(output).lines().last().unwrap_or_default().to_owned()
+}
+
+#[test]
+fn each_job_gets_its_program_and_a_broken_one_stops_no_other() {
+    let folder = shop("broken");
+    folder.write("jobs/broken.json", b"{\"postform\": 1, \"units\": \"mm\", \"operations\": [");
+    let output = folder.run(&["render", "jobs", "--form", "haas.pf", "--out-dir", "nc"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(last(&output), "3 programs, 1 failed: jobs/broken.json");
+    assert!(err(&output).contains("PJ007 at jobs/broken.json:1:46"), "{}", err(&output));
+    let expected = fs::read_to_string(root().join("samples/bracket/expected.haas.nc")).unwrap();
+    assert_eq!(folder.read("nc/bracket.nc"), expected);
+    assert!(folder.has("nc/plate.nc") && !folder.has("nc/broken.nc"));
+    assert_eq!(fs::read_dir(folder.0.join("nc")).unwrap().count(), 2);
+}
+
+#[test]
+fn programs_are_the_same_however_many_are_printed_at_a_time() {
+    let folder = shop("threads");
+    let mut said = Vec::new();
+    for threads in ["1", "2", "7"] {
+        let output = folder.run(&["render", "jobs", "--form", "haas.pf", "--out-dir", threads, "--jobs", threads]);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        said.push(err(&output).replace(&format!(" {threads}/"), " nc/"));
+        assert_eq!(folder.read(&format!("{threads}/plate.nc")), folder.read("1/plate.nc"));
+    }
+    assert_eq!(said[0], said[1]);
+    assert_eq!(said[0], said[2]);
+}
+
+#[test]
+fn alike_names_are_an_error_before_anything_is_written() {
+    let folder = shop("alike");
+    folder.write("jobs/other/plate.json", folder.read("jobs/plate/job.json"));
+    let output = folder.run(&["render", "jobs", "--form", "haas.pf", "--out-dir", "nc"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = err(&output);
+    assert!(
+        said.contains("error: nc/plate.nc would be the program of jobs/other/plate.json and jobs/plate/job.json"),
+        "{said}"
+    );
+    assert!(!folder.has("nc"));
+    let output = folder.run(&["render", "jobs/plate", "jobs/plate/job.json", "--form", "haas.pf", "--out-dir", "nc"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn an_output_never_replaces_a_job() {
+    let folder = shop("input");
+    folder.write("nc/plate.nc", folder.read("haas.pf"));
+    let before = fs::read_to_string(root().join("samples/bracket/expected.haas.nc")).unwrap();
+    folder.write("jobs/plate.nc", &before);
+    let output = folder.run(&["render", "jobs/plate.nc", "--form", "haas.pf", "--out-dir", "jobs"]);
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    assert!(err(&output).contains("error: jobs/plate.nc is an input"), "{}", err(&output));
+    assert_eq!(folder.read("jobs/plate.nc"), before);
+}
+
+#[test]
+fn changed_leaves_out_what_is_newer_than_job_and_form() {
+    let folder = shop("changed");
+    let run = || folder.run(&["render", "jobs", "--form", "haas.pf", "--out-dir", "nc", "--changed"]);
+    let set = |file: &str, seconds: u64| {
+        let file = fs::File::options().write(true).open(folder.0.join(file)).unwrap();
+        file.set_modified(SystemTime::now() - Duration::from_secs(seconds)).unwrap();
+    };
+    for file in ["haas.pf", "postform.toml", "jobs/plate/job.json", "jobs/bracket/job.json"] {
+        set(file, 100);
+    }
+    assert_eq!(last(&run()), "2 programs, none failed");
+    assert_eq!(last(&run()), "0 programs, none failed");
+    set("nc/plate.nc", 50);
+    set("jobs/plate/job.json", 20);
+    let output = run();
+    assert!(err(&output).starts_with("1 of 2 programs is newer than its job and form"), "{}", err(&output));
+    assert_eq!(last(&output), "1 program, none failed");
+    set("nc/plate.nc", 50);
+    set("haas.pf", 20);
+    set("nc/bracket.nc", 10);
+    assert_eq!(last(&run()), "1 program, none failed");
+    // the same moment is not newer
+    let moment = SystemTime::now() - Duration::from_secs(5);
+    for file in ["haas.pf", "nc/plate.nc"] {
+        fs::File::options().write(true).open(folder.0.join(file)).unwrap().set_modified(moment).unwrap();
+    }
+    assert_eq!(last(&run()), "2 programs, none failed");
+}
+
+#[test]
+fn a_job_is_split_by_tool_operation_and_work_offset() {
+    let folder = shop("split");
+    let split = |arguments: &[&str]| {
+        let all = [&["render", "jobs/bracket", "--form", "haas.pf", "--out-dir", "nc"], arguments].concat();
+        folder.run(&all)
+    };
+    let output = split(&["--split", "tool", "--program", "500"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert_eq!(last(&output), "5 programs, none failed");
+    for (tool, number) in [(1, "O00500"), (3, "O00502"), (5, "O00504")] {
+        let program = folder.read(&format!("nc/bracket-T{tool}.nc"));
+        assert!(program.contains(number) && program.contains(&format!("T{tool} M6")), "{program}");
+        assert_eq!(program.matches(" M6\n").count(), 1, "{program}");
+        assert!(program.trim_end().ends_with("M30\n%"), "{program}");
+    }
+    let output = split(&["--split", "operation", "--name", "O{number}-{operation}"]);
+    assert_eq!(last(&output), "7 programs, none failed");
+    assert!(folder.has("nc/O1001-OP01.nc") && folder.has("nc/O1007-OP07.nc"));
+    let output = split(&["--split", "work"]);
+    assert_eq!(last(&output), "2 programs, none failed");
+    assert!(folder.read("nc/bracket-W2.nc").contains("G55") && !folder.read("nc/bracket-W1.nc").contains("G55"));
+    let output = split(&["--split", "setup"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("jobs/bracket/job.json has no setups"), "{}", err(&output));
+    let output = split(&["--split", "tool", "--name", "{job}-{operation}"]);
+    assert!(err(&output).contains("{operation} has no value here"), "{}", err(&output));
+    let output = split(&["--split", "tool", "--name", "{job}"]);
+    assert!(err(&output).contains("would be the program of two parts of jobs/bracket/job.json"), "{}", err(&output));
+}
+
+#[test]
+fn an_operation_in_two_work_offsets_is_no_part() {
+    let folder = shop("offsets");
+    let job = folder.read("jobs/plate/job.json");
+    let at = ["{ \"line\"", "{\"line\""].iter().find_map(|item| job.find(item)).unwrap();
+    folder.write("two.json", format!("{}{{\"work\": 55}}, {{\"rapid\": [0, 0, 50]}}, {}", &job[..at], &job[at..]));
+    let output = folder.run(&["render", "two.json", "--form", "haas.pf", "--out-dir", "nc", "--split", "work"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("PR061 at two.json"), "{}", err(&output));
+}
+
+#[test]
+fn verify_and_check_take_several_jobs() {
+    let folder = shop("verify");
+    let output = folder.run(&["verify", "jobs", "--form", "haas.pf"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let verdicts = out(&output);
+    assert_eq!(verdicts.lines().count(), 2, "{verdicts}");
+    assert!(verdicts.contains("jobs/bracket/job.json") && verdicts.contains("jobs/plate/job.json"), "{verdicts}");
+    assert_eq!(last(&output), "2 jobs, none failed");
+    let output = folder.run(&["verify", "jobs", "--form", "haas.pf", "--format", "json"]);
+    for line in out(&output).lines() {
+        assert!(serde_json::from_str::<serde_json::Value>(line).is_ok(), "{line}");
+    }
+    folder.write("jobs/broken.json", b"{\"postform\": 1");
+    let output = folder.run(&["check", "jobs"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(out(&output).matches(": in order\n").count(), 2);
+    assert_eq!(last(&output), "3 jobs, 1 failed: jobs/broken.json");
+    let output = folder.run(&["verify", "jobs", "--nc", "x.nc"]);
+    assert_eq!(output.status.code(), Some(2));
+    let output = folder.run(&["check", "jobs", "-"]);
+    assert!(err(&output).contains("standard input is no job of several"), "{}", err(&output));
+}
+
+#[test]
+fn a_change_of_a_form_is_shown_by_its_kinds() {
+    let folder = shop("archive");
+    let form = folder.read("haas.pf");
+    folder.write("new.pf", form.replace("G0 G53 Z0", "G0 G53 Z0 M9"));
+    assert_ne!(folder.read("new.pf"), form);
+    let output = folder.run(&["diff", "--forms", "haas.pf", "new.pf", "jobs"]);
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    let said = out(&output);
+    assert!(said.starts_with("2 programs: M9 more, blocks added\n  jobs/bracket/job.json\n  jobs/plate/job.json\nas jobs/bracket/job.json:\n"), "{said}");
+    assert_eq!(said.lines().last(), Some("2 of 2 programs change, in 1 kind"));
+    let output = folder.run(&["diff", "--forms", "haas.pf", "haas.pf", "jobs"]);
+    assert_eq!((output.status.code(), out(&output).as_str()), (Some(0), "0 of 2 programs change\n"));
+    let output = folder.run(&["diff", "--forms", "haas.pf", "new.pf", "jobs", "--format", "json"]);
+    let documents = out(&output);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        documents.lines().all(|line| line.contains("\"job\":\"jobs/") && line.contains("\"same\":false")),
+        "{documents}"
+    );
+}
+
+#[test]
+fn compressed_jobs_and_programs() {
+    let folder = shop("gz");
+    let output = folder.run(&["render", "jobs/bracket/job.json", "--form", "haas.pf", "-o", "bracket.nc.gz"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let packed = fs::read(folder.0.join("bracket.nc.gz")).unwrap();
+    assert!(packed.starts_with(b"\x1f\x8b") && packed.len() < 3000);
+    let output =
+        folder.run(&["diff", "bracket.nc.gz", root().join("samples/bracket/expected.haas.nc").to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0), "{}{}", out(&output), err(&output));
+    // a compressed program is a job, and a compressed job is proven
+    let output = folder.run(&["check", "bracket.nc.gz", "--job-control", "haas"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    folder.write("cut.nc.gz", &packed[..packed.len() / 2]);
+    let output = folder.run(&["check", "cut.nc.gz"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(err(&output), "error: can't read cut.nc.gz: the compressed file is cut off\n");
+    folder.write("plain.json.gz", folder.read("jobs/plate/job.json"));
+    let output = folder.run(&["check", "plain.json.gz"]);
+    assert!(err(&output).contains("it is no gzip file"), "{}", err(&output));
+}

@@ -113,9 +113,6 @@ pub fn upons(used: VarSet, cx: &mut Cx<'_>) -> Done {
 
 /// Increments count from the position that the sequence printed: nothing is left to go along its axes.
 fn stands_where_it_was_put(shape: &Shape, want: &mut Want, said: &mut Said) {
-    if !shape.program.settings.incremental {
-        return;
-    }
     for (axis, (now, moved)) in NOW.into_iter().zip(MOVED).enumerate() {
         if said.stand.placed & 1 << axis != 0
             && let Some(value) = want.get(now)

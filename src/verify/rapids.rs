@@ -102,12 +102,21 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     let is_frame =
         |a: &Frame, b: &Frame| a.work.is_none_or(|work| Some(work) == b.work) && (!tools || a.tool == b.tool);
     let mut wrong = None;
-    for (leg, _) in passage.legs().filter(|(leg, _)| !leg.lengths.is_empty()) {
+    let count = s.job.legs().count();
+    let is_mill = s.machine == Machine::Mill && !s.switches && line != 0;
+    let goes_across = |rapids: &[Rapid]| is_mill && rapids.iter().any(|rapid| rapid.unknown & 0b11 != 0b11);
+    let moves =
+        |(at, (leg, rapids)): &(usize, (&Leg, &[Rapid]))| !leg.lengths.is_empty() || *at > 0 && goes_across(rapids);
+    for (_, (leg, _)) in passage.legs().enumerate().filter(moves) {
         let was = is_frame(&before.0, &leg.frame) && before.0.tool.is_some();
         let known: Vec<Option<f64>> = s
             .job
             .legs()
-            .filter(|(own, _)| is_frame(&own.frame, &leg.frame))
+            .enumerate()
+            .filter(|(at, (own, rapids))| {
+                is_frame(&own.frame, &leg.frame) && (!is_mill || *at == 0 || !rapids.is_empty() || at + 1 == count)
+            })
+            .map(|(_, leg)| leg)
             .flat_map(|(own, _)| match own.lengths.is_empty() {
                 // with the tool that cut before, the job keeps its length
                 true if was => vec![before.1],
@@ -221,15 +230,29 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
     let mut low = None;
     for (leg, rapids) in inner.iter().filter(|(leg, _)| !leg.lengths.is_empty()) {
         let same_frame = |frame: &Frame| frame.work == leg.frame.work && (!tools || frame.tool == leg.frame.tool);
-        let own = s.job.legs().filter(|(own, rapids)| same_frame(&own.frame) && !rapids.is_empty());
-        let floor = own
-            .flat_map(|(_, rapids)| rapids)
-            .filter(|rapid| rapid.unknown & 0b100 == 0)
-            .map(|rapid| rapid.to[2])
-            .reduce(f64::min);
-        let mut lowest = rapids.iter().filter(|rapid| rapid.unknown & 0b100 == 0);
-        let under = |rapid: &&Rapid| floor.is_none_or(|floor| rapid.to[2] < floor - tolerance);
-        low = low.or(lowest.find(under).map(|rapid| (rapid.to, leg.frame.work)));
+        let own: Vec<&[Rapid]> = s
+            .job
+            .legs()
+            .filter(|(own, rapids)| same_frame(&own.frame) && !rapids.is_empty())
+            .map(|(_, rapids)| rapids)
+            .collect();
+        let all = own.concat();
+        let [job, program] = &mut s.ways;
+        let mut lower = None;
+        let as_good = own.iter().copied().chain([all.as_slice()]).any(|own| {
+            job.set(None, own, tolerance);
+            program.set(None, rapids, tolerance);
+            match compare_way(job, program, false, tolerance) {
+                Compared::Lower(to, _) | Compared::Elsewhere(to) => {
+                    lower = lower.or(Some(to));
+                    false
+                }
+                _ => true,
+            }
+        });
+        if !as_good {
+            low = low.or(lower.map(|to| (to, leg.frame.work)));
+        }
     }
     let Some((to, work)) = low else { return };
     let work = work.map_or(String::new(), |work| format!(" in work offset {}", number(work)));

@@ -46,7 +46,9 @@ impl Program<'_> {
         let height_is_known = self.simulator.state().at_machine() & 0b100 == 0;
         (switched.cut, switched.is_up) = (height_is_known.then_some(to[2]), false);
         let beam = switched.beam;
-        if !self.is_on(beam) {
+        // M4 turns the other way, and lights no torch
+        let is_lit = beam != Beam::Torch || self.state.rotation != Some(Rotation::Ccw);
+        if !self.is_on(beam) || !is_lit {
             let message = format!("the {} is off in this cut", beam.name());
             let help = "switch it on in BeginCut: `M3`, and for a laser the power by S";
             self.hazard(Code::PV026, line, &message, help);

@@ -67,7 +67,7 @@ impl Program<'_> {
         let factor = if self.mode == FeedMode::InverseTime { 1.0 } else { self.scale.factor() };
         self.cut = Some(Cut {
             from: self.at,
-            unknown: self.unknown,
+            unknown: if self.scale.flat { self.unknown & !0b100 } else { self.unknown },
             home,
             open,
             what,

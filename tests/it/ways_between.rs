@@ -1,0 +1,78 @@
+//! Rapids between cuts, and after the last one: no lower than the job's, and in no other work offset. Each case is a program that
+//! verify called identical or equivalent before.
+
+use std::fs;
+
+use postform::{Job, NoFiles, Options, Post, Source, Verdict};
+
+use crate::support::root;
+
+/// A cut in G54, a visit to G55 without a cut, and a cut in G54 again.
+const VISIT: &str = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1}],"operations":[
+{"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":100,"path":[
+{"rapid":[0,0,50]},{"rapid":[null,null,2]},{"line":[null,null,-1]},{"line":[10,0,-1]},{"rapid":[null,null,50]},
+{"work":55},{"rapid":[0,0,50]},{"rapid":[null,null,2]},{"rapid":[null,null,50]},{"rapid":[100,100,50]},
+{"work":54},{"rapid":[0,0,50]},{"rapid":[null,null,2]},{"line":[null,null,-1]},{"line":[10,0,-1]},{"rapid":[null,null,50]}]}]}"#;
+
+/// A cut that ends with a rapid straight up to Z2.
+const END: &str = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1}],"operations":[
+{"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":100,"path":[
+{"rapid":[0,0,50]},{"rapid":[null,null,2]},{"line":[null,null,-1]},{"line":[10,0,-1]},{"rapid":[null,null,2]}]}]}"#;
+
+/// A second tool begins in another work offset.
+const TOOL: &str = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1},{"number":2}],"operations":[
+{"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":100,"path":[
+{"rapid":[0,0,50]},{"rapid":[null,null,2]},{"line":[null,null,-1]},{"line":[10,0,-1]},{"rapid":[null,null,50]}]},
+{"tool":2,"work":55,"spindle":{"speed":1950,"direction":"cw"},"path":[
+{"rapid":[40,60,3]},{"cycle":{"kind":"face","clear":3,"depth":16,"feed":700,"points":[[40,60,0]]}}]}]}"#;
+
+fn haas() -> Post {
+    let form = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    Post::compile(Source::from_text("haas.pf", form), &NoFiles).unwrap()
+}
+
+/// The program of a job, without block numbers and header.
+fn printed(post: &Post, job: &str) -> String {
+    let mut options = Options::default();
+    options.properties.push(("header".into(), "off".into()));
+    let program = post.render(Job::json(job), &options).unwrap().into_text();
+    let bare = |line: &str| match line.split_once(' ') {
+        Some((number, rest)) if number.starts_with('N') => rest.to_owned(),
+        _ => line.to_owned(),
+    };
+    program.lines().map(bare).collect::<Vec<_>>().join("\n") + "\n"
+}
+
+fn is_wrong(job: &str, from: &str, to: &str, code: &str) {
+    let post = haas();
+    let right = printed(&post, job);
+    assert!(matches!(post.verify(Job::json(job), &right).unwrap(), Verdict::Identical), "{right}");
+    assert_eq!(right.matches(from).count(), 1, "{from}\n{right}");
+    let wrong = right.replace(from, to);
+    match post.verify(Job::json(job), &wrong).unwrap() {
+        Verdict::Different(findings) => {
+            assert!(findings.iter().any(|finding| finding.code.name() == code), "{findings:?}\n{wrong}");
+        }
+        other => panic!("{other}\n{wrong}"),
+    }
+}
+
+#[test]
+fn a_visit_without_a_cut_crosses_no_lower_than_the_job() {
+    let visit = "Z50.\nZ2.\nZ50.\nX100. Y100.\n";
+    is_wrong(VISIT, visit, "Z50.\nZ2.\nX100. Y100.\nZ50.\n", "PV009");
+    // down where the job stays up
+    is_wrong(VISIT, visit, "Z50.\nX100. Y100.\nZ2.\nX0 Y0\n", "PV009");
+}
+
+#[test]
+fn nothing_crosses_low_after_the_last_cut_where_the_job_crosses_nothing() {
+    is_wrong(END, "M9\nG0 G53 Z0 M5\n", "M9\nM5\n", "PV009");
+    is_wrong(END, "M9\nG0 G53 Z0 M5\n", "M9\nX300. Y200. M5\n", "PV009");
+}
+
+#[test]
+fn a_new_tool_goes_down_in_the_offset_of_its_cut() {
+    let right = "G0 G90 G55 X40. Y60.\nS1950 M3\nG43 H2 Z3. M9\n";
+    is_wrong(TOOL, right, "G0 G90 X40. Y60.\nS1950 M3\nG55 G43 H2 Z3. M9\n", "PV012");
+}

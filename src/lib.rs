@@ -47,6 +47,7 @@ mod lang;
 mod lint;
 mod machine;
 mod nc;
+mod nci;
 mod number;
 mod picture;
 mod post;

@@ -14,15 +14,18 @@ pub enum Format {
     Nc,
     /// A FreeCAD document.
     Freecad,
+    /// A Mastercam NCI file.
+    Nci,
 }
 
 /// What files of each format are called.
-const EXTENSIONS: [(Format, &[&str]); 5] = [
+const EXTENSIONS: [(Format, &[&str]); 6] = [
     (Format::Json, &["json"]),
     (Format::JsonLines, &["jsonl", "ndjson"]),
     (Format::Cl, &["cl", "apt", "aptsource", "ncl", "cls", "cldata", "as"]),
     (Format::Nc, &["nc", "ngc", "tap", "eia", "min", "ssb", "mpf", "spf", "h", "i"]),
     (Format::Freecad, &["fcstd"]),
+    (Format::Nci, &["nci"]),
 ];
 
 /// How many bytes of a job are looked at to guess its format.
@@ -40,7 +43,7 @@ impl Format {
         EXTENSIONS.iter().find(|(_, known)| known.iter().any(|known| is(known))).map(|(format, _)| *format)
     }
 
-    /// By how a job begins: as a zip archive, with a brace, a word with a slash, or a block of an NC program. `None`: by none of them.
+    /// By how a job begins: as a zip archive, with a brace, record 1050, a word with a slash, or a block of an NC program. `None`: by none of them.
     pub fn of_content(bytes: &[u8]) -> Option<Format> {
         let start = bytes.get(..LOOKED_AT).unwrap_or(bytes);
         if start.starts_with(b"PK\x03\x04") {
@@ -53,6 +56,9 @@ impl Format {
             // the head of JSON Lines is an object on a line of its own
             let head = first[1..].trim_ascii_start().starts_with(b"\"start\"");
             return Some(if head { Format::JsonLines } else { Format::Json });
+        }
+        if first == b"1050" {
+            return Some(Format::Nci); // the first record of every file
         }
         lines.find_map(|line| match (line, is_statement(line)) {
             (_, true) => Some(Format::Cl),
@@ -97,6 +103,7 @@ mod tests {
         assert_eq!(of("(a remark)\r\nO1234\r\n"), Some(Format::Nc));
         assert_eq!(of("%\n"), Some(Format::Nc));
         assert_eq!(of("PK\u{3}\u{4}.."), Some(Format::Freecad));
+        assert_eq!(of("1050\r\n9 34 0 0 0 0 0 0 T\r\n"), Some(Format::Nci));
         assert_eq!([of(""), of("\n\n"), of("hello, world"), of("[1, 2]")], [None; 4]);
     }
 }

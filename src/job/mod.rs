@@ -17,16 +17,17 @@ use crate::control::Control;
 use crate::diag::Diag;
 use crate::error::Error;
 use crate::nc::{JobOptions, RunSettings, Unpointed, read_program};
+use crate::nci::{self, read_nci};
 use crate::toolpath::json::{read_document, read_document_again, read_lines};
 use crate::toolpath::{Event, Flow, Hold, Place, ReadError, Sink, Stop, Units, flow};
 
-/// What a CL file or NC program does not say itself. JSON needs none of it.
+/// What a CL file, NCI file or NC program does not contain. JSON needs none of it.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Reading {
     /// Who wrote a CL file; else it is told from its first lines.
     pub dialect: Option<Dialect>,
-    /// Units of a CL file or program that does not say them.
+    /// Units of a CL file, NCI file or program that does not give them.
     pub units: Option<Units>,
     /// The tool number of a CL file or program that loads none, or of each tool that a CL file names.
     pub tool: Option<Assumed>,
@@ -333,6 +334,13 @@ fn read_once(
     match format {
         Format::JsonLines => read_lines(input, sink),
         Format::Cl => read_cl(input, &cl_options(reading), report, sink),
+        Format::Nci => {
+            let mut own = nci::Report::default();
+            let read = read_nci(input, &nci::Options { units: reading.units }, &mut own, sink);
+            report.facts.extend(own.facts);
+            report.warnings.extend(own.warnings);
+            read
+        }
         _ => read_document(input, sink),
     }
 }

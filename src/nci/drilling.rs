@@ -1,0 +1,171 @@
+//! Canned cycles: 81 begins one with its first hole, 100 is a further hole.
+
+use super::records::Record;
+use super::wrong;
+use crate::diag::{Code, Diag};
+use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole};
+
+/// How far a hole may be from its upper point across the tool.
+const STRAIGHT: f64 = 1e-6;
+
+/// A hole with its cycle. Heights are absolute.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drilling {
+    kind: CycleKind,
+    /// Where it is, in X and Y.
+    pub at: [f64; 2],
+    bottom: f64,
+    /// Height before and after it.
+    pub initial: f64,
+    /// Height at which the feed begins.
+    r: f64,
+    /// Top of the stock.
+    top: f64,
+    dwell: f64,
+    /// The feed; 0 or less: the feed before.
+    pub feed: f64,
+    first_peck: f64,
+    peck: f64,
+    /// The control flag, if it has one.
+    pub flag: Option<f64>,
+}
+
+/// The cycle that is open, by its last hole.
+pub struct Open(pub Drilling);
+
+impl Open {
+    /// A further hole (100).
+    ///
+    /// # Errors
+    /// A value is missing or makes no sense.
+    pub fn next(&self, record: &Record) -> Result<Drilling, Box<Diag>> {
+        let values = record.values(11)?;
+        let (lower, upper) = ends(&values[1..4], &values[8..11], values.get(12), record)?;
+        let (initial, r, dwell, feed) = (values[4], values[5], values[6], values[7]);
+        let own = Drilling {
+            at: [lower[0], lower[1]],
+            bottom: lower[2],
+            initial,
+            r,
+            dwell,
+            feed,
+            flag: values.get(11).copied(),
+            ..self.0
+        };
+        own.checked(upper, record)
+    }
+
+    /// Is a hole of the same cycle? Its depth may differ.
+    pub fn takes(&self, hole: &Drilling) -> bool {
+        let without = |hole: &Drilling| Drilling { at: [0.0; 2], bottom: 0.0, flag: None, ..*hole };
+        let feed = if hole.feed > 0.0 { hole.feed } else { self.0.feed };
+        without(&self.0) == without(&Drilling { feed, ..*hole })
+    }
+}
+
+impl Drilling {
+    /// A first hole (81).
+    ///
+    /// # Errors
+    /// A value is missing, makes no sense, or is of a cycle that is not read.
+    pub fn read(record: &Record) -> Result<Drilling, Box<Diag>> {
+        let values = record.values(17)?;
+        let kind = match values[0] {
+            0.0 if values[4] > 0.0 => CycleKind::Face,
+            0.0 => CycleKind::Drill,
+            1.0 => CycleKind::Deep,
+            2.0 => CycleKind::Chipbreak,
+            3.0 => CycleKind::Tap,
+            4.0 => CycleKind::Ream,
+            5.0 => CycleKind::Bore,
+            other => {
+                let help = "0 to 5 are drill, peck, chip break, tap, ream and bore; let Mastercam write long code";
+                return Err(wrong(Code::PI003, format!("a cycle of type {other}"), help, record.line));
+            }
+        };
+        if values[13] != 0.0 && kind == CycleKind::Bore {
+            let help = "let Mastercam write long code";
+            return Err(wrong(Code::PI003, "a bore whose tool shifts", help, record.line));
+        }
+        let (lower, upper) = ends(&values[1..4], &values[14..17], values.get(18), record)?;
+        let drilling = Drilling {
+            kind,
+            at: [lower[0], lower[1]],
+            bottom: lower[2],
+            initial: values[10],
+            r: values[11],
+            top: values[12],
+            dwell: values[4],
+            feed: values[5],
+            first_peck: values[6],
+            peck: values[7],
+            flag: values.get(17).copied(),
+        };
+        drilling.checked(upper, record)
+    }
+
+    /// The heights are in their order.
+    fn checked(self, upper: [f64; 3], record: &Record) -> Result<Drilling, Box<Diag>> {
+        let is_right = self.bottom < self.top && self.top <= self.r && self.r <= self.initial;
+        if !is_right || (upper[2] - self.initial).abs() > STRAIGHT {
+            let message = format!(
+                "a hole from {} over {} and {} down to {}, which are no heights one below the other",
+                self.initial, self.r, self.top, self.bottom
+            );
+            let help = "initial height, R plane, top of the stock, bottom";
+            return Err(wrong(Code::PI001, message, help, record.line));
+        }
+        Ok(self)
+    }
+
+    /// The cycle that begins with this hole; `feed` is the feed before it.
+    ///
+    /// # Errors
+    /// It has no feed, or no peck.
+    pub fn spec(&self, feed: Option<f64>, record: &Record) -> Result<CycleSpec, Box<Diag>> {
+        let mut spec = CycleSpec::new(self.kind);
+        let Some(feed) = Some(self.feed).filter(|feed| *feed > 0.0).or(feed) else {
+            return Err(wrong(
+                Code::PI002,
+                "a cycle without a feed",
+                "give the operation a feed in Mastercam",
+                record.line,
+            ));
+        };
+        spec.feed = Some(feed);
+        spec.clear = Some(self.r - self.top);
+        spec.depth = Some(self.top - self.bottom);
+        spec.return_height = Some(self.initial - self.top);
+        spec.dwell = (self.dwell > 0.0).then_some(self.dwell);
+        if matches!(self.kind, CycleKind::Deep | CycleKind::Chipbreak) {
+            let step = if self.peck > 0.0 { self.peck } else { self.first_peck };
+            if step <= 0.0 {
+                return Err(wrong(Code::PI002, "a cycle with pecks of 0", "give the operation its pecks", record.line));
+            }
+            spec.step = Some(step);
+            spec.first_step = Some(self.first_peck).filter(|first| *first > 0.0 && *first != step);
+        }
+        Ok(spec)
+    }
+
+    /// The hole as an event.
+    pub fn hole(&self) -> Hole {
+        Hole { at: Axes::new(&[self.at[0], self.at[1], self.top]), depth: Some(self.top - self.bottom) }
+    }
+}
+
+/// Bottom and upper point of a hole, which is along Z.
+fn ends(
+    lower: &[f64],
+    upper: &[f64],
+    swapped: Option<&f64>,
+    record: &Record,
+) -> Result<([f64; 3], [f64; 3]), Box<Diag>> {
+    let [lower, upper] = [lower, upper].map(|point| [point[0], point[1], point[2]]);
+    let (lower, upper) = if swapped.is_some_and(|swapped| *swapped == 1.0) { (upper, lower) } else { (lower, upper) };
+    if (lower[0] - upper[0]).abs() > STRAIGHT || (lower[1] - upper[1]).abs() > STRAIGHT || lower[2] >= upper[2] {
+        let help = "a job has three axes: drill along Z";
+        return Err(wrong(Code::PI003, "a hole that is not along Z", help, record.line));
+    }
+    Ok((lower, upper))
+}

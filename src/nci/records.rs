@@ -1,0 +1,124 @@
+//! Records of an NCI file: a line with a number, and a line with values, which may be empty.
+
+use std::io::{BufRead as _, BufReader, Read};
+
+use super::wrong;
+use crate::diag::{Code, Diag};
+use crate::toolpath::ReadError;
+
+/// Longest line, in bytes.
+const LONGEST: u64 = 1 << 20;
+
+/// A record.
+pub struct Record {
+    /// The line of its number, from 1.
+    pub line: u64,
+    /// Its number.
+    pub code: u32,
+    /// The line of its values.
+    pub text: String,
+}
+
+impl Record {
+    /// Its values, at least so many of them.
+    ///
+    /// # Errors
+    /// One is no number, or there are too few.
+    pub fn values(&self, least: usize) -> Result<Vec<f64>, Box<Diag>> {
+        let values: Option<Vec<f64>> = self
+            .text
+            .split_whitespace()
+            .map(|word| word.parse().ok().filter(|value: &f64| value.is_finite()))
+            .collect();
+        match values {
+            Some(values) if values.len() >= least => Ok(values),
+            Some(values) => {
+                let message = format!("record {} has {} values, and needs {least}", self.code, values.len());
+                Err(wrong(Code::PI001, message, "let Mastercam write the file again", self.line + 1))
+            }
+            None => {
+                let message = format!("record {} has a value that is no number", self.code);
+                Err(wrong(Code::PI001, message, "let Mastercam write the file again", self.line + 1))
+            }
+        }
+    }
+
+    /// The first values; words after them may be anything.
+    pub fn first_values(&self, count: usize) -> Option<Vec<f64>> {
+        let values: Option<Vec<f64>> = self.text.split_whitespace().take(count).map(|word| word.parse().ok()).collect();
+        values.filter(|values| values.len() == count)
+    }
+}
+
+/// Reads one record after the other.
+pub struct Records<R> {
+    input: BufReader<R>,
+    line: u64,
+}
+
+impl<R: Read> Records<R> {
+    pub fn new(input: R) -> Records<R> {
+        Records { input: BufReader::with_capacity(128 << 10, input), line: 0 }
+    }
+
+    /// The last line that was read, from 1.
+    pub fn line(&self) -> u64 {
+        self.line
+    }
+
+    /// The next record; `None` at the end.
+    ///
+    /// # Errors
+    /// The input fails, or is cut off inside a record; a line is no number of a record.
+    pub fn next(&mut self) -> Result<Option<Record>, ReadError> {
+        let Some(number) = self.next_line()? else { return Ok(None) };
+        let line = self.line;
+        // lines after the last record
+        if number.trim().is_empty() {
+            while let Some(text) = self.next_line()? {
+                if !text.trim().is_empty() {
+                    let help = "a record is a line with its number and a line with its values";
+                    return Err(wrong(Code::PI001, "an empty line in place of the number of a record", help, line));
+                }
+            }
+            return Ok(None);
+        }
+        let Ok(code) = number.trim().parse() else {
+            let shown: String = number.trim().chars().take(40).collect();
+            let message = format!("`{shown}` is no number of a record");
+            let help = if line == 1 { "an NCI file begins with 1050" } else { "let Mastercam write the file again" };
+            return Err(wrong(Code::PI001, message, help, line));
+        };
+        if line == 1 && code != 1050 {
+            return Err(wrong(
+                Code::PI001,
+                "the file does not begin with record 1050",
+                "is it an NCI file in text form?",
+                line,
+            ));
+        }
+        match self.next_line()? {
+            Some(text) => Ok(Some(Record { line, code, text })),
+            None => Err(wrong(Code::PI004, "the file is cut off after the number of a record", "write it again", line)),
+        }
+    }
+
+    /// The next line without its end. What is not UTF-8 is read as Latin-1.
+    fn next_line(&mut self) -> Result<Option<String>, ReadError> {
+        let mut bytes = Vec::new();
+        if (&mut self.input).take(LONGEST).read_until(b'\n', &mut bytes)? == 0 {
+            return Ok(None);
+        }
+        self.line += 1;
+        if bytes.len() as u64 == LONGEST {
+            return Err(wrong(Code::PI001, "a line of over 1 MB", "is it an NCI file in text form?", self.line));
+        }
+        while bytes.last().is_some_and(|byte| matches!(byte, b'\n' | b'\r')) {
+            bytes.pop();
+        }
+        Ok(Some(
+            String::from_utf8(bytes)
+                .unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| char::from(byte)).collect()),
+        ))
+    }
+}

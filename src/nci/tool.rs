@@ -1,0 +1,93 @@
+//! Tools and operations: what comes before a tool change, and the tool change itself.
+
+use super::records::Record;
+use super::wrong;
+use crate::diag::{Code, Diag};
+use crate::lang::Coolant;
+use crate::toolpath::{FeedMode, First, Spindle, SpindleTurn, Tool, ToolChange};
+
+/// What records before a tool change say of it.
+#[derive(Clone, Debug, Default)]
+pub struct Ahead {
+    /// The diameter of the tool.
+    pub diameter: Option<f64>,
+    /// The radius of its corner.
+    pub corner: Option<f64>,
+    /// Its name.
+    pub name: Option<String>,
+    /// The comment of the operation.
+    pub comment: Option<String>,
+}
+
+/// The coolant by its number.
+///
+/// # Errors
+/// The number is none that is known.
+pub fn coolant(number: f64, line: u64) -> Result<Coolant, Box<Diag>> {
+    match number {
+        0.0 => Ok(Coolant::OFF),
+        1.0 => Ok(Coolant::FLOOD),
+        2.0 => Ok(Coolant::MIST),
+        3.0 => Ok(Coolant::THROUGH),
+        other => {
+            let help = "0 is off, 1 flood, 2 mist, 3 through the tool";
+            Err(wrong(Code::PI003, format!("coolant {other}, whose meaning is unknown"), help, line))
+        }
+    }
+}
+
+/// A tool change, or the same tool again for another operation: 1000, 1001, 1002.
+///
+/// # Errors
+/// A value is missing, or makes no sense on a mill.
+pub fn change(record: &Record, values: &[f64], ahead: &Ahead) -> Result<ToolChange, Box<Diag>> {
+    let whole = |at: usize, what: &str| -> Result<f64, Box<Diag>> {
+        let value = values[at - 1];
+        if value >= 0.0 && value.fract() == 0.0 && value <= f64::from(u32::MAX) {
+            return Ok(value);
+        }
+        let message = format!("the {what} of a tool change is {value}");
+        Err(wrong(Code::PI001, message, "it is a whole number from 0 on", record.line + 1))
+    };
+    let number = whole(4, "tool")?;
+    if number == 0.0 {
+        return Err(wrong(
+            Code::PI002,
+            "a tool change to tool 0",
+            "give the tool its number in Mastercam",
+            record.line,
+        ));
+    }
+    let register = |at: usize, what: &str| whole(at, what).map(|register| (register > 0.0).then_some(register));
+    let speed = values[7];
+    let turn = match speed {
+        0.0 => SpindleTurn::Off,
+        speed if speed < 0.0 => SpindleTurn::Ccw,
+        _ => SpindleTurn::Cw,
+    };
+    let spindle = Spindle { speed: (speed != 0.0).then_some(speed.abs()), turn: Some(turn), ..Spindle::default() };
+    let tool = Tool {
+        number,
+        diameter: ahead.diameter.filter(|diameter| *diameter > 0.0),
+        corner_radius: ahead.corner.filter(|radius| *radius > 0.0),
+        length_offset: register(6, "length register")?,
+        diameter_offset: register(5, "diameter register")?,
+        turret: None,
+        name: ahead.name.clone().filter(|name| !name.is_empty() && name != "Undefined"),
+        comment: None,
+        data: Vec::new(),
+    };
+    Ok(ToolChange {
+        name: ahead.comment.clone(),
+        tool: Some(tool),
+        spindle: Some(spindle),
+        coolant: Some(coolant(values[9], record.line)?),
+        work: None,
+        feed: None,
+        plunge: None,
+        feed_mode: Some(FeedMode::PerMinute),
+        comment: ahead.comment.clone(),
+        set: Vec::new(),
+        first: First::Nothing,
+    })
+}

@@ -130,8 +130,13 @@ fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64
     same(place, &there, ACROSS, tolerance).then_some((part, there, lowest))
 }
 
-/// Is a rapid across nowhere beside the job's rapids across, or below them? It may go straight on over their corners.
+/// Is a rapid across nowhere beside the job's rapids across, or below them? It may go straight on over their corners. A rapid
+/// whose start is unknown is one of the job's own.
 fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
+    let is = |a: &Rapid, b: &Rapid| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance);
+    if (a.unknown | b.unknown) & ACROSS != 0 {
+        return across(job, tolerance).any(|(c, d)| is(a, c) && is(b, d));
+    }
     let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
     let [from, to] = [a, b].map(|end| {
         let mut place = end.to;
@@ -146,8 +151,7 @@ fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
         along(place, &c.to, &d.to, tolerance).is_some_and(|(_, _, lowest)| place[DEPTH] >= lowest - tolerance)
     };
     let places: Vec<Place> = [from].into_iter().chain(stops.iter().map(|stop| stop.1)).chain([to]).collect();
-    (a.unknown | b.unknown) & ACROSS == 0
-        && places.windows(2).all(|piece| across(job, tolerance).any(|rapid| piece.iter().all(|end| over(end, rapid))))
+    places.windows(2).all(|piece| across(job, tolerance).any(|rapid| piece.iter().all(|end| over(end, rapid))))
 }
 
 /// `start`: so many corners of the program are where its last cut ended.

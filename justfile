@@ -98,3 +98,13 @@ vsix:
 vscode-shot code-server="code-server" folder="docs/images": vsix
     cargo build
     node editors/vscode/look.mjs {{code-server}} target/debug/postform {{folder}}
+
+# the packages that the toolchain here can build, each installed in a clean place and run
+dist:
+    packages/build
+    packages/try
+
+# 10,000 jobs in one command beside a loop of a shell: a ratio
+many-jobs count="10000":
+    cargo build --profile dist --locked --bin postform
+    benches/many_jobs target/dist/postform {{count}}

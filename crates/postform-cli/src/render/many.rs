@@ -7,6 +7,7 @@ use std::time::SystemTime;
 
 use super::super::args::{RenderArgs, SplitArg};
 use super::super::config::Config;
+use super::super::each::each_on;
 use super::super::files::{self, io_message};
 use super::super::report::{Reporter, count, stopped};
 use super::super::say::{kept, message, say};
@@ -53,17 +54,19 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let newest = inputs::newest();
     inputs::are_many();
     jobs.iter().for_each(|job| inputs::note(job));
-    let mut planned: Vec<Planned> =
-        jobs.into_iter().zip(rows).flat_map(|(job, row)| parts_of(&job, row, args, &reporter)).collect();
-    for (at, program) in planned.iter_mut().enumerate() {
-        if let Some(first) = args.options.program {
-            program.number = first.checked_add(at as u32);
-        }
-        let name = refused(|| name(program, &forms.ready[program.ready], pattern.as_ref(), args, &reporter));
+    let jobs: Vec<(PathBuf, usize)> = jobs.into_iter().zip(rows).collect();
+    let parts = each_on(args.at_a_time, jobs, |(job, row)| parts_of(&job, row, args, &reporter));
+    let numbered = parts.into_iter().flatten().enumerate().map(|(at, program)| {
+        let number = args.options.program.map(|first| first.saturating_add(at as u32));
+        Planned { number: number.or(program.number), ..program }
+    });
+    let mut planned = each_on(args.at_a_time, numbered.collect(), |mut program: Planned| {
         if program.to.is_ok() {
+            let name = refused(|| name(&program, &forms.ready[program.ready], pattern.as_ref(), args, &reporter));
             program.to = name.map(|name| folder.join(name));
         }
-    }
+        program
+    });
     apart(&planned)?;
     fs::create_dir_all(folder).map_err(|error| io_message("write", folder, &error))?;
     if args.changed {

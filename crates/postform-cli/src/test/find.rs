@@ -1,5 +1,6 @@
 //! Cases in folders: jobs, and the programs expected of them.
 
+use std::collections::HashSet;
 use std::fs;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -54,7 +55,8 @@ impl Found {
 
     fn folder(&mut self, folder: &Path, posts: &mut Posts, args: &TestArgs, deeper: usize) -> Result<(), String> {
         let entries = listed(folder)?;
-        let jobs: Vec<&PathBuf> = entries.iter().filter(|path| is_job(path, &entries)).collect();
+        let expected = jobs_expected(&entries);
+        let jobs: Vec<&PathBuf> = entries.iter().filter(|path| is_job(path, &expected)).collect();
         for (at, job) in jobs.iter().enumerate() {
             if let Some(other) = jobs[..at].iter().find(|other| other.file_stem() == job.file_stem()) {
                 let (job, other) = (files::name(job), files::name(other));
@@ -160,7 +162,8 @@ pub fn jobs_in(folder: &Path) -> Result<Vec<PathBuf>, String> {
 
 fn collect(folder: &Path, deeper: usize, jobs: &mut Vec<PathBuf>) -> Result<(), String> {
     let entries = listed(folder)?;
-    jobs.extend(entries.iter().filter(|path| is_job(path, &entries)).cloned());
+    let expected = jobs_expected(&entries);
+    jobs.extend(entries.iter().filter(|path| is_job(path, &expected)).cloned());
     for folder in below(&entries).filter(|_| deeper > 0) {
         collect(folder, deeper - 1, jobs)?;
     }
@@ -198,15 +201,19 @@ fn stem_of_expected(path: &Path) -> String {
     name.split_once(".expected.").map_or("job".to_owned(), |(stem, _)| stem.to_owned())
 }
 
+/// The names of the jobs of which a folder has expected programs, without their endings.
+fn jobs_expected(entries: &[PathBuf]) -> HashSet<String> {
+    entries.iter().filter(|path| is_expected(path)).map(|path| stem_of_expected(path)).collect()
+}
+
 /// Is the file a job? JSON must look like one, unless it is called `job` or has expected programs; an NC program is one if it is
 /// called `job`.
-fn is_job(path: &Path, beside: &[PathBuf]) -> bool {
+fn is_job(path: &Path, expected: &HashSet<String>) -> bool {
     if !path.is_file() || is_expected(path) {
         return false;
     }
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let is_called_so =
-        stem == "job" || beside.iter().any(|other| is_expected(other) && stem_of_expected(other) == stem);
+    let is_called_so = stem == "job" || expected.contains(stem.as_ref());
     match Format::of_name(&path.to_string_lossy()) {
         Some(Format::Nc) => stem == "job",
         Some(Format::Json) => is_called_so || looks_like_a_job(path),

@@ -1,0 +1,99 @@
+// Requests to postform as WebAssembly, and its answers.
+
+import { run } from "./wasi.js";
+
+/** A text with the name that messages use; the name of a job gives its format. */
+export interface Text {
+  name: string;
+  text: string;
+}
+
+/** A finding about a form, a job or a program. */
+export interface Finding {
+  /** `PF101`: see docs/rules and docs/errors.md. */
+  code: string;
+  severity: "error" | "warning" | "note";
+  message: string;
+  /** What to type instead. */
+  help: string | null;
+  file: string | null;
+  /** From 1. */
+  line: number | null;
+  /** In bytes, from 1. */
+  column: number | null;
+  /** The position in a job: `operations[0].path[3]`. */
+  path: string | null;
+  /** The line of the program, from 1. */
+  program_line: number | null;
+  /** All of it in a line. */
+  text: string;
+}
+
+export interface Options {
+  /** Values of properties of the form. */
+  properties?: Record<string, string | number | boolean>;
+  /** Values of variables and answers to the form's questions. */
+  set?: Record<string, number>;
+  /** The number of the program. */
+  number?: number;
+  /** Units of the program. */
+  units?: "mm" | "inch";
+  /** Units of a job that does not give them. */
+  assumeUnits?: "mm" | "inch";
+  /** The day, or the day and time, that the program prints: `2026-03-31T14:05`. */
+  date?: string;
+  /** Run the program and compare it with the job. */
+  verify?: boolean;
+}
+
+/** A program, whole. */
+export interface Program {
+  program: string;
+  fileName: string;
+  /** Its first words are `identical`, `equivalent`, `not proven` or `not verified`. */
+  verdict: string;
+  findings: Finding[];
+}
+
+/** A form, a job or an option that makes no program, or a program that does not do what its job asks for. */
+export class PostformError extends Error {
+  /** The program, where it is refused. */
+  program?: string;
+  verdict?: string;
+  constructor(message: string, readonly findings: Finding[]) {
+    super(message);
+    this.name = "PostformError";
+  }
+}
+
+/** postform, ready to be asked. */
+export class Postform {
+  constructor(private readonly module: WebAssembly.Module) {}
+
+  private async ask(request: object): Promise<any> {
+    const answer = await run(this.module, new TextEncoder().encode(JSON.stringify(request)));
+    const value = JSON.parse(new TextDecoder().decode(answer));
+    if (value.error !== undefined) throw new PostformError(value.error, value.findings);
+    return value;
+  }
+
+  /** Every finding of a form; `files` are the forms that it calls, by their names. */
+  async lint(form: Text, files: Record<string, string> = {}): Promise<Finding[]> {
+    return (await this.ask({ command: "lint", form, files })).findings;
+  }
+
+  /** Prints a job and verifies the program. */
+  async render(form: Text, job: Text, options: Options = {}, files: Record<string, string> = {}): Promise<Program> {
+    const { refused, ...program } = await this.ask({ command: "render", form, files, job, options });
+    if (refused) {
+      const error = new PostformError(program.verdict, program.findings);
+      throw Object.assign(error, { program: program.program, verdict: program.verdict });
+    }
+    return program;
+  }
+
+  /** The verdict about a program; it may be `different`. */
+  async verify(form: Text, job: Text, program: string, options: Pick<Options, "assumeUnits"> = {}): Promise<string> {
+    return (await this.ask({ command: "verify", form, job, program, options })).verdict;
+  }
+}

@@ -1,0 +1,47 @@
+// Run after the build: `npm test`. POSTFORM_ROOT is the repository.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { test } from "node:test";
+import { PostformError, load } from "postform";
+
+const root = process.env.POSTFORM_ROOT ?? new URL("../../..", import.meta.url).pathname;
+const file = async (name) => ({ name: name.split("/").at(-1), text: await readFile(`${root}/${name}`, "utf8") });
+const postform = await load();
+const form = await file("postforms/haas.pf");
+const job = await file("samples/bracket/job.json");
+
+test("a program is printed and verified", async () => {
+  const program = await postform.render(form, job);
+  assert.equal(program.program, (await file("samples/bracket/expected.haas.nc")).text);
+  assert.match(program.verdict, /^equivalent/);
+  assert.match(await postform.verify(form, job, program.program), /^equivalent/);
+});
+
+test("a wrong program is different, and a form that prints one is refused", async () => {
+  const { program } = await postform.render(form, job);
+  assert.match(await postform.verify(form, job, program.replace("G0 Z1.", "G0 Z-1.")), /^different/);
+  const wrong = { name: "wrong.pf", text: form.text.replaceAll("G43 H[lcomp]", "H[lcomp]") };
+  await assert.rejects(postform.render(wrong, job), (error) => {
+    assert.ok(error instanceof PostformError);
+    assert.match(error.program, /^%/);
+    assert.ok(error.findings.some((finding) => finding.code === "PV014"), JSON.stringify(error.findings));
+    return true;
+  });
+});
+
+test("findings have their positions", async () => {
+  const findings = await postform.lint({ name: "a.pf", text: form.text.replace("M30", "Q[nothing]") });
+  const finding = findings.find((finding) => finding.code === "PF202");
+  assert.equal(finding.file, "a.pf");
+  assert.equal(finding.severity, "error");
+  assert.ok(finding.line > 100);
+});
+
+test("a broken job is an error with its line", async () => {
+  await assert.rejects(postform.render(form, { name: "job.json", text: '{"postform": 1,' }), (error) => {
+    assert.equal(error.findings.at(-1).code, "PJ007");
+    return true;
+  });
+  await assert.rejects(postform.render(form, job, { units: "cm" }), PostformError);
+});

@@ -1,0 +1,143 @@
+"""The installed package: run it outside of this folder, with POSTFORM_ROOT as the repository."""
+
+import json
+import os
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import postform
+import pytest
+
+ROOT = Path(os.environ["POSTFORM_ROOT"])
+BRACKET = ROOT / "samples/bracket/job.json"
+EXPECTED = (ROOT / "samples/bracket/expected.haas.nc").read_text()
+
+
+@pytest.fixture(scope="module")
+def post():
+    return postform.Post.from_file(ROOT / "postforms/haas.pf")
+
+
+def test_a_path_a_mapping_and_a_text_are_the_same_job(post):
+    program = post.render(BRACKET)
+    assert program.program == EXPECTED
+    assert program.verdict.split()[0] == "equivalent:"
+    assert program.file_name == "job.nc"
+    assert str(program) == EXPECTED
+    job = json.loads(BRACKET.read_text())
+    assert post.render(str(BRACKET)).program == EXPECTED
+    assert post.render(job).program == EXPECTED
+    assert post.render_text(json.dumps(job), "json").program == EXPECTED
+
+
+def items(holes):
+    yield {"start": {"postform": 1, "program": 7, "units": "mm", "tools": [{"number": 1}]}}
+    yield {"operation": {"tool": 1, "work": 54, "spindle": {"speed": 1000, "direction": "cw"}, "coolant": "flood"}}
+    yield {"cycle": {"kind": "drill", "depth": 5, "clear": 2, "return": 10, "feed": 100}}
+    for hole in range(holes):
+        yield {"point": [hole, 0, 0]}
+    yield {"cycle_end": True}
+    yield {"end": True}
+
+
+def test_items_one_after_the_other(post):
+    program = post.render(items(1000))
+    assert program.verdict == "identical"
+    assert program.program.count("\n") > 1000
+
+
+def test_an_error_of_the_iterator_is_its_own(post):
+    def broken():
+        yield from list(items(3))[:4]
+        raise KeyError("lost")
+
+    with pytest.raises(KeyError):
+        post.render(broken())
+    # one that ends too early is a job that is cut short
+    with pytest.raises(postform.Error) as error:
+        post.render(list(items(3))[:4])
+    assert error.value.findings[-1].code == "PJ007"
+
+
+def test_a_wrong_program_is_refused_with_all_that_is_known(tmp_path):
+    text = (ROOT / "postforms/haas.pf").read_text().replace("G43 H[lcomp]", "H[lcomp]")
+    form = tmp_path / "wrong.pf"
+    form.write_text(text)
+    with pytest.raises(postform.Refused) as refused:
+        postform.Post.from_file(form).render(BRACKET)
+    assert refused.value.program.startswith("%")
+    assert refused.value.verdict.startswith("different")
+    assert any(finding.code == "PV014" for finding in refused.value.findings)
+    # who wants it all the same
+    program = postform.Post.from_file(form).render(BRACKET, verify=False)
+    assert program.verdict == "not verified"
+
+
+def test_findings_of_a_form(tmp_path):
+    form = tmp_path / "a.pf"
+    form.write_text("StartCode\n%\nEnd\n1stToolChange\nT[tool]  M6\nEnd\nEndCode\nM30\nEnd\n")
+    finding = next(finding for finding in postform.lint(form) if finding.code == "PF101")
+    assert (finding.line, finding.severity, Path(finding.file)) == (5, "warning", form)
+    assert finding.help and "PF101" in str(finding)
+    with pytest.raises(postform.Error) as error:
+        postform.Post.from_file(form)
+    assert any(finding.severity == "error" for finding in error.value.findings)
+
+
+@pytest.mark.parametrize(
+    ("job", "error"),
+    [
+        (3, TypeError),
+        ("nowhere.json", OSError),
+        ({"postform": 1, "operations": []}, postform.Error),
+        ({"x": float("nan")}, ValueError),
+    ],
+)
+def test_what_is_no_job(post, job, error):
+    with pytest.raises(error):
+        post.render(job)
+
+
+def test_wrong_options(post):
+    for options in [{"units": "cm"}, {"properties": {"nothing": 1}}, {"set": {"x": 1}}, {"date": "today"}]:
+        with pytest.raises(ValueError):
+            post.render(BRACKET, **options)
+    with pytest.raises(ValueError, match="haas-4axis"):
+        postform.Post.shipped("nobody")
+
+
+def test_options(post):
+    assert "header" in post.properties
+    assert post.control == "haas"
+    program = post.render(BRACKET, program=12, properties={"header": False}).program
+    assert "O00012" in program
+    assert postform.Post.shipped("haas").render(BRACKET).program == EXPECTED
+    assert post.verify(BRACKET, EXPECTED).startswith("equivalent")
+    assert post.verify(BRACKET, EXPECTED.replace("G0 Z1.", "G0 Z-1.")).startswith("different")
+
+
+def test_threads_share_a_post(post):
+    """Rendering releases the interpreter: others go on."""
+    programs = []
+    threads = [threading.Thread(target=lambda: programs.append(post.render(BRACKET).program)) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert programs == [EXPECTED] * 8
+
+
+def test_posts_and_jobs_go_to_other_processes(post):
+    """Dask and Ray send functions and paths, not posts: a post says so."""
+    import pickle
+
+    with pytest.raises(TypeError):
+        pickle.dumps(post)
+
+
+def test_the_command():
+    done = subprocess.run([sys.executable, "-m", "postform", "--version"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["postform", postform.__version__]

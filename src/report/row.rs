@@ -1,0 +1,54 @@
+//! A finding as a row: what packages for other languages show of it.
+
+use serde::Serialize;
+
+use crate::diag::Diag;
+use crate::source::Source;
+
+/// A finding with its position as values.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Its code: `PF101`.
+    pub code: &'static str,
+    /// `error`, `warning` or `note`.
+    pub severity: &'static str,
+    /// What is wrong.
+    pub message: String,
+    /// What to type instead.
+    pub help: Option<String>,
+    /// The form, job or program.
+    pub file: Option<String>,
+    /// The line, from 1.
+    pub line: Option<u64>,
+    /// The column in bytes, from 1.
+    pub column: Option<u32>,
+    /// The position in a job: `operations[0].path[3]`.
+    pub path: Option<String>,
+    /// The line of the program, from 1.
+    pub program_line: Option<u64>,
+    /// All of it in a line.
+    pub text: String,
+}
+
+/// The row of a finding; `files` are those of its form.
+pub fn row(diag: &Diag, files: &[Source]) -> Row {
+    let place = diag.place.clone().unwrap_or_default();
+    let in_form = diag.labels.first().and_then(|label| {
+        let source = files.get(label.span.file as usize)?;
+        let (line, column) = source.line_column(label.span.start);
+        Some((Some(source.name.clone()), Some(line as u64), Some(column)))
+    });
+    let (file, line, column) = in_form.unwrap_or((place.file, place.line, place.column));
+    Row {
+        code: diag.code.name(),
+        severity: diag.severity.name(),
+        message: diag.message.clone(),
+        help: diag.help.clone(),
+        file,
+        line,
+        column,
+        path: place.step,
+        program_line: place.program_line,
+        text: diag.line(files),
+    }
+}

@@ -14,7 +14,10 @@ import { Program } from "./program.ts";
 import { type Head, Scene, type Verdict } from "./scene.ts";
 import { StateStrip } from "./state.ts";
 
-const PROVING: Verdict = { kind: "none", text: "proving…", line: 0, help: "", allowed: [], findings: [] };
+/** In place of a verdict. */
+const without = (text: string): Verdict => ({ kind: "none", text, line: 0, help: "", allowed: [], findings: [] });
+const PROVING = without("proving…");
+const CHECKING = without("checking…");
 
 type From = "form" | "program" | "path" | "key" | "finding";
 
@@ -45,6 +48,8 @@ export class Page {
   private typed: Record<string, string> = {};
   /** Files that are other on the disk than what was typed began with, and nobody said yet which is to stay. */
   private readonly conflicts = new Set<string>();
+  /** What is shown in place of a verdict while there is none of the very text that is shown: it is being checked, or could not be. */
+  private unchecked: Verdict | null = null;
   private running = false;
   private again: { key: number } | null = null;
   private playing = 0;
@@ -91,8 +96,10 @@ export class Page {
       };
     }
     this.host?.onChange?.((connected) => {
-      this.say(connected ? "" : "postform has ended: this page shows what it showed last");
-      if (connected) void this.load();
+      if (connected) {
+        this.say("");
+        void this.load();
+      } else this.failed("postform has ended, or can't be reached");
     });
     window.addEventListener("beforeunload", (event) => {
       if (this.host?.save && Object.keys(this.typed).length) event.preventDefault();
@@ -112,6 +119,7 @@ export class Page {
   /** Asks for the scene anew; while one is on its way, once more behind it. */
   async load(key = 0): Promise<void> {
     if (!this.host) return;
+    this.pend(CHECKING);
     if (this.running) {
       this.again = { key };
       return;
@@ -121,6 +129,8 @@ export class Page {
       let shown: Head | null = null;
       for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed, shown: this.program && this.shown?.program })) {
         const scene = new Scene(bytes);
+        // a verdict of what was there before the last key is none of what is there now
+        if (!this.again) this.unchecked = null;
         if (!shown) this.show(scene);
         else this.tellMore(scene.head);
         shown ??= scene.head;
@@ -129,13 +139,37 @@ export class Page {
         if (this.again) break;
       }
     } catch (error) {
-      this.say(`The page can't be drawn anew: ${error instanceof Error ? error.message : error}`);
+      this.failed(error instanceof Error ? error.message : String(error));
     }
     this.running = false;
     const again = this.again;
     this.again = null;
     if (again) void this.load(again.key);
   }
+
+  /** No verdict holds any more: not of this job, nor of the others where the form was changed. */
+  private pend(text: Verdict): void {
+    this.unchecked = text;
+    document.body.classList.add("pending");
+    this.sayVerdict(text);
+    this.fit.hidden = true;
+    if (!Object.keys(this.typed).length) return;
+    for (let job = 0; job < this.tabs.childElementCount; job++) {
+      if (job !== this.job) this.tabVerdict(job, without("checked when the form is saved"));
+    }
+  }
+
+  /** The text can't be checked: why, and a way out. */
+  private failed(why: string): void {
+    this.pend(without("not checked"));
+    const again: [string, () => void] = ["try again", () => void this.load()];
+    const typed = Object.values(this.typed);
+    const copy: [string, () => void] = ["copy what was typed", () => void navigator.clipboard.writeText(typed.join("\n"))];
+    this.say(`Not checked: ${why}.${typed.length ? " What was typed is kept here." : ""}`, again, ...(typed.length ? [copy] : []));
+    this.sayingFailed = true;
+  }
+
+  private sayingFailed = false;
 
   /** What is said of what is shown, and took longer than its picture: the verdict, and what changed. */
   private tellMore(head: Partial<Head>): void {
@@ -231,7 +265,8 @@ export class Page {
     this.title.textContent = form ? base(form) : base(head.job.name);
     if (head.form) {
       const { errors, warnings, notes } = head.form;
-      this.lint.textContent = `lint ${errors} · ${warnings} · ${notes}`;
+      const count = (number: number, what: string) => `${number} ${what}${number === 1 ? "" : "s"}`;
+      this.lint.textContent = `${count(errors, "error")}, ${count(warnings, "warning")}`;
       this.lint.setAttribute("aria-label", `${errors} errors, ${warnings} warnings, ${notes} notes of the form: show the next`);
       this.lint.className = errors ? "lint bad" : warnings ? "lint warn" : "lint";
     } else this.lint.hidden = true;
@@ -284,8 +319,14 @@ export class Page {
   private mark(): void {
     const head = this.head!;
     const waits = !!this.host && !!head.picture && !head.stopped && !head.verdict;
-    this.sayVerdict(waits ? PROVING : head.verdict, head.stopped);
-    this.fit.hidden = !head.fit || !!head.stopped;
+    document.body.classList.toggle("pending", !!this.unchecked);
+    if (this.unchecked) this.sayVerdict(this.unchecked);
+    else this.sayVerdict(waits ? PROVING : head.verdict, head.stopped);
+    if (!this.unchecked && this.sayingFailed) {
+      this.sayingFailed = false;
+      this.say("");
+    }
+    this.fit.hidden = !head.fit || !!head.stopped || !!this.unchecked;
     this.fit.className = `fit ${head.fit?.kind ?? "dim"}`;
     this.fit.textContent = head.fit?.text ?? "";
     this.fit.title = head.fit?.more.join("\n") ?? "";
@@ -401,7 +442,7 @@ export class Page {
     const verdict = this.head?.verdict;
     const bad = [...this.marks.bad.keys()].sort((a, b) => a - b);
     if (bad.length) return this.choose(bad.find((line) => line > this.line) ?? bad[0], "finding");
-    if (!verdict || this.head?.stopped) return;
+    if (!verdict || this.head?.stopped || this.unchecked) return;
     if (verdict.line) this.choose(verdict.line, "finding");
     this.listing.note.replaceChildren(...verdictNote(verdict));
   }
@@ -436,6 +477,7 @@ export class Page {
     else this.typed[name] = text;
     this.saving.hidden = !this.host?.save || !Object.keys(this.typed).length;
     void this.load(key);
+    if (!Object.keys(this.typed).length) void this.otherVerdicts();
   }
 
   async save(): Promise<void> {

@@ -102,7 +102,7 @@ export async function run() {
             rmSync(path, { recursive: true });
             if (wrong.length) throw new Error(wrong.join("\n"));
           });
-          return { page, path, address: served.address };
+          return { page, path, address: served.address, end: served.end };
         },
         browser: found,
       });

@@ -1,5 +1,5 @@
 // The page of `postform watch` in a real browser: what is typed, clicked and pressed, and what is then shown.
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, unlinkSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { equal, ok, ready, root, run, test, watch } from "./harness.mjs";
 
@@ -40,7 +40,7 @@ test("a wrong word is underlined and said", async ({ open }) => {
   const told = page.locator(".cm-tooltip-lint");
   await told.waitFor();
   ok(/M6.* is lost/.test(await told.innerText()), "said in words");
-  ok((await page.locator(".lint").innerText()) !== "lint 0 · 0 · 0", "and counted");
+  ok((await page.locator(".lint").innerText()) !== "0 errors, 0 warnings", "and counted");
   equal(readFileSync(join(path, "my.pf"), "utf8"), before, "nothing is written");
   const verdict = await page.locator(".verdict").innerText();
   ok(/different|lost/.test(verdict), `a tool change without M6 is not proven: ${verdict}`);
@@ -199,6 +199,63 @@ test("what changed since the last save is marked, and saved", async ({ open }) =
   const form = readFileSync(join(path, "my.pf"), "utf8");
   writeFileSync(join(path, "my.pf"), form.replace("G80 G90 G94", "G80 G90"));
   await page.waitForFunction(() => !window.page.editor.text.includes("G94"), null, { timeout: 20_000 });
+});
+
+test("until the very text is checked nothing is called proven", async ({ open }) => {
+  const { page } = await open({ more: ["--job", "bracket.json"] });
+  const tabs = page.locator(".tabs .tab span");
+  await page.waitForFunction(() => document.querySelectorAll(".tabs .tab span.ok").length === 2);
+  let answer = () => {};
+  await page.route("**/scene", async (route) => {
+    await new Promise((done) => (answer = done));
+    await route.continue();
+  });
+  await type(page, "Machine Mill", " # a").catch(() => {});
+  const shown = () => page.evaluate(() => {
+    const verdict = document.querySelector(".verdict");
+    return [verdict.textContent, verdict.classList.contains("ok"), document.body.classList.contains("pending")].join();
+  });
+  equal(await shown(), "checking…,false,true", "while it is checked");
+  equal(await tabs.evaluateAll((all) => all.filter((mark) => mark.classList.contains("ok")).length), 0, "and in the tabs");
+  // a key more: the answer that comes is about the text before it
+  await page.evaluate(() => {
+    const { view } = window.page.editor;
+    const at = view.state.doc.toString().indexOf("# a") + 3;
+    view.dispatch({ changes: { from: at, insert: "b" } });
+  });
+  const first = answer;
+  first();
+  await page.waitForTimeout(500);
+  equal(await shown(), "checking…,false,true", "the answer about the text before");
+  await page.unroute("**/scene");
+  answer();
+  await page.waitForFunction(() => document.querySelector(".verdict").textContent.startsWith("proven"));
+  equal(await page.evaluate(() => document.body.classList.contains("pending")), false, "checked");
+});
+
+test("a server that is gone leaves no verdict, and keeps what was typed", async ({ open }) => {
+  const { page, end } = await open();
+  await type(page, "Machine Mill", " # mine");
+  end();
+  await page.waitForFunction(() => document.querySelector(".verdict").textContent === "not checked", null, { timeout: 20_000 });
+  equal(await page.locator(".verdict.ok").count(), 0, "nothing is green");
+  const banner = page.locator(".banner");
+  ok((await banner.innerText()).startsWith("Not checked: "), await banner.innerText());
+  for (const name of ["try again", "copy what was typed"]) ok(await banner.getByRole("button", { name }).isVisible(), name);
+  await page.evaluate(() => {
+    const { view } = window.page.editor;
+    view.dispatch({ changes: { from: 0, insert: "# more\n" } });
+  });
+  await page.waitForTimeout(300);
+  equal(await page.locator(".verdict").innerText(), "not checked", "a key later, too");
+  ok((await page.evaluate(() => window.page.editor.text)).startsWith("# more\n"), "and what is typed stays");
+});
+
+test("a form that is deleted on the disk leaves no verdict", async ({ open }) => {
+  const { page, path } = await open();
+  unlinkSync(join(path, "my.pf"));
+  await page.waitForFunction(() => !document.querySelector(".verdict").classList.contains("ok"), null, { timeout: 20_000 });
+  ok((await page.evaluate(() => window.page.editor.text)).includes("1stToolChange"), "what was there stays");
 });
 
 test("what was typed stays where the form gets another file", async ({ open }) => {

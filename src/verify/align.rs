@@ -36,7 +36,7 @@ pub(super) fn partner(s: &mut Sides<'_>, cut: &Cut) -> Done<Option<Cut>> {
     Ok(None)
 }
 
-/// The program's next cut behind the job's last one: cuts too short to count are dealt with.
+/// The program's next cut after the job's last one: cuts too short to count are dealt with.
 pub(super) fn after_the_last(s: &mut Sides<'_>) -> Done<Option<Cut>> {
     while let Some(found) = s.next()? {
         if is_nothing(s, &found) {

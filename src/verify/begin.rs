@@ -10,7 +10,7 @@ use crate::diag::Code;
 enum Begins {
     /// Where the job's does.
     There,
-    /// Behind the end of the job's, to which the program goes at rapid.
+    /// After the end of the job's, to which the program goes at rapid.
     Behind,
     /// Before it: the program feeds where the job has a rapid.
     Before,

@@ -1,4 +1,4 @@
-//! The usual cut: a straight one behind another, alike in job and program. It is compared where it stands, because most cuts
+//! The usual cut: a straight one after another, alike in job and program. It is compared where it stands, because most cuts
 //! of long jobs are such; each other cut goes the long way, which finds the same of this one.
 
 use super::cut::{ALL, Cut, What, same, turn_as_far};

@@ -179,7 +179,7 @@ fn check(s: &mut Sides<'_>, hole: &Expected, [wanted, made]: [&Strokes; 2], line
 fn stays_in(s: &Sides<'_>, hole: &Expected, found: &Cut) -> bool {
     let here = |place: &_| same(&hole.at, place, ACROSS, s.limits.tolerance);
     let passage = &s.program.passage;
-    // behind a change of tool it is another hole at this place
+    // after a change of tool it is another hole at this place
     !passage.changed()
         && here(&found.from)
         && here(&found.end())

@@ -1,4 +1,4 @@
-//! Ways that lead to no cut: of a tool or a work offset that cuts nothing, and behind the last cut of the program.
+//! Ways that lead to no cut: of a tool or a work offset that cuts nothing, and after the last cut of the program.
 
 use super::cut::{ALL, Rapid, same};
 use super::passage::{Frame, Passage};

@@ -179,7 +179,7 @@ impl Passage {
         self.legs.iter().any(|leg| leg.home)
     }
 
-    /// Ways from places of the machine along one of these axes begin anew, as the job's do where it goes home. Is there such a place?
+    /// Ways from places of the machine along one of these axes begin again, as the job's do where it goes home. Is there such a place?
     pub fn splits_at_home(&mut self, axes: u8) -> bool {
         let is_home = |rapid: &Rapid| rapid.unknown & axes != 0;
         let ends: Vec<usize> = (1..=self.rapids.len())

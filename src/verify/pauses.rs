@@ -42,7 +42,7 @@ fn stops(s: &mut Sides<'_>) {
         from += at;
         let away = rapids::away(s.machine);
         if s.job.at_home(stop, away) && !s.program.passage.at_home(&made, away) {
-            told(s, stop, Code::PV019, made.line, "print the stop behind the way home", || {
+            told(s, stop, Code::PV019, made.line, "print the stop after the way home", || {
                 "the job stops with the tool at home, the program before".to_owned()
             });
         }
@@ -89,7 +89,7 @@ fn is_elsewhere<T>(s: &Sides<'_>, wanted: &Mark<T>, made: &Mark<T>) -> bool {
     matches!(stands, [Some(a), Some(b)] if !same(&a.to, &b.to, ALL, s.limits.tolerance))
 }
 
-/// A machine without tool changes stops for each next tool: behind the job's stops with the one before.
+/// A machine without tool changes stops for each next tool: after the job's stops with the one before.
 fn operators_change(s: &mut Sides<'_>, others: &mut Vec<Mark<StopKind>>) {
     if !s.job.new_tool || s.tools || s.switches {
         return;

@@ -144,7 +144,7 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
         }
         None => {
             let tool = if tools { text("T", frame.tool) } else { "the tool".to_owned() };
-            let way = if line == 0 { "behind the last cut" } else { "on the way to this cut" };
+            let way = if line == 0 { "after the last cut" } else { "on the way to this cut" };
             format!("{way} {tool} moves in {}, where the job moves nothing", text("work offset ", frame.work))
         }
     });
@@ -159,7 +159,7 @@ pub(super) fn away(machine: Machine) -> u8 {
     }
 }
 
-/// Where the job goes home, so does the program, and both ways begin anew there.
+/// Where the job goes home, so does the program, and both ways begin again there.
 fn goes_home(s: &mut Sides<'_>, line: u64) {
     let away = away(s.machine);
     if s.job.was_sent_home() && !s.program.passage.splits_at_home(away) {
@@ -204,7 +204,7 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
                 });
             } else if let Some((to, limit)) = leaves_low(job, program, tolerance) {
                 s.found(Code::PV009, line, "go up first, as high as the job does", || {
-                    format!("after the last cut a rapid goes to {}, below Z{}", shown(&to, 0b111), number(limit))
+                    format!("after the last cut a rapid goes to {}, not above Z{}", shown(&to, 0b111), number(limit))
                 });
             }
         }
@@ -236,6 +236,12 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
             .filter(|(own, rapids)| same_frame(&own.frame) && !rapids.is_empty())
             .map(|(_, rapids)| rapids)
             .collect();
+        if own.is_empty() {
+            // the job moves nothing in this offset with this tool: no height there is its own
+            let known = rapids.iter().find(|rapid| rapid.unknown & 0b100 == 0);
+            low = low.or(known.map(|rapid| (rapid.to, leg.frame.work)));
+            continue;
+        }
         let all = own.concat();
         let [job, program] = &mut s.ways;
         let mut lower = None;

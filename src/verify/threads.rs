@@ -47,7 +47,7 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
     let mut as_job = true;
     while let Some(found) = s.next()? {
         let Some(depth) = thread.depth(&found, tolerance) else { break };
-        // behind the last pass one of another depth or lead, or behind a stop, is the next thread's
+        // after the last pass one of another depth or lead, or after a stop, is the next thread's
         let is_cut = count > 0 && (reached - whole).abs() <= 2.0 * tolerance;
         let lead = found.lead.unwrap_or(0.0);
         let has_lead = (lead - thread.lead).abs() <= PITCH * thread.lead;

@@ -263,10 +263,11 @@ pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -
     let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();
     let highest = heights(&job.corners).into_iter().fold(f64::NEG_INFINITY, f64::max);
     let crossing = across(&job.corners, tolerance).map(|(a, b)| a.to[DEPTH].min(b.to[DEPTH])).fold(highest, f64::min);
+    // where the job crosses nothing, the machine's own positions are gone to from above its last height
     let stays = across(&job.corners, tolerance).next().is_none() && !job.corners.is_empty();
     let low = across(&program.corners, ROUNDED_ACROSS * tolerance).find(|(a, b)| {
         let at = height(a).min(height(b));
-        at < crossing - tolerance || stays && at < crossing + tolerance
+        at < crossing - tolerance || stays && b.unknown & ACROSS != 0 && at < crossing + tolerance
     });
     if let Some((_, b)) = low {
         return Some((b.to, crossing));

@@ -66,9 +66,10 @@ fn a_visit_without_a_cut_crosses_no_lower_than_the_job() {
 }
 
 #[test]
-fn nothing_crosses_low_after_the_last_cut_where_the_job_crosses_nothing() {
+fn the_machines_own_positions_are_gone_to_from_above_the_last_height() {
+    // G53 Y0 stays, at Z2
     is_wrong(END, "M9\nG0 G53 Z0 M5\n", "M9\nM5\n", "PV009");
-    is_wrong(END, "M9\nG0 G53 Z0 M5\n", "M9\nX300. Y200. M5\n", "PV009");
+    is_wrong(END, "M9\nG0 G53 Z0 M5\n", "M9\nZ1. M5\n", "PV009");
 }
 
 #[test]

@@ -57,7 +57,7 @@ impl Page<'_> {
         }
     }
 
-    /// A line with words and what stands behind them.
+    /// A line with words and what stands after them.
     fn push(&mut self, words: String, line: &Line) {
         self.lines.push(words + &self.tail(&line.tail, true));
     }
@@ -87,7 +87,7 @@ impl Page<'_> {
         }
     }
 
-    /// A command or a sequence's name line, without what stands behind it.
+    /// A command or a sequence's name line, without what stands after it.
     fn statement(&self, statement: &Statement) -> String {
         let args = statement.args.iter().map(|arg| self.source.slice(arg.span));
         match CommandId::parse(&statement.name.text) {
@@ -97,7 +97,7 @@ impl Page<'_> {
         }
     }
 
-    /// `Rapid;G0`: an argument that begins directly behind the semicolon may begin with anything, as no other can.
+    /// `Rapid;G0`: an argument that begins directly after the semicolon may begin with anything, as no other can.
     fn is_glued(&self, statement: &Statement) -> bool {
         let mut behind = self.source.text[statement.name.span.end as usize..].chars();
         behind.next() == Some(';') && behind.next().is_some_and(|c| !c.is_whitespace())
@@ -166,7 +166,7 @@ impl Page<'_> {
         }
     }
 
-    /// `@if [cool] = through`; what stands behind the name is the author's.
+    /// `@if [cool] = through`; what stands after the name is the author's.
     fn directive(&self, directive: &Directive) -> String {
         let name = match directive.kind {
             DirectiveKind::Unknown => directive.name.text.clone(),
@@ -256,7 +256,7 @@ impl Page<'_> {
 fn format_of(letter: &Spanned, spec: &Spanned) -> String {
     let digits = spec.text.trim();
     let packed = digits.len() >= 3 && digits.bytes().all(|b| b.is_ascii_digit());
-    // behind a sequence `O 578` is a late format, `O578` a word: with so many digits the blank stays as it is
+    // after a sequence `O 578` is a late format, `O578` a word: with so many digits the blank stays as it is
     let glued = if packed { !spec.text.starts_with(' ') } else { digits.starts_with(['-', '+']) };
     let blank = if glued { "" } else { " " };
     format!("{}{blank}{digits}", letter.text)

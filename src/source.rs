@@ -61,7 +61,7 @@ impl Source {
                 return None; // what follows the last line end is no line
             }
             let line = line.strip_suffix('\n').unwrap_or(line);
-            // more than one, or blanks behind it, where a file went through a transfer that added its own
+            // more than one, or blanks after it, where a file went through a transfer that added its own
             let words = line.trim_end_matches([' ', '\t', '\r']);
             Some((start, if line[words.len()..].contains('\r') { words } else { line }))
         })

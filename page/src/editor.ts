@@ -56,7 +56,7 @@ const language = StreamLanguage.define<{ open: boolean }>({
         state.open = false;
         return "keyword";
       }
-      // a sequence begins with its name alone, a setting has its value behind it
+      // a sequence begins with its name alone, a setting has its value after it
       if (!state.open && stream.match(/[A-Za-z0-9]+[ \t]*$/)) {
         state.open = true;
         return "keyword";

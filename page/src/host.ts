@@ -27,7 +27,7 @@ export interface Help {
 }
 
 export interface Host {
-  /** A scene, and behind that of a long program what took longer than its picture: the verdict, and what changed. */
+  /** A scene, and after that of a long program what took longer than its picture: the verdict, and what changed. */
   scenes(ask: Ask): AsyncIterable<ArrayBuffer>;
   /** What is known of a place in a form; null: nothing. */
   help(ask: Ask, at: At): Promise<Help | null>;
@@ -83,7 +83,7 @@ export class Server implements Host {
   }
 }
 
-/** Scenes that stand one behind the other in what is read. Whoever wants no more of them stops asking, and no more is read. */
+/** Scenes that stand one after the other in what is read. Whoever wants no more of them stops asking, and no more is read. */
 async function* split(reader: ReadableStreamDefaultReader<Uint8Array>): AsyncGenerator<ArrayBuffer> {
   let bytes = new Uint8Array();
   let filled = 0;

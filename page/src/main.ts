@@ -116,7 +116,7 @@ export class Page {
     }));
   }
 
-  /** Asks for the scene anew; while one is on its way, once more behind it. */
+  /** Asks for the scene again; while one is on its way, once more after it. */
   async load(key = 0): Promise<void> {
     if (!this.host) return;
     this.pend(CHECKING);

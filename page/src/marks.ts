@@ -23,7 +23,7 @@ export function marksOf(head: Head, old: Program | null): Marks {
     for (let line = from; line < Math.max(to, from + 1); line++) marks.saved.add(line + 1);
   }
   for (const [oldFrom, oldTo, from, to] of head.against?.hunks ?? []) {
-    // block by block; what is left over of the old program stood behind the last
+    // block by block; what is left over of the old program stood after the last
     for (let line = from; line < Math.max(to, from + 1); line++) {
       const first = oldFrom + line - from;
       const last = line + 1 >= to ? oldTo : Math.min(first + 1, oldTo);

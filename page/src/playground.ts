@@ -120,7 +120,7 @@ async function start(): Promise<void> {
     for (const file of event.dataTransfer?.files ?? []) {
       host.take({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
     }
-    // the page begins anew with the files that it has now
+    // the page begins again with the files that it has now
     document.body.replaceChildren(drop);
     page = new Page(host, new Editor(true));
     Object.assign(window, { page });

@@ -1,4 +1,4 @@
-// A program as it is shown: its lines, where each comes from, its moves, and what is modal behind it.
+// A program as it is shown: its lines, where each comes from, its moves, and what is modal after it.
 
 import { formLine, Path, Scene } from "./scene.ts";
 
@@ -31,11 +31,11 @@ export class Program {
   private readonly lineForm: Int32Array;
   private readonly lineItem: Uint32Array;
   private readonly changes: { line: Uint32Array; value: Float64Array }[];
-  /** The first move of each line, and the one behind its last; lines without a move have both the same. Of a line that is run more
+  /** The first move of each line, and the one after its last; lines without a move have both the same. Of a line that is run more
    * than once, in a subprogram or a loop, it is the first run. */
   private readonly moveFrom: Uint32Array;
   private readonly moveTo: Uint32Array;
-  /** Where the tool stands behind each line, as a place in the points. */
+  /** Where the tool stands after each line, as a place in the points. */
   private readonly stands: Uint32Array;
   private readonly decoder = new TextDecoder();
 
@@ -120,17 +120,17 @@ export class Program {
     return this.lineItem[i] === this.lineItem[j] && this.lineItem[i + 1] === this.lineItem[j + 1];
   }
 
-  /** The moves of a line: the first, and the one behind the last. */
+  /** The moves of a line: the first, and the one after the last. */
   moves(line: number): [number, number] {
     return line >= 1 && line <= this.lines ? [this.moveFrom[line], this.moveTo[line]] : [0, 0];
   }
 
-  /** Where the tool stands behind a line, as a place in the points; 0 before the first move. */
+  /** Where the tool stands after a line, as a place in the points; 0 before the first move. */
   pointAfter(line: number): number {
     return this.stands[Math.max(0, Math.min(line, this.stands.length - 1))];
   }
 
-  /** What a register holds behind a line. */
+  /** What a register holds after a line. */
   held(register: Register, line: number): Held | null {
     const changes = this.changes[REGISTERS.indexOf(register)];
     if (!changes) return null;
@@ -144,7 +144,7 @@ export class Program {
     return { value: changes.value[low - 1], line: changes.line[low - 1] };
   }
 
-  /** X Y Z behind a line, and the line that said each; null where only the machine knows. */
+  /** X Y Z after a line, and the line that said each; null where only the machine knows. */
   position(line: number): (Held | null)[] {
     const path = this.path;
     if (!path) return [null, null, null];

@@ -1,4 +1,4 @@
-// The strip under the panes: what is modal behind the chosen block, and which block said it.
+// The strip under the panes: what is modal after the chosen block, and which block said it.
 
 import { element } from "./element.ts";
 import type { Held, Program, Register } from "./program.ts";

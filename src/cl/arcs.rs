@@ -46,7 +46,7 @@ pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>
     Ok(())
 }
 
-/// What stands behind the numbers of an arc: TIMES,n and ANGLE,a.
+/// What stands after the numbers of an arc: TIMES,n and ANGLE,a.
 fn extent(words: &[Word]) -> Done<(&[Word], Option<u32>, Option<f64>)> {
     let numbers = words.iter().position(|word| word.number().is_none()).unwrap_or(words.len());
     let (words, mut rest) = words.split_at(numbers);
@@ -64,7 +64,7 @@ fn extent(words: &[Word]) -> Done<(&[Word], Option<u32>, Option<f64>)> {
     match rest {
         [] => Ok((words, times, angle)),
         [word, ..] => {
-            let message = format!("`{word}` behind the numbers of an arc");
+            let message = format!("`{word}` after the numbers of an arc");
             fault(Code::PL002, message, "write TIMES,n or ANGLE,degrees there, or nothing")
         }
     }
@@ -109,7 +109,7 @@ pub(super) fn arc_event(arc: &PendingArc, to: [f64; 3], ccw: bool, state: &mut S
             let help = "no control ends it on an arc; put a straight motion between CUTCOM/OFF and the arc where that is wrong";
             job.notes.warn(
                 Code::PL008,
-                "CUTCOM/OFF stands before an arc, and ends with the straight motion behind it",
+                "CUTCOM/OFF stands before an arc, and ends with the straight motion after it",
                 help,
             );
         }

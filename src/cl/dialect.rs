@@ -94,7 +94,7 @@ impl Dialect {
         self.row().last
     }
 
-    /// The dialect that the first lines of a file give away, with the number of the line and its mark. Text behind the
+    /// The dialect that the first lines of a file give away, with the number of the line and its mark. Text after the
     /// first motion is no mark: it is the programmer's.
     pub(super) fn of_head<'l>(lines: impl Iterator<Item = &'l [u8]>) -> Option<(Dialect, usize, &'static str)> {
         let (mut moves, mut has_mode) = (false, false);

@@ -121,7 +121,7 @@ impl<'s> Job<'s> {
         }
         if self.has_operation() {
             let help = "let the CAM system write milling and turning into files of their own";
-            return fault(Code::PL004, "a turning tool behind a milling tool", help);
+            return fault(Code::PL004, "a turning tool after a milling tool", help);
         }
         self.leave_out_rapids();
         self.machine = Machine::Lathe;

@@ -30,7 +30,7 @@ impl<R: Read> Lines<R> {
         Ok(self.buffer[self.from..self.to].split(|&byte| byte == b'\n').take(most))
     }
 
-    /// Reads on behind what is in the buffer.
+    /// Reads on after what is in the buffer.
     fn fill(&mut self) -> Result<()> {
         match self.input.read(&mut self.buffer[self.to..]) {
             Ok(0) => self.at_end = true,

@@ -71,7 +71,7 @@ fn another_tool(tool: Option<Tool>, state: &mut State<'_>) -> Done {
     Ok(())
 }
 
-/// The words behind a tool's number; those that say its length register.
+/// The words after a tool's number; those that say its length register.
 fn length_register(name: &str, words: &[Word]) -> Done<Option<f64>> {
     let mut register = None;
     let mut words = words.iter().peekable();

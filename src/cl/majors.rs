@@ -195,7 +195,7 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
     }
 }
 
-/// What belongs to its setup alone, which is not read. What goes on behind it is done.
+/// What belongs to its setup alone, which is not read. What goes on after it is done.
 fn is_aside(major: Major, state: &State<'_>) -> bool {
     match major {
         Major::Circle | Major::Movarc | Major::Indirv | Major::Tlon | Major::Cutcom | Major::Nurbs | Major::Thread => {
@@ -260,7 +260,7 @@ fn cutter(words: &[Word], job: &mut Job<'_>) -> Done {
     Ok(())
 }
 
-/// What Creo writes behind `$$->`.
+/// What Creo writes after `$$->`.
 fn data(words: &[Word], job: &mut Job<'_>) {
     match words {
         [Word::Name(word), Word::Number(diameter)] if word == "CUTTER" => job.tools.diameter = Some(*diameter),

@@ -167,7 +167,7 @@ impl Reader<'_> {
         }
         let mut list = match words(text) {
             Ok(list) => list,
-            Err(number) => return fault(Code::PL001, format!("`{number}` is no number"), "mend the number"),
+            Err(number) => return fault(Code::PL001, format!("`{number}` is no number"), "fix the number"),
         };
         // PTED numbers its records: `N27 , GOTO/..`
         let is_number = |w: &Word| w.name().and_then(|n| n.strip_prefix('N')).is_some_and(|n| n.parse::<u64>().is_ok());

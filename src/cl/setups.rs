@@ -39,7 +39,7 @@ fn one_origin(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     Ok(())
 }
 
-/// CSYS of SolidWorks CAM: three rows of a rotation, each with a distance behind it.
+/// CSYS of SolidWorks CAM: three rows of a rotation, each with a distance after it.
 pub(super) fn csys(words: &[Word], motion: &mut Motion, setups: &mut Option<Setups>, job: &mut Job<'_>) {
     if let (Some(rows), 12) = (numbers(words), words.len()) {
         let z = [rows[2], rows[6], rows[10]];

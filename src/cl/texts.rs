@@ -29,7 +29,7 @@ fn said<'t>(dialect: Dialect, word: &str, text: &'t str) -> Said<'t> {
     }
 }
 
-/// What stands behind STOP.
+/// What stands after STOP.
 fn stop(text: &str) -> Option<&str> {
     let (word, message) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
     word.eq_ignore_ascii_case("STOP").then(|| message.trim())

@@ -19,7 +19,7 @@ pub enum LetterKind {
 /// One letter of a form.
 #[derive(Clone, Copy, Debug)]
 pub struct Letter {
-    /// The format of numbers behind this letter.
+    /// The format of numbers after this letter.
     pub format: LetterFormat,
     /// The form gives that format; else it is a built-in one.
     pub has_format: bool,

@@ -182,7 +182,7 @@ fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: 
                 program.ops.push(Op::List { index });
                 program.spans.push(*span);
                 let start = program.ops.len();
-                // its place is kept for it: lists inside it come behind
+                // its place is kept for it: lists inside it come after
                 program.lists.push(List { each: *each, routine: routine(start..start, None, None, *span) });
                 let inner = lower_steps(program, lines, steps, branches);
                 let ops = start..program.ops.len();

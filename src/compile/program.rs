@@ -131,7 +131,7 @@ pub struct Literal {
     pub letter: u8,
     /// The whole word as typed.
     pub text: String,
-    /// The number behind the letter.
+    /// The number after the letter.
     pub value: f64,
     /// The code that it prints, if it is one.
     pub code: Option<Code>,

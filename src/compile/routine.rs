@@ -53,7 +53,7 @@ pub struct Flow {
 /// A part of a sequence.
 #[derive(Clone, Debug)]
 pub enum Node {
-    /// A variable gets a value, which conditions behind it ask.
+    /// A variable gets a value, which conditions after it ask.
     Set(Target, u32),
     /// The first branch whose condition holds.
     If(Vec<Branch>),
@@ -221,7 +221,7 @@ fn vars_of(op: Op, program: &Program) -> VarSet {
     }
 }
 
-/// The G or M code that an operation types; behind the slash of block delete, too.
+/// The G or M code that an operation types; after the slash of block delete, too.
 fn typed_code(op: Op, program: &Program) -> Option<Code> {
     match op {
         Op::Literal { index, .. } => {

@@ -37,7 +37,7 @@ impl Code {
         self.letter == b'G' && self.value() == number
     }
 
-    /// The number behind the letter.
+    /// The number after the letter.
     pub fn value(self) -> f64 {
         f64::from(self.tenths) / 10.0
     }

@@ -389,7 +389,7 @@ impl Control {
     }
 }
 
-/// The control that a file is like, read anew: files are short, and a chain is read once.
+/// The control that a file is like, read again: files are short, and a chain is read once.
 fn like(name: &str, depth: usize) -> Option<Result<Control, Wrong>> {
     let (name, text) = FILES.iter().find(|(known, _)| *known == name)?;
     Some(file::read(name, text, &like, depth))

@@ -156,7 +156,7 @@ codes! {
     PF605 Note "almost too many words on a line"
     PF606 Note "almost too many sequence lines"
     PF607 Warning "a code that the control does not have"
-    PF608 Note "a code that nobody described for the control"
+    PF608 Note "a code that is not described for the control"
     PF609 Warning "two M codes in a block, where the control takes one"
     // PF7: what posts say
     PF701 Error "a text of the job where none can stand"

@@ -42,7 +42,7 @@ pub struct Label {
     pub text: String,
 }
 
-/// A change of form text that would mend a finding.
+/// A change of form text that would fix a finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fix {
     /// What the change does, in the imperative.
@@ -106,7 +106,7 @@ impl Diag {
         self
     }
 
-    /// Adds an edit that mends it.
+    /// Adds an edit that fixes it.
     pub fn fix(mut self, title: impl Into<String>, safe: bool, edits: Vec<(Span, String)>) -> Self {
         self.fix = Some(Fix { title: shown(title.into()), safe, edits });
         self

@@ -23,7 +23,7 @@ pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
     while let Some(token) = parts.next() {
         if !is_seen(&token, ignore) {
             leaves_out |= !is_blank(&token);
-            // the blanks behind a number go with it
+            // the blanks after a number go with it
             while matches!(token.kind, Kind::Word(..)) && parts.next_if(|next| next.kind == Kind::Blank).is_some() {}
             continue;
         }
@@ -64,7 +64,7 @@ fn is_blank(token: &Token) -> bool {
     matches!(token.kind, Kind::Blank | Kind::LineEnd)
 }
 
-/// Part of an expression behind a letter.
+/// Part of an expression after a letter.
 fn is_value(token: &Token) -> bool {
     matches!(token.kind, Kind::Symbol(_) | Kind::Number(_) | Kind::Name | Kind::Quoted | Kind::Blank)
 }

@@ -16,7 +16,7 @@ pub(super) struct Word {
     pub span: Range<usize>,
     /// The letter of the word; 0 for what is no word.
     pub letter: u8,
-    /// The number behind the letter, where there is one.
+    /// The number after the letter, where there is one.
     pub value: Option<f64>,
     /// The word as a number, made of what is compared: two different words have one by chance once in 2^64.
     key: u64,

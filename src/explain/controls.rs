@@ -216,7 +216,7 @@ like = \"{name}\"
 # \"M88\" = {{ is = \"through\", stops_spindle = true }}
 # a code of the builder that changes nothing in the program's motions
 # \"G201\" = {{ is = \"harmless\", words = \"P\" }}
-# a code that calls a program of the builder: positions are said again behind it
+# a code that calls a program of the builder: positions are said again after it
 # \"G301\" = {{ is = \"macro\", words = \"PQ\" }}
 # the spindles of a drill bank: M201 is tool 101, and each code after it the next tool
 # \"M201-M206\" = {{ is = \"tool-number\", tool = 101 }}

@@ -220,7 +220,7 @@ pub fn upon() -> String {
 pub fn end() -> String {
     let lines = [
         ("is", "the end of a sequence, on a line of its own".to_owned()),
-        ("Cancel", "End Cancel, of a canned cycle alone, prints the sequence Cancel behind its last hole".to_owned()),
+        ("Cancel", "End Cancel, of a canned cycle alone, prints the sequence Cancel after its last hole".to_owned()),
         ("standing", standing(Standing::Doc).to_owned()),
         ("sample", "samples/cancel-with".to_owned()),
     ];

@@ -32,7 +32,7 @@ pub(super) enum Command {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Words {
     values: Vec<(u8, f64)>,
-    /// The mode of return that FreeCAD 1.2 notes behind the words.
+    /// The mode of return that FreeCAD 1.2 notes after the words.
     pub returns: Option<Return>,
 }
 

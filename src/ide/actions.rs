@@ -138,7 +138,7 @@ impl Document {
     }
 
     /// Letter formats put in the order of their letters, where they are in another one. Formats that stand together stay together,
-    /// each with the comment behind it.
+    /// each with the comment after it.
     pub fn organised_formats(&self, file: u32) -> Option<Action> {
         let mut edits = Vec::new();
         let mut group: Vec<(&Line, u8)> = Vec::new();
@@ -164,7 +164,7 @@ impl Document {
         let rank = |letter: u8| ORDER.iter().position(|own| *own == letter).unwrap_or(ORDER.len());
         let mut sorted = formats.clone();
         sorted.sort_by_key(|(_, letter)| rank(*letter));
-        // what is lost behind two blanks must stay where somebody sees it
+        // what is lost after two blanks must stay where somebody sees it
         let lost = formats.iter().any(|(line, _)| matches!(line.tail, Tail::Lost(_)));
         if lost || sorted.iter().map(|(line, _)| line.span).eq(formats.iter().map(|(line, _)| line.span)) {
             return;

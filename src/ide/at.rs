@@ -31,7 +31,7 @@ pub enum What {
     Upon,
     /// `End`.
     End,
-    /// `Cancel` behind `End`.
+    /// `Cancel` after `End`.
     Cancel,
     /// `None` as the body of a sequence.
     Nothing,

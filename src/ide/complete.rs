@@ -191,7 +191,7 @@ impl Document {
         }
         let is_cycle = name.and_then(SequenceId::parse).is_some_and(|id| id.row().is_cycle && id != SequenceId::Cancel);
         if let Some(rest) = first.get(..4).filter(|head| head.eq_ignore_ascii_case("End ")).map(|_| &first[4..]) {
-            let cancel = keyword("Cancel", "print Cancel behind the last hole");
+            let cancel = keyword("Cancel", "print Cancel after the last hole");
             return if is_cycle && !rest.contains(' ') { vec![cancel] } else { Vec::new() };
         }
         let mut list = Vec::new();

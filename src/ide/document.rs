@@ -75,7 +75,7 @@ impl Document {
         self.checked.trees.get(file as usize).map_or(&[], |tree| &tree.items)
     }
 
-    /// The sequence that a place lies in, its name line and its end included. One without an end takes the lines behind it.
+    /// The sequence that a place lies in, its name line and its end included. One without an end takes the lines after it.
     pub(super) fn sequence_at(&self, file: u32, offset: u32) -> Option<&SequenceNode> {
         let nodes = self.checked.trees.get(file as usize)?.sequences();
         let above = nodes.take_while(|node| node.span().start <= offset).last();

@@ -5,7 +5,7 @@ use crate::number::{LetterFormat, quantise, write_number};
 /// Values that show what a format does: a fraction, a negative one below one, a whole number, digits to be rounded, zero.
 const VALUES: [f64; 6] = [12.5, -0.25, 3.0, 1.23456, 0.0, 0.5];
 
-/// Three values with what each is printed as behind its letter.
+/// Three values with what each is printed as after its letter.
 pub fn examples(letter: u8, format: &LetterFormat, leading_zero: bool) -> Vec<(f64, String)> {
     let written = |value: f64| {
         let mut text = vec![letter];

@@ -4,7 +4,7 @@ use super::{Current, Document};
 use crate::sema::WordKind;
 use crate::span::Span;
 
-/// A hint behind a word.
+/// A hint after a word.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hint {
     /// The word.

@@ -122,7 +122,7 @@ pub fn hover(source: &Source, offset: u32, control: &Control) -> Option<Hover> {
     Some(Hover { span, text: about_code(code, control) })
 }
 
-/// The codes of the control, behind G and M.
+/// The codes of the control, after G and M.
 pub fn complete(source: &Source, offset: u32, control: &Control) -> Vec<Completion> {
     let Some(&start) = source.line_starts().get(source.line(offset)) else { return Vec::new() };
     let before = source.text.get(start as usize..offset as usize).unwrap_or("");

@@ -36,7 +36,7 @@ pub enum Kind {
     Note,
     /// A comment of the form.
     Comment,
-    /// Text behind two blanks, which is not printed.
+    /// Text after two blanks, which is not printed.
     Lost,
 }
 

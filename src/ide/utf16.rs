@@ -24,7 +24,7 @@ pub fn place(source: &Source, at: u32) -> Place {
     Place { line: line as u32, character: units as u32 }
 }
 
-/// The byte of a place. What lies behind the end of its line is the end of the line, what lies behind the text its end.
+/// The byte of a place. What lies after the end of its line is the end of the line, what lies after the text its end.
 pub fn offset(source: &Source, place: Place) -> u32 {
     let starts = source.line_starts();
     let Some(&start) = starts.get(place.line as usize) else { return source.text.len() as u32 };

@@ -155,7 +155,7 @@ impl<'a> Job<'a> {
         Job::new(format, Input::Stream(Some(Box::new(input))))
     }
 
-    /// A job of another format: `make` pushes its events, anew each time that it is called. Tool changes need no first move:
+    /// A job of another format: `make` pushes its events, again each time that it is called. Tool changes need no first move:
     /// it is filled in from the events that follow.
     ///
     /// [`Sink::push`] pushes an event; what it answers is passed on with `?`. The last event is [`Event::Finish`].
@@ -438,7 +438,7 @@ impl Sink for FirstUnits {
     }
 }
 
-/// Fills in the first move of a tool change from the events behind it.
+/// Fills in the first move of a tool change from the events after it.
 struct Ahead<'s>(Hold<'s>);
 
 impl Sink for Ahead<'_> {

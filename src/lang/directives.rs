@@ -7,7 +7,7 @@ use super::suggest::nearest;
 pub struct DirectiveRow {
     /// As written, `@if`.
     pub name: &'static str,
-    /// What stands behind it.
+    /// What stands after it.
     pub takes: &'static str,
     /// What it does.
     pub meaning: &'static str,
@@ -18,19 +18,19 @@ pub const DIRECTIVES: &[DirectiveRow] = &[
     DirectiveRow {
         name: "@if",
         takes: "a condition, as `[cool] = mist and [speed] > 0`",
-        meaning: "the lines behind it, up to @elif, @else or @end, print where the condition holds",
+        meaning: "the lines after it, up to @elif, @else or @end, print where the condition holds",
     },
     DirectiveRow {
         name: "@elif",
         takes: "a condition",
-        meaning: "else the lines behind it print, where this condition holds",
+        meaning: "else the lines after it print, where this condition holds",
     },
-    DirectiveRow { name: "@else", takes: "nothing", meaning: "else the lines behind it print" },
+    DirectiveRow { name: "@else", takes: "nothing", meaning: "else the lines after it print" },
     DirectiveRow { name: "@end", takes: "nothing", meaning: "ends @if or @for" },
     DirectiveRow {
         name: "@for",
         takes: "`tool`, `operation` or `work`",
-        meaning: "the lines behind it, up to @end, print once for each of the job",
+        meaning: "the lines after it, up to @end, print once for each of the job",
     },
     DirectiveRow {
         name: "@set",
@@ -80,7 +80,7 @@ impl Each {
         Each::ALL.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, each)| *each)
     }
 
-    /// As written behind `@for`.
+    /// As written after `@for`.
     pub fn name(self) -> &'static str {
         Each::ALL[self as usize].0
     }

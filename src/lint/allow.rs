@@ -62,7 +62,7 @@ fn by_code(allows: &[Allow]) -> BTreeMap<Code, Vec<&Allow>> {
 fn unused(allow: &Allow) -> Diag {
     // the form does not print while an error is found
     let help = match allow.code.row().severity {
-        Severity::Error => "an error can't be allowed: mend it",
+        Severity::Error => "an error can't be allowed: fix it",
         _ => "take it out, so that it does not hide the next one",
     };
     Diag::new(Code::PF108, format!("nothing here is allowed by `{}`", allow.code.name()))
@@ -163,7 +163,7 @@ fn read(source: &Source, comment: Span, ranges: Ranges, allows: &mut Vec<Allow>,
         }
         Some(((verb, _), rest)) if is_verb(verb) && !rest.is_empty() => {
             let range = ranges.whole.filter(|_| whole_file).unwrap_or(ranges.here);
-            // behind the codes a reason may stand
+            // after the codes a reason may stand
             let is_code = |word: &str| word.get(..2).is_some_and(|head| head.eq_ignore_ascii_case("PF"));
             let told = rest.iter().position(|(word, _)| !is_code(word)).unwrap_or(rest.len()).max(1);
             for (word, span) in &rest[..told] {

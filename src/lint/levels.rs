@@ -38,7 +38,7 @@ impl Levels {
         let is_code = |row: &&crate::diag::CodeRow| row.name.starts_with("PF") && upper.len() > 2;
         if let Some(row) = CODES.iter().filter(is_code).find(|row| row.name == upper) {
             if row.severity == Severity::Error {
-                return Err("is an error of the form: it can't be printed until that is mended");
+                return Err("is an error of the form: it can't be printed until that is fixed");
             }
             self.0.push((row.code, level));
             return Ok(());

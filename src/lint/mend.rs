@@ -13,13 +13,13 @@ pub type Changed = HashMap<String, String>;
 /// A form after its fixes.
 #[derive(Debug)]
 pub struct Mended {
-    /// The mended form.
+    /// The fixed form.
     pub checked: Checked,
-    /// What is found in the mended form.
+    /// What is found in the fixed form.
     pub findings: Found,
     /// The files that fixes changed.
     pub changed: Changed,
-    /// Findings that were mended. One that came up on the way has no place: nobody has seen that text.
+    /// Findings that were fixed. One that came up on the way has no place: nobody has seen that text.
     pub made: Vec<Diag>,
 }
 

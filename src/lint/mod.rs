@@ -92,7 +92,7 @@ fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     diags.retain(|diag| !(may_follow(diag) && place(diag).is_some_and(|at| unclear.holds(at))));
 }
 
-/// Is this an error of the form itself, whatever a rule's findings count as? Nothing is printed until it is mended.
+/// Is this an error of the form itself, whatever a rule's findings count as? Nothing is printed until it is fixed.
 fn stops_printing(diag: &Diag) -> bool {
     diag.is_error() && diag.code.row().severity == Severity::Error
 }

@@ -5,7 +5,7 @@ use crate::control::{Code, Control, Meaning, WorkOffset};
 /// The names of the usual offsets, in their order.
 const USUAL: [&str; 9] = ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"];
 
-/// Those of them that have a part behind the point, as G59.1, in tenths.
+/// Those of them that have a part after the point, as G59.1, in tenths.
 const USUAL_PARTS: [u16; 4] = [541, 591, 592, 593];
 
 /// How many additional offsets there may be.

@@ -63,7 +63,7 @@ pub(super) fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
     number(mantissa, count, decimals, point, &text[..at]).map(|number| (number, start + at))
 }
 
-/// How many digits stand at the beginning of a text, and the number that they make behind those read before.
+/// How many digits stand at the beginning of a text, and the number that they make after those read before.
 #[inline(always)]
 fn digits(text: &[u8], before: u64) -> (u64, usize) {
     let (mut mantissa, mut count) = (before, 0);

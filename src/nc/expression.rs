@@ -21,7 +21,7 @@ const OPERATORS: [&[&str]; 5] =
     [&["AND", "OR", "XOR"], &["EQ", "NE", "GT", "GE", "LT", "LE"], &["+", "-"], &["*", "/", "MOD"], &["**"]];
 
 impl<'a> Reader<'a> {
-    /// Reads on behind the tokens that were taken.
+    /// Reads on after the tokens that were taken.
     pub fn new(line: &'a [u8], tokens: Tokens<'a>) -> Reader<'a> {
         let mut reader = Reader { line, tokens, ahead: None, depth: 0 };
         reader.ahead = reader.pull();
@@ -111,7 +111,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What stands behind `#`.
+    /// What stands after `#`.
     ///
     /// # Errors
     /// It is no parameter.

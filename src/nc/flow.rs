@@ -62,7 +62,7 @@ fn named(word: &[u8]) -> Option<Step> {
 }
 
 impl Flow {
-    /// Reads what stands behind the O word.
+    /// Reads what stands after the O word.
     ///
     /// # Errors
     /// An unknown word, a condition that can't be read.
@@ -73,7 +73,7 @@ impl Flow {
             step = named(reader.text(token)).ok_or_else(|| {
                 let word = String::from_utf8_lossy(reader.text(token)).into_owned();
                 let help = "known are sub, call, if, while, do, repeat and what ends them";
-                Fault::at(Code::PN015, token.start, format!("`{word}` behind an O word"), help)
+                Fault::at(Code::PN015, token.start, format!("`{word}` after an O word"), help)
             })?;
             let truth = |reader: &mut Reader<'_>| -> Done<bool> { Ok(reader.bracketed(parameters)? != 0.0) };
             match &mut step {
@@ -94,7 +94,7 @@ impl Flow {
         while let Some(token) = reader.next() {
             if !matches!(token.kind, Kind::LineEnd | Kind::Comment | Kind::Remark) {
                 let help = "write it as a block of its own";
-                return Err(Fault::at(Code::PN015, token.start, "words behind an O word", help));
+                return Err(Fault::at(Code::PN015, token.start, "words after an O word", help));
             }
         }
         Ok(Flow { label, step })

@@ -279,7 +279,7 @@ impl Simulator<'_> {
         })
     }
 
-    /// A subprogram of M98, which may stand behind the main program.
+    /// A subprogram of M98, which may stand after the main program.
     pub(super) fn find(&mut self, label: String, times: u32) -> Result<(), RunError> {
         let back = self.at;
         if !self.labels.contains_key(&label) && !self.searched {
@@ -297,7 +297,7 @@ impl Simulator<'_> {
             self.line = text;
         }
         let Some(&start) = self.labels.get(&label) else {
-            let help = "subprograms in other files are not simulated: add it behind M30";
+            let help = "subprograms in other files are not simulated: add it after M30";
             return Err(self.refused(Fault::new(Code::PN016, format!("there is no subprogram O{label}"), help)));
         };
         if let Err(fault) = self.push(Frame::Call { label, back, start, times, arguments: false }) {

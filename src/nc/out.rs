@@ -36,7 +36,7 @@ pub struct Out<'a> {
 }
 
 impl<'a> Out<'a> {
-    /// Actions of a line, put behind those that are there.
+    /// Actions of a line, put after those that are there.
     pub fn new(items: &'a mut Vec<Item>, line: u64) -> Out<'a> {
         Out { start: items.len(), items, line, by_cycle: false }
     }

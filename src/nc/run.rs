@@ -241,7 +241,7 @@ impl State {
             self.leave_cycle(row, out);
         }
         if block.axes_are_taken() {
-            // G0 G28 X0: the word is of G28, and G0 is for the blocks behind it
+            // G0 G28 X0: the word is of G28, and G0 is for the blocks after it
             let help = "write the cycle in a block of its own";
             return if begins_cycle(block) {
                 refuse(Code::PN004, "two codes that both use the axis words", help)

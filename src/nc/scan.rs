@@ -43,7 +43,7 @@ pub enum Kind {
     Remark,
     /// `/` before a block, with a digit where it has one.
     Delete,
-    /// `%` and what stands behind it.
+    /// `%` and what stands after it.
     Percent,
     /// A byte that belongs to nothing.
     Unread,
@@ -56,7 +56,7 @@ pub struct Tokens<'a> {
     at: usize,
     /// Open square brackets.
     depth: u32,
-    /// A value is due: behind `#`, `=` and operators.
+    /// A value is due: after `#`, `=` and operators.
     value: bool,
     /// Only blanks and a block delete were read so far.
     fresh: bool,
@@ -188,7 +188,7 @@ impl Tokens<'_> {
         self.at = skip_blanks(self.line, self.at);
     }
 
-    /// Bytes behind the next one that are still on this line.
+    /// Bytes after the next one that are still on this line.
     fn to_line_end(&self) -> usize {
         let rest = &self.line[self.at + 1..];
         rest.iter().position(|&b| b == b'\r' || b == b'\n').unwrap_or(rest.len())

@@ -66,12 +66,12 @@ pub struct Simulator<'a> {
     pub(super) parameters: Parameters,
     pub(super) block: Block,
     pub(super) line: Vec<u8>,
-    /// The place behind the line.
+    /// The place after the line.
     pub(super) at: Spot,
     /// The line that was run last.
     ran: u64,
     pub(super) frames: Vec<Frame>,
-    /// Subprograms by their O number or name, with the byte behind their first line.
+    /// Subprograms by their O number or name, with the byte after their first line.
     pub(super) labels: HashMap<String, Spot>,
     /// All labels of the rest are known.
     pub(super) searched: bool,
@@ -317,7 +317,7 @@ impl<'a> Simulator<'a> {
     #[expect(clippy::boxed_local, reason = "faults come in boxes")]
     pub(super) fn refused(&mut self, fault: Box<Fault>) -> RunError {
         self.over = true;
-        // a loop is refused at its beginning, which is behind the line before
+        // a loop is refused at its beginning, which is after the line before
         let line = self.at.line.max(u64::from(self.blocks > 0));
         RunError::Refused(Box::new(fault.diag(line, self.text())), line)
     }

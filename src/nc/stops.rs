@@ -26,7 +26,7 @@ impl State {
                 }
                 Meaning::Call => next = self.call(code, block)?,
                 Meaning::Return if block.has(bit(b'P')) => {
-                    let help = "return to the block behind the call";
+                    let help = "return to the block after the call";
                     return refuse(Code::PN016, "M99 P, a jump, is not simulated", help);
                 }
                 Meaning::Return => next = Next::Return,

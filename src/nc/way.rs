@@ -19,7 +19,7 @@ pub(super) enum Frame {
     While { label: String, start: Spot },
     /// A `do`, with the place of its line.
     Do { label: String, start: Spot },
-    /// A `repeat`, from the line behind it.
+    /// A `repeat`, from the line after it.
     Repeat { label: String, start: Spot, left: u32 },
     /// The profile of a cycle: where its block ends, where the profile ends, and from where the cycle began.
     Profile { back: Spot, end: Spot, start: Position },

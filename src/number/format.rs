@@ -116,7 +116,7 @@ fn digits(rest: &mut &[u8]) -> Result<Option<Digits>, BadFormat> {
             Ok(Some(Digits { count: b - b'0', fixed }))
         }
         _ if fixed => Ok(None),
-        _ => Err("has `>` without a digit behind it"),
+        _ => Err("has `>` without a digit after it"),
     }
 }
 

@@ -7,7 +7,7 @@ use crate::job::Job;
 use crate::render::file_name_of;
 use crate::toolpath::{Event, Flow, Place, Sink, Start, Stop};
 
-/// The head of a job, behind which it is read no further.
+/// The head of a job, after which it is read no further.
 #[derive(Default)]
 struct Head(Option<Start>);
 

@@ -121,7 +121,7 @@ fn operation(row: usize, survey: &Survey, shape: &Shape, want: &mut Want) {
     want.set(VarId::Work, operation.totals.works.first().map_or(operation.work, |work| f64::from_bits(*work)));
 }
 
-/// Which of so many tools it is, and which ones stand before and behind it; behind the last the first.
+/// Which of so many tools it is, and which ones stand before and after it; after the last the first.
 fn place_in_order(at: usize, count: usize, number: impl Fn(usize) -> Option<f64>, want: &mut Want) {
     want.set(VarId::Isfirsttool, f64::from(u8::from(at == 0)));
     want.set(VarId::Islasttool, f64::from(u8::from(at + 1 == count)));

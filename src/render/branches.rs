@@ -68,7 +68,7 @@ fn choose(nodes: &[Node], set: &mut Kept, branches: &mut u128, shape: &Shape, wa
     }
 }
 
-/// What the lines of a list set counts behind it. Its own conditions are asked for each item, when it prints.
+/// What the lines of a list set counts after it. Its own conditions are asked for each item, when it prints.
 fn set_by_list(list: &List, set: &mut Kept, shape: &Shape, want: &Want, said: &Said) {
     let Some(flow) = list.routine.flow.as_ref().filter(|flow| sets(&flow.nodes, shape)) else { return };
     let Some(survey) = &shape.options.survey else { return };

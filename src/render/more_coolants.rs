@@ -17,7 +17,7 @@ pub fn end_beside(keeps: Coolant, writer: &mut Writer<'_>) -> Done {
         writer.out.end_block();
         writer.said.beside.end(kind);
         if own.is_none() {
-            // nothing is on behind it
+            // nothing is on after it
             writer.said.beside = Beside::OFF;
             writer.said.conditions.put(VarId::Cool, Some(settings.coolant[1]));
         }

@@ -12,7 +12,7 @@ pub fn no_value<T>(var: VarId) -> Done<T> {
     let help = match var {
         VarId::Nexttool => "list the tools ahead under `tool_order`, or render without `--stream`".to_owned(),
         VarId::Cuttime => {
-            "there is a cut whose time nobody knows, as at a constant surface speed; ask before it: `@if [cuttime]`"
+            "there is a cut whose time is unknown, as at a constant surface speed; ask before it: `@if [cuttime]`"
                 .to_owned()
         }
         _ if AHEAD.has(var) => "the job has no cut that tells it; ask before it, as `@if [hmin]`".to_owned(),
@@ -23,7 +23,7 @@ pub fn no_value<T>(var: VarId) -> Done<T> {
         VarId::Program => "give the job a `program`, or say it with `--program NUMBER`".to_owned(),
         VarId::H | VarId::V | VarId::D => "begin the operation with a rapid that gives all coordinates".to_owned(),
         _ if MOVED.contains(&var) => {
-            "nobody knows where the tool is: print its position in the sequence that moved it, or changed the offset"
+            "the position of the tool is unknown here: print its position in the sequence that moved it, or changed the offset"
                 .to_owned()
         }
         _ if var.row().origin == Origin::Job => {

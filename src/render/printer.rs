@@ -189,7 +189,7 @@ impl Printer {
         self.page.words.as_ref().map(|_| self.page.text.len())
     }
 
-    /// A word of the form is done: what stands behind the mark came of it.
+    /// A word of the form is done: what stands after the mark came of it.
     #[cold]
     pub fn trace_word(&mut self, from: usize, form: Span) {
         let text = String::from_utf8_lossy(self.page.text.get(from..).unwrap_or(b""));

@@ -108,7 +108,7 @@ fn takes_back(var: VarId, due: f64, shape: &Shape, said: &mut Said, out: &mut Pr
     out.note_at(Code::PR056, message, help, line);
 }
 
-/// The form's own sequence for a change that no other sequence served; what it leaves unsaid is generated behind it.
+/// The form's own sequence for a change that no other sequence served; what it leaves unsaid is generated after it.
 fn own_change(id: SequenceId, vars: &[VarId], cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     match shape.program.routine(id) {
@@ -219,7 +219,7 @@ pub fn knows_after_stop(shape: &Shape, want: &Want, said: &Said) -> Done {
         return Ok(());
     }
     let help = "give it its own `spindle` and `coolant` before the stop";
-    fault(Code::PR033, "the subprogram goes on after a stop, and nobody knows its spindle and coolant here", help)
+    fault(Code::PR033, "the subprogram goes on after a stop, and its spindle and coolant are unknown here", help)
 }
 
 /// Positions are not printed where they would be read as increments, nor the other way round, nor in other units.
@@ -228,7 +228,7 @@ pub fn check_reading(shape: &Shape, want: &Want, said: &Said) -> Done {
         let message =
             format!("the control is in {code} here, and would read every length otherwise than the program means it");
         let help =
-            "take the code out of the sequence that printed it, or print the program's own behind it: `G[unitmode]`";
+            "take the code out of the sequence that printed it, or print the program's own after it: `G[unitmode]`";
         return fault(Code::PR041, message, help);
     }
     if said.distance_is_wrong(shape) {

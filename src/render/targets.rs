@@ -91,7 +91,7 @@ pub fn check_limits(target: &Axes, shape: &Shape) -> Done {
         if value < least || value > greatest {
             let letter = char::from(limit.letter);
             let message = format!("{letter}{value:.4} is beyond the travel from {least} to {greatest}");
-            return fault_at(Code::PR007, message, "move the part, or mend `Limits` in the form", Some(limit.span));
+            return fault_at(Code::PR007, message, "move the part, or fix `Limits` in the form", Some(limit.span));
         }
     }
     Ok(())

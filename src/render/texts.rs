@@ -196,7 +196,7 @@ pub fn room(shape: &Shape) -> usize {
     longest.saturating_sub(number + settings.eob.len())
 }
 
-/// How many characters stand behind an operation on its line, as far as the form types them.
+/// How many characters stand after an operation on its line, as far as the form types them.
 pub fn typed_behind(at: usize, shape: &Shape) -> usize {
     let program = shape.program;
     let line = program.ops[at + 1..].iter().take_while(|op| !matches!(op, Op::Line { .. }));

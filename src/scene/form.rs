@@ -23,7 +23,7 @@ pub fn form(files: &[Source], diags: &[Diag], suppressed: usize) -> Value {
     })
 }
 
-/// A finding, where it is, and what mends it.
+/// A finding, where it is, and what fixes it.
 pub fn finding(diag: &Diag, files: &[Source]) -> Value {
     let labels: Vec<Value> = diag
         .labels

@@ -1,6 +1,6 @@
 //! Everything that the page shows of a form and a job, as one run of bytes.
 //!
-//! A [`Scene`] is a JSON head and named sections of numbers behind it: what is long (points, blocks, their places) is not JSON, so that
+//! A [`Scene`] is a JSON head and named sections of numbers after it: what is long (points, blocks, their places) is not JSON, so that
 //! a program of a million moves is there at once. `page/src/scene.ts` reads it; the same bytes come from `postform watch`, stand in
 //! a page of `postform plot`, and are made in the browser by the playground.
 
@@ -103,7 +103,7 @@ pub fn of_program(name: &str, text: &[u8], picture: &Picture) -> Scene {
     scene
 }
 
-/// Something that is said behind a scene, of what is in it.
+/// Something that is said after a scene, of what is in it.
 pub fn behind(name: &str, value: Value) -> Scene {
     let mut scene = Scene::new();
     scene.say(name, value);

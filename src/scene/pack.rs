@@ -62,7 +62,7 @@ impl Scene {
     }
 
     /// All of it: `PFS2`, the lengths of the head and of the sections, the head, blanks up to a multiple of eight, the sections.
-    /// Numbers begin with their least byte. Places of sections count from the first. Several may stand one behind the other.
+    /// Numbers begin with their least byte. Places of sections count from the first. Several may stand one after the other.
     pub fn into_bytes(mut self) -> Vec<u8> {
         self.head.insert("sections".to_owned(), Value::Object(self.sections));
         let mut head = Value::Object(self.head).to_string().into_bytes();

@@ -22,7 +22,7 @@ impl Code {
         self.code.letter
     }
 
-    /// The number behind the letter.
+    /// The number after the letter.
     pub fn value(&self) -> f64 {
         self.code.value()
     }

@@ -161,7 +161,7 @@ impl Flow {
                     format!("{} without its @end", if matches!(level.kind, Kind::For(..)) { "@for" } else { "@if" }),
                 )
                 .at(level.span, "open to the end of the sequence")
-                .help("write `@end` behind its last line"),
+                .help("write `@end` after its last line"),
             );
         }
         self.too_deep = 0;
@@ -198,7 +198,7 @@ impl Flow {
             diags.push(
                 Diag::new(Code::PF707, format!("a sequence with more than {MOST_ARMS} branches"))
                     .at(at, "one too many")
-                    .help("make it simpler: nobody can try them all"),
+                    .help("make it simpler: too many ways to try them all"),
             );
         }
     }
@@ -257,9 +257,9 @@ impl Flow {
     fn no_more_behind_else(&self, name: &str, at: Span, diags: &mut Vec<Diag>) {
         if self.levels.last().is_some_and(|level| matches!(level.kind, Kind::If { has_else: true, .. })) {
             diags.push(
-                Diag::new(Code::PF707, format!("{name} behind @else"))
+                Diag::new(Code::PF707, format!("{name} after @else"))
                     .at(at, "this would never print")
-                    .help("`@else` is the last branch: put it behind this one"),
+                    .help("`@else` is the last branch: put it after this one"),
             );
         }
     }
@@ -269,7 +269,7 @@ impl Flow {
             let name = directive.name.text.to_ascii_lowercase();
             let help = if name == "@else" { "write `@elif` for another condition" } else { "take it out" };
             diags.push(
-                Diag::new(Code::PF707, format!("words behind {name}"))
+                Diag::new(Code::PF707, format!("words after {name}"))
                     .at(directive.rest.span, "nothing stands here")
                     .help(help),
             );

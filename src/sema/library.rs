@@ -7,7 +7,7 @@ use crate::source::Source;
 use crate::syntax::{self, Head, Statement};
 
 impl Analysis {
-    /// Where the second post begins among the items, which is reported; what is behind it is not looked at.
+    /// Where the second post begins among the items, which is reported; what is after it is not looked at.
     pub(super) fn second_post(&mut self, items: &[&Head]) -> Option<usize> {
         let begun = items.iter().enumerate().filter_map(|(at, item)| Some((at, named(item)?)));
         let posts: Vec<(usize, &Statement)> = begun.collect();

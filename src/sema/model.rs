@@ -169,7 +169,7 @@ impl Word {
         }
     }
 
-    /// The G or M code that is typed in it; behind the slash of block delete, too.
+    /// The G or M code that is typed in it; after the slash of block delete, too.
     pub fn code(&self) -> Option<Code> {
         b"GM".iter().find_map(|&letter| Code::of(letter, self.typed(letter)?))
     }
@@ -179,7 +179,7 @@ impl Word {
         self.typed(letter).is_some_and(|value| codes.contains(&value))
     }
 
-    /// Number of the word, if the word has this letter and is typed; behind the slash of block delete, too.
+    /// Number of the word, if the word has this letter and is typed; after the slash of block delete, too.
     pub fn typed(&self, letter: u8) -> Option<f64> {
         match &self.kind {
             WordKind::Literal(own, _, value) if *own == letter => Some(*value),

@@ -75,7 +75,7 @@ fn no_name(text: &str) -> String {
     let names = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     let help = match text.find(|c: char| !c.is_ascii_alphanumeric()).map(|at| &text[at..]) {
         Some(rest) if rest.starts_with('^') => "a power is a product: `[d*d]`",
-        Some(rest) if rest.starts_with(['<', '>', '=']) => "a comparison stands behind `@if`, on a line of its own",
+        Some(rest) if rest.starts_with(['<', '>', '=']) => "a comparison stands after `@if`, on a line of its own",
         Some(rest) if rest.starts_with(',') => {
             "a decimal has a point; several numbers stand in `min(..)` and `max(..)`"
         }

@@ -1,4 +1,4 @@
-//! When numbers are the same to a form: calculating leaves noise behind the digits that print, as in 12.7 mm that are
+//! When numbers are the same to a form: calculating leaves noise after the digits that print, as in 12.7 mm that are
 //! 0.49999999999999994 inches, and a form that asks for .5 can't know of it.
 
 use std::cmp::Ordering;

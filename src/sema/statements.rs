@@ -128,7 +128,7 @@ fn printed_control(id: CommandId, args: &[Spanned]) -> Option<(&Spanned, char)> 
     args.iter().find_map(|arg| Some((arg, arg.text.chars().find(|&c| c.is_control() && c != '\t')?)))
 }
 
-/// A letter, and nothing that a name has behind it.
+/// A letter, and nothing that a name has after it.
 fn is_like_a_format(name: &str) -> bool {
     let mut bytes = name.bytes();
     bytes.next().is_some_and(|b| b.is_ascii_alphabetic())

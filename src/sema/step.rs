@@ -51,7 +51,7 @@ pub fn line_counts(steps: &[Step]) -> (usize, usize) {
     both
 }
 
-/// Takes every step, and those in it behind it.
+/// Takes every step, and those in it after it.
 pub fn each_step<'a>(steps: &'a [Step], take: &mut dyn FnMut(&'a Step)) {
     for step in steps {
         take(step);

@@ -1,4 +1,4 @@
-//! What an Upon sets: words behind it print it, and conditions are asked before it.
+//! What an Upon sets: words after it print it, and conditions are asked before it.
 
 use super::model::Form;
 use super::property::Target;

@@ -54,7 +54,7 @@ fn statement(words: &[syntax::Word]) -> Option<Span> {
 }
 
 /// How many words stand before a comment that runs to the end of the block. Like the words in round brackets, those
-/// behind its mark are for people: they set nothing, and are printed whenever the block is.
+/// after its mark are for people: they set nothing, and are printed whenever the block is.
 pub fn before_remark(words: &[syntax::Word], comment: &[String; 2]) -> usize {
     let [open, close] = comment;
     let opens = |word: &syntax::Word| matches!(word.pieces.first(), Some(Piece { kind: PieceKind::Stray(text), .. }) if text.starts_with(open.as_str()));
@@ -120,7 +120,7 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
     }
     if is_value && previous.is_some_and(Piece::is_word) {
         diags.push(
-            Diag::new(Code::PF001, "a value stands directly behind a word")
+            Diag::new(Code::PF001, "a value stands directly after a word")
                 .at(piece.span, "this would be printed as a word of its own")
                 .help("keep one of them; digits in front of a value come from its format, as `T 2` for T01"),
         );
@@ -164,7 +164,7 @@ fn text_variable(name: &Spanned, diags: &mut Vec<Diag>) -> Option<TextVar> {
     var
 }
 
-/// Outside comments a text of the job stands behind text of the form: alone, a name like M30 would be a code. A blank, a
+/// Outside comments a text of the job stands after text of the form: alone, a name like M30 would be a code. A blank, a
 /// point or the slash of block delete before it changes nothing about that.
 fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
     let holds = |piece: &Piece| match &piece.kind {
@@ -195,7 +195,7 @@ fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
             }
             None if !pieces[..i].iter().any(holds) => {
                 let message = format!("[{inner}] stands alone: a name like M30 would be a code");
-                (message, format!("put it into a comment, `([{inner}])`, or behind text: `` `\"`[{inner}]`\"` ``"))
+                (message, format!("put it into a comment, `([{inner}])`, or after text: `` `\"`[{inner}]`\"` ``"))
             }
             None => continue,
         };
@@ -315,14 +315,14 @@ fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF001, "a backquote without its partner")
                 .at(span, "text in backquotes ends on its line")
-                .help("write a second one behind the text; a backquote in it is written twice"),
+                .help("write a second one after the text; a backquote in it is written twice"),
         );
     } else if let Some(c) = text.chars().find(|&c| is_invisible(c)) {
         diags.push(invisible(c, span));
     } else if after_word {
         diags.push(
-            Diag::new(Code::PF001, format!("`{}` stands directly behind a word", text))
-                .at(span, "this would be printed behind the value")
+            Diag::new(Code::PF001, format!("`{}` stands directly after a word", text))
+                .at(span, "this would be printed after the value")
                 .help("take it out, or put a blank before it"),
         );
     }
@@ -345,7 +345,7 @@ pub(super) fn invisible(c: char, span: Span) -> Diag {
     let what = match c {
         '\u{a0}' => "a no-break space, which looks like a blank".to_owned(),
         c if c.is_control() => format!("the control character U+{:04X}", u32::from(c)),
-        c => format!("the character U+{:04X}, which nobody sees", u32::from(c)),
+        c => format!("the character U+{:04X}, which is invisible", u32::from(c)),
     };
     Diag::new(Code::PF001, format!("the line holds {what}"))
         .at(span, "in this word")

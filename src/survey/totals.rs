@@ -45,7 +45,7 @@ pub struct Totals {
     pub length: f64,
     /// Time of the cuts at their feeds, in minutes, as far as it is known.
     minutes: f64,
-    /// There is a cut whose time nobody knows, as at a constant surface speed.
+    /// There is a cut whose time is unknown, as at a constant surface speed.
     untimed: bool,
     /// How far cuts reach.
     pub cuts: Reach,

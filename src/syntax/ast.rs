@@ -80,11 +80,11 @@ pub enum Head {
 pub struct Line {
     /// The whole line without its end.
     pub span: Span,
-    /// What stands behind the words.
+    /// What stands after the words.
     pub tail: Tail,
 }
 
-/// What stands behind the words of a line.
+/// What stands after the words of a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Tail {
     /// Nothing.
@@ -133,7 +133,7 @@ pub struct Body {
     pub line: Line,
     /// Words of the line; none on an empty line, a comment or a directive.
     pub words: Vec<Word>,
-    /// What the line says of those behind it, instead of words.
+    /// What the line says of those after it, instead of words.
     pub directive: Option<Box<Directive>>,
 }
 
@@ -142,7 +142,7 @@ pub struct Body {
 pub struct Directive {
     /// `@if`, as typed.
     pub name: Spanned,
-    /// What stands behind the name, without a comment.
+    /// What stands after the name, without a comment.
     pub rest: Spanned,
     /// Which directive.
     pub kind: DirectiveKind,
@@ -151,7 +151,7 @@ pub struct Directive {
 /// The kinds of directives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DirectiveKind {
-    /// `@if`: the lines behind it print where the condition holds.
+    /// `@if`: the lines after it print where the condition holds.
     If(Result<Expr, Unread>),
     /// `@elif`: else these, where that condition holds.
     Elif(Result<Expr, Unread>),
@@ -159,7 +159,7 @@ pub enum DirectiveKind {
     Else,
     /// `@end` of `@if` or `@for`.
     End,
-    /// `@for`: the lines behind it print once for each.
+    /// `@for`: the lines after it print once for each.
     For,
     /// `@set NAME = value`.
     Set(Spanned, Result<Expr, Unread>),

@@ -88,7 +88,7 @@ static OPERATORS: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
         .op(Op::prefix(Rule::negative))
 });
 
-/// Do brackets behind a square one lie so deep that no line of a form means it? The grammar goes down with them.
+/// Do brackets after a square one lie so deep that no line of a form means it? The grammar goes down with them.
 pub fn is_too_deep(line: &str) -> bool {
     let mut depth = 0_usize;
     line.bytes().any(|c| {
@@ -190,7 +190,7 @@ fn instead(read: &str, rest: &str) -> Option<String> {
         None if before.is_empty() => "write what is asked, as `@if [cool] = on`, or what is set, as `@set val1 = 2`",
         None if count('(') > count(')') => "a closing bracket is missing",
         None if before.ends_with('*') && before.split(['=', ' ']).next_back().is_some_and(|word| word.len() > 1) => {
-            "a pattern stands in quotes behind `like`: `[toolname] like \"DRILL*\"`"
+            "a pattern stands in quotes after `like`: `[toolname] like \"DRILL*\"`"
         }
         _ => return None,
     };

@@ -105,7 +105,7 @@ fn head(at: At, text: &str, index: usize, around: &mut Around<'_>, form: &mut Fo
                 let mut parts = pair.into_inner();
                 let (Some(letter), Some(spec)) = (parts.next(), parts.next()) else { continue };
                 line.tail = parts.next().map_or(Tail::None, |pair| tail(at, &pair));
-                // behind a sequence `G80` is a word whose name line is missing, and no format
+                // after a sequence `G80` is a word whose name line is missing, and no format
                 if spec.as_str().bytes().all(|b| b.is_ascii_digit()) && around.has_sequence {
                     let span = at.span(&letter).to(at.span(&spec));
                     let name = Spanned { text: format!("{}{}", letter.as_str(), spec.as_str()), span };
@@ -196,7 +196,7 @@ impl Around<'_> {
 enum Mark {
     /// `End`.
     End,
-    /// A name: no `End` behind it belongs to the unknown one.
+    /// A name: no `End` after it belongs to the unknown one.
     Name,
     /// Nothing.
     Other,

@@ -144,7 +144,7 @@ impl<'s> Hold<'s> {
         self.waiting.retain(|(waiting, _)| !is_way(waiting));
     }
 
-    /// Lets the tool change now, and passes an event on behind it.
+    /// Lets the tool change now, and passes an event on after it.
     fn release_before(&mut self, event: Event<'_>, place: Place, first: First) -> Result<(), Stop> {
         self.release(first)?;
         self.sink.push(event, place)

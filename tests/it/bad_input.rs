@@ -156,7 +156,7 @@ fn forms() {
         ),
         ("too many lines", mill("", &long_body).into(), 1, vec!["PF602", "the limit is 150"]),
         ("words outside a sequence", format!("{good}G0 X[h]\n").into(), 1, vec!["PF001", "outside a sequence"]),
-        ("stray point", mill("", "Drill\nX[h] Y[v].\nEnd").into(), 1, vec!["PF001", "stands directly behind a word"]),
+        ("stray point", mill("", "Drill\nX[h] Y[v].\nEnd").into(), 1, vec!["PF001", "stands directly after a word"]),
         ("sign before a variable", mill("", "Drill\nX-[h]\nEnd").into(), 1, vec!["PF001", "RevSigns"]),
         ("a call of nothing", mill("Call other.pf", "").into(), 1, vec!["PF009", "can't be found"]),
         ("a call of itself", mill("Call form.pf", "").into(), 1, vec!["PF"]),
@@ -185,7 +185,7 @@ fn forms() {
         if what == "2000 wrong lines" {
             let message = String::from_utf8_lossy(&output.stderr);
             assert_eq!(message.matches("PF201").count(), 1000);
-            assert!(message.contains(" more findings: mend these first"), "{message}");
+            assert!(message.contains(" more findings: fix these first"), "{message}");
             continue;
         }
         expect(what, &output, status, &wanted);

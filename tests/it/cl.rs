@@ -321,11 +321,11 @@ fn places_and_turns_are_those_that_are_written() {
     assert_eq!(body(&arc(",ANGLE,450")), body(&arc(",TIMES,2")));
     assert_ne!(body(&arc(",TIMES,2")), body(&arc("")));
     assert!(error(&arc(",ANGLE,100")).starts_with("PR005 an arc of 100 degrees"));
-    assert!(error(&arc(",FOO,2")).starts_with("PL002 `FOO` behind the numbers"));
+    assert!(error(&arc(",FOO,2")).starts_with("PL002 `FOO` after the numbers"));
     assert!(error("NURBS/1,2").starts_with("PL004 NURBS: a spline"));
 }
 
-/// Compensation that ends before an arc ends with the straight motion behind it; along the depth alone it stays.
+/// Compensation that ends before an arc ends with the straight motion after it; along the depth alone it stays.
 #[test]
 fn compensation_waits_for_a_straight_motion_in_the_plane() {
     let lines = body(

@@ -34,7 +34,7 @@ fn same_point(a: [f64; 3], b: [f64; 3]) -> bool {
     (0..3).all(|i| same(a[i], b[i]))
 }
 
-/// The numbers behind a word of a statement.
+/// The numbers after a word of a statement.
 fn after(words: &[&str], word: &str) -> Option<f64> {
     let at = words.iter().position(|w| *w == word)?;
     words.get(at + 1)?.parse().ok()

@@ -21,7 +21,7 @@ fn motion_words() {
     let numbers = "G 2\nM 2";
     assert_eq!(path_lines(numbers, "", "{\"rapid\":[0,0,0.5]}"), ["G00 Z.5"]);
     assert_eq!(program(&mill(numbers, ""), &job("{\"rapid\":[0,0,0.5]}"))[2], "S1000 M03");
-    // the spindle's code may stand behind the arc's: [direct] is defined by CW and CCW
+    // the spindle's code may stand after the arc's: [direct] is defined by CW and CCW
     let both = program(&mill("CW G2 M13\nCCW G3 M14", ""), &job(CORNER));
     assert_eq!(both[2], "S1000 M13");
     assert!(both.iter().any(|line| line.contains("G3 X2. Y1.")), "{both:?}");

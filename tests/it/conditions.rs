@@ -56,7 +56,7 @@ fn a_calculated_word_is_modal_like_its_letter() {
     assert_eq!(path_lines(head, sequences, path), ["G1 X1. Q2. F10.", "X2.", "X3. Z2. Q4."]);
 }
 
-/// A form limits the speed of its machine: the job's own is not said behind it.
+/// A form limits the speed of its machine: the job's own is not said after it.
 #[test]
 fn a_speed_that_the_form_limits_stays() {
     let text = mill("", "").replace("S[speed] M", "S[min(speed,800)] M");
@@ -87,7 +87,7 @@ fn a_calculated_condition_is_said() {
     assert_eq!(printed.iter().filter(|line| line.ends_with(" M3")).count(), 1, "{printed:?}");
 }
 
-/// Counting in a list, and asking behind it what came out.
+/// Counting in a list, and asking after it what came out.
 #[test]
 fn what_a_list_sets_is_asked_behind_it() {
     let asked = "@set val1 = 0\n@for tool\n@if [tool] > 0\n@set val1 = [val1]+1\n@end\n@end\n([val1] TOOLS)\n@if [val1] > 1\n(MANY)\n@else\n(ONE)\n@end";
@@ -134,7 +134,7 @@ fn what_is_set_of_no_value_is_an_error() {
     assert!(drill("@set val1 = 7\n@if [dwell]\n@set val1 = [dwell]*1000\n@end").contains(&"(W 7)".to_owned()));
 }
 
-/// `@set` stands behind the line before it, whose number is taken then.
+/// `@set` stands after the line before it, whose number is taken then.
 #[test]
 fn a_number_is_set_behind_its_line() {
     let text = mill("Sequence#s N 1 1", "").replacen(
@@ -281,7 +281,7 @@ fn numbers_are_compared_as_they_print() {
 fn branches_lie_in_each_other() {
     let text = "@if [tool] = 1\n  M1\n  @if [speed] > 5000\n    M2\n  @elif [speed] > 500\n    M3\n  @else\n    M4\n  @end\n  M5\n@elif [tool] = 1\nM6\n@end\nM7";
     assert_eq!(lines(text), ["M1", "M3", "M5", "M7"]);
-    // blanks are a comment again behind the last @end
+    // blanks are a comment again after the last @end
     assert_eq!(lines("@if [tool] = 2\n   M1\n@end\n  M2\nM3"), ["M3"]);
     assert_eq!(lines("@if [tool] = 1 # the first\n\tM1 # and so on\n@END # over"), ["M1"]);
 }
@@ -297,7 +297,7 @@ fn what_is_set_holds_to_the_end() {
     let head = "Ask val2 \"Q\" 1\nModalLetters X Y Z F S";
     let path = "{\"line\":[1,0,1]},{\"line\":[2,0,1]},{\"line\":[3,0,1]}";
     assert_eq!(path_lines(head, sequences, path), ["G1 X1. F10. Q2.", "X2. Q4.", "X3. Q8."]);
-    // a condition behind it asks for the new value
+    // a condition after it asks for the new value
     let text = "@set val1 = 3\n@if [val1] = 3\nM3\n@end\n@set val1 = [val1]+1\n@if [val1] = 4\nM4\n@end\n(IS [val1])";
     assert_eq!(lines(text), ["M3", "M4", "(IS 4)"]);
 }
@@ -355,7 +355,7 @@ fn a_cycle_begins_anew_where_its_counted_lines_would_print_another_value() {
         let printed = of_stepped_holes(head, &format!(" 1\n{begins}\n{HOLE}"));
         assert_eq!(printed, ["Q203=0", "G80", "Q203=-2", "G80"], "{begins}");
     }
-    // set behind the lines that print it
+    // set after the lines that print it
     let printed = of_stepped_holes("Ask val1 \"Q\" 7", &format!(" 1\n`Q203=`[val1]\n@set val1 = 8\n{HOLE}"));
     assert_eq!(printed, ["Q203=7", "G80", "Q203=8", "G80"]);
 }

@@ -4,7 +4,7 @@ use crate::support::{check, mill, plain_post, program, render};
 
 const KINDS: &str = "CoolantKind through M88 M89\nCoolantKind air M12";
 
-/// A job of these operations: the tool, its coolant, the path behind the first rapid.
+/// A job of these operations: the tool, its coolant, the path after the first rapid.
 fn job(operations: &[(u32, &str, &str)]) -> String {
     let operations = operations.iter().map(|(tool, coolant, path)| {
         format!(
@@ -220,7 +220,7 @@ fn the_forms_own_speed_stands() {
     assert_eq!(speeds(&typed, later), ["S700", "S1200"]);
     let stop = "{\"line\":[1,0,0]},{\"stop\":\"program\"},{\"line\":[0,0,0]}";
     assert_eq!(speeds(&typed, stop), ["S700", "S700"]);
-    // elsewhere the job's is said behind it
+    // elsewhere the job's is said after it
     let row = mill("", "BeginRow\nS300\nEnd");
     let path = "{\"begin\":\"row\"},{\"line\":[1,0,0]},{\"end\":\"row\"}";
     assert_eq!(speeds(&row, path), ["S1000", "S300", "S1000"]);

@@ -143,7 +143,7 @@ fn pairs_and_their_verdicts() {
                 assert!(!same(Ignore::default()), "{what} differs when nothing is ignored");
                 assert!(same(ignoring(names)) && same(all), "{what} is the same ignoring {names}");
                 for left_out in names.split(',').filter(|_| names.contains(',')) {
-                    // spaces only go along with what leaves blanks behind
+                    // spaces only go along with what leaves blanks after
                     let rest: Vec<&str> = names.split(',').filter(|name| *name != left_out).collect();
                     assert!(left_out == "spaces" || !same(ignoring(&rest.join(","))), "{what} needs {left_out}");
                 }

@@ -107,7 +107,7 @@ fn change(line: &str, kind: u8) -> String {
         7 => line.replace("End", "END").replace("StartCode", "STARTCODE").replace("[h]", "[H]"),
         8 => line.replace('[', "<").replace(']', ">"),
         9 => line.replace("] F[", "]F[").replace("] Y[", "]Y["),
-        // an argument directly behind the semicolon, and a tab in a remark
+        // an argument directly after the semicolon, and a tab in a remark
         11 if line.starts_with("Dwell ") => line.replacen(' ', ";", 1),
         12 if line.starts_with("Custom") => format!("{line}\tfor this mill"),
         13 if line.starts_with("Comment ") || line.starts_with("Control ") => line.replacen(' ', "; ", 1),

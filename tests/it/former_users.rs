@@ -50,7 +50,7 @@ End
 
 #[test]
 fn a_form_of_the_older_compiler_prints() {
-    // angle brackets are brackets, a remark behind two blanks is one, and nothing of it is an error
+    // angle brackets are brackets, a remark after two blanks is one, and nothing of it is an error
     let found = check(FORM);
     let serious: Vec<_> = found.diags.iter().filter(|diag| diag.is_error()).collect();
     assert!(serious.is_empty(), "{serious:?}");
@@ -61,7 +61,7 @@ fn a_form_of_the_older_compiler_prints() {
              \"feed\":100{dwell},\"points\":{points}}}}}]}}]}}"
         )
     };
-    // Upon [d] fires in a cycle, too: it ends, and begins anew
+    // Upon [d] fires in a cycle, too: it ends, and begins again
     let printed = program(FORM, &hole("", "[[1,1,0],{\"at\":[3,3,0],\"depth\":7}]"));
     let holes: Vec<&str> = printed
         .iter()

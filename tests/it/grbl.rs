@@ -102,7 +102,7 @@ impl Run {
         let is_frame = |item: &Item| matches!(item.action, Action::Frame | Action::Work(_));
         let reframed = items.iter().rposition(is_frame);
         for (i, item) in items.iter().enumerate() {
-            // G92.1 and M2 move the frame behind the move
+            // G92.1 and M2 move the frame after the move
             let before = reframed.is_some_and(|at| i < at);
             let frame = if before { self.frame } else { frame };
             match &item.action {

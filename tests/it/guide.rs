@@ -1,5 +1,5 @@
 //! docs/guide.md as a reader does it: its files are written into an empty folder, its commands are run there, and what they
-//! print is what stands in the guide. `TRYCMD=overwrite cargo test guide::` writes the outputs anew.
+//! print is what stands in the guide. `TRYCMD=overwrite cargo test guide::` writes the outputs again.
 
 use crate::support;
 use std::fs;

@@ -233,12 +233,12 @@ fn safe_fixes_are_made_in_the_files_and_keep_their_line_ends() {
     let before = folder.run(&["render", "job.json", "--form", "form.pf"]);
     let output = folder.run(&["lint", "--fix", "form.pf"]);
     assert_eq!(output.status.code(), Some(1), "the unsafe one is left");
-    assert!(out(&output).contains("3 mended") && out(&output).contains("PF206"), "{}", out(&output));
+    assert!(out(&output).contains("3 fixed") && out(&output).contains("PF206"), "{}", out(&output));
     assert_eq!(folder.read("form.pf"), text.replace("<h>", "[h]").replace("]F[", "] F["));
     assert_eq!(folder.read("part.pf"), "RapidCode\nG0 X[h] Y[v] Z[d]\nEnd\n");
     assert_eq!(folder.run(&["render", "job.json", "--form", "form.pf"]).stdout, before.stdout);
     let again = folder.run(&["lint", "--fix", "form.pf"]);
-    assert!(out(&again).contains("; 0 mended"));
+    assert!(out(&again).contains("; 0 fixed"));
     let input = folder.run(&["lint", "--fix", "-"]);
     assert_eq!((input.status.code(), err(&input).contains("standard input is none")), (Some(2), true));
 }
@@ -416,7 +416,7 @@ fn thousands_of_findings_are_counted() {
     let output = folder.run(&["lint", "f.pf"]);
     let text = out(&output);
     assert_eq!((output.status.code(), text.matches("PF201").count()), (Some(1), 1000));
-    assert!(text.contains("\nand 4004 more findings: mend these first\n5004 errors, 0 warnings"), "{text}");
+    assert!(text.contains("\nand 4004 more findings: fix these first\n5004 errors, 0 warnings"), "{text}");
     let all = out(&folder.run(&["lint", "f.pf", "--format", "github"]));
     assert!(all.matches("PF201").count() >= 5_000);
 }

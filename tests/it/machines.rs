@@ -349,7 +349,7 @@ fn wire_actions_need_their_sequences() {
     }
 }
 
-/// The rapid behind a thread cycle in force would be a pass.
+/// The rapid after a thread cycle in force would be a pass.
 #[test]
 fn a_thread_cycle_is_cancelled() {
     let cycles = ["AutoThread\nG76 X[v] Z[h] P[depth] Q[peck1] F[frate]", "CanThread 1\nG92 X[v] Z[h] F[frate]\nX[v]"];

@@ -13,7 +13,7 @@ const JOB: &str = r#"{"postform": 1, "name": "flange-7", "part": "Flange", "unit
      "path": [{"rapid": [0, 0, 30]}, {"rapid": [0, 0, 2]}, {"line": [0, 0, -2]}, {"arc": {"to": [0, 0, -2], "center": [20, 0], "direction": "ccw"}}]}
   ]}"#;
 
-/// A post with G codes; the lines stand in its head, in StartCode, in its tool changes and behind all sequences.
+/// A post with G codes; the lines stand in its head, in StartCode, in its tool changes and after all sequences.
 fn codes(head: &str, start: &str, change: &str, more: &str) -> String {
     let change =
         format!("T[tool] M6\n{change}\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd\n");

@@ -2,7 +2,7 @@
 
 use crate::support::{mill, program};
 
-/// A job of these operations: the tool, further keys, the path behind the first rapid.
+/// A job of these operations: the tool, further keys, the path after the first rapid.
 fn job(operations: &[(u32, &str, &str)]) -> String {
     let operations = operations.iter().map(|(tool, keys, path)| {
         format!("{{\"tool\":{tool},\"feed\":10,{keys}\"path\":[{{\"rapid\":[0,0,1]}},{path}]}}")
@@ -16,7 +16,7 @@ fn job(operations: &[(u32, &str, &str)]) -> String {
 const TURNS: &str = "\"work\":54,\"spindle\":{\"speed\":1000,\"direction\":\"cw\"},";
 const LINE: &str = "{\"line\":[1,0,0]}";
 
-/// What stands behind the first tool change, up to the end.
+/// What stands after the first tool change, up to the end.
 fn path(sequences: &str, job: &str) -> Vec<String> {
     let printed = program(&mill("", sequences), job);
     match printed.iter().position(|line| line.starts_with("G0 G54")) {
@@ -87,7 +87,7 @@ fn changes_of_conditions_are_the_forms_own() {
     for line in ["(NEW SPEED) S500", "M8 (COOLANT)", "G55 (OFFSET)"] {
         assert_eq!(printed.iter().filter(|own| *own == line).count(), 1, "{line}: {printed:?}");
     }
-    // left unsaid: generated behind it, once
+    // left unsaid: generated after it, once
     let printed = path("CoolantChange\n(COOLANT)\nEnd", &job);
     let at = printed.iter().position(|line| line == "(COOLANT)").unwrap();
     assert_eq!(printed[at + 1], "M8", "{printed:?}");
@@ -129,7 +129,7 @@ fn home_is_a_place_of_the_machine() {
     // changes that wait come before it
     let off = format!("{LINE},{{\"rapid\":[1,0,1]}},{{\"spindle\":{{\"direction\":\"off\"}}}},{{\"home\":true}}");
     assert_eq!(home(goes, &off)[1..], ["G0 Z1.", "M5", "G91 G28 Z0", "G90"]);
-    // a cut behind it has no beginning
+    // a cut after it has no beginning
     let cut = format!("{LINE},{{\"home\":true}},{{\"line\":[0,0,0]}}");
     assert!(home(goes, &cut)[0].starts_with("PR012 the operation begins with a cut"), "{:?}", home(goes, &cut));
     assert!(home("", &path)[0].starts_with("PR008 the tool goes home here"), "{:?}", home("", &path));

@@ -24,7 +24,7 @@ fn plot(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_postform")).arg("plot").args(arguments).current_dir(root()).output().unwrap()
 }
 
-/// The picture of the README: `SAMPLES=overwrite cargo test plot::` draws it anew; look at it then.
+/// The picture of the README: `SAMPLES=overwrite cargo test plot::` draws it again; look at it then.
 #[test]
 fn the_bracket_is_drawn_as_in_the_readme() {
     let output = plot(&["samples/bracket/job.json", "--form", "postforms/fanuc.pf", "--quiet"]);
@@ -112,7 +112,7 @@ fn a_program_in_both_units_is_drawn_in_the_first() {
     assert!((to[0] - 2.0).abs() < 1e-9, "{to:?}");
 }
 
-/// What is modal behind a block, and which block said it.
+/// What is modal after a block, and which block said it.
 #[test]
 fn every_part_of_the_state_has_its_block() {
     let found = picture(

@@ -173,7 +173,7 @@ fn a_pattern_of_holes_stays_one_cycle() {
     // another depth is a hole of the pattern, another feed is not
     let deeper = path(&format!("G0 X1.\n{}G0 X2.\nG81 X2. Z-2. R.1 F6.\nG80", each(1)));
     assert_eq!(deeper.iter().filter(|line| line.contains("G81")).count(), 2, "{deeper:?}");
-    // what is behind the last hole is done
+    // what is after the last hole is done
     assert_eq!(path(&format!("G0 X1.\n{}G0 X7.\nG1 Z.5 F9.", each(1))).last().unwrap(), "G1 Z.5 F9.");
     assert!(path(&format!("G0 X1.\n{}G0 X7.\nG1 Z.5 F9.", each(1))).contains(&"G0 X7.".to_owned()));
 }
@@ -243,7 +243,7 @@ fn frames_that_move_between_moves_are_followed() {
     assert_eq!(path("G1 Z-.1 F5.\nG92 X5.\nG1 X6.\nG92 X0\nG1 X2."), ["G1 Z-.1 F5.", "X1.", "X3."]);
 }
 
-/// The comment behind the O number is the name of the program.
+/// The comment after the O number is the name of the program.
 #[test]
 fn the_comment_of_the_number_is_the_name() {
     let form = mill("", "").replacen("%0\n", "%0\n(NAME [progname])\n", 1);

@@ -153,7 +153,7 @@ fn right_programs_are_proven() {
             ),
         ),
         (
-            "a short cut behind a hole, and another feed behind it",
+            "a short cut after a hole, and another feed after it",
             one(
                 r#"{"cycle":{"kind":"ream","depth":9,"clear":2,"feed":60,"points":[[10,10,0]]}},{"line":[9.999,10,2]},{"line":[9.999,40,5],"feed":200},{"rapid":[9.999,40,25]}"#,
             ),
@@ -165,7 +165,7 @@ fn right_programs_are_proven() {
             ),
         ),
         (
-            "a stop behind a cut that vanishes",
+            "a stop after a cut that vanishes",
             one(
                 r#"{"rapid":[0,0,25]},{"line":[9,-3.07856,5]},{"line":[9,-3.07846,5]},{"stop":"optional"},{"line":[9,-3.07796,5]},{"rapid":[9,0,25]}"#,
             ),
@@ -195,7 +195,7 @@ fn right_programs_are_proven() {
             ),
         ),
         (
-            "a cut that no digits show between two rapids behind the last hole",
+            "a cut that no digits show between two rapids after the last hole",
             one(
                 r#"{"rapid":[0,0.001,1]},{"cycle":{"kind":"drill","depth":0.9,"clear":0.1,"return":0.48,"feed":6,"points":[[0,0.001,0]]}},{"rapid":[0,0,-0.098]},{"line":[0,0.00001,-0.098]},{"rapid":[0,0.00001,-0.099]}"#,
             )
@@ -216,7 +216,7 @@ fn right_programs_are_proven() {
             .replace("\"mm\"", "\"inch\""),
         ),
         (
-            "the shortest cut that digits show, behind a tap",
+            "the shortest cut that digits show, after a tap",
             one(
                 r#"{"rapid":[1.9187,-2.6443,1]},{"cycle":{"kind":"tap","depth":0.8797,"clear":0.1,"feed":50,"points":[[1.9187,-2.6443,-0.4383],[2.025,-0.1778,-0.4509]]}},{"line":[2.0251]},{"rapid":[2.0251,-0.1778,1.5602]}"#,
             )
@@ -367,7 +367,7 @@ fn right_programs_of_other_forms_are_proven() {
     let arcs = inch(
         r#"{"rapid":[2.1991,0.974,1.2191]},{"line":[-1.6529,3.6587,-0.25]},{"arc":{"to":[-1.6310425,3.6577622,-0.25],"radius":0.25383784193850994,"direction":"ccw"}},{"arc":{"to":[-1.6310425,3.6577622,-0.25],"center":[-1.9185,3.4783,-0.25],"direction":"cw"}}"#,
     );
-    is_right("a circle behind the rest of an arc", of_form(&unusual("spin-up"), &arcs));
+    is_right("a circle after the rest of an arc", of_form(&unusual("spin-up"), &arcs));
     // two cuts of one digit, one along X and the other along Y, of which digits show one
     let across = inch(
         r#"{"rapid":[93.788,84.085,46.211]},{"line":[93.78775,84.085,46.211]},{"rapid":[93.78775,84.086,46.211]},{"line":[93.78775,84.0835,46.211]},{"rapid":[68.733,82.644,46.211]},{"line":[68.733,82.644,-1.199]}"#,
@@ -378,7 +378,7 @@ fn right_programs_of_other_forms_are_proven() {
     let home = inch(
         r#"{"rapid":[0.7375,-2.0667,1.6584]},{"home":true},{"rapid":[null,null,1.0876]},{"rapid":[0.6466,-2.2204,1.6921]},{"line":[-3.1394,-1.7077,-0.3154]}"#,
     );
-    is_right("down behind home", of_form(&unusual("no-return-plane"), &home));
+    is_right("down after home", of_form(&unusual("no-return-plane"), &home));
     // the control leaves the hole higher than the job, and comes back for a cut that no digits show
     let tapped = inch(
         r#"{"rapid":[1.0698,1.7598,0.8441]},{"cycle":{"kind":"tap","clear":0.2746,"depth":0.7718,"feed":18.9,"points":[[-0.7609,0.351,-0.2594]]}},{"line":[-0.7609,0.351,0.01521]},{"rapid":[-0.7609,0.351,1.7092]}"#,
@@ -599,7 +599,7 @@ fn right_programs_of_unusual_forms_are_proven() {
     let inch = |path: &str| one(path).replace("\"mm\"", "\"inch\"");
     let jobs = [
         (
-            "a cycle that dwells where the job's does not, and cuts of one digit there and back behind it",
+            "a cycle that dwells where the job's does not, and cuts of one digit there and back after it",
             "custom",
             one(
                 r#"{"rapid":[96.17,10.88,25]},{"cycle":{"kind":"custom3","depth":9,"clear":2,"feed":60,"points":[[96.17,10.88,0]]}},{"line":[96.16975,10.88,2]},{"rapid":[96.16875,10.88,2]},{"line":[96.17125,10.88,2]},{"rapid":[null,null,25]}"#,
@@ -614,7 +614,7 @@ fn right_programs_of_unusual_forms_are_proven() {
             ),
         ),
         (
-            "a cut that no digits show behind a tapped hole that the control leaves higher",
+            "a cut that no digits show after a tapped hole that the control leaves higher",
             "no-return-plane",
             inch(
                 r#"{"rapid":[-1.4705,-2.0917,0.1]},{"cycle":{"kind":"tap","depth":1.1526,"clear":0.1,"feed":38,"points":[[-1.4705,-2.0917,0],[0.4748,0.0388,-0.4308]]}},{"line":[0.47476]},{"rapid":[0.47476,0.0388,1.4344]}"#,
@@ -855,7 +855,7 @@ fn stops_before_the_first_cut_are_the_forms() {
     }
 }
 
-/// An author who goes up behind G49, as the manual does, is told what to write.
+/// An author who goes up after G49, as the manual does, is told what to write.
 #[test]
 fn up_without_the_length_is_explained() {
     let form = post("fanuc.pf");

@@ -92,7 +92,7 @@ fn stops_between_pecks_are_seen() {
     }
 }
 
-/// Each difference of one cause is counted, and those behind it are met still.
+/// Each difference of one cause is counted, and those after it are met still.
 #[test]
 fn cuts_behind_a_difference_are_compared() {
     let path: Vec<String> = (0..5)

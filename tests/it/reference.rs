@@ -1,5 +1,5 @@
 //! Pages that are made from tables are current, and everything that has a name is explained.
-//! `SAMPLES=overwrite cargo test reference::` writes the pages anew.
+//! `SAMPLES=overwrite cargo test reference::` writes the pages again.
 
 use crate::support;
 use std::fs;

@@ -460,7 +460,7 @@ fn mistakes_are_found_in_other_words_too() {
         ("PF503", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[depth] F[frate]\nG0 Z[rplane]\nEnd"),
         ("PF505", "Drill\nG[retplane] G80 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel"),
         ("PF015", "EndCode\nM9\n%0\nM30\nEnd"),
-        // words behind a mark that comments out the rest of the block do nothing
+        // words after a mark that comments out the rest of the block do nothing
         ("PF014", "Comment ;\n\nEndCode\nM9\n; no M30 here\nEnd"),
         ("PF017", "Comment ;\n\nSubStart\nO[sub]\nEnd\nSubCall\nM98 P[sub]\nEnd\nSubEnd\n; end of sub\nEnd"),
         (

@@ -318,7 +318,7 @@ fn comments_keep_their_marks() {
     assert_eq!(path_lines("Comment ;", "", "{\"comment\":\"a (b)\"}"), [";A (B)"]);
 }
 
-/// Words behind a mark that comments out the rest of the block are for people: they set nothing, and hide nothing.
+/// Words after a mark that comments out the rest of the block are for people: they set nothing, and hide nothing.
 #[test]
 fn values_in_a_comment_to_the_end_of_the_block_are_not_positions() {
     let drill = "Drill\n; HOLE AT X[h] Y[v]\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate] ; to Z[d]\nG0 Z[rplane]\nEnd";
@@ -667,7 +667,7 @@ fn compensation_has_its_tool_and_height() {
     assert!(program(&mill("", ""), &text)[0].starts_with("PR030 the tool changes"));
     let infeed = "InFeed\nG1 G[side] D[dcomp] X[h] Y[v] F[frate]\nEnd";
     let path = "{\"text\":\"G0 Z5\"},{\"infeed\":[1,0],\"side\":\"left\"}";
-    assert!(path_lines("", infeed, path)[0].starts_with("PR017 nobody knows the height"));
+    assert!(path_lines("", infeed, path)[0].starts_with("PR017 the height is unknown"));
 }
 
 /// Inverse time stands in the block of its move.
@@ -767,7 +767,7 @@ fn codes_of_work_offsets_beside_a_word_of_their_own() {
     let text = own(r#"{"text":"G54"},{"rapid":[1,0,1]}"#);
     let lines = program(&start("E[work] X[h] Y[v]\nG0 Z[d]", ""), &text);
     assert!(!lines.iter().any(|line| line.contains("E54")), "{lines:?}");
-    // the positions behind it count in the new offset
+    // the positions after it count in the new offset
     let upon = start("G0 X[h] Y[v] Z[d]", "Upon [work]\nG15 H[work]\nEnd");
     let path = r#"{"work":2},{"rapid":[0,0,1]},{"line":[1,0,-1]}"#;
     let lines = program(&upon, &own(path));
@@ -782,7 +782,7 @@ fn codes_of_work_offsets_beside_a_word_of_their_own() {
     assert_eq!(lines, ["G65 P9810 W54.", "G55", "S1000 M3", "G94", "G0 X1. Y0 Z1."]);
 }
 
-/// Behind the slash of block delete the control reads a word or not: what it says is known of neither.
+/// After the slash of block delete the control reads a word or not: what it says is known of neither.
 #[test]
 fn block_delete_leaves_nothing_known() {
     let row = r#"{"begin":"row"},{"rapid":[1,0,1]},{"end":"row"}"#;
@@ -838,7 +838,7 @@ fn a_cut_after_a_cycle_begins_at_the_jobs_height() {
     // a rapid needs nothing
     let lines = path_lines("", RETURNS, &format!("{cycle},{{\"rapid\":[5,0,2]}}"));
     assert_eq!(lines.iter().filter(|line| *line == "G0 Z.3").count(), 1, "only the way to the first hole: {lines:?}");
-    // and a cut behind a rapid across begins there too
+    // and a cut after a rapid across begins there too
     let lines = path_lines("", RETURNS, &format!("{cycle},{{\"rapid\":[5,5]}},{{\"line\":[5,5,0]}}"));
     assert_eq!(lines[lines.len() - 4..], ["G80", "G0 X5. Y5.", "Z.3", "G1 Z0 F10."], "{lines:?}");
 }
@@ -1045,7 +1045,7 @@ fn more_work_names_further_offsets() {
     }
 }
 
-/// A form may have several words for its offsets, and say them behind a text.
+/// A form may have several words for its offsets, and say them after a text.
 #[test]
 fn a_form_has_several_words_for_its_offsets() {
     let more = "@if [work] > 59\nG54.1 P[work-59]\n@else\nG[work]\n@end\nG0 X[h] Y[v] Z[d]";

@@ -423,7 +423,7 @@ fn a_cycle_that_waits_for_its_holes_drills_the_first() {
     assert!(first_hole(" K0") && first_hole(" L0") && !first_hole(""));
 }
 
-/// Increments behind a cycle count from a height that somebody knows, or are an error.
+/// Increments after a cycle count from a height that somebody knows, or are an error.
 #[test]
 fn no_increment_from_a_height_that_nobody_knows() {
     let drill = "Drill\nG90\nG98 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -456,7 +456,7 @@ fn the_default_offset_is_counted_as_the_form_counts() {
     assert_eq!(lines[3], "G15 H1");
 }
 
-/// A hole behind an Index is reached across first and down last, and the part turns under no tool.
+/// A hole after an Index is reached across first and down last, and the part turns under no tool.
 #[test]
 fn a_hole_behind_an_index_is_reached_across_first() {
     let form = "Index\nG0 G53 Z0\nA[rotangle]\nEnd\nDrill\nG98 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -653,7 +653,7 @@ fn increments_count_from_a_height_that_is_certain() {
     }
 }
 
-/// Behind an arc a part of the path does not go on as an arc.
+/// After an arc a part of the path does not go on as an arc.
 #[test]
 fn a_part_behind_an_arc_is_no_arc() {
     let arc = "{\"arc\":{\"to\":[2,0],\"center\":[1,0],\"direction\":\"ccw\"}}";

@@ -260,7 +260,7 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
     assert_eq!(refused(control("fanuc"), &long), ("PN001".into(), 1));
 }
 
-/// G0 beside G28 says how the blocks behind it move: the axis words are of G28. Those beside G53 are of G0 or G1 alone.
+/// G0 beside G28 says how the blocks after it move: the axis words are of G28. Those beside G53 are of G0 or G1 alone.
 #[test]
 fn the_axis_words_of_a_block_have_one_code() {
     let went = fanuc("X1. Y1.\nG1 G28 X5. Y5.\nX7. F10.");

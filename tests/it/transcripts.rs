@@ -1,5 +1,5 @@
 //! Command lines with what they print: those of the README, of docs/ and of `tests/cmd/`. After a change that is meant,
-//! `TRYCMD=overwrite cargo test transcripts::` writes them anew; read the difference.
+//! `TRYCMD=overwrite cargo test transcripts::` writes them again; read the difference.
 
 use std::fs;
 use std::process::Command;

@@ -1,5 +1,5 @@
 //! docs/verdicts.md: each post that ships with the job of each sample, and how the proof comes out.
-//! `SAMPLES=overwrite cargo test verdicts::` writes it anew.
+//! `SAMPLES=overwrite cargo test verdicts::` writes it again.
 
 use std::fmt::Write as _;
 use std::fs;

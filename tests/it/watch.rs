@@ -96,16 +96,16 @@ fn unpacked(bytes: &[u8]) -> (Value, Vec<u8>) {
     scenes.remove(0)
 }
 
-/// The heads and sections of scenes that stand one behind the other.
+/// The heads and sections of scenes that stand one after the other.
 fn scenes(mut bytes: &[u8]) -> Vec<(Value, Vec<u8>)> {
     let mut found = Vec::new();
     while !bytes.is_empty() {
         assert_eq!(&bytes[..4], b"PFS2");
         let head = u32::from_le_bytes(bytes[4..8].try_into().unwrap()) as usize;
         let body = u64::from_le_bytes(bytes[8..16].try_into().unwrap()) as usize;
-        let (this, behind) = bytes[16..].split_at(head + body);
+        let (this, after) = bytes[16..].split_at(head + body);
         found.push((serde_json::from_slice(&this[..head]).unwrap(), this[head..].to_vec()));
-        bytes = behind;
+        bytes = after;
     }
     found
 }
@@ -311,7 +311,7 @@ fn a_slow_request_is_ended() {
     let until = Instant::now() + Duration::from_secs(60);
     for mut stream in slow {
         let mut byte = [0];
-        // what was sent behind the end may have the answer thrown away: the connection is closed in any case
+        // what was sent after the end may have the answer thrown away: the connection is closed in any case
         while stream.read(&mut byte).is_err_and(|error| error.kind() == std::io::ErrorKind::WouldBlock) {
             assert!(Instant::now() < until, "a request of any length of time");
             _ = stream.write_all(b"x");
@@ -571,7 +571,7 @@ fn how_watch_ends() {
     }
 }
 
-/// `render --watch` prints anew with every change, and waits where something is wrong; the program of before stays then.
+/// `render --watch` prints again with every change, and waits where something is wrong; the program of before stays then.
 #[test]
 fn render_watches_its_files() {
     let folder = bracket("watch-render");
@@ -603,7 +603,7 @@ fn render_watches_its_files() {
     _ = child.wait();
 }
 
-/// `lint --watch` reports anew, also of a form that appears in a folder.
+/// `lint --watch` reports again, also of a form that appears in a folder.
 #[test]
 fn lint_watches_its_folder() {
     let folder = Folder::new("watch-lint");
@@ -624,6 +624,6 @@ fn lint_watches_its_folder() {
     _ = child.kill();
     _ = child.wait();
     let both = folder.run(&["lint", "forms", "--watch", "--fix"]);
-    assert_eq!(both.status.code(), Some(2), "who mends does not wait");
+    assert_eq!(both.status.code(), Some(2), "who fixes does not wait");
     assert_eq!(folder.run(&["lint", "-", "--watch"]).status.code(), Some(2), "standard input can't be read again");
 }

@@ -1,5 +1,5 @@
 //! Wrong uses of what posts say beyond the manual: what is found, where, and what to type instead.
-//! tests/data/wrong-uses.txt has what is said of each; `SAMPLES=overwrite cargo test wrong_uses::` writes it anew: read it as a machinist would.
+//! tests/data/wrong-uses.txt has what is said of each; `SAMPLES=overwrite cargo test wrong_uses::` writes it again: read it as a machinist would.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -16,7 +16,7 @@ enum Place {
     Head,
     /// In its first tool change.
     Change,
-    /// Behind its last sequence, in the stead of its own.
+    /// After its last sequence, in the stead of its own.
     Behind,
 }
 

@@ -64,7 +64,7 @@ impl Watched {
     }
 }
 
-/// Does a command anew whenever one of its files changes, until it is ended. What is wrong is said, and waited for to be mended.
+/// Does a command again whenever one of its files changes, until it is ended. What is wrong is said, and waited for to be fixed.
 pub fn repeat(
     paths: impl Fn() -> Vec<PathBuf>,
     mut command: impl FnMut() -> Result<Ending, String>,

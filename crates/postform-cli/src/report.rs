@@ -23,7 +23,7 @@ struct Text<'a> {
     source: &'a Source,
     /// The text as a terminal may get it, with the same lines.
     shown: Cow<'a, Source>,
-    /// Behind which bytes of the file the shown text is longer, and by how many bytes.
+    /// After which bytes of the file the shown text is longer, and by how many bytes.
     longer: Vec<(usize, usize)>,
 }
 
@@ -171,7 +171,7 @@ impl Reporter {
             }
         }
         if diags.len() > MOST_DRAWN {
-            all += &format!("and {}: mend these first\n", count(diags.len() - MOST_DRAWN, "more finding"));
+            all += &format!("and {}: fix these first\n", count(diags.len() - MOST_DRAWN, "more finding"));
         }
         all
     }

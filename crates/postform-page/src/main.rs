@@ -1,7 +1,7 @@
 //! postform for the playground: it reads a request from standard input and writes a scene to standard output.
 //!
 //! A request is the length of its head (four bytes, the least first), the head as JSON, and the files that the head names, one
-//! behind the other: for each form its text now and as it was saved, the job, the program to compare with, and what the saved form printed.
+//! after the other: for each form its text now and as it was saved, the job, the program to compare with, and what the saved form printed.
 
 use std::collections::HashMap;
 use std::io::{self, Read, Write};

@@ -124,7 +124,7 @@ export function upTo(level: Level, piece: number): number {
   return low;
 }
 
-/** Runs of pieces that may be in sight: first, and behind the last. */
+/** Runs of pieces that may be in sight: first, and after the last. */
 export function inSight(level: Level, sees: Sees): [number, number][] {
   const runs: [number, number][] = [];
   const total = count(level);

@@ -5,7 +5,7 @@
 /// `Id "Name" (what it takes) once|many (what holds without it) Standing {field of the settings} "meaning";`
 ///
 /// The field is `{name: Type}`, which declares it, `{= place}`, a place in one that is there, `{=> method}`, a method of the
-/// settings that stores the arguments, or `{}`, nothing. Behind it may stand `if (where it is used)` and `eg "arguments"`,
+/// settings that stores the arguments, or `{}`, nothing. After it may stand `if (where it is used)` and `eg "arguments"`,
 /// an example for a command that no form of the repository gives.
 macro_rules! command_rows {
     ($then:ident) => {
@@ -29,9 +29,9 @@ macro_rules! command_rows {
             Feed "Feed" (Motion(1, 1)) once (of("G1")) Doc {feed: Code}
                 "motion word of generated feed moves";
             CW "CW" (Motion(1, 2)) once (of("G2")) Ours {=> clockwise}
-                "motion word of generated clockwise arcs; an M code behind it is [direct]'s";
+                "motion word of generated clockwise arcs; an M code after it is [direct]'s";
             CCW "CCW" (Motion(1, 2)) once (of("G3")) Ours {=> counter_clockwise}
-                "motion word of generated counter-clockwise arcs; an M code behind it is [direct]'s";
+                "motion word of generated counter-clockwise arcs; an M code after it is [direct]'s";
             FeedCode "FeedCode" (Letters(1, 1)) once (of("F")) Doc {feed_code: u8}
                 "letter of generated feed words";
             SpeedCode "SpeedCode" (Letters(1, 1)) once (of("S")) Doc {speed_code: u8}

@@ -39,7 +39,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF429, format!("{} selects a tool and does not change it", body.name()))
                     .at(word.span, "no M6")
-                    .help("print `M6` behind it"),
+                    .help("print `M6` after it"),
             );
         }
     }

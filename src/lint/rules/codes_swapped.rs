@@ -16,7 +16,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         let usual = row.without.arguments(view.settings.machine, view.settings.units);
         let usual_codes = codes(usual.split(' '));
-        // the spindle's code behind an arc's is none of a motion
+        // the spindle's code after an arc's is none of a motion
         let motion = MOTION.contains(&id);
         let args = if motion { &statement.args[..statement.args.len().min(1)] } else { &statement.args[..] };
         let said = codes(args.iter().map(|arg| arg.text.as_str()));

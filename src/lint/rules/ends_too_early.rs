@@ -16,7 +16,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if let Some(word) = body.words().find(is_end) {
             diags.push(
                 Diag::new(Code::PF443, format!("{} ends the program, and the job goes on", body.name()))
-                    .at(word.span, "nothing behind it is done")
+                    .at(word.span, "nothing after it is done")
                     .help("take it out; a stop is M0 or M1, the end belongs into EndCode"),
             );
         }

@@ -20,7 +20,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF424, format!("{} leaves G{incremental} on", body.name()))
                     .at(word.span, "every position after this is taken as an increment")
-                    .help(format!("print `G{absolute}` behind it")),
+                    .help(format!("print `G{absolute}` after it")),
             );
         }
     }

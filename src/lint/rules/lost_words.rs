@@ -1,4 +1,4 @@
-//! PF101: words behind two blanks or a tab are a comment, which looks like output and prints nothing.
+//! PF101: words after two blanks or a tab are a comment, which looks like output and prints nothing.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
@@ -27,7 +27,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 }
 
 fn sequence(node: &SequenceNode, text: &str, diags: &mut Vec<Diag>) {
-    // behind a name stands a remark; a number alone is a count
+    // after a name stands a remark; a number alone is a count
     let is_cycle = SequenceId::parse(&node.name.name.text).is_some_and(SequenceId::makes_holes);
     if is_cycle && node.name.args.is_empty() && count_is_lost(&node.name.line, text) {
         lost(&node.name.line, text, &|token| token.bytes().all(|b| b.is_ascii_digit()), diags);

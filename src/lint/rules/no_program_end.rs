@@ -1,4 +1,4 @@
-//! PF014: a program that does not end runs on into what lies behind it.
+//! PF014: a program that does not end runs on into what lies after it.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

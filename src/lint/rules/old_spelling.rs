@@ -40,7 +40,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let name = &statement.name;
             let known = CommandId::parse(&name.text).is_some() || SequenceId::parse(&name.text).is_some();
             let at = name.span.end as usize;
-            // an argument directly behind it may begin with anything, as no other can: it keeps its semicolon
+            // an argument directly after it may begin with anything, as no other can: it keeps its semicolon
             let apart = text.get(at + 1).is_none_or(|b| b" \t\r\n".contains(b));
             if known && apart && text.get(at) == Some(&b';') {
                 let span = Span { start: name.span.end, end: name.span.end + 1, ..name.span };

@@ -1,4 +1,4 @@
-//! PF714: `=` compares a text as it stands; a `*` in it stands for any text behind `like` only.
+//! PF714: `=` compares a text as it stands; a `*` in it stands for any text after `like` only.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

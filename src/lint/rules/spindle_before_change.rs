@@ -24,7 +24,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF427, format!("{} stops the spindle again after it is on", body.name()))
                     .at(word.span, "the tool stands still in the first cut")
-                    .help("print the spindle behind it: `S[speed] M[direct]`"),
+                    .help("print the spindle after it: `S[speed] M[direct]`"),
             );
         }
     }

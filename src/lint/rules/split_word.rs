@@ -57,7 +57,7 @@ fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
             let (label, text) = if zero { ("a zero for the letter O", "O") } else { ("the letter is there twice", "") };
             Some((span.to(*end), label, format!("write `{better}`"), Some(("write the word", *span, text.to_owned()))))
         }
-        // [frate] among words with letters, and behind no text
+        // [frate] among words with letters, and after no text
         (
             [
                 Piece {

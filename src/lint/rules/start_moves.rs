@@ -1,4 +1,4 @@
-//! PF013: nobody knows where the tool is when a program starts.
+//! PF013: the position of the tool is unknown here when a program starts.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;

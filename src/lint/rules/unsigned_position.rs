@@ -46,7 +46,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let wider = if digits.contains('>') {
             String::new()
         } else {
-            format!("; `{name}->4.>4` has up to four digits before the point, and four behind it")
+            format!("; `{name}->4.>4` has up to four digits before the point, and four after it")
         };
         diags.push(
             Diag::new(Code::PF305, format!("{name} prints positions and has no sign"))

@@ -1,4 +1,4 @@
-//! PF015: no control reads what stands behind the end of the program.
+//! PF015: no control reads what stands after the end of the program.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -23,9 +23,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     };
     if let Some(word) = end.lines[last + 1..].iter().flat_map(|line| &line.words).find(is_word) {
         diags.push(
-            Diag::new(Code::PF015, "a word behind the end of the program")
+            Diag::new(Code::PF015, "a word after the end of the program")
                 .at(word.span, "never done")
-                .help("print M30 last, and behind it only the `%`"),
+                .help("print M30 last, and after it only the `%`"),
         );
     }
 }

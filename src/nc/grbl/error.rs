@@ -9,7 +9,7 @@ type Row = (u8, Code, &'static str, &'static str);
 #[rustfmt::skip]
 const ERRORS: [Row; 24] = [
     (1, Code::PN001, "a word must begin with a letter", "take it out: Grbl has no `%`, no parameters and no expressions"),
-    (2, Code::PN001, "a letter without its number", "write a plain number behind it"),
+    (2, Code::PN001, "a letter without its number", "write a plain number after it"),
     (4, Code::PN018, "F, N, P, S and T are not negative", "write it without the minus"),
     (11, Code::PN001, "over 79 characters besides blanks, slashes and comments", "break it into several blocks"),
     (20, Code::PN003, "no code or word of Grbl", "take it out, or print the program for the control that has it"),

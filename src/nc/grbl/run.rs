@@ -84,7 +84,7 @@ impl State {
         Ok(())
     }
 
-    /// M0, M2 and M30. Senders go on behind the end, and so does Grbl, with some of its modes as switched on.
+    /// M0, M2 and M30. Senders go on after the end, and so does Grbl, with some of its modes as switched on.
     fn grbl_stops(&mut self, block: &Block, out: &mut Out<'_>) {
         for (_, row) in block.m() {
             match row.meaning {

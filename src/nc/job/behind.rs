@@ -1,8 +1,8 @@
-//! How a machine stands behind a block.
+//! How a machine stands after a block.
 
 use crate::nc::state::State;
 
-/// How the machine stands behind a block.
+/// How the machine stands after a block.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Behind {
     /// Axes that stand at a place of the machine, as bits.

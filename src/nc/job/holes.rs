@@ -23,7 +23,7 @@ impl Reader<'_> {
         true
     }
 
-    /// What is switched behind rapids that may lead to the next hole is switched behind them.
+    /// What is switched after rapids that may lead to the next hole is switched after them.
     pub(super) fn settle_way(&mut self, action: &Action) -> Done {
         let leads = matches!(
             action,
@@ -109,7 +109,7 @@ impl Reader<'_> {
         self.rapid(&to, 0)
     }
 
-    /// The cycle is over, and the rapids behind its last hole are made.
+    /// The cycle is over, and the rapids after its last hole are made.
     pub(super) fn end_cycle(&mut self) -> Done {
         let Some(pattern) = self.cycle.take() else { return Ok(()) };
         self.place.point = 0;

@@ -7,7 +7,7 @@ use crate::toolpath::Place;
 pub(super) struct Pattern {
     pub first: Drilling,
     pub last: Drilling,
-    /// Rapids behind the last hole, as high as it was left: they may only lead to the next.
+    /// Rapids after the last hole, as high as it was left: they may only lead to the next.
     pub way: Vec<(Position, Place)>,
 }
 
@@ -23,7 +23,7 @@ impl Pattern {
         level && self.way.len() < MOST_WAY
     }
 
-    /// Do the rapids behind the last hole lead to this one, and nowhere else?
+    /// Do the rapids after the last hole lead to this one, and nowhere else?
     pub fn leads_to(&self, hole: &Drilling) -> bool {
         self.way.iter().all(|(to, _)| to[..2] == self.last.at[..2] || to[..2] == hole.at[..2])
     }

@@ -54,7 +54,7 @@ pub(super) struct Reader<'a> {
     pub(super) framed: bool,
     /// The last comment and its line.
     pub(super) remark: (u64, String),
-    /// What stands behind the tool's T word.
+    /// What stands after the tool's T word.
     pub(super) tool_name: Option<String>,
     /// What G52 and G92 had added by the first move, and what they have added since.
     pub(super) frame: [f64; 3],
@@ -246,7 +246,7 @@ impl<'a> Reader<'a> {
         self.end_cycle()?;
         self.start()?;
         if self.waiting.iter().any(|waiting| matches!(waiting, Waiting::Stop(_))) {
-            let message = "a stop behind a tool change that nothing moves after is left out";
+            let message = "a stop after a tool change that nothing moves after is left out";
             self.warnings.push(warning(self.place.line, message, "print it in the form's EndCode"));
         }
         self.push(Event::Finish)
@@ -404,7 +404,7 @@ impl<'a> Reader<'a> {
     fn between(&mut self, event: Event<'_>) -> Done {
         self.end_cycle()?;
         if self.operation && (self.place.operation == 0 || self.tool_is_new()) {
-            // behind the tool change of the form
+            // after the tool change of the form
             return match event {
                 Event::Stop(kind) => self.wait(Waiting::Stop(kind)),
                 Event::Dwell(seconds) => self.wait(Waiting::Dwell(seconds)),
@@ -451,7 +451,7 @@ impl<'a> Reader<'a> {
             self.waiting.push(waiting);
         } else if !matches!(waiting, Waiting::Comment(_)) {
             let message = format!("more than {MOST_WAITING} stops, dwells and comments before a tool's first move");
-            return unsaid(self.place.line, message, "take out those that nobody needs");
+            return unsaid(self.place.line, message, "take out those that are not needed");
         }
         Ok(())
     }

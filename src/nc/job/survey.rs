@@ -22,7 +22,7 @@ pub(super) struct Registers {
 #[derive(Debug, Default)]
 pub(super) struct Survey {
     pub program: Option<f64>,
-    /// The comment behind the program's number.
+    /// The comment after the program's number.
     pub name: Option<String>,
     pub units: Option<Units>,
     /// Registers for each tool change, the first for what comes before any.
@@ -157,7 +157,7 @@ pub(super) fn survey(
         if !more {
             break;
         }
-        // its name stands behind its number
+        // its name stands after its number
         if !named && simulator.program().is_some() {
             named = true;
             let name = simulator.comment().map(|name| String::from_utf8_lossy(name).trim().to_owned());

@@ -310,7 +310,7 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// Positions behind the word of another work offset count from there.
+    /// Positions after the word of another work offset count from there.
     fn counts_from(&mut self, letter: u8, var: VarId, value: f64) {
         if var == VarId::Work
             && self.writer.shape.program.work.says(self.at)

@@ -84,7 +84,7 @@ fn compensate(to: &Axes, switch: &Switch, cx: &mut Cx<'_>) -> Done {
             && !routine.vars.has(VarId::D)
             && cx.said.differs_from(&target, shape.depth_bit(), shape)
         {
-            let message = format!("nobody knows the height here, and {} does not print it", id.name());
+            let message = format!("the height is unknown here, and {} does not print it", id.name());
             let help = "put a rapid before it, or the word of [d] into the sequence";
             return fault_at(Code::PR017, message, help, Some(routine.span));
         }

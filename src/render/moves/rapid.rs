@@ -36,7 +36,7 @@ pub fn rapid(to: &Axes, cx: &mut Cx<'_>) -> Done {
             );
         }
         print_lacking(cx)?;
-        cx.said.differs |= cx.said.sub.is_some_and(|sub| sub.stops); // a cut behind it must know its spindle
+        cx.said.differs |= cx.said.sub.is_some_and(|sub| sub.stops); // a cut after it must know its spindle
     }
     cx.said.stand.moved_by = None;
     if turns {

@@ -84,7 +84,7 @@ pub fn cut_thread(thread: &Thread, cx: &mut Cx<'_>) -> Done {
         if cycle.is_some_and(|routine| routine.cancel)
             && let Some(cancel) = shape.routine(SequenceId::Cancel, cx.want, cx.said)
         {
-            run_with_upons(cancel, cx)?; // else the rapid behind it would be a pass
+            run_with_upons(cancel, cx)?; // else the rapid after it would be a pass
         }
         cx.said.forget_words();
         cx.said.stand.position = here;

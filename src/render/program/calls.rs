@@ -145,7 +145,7 @@ fn next_begins(
     let mut begins = *place;
     for axis in (0..6).filter(|&axis| prints_axis(routine, axis, shape)) {
         let Some(at) = left.and_then(|left| left.position.get(axis)) else {
-            let message = "a subprogram that ends nobody knows where is called several times, and `SubCall` prints a place for each";
+            let message = "a subprogram whose end position is unknown is called several times, and `SubCall` prints a place for each";
             let help = "end the subprogram with a rapid to a place, or let `SubCall` print [times] and no place";
             return fault(Code::PR033, message, help);
         };

@@ -142,7 +142,7 @@ impl Said {
         }
     }
 
-    /// Behind such a code the axis words of the block are no places.
+    /// After such a code the axis words of the block are no places.
     fn axis_words_are_data(&mut self, meaning: Option<Meaning>) {
         if meaning.is_some_and(|meaning| meaning.axes() == AxisWords::Data) {
             self.shift = self.shift.max_of(Shift::Block);

@@ -70,7 +70,7 @@ impl Context {
         text
     }
 
-    /// The failure behind a serde error; `line` and `column` say where it stopped.
+    /// The failure after a serde error; `line` and `column` say where it stopped.
     pub fn explain(&self, error: serde_json::Error, line: u64, column: u32) -> ReadError {
         let failure = self.failure.borrow_mut().take();
         if failure.is_none() && error.is_io() {

@@ -18,7 +18,7 @@ use super::values::Point;
 use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{ReadError, Sink, Stop};
 
-/// Most points of a cycle that wait for keys behind them; more are passed on as they come.
+/// Most points of a cycle that wait for keys after them; more are passed on as they come.
 const MOST_WAITING: usize = 4096;
 
 /// Reads a job document and pushes its events. Memory does not grow with the job.
@@ -134,7 +134,7 @@ impl<R: Text> Counting<'_, R> {
         Ok(self.to - self.from)
     }
 
-    /// Reads on behind what is there; 0 at the end.
+    /// Reads on after what is there; 0 at the end.
     fn fill(&mut self) -> std::io::Result<usize> {
         loop {
             match self.input.read_on(&mut self.buffer[self.to..]) {
@@ -393,7 +393,7 @@ fn item<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     job.build(|b| b.item(&item))
 }
 
-/// A cycle: its first points wait for keys that stand behind them, later ones do not.
+/// A cycle: its first points wait for keys that stand after them, later ones do not.
 fn cycle<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     const POINTS: &[&str] = &["points"];
     let (mut object, mut seen) = (CycleObject::default(), 0);

@@ -120,7 +120,7 @@ impl Lines<'_, '_> {
                 let mut failure = self.context.explain(error, number, column);
                 if let ReadError::Job(diag) = &mut failure {
                     if diag.code == Code::PJ008 {
-                        **diag = Diag::new(Code::PJ008, "something stands behind the object on this line");
+                        **diag = Diag::new(Code::PJ008, "something stands after the object on this line");
                         diag.help = Some("write one item a line".into());
                     }
                     let key = self.context.path();

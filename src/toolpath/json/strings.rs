@@ -10,7 +10,7 @@ pub const LONGEST: usize = 1 << 20;
 pub struct Strings {
     /// Bytes of the open string so far.
     open: Option<usize>,
-    /// The next byte stands behind a backslash.
+    /// The next byte stands after a backslash.
     escaped: bool,
 }
 

@@ -19,7 +19,7 @@ pub struct Page {
     pub sections: Vec<(String, String)>,
 }
 
-/// A fence: what stands behind `pf`, and the lines.
+/// A fence: what stands after `pf`, and the lines.
 pub struct Fence {
     pub kind: String,
     pub text: String,

@@ -262,7 +262,7 @@ pub fn kind(summary: &Summary) -> String {
 fn left_out(found: &Motions) -> String {
     let list = [
         (found.ways, "way", "otherwise and nowhere lower"),
-        (found.codes, "cut", "behind other codes that are not simulated"),
+        (found.codes, "cut", "after other codes that are not simulated"),
     ];
     let seen = list.iter().filter(|(n, ..)| *n > 0);
     let list: Vec<String> = seen.map(|(n, what, how)| format!("{} {how}", count(*n as usize, what))).collect();

@@ -1,4 +1,4 @@
-//! `--fix` and `--unsafe-fixes`: forms mended in place.
+//! `--fix` and `--unsafe-fixes`: forms fixed in place.
 
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -74,7 +74,7 @@ fn chosen(original: &Checked, safe: Mended, all: Mended, args: &LintArgs) -> Res
             format!("the program of {job}:\n{}", escaped_lines(&unified(&old, new)))
         }
         (Err(why), Ok(new)) => format!("{job} could not be printed ({why}); now it is\n{}", escaped_lines(new)),
-        (_, Err(why)) => format!("nobody can see what they change: {job} is not printed with them ({why})\n"),
+        (_, Err(why)) => format!("it is unknown what they change: {job} is not printed with them ({why})\n"),
     };
     story.push('\n');
     Ok((if new.is_ok() { all } else { safe }, story))

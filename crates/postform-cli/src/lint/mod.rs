@@ -30,7 +30,7 @@ pub struct Linted {
     mended: usize,
 }
 
-/// Every finding of every form, with --watch anew when one of them is changed.
+/// Every finding of every form, with --watch again when one of them is changed.
 pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     if args.watch { poll::repeat(|| inputs(args), || report(args, colour)) } else { report(args, colour) }
 }
@@ -97,7 +97,7 @@ fn read(path: &Path, args: &LintArgs) -> Result<FormFile, String> {
     FormFile::read(path, limits)?.of_post(args.post.as_deref())
 }
 
-/// One form: mended if that is asked for, and looked at.
+/// One form: fixed if that is asked for, and looked at.
 fn one(file: FormFile, args: &LintArgs) -> Result<Linted, String> {
     let levels = Config::near(&file.path)?.levels;
     if args.fix || args.unsafe_fixes {
@@ -135,17 +135,17 @@ fn summary(linted: &[Linted], unread: usize, args: &LintArgs) -> String {
     }
     let mended: usize = linted.iter().map(|form| form.mended).sum();
     if args.fix {
-        text += &format!("; {mended} mended");
+        text += &format!("; {mended} fixed");
     }
     text.push('\n');
     let fixes = || linted.iter().flat_map(|form| &form.findings.diags).filter_map(|diag| diag.fix.as_ref());
     let safe = fixes().filter(|fix| fix.safe).count();
     let others = fixes().count() - safe;
     if safe > 0 && !args.fix {
-        text += &format!("--fix can mend {safe} of them and changes no program\n");
+        text += &format!("--fix can fix {safe} of them and changes no program\n");
     }
     if others > 0 && !args.unsafe_fixes {
-        text += &format!("--unsafe-fixes shows what mending {others} of them would change in a program\n");
+        text += &format!("--unsafe-fixes shows what fixing {others} of them would change in a program\n");
     }
     text
 }

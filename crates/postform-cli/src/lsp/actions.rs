@@ -47,7 +47,7 @@ pub fn actions(server: &Server, params: &lsp::CodeActionParams) -> Vec<lsp::Code
         });
         found.extend(all.into_iter().take(MOST_ACTIONS).filter_map(|action| quick(server, &view, action)));
     }
-    // what mends a whole form stands in no line: it is asked for by name
+    // what fixes a whole form stands in no line: it is asked for by name
     if only.is_some() && asked(FIX_ALL) {
         found.extend(fix_all(server, &view));
     }
@@ -140,7 +140,7 @@ fn fix_all(server: &Server, view: &View) -> Option<lsp::CodeAction> {
     });
     let edits: Vec<(Span, String)> = edits.collect();
     (!edits.is_empty()).then(|| lsp::CodeAction {
-        title: "Mend all that can be mended without changing a program".to_owned(),
+        title: "Mend all that can be fixed without changing a program".to_owned(),
         kind: Some(FIX_ALL.to_owned().into()),
         edit: Some(edit_of(server, view, &edits)),
         ..lsp::CodeAction::default()

@@ -1,4 +1,4 @@
-//! What stands beside the text: hints behind words, and the verdict of each job above the form.
+//! What stands beside the text: hints after words, and the verdict of each job above the form.
 
 use gen_lsp_types as lsp;
 use postform::internals::ide::program;

@@ -139,7 +139,7 @@ impl Session {
                         return Ok(self.ending());
                     }
                 }
-                // answers of the editor: it showed a program, or asked for hints anew
+                // answers of the editor: it showed a program, or asked for hints again
                 Frame::Message(Message::Response(_)) => {}
             }
         }

@@ -24,12 +24,12 @@ pub struct Settings {
     pub control: Option<String>,
     /// The current job of forms, before those of postform.toml: a path.
     pub job: Option<PathBuf>,
-    /// Hints behind words: `on`, `off`, or `auto`, which is off in files over 500 lines.
+    /// Hints after words: `on`, `off`, or `auto`, which is off in files over 500 lines.
     pub inlay_hints: Option<String>,
 }
 
 impl Settings {
-    /// What is said anew; what is not said stays.
+    /// What is said again; what is not said stays.
     pub fn take(&mut self, said: Settings) {
         self.control = said.control.or(self.control.take());
         self.job = said.job.or(self.job.take());
@@ -50,9 +50,9 @@ pub struct Client {
     pub virtual_programs: bool,
     /// The editor tells of files that change on the disk, when it is asked to.
     pub watches: bool,
-    /// The editor asks for hints anew when it is told to.
+    /// The editor asks for hints again when it is told to.
     pub refreshes_hints: bool,
-    /// The editor asks for lenses anew when it is told to.
+    /// The editor asks for lenses again when it is told to.
     pub refreshes_lenses: bool,
 }
 
@@ -165,7 +165,7 @@ impl Server {
             Some(name) => {
                 Ok((self.named(name, self.folders.first().map_or(folder, PathBuf::as_path))?, "of the settings"))
             }
-            None => Ok((Control::usual(), "nobody named one")),
+            None => Ok((Control::usual(), "none was named")),
         }
     }
 

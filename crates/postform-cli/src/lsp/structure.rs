@@ -112,7 +112,7 @@ fn token_type(kind: TokenKind) -> &'static str {
     }
 }
 
-/// What is lost behind two blanks is marked as such.
+/// What is lost after two blanks is marked as such.
 pub const TOKEN_MODIFIERS: [&str; 1] = ["deprecated"];
 
 /// The words of a form with their kinds.

@@ -113,7 +113,7 @@ impl View {
         Some(self.form.as_ref()?.place(&source.name))
     }
 
-    /// A job printed with the form; jobs count from 0, and what is behind the last is the built-in one. `None`: the form has
+    /// A job printed with the form; jobs count from 0, and what is after the last is the built-in one. `None`: the form has
     /// errors, or the job can't be read.
     pub fn printed(&self, job: usize) -> Option<&Current> {
         let Some(text) = self.jobs.get(job) else {

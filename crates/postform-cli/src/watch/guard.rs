@@ -34,7 +34,7 @@ impl Guard {
         Guard { token, hosts: [format!("127.0.0.1:{port}"), format!("localhost:{port}")] }
     }
 
-    /// What is asked for, behind the token: empty for the page itself.
+    /// What is asked for, after the token: empty for the page itself.
     ///
     /// # Errors
     /// What is answered instead.

@@ -41,7 +41,7 @@ pub struct Answer {
     pub status: u16,
     /// The `Content-Type` of the answer.
     pub kind: &'static str,
-    /// What comes behind the head.
+    /// What comes after the head.
     pub body: Vec<u8>,
     /// More fields of its head.
     pub fields: Vec<(&'static str, String)>,

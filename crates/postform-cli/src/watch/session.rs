@@ -1,4 +1,4 @@
-//! What a page is shown: a form, jobs, and a program to compare with, read anew each time from their files.
+//! What a page is shown: a form, jobs, and a program to compare with, read again each time from their files.
 
 use std::collections::HashMap;
 use std::fs;
@@ -188,7 +188,7 @@ impl Session {
         lock(&self.shown).iter().all(|path| paths.contains(path))
     }
 
-    /// What the page shows: a scene, and what takes longer than the picture of a long program behind it: its verdict, and what
+    /// What the page shows: a scene, and what takes longer than the picture of a long program after it: its verdict, and what
     /// changed.
     ///
     /// # Errors

@@ -301,7 +301,7 @@ impl Simulator<'_> {
         let mut times = 1.0;
         if !cursor.is_over() {
             if !cursor.takes_word("P") || !cursor.takes(b"=") {
-                let help = "write REPEAT LABEL P=3 behind the part that is repeated";
+                let help = "write REPEAT LABEL P=3 after the part that is repeated";
                 return refuse(Code::PN016, "REPEAT of a part with its end elsewhere is not run", help);
             }
             times = words.value(cursor)?;
@@ -362,7 +362,7 @@ fn is_call(name: &str, cursor: &Cursor<'_>, is_name: bool) -> bool {
     is_name && alone && !is_known && !own.iter().any(|known| name.starts_with(known))
 }
 
-/// `P3` behind a call: how often.
+/// `P3` after a call: how often.
 fn calls(cursor: &mut Cursor<'_>) -> f64 {
     if cursor.takes(b"P") || cursor.takes(b"p") { cursor.unsigned().unwrap_or(-1.0) } else { 1.0 }
 }

@@ -14,7 +14,7 @@ pub struct Head<'l> {
     /// Of `N100`.
     number: Option<f64>,
     label: Option<Cow<'l, str>>,
-    /// The first word behind them, in capital letters.
+    /// The first word after them, in capital letters.
     pub word: Cow<'l, str>,
     /// Where the statement begins.
     pub start: usize,

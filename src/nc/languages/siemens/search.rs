@@ -54,7 +54,7 @@ impl Simulator<'_> {
         let mut sections = vec![Section { name: String::new(), start }];
         self.lines_from(start, &mut |line, before, _| {
             if let Some(name) = section(line) {
-                // `PROC NAME` behind its own header begins nothing new
+                // `PROC NAME` after its own header begins nothing new
                 if sections.last().is_none_or(|last| last.name != name) {
                     sections.push(Section { name, start: before });
                 }
@@ -167,7 +167,7 @@ impl Simulator<'_> {
         let section =
             self.siemens.sections.as_deref().unwrap_or_default().iter().find(|section| section.name == name).cloned();
         let Some(section) = section else {
-            let help = "subprograms in other files are not simulated: add it behind the main program, as %_N_NAME_SPF";
+            let help = "subprograms in other files are not simulated: add it after the main program, as %_N_NAME_SPF";
             return Ok(refuse(Code::PN016, format!("there is no subprogram {name} in this file"), help));
         };
         // its header is passed over

@@ -108,3 +108,7 @@ dist:
 many-jobs count="10000":
     cargo build --profile dist --locked --bin postform
     benches/many_jobs target/dist/postform {{count}}
+
+# everything that tries to break postform, as a table for docs/reliability.md: an hour for scale 1
+campaign scale="1":
+    fuzz/campaign {{scale}}

@@ -129,7 +129,11 @@ impl<'r, 's> Convert<'r, 's> {
                 self.ahead.name = Some(record.text.trim().to_owned());
                 Ok(())
             }
-            // the construction plane, the stock, canned text that holds nothing here, data of tools and operations
+            1025 if record.text.split_whitespace().any(|word| word.parse() != Ok(0.0)) => {
+                let help = "take the canned text out of the operation: what it prints is up to Mastercam's post";
+                Err(wrong(Code::PI003, "canned text (1025)", help, record.line))
+            }
+            // the construction plane, the stock, no canned text, data of tools and operations
             1016 | 1017 | 1020 | 1025 | 10_000.. => Ok(()),
             other => {
                 let what = match other {

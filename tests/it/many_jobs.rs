@@ -139,6 +139,8 @@ fn a_job_is_split_by_tool_operation_and_work_offset() {
     assert!(err(&output).contains("{operation} has no value here"), "{}", err(&output));
     let output = split(&["--split", "tool", "--name", "{job}"]);
     assert!(err(&output).contains("would be the program of two parts of jobs/bracket/job.json"), "{}", err(&output));
+    let output = split(&["--split", "tool", "--name", "{operation}"]);
+    assert_eq!(output.status.code(), Some(2));
 }
 
 #[test]
@@ -196,6 +198,51 @@ fn a_change_of_a_form_is_shown_by_its_kinds() {
         documents.lines().all(|line| line.contains("\"job\":\"jobs/") && line.contains("\"same\":false")),
         "{documents}"
     );
+}
+
+/// What was tried by somebody who wanted to break it.
+#[test]
+fn wrong_uses_are_named_and_nothing_is_left_out_unseen() {
+    let folder = shop("wrong");
+    let run = |arguments: &[&str]| folder.run(&[&["render"], arguments].concat());
+    for option in [&["--split", "tool"][..], &["--changed"], &["--name", "{job}"], &["--jobs", "2"]] {
+        let output = run(&[&["jobs/bracket/job.json", "--form", "haas.pf", "-o", "part.nc"], option].concat());
+        assert_eq!(output.status.code(), Some(2), "{option:?}");
+        assert!(err(&output).contains("--out-dir"), "{}", err(&output));
+        assert!(!folder.has("part.nc"));
+    }
+    let output = run(&["jobs", "--form", "haas.pf", "--out-dir", "nc", "--name", "{tool}.nc"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(err(&output).matches("{tool} has no value here").count(), 1);
+    let output = run(&["jobs", "--form", "haas.pf", "--out-dir", "haas.pf"]);
+    assert_eq!((output.status.code(), err(&output).as_str()), (Some(2), "error: haas.pf is no folder\n"));
+    // a folder, or a link, of a program's name
+    fs::create_dir_all(folder.0.join("nc/plate.nc")).unwrap();
+    let output = run(&["jobs", "--form", "haas.pf", "--out-dir", "nc"]);
+    assert_eq!(last(&output), "2 programs, 1 failed: jobs/plate/job.json", "{}", err(&output));
+    assert_eq!(fs::read_dir(folder.0.join("nc/plate.nc")).unwrap().count(), 0);
+    #[cfg(unix)]
+    {
+        folder.write("target.nc", "mine");
+        fs::create_dir_all(folder.0.join("linked")).unwrap();
+        std::os::unix::fs::symlink("../target.nc", folder.0.join("linked/plate.nc")).unwrap();
+        let output = run(&["jobs/plate", "--form", "haas.pf", "--out-dir", "linked"]);
+        assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+        assert_eq!(folder.read("target.nc"), "mine");
+    }
+    // names are spelt as forms spell them
+    folder.write("odd/it's a part.json", folder.read("jobs/plate/job.json"));
+    let output = run(&["odd", "--form", "haas.pf", "--out-dir", "odd-nc", "--name", "{job}.nc.gz"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(fs::read(folder.0.join("odd-nc/it_s_a_part.nc.gz")).unwrap().starts_with(b"\x1f\x8b"));
+    // what is no job by its beginning is said, and a compressed job is one
+    folder.write("mixed/other.json", "{\"name\": 1}");
+    folder.write("mixed/empty.json", "");
+    let gz = fs::read(folder.0.join("odd-nc/it_s_a_part.nc.gz")).unwrap();
+    folder.write("mixed/job.nc.gz", gz);
+    let output = folder.run(&["check", "mixed", "--job-control", "haas"]);
+    assert_eq!(out(&output).matches(": in order\n").count(), 1, "{}{}", out(&output), err(&output));
+    assert_eq!(err(&output).matches("left out: mixed/").count(), 2, "{}", err(&output));
 }
 
 #[test]

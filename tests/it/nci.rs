@@ -151,6 +151,7 @@ fn what_is_refused_has_its_line() {
             "no heights one below the other",
         ),
         (change("50. 2. 0. 0. 10. 10. 50. 0 0", "50. 2. 0. 0. 10. 11. 50. 0 0"), Code::PI003, "not along Z"),
+        (change("\n80\n\n", "\n1025\n0 1 0 0 0 0 0 0 0 0\n80\n\n"), Code::PI003, "canned text (1025)"),
         (change("\n80\n\n", "\n1018\n\n"), Code::PI003, "record 1018: a subprogram"),
         (change("1 40 30. 40.".trim_start_matches("1 "), "0 30. 40."), Code::PI003, "compensation"),
     ];

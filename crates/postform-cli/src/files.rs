@@ -207,7 +207,10 @@ fn fits(from: Format, path: &Path, args: &ReadArgs) -> Result<(), String> {
     let of_both = args.assume_tool.is_some() || args.assume_start.is_some();
     let has_units = !matches!(from, Format::Cl | Format::Nc | Format::Nci) && args.assume_units.is_some();
     if has_units || !matches!(from, Format::Cl | Format::Nc) && of_both {
-        return Err(format!("error: --assume-.. is for CL files and NC programs, which {} is not", name(path)));
+        return Err(format!(
+            "error: --assume-.. is for CL files, NCI files and NC programs, which {} is not",
+            name(path)
+        ));
     }
     if from != Format::Cl && args.assumes_of_cl() {
         let options = "--assume-speed, -feed and -end and --setup are";

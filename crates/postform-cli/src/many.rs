@@ -29,7 +29,13 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
             jobs.push(path.clone());
             continue;
         }
-        let found = jobs_in(path)?;
+        let (found, others) = jobs_in(path)?;
+        for other in others.iter().take(MOST_NAMED) {
+            message(&format!("left out: {} has no \"postform\" at its beginning, as jobs have", files::name(other)));
+        }
+        if others.len() > MOST_NAMED {
+            message(&format!("left out: {} more", others.len() - MOST_NAMED));
+        }
         if found.is_empty() {
             return Err(format!("error: there is no job in {}", files::name(path)));
         }

@@ -67,13 +67,18 @@ impl Target {
         Ok(Target::Beside(Unnamed::beside(to, mode).map_err(fail)?))
     }
 
-    /// Prepares an output in a folder, which gets its name when that is known: see [`Target::named`].
+    /// Prepares an output in a folder, which gets its name when it is complete: see [`Target::named`]. `name` is that name where it is
+    /// known before: one that ends with `.gz` is compressed.
     ///
     /// # Errors
     /// As [`Target::open`].
-    pub fn open_in(folder: &Path) -> Result<Target, String> {
+    pub fn open_in(folder: &Path, name: Option<&str>) -> Result<Target, String> {
         let unnamed = Unnamed::beside(folder.join("program"), None);
-        Ok(Target::Beside(unnamed.map_err(|error| io_message("write", folder, &error))?))
+        let target = Target::Beside(unnamed.map_err(|error| io_message("write", folder, &error))?);
+        Ok(match name.map(Path::new).and_then(unpacked_name) {
+            Some(_) => Target::Packed(Box::new((target, packing()))),
+            None => target,
+        })
     }
 
     /// Gives an output of a folder its name.
@@ -81,7 +86,14 @@ impl Target {
     /// # Errors
     /// A message: what has that name must not be replaced.
     pub fn named(self, path: &Path) -> Result<Target, String> {
-        let Target::Beside(unnamed) = self else { return Ok(self) };
+        let unnamed = match self {
+            Target::Beside(unnamed) => unnamed,
+            Target::Packed(packed) => {
+                let (target, encoder) = *packed;
+                return Ok(Target::Packed(Box::new((target.named(path)?, encoder))));
+            }
+            other => return Ok(other),
+        };
         if inputs::holds(path) {
             return Err(format!("error: {} is an input: choose another folder", output_name(path)));
         }

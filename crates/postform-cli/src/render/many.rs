@@ -44,6 +44,12 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let Some(folder) = &args.out_dir else { return Err("error: give --out-dir FOLDER".into()) };
     let reporter = Reporter::new(colour);
     let pattern = args.name.as_deref().or(args.split.map(|_| "{job}-{part}")).map(Pattern::parse).transpose()?;
+    if let Some(pattern) = &pattern {
+        pattern.fits(args.split)?;
+    }
+    if folder.exists() && !folder.is_dir() {
+        return Err(format!("error: {} is no folder", files::output_name(folder)));
+    }
     let jobs = many::jobs(&args.jobs)?;
     let mut forms = Forms::default();
     let mut rows = Vec::with_capacity(jobs.len());
@@ -86,7 +92,8 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         Ok(output) => {
             let name = files::output_name(output);
             let (job, part) = (program.job.as_path(), program.part.as_ref());
-            let task = Task { job, output, called: &name, part, number: program.number };
+            let file = output.file_name().map(|name| name.to_string_lossy().into_owned());
+            let task = Task { job, output: folder, name: file.as_deref(), called: &name, part, number: program.number };
             print::print(&task, &forms.ready[program.ready], args, &reporter).map(|ending| (String::new(), ending))
         }
         Err(refused) => {
@@ -199,7 +206,11 @@ fn apart(planned: &[Planned]) -> Result<(), String> {
         let key = to.to_string_lossy().to_lowercase();
         if let Some(other) = names.insert(key, &program.job) {
             let (to, job, other) = (files::output_name(to), files::name(&program.job), files::name(other));
-            let whose = if job == other { format!("two parts of {job}") } else { format!("{other} and {job}") };
+            let whose = match (job == other, program.part) {
+                (true, Some(_)) => format!("two parts of {job}"),
+                (true, None) => format!("{job}, which is named twice"),
+                (false, _) => format!("{other} and {job}"),
+            };
             return Err(format!(
                 "error: {to} would be the program of {whose}: nothing was printed\n  help: name the programs apart, as --name '{{job}}-{{number}}'; a job that is called `job` has the name of its folder"
             ));

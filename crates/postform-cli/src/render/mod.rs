@@ -28,6 +28,17 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     if args.out_dir.is_some() {
         return many::run(args, colour);
     }
+    let of_folder = [
+        (args.split.is_some(), "--split"),
+        (args.changed, "--changed"),
+        (args.name.is_some(), "--name"),
+        (args.at_a_time.is_some(), "--jobs"),
+    ];
+    if let Some((_, option)) = of_folder.iter().find(|(is_given, _)| *is_given) {
+        return Err(format!(
+            "error: {option} needs a folder for the programs\n  help: give --out-dir FOLDER in place of -o"
+        ));
+    }
     let [job] = args.jobs.as_slice() else {
         return Err("error: several jobs need a folder for their programs\n  help: give --out-dir FOLDER".into());
     };
@@ -54,7 +65,7 @@ fn one(job: &Path, args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let form = form_of(job, args, &config)?;
     let Some(ready) = Ready::of(&form, job, args, &config, &reporter)? else { return Ok(Ending::Findings) };
     distinct(args)?;
-    let task = Task { job, output: &args.output, called: "the program", part: None, number: None };
+    let task = Task { job, output: &args.output, name: None, called: "the program", part: None, number: None };
     print::print(&task, &ready, args, &reporter)
 }
 

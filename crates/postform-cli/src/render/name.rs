@@ -1,5 +1,6 @@
 //! Names of programs by a pattern: `{job}-{tool}.nc`.
 
+use super::super::args::SplitArg;
 use super::split::Part;
 
 /// What stands in braces in a pattern.
@@ -58,6 +59,30 @@ impl Pattern {
         if pieces.is_empty() { Err(wrong("it is empty".to_owned())) } else { Ok(Pattern(pieces)) }
     }
 
+    /// Do all fields have values where jobs are split so?
+    ///
+    /// # Errors
+    /// A message: one has none.
+    pub fn fits(&self, split: Option<SplitArg>) -> Result<(), String> {
+        let needs = |field: &str| match field {
+            "part" => split.is_none(),
+            "tool" => split != Some(SplitArg::Tool),
+            "operation" => split != Some(SplitArg::Operation),
+            "work" => split != Some(SplitArg::Work),
+            "setup" => split != Some(SplitArg::Setup),
+            _ => false,
+        };
+        let fields = self.0.iter().filter_map(|piece| match piece {
+            Piece::Field(row) => Some(FIELDS[*row]),
+            Piece::Text(_) => None,
+        });
+        match fields.into_iter().find(|field| needs(field)) {
+            Some("part") => Err("error: --name: {part} has no value here\n  help: give --split".to_owned()),
+            Some(field) => Err(format!("error: --name: {{{field}}} has no value here\n  help: give --split {field}")),
+            None => Ok(()),
+        }
+    }
+
     /// A name.
     ///
     /// # Errors
@@ -95,7 +120,11 @@ impl Pattern {
 impl Values<'_> {
     fn of(&self, field: &str) -> Option<String> {
         let part = match (field, self.part) {
-            ("job", _) => return Some(self.job.to_owned()),
+            // as names by a form are spelt: controls, networks and memory cards know no other characters
+            ("job", _) => {
+                let spelt = |c: char| if c.is_ascii_alphanumeric() || "_-.".contains(c) { c } else { '_' };
+                return Some(self.job.chars().map(spelt).collect());
+            }
             ("number", _) => return self.number.map(|number| number.to_string()),
             ("part", part) => part,
             ("tool", part @ Some(Part::Tool(_)))

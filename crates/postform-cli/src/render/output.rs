@@ -40,12 +40,18 @@ pub struct Output<'p> {
 }
 
 impl<'p> Output<'p> {
-    /// Prepares the outputs; `files` are those of the form. In a folder the program gets its name from [`Output::name`].
+    /// Prepares the outputs; `files` are those of the form. In a folder the program gets its name from [`Output::name`]; `name` is that
+    /// name where it is known before.
     ///
     /// # Errors
     /// A message: one can't be made, or is an input.
-    pub fn open(path: &Path, trace: Option<&Path>, stream: bool, files: &'p [Source]) -> Result<Output<'p>, String> {
-        let target = if is_folder(path) { Target::open_in(path)? } else { Target::open(path, stream)? };
+    pub fn open(
+        (path, name): (&Path, Option<&str>),
+        trace: Option<&Path>,
+        stream: bool,
+        files: &'p [Source],
+    ) -> Result<Output<'p>, String> {
+        let target = if is_folder(path) { Target::open_in(path, name)? } else { Target::open(path, stream)? };
         let trace = trace.map(|path| Ok::<_, String>((path.to_path_buf(), Target::open(path, false)?))).transpose()?;
         Ok(Output { path: path.to_path_buf(), target, trace, files, trace_failed: false })
     }

@@ -29,6 +29,8 @@ pub struct Task<'a> {
     pub job: &'a Path,
     /// Where the program goes: a file, a folder, or `-`.
     pub output: &'a Path,
+    /// The name of the program's file in that folder. `None`: that of the form.
+    pub name: Option<&'a str>,
     /// What messages call the program.
     pub called: &'a str,
     /// The part of the job that is printed. `None`: what the options take.
@@ -59,7 +61,7 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
     if let Some(part) = task.part {
         part.select(&mut job.reading);
     }
-    let mut output = Output::open(task.output, args.trace.as_deref(), args.stream, prepared.post.files())?;
+    let mut output = Output::open((task.output, task.name), args.trace.as_deref(), args.stream, prepared.post.files())?;
     let mut options = prepared.options.clone();
     options.program = task.number.or(options.program);
     options.trace = args.trace.is_some();
@@ -130,8 +132,9 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
             return Ok(Ending::Findings);
         }
     }
-    if let Some(path) = output.name(&file_name)?
+    if let Some(path) = output.name(task.name.unwrap_or(&file_name))?
         && !args.options.quiet
+        && task.name.is_none()
     {
         message(&format!("{} is written", files::output_name(&path)));
     }

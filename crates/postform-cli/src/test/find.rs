@@ -13,6 +13,7 @@ use super::super::clock;
 use super::super::config::{Config, shortened};
 use super::super::diff::ignored;
 use super::super::files::{self, io_message};
+use super::super::packed::unpacked_name;
 use super::case::{Case, Wanted};
 use super::posts::Posts;
 
@@ -150,24 +151,41 @@ impl Found {
     }
 }
 
-/// The jobs in a folder and in those below it, in the order of their paths.
+/// The jobs in a folder and in those below it, in the order of their paths; and the JSON files that do not begin as jobs do.
 ///
 /// # Errors
 /// A message: a folder can't be read.
-pub fn jobs_in(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let mut jobs = Vec::new();
-    collect(folder, DEEPEST, &mut jobs)?;
-    Ok(jobs)
+pub fn jobs_in(folder: &Path) -> Result<(Vec<PathBuf>, Vec<PathBuf>), String> {
+    let (mut jobs, mut others) = (Vec::new(), Vec::new());
+    collect(folder, DEEPEST, &mut jobs, &mut others)?;
+    Ok((jobs, others))
 }
 
-fn collect(folder: &Path, deeper: usize, jobs: &mut Vec<PathBuf>) -> Result<(), String> {
+fn collect(folder: &Path, deeper: usize, jobs: &mut Vec<PathBuf>, others: &mut Vec<PathBuf>) -> Result<(), String> {
     let entries = listed(folder)?;
     let expected = jobs_expected(&entries);
-    jobs.extend(entries.iter().filter(|path| is_job(path, &expected)).cloned());
+    for path in &entries {
+        // a compressed job is one; a link to nothing is one that can't be read
+        let unpacked = unpacked_name(path);
+        let is_there = path.is_file() || path.is_symlink() && !path.exists();
+        if is_job(path, &expected) || unpacked.is_some_and(|name| is_there && is_named_as_job(&name)) {
+            jobs.push(path.clone());
+        } else if is_there && !is_expected(path) && Format::of_name(&path.to_string_lossy()) == Some(Format::Json) {
+            others.push(path.clone());
+        }
+    }
     for folder in below(&entries).filter(|_| deeper > 0) {
-        collect(folder, deeper - 1, jobs)?;
+        collect(folder, deeper - 1, jobs, others)?;
     }
     Ok(())
+}
+
+/// Is it called as jobs are? A program is one by its name `job` alone.
+fn is_named_as_job(name: &Path) -> bool {
+    match Format::of_name(&name.to_string_lossy()) {
+        Some(Format::Nc) => name.file_stem().is_some_and(|stem| stem == "job"),
+        format => format.is_some(),
+    }
 }
 
 /// The folders among what stands in one.
@@ -225,7 +243,8 @@ fn is_job(path: &Path, expected: &HashSet<String>) -> bool {
 fn looks_like_a_job(path: &Path) -> bool {
     let mut head = Vec::new();
     let read = fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    read.is_ok() && String::from_utf8_lossy(&head).contains("\"postform\"")
+    // what can't be read is said where it is read
+    read.is_err() || String::from_utf8_lossy(&head).contains("\"postform\"")
 }
 
 fn no_form(expected: &Path, form: &str, config: &Config) -> String {

@@ -154,8 +154,8 @@ pub fn index() -> String {
     let mut text = String::from(
         "# Controls\n\n<!-- made from controls/*.toml: `just overwrite` -->\n\nA control is a file: CONTRIBUTING.md says how to add one, \
          `postform new --control-file NAME` prints one to start from. \
-         One with `rules = \"none\"` is a language without G codes, as Klartext: its forms print, lint takes none of their words for codes, \
-         and the verdict says that it is not read.\n\n| control | title | codes | cycles |\n| --- | --- | --- | --- |\n",
+         `rules = \"none\"` is for a control without G codes: its forms print, lint checks no codes, \
+         and the verdict is that the program was not read.\n\n| control | title | codes | cycles |\n| --- | --- | --- | --- |\n",
     );
     for control in names().filter_map(Control::named) {
         let (codes, cycles) = counts(control);
